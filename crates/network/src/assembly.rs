@@ -1,0 +1,112 @@
+//! A network turned into a system, and where its quantities are found there.
+
+use std::{ops::Range, sync::Arc};
+
+use dashpot_dae::System;
+
+use crate::{NodeId, elements::Element};
+
+/// A network compiled to a [`System`], with an index of its outputs.
+///
+/// Every `usize` here is an index into [`System::outputs`].
+#[derive(Debug, Clone)]
+pub struct Assembly {
+    /// The equations.
+    pub system: System,
+    /// One entry for each node, in the network's order.
+    pub nodes: Vec<NodeOutputs>,
+    /// One entry for each connection, in the network's order.
+    pub connections: Vec<ConnectionOutputs>,
+    /// The springs and dashpots that take part, connection by connection.
+    pub primitives: Vec<PrimitiveOutputs>,
+    /// What does work on the network from outside: loads, body forces, prescribed motions.
+    pub drives: Vec<DriveOutputs>,
+    /// What is odd but not wrong.
+    pub warnings: Vec<String>,
+}
+
+/// Outputs of a node.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodeOutputs {
+    /// Its name.
+    pub name: String,
+    /// Its own mass \[kg\].
+    pub mass: f64,
+    /// Its start velocity \[m/s\], where it is an impactor.
+    pub start_velocity: Option<f64>,
+    /// Whether the forces on it rule its motion.
+    pub free: bool,
+    /// Displacement \[m\].
+    pub position: usize,
+    /// Velocity \[m/s\]. `None` at a massless node whose velocity jumps with the loads' rates.
+    pub velocity: Option<usize>,
+    /// What an accelerometer reads \[m/s²\]: the sum of the contact forces over the mass, so
+    /// free fall is 0. `None` at massless nodes.
+    pub acceleration: Option<usize>,
+}
+
+/// Outputs of a connection.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConnectionOutputs {
+    /// Its name.
+    pub name: String,
+    /// Its ends.
+    pub between: [NodeId; 2],
+    /// Thickness \[m\], where it is a pad.
+    pub thickness: Option<f64>,
+    /// Force \[N\], positive in compression. `None` for a rigid link in a loop of rigid links,
+    /// where it is undetermined.
+    pub force: Option<usize>,
+    /// Deformation \[m\], positive in compression.
+    pub deformation: usize,
+    /// Deformation rate \[m/s\]; `None` where it follows from algebraic unknowns that are kept.
+    pub rate: Option<usize>,
+    /// Its primitives in [`Assembly::primitives`].
+    pub primitives: Range<usize>,
+}
+
+/// Outputs of a spring or dashpot.
+#[derive(Debug, Clone)]
+pub struct PrimitiveOutputs {
+    /// Path, for instance `padding.maxwell.spring`.
+    pub name: String,
+    /// The law.
+    pub element: Arc<dyn Element>,
+    /// Force \[N\].
+    pub force: usize,
+    /// Deformation \[m\].
+    pub deformation: usize,
+    /// Deformation rate \[m/s\]; dashpots always have it.
+    pub rate: Option<usize>,
+}
+
+/// Something that does work on the network from outside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriveOutputs {
+    /// What it is, for instance `gravity on head`.
+    pub name: String,
+    /// Force that it puts on its node \[N\].
+    pub force: usize,
+    /// Velocity of that node \[m/s\].
+    pub velocity: usize,
+    /// Times \[s\] at which a prescribed displacement jumps; the work done there is the jump of
+    /// the stored energy.
+    pub jumps: Vec<f64>,
+}
+
+impl Assembly {
+    /// The connection of the given name.
+    pub fn connection(&self, name: &str) -> Option<&ConnectionOutputs> {
+        self.connections.iter().find(|connection| connection.name == name)
+    }
+
+    /// The node of the given name.
+    pub fn node(&self, name: &str) -> Option<&NodeOutputs> {
+        self.nodes.iter().find(|node| node.name == name)
+    }
+
+    /// The output of the given name, for instance `padding.force`.
+    pub fn output(&self, name: &str) -> Option<usize> {
+        self.system.outputs.iter().position(|output| output.name == name)
+    }
+}

@@ -1,0 +1,179 @@
+//! Joints merged into bodies by rigid links.
+
+use super::expand::Expansion;
+use crate::{Network, NetworkError, Start, Subject, Support, elements::Law};
+
+/// Joints that move as one.
+#[derive(Debug, Clone)]
+pub(super) struct Body {
+    /// Its joints in rising order.
+    pub(super) joints: Vec<usize>,
+    pub(super) role: Role,
+    /// Start velocity \[m/s\].
+    pub(super) velocity: f64,
+    pub(super) is_impactor: bool,
+}
+
+/// What rules a body's motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Role {
+    Fixed,
+    /// Index of the node whose motion is prescribed.
+    Prescribed(usize),
+    /// Total mass \[kg\].
+    Mass(f64),
+    Massless,
+}
+
+/// The bodies and which of them each joint belongs to.
+#[derive(Debug, Clone)]
+pub(super) struct Bodies {
+    pub(super) all: Vec<Body>,
+    pub(super) of_joint: Vec<usize>,
+}
+
+/// Groups of numbers that are joined in pairs.
+#[derive(Debug, Clone)]
+pub(super) struct Groups {
+    parent: Vec<usize>,
+}
+
+impl Groups {
+    pub(super) fn new(count: usize) -> Self {
+        Self { parent: (0..count).collect() }
+    }
+
+    pub(super) fn of(&mut self, mut at: usize) -> usize {
+        while self.parent[at] != at {
+            self.parent[at] = self.parent[self.parent[at]];
+            at = self.parent[at];
+        }
+        at
+    }
+
+    /// Joins two groups; false if they were one already.
+    pub(super) fn join(&mut self, first: usize, second: usize) -> bool {
+        let (first, second) = (self.of(first), self.of(second));
+        let (low, high) = (first.min(second), first.max(second));
+        self.parent[high] = low;
+        low != high
+    }
+}
+
+/// Start velocity \[m/s\] of a node under the network's gravity.
+pub(super) fn start_velocity(network: &Network, start: Start) -> f64 {
+    match start {
+        Start::Rest => 0.0,
+        Start::Velocity(velocity) => velocity,
+        Start::Drop(height) => {
+            let gravity = network.effects.iter().find_map(|effect| effect.gravity());
+            (2.0 * gravity.unwrap_or(STANDARD_GRAVITY).abs() * height).sqrt()
+        }
+    }
+}
+
+/// Standard acceleration of gravity \[m/s²\] (3rd CGPM, 1901).
+const STANDARD_GRAVITY: f64 = 9.806_65;
+
+impl Bodies {
+    /// Merges the joints at the ends of rigid links.
+    pub(super) fn of(network: &Network, expansion: &Expansion) -> Result<Self, Vec<NetworkError>> {
+        let mut groups = Groups::new(expansion.joints);
+        for primitive in expansion.primitives.iter().filter(|p| p.law == Law::Rigid) {
+            groups.join(primitive.ends[0], primitive.ends[1]);
+        }
+        let mut of_joint = vec![usize::MAX; expansion.joints];
+        let mut members: Vec<Vec<usize>> = Vec::new();
+        for joint in 0..expansion.joints {
+            let first = groups.of(joint);
+            if of_joint[first] == usize::MAX {
+                of_joint[first] = members.len();
+                members.push(Vec::new());
+            }
+            of_joint[joint] = of_joint[first];
+            members[of_joint[joint]].push(joint);
+        }
+        let mut errors = Vec::new();
+        let all =
+            members.into_iter().map(|joints| Body::of(network, joints, &mut errors)).collect();
+        if errors.is_empty() { Ok(Self { all, of_joint }) } else { Err(errors) }
+    }
+}
+
+impl Body {
+    fn of(network: &Network, joints: Vec<usize>, errors: &mut Vec<NetworkError>) -> Self {
+        let nodes: Vec<usize> =
+            joints.iter().copied().filter(|&joint| joint < network.nodes.len()).collect();
+        let mut held: Option<usize> = None;
+        let mut moving: Option<usize> = None;
+        for &node in &nodes {
+            if network.nodes[node].support != Support::Free {
+                if let Some(other) = held
+                    && network.nodes[other].support != network.nodes[node].support
+                {
+                    errors.push(contradiction(network, other, node, "their given motions differ"));
+                }
+                held = held.or(Some(node));
+            }
+            if network.nodes[node].mass > 0.0 {
+                let speed = |node: usize| start_velocity(network, network.nodes[node].start);
+                if let Some(other) = moving
+                    && (speed(other) - speed(node)).abs() > 0.0
+                {
+                    errors.push(contradiction(network, other, node, "their start speeds differ"));
+                }
+                moving = moving.or(Some(node));
+            }
+        }
+        let mass: f64 = nodes.iter().map(|&node| network.nodes[node].mass).sum();
+        let role = match held.map(|node| (node, &network.nodes[node].support)) {
+            Some((_, Support::Fixed)) => Role::Fixed,
+            Some((node, Support::Prescribed(_))) => Role::Prescribed(node),
+            _ if mass > 0.0 => Role::Mass(mass),
+            _ => Role::Massless,
+        };
+        let impactor = nodes.iter().copied().find(|&node| network.nodes[node].is_impactor());
+        if let Some(node) = impactor {
+            let reason = match role {
+                Role::Fixed => Some("nothing moves it: it is fixed"),
+                Role::Prescribed(_) => Some("its motion is prescribed"),
+                Role::Massless => Some("no mass"),
+                Role::Mass(_) => None,
+            };
+            if let Some(reason) = reason {
+                let node = network.nodes[node].name.clone();
+                errors.push(NetworkError::StartSpeed { node, reason });
+            }
+        }
+        let velocity =
+            moving.map_or(0.0, |node| start_velocity(network, network.nodes[node].start));
+        Self { joints, role, velocity, is_impactor: impactor.is_some() }
+    }
+
+    pub(super) fn is_massless(&self) -> bool {
+        self.role == Role::Massless
+    }
+}
+
+fn contradiction(
+    network: &Network,
+    first: usize,
+    second: usize,
+    difference: &'static str,
+) -> NetworkError {
+    let name = |node: usize| network.nodes[node].name.clone();
+    NetworkError::ContradictingMotions { first: name(first), second: name(second), difference }
+}
+
+/// The name by which an error speaks of a joint.
+pub(super) fn joint_name(network: &Network, expansion: &Expansion, joint: usize) -> String {
+    match &expansion.owners[joint] {
+        Some(connection) => format!("a joint inside of {connection}"),
+        None => network.nodes[joint].name.clone(),
+    }
+}
+
+/// The subject of an error about a node.
+pub(super) fn node_subject(network: &Network, node: usize) -> Subject {
+    Subject::Node(network.nodes[node].name.clone())
+}

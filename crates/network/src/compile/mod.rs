@@ -1,0 +1,256 @@
+//! From network to system.
+//!
+//! Models are expanded into primitives between joints ([`expand`]), rigid links merge joints into
+//! bodies ([`bodies`]), and the graph says which bodies have rates of their own and which follow
+//! from balances ([`structure`]). Balances are solved by star–mesh elimination ([`mesh`]), never
+//! by subtracting from a diagonal. The rows so found are in SI; `system` makes them dimensionless.
+
+mod balance;
+mod bodies;
+mod dashpots;
+mod expand;
+mod mesh;
+mod motion;
+mod outputs;
+mod reactions;
+mod review;
+mod row;
+mod scales;
+mod springs;
+mod structure;
+mod system;
+mod unknowns;
+mod validate;
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use dashpot_dae::Waveform;
+
+use self::{
+    bodies::{Bodies, Role, joint_name},
+    expand::Expansion,
+    motion::Motion,
+    outputs::Outputs,
+    row::{Combination, Row},
+    scales::{Drives, Scales},
+    structure::Structure,
+    unknowns::{Inputs, Places},
+};
+use crate::{Assembly, Network, NetworkErrors, Support};
+
+/// What acts on a body from outside.
+#[derive(Debug, Clone)]
+struct Drive {
+    name: String,
+    node: usize,
+    body: usize,
+    /// The force \[N\]; `None` where the motion is given.
+    force: Option<Row>,
+    /// Whether an accelerometer does not feel it.
+    is_body_force: bool,
+    /// When the given motion jumps \[s\].
+    jumps: Vec<f64>,
+}
+
+/// Everything that has been found out, for those that report it.
+struct Parts<'a> {
+    expansion: &'a Expansion,
+    bodies: &'a Bodies,
+    structure: &'a Structure,
+    motion: &'a Motion,
+    places: &'a Places,
+    drives: &'a [Drive],
+}
+
+impl Parts<'_> {
+    /// The forces of springs and dashpots on bodies: body, sign and force.
+    fn contact_forces(&self) -> impl Iterator<Item = (usize, f64, &Row)> {
+        let edges = self.structure.springs.iter().chain(&self.structure.dashpots);
+        edges.flat_map(|edge| {
+            let force = self.motion.force[edge.primitive].as_ref();
+            force
+                .into_iter()
+                .flat_map(move |force| [(edge.ends[0], -1.0, force), (edge.ends[1], 1.0, force)])
+        })
+    }
+}
+
+impl Network {
+    /// Turns the network into a dimensionless, semi-explicit system of index 1 for a run of
+    /// `duration` \[s\].
+    ///
+    /// # Errors
+    ///
+    /// All that is wrong with the network, by name: [`NetworkErrors`] of its names and numbers, or
+    /// else of its topology.
+    pub fn compile(&self, duration: f64) -> Result<Assembly, NetworkErrors> {
+        let expansion = Expansion::of(self);
+        let faults = validate::faults(self, &expansion);
+        if !faults.is_empty() {
+            return Err(NetworkErrors(faults));
+        }
+        let bodies = Bodies::of(self, &expansion).map_err(NetworkErrors)?;
+        let structure =
+            Structure::of(self, &expansion, &bodies, duration).map_err(NetworkErrors)?;
+
+        let mut inputs = Inputs::default();
+        let mut sizes = Drives::default();
+        let motions = self.motions(&bodies, duration, &mut inputs, &mut sizes);
+        let drives = self.drives(&bodies, duration, &mut inputs, &mut sizes);
+        let scales = Scales::of(&bodies, &structure, &sizes, duration)?;
+
+        let mut loads = vec![Row::default(); bodies.all.len()];
+        for drive in &drives {
+            if let Some(force) = &drive.force {
+                loads[drive.body] = loads[drive.body].plus(1.0, force);
+            }
+        }
+        let mut places = unknowns::choose(self, &expansion, &bodies, &structure, &scales, &motions);
+        let motion = motion::build(
+            &motion::Given {
+                primitives: expansion.primitives.len(),
+                bodies: &bodies,
+                structure: &structure,
+                scales: &scales,
+                loads: &loads,
+                names: &|body| joint_name(self, &expansion, bodies.all[body].joints[0]),
+            },
+            &mut inputs,
+            &mut places,
+        );
+        self.start(&expansion, &bodies, &structure, &drives, &inputs, &mut places)?;
+
+        let parts = Parts {
+            expansion: &expansion,
+            bodies: &bodies,
+            structure: &structure,
+            motion: &motion,
+            places: &places,
+            drives: &drives,
+        };
+        let outputs = Outputs::of(self, &parts);
+        let warnings = review::warnings(self, &parts);
+        let system = system::dimensionless(&places, &inputs, &outputs, scales.time, duration)?;
+        Ok(Assembly {
+            system,
+            nodes: outputs.nodes,
+            connections: outputs.connections,
+            primitives: outputs.primitives,
+            drives: outputs.drives,
+            warnings,
+        })
+    }
+
+    /// The given displacements of bodies as rows.
+    fn motions(
+        &self,
+        bodies: &Bodies,
+        duration: f64,
+        inputs: &mut Inputs,
+        sizes: &mut Drives,
+    ) -> BTreeMap<usize, Row> {
+        let mut motions = BTreeMap::new();
+        for (at, body) in bodies.all.iter().enumerate() {
+            let Role::Prescribed(node) = body.role else { continue };
+            if let Support::Prescribed(motion) = &self.nodes[node].support {
+                sizes.motions.push((at, motion.bound(duration)));
+                let waveform = inputs.waveform(motion.clone());
+                motions.insert(at, inputs.row(waveform, 0));
+            }
+        }
+        motions
+    }
+
+    /// Loads, body forces and given motions, in this order.
+    fn drives(
+        &self,
+        bodies: &Bodies,
+        duration: f64,
+        inputs: &mut Inputs,
+        sizes: &mut Drives,
+    ) -> Vec<Drive> {
+        let mut drives = Vec::new();
+        let mut force = |name: String, node: usize, force: Waveform, is_body_force: bool| {
+            let body = bodies.of_joint[node];
+            sizes.forces.push((body, force.bound(duration)));
+            let waveform = inputs.waveform(force);
+            let force = Some(inputs.row(waveform, 0));
+            drives.push(Drive { name, node, body, force, is_body_force, jumps: Vec::new() });
+        };
+        for load in &self.loads {
+            force(load.name.clone(), load.node.0, load.force.clone(), false);
+        }
+        for effect in &self.effects {
+            for (node, weight) in effect.body_forces(self) {
+                if weight.bound(duration) > 0.0 {
+                    let name = format!("{} on {}", effect.kind(), self.nodes[node.0].name);
+                    force(name, node.0, weight, true);
+                }
+            }
+        }
+        for (at, body) in bodies.all.iter().enumerate() {
+            let Role::Prescribed(node) = body.role else { continue };
+            if let Support::Prescribed(motion) = &self.nodes[node].support {
+                drives.push(Drive {
+                    name: format!("motion of {}", self.nodes[node].name),
+                    node,
+                    body: at,
+                    force: None,
+                    is_body_force: false,
+                    jumps: structure::jumps(motion, duration),
+                });
+            }
+        }
+        drives
+    }
+
+    /// Sets the initial positions where parts begin in balance.
+    fn start(
+        &self,
+        expansion: &Expansion,
+        bodies: &Bodies,
+        structure: &Structure,
+        drives: &[Drive],
+        inputs: &Inputs,
+        places: &mut Places,
+    ) -> Result<(), NetworkErrors> {
+        if !self.effects.iter().any(|effect| effect.starts_in_balance()) {
+            return Ok(());
+        }
+        let at_start: Vec<f64> = inputs
+            .entries
+            .iter()
+            .map(|input| {
+                inputs.waveforms[input.waveform].piece_at(0.0).derivative(input.derivative, 0.0)
+            })
+            .collect();
+        let mut weights = vec![0.0; bodies.all.len()];
+        for drive in drives.iter().filter(|drive| drive.is_body_force) {
+            let body = &bodies.all[drive.body];
+            if let Some(force) = drive.force.as_ref().filter(|_| !body.is_impactor) {
+                weights[drive.body] += force.inputs.at(&at_start);
+            }
+        }
+        let given: Vec<f64> = bodies
+            .all
+            .iter()
+            .enumerate()
+            .map(|(at, body)| match body.role {
+                Role::Prescribed(_) => places.position[at].inputs.at(&at_start),
+                _ => 0.0,
+            })
+            .collect();
+        let positions = balance::positions(self, expansion, bodies, structure, &weights, &given)
+            .map_err(NetworkErrors)?;
+        for body in 0..bodies.all.len() {
+            if let Some(unknown) = places.unknown[body] {
+                let base = places.parent[body].map_or(0.0, |parent| positions[parent]);
+                places.drafts[unknown].initial = positions[body] - base;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,178 @@
+//! Deformations, forces and velocities, and from them the rate of every unknown.
+
+use dashpot_dae::UnknownKind;
+
+use super::{
+    bodies::{Bodies, Role},
+    dashpots::DashpotBalance,
+    row::{Combination, Row, RowSum},
+    scales::Scales,
+    springs::SpringBalance,
+    structure::Structure,
+    unknowns::{Inputs, Places},
+};
+
+/// All that moves and pushes, in SI units.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Motion {
+    /// Position of each body.
+    pub(super) position: Vec<Row>,
+    /// Velocity of each body, where it does not depend on the rate of a kept algebraic unknown.
+    pub(super) velocity: Vec<Option<Row>>,
+    /// Deformation of each primitive that takes part.
+    pub(super) deformation: Vec<Option<Row>>,
+    /// Deformation rate of each primitive that takes part.
+    pub(super) rate: Vec<Option<Row>>,
+    /// Force of each primitive that takes part.
+    pub(super) force: Vec<Option<Row>>,
+}
+
+/// Up to this many massless bodies in all, every balance is eliminated.
+const SMALL: usize = 200;
+/// Beyond, only places with at most this many links, and clusters of this many bodies, are.
+const MOST_LINKS: usize = 16;
+
+/// What the rows are built from.
+pub(super) struct Given<'a> {
+    /// Number of primitives.
+    pub(super) primitives: usize,
+    pub(super) bodies: &'a Bodies,
+    pub(super) structure: &'a Structure,
+    pub(super) scales: &'a Scales,
+    /// Force on each body from outside \[N\].
+    pub(super) loads: &'a [Row],
+    /// Name of a body.
+    pub(super) names: &'a dyn Fn(usize) -> String,
+}
+
+/// Builds all rows and completes the drafts of the unknowns.
+pub(super) fn build(given: &Given<'_>, inputs: &mut Inputs, places: &mut Places) -> Motion {
+    let Given { primitives, bodies, structure, scales, loads, names } = *given;
+    let massless = structure.cluster_of.iter().flatten().count();
+    let most = if massless <= SMALL { usize::MAX } else { MOST_LINKS };
+    let mut motion = Motion {
+        position: Vec::new(),
+        velocity: known_velocities(bodies, places, inputs),
+        deformation: vec![None; primitives],
+        rate: vec![None; primitives],
+        force: vec![None; primitives],
+    };
+
+    let springs = SpringBalance::solve(structure, loads, most, places, |body| {
+        (names(body), scales.length[body])
+    });
+    motion.position = (0..bodies.all.len()).map(|body| springs.position(places, body)).collect();
+    let mut net: Vec<RowSum> = loads.iter().map(RowSum::from).collect();
+    for spring in &structure.springs {
+        let deformation = springs.deformation(places, spring.ends);
+        let force = deformation.times(spring.constant);
+        push_apart(&mut net, spring.ends, &force);
+        motion.deformation[spring.primitive] = Some(deformation);
+        motion.force[spring.primitive] = Some(force);
+    }
+
+    let dashpots = DashpotBalance::solve(structure, &net, &motion.velocity, most, places, |body| {
+        (names(body), scales.velocity[body])
+    });
+    cluster_velocities(structure, &dashpots, places, &mut motion);
+    for dashpot in &structure.dashpots {
+        let [a, b] = dashpot.ends;
+        let rate = dashpots.rate(dashpot.ends).unwrap_or_else(|| {
+            let velocity = |body: usize| motion.velocity[body].clone().unwrap_or_default();
+            velocity(a).plus(-1.0, &velocity(b))
+        });
+        let force = rate.times(dashpot.constant);
+        push_apart(&mut net, dashpot.ends, &force);
+        motion.deformation[dashpot.primitive] = Some(springs.deformation(places, dashpot.ends));
+        motion.rate[dashpot.primitive] = Some(rate);
+        motion.force[dashpot.primitive] = Some(force);
+    }
+    unknown_rates(bodies, &net, &dashpots, structure, &motion.velocity, places);
+    derived_rates(structure, inputs, places, &mut motion);
+    motion
+}
+
+fn push_apart(net: &mut [RowSum], [a, b]: [usize; 2], force: &Row) {
+    net[a].add(-1.0, force);
+    net[b].add(1.0, force);
+}
+
+fn known_velocities(bodies: &Bodies, places: &Places, inputs: &mut Inputs) -> Vec<Option<Row>> {
+    let of = |(at, role): (usize, Role)| match role {
+        Role::Fixed => Some(Row::default()),
+        Role::Prescribed(_) => Some(inputs.rate(&places.position[at])),
+        Role::Mass(_) => places.velocity[at].map(Row::unknown),
+        Role::Massless => None,
+    };
+    bodies.all.iter().map(|body| body.role).enumerate().map(of).collect()
+}
+
+/// Velocities of the bodies that dashpots tie to an anchor.
+fn cluster_velocities(
+    structure: &Structure,
+    dashpots: &DashpotBalance<'_>,
+    places: &Places,
+    motion: &mut Motion,
+) {
+    for (at, cluster) in structure.clusters.iter().enumerate() {
+        if structure.is_algebraic(at) {
+            continue;
+        }
+        for &body in &cluster.bodies {
+            let own = dashpots.velocity(body);
+            motion.velocity[body] = match places.parent[body] {
+                Some(anchor) => motion.velocity[anchor].as_ref().map(|base| base.plus(1.0, own)),
+                None => Some(own.clone()),
+            };
+        }
+    }
+}
+
+/// Completes the rates of positions and velocities.
+fn unknown_rates(
+    bodies: &Bodies,
+    net: &[RowSum],
+    dashpots: &DashpotBalance<'_>,
+    structure: &Structure,
+    velocity: &[Option<Row>],
+    places: &mut Places,
+) {
+    for (at, body) in bodies.all.iter().enumerate() {
+        if let Some(unknown) = places.unknown[at] {
+            places.drafts[unknown].row = if structure.cluster_of[at].is_some() {
+                dashpots.velocity(at).clone()
+            } else {
+                let of = |body: usize| velocity[body].clone().unwrap_or_default();
+                places.parent[at].map_or_else(|| of(at), |parent| of(at).plus(-1.0, &of(parent)))
+            };
+        }
+        if let (Some(unknown), Role::Mass(mass)) = (places.velocity[at], body.role) {
+            places.drafts[unknown].row = net[at].total().times(1.0 / mass);
+        }
+    }
+}
+
+/// Rates of what follows from balances of springs, by differentiation.
+fn derived_rates(structure: &Structure, inputs: &mut Inputs, places: &Places, motion: &mut Motion) {
+    let mut rate_of = |row: &Row| {
+        let mut sum = RowSum::default();
+        for &(unknown, coefficient) in row.unknowns.terms() {
+            let draft = &places.drafts[unknown];
+            if draft.kind == UnknownKind::Algebraic {
+                return None;
+            }
+            sum.add(coefficient, &draft.row);
+        }
+        sum.add(1.0, &inputs.rate(row));
+        Some(sum.total())
+    };
+    for spring in &structure.springs {
+        motion.rate[spring.primitive] =
+            motion.deformation[spring.primitive].as_ref().and_then(&mut rate_of);
+    }
+    for (body, cluster) in structure.cluster_of.iter().enumerate() {
+        if cluster.is_some() && motion.velocity[body].is_none() {
+            motion.velocity[body] = rate_of(&motion.position[body]);
+        }
+    }
+}

@@ -1,0 +1,271 @@
+//! What the assembled system can report, by name.
+
+use std::sync::Arc;
+
+use dashpot_dae::Output;
+
+use super::{
+    Parts,
+    bodies::{Role, start_velocity},
+    expand::Shape,
+    reactions::rigid_forces,
+    row::{Combination, Row, RowSum},
+};
+use crate::{
+    ConnectionOutputs, DriveOutputs, Network, NodeOutputs, PrimitiveOutputs, Support, elements::Law,
+};
+
+/// Outputs with rows that are still in SI units.
+#[derive(Debug, Default)]
+pub(super) struct Outputs {
+    pub(super) list: Vec<(Output, Row)>,
+    pub(super) nodes: Vec<NodeOutputs>,
+    pub(super) connections: Vec<ConnectionOutputs>,
+    pub(super) primitives: Vec<PrimitiveOutputs>,
+    pub(super) drives: Vec<DriveOutputs>,
+}
+
+impl Outputs {
+    pub(super) fn of(network: &Network, parts: &Parts<'_>) -> Self {
+        let mut outputs = Self::default();
+        outputs.add_nodes(network, parts);
+        outputs.add_connections(network, parts);
+        outputs.add_drives(network, parts);
+        outputs
+    }
+
+    fn add(&mut self, name: String, unit: &'static str, row: Row) -> usize {
+        self.list.push((
+            Output {
+                name,
+                unit,
+                scale: 1.0,
+                unknowns: row.unknowns.clone(),
+                inputs: row.inputs.clone(),
+            },
+            row,
+        ));
+        self.list.len() - 1
+    }
+
+    fn add_nodes(&mut self, network: &Network, parts: &Parts<'_>) {
+        for (at, node) in network.nodes.iter().enumerate() {
+            let body = parts.bodies.of_joint[at];
+            let name = &node.name;
+            let position =
+                self.add(format!("{name}.position"), "m", parts.motion.position[body].clone());
+            let velocity = parts.motion.velocity[body]
+                .clone()
+                .map(|row| self.add(format!("{name}.velocity"), "m/s", row));
+            let acceleration = accelerometer(network, parts, at)
+                .map(|row| self.add(format!("{name}.acceleration"), "m/s^2", row));
+            self.nodes.push(NodeOutputs {
+                name: name.clone(),
+                mass: node.mass,
+                start_velocity: node.is_impactor().then(|| start_velocity(network, node.start)),
+                free: node.support == Support::Free,
+                position,
+                velocity,
+                acceleration,
+            });
+        }
+    }
+
+    fn add_connections(&mut self, network: &Network, parts: &Parts<'_>) {
+        let reactions = rigid_forces(network, parts);
+        let primitives = &parts.expansion.primitives;
+        let force = |at: usize| match primitives[at].law {
+            Law::Rigid => reactions[at].clone(),
+            _ => Some(parts.motion.force[at].clone().unwrap_or_default()),
+        };
+        for (connection, shapes) in network.connections.iter().zip(&parts.expansion.shapes) {
+            let first = self.primitives.len();
+            for at in shapes.iter().filter_map(Shape::leaf) {
+                self.add_primitive(parts, at);
+            }
+            let deformation =
+                |at: usize| Some(parts.motion.deformation[at].clone().unwrap_or_default());
+            let rate = |at: usize| match parts.motion.deformation[at] {
+                Some(_) => parts.motion.rate[at].clone(),
+                None => Some(Row::default()),
+            };
+            let name = &connection.name;
+            let ends = connection.between.map(|id| parts.bodies.of_joint[id.0]);
+            let whole = composed(shapes, &force, &softest(parts));
+            let is_placed = |body: usize| parts.structure.algebraic_cluster(body).is_none();
+            let [a, b] = ends;
+            let position = if ends.iter().all(|&end| is_placed(end)) {
+                parts.motion.position[a].plus(-1.0, &parts.motion.position[b])
+            } else {
+                summed(shapes, &deformation).unwrap_or_default()
+            };
+            let velocity = match (&parts.motion.velocity[a], &parts.motion.velocity[b]) {
+                (Some(va), Some(vb)) if ends.iter().all(|&end| is_placed(end)) => {
+                    Some(va.plus(-1.0, vb))
+                }
+                _ => summed(shapes, &rate),
+            };
+            let outputs = ConnectionOutputs {
+                name: name.clone(),
+                between: connection.between,
+                thickness: connection.thickness,
+                force: whole.map(|row| self.add(format!("{name}.force"), "N", row)),
+                deformation: self.add(format!("{name}.deformation"), "m", position),
+                rate: velocity.map(|row| self.add(format!("{name}.rate"), "m/s", row)),
+                primitives: first..self.primitives.len(),
+            };
+            self.connections.push(outputs);
+        }
+    }
+
+    /// A primitive that takes part; others have neither force nor energy.
+    fn add_primitive(&mut self, parts: &Parts<'_>, at: usize) {
+        let primitive = &parts.expansion.primitives[at];
+        let (Some(force), Some(deformation)) =
+            (&parts.motion.force[at], &parts.motion.deformation[at])
+        else {
+            return;
+        };
+        let name = &primitive.name;
+        let outputs = PrimitiveOutputs {
+            name: name.clone(),
+            element: Arc::clone(&primitive.element),
+            force: self.add(format!("{name}.force"), "N", force.clone()),
+            deformation: self.add(format!("{name}.deformation"), "m", deformation.clone()),
+            rate: parts.motion.rate[at]
+                .clone()
+                .map(|row| self.add(format!("{name}.rate"), "m/s", row)),
+        };
+        self.primitives.push(outputs);
+    }
+
+    fn add_drives(&mut self, network: &Network, parts: &Parts<'_>) {
+        for drive in parts.drives {
+            let Some(velocity) = parts.motion.velocity[drive.body].clone() else { continue };
+            let force = match &drive.force {
+                Some(force) => force.clone(),
+                None => held_force(parts, drive.body),
+            };
+            if force.is_zero() {
+                continue;
+            }
+            let name = drive.name.clone();
+            let outputs = DriveOutputs {
+                force: self.add(format!("{name}.force"), "N", force),
+                velocity: self.add(format!("{name}.velocity"), "m/s", velocity),
+                jumps: drive.jumps.clone(),
+                name,
+            };
+            self.drives.push(outputs);
+        }
+        debug_assert_eq!(self.nodes.len(), network.nodes.len());
+    }
+}
+
+/// The force that holds a body on its prescribed way, beyond what its own mass asks for.
+fn held_force(parts: &Parts<'_>, body: usize) -> Row {
+    let mut sum = RowSum::default();
+    for (joint_body, factor, row) in parts.contact_forces() {
+        if joint_body == body {
+            sum.add(-factor, row);
+        }
+    }
+    for drive in parts.drives.iter().filter(|drive| drive.body == body) {
+        if let Some(force) = drive.force.as_ref().filter(|_| !drive.is_body_force) {
+            sum.add(-1.0, force);
+        }
+    }
+    sum.total()
+}
+
+/// What an accelerometer on the node reads: its acceleration less the body force per mass.
+fn accelerometer(network: &Network, parts: &Parts<'_>, node: usize) -> Option<Row> {
+    let mass = network.nodes[node].mass;
+    if mass <= 0.0 || network.nodes[node].support != Support::Free {
+        return None;
+    }
+    let body = parts.bodies.of_joint[node];
+    let Role::Mass(total) = parts.bodies.all[body].role else { return None };
+    let mut sum = RowSum::default();
+    for (at, factor, row) in parts.contact_forces() {
+        if at == body {
+            sum.add(factor / total, row);
+        }
+    }
+    let is_alone = parts.bodies.all[body].joints.iter().all(|&joint| {
+        joint == node || network.nodes.get(joint).is_none_or(|other| other.mass == 0.0)
+    });
+    for drive in parts.drives.iter().filter(|drive| drive.body == body) {
+        let Some(force) = &drive.force else { continue };
+        if !drive.is_body_force {
+            sum.add(1.0 / total, force);
+        } else if !is_alone {
+            sum.add(1.0 / total, force);
+            if drive.node == node {
+                sum.add(-1.0 / mass, force);
+            }
+        }
+    }
+    Some(sum.total())
+}
+
+/// Combines the rows of the parts from the leaves to the root: in parallel they are added, in
+/// series the one that `prefer` ranks lowest stands for all.
+fn composed(
+    shapes: &[Shape],
+    row: &impl Fn(usize) -> Option<Row>,
+    prefer: &impl Fn(usize) -> f64,
+) -> Option<Row> {
+    let mut found: Vec<(Option<Row>, f64)> = vec![(None, f64::INFINITY); shapes.len()];
+    for (at, shape) in shapes.iter().enumerate().rev() {
+        found[at] = match shape {
+            Shape::Leaf(primitive) => (row(*primitive), prefer(*primitive)),
+            Shape::Series(children) => children
+                .iter()
+                .map(|&child| (found[child].0.clone(), found[child].1))
+                .min_by(|a, b| a.0.is_none().cmp(&b.0.is_none()).then(a.1.total_cmp(&b.1)))
+                .unwrap_or((None, f64::INFINITY)),
+            Shape::Parallel(children) => {
+                let rows: Option<Vec<&Row>> =
+                    children.iter().map(|&child| found[child].0.as_ref()).collect();
+                let rank = children.iter().map(|&child| found[child].1).fold(0.0, f64::max);
+                (rows.map(|rows| total(&rows)), rank)
+            }
+        };
+    }
+    found.swap_remove(0).0
+}
+
+/// Sums the rows of parts in series; in parallel the first one stands for all.
+fn summed(shapes: &[Shape], row: &impl Fn(usize) -> Option<Row>) -> Option<Row> {
+    let mut found: Vec<Option<Row>> = vec![None; shapes.len()];
+    for (at, shape) in shapes.iter().enumerate().rev() {
+        found[at] = match shape {
+            Shape::Leaf(primitive) => row(*primitive),
+            Shape::Series(children) => children
+                .iter()
+                .map(|&child| found[child].as_ref())
+                .collect::<Option<Vec<&Row>>>()
+                .map(|rows| total(&rows)),
+            Shape::Parallel(children) => children.first().and_then(|&child| found[child].clone()),
+        };
+    }
+    found.swap_remove(0)
+}
+
+fn total(rows: &[&Row]) -> Row {
+    let mut sum = RowSum::default();
+    rows.iter().for_each(|row| sum.add(1.0, row));
+    sum.total()
+}
+
+/// Rank of a primitive whose force is to stand for a series: what takes no part first (then the
+/// force is zero), springs by stiffness, dashpots behind them, rigid links last.
+fn softest(parts: &Parts<'_>) -> impl Fn(usize) -> f64 {
+    move |at: usize| match parts.expansion.primitives[at].law {
+        Law::Rigid => f64::INFINITY,
+        _ if parts.motion.force[at].is_none() => -1.0,
+        Law::Spring(stiffness) => stiffness,
+        Law::Dashpot(_) => f64::MAX,
+    }
+}

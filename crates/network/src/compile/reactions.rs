@@ -1,0 +1,87 @@
+//! Forces in rigid links, from the balance of what hangs on one side.
+
+use super::{
+    Parts,
+    bodies::Role,
+    row::{Row, RowSum},
+};
+use crate::{Network, Support, elements::Law};
+
+/// For each primitive that is a rigid link its force, if it is determined: the link must be the
+/// only way between its sides, and one side must be free of supports.
+pub(super) fn rigid_forces(network: &Network, parts: &Parts<'_>) -> Vec<Option<Row>> {
+    let primitives = &parts.expansion.primitives;
+    let mut forces = vec![None; primitives.len()];
+    let links: Vec<usize> =
+        (0..primitives.len()).filter(|&at| primitives[at].law == Law::Rigid).collect();
+    if links.is_empty() {
+        return forces;
+    }
+    let mut neighbours: Vec<Vec<(usize, usize)>> = vec![Vec::new(); parts.expansion.joints];
+    for &link in &links {
+        let [a, b] = primitives[link].ends;
+        neighbours[a].push((b, link));
+        neighbours[b].push((a, link));
+    }
+    for &link in &links {
+        let [a, b] = primitives[link].ends;
+        let first = side(&neighbours, a, link);
+        if first.contains(&b) {
+            continue;
+        }
+        let is_held = |side: &[usize]| {
+            side.iter().any(|&joint| {
+                network.nodes.get(joint).is_some_and(|node| node.support != Support::Free)
+            })
+        };
+        forces[link] = if is_held(&first) {
+            let second = side(&neighbours, b, link);
+            (!is_held(&second)).then(|| balance(network, parts, &second, -1.0))
+        } else {
+            Some(balance(network, parts, &first, 1.0))
+        };
+    }
+    forces
+}
+
+fn side(neighbours: &[Vec<(usize, usize)>], from: usize, cut: usize) -> Vec<usize> {
+    let mut reached = vec![from];
+    let mut at = 0;
+    while at < reached.len() {
+        for &(next, link) in &neighbours[reached[at]] {
+            if link != cut && !reached.contains(&next) {
+                reached.push(next);
+            }
+        }
+        at += 1;
+    }
+    reached
+}
+
+/// `sign` times the force that the rest must take from these joints: what acts on them less what
+/// accelerates them.
+fn balance(network: &Network, parts: &Parts<'_>, joints: &[usize], sign: f64) -> Row {
+    let mut sum = RowSum::default();
+    for (at, primitive) in parts.expansion.primitives.iter().enumerate() {
+        let Some(force) = &parts.motion.force[at] else { continue };
+        for (end, factor) in primitive.ends.iter().zip([-1.0, 1.0]) {
+            if joints.contains(end) {
+                sum.add(sign * factor, force);
+            }
+        }
+    }
+    for drive in parts.drives {
+        if let Some(force) = drive.force.as_ref().filter(|_| joints.contains(&drive.node)) {
+            sum.add(sign, force);
+        }
+    }
+    let mass: f64 =
+        joints.iter().filter_map(|&joint| network.nodes.get(joint)).map(|node| node.mass).sum();
+    let body = parts.bodies.of_joint[joints[0]];
+    if let (Role::Mass(_), Some(unknown)) =
+        (parts.bodies.all[body].role, parts.places.velocity[body])
+    {
+        sum.add(-sign * mass, &parts.places.drafts[unknown].row);
+    }
+    sum.total()
+}

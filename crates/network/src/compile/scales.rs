@@ -1,0 +1,128 @@
+//! Units in which the system is of order one.
+
+use super::{
+    bodies::{Bodies, Role},
+    structure::Structure,
+};
+use crate::NetworkError;
+
+/// What drives the network, as magnitudes in SI units.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Drives {
+    /// Body and largest force \[N\].
+    pub(super) forces: Vec<(usize, f64)>,
+    /// Body and largest displacement \[m\].
+    pub(super) motions: Vec<(usize, f64)>,
+}
+
+/// SI values of the dimensionless value 1.
+///
+/// They rest on the energy `E` that the drives can bring in: a spring cannot be compressed by more
+/// than √(2E/k), a mass not be faster than √(2E/m). The square root of the energy is added up, so
+/// that no amplitude is too small or too large to be squared.
+#[derive(Debug, Clone)]
+pub(super) struct Scales {
+    /// Time \[s\].
+    pub(super) time: f64,
+    /// Displacement of each body \[m\].
+    pub(super) length: Vec<f64>,
+    /// Velocity of each body \[m/s\].
+    pub(super) velocity: Vec<f64>,
+    /// Root of the energy \[√J\].
+    pub(super) root_energy: f64,
+}
+
+impl Scales {
+    pub(super) fn of(
+        bodies: &Bodies,
+        structure: &Structure,
+        drives: &Drives,
+        duration: f64,
+    ) -> Result<Self, NetworkError> {
+        let count = bodies.all.len();
+        let time = if duration > 0.0 { duration } else { 1.0 };
+        let stiffness = sums(count, &structure.springs);
+        let damping = sums(count, &structure.dashpots);
+        let mass = |body: usize| match bodies.all[body].role {
+            Role::Mass(mass) => mass,
+            _ => 0.0,
+        };
+        let kinetic = (0..count)
+            .map(|body| (0.5 * mass(body)).sqrt() * bodies.all[body].velocity.abs())
+            .fold(0.0, f64::hypot);
+        let forced = drives.forces.iter().map(|&(body, force)| {
+            let by_spring = (2.0 * stiffness[body]).sqrt().recip();
+            let by_mass = time * (2.0 * mass(body)).sqrt().recip();
+            let by_dashpot = (time / damping[body]).sqrt();
+            let way = by_spring.min(by_mass);
+            force * if way.is_finite() { way } else { by_dashpot }
+        });
+        let moved = drives.motions.iter().map(|&(body, way)| {
+            way * (0.5 * stiffness[body]).sqrt().hypot((damping[body] / time).sqrt())
+        });
+        let root = forced.chain(moved).filter(|root| root.is_finite()).fold(kinetic, f64::hypot);
+        let root_energy = if root > 0.0 { root } else { 1.0 };
+
+        let fastest = bodies.all.iter().map(|body| body.velocity.abs()).fold(0.0, f64::max);
+        let cap = if kinetic > 0.0 { fastest * (root_energy / kinetic) } else { f64::INFINITY };
+        let of_mass = |body: usize| ((2.0 / mass(body)).sqrt() * root_energy).min(cap);
+        let top = (0..count).filter(|&body| mass(body) > 0.0).map(of_mass).fold(0.0, f64::max);
+        let length: Vec<f64> = (0..count)
+            .map(|body| {
+                let sprung = (2.0 / stiffness[body]).sqrt() * root_energy;
+                let travelled = if mass(body) > 0.0 {
+                    of_mass(body) * time
+                } else if top > 0.0 {
+                    top * time
+                } else {
+                    f64::INFINITY
+                };
+                let length = sprung.min(travelled);
+                let damped = (time / damping[body]).sqrt() * root_energy;
+                if length.is_finite() {
+                    length
+                } else if damped.is_finite() {
+                    damped
+                } else {
+                    1.0
+                }
+            })
+            .collect();
+        let own_time = |body: usize| length[body] / of_mass(body);
+        let masses = || (0..count).filter(|&body| mass(body) > 0.0);
+        let impact = masses().filter(|&body| bodies.all[body].is_impactor).map(own_time);
+        let unit = impact.reduce(f64::min).or_else(|| masses().map(own_time).reduce(f64::min));
+        let unit = unit.unwrap_or(0.1 * time).min(time);
+        let velocity = (0..count)
+            .map(|body| if mass(body) > 0.0 { of_mass(body) } else { length[body] / unit })
+            .collect();
+        let scales = Self { time: unit, length, velocity, root_energy };
+        scales.check()?;
+        Ok(scales)
+    }
+
+    fn check(&self) -> Result<(), NetworkError> {
+        let is_usable = |value: &f64| value.is_finite() && *value > 0.0;
+        let out_of_scale = |what, value, unit| Err(NetworkError::OutOfScale { what, value, unit });
+        if !is_usable(&self.time) {
+            return out_of_scale("the unit of time", self.time, "s");
+        }
+        if let Some(&value) = self.length.iter().find(|value| !is_usable(value)) {
+            return out_of_scale("the scale of a displacement", value, "m");
+        }
+        if let Some(&value) = self.velocity.iter().find(|value| !is_usable(value)) {
+            return out_of_scale("the scale of a velocity", value, "m/s");
+        }
+        Ok(())
+    }
+}
+
+fn sums(count: usize, edges: &[super::structure::Edge]) -> Vec<f64> {
+    let mut sums = vec![0.0; count];
+    for edge in edges {
+        for end in edge.ends {
+            sums[end] += edge.constant;
+        }
+    }
+    sums
+}

@@ -1,0 +1,105 @@
+//! Balances of springs: where the algebraic clusters are, and how far every spring is compressed.
+
+use dashpot_dae::UnknownKind;
+
+use super::{
+    mesh::{Mesh, Solution},
+    row::{Combination, Row, RowSum},
+    structure::Structure,
+    unknowns::{Draft, Places},
+};
+
+/// Positions of the algebraic clusters and differences along the springs.
+pub(super) struct SpringBalance<'a> {
+    structure: &'a Structure,
+    solution: Solution<Row>,
+}
+
+/// The mesh's number of a body: its algebraic cluster, or the body itself behind the clusters.
+fn place(structure: &Structure, body: usize) -> usize {
+    structure.algebraic_cluster(body).unwrap_or(structure.clusters.len() + body)
+}
+
+/// Position of a body relative to its algebraic cluster; zero for all others.
+fn within(structure: &Structure, places: &Places, body: usize) -> Row {
+    match structure.algebraic_cluster(body) {
+        Some(_) => places.position[body].clone(),
+        None => Row::default(),
+    }
+}
+
+impl<'a> SpringBalance<'a> {
+    /// Eliminates the places of the algebraic clusters under the given `loads` on bodies, those
+    /// with few links first; the ones with more than `most_links` become algebraic unknowns, with
+    /// `length` as their scale.
+    pub(super) fn solve(
+        structure: &'a Structure,
+        loads: &[Row],
+        most_links: usize,
+        places: &mut Places,
+        draft: impl Fn(usize) -> (String, f64),
+    ) -> Self {
+        let clusters = structure.clusters.len();
+        let mut mesh = Mesh::<Row>::new(clusters + loads.len());
+        for spring in &structure.springs {
+            let [a, b] = spring.ends;
+            let (p, q) = (place(structure, a), place(structure, b));
+            if p < clusters || q < clusters {
+                let offset = within(structure, places, a).plus(-1.0, &within(structure, places, b));
+                mesh.link(p, q, spring.constant, &offset);
+            }
+        }
+        let algebraic: Vec<usize> =
+            (0..clusters).filter(|&cluster| structure.is_algebraic(cluster)).collect();
+        for &cluster in &algebraic {
+            for &body in &structure.clusters[cluster].bodies {
+                mesh.load(cluster, 1.0, &loads[body]);
+            }
+        }
+        let eliminated = mesh.eliminate(&algebraic, most_links);
+        let mut is_kept = vec![false; clusters];
+        algebraic.iter().for_each(|&cluster| is_kept[cluster] = true);
+        eliminated.places().for_each(|cluster| is_kept[cluster] = false);
+        let kept: Vec<usize> = (0..clusters).filter(|&cluster| is_kept[cluster]).collect();
+        let mut values = vec![Row::default(); clusters];
+        values.extend(places.position.iter().cloned());
+        for (at, &cluster) in kept.iter().enumerate() {
+            values[cluster] = Row::unknown(places.drafts.len() + at);
+        }
+        for &cluster in &kept {
+            let mut balance = RowSum::default();
+            balance.add(1.0, eliminated.rest.load_at(cluster));
+            for (other, link) in eliminated.rest.links(cluster) {
+                balance.add(-link.conductance, &values[cluster]);
+                balance.add(link.conductance, &values[other]);
+                balance.add(-link.conductance, &link.offset);
+            }
+            let (name, scale) = draft(structure.clusters[cluster].bodies[0]);
+            places.drafts.push(Draft {
+                name: format!("position of {name}"),
+                kind: UnknownKind::Algebraic,
+                unit: "m",
+                scale,
+                initial: 0.0,
+                row: balance.total(),
+            });
+        }
+        Self { structure, solution: eliminated.solve(values) }
+    }
+
+    /// Position of a body.
+    pub(super) fn position(&self, places: &Places, body: usize) -> Row {
+        match self.structure.algebraic_cluster(body) {
+            Some(cluster) => self.solution.value(cluster).plus(1.0, &places.position[body]),
+            None => places.position[body].clone(),
+        }
+    }
+
+    /// Deformation of a spring between two bodies.
+    pub(super) fn deformation(&self, places: &Places, [a, b]: [usize; 2]) -> Row {
+        let (p, q) = (place(self.structure, a), place(self.structure, b));
+        let offset =
+            within(self.structure, places, a).plus(-1.0, &within(self.structure, places, b));
+        if p == q { offset } else { self.solution.difference(p, q).plus(1.0, &offset) }
+    }
+}

@@ -1,0 +1,204 @@
+//! What follows from the graph alone: which places have a rate of their own, which follow from a
+//! balance, and which follow from nothing.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use dashpot_dae::Waveform;
+
+use super::{
+    bodies::{Bodies, Groups, Role, joint_name},
+    expand::Expansion,
+};
+use crate::{Network, NetworkError, Support, elements::Law};
+
+/// A spring or dashpot that takes part, between two different bodies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Edge {
+    pub(super) primitive: usize,
+    pub(super) ends: [usize; 2],
+    /// Stiffness \[N/m\] or damping \[N s/m\], positive.
+    pub(super) constant: f64,
+}
+
+/// Massless bodies that dashpots join.
+#[derive(Debug, Clone)]
+pub(super) struct Cluster {
+    /// The bodies in rising order.
+    pub(super) bodies: Vec<usize>,
+    /// The bodies with mass or given motion to which dashpots lead.
+    pub(super) anchors: BTreeSet<usize>,
+}
+
+/// The graph of a network, taken apart.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Structure {
+    pub(super) springs: Vec<Edge>,
+    pub(super) dashpots: Vec<Edge>,
+    pub(super) clusters: Vec<Cluster>,
+    /// The cluster of each body that has one.
+    pub(super) cluster_of: Vec<Option<usize>>,
+}
+
+impl Structure {
+    pub(super) fn of(
+        network: &Network,
+        expansion: &Expansion,
+        bodies: &Bodies,
+        duration: f64,
+    ) -> Result<Self, Vec<NetworkError>> {
+        let mut structure = Self::default();
+        let held = held_bodies(expansion, bodies);
+        for (primitive, part) in expansion.primitives.iter().enumerate() {
+            let ends = part.ends.map(|joint| bodies.of_joint[joint]);
+            if ends[0] == ends[1] || !held[ends[0]] {
+                continue;
+            }
+            match part.law {
+                Law::Spring(constant) if constant > 0.0 => {
+                    structure.springs.push(Edge { primitive, ends, constant });
+                }
+                Law::Dashpot(constant) if constant > 0.0 => {
+                    structure.dashpots.push(Edge { primitive, ends, constant });
+                }
+                _ => {}
+            }
+        }
+        structure.find_clusters(bodies, &held);
+        let mut errors = structure.undetermined(network, expansion, bodies);
+        errors.extend(structure.steps_across_dashpots(network, expansion, bodies, duration));
+        if errors.is_empty() { Ok(structure) } else { Err(errors) }
+    }
+
+    fn find_clusters(&mut self, bodies: &Bodies, held: &[bool]) {
+        let massless = |body: usize| bodies.all[body].is_massless();
+        let mut groups = Groups::new(bodies.all.len());
+        for edge in &self.dashpots {
+            if edge.ends.iter().all(|&end| massless(end)) {
+                groups.join(edge.ends[0], edge.ends[1]);
+            }
+        }
+        let mut number: BTreeMap<usize, usize> = BTreeMap::new();
+        self.cluster_of = vec![None; bodies.all.len()];
+        for body in (0..bodies.all.len()).filter(|&body| massless(body) && held[body]) {
+            let at = *number.entry(groups.of(body)).or_insert(self.clusters.len());
+            if at == self.clusters.len() {
+                self.clusters.push(Cluster { bodies: Vec::new(), anchors: BTreeSet::new() });
+            }
+            self.clusters[at].bodies.push(body);
+            self.cluster_of[body] = Some(at);
+        }
+        for edge in &self.dashpots {
+            for [inner, outer] in [edge.ends, [edge.ends[1], edge.ends[0]]] {
+                if let Some(cluster) = self.cluster_of[inner]
+                    && self.cluster_of[outer].is_none()
+                {
+                    self.clusters[cluster].anchors.insert(outer);
+                }
+            }
+        }
+    }
+
+    /// Whether the place of the cluster as a whole follows from a balance of springs.
+    pub(super) fn is_algebraic(&self, cluster: usize) -> bool {
+        self.clusters[cluster].anchors.is_empty()
+    }
+
+    /// The algebraic cluster of a body, if it belongs to one.
+    pub(super) fn algebraic_cluster(&self, body: usize) -> Option<usize> {
+        self.cluster_of[body].filter(|&cluster| self.is_algebraic(cluster))
+    }
+
+    fn undetermined(
+        &self,
+        network: &Network,
+        expansion: &Expansion,
+        bodies: &Bodies,
+    ) -> Vec<NetworkError> {
+        let known = self.clusters.len();
+        let place = |body: usize| self.algebraic_cluster(body).unwrap_or(known);
+        let mut groups = Groups::new(known + 1);
+        for spring in &self.springs {
+            groups.join(place(spring.ends[0]), place(spring.ends[1]));
+        }
+        let mut loose: BTreeMap<usize, Vec<String>> = BTreeMap::new();
+        for (at, cluster) in self.clusters.iter().enumerate() {
+            if self.is_algebraic(at) && groups.of(at) != groups.of(known) {
+                let names = cluster
+                    .bodies
+                    .iter()
+                    .flat_map(|&body| &bodies.all[body].joints)
+                    .filter(|&&joint| joint < network.nodes.len())
+                    .map(|&joint| joint_name(network, expansion, joint));
+                loose.entry(groups.of(at)).or_default().extend(names);
+            }
+        }
+        loose.into_values().map(|nodes| NetworkError::Undetermined { nodes }).collect()
+    }
+
+    fn steps_across_dashpots(
+        &self,
+        network: &Network,
+        expansion: &Expansion,
+        bodies: &Bodies,
+        duration: f64,
+    ) -> Vec<NetworkError> {
+        let mut errors = Vec::new();
+        for (at, body) in bodies.all.iter().enumerate() {
+            let Role::Prescribed(node) = body.role else { continue };
+            let Support::Prescribed(motion) = &network.nodes[node].support else { continue };
+            let Some(time) = first_jump(motion, duration) else { continue };
+            let beyond = self.dashpots.iter().find_map(|edge| {
+                let other = match edge.ends {
+                    [from, other] | [other, from] if from == at => other,
+                    _ => return None,
+                };
+                match self.cluster_of[other] {
+                    None => Some(other),
+                    Some(cluster) => {
+                        self.clusters[cluster].anchors.iter().copied().find(|&end| end != at)
+                    }
+                }
+            });
+            if let Some(other) = beyond {
+                errors.push(NetworkError::StepAcrossDashpots {
+                    node: network.nodes[node].name.clone(),
+                    other: joint_name(network, expansion, bodies.all[other].joints[0]),
+                    time,
+                });
+            }
+        }
+        errors
+    }
+}
+
+/// Whether each body hangs together with a node, through parts whose constants are not zero; a
+/// joint between parts of constant zero does not, and is left out.
+fn held_bodies(expansion: &Expansion, bodies: &Bodies) -> Vec<bool> {
+    let mut groups = Groups::new(bodies.all.len());
+    for part in &expansion.primitives {
+        if matches!(part.law, Law::Spring(constant) | Law::Dashpot(constant) if constant > 0.0) {
+            groups.join(bodies.of_joint[part.ends[0]], bodies.of_joint[part.ends[1]]);
+        }
+    }
+    let mut held = vec![false; bodies.all.len()];
+    for (joint, owner) in expansion.owners.iter().enumerate() {
+        if owner.is_none() {
+            held[groups.of(bodies.of_joint[joint])] = true;
+        }
+    }
+    (0..bodies.all.len()).map(|body| held[groups.of(body)]).collect()
+}
+
+/// The first time in `[0, duration]` at which a displacement that was zero before 0 jumps \[s\].
+pub(super) fn first_jump(motion: &Waveform, duration: f64) -> Option<f64> {
+    jumps(motion, duration).first().copied()
+}
+
+/// All times in `[0, duration]` at which the displacement jumps \[s\].
+pub(super) fn jumps(motion: &Waveform, duration: f64) -> Vec<f64> {
+    let at_start = (motion.value(0.0) != 0.0).then_some(0.0);
+    let later = motion
+        .breakpoints()
+        .filter(|&time| time > 0.0 && time <= duration && motion.jump(time) != 0.0);
+    at_start.into_iter().chain(later).collect()
+}

@@ -1,0 +1,235 @@
+//! Which quantities are unknowns, and the place of every body in terms of them.
+
+use std::collections::{BTreeMap, HashMap};
+
+use dashpot_dae::{Input, UnknownKind, Waveform};
+
+use super::{
+    bodies::{Bodies, Groups, Role, joint_name},
+    expand::Expansion,
+    row::{Combination, Row},
+    scales::Scales,
+    structure::Structure,
+};
+use crate::Network;
+
+/// An unknown in the making.
+#[derive(Debug, Clone)]
+pub(super) struct Draft {
+    pub(super) name: String,
+    pub(super) kind: UnknownKind,
+    pub(super) unit: &'static str,
+    /// SI value of the dimensionless value 1.
+    pub(super) scale: f64,
+    /// SI value at the start.
+    pub(super) initial: f64,
+    /// Rate of a differential unknown, balance of an algebraic one; SI.
+    pub(super) row: Row,
+}
+
+/// The inputs that rows speak of, numbered as they are asked for.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Inputs {
+    pub(super) waveforms: Vec<Waveform>,
+    pub(super) entries: Vec<Input>,
+    numbers: HashMap<Input, usize>,
+}
+
+impl Inputs {
+    pub(super) fn waveform(&mut self, waveform: Waveform) -> usize {
+        self.waveforms.push(waveform);
+        self.waveforms.len() - 1
+    }
+
+    pub(super) fn row(&mut self, waveform: usize, derivative: u32) -> Row {
+        Row::input(self.number(Input { waveform, derivative }))
+    }
+
+    fn number(&mut self, input: Input) -> usize {
+        *self.numbers.entry(input).or_insert_with(|| {
+            self.entries.push(input);
+            self.entries.len() - 1
+        })
+    }
+
+    /// The rate of a combination of inputs.
+    pub(super) fn rate(&mut self, row: &Row) -> Row {
+        let mut rate = Row::default();
+        for &(at, coefficient) in row.inputs.terms() {
+            let Input { waveform, derivative } = self.entries[at];
+            let is_constant = self.waveforms[waveform]
+                .pieces()
+                .iter()
+                .all(|piece| piece.slope == 0.0 && piece.omega == 0.0);
+            if !is_constant {
+                rate = rate.plus(coefficient, &self.row(waveform, derivative + 1));
+            }
+        }
+        rate
+    }
+}
+
+/// Where every body is, as far as it is not algebraic.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Places {
+    pub(super) drafts: Vec<Draft>,
+    /// Position unknown of each body that has one.
+    pub(super) unknown: Vec<Option<usize>>,
+    /// Velocity unknown of each mass.
+    pub(super) velocity: Vec<Option<usize>>,
+    /// The body that a body's position unknown is counted from.
+    pub(super) parent: Vec<Option<usize>>,
+    /// Position of each body; of bodies in algebraic clusters relative to the cluster.
+    pub(super) position: Vec<Row>,
+}
+
+/// A spring is very stiff where rounding of positions would show in its force: its energy at the
+/// network's largest displacement exceeds the energy of the run by this factor.
+const VERY_STIFF: f64 = 1e8;
+
+/// Deformations instead of positions are unknowns up to this many bodies only, because they make
+/// dense rows.
+const MOST_RELATIVE: usize = 100;
+
+/// Chooses the unknowns that have a rate.
+///
+/// Masses have position and velocity. Massless bodies that dashpots tie to one anchor are counted
+/// from that anchor, and those of an algebraic cluster from its first body, so that forces do not
+/// come from small differences of large numbers; so are masses joined by very stiff springs.
+pub(super) fn choose(
+    network: &Network,
+    expansion: &Expansion,
+    bodies: &Bodies,
+    structure: &Structure,
+    scales: &Scales,
+    motions: &BTreeMap<usize, Row>,
+) -> Places {
+    let count = bodies.all.len();
+    let mut places = Places {
+        unknown: vec![None; count],
+        velocity: vec![None; count],
+        parent: stiff_parents(bodies, structure, scales),
+        position: vec![Row::default(); count],
+        drafts: Vec::new(),
+    };
+    let name = |body: usize| joint_name(network, expansion, bodies.all[body].joints[0]);
+    for cluster in 0..structure.clusters.len() {
+        let members = &structure.clusters[cluster].bodies;
+        let anchors = &structure.clusters[cluster].anchors;
+        let reference = match anchors.len() {
+            0 => members.first().copied(),
+            1 => anchors.first().copied(),
+            _ => None,
+        };
+        for &body in members {
+            places.parent[body] = reference.filter(|&reference| reference != body);
+        }
+    }
+    for body in 0..count {
+        let is_reference = structure
+            .algebraic_cluster(body)
+            .is_some_and(|cluster| structure.clusters[cluster].bodies[0] == body);
+        let is_moved = match bodies.all[body].role {
+            Role::Mass(_) => true,
+            Role::Massless => structure.cluster_of[body].is_some() && !is_reference,
+            Role::Fixed | Role::Prescribed(_) => false,
+        };
+        if !is_moved {
+            continue;
+        }
+        let relative = places.parent[body]
+            .map_or(String::new(), |parent| format!(" relative to {}", name(parent)));
+        places.unknown[body] = Some(places.drafts.len());
+        places.drafts.push(Draft {
+            name: format!("position of {}{relative}", name(body)),
+            kind: UnknownKind::Differential,
+            unit: "m",
+            scale: scales.length[body],
+            initial: 0.0,
+            row: Row::default(),
+        });
+        if let Role::Mass(_) = bodies.all[body].role {
+            places.velocity[body] = Some(places.drafts.len());
+            places.drafts.push(Draft {
+                name: format!("velocity of {}", name(body)),
+                kind: UnknownKind::Differential,
+                unit: "m/s",
+                scale: scales.velocity[body],
+                initial: bodies.all[body].velocity,
+                row: Row::default(),
+            });
+        }
+    }
+    places.add_up(motions);
+    places
+}
+
+impl Places {
+    /// Adds the unknowns up along the chain of parents.
+    fn add_up(&mut self, motions: &BTreeMap<usize, Row>) {
+        let mut is_done = vec![false; self.position.len()];
+        for body in 0..self.position.len() {
+            let mut chain = vec![body];
+            while let Some(parent) = self.parent[chain[chain.len() - 1]]
+                && !is_done[parent]
+            {
+                chain.push(parent);
+            }
+            for &body in chain.iter().rev() {
+                let own = self.unknown[body].map_or_else(Row::default, Row::unknown);
+                let given = motions.get(&body).cloned().unwrap_or_default();
+                let base = self.parent[body].map(|parent| self.position[parent].clone());
+                self.position[body] = own.plus(1.0, &given).plus(1.0, &base.unwrap_or_default());
+                is_done[body] = true;
+            }
+        }
+    }
+}
+
+/// A spanning tree of the stiffest springs between masses; each mass is counted from the one
+/// before it.
+fn stiff_parents(bodies: &Bodies, structure: &Structure, scales: &Scales) -> Vec<Option<usize>> {
+    let count = bodies.all.len();
+    let mut parent = vec![None; count];
+    let masses = bodies.all.iter().filter(|body| matches!(body.role, Role::Mass(_))).count();
+    if masses > MOST_RELATIVE {
+        return parent;
+    }
+    let reach = scales.length.iter().copied().fold(0.0, f64::max) / scales.root_energy;
+    let joins = |body: usize| matches!(bodies.all[body].role, Role::Mass(_) | Role::Fixed);
+    let mut stiff: Vec<_> = structure
+        .springs
+        .iter()
+        .filter(|spring| spring.ends.iter().all(|&end| joins(end)))
+        .filter(|spring| 0.5 * spring.constant * reach * reach > VERY_STIFF)
+        .collect();
+    stiff.sort_by(|a, b| b.constant.total_cmp(&a.constant));
+    let mut groups = Groups::new(count);
+    let mut tree: Vec<Vec<usize>> = vec![Vec::new(); count];
+    for spring in stiff {
+        let [a, b] = spring.ends;
+        if groups.join(a, b) {
+            tree[a].push(b);
+            tree[b].push(a);
+        }
+    }
+    let mut is_done = vec![false; count];
+    let fixed_first = |body: &usize| bodies.all[*body].role != Role::Fixed;
+    let mut roots: Vec<usize> = (0..count).filter(|&body| joins(body)).collect();
+    roots.sort_by_key(|body| (fixed_first(body), *body));
+    for root in roots {
+        let mut stack = vec![root];
+        while let Some(body) = stack.pop() {
+            if std::mem::replace(&mut is_done[body], true) {
+                continue;
+            }
+            for &next in tree[body].iter().filter(|&&next| !is_done[next]) {
+                if bodies.all[next].role != Role::Fixed {
+                    parent[next] = Some(body);
+                }
+                stack.push(next);
+            }
+        }
+    }
+    parent
+}

@@ -1,0 +1,108 @@
+//! Gravity.
+
+use dashpot_dae::Waveform;
+
+use super::{Effect, EffectKind};
+use crate::{
+    Network, NodeId,
+    elements::number,
+    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite},
+};
+
+/// Uniform gravity along the axis, positive towards the support: every mass feels `m g`.
+///
+/// | symbol | field          | unit | range |
+/// |--------|----------------|------|-------|
+/// | `g`    | `acceleration` | m/s² | finite; negative pulls away from the support |
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gravity {
+    /// Gravitational acceleration `g` \[m/s²\].
+    pub acceleration: f64,
+    /// How the parts without start speed begin.
+    pub start: GravityStart,
+}
+
+/// How parts without start speed begin under gravity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GravityStart {
+    /// In balance under their weight; deformations are counted from unloaded.
+    Equilibrium,
+    /// Unloaded: they begin to sag at t = 0.
+    Unloaded,
+}
+
+impl GravityStart {
+    const WORDS: [(Self, &'static str); 2] =
+        [(Self::Equilibrium, "equilibrium"), (Self::Unloaded, "unloaded")];
+
+    fn word(self) -> &'static str {
+        Self::WORDS.iter().find(|entry| entry.0 == self).map_or("", |entry| entry.1)
+    }
+}
+
+impl Effect for Gravity {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn body_forces(&self, network: &Network) -> Vec<(NodeId, Waveform)> {
+        network
+            .nodes()
+            .filter(|(_, node)| node.mass > 0.0)
+            .map(|(id, node)| (id, Waveform::constant(node.mass * self.acceleration)))
+            .collect()
+    }
+
+    fn starts_in_balance(&self) -> bool {
+        self.start == GravityStart::Equilibrium
+    }
+
+    fn gravity(&self) -> Option<f64> {
+        Some(self.acceleration)
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        finite("value", self.acceleration)
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Number(self.acceleration), Value::Word(self.start.word().to_owned())]
+    }
+}
+
+impl EffectKind for Gravity {
+    const KIND: &'static str = "gravity";
+    const SUMMARY: &'static str = "every mass feels m g, positive towards the support";
+    const PARAMETERS: &'static [Parameter] = &[
+        Parameter::optional(
+            "value",
+            ParameterKind::Quantity(Dimension::ACCELERATION),
+            "1 g0",
+            "gravitational acceleration g [m/s^2]",
+        ),
+        Parameter::optional(
+            "start",
+            ParameterKind::Choice(&["equilibrium", "unloaded"]),
+            "equilibrium",
+            "whether parts without start speed begin in balance or unloaded",
+        ),
+    ];
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        let start = match values.get(1) {
+            Some(Value::Word(word)) => {
+                GravityStart::WORDS.iter().find(|entry| entry.1 == word).map(|entry| entry.0)
+            }
+            _ => None,
+        };
+        let start = start.ok_or_else(|| {
+            InvalidParameter::new("start", "`equilibrium` or `unloaded`", "something else")
+        })?;
+        let gravity = Self { acceleration: number(values, 0, "value")?, start };
+        gravity.validate().map(|()| gravity)
+    }
+
+    fn sample() -> Self {
+        Self { acceleration: 9.806_65, start: GravityStart::Equilibrium }
+    }
+}

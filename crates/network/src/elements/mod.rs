@@ -1,0 +1,113 @@
+//! The register of elements.
+
+mod dashpot;
+mod rigid;
+mod spring;
+
+use std::fmt::Debug;
+
+pub use dashpot::Dashpot;
+pub use rigid::Rigid;
+pub use spring::Spring;
+
+use crate::parameters::{InvalidParameter, Parameter, Value};
+
+/// A massless two-terminal element: a law giving the force in the element from its deformation
+/// and deformation rate.
+///
+/// # Sign convention
+///
+/// With terminals *a* → *b*, the deformation is `y = x_a − x_b` \[m\], positive in compression,
+/// and the force `F` \[N\] is positive when it pushes the terminals apart: node *a* feels `−F`,
+/// node *b* feels `+F`.
+pub trait Element: Debug + Send + Sync {
+    /// Word for the element, for instance `spring`.
+    fn kind(&self) -> &'static str;
+
+    /// Force `F(y, ẏ)` \[N\] at deformation `y` \[m\] and deformation rate `rate` \[m/s\].
+    fn force(&self, deformation: f64, rate: f64) -> f64;
+
+    /// Partial derivatives of [`force`](Self::force).
+    fn tangent(&self, deformation: f64, rate: f64) -> Tangent;
+
+    /// Energy stored \[J\] at deformation `y` \[m\].
+    fn stored(&self, deformation: f64) -> f64;
+
+    /// The law as the compiler of networks sees it.
+    fn law(&self) -> Law;
+
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] for the first one out of its range.
+    fn validate(&self) -> Result<(), InvalidParameter>;
+
+    /// The parameters' values in the order of [`ElementKind::PARAMETERS`].
+    fn values(&self) -> Vec<Value>;
+}
+
+/// Slopes of a law.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tangent {
+    /// `∂F/∂y` \[N/m\].
+    pub stiffness: f64,
+    /// `∂F/∂ẏ` \[N s/m\].
+    pub damping: f64,
+}
+
+/// A law by its structure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    /// `F = k y`, `k` in N/m.
+    Spring(f64),
+    /// `F = c ẏ`, `c` in N s/m.
+    Dashpot(f64),
+    /// `y = 0`, whatever the force.
+    Rigid,
+}
+
+/// What an element kind says about itself.
+pub trait ElementKind: Element + Sized + 'static {
+    /// Word for the element in scenes.
+    const KIND: &'static str;
+    /// One line for a list: law and unit.
+    const SUMMARY: &'static str;
+    /// Its parameters; a kind with one takes the value alone (`{ spring = "20 MN/m" }`).
+    const PARAMETERS: &'static [Parameter];
+
+    /// The element with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] when a value is out of range.
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter>;
+
+    /// A valid example.
+    fn sample() -> Self;
+}
+
+/// Sees every element kind.
+pub trait ElementVisitor {
+    /// Called once for each kind.
+    fn visit<E: ElementKind>(&mut self);
+}
+
+/// Shows every element kind to `visitor`. **A new kind is registered here.**
+pub fn visit_elements(visitor: &mut impl ElementVisitor) {
+    visitor.visit::<Spring>();
+    visitor.visit::<Dashpot>();
+    visitor.visit::<Rigid>();
+}
+
+/// The number at `at`, for [`ElementKind::from_values`].
+pub(crate) fn number(
+    values: &[Value],
+    at: usize,
+    parameter: &'static str,
+) -> Result<f64, InvalidParameter> {
+    values
+        .get(at)
+        .and_then(Value::number)
+        .ok_or_else(|| InvalidParameter::new(parameter, "a number", "missing"))
+}

@@ -1,0 +1,57 @@
+//! Rigid link.
+
+use super::{Element, ElementKind, Law, Tangent};
+use crate::parameters::{InvalidParameter, Parameter, ParameterKind, Value};
+
+/// A rigid link, `y = 0`: its ends move as one.
+///
+/// The compiler merges the nodes at its ends; the force in the link follows from the balance of
+/// what hangs on either side. It stores and dissipates nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rigid;
+
+impl Element for Rigid {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    /// Zero: a rigid link has no law for its force, which is a reaction.
+    fn force(&self, _deformation: f64, _rate: f64) -> f64 {
+        0.0
+    }
+
+    fn tangent(&self, _deformation: f64, _rate: f64) -> Tangent {
+        Tangent::default()
+    }
+
+    fn stored(&self, _deformation: f64) -> f64 {
+        0.0
+    }
+
+    fn law(&self) -> Law {
+        Law::Rigid
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        Ok(())
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Flag]
+    }
+}
+
+impl ElementKind for Rigid {
+    const KIND: &'static str = "rigid";
+    const SUMMARY: &'static str = "rigid link, y = 0; merges its ends";
+    const PARAMETERS: &'static [Parameter] =
+        &[Parameter::required("rigid", ParameterKind::Flag, "write `rigid = true`")];
+
+    fn from_values(_values: &[Value]) -> Result<Self, InvalidParameter> {
+        Ok(Self)
+    }
+
+    fn sample() -> Self {
+        Self
+    }
+}

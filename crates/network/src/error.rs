@@ -1,0 +1,182 @@
+//! What can be wrong with a network.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use crate::parameters::InvalidParameter;
+
+/// The part of a network that an error is about.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Subject {
+    /// A node, by name.
+    Node(String),
+    /// A connection, by name, and the path of the part within its model (empty for the whole).
+    Element {
+        /// Name of the connection.
+        name: String,
+        /// Names of the branches that lead to the part.
+        path: Vec<String>,
+    },
+    /// A load, by name.
+    Load(String),
+    /// An effect, by its word.
+    Effect(&'static str),
+}
+
+/// Why a network cannot be turned into a system.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum NetworkError {
+    /// Two things of one family have the same name.
+    #[error("there are two {family} named `{name}`")]
+    DuplicateName {
+        /// `nodes`, `elements` or `loads`.
+        family: &'static str,
+        /// The name.
+        name: String,
+        /// The second one.
+        subject: Subject,
+    },
+    /// A parameter is out of its range.
+    #[error("{invalid}")]
+    Invalid {
+        /// What it belongs to.
+        subject: Subject,
+        /// Parameter, range and value.
+        invalid: InvalidParameter,
+    },
+    /// Both ends of an element are one node.
+    #[error("both ends of `{element}` are at `{node}`")]
+    BothEndsAtOneNode {
+        /// The element.
+        element: String,
+        /// The node.
+        node: String,
+    },
+    /// A massless node that no element touches.
+    #[error("`{node}` has no mass and no element holds it: its motion is undetermined")]
+    IsolatedNode {
+        /// The node.
+        node: String,
+    },
+    /// Massless nodes whose place follows from nothing.
+    #[error(
+        "the place of {} is undetermined: massless, and no spring or dashpot ties {} to a mass, \
+         a fixed node or a prescribed motion",
+        quoted(.nodes),
+        if .nodes.len() == 1 { "it" } else { "them" }
+    )]
+    Undetermined {
+        /// The nodes, by name.
+        nodes: Vec<String>,
+    },
+    /// A mass is asked to start with a speed that it cannot have.
+    #[error("`{node}` has a start speed but {reason}")]
+    StartSpeed {
+        /// The node.
+        node: String,
+        /// Why it cannot have one.
+        reason: &'static str,
+    },
+    /// Rigidly linked nodes are asked to move differently.
+    #[error("`{first}` and `{second}` are rigidly linked, but {difference}")]
+    ContradictingMotions {
+        /// One node.
+        first: String,
+        /// The other node.
+        second: String,
+        /// How their motions contradict each other.
+        difference: &'static str,
+    },
+    /// A prescribed displacement jumps across dashpots only.
+    #[error(
+        "the motion of `{node}` jumps at {time} s, and only dashpots lead from it to `{other}`: \
+         the force would be infinite; give the jump a rise time"
+    )]
+    StepAcrossDashpots {
+        /// The node that jumps.
+        node: String,
+        /// Where the dashpots lead.
+        other: String,
+        /// When \[s\].
+        time: f64,
+    },
+    /// A weight or load that nothing holds cannot start in balance.
+    #[error(
+        "{} cannot start in balance: no spring carries the load to a fixed or prescribed node; \
+         choose `start = \"unloaded\"`",
+        quoted(.nodes)
+    )]
+    NoBalance {
+        /// The nodes that would sink, by name.
+        nodes: Vec<String>,
+    },
+    /// A number became too large or too small for double precision.
+    #[error("the constants of the network are too far apart: {what} is {value:e} in {unit}")]
+    OutOfScale {
+        /// What left the range.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+}
+
+impl NetworkError {
+    /// The part that the error is about.
+    pub fn subject(&self) -> Option<Subject> {
+        let node = |name: &String| Some(Subject::Node(name.clone()));
+        match self {
+            Self::DuplicateName { subject, .. } | Self::Invalid { subject, .. } => {
+                Some(subject.clone())
+            }
+            Self::BothEndsAtOneNode { element, .. } => {
+                Some(Subject::Element { name: element.clone(), path: Vec::new() })
+            }
+            Self::IsolatedNode { node: name }
+            | Self::StartSpeed { node: name, .. }
+            | Self::ContradictingMotions { second: name, .. }
+            | Self::StepAcrossDashpots { node: name, .. } => node(name),
+            Self::Undetermined { nodes } | Self::NoBalance { nodes } => {
+                nodes.first().and_then(node)
+            }
+            Self::OutOfScale { .. } => None,
+        }
+    }
+}
+
+/// All that is wrong with a network; at least one error.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NetworkErrors(pub Vec<NetworkError>);
+
+impl fmt::Display for NetworkErrors {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (at, error) in self.0.iter().enumerate() {
+            if at > 0 {
+                writeln!(formatter)?;
+            }
+            write!(formatter, "{error}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for NetworkErrors {}
+
+impl From<NetworkError> for NetworkErrors {
+    fn from(error: NetworkError) -> Self {
+        Self(vec![error])
+    }
+}
+
+fn quoted(names: &[String]) -> String {
+    const SHOWN: usize = 5;
+    let text =
+        names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    match names.len().checked_sub(SHOWN) {
+        None | Some(0) => text,
+        Some(more) => format!("{text} and {more} more"),
+    }
+}

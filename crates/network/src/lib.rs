@@ -1,0 +1,22 @@
+//! Networks of springs, dashpots and masses, and their compilation to systems.
+//!
+//! # Sign convention
+//!
+//! One axis. Displacements, velocities and forces on nodes are positive from the impactor towards
+//! the support. An element between `a` and `b` has the deformation `y = x_a − x_b`, positive in
+//! compression, and a force that is positive when it pushes its ends apart.
+
+mod assembly;
+mod compile;
+pub mod effects;
+pub mod elements;
+mod error;
+mod network;
+pub mod parameters;
+pub mod waveforms;
+
+pub use assembly::{Assembly, ConnectionOutputs, DriveOutputs, NodeOutputs, PrimitiveOutputs};
+pub use effects::Effect;
+pub use elements::Element;
+pub use error::{NetworkError, NetworkErrors, Subject};
+pub use network::{Connection, Load, Model, Network, Node, NodeId, Start, Support, part};

@@ -1,0 +1,248 @@
+//! Networks: nodes, elements between them, loads and effects.
+
+use std::sync::Arc;
+
+use dashpot_dae::Waveform;
+use dashpot_rheology::Tree;
+
+use crate::{effects::Effect, elements::Element};
+
+/// A two-terminal model composed of elements.
+pub type Model = Tree<Arc<dyn Element>>;
+
+/// The model that is one element.
+pub fn part(element: impl Element + 'static) -> Model {
+    Tree::Part(Arc::new(element))
+}
+
+/// A node of one network.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeId(pub(crate) usize);
+
+impl NodeId {
+    /// Position of the node in the network's order, which is also that of
+    /// [`Assembly::nodes`](crate::Assembly::nodes).
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
+/// A point with one displacement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Node {
+    /// Its name.
+    pub name: String,
+    /// Its mass `m` \[kg\], ≥ 0.
+    pub mass: f64,
+    /// What rules its motion.
+    pub support: Support,
+    /// How a free mass begins; a node with a start speed is an impactor.
+    pub start: Start,
+}
+
+/// What rules the motion of a node.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Support {
+    /// The forces on it.
+    Free,
+    /// Nothing moves it.
+    Fixed,
+    /// Its displacement \[m\] is this function of time \[s\].
+    Prescribed(Waveform),
+}
+
+/// How a free mass begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Start {
+    /// Without speed.
+    Rest,
+    /// With a velocity \[m/s\], positive towards the support.
+    Velocity(f64),
+    /// With the speed √(2 g h) of a fall from the height `h` \[m\], ≥ 0, at touch at t = 0; `g` is
+    /// that of the gravity effect, or standard gravity where it is off.
+    Drop(f64),
+}
+
+impl Node {
+    /// A free node of the given mass \[kg\] at rest; 0 makes it massless.
+    pub fn mass(name: impl Into<String>, mass: f64) -> Self {
+        Self { name: name.into(), mass, support: Support::Free, start: Start::Rest }
+    }
+
+    /// A free massless node.
+    pub fn massless(name: impl Into<String>) -> Self {
+        Self::mass(name, 0.0)
+    }
+
+    /// A node that nothing moves.
+    pub fn fixed(name: impl Into<String>) -> Self {
+        Self { support: Support::Fixed, ..Self::mass(name, 0.0) }
+    }
+
+    /// A node whose displacement \[m\] is a given function of time \[s\].
+    pub fn prescribed(name: impl Into<String>, motion: Waveform) -> Self {
+        Self { support: Support::Prescribed(motion), ..Self::mass(name, 0.0) }
+    }
+
+    /// The same node with a start velocity \[m/s\]: an impactor.
+    #[must_use]
+    pub fn moving(self, velocity: f64) -> Self {
+        Self { start: Start::Velocity(velocity), ..self }
+    }
+
+    /// The same node at the end of a fall from `height` \[m\]: an impactor.
+    #[must_use]
+    pub fn dropped(self, height: f64) -> Self {
+        Self { start: Start::Drop(height), ..self }
+    }
+
+    /// Whether the node starts with a speed of its own.
+    pub fn is_impactor(&self) -> bool {
+        self.start != Start::Rest
+    }
+}
+
+/// A model between two nodes.
+#[derive(Debug, Clone)]
+pub struct Connection {
+    /// Its name.
+    pub name: String,
+    /// Its ends, the impactor's side first.
+    pub between: [NodeId; 2],
+    /// Its law.
+    pub model: Model,
+    /// Thickness \[m\] of the pad that it stands for, where it is one: deformation beyond it is
+    /// warned of.
+    pub thickness: Option<f64>,
+}
+
+/// A force on a node.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Load {
+    /// Its name.
+    pub name: String,
+    /// Where it acts.
+    pub node: NodeId,
+    /// The force \[N\] as a function of time \[s\], positive towards the support.
+    pub force: Waveform,
+}
+
+/// Nodes, elements between them, loads and effects.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{Network, Node, elements::{Dashpot, Spring}, part};
+/// use dashpot_rheology::Tree;
+///
+/// let mut network = Network::new();
+/// let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
+/// let pad = Tree::parallel([part(Spring { stiffness: 2e7 }), part(Dashpot { damping: 4e3 })]);
+/// network.connect("padding", head, network.ground(), pad).thickness = Some(0.02);
+/// let assembly = network.compile(0.02)?;
+/// assert_eq!(assembly.system.states(), 2);
+/// # Ok::<(), dashpot_network::NetworkErrors>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Network {
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) connections: Vec<Connection>,
+    pub(crate) loads: Vec<Load>,
+    pub(crate) effects: Vec<Arc<dyn Effect>>,
+}
+
+impl Default for Network {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Network {
+    /// A network that has only the fixed node `ground`.
+    pub fn new() -> Self {
+        Self {
+            nodes: vec![Node::fixed("ground")],
+            connections: Vec::new(),
+            loads: Vec::new(),
+            effects: Vec::new(),
+        }
+    }
+
+    /// The fixed node that every network has.
+    pub fn ground(&self) -> NodeId {
+        NodeId(0)
+    }
+
+    /// Adds a node. Names are checked when the network is compiled.
+    pub fn add_node(&mut self, node: Node) -> NodeId {
+        self.nodes.push(node);
+        NodeId(self.nodes.len() - 1)
+    }
+
+    /// Puts a model between two nodes of this network, the impactor's side first.
+    pub fn connect(
+        &mut self,
+        name: impl Into<String>,
+        from: NodeId,
+        to: NodeId,
+        model: Model,
+    ) -> &mut Connection {
+        let at = self.connections.len();
+        self.connections.push(Connection {
+            name: name.into(),
+            between: [from, to],
+            model,
+            thickness: None,
+        });
+        &mut self.connections[at]
+    }
+
+    /// Lets a force \[N\] act on a node.
+    pub fn add_load(&mut self, name: impl Into<String>, node: NodeId, force: Waveform) {
+        self.loads.push(Load { name: name.into(), node, force });
+    }
+
+    /// Switches an effect on.
+    pub fn add_effect(&mut self, effect: impl Effect + 'static) {
+        self.effects.push(Arc::new(effect));
+    }
+
+    /// Switches on an effect that is shared with others.
+    pub fn add_shared_effect(&mut self, effect: Arc<dyn Effect>) {
+        self.effects.push(effect);
+    }
+
+    /// All nodes, `ground` first.
+    pub fn nodes(&self) -> impl Iterator<Item = (NodeId, &Node)> {
+        self.nodes.iter().enumerate().map(|(at, node)| (NodeId(at), node))
+    }
+
+    /// A node of this network.
+    ///
+    /// # Panics
+    ///
+    /// When the id belongs to another, larger network.
+    pub fn node(&self, id: NodeId) -> &Node {
+        &self.nodes[id.0]
+    }
+
+    /// The node of the given name.
+    pub fn node_named(&self, name: &str) -> Option<NodeId> {
+        self.nodes.iter().position(|node| node.name == name).map(NodeId)
+    }
+
+    /// The models between nodes.
+    pub fn connections(&self) -> &[Connection] {
+        &self.connections
+    }
+
+    /// The forces on nodes.
+    pub fn loads(&self) -> &[Load] {
+        &self.loads
+    }
+
+    /// The effects that are on.
+    pub fn effects(&self) -> &[Arc<dyn Effect>] {
+        &self.effects
+    }
+}

@@ -1,0 +1,204 @@
+//! What a kind says about its parameters, so that parser, help, schema and tests need no second
+//! list.
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// Physical dimension as exponents of kilogram, metre and second.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Dimension {
+    /// Exponent of mass.
+    pub mass: i8,
+    /// Exponent of length.
+    pub length: i8,
+    /// Exponent of time.
+    pub time: i8,
+}
+
+impl Dimension {
+    /// A pure number.
+    pub const NUMBER: Self = Self::new(0, 0, 0);
+    /// Mass \[kg\].
+    pub const MASS: Self = Self::new(1, 0, 0);
+    /// Length \[m\].
+    pub const LENGTH: Self = Self::new(0, 1, 0);
+    /// Time \[s\].
+    pub const TIME: Self = Self::new(0, 0, 1);
+    /// Frequency \[Hz\].
+    pub const FREQUENCY: Self = Self::new(0, 0, -1);
+    /// Velocity \[m/s\].
+    pub const VELOCITY: Self = Self::new(0, 1, -1);
+    /// Acceleration \[m/s²\].
+    pub const ACCELERATION: Self = Self::new(0, 1, -2);
+    /// Force \[N\].
+    pub const FORCE: Self = Self::new(1, 1, -2);
+    /// Stiffness \[N/m\].
+    pub const STIFFNESS: Self = Self::new(1, 0, -2);
+    /// Damping \[N s/m\].
+    pub const DAMPING: Self = Self::new(1, 0, -1);
+    /// Impulse \[N s\].
+    pub const IMPULSE: Self = Self::new(1, 1, -1);
+    /// Energy \[J\].
+    pub const ENERGY: Self = Self::new(1, 2, -2);
+
+    const NAMED: [(Self, &'static str, &'static str); 12] = [
+        (Self::NUMBER, "number", "1"),
+        (Self::MASS, "mass", "kg"),
+        (Self::LENGTH, "length", "m"),
+        (Self::TIME, "time", "s"),
+        (Self::FREQUENCY, "frequency", "Hz"),
+        (Self::VELOCITY, "velocity", "m/s"),
+        (Self::ACCELERATION, "acceleration", "m/s^2"),
+        (Self::FORCE, "force", "N"),
+        (Self::STIFFNESS, "stiffness", "N/m"),
+        (Self::DAMPING, "damping", "N s/m"),
+        (Self::IMPULSE, "impulse", "N s"),
+        (Self::ENERGY, "energy", "J"),
+    ];
+
+    /// The dimension kg^mass m^length s^time.
+    pub const fn new(mass: i8, length: i8, time: i8) -> Self {
+        Self { mass, length, time }
+    }
+
+    /// The quantity's name and SI unit, for the dimensions that have one.
+    pub fn named(self) -> Option<(&'static str, &'static str)> {
+        Self::NAMED.iter().find(|entry| entry.0 == self).map(|entry| (entry.1, entry.2))
+    }
+}
+
+/// What a parameter's value is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ParameterKind {
+    /// A number of the given dimension.
+    Quantity(Dimension),
+    /// A number with the dimension of what is driven: force for a load, length for a motion.
+    Amplitude,
+    /// Pairs of time and amplitude, in rising order of time.
+    TimeTable,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// `true`; the key's presence says it all.
+    Flag,
+    /// `"impact"`, `"run"` or a pair of times.
+    Window,
+}
+
+/// One parameter of a kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter {
+    /// Key in kebab-case.
+    pub name: &'static str,
+    /// What its value is.
+    pub kind: ParameterKind,
+    /// Value where the key is left out, in the form in which it would be written; `None` if it is
+    /// required.
+    pub default: Option<&'static str>,
+    /// One line of help with symbol, unit and range.
+    pub help: &'static str,
+}
+
+impl Parameter {
+    /// A required parameter.
+    pub const fn required(name: &'static str, kind: ParameterKind, help: &'static str) -> Self {
+        Self { name, kind, default: None, help }
+    }
+
+    /// A parameter that may be left out.
+    pub const fn optional(
+        name: &'static str,
+        kind: ParameterKind,
+        default: &'static str,
+        help: &'static str,
+    ) -> Self {
+        Self { name, kind, default: Some(default), help }
+    }
+}
+
+/// A parameter's value, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// For [`ParameterKind::Quantity`] and [`ParameterKind::Amplitude`].
+    Number(f64),
+    /// For [`ParameterKind::TimeTable`].
+    Table(Vec<(f64, f64)>),
+    /// For [`ParameterKind::Choice`].
+    Word(String),
+    /// For [`ParameterKind::Flag`].
+    Flag,
+    /// For [`ParameterKind::Window`].
+    Window(WindowWish),
+}
+
+/// The part of a run that a measure looks at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WindowWish {
+    /// From first contact to the first zero of the contact force.
+    Impact,
+    /// The whole run.
+    Run,
+    /// From one time to another \[s\].
+    Times(f64, f64),
+}
+
+impl Value {
+    /// The number, where it is one.
+    pub fn number(&self) -> Option<f64> {
+        if let Self::Number(number) = self { Some(*number) } else { None }
+    }
+}
+
+/// A parameter out of its range.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("`{parameter}` must be {range}, but it is {found}")]
+pub struct InvalidParameter {
+    /// Key of the parameter.
+    pub parameter: &'static str,
+    /// Its range in words, with unit.
+    pub range: &'static str,
+    /// What was given.
+    pub found: String,
+}
+
+impl InvalidParameter {
+    /// Says that `parameter` must be in `range` but is `found`.
+    pub fn new(parameter: &'static str, range: &'static str, found: impl fmt::Display) -> Self {
+        Self { parameter, range, found: found.to_string() }
+    }
+}
+
+/// Accepts finite numbers ≥ 0.
+///
+/// # Errors
+///
+/// [`InvalidParameter`] for all others, NaN included.
+pub fn non_negative(parameter: &'static str, value: f64) -> Result<(), InvalidParameter> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(())
+    } else {
+        Err(InvalidParameter::new(parameter, "zero or positive, and finite", value))
+    }
+}
+
+/// Accepts finite numbers > 0.
+///
+/// # Errors
+///
+/// [`InvalidParameter`] for all others, NaN included.
+pub fn positive(parameter: &'static str, value: f64) -> Result<(), InvalidParameter> {
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(InvalidParameter::new(parameter, "positive and finite", value))
+    }
+}
+
+/// Accepts finite numbers.
+///
+/// # Errors
+///
+/// [`InvalidParameter`] for infinities and NaN.
+pub fn finite(parameter: &'static str, value: f64) -> Result<(), InvalidParameter> {
+    if value.is_finite() { Ok(()) } else { Err(InvalidParameter::new(parameter, "finite", value)) }
+}

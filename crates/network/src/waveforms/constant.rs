@@ -1,0 +1,54 @@
+//! Constant, from a time on.
+
+use dashpot_dae::{Piece, Waveform};
+
+use super::{WaveformKind, pieces};
+use crate::{
+    elements::number,
+    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite},
+};
+
+/// A constant that is switched on: `u(t) = value` for `t ≥ start`, 0 before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Constant {
+    /// The value \[N or m\].
+    pub value: f64,
+    /// When it begins \[s\].
+    pub start: f64,
+}
+
+impl WaveformKind for Constant {
+    const KIND: &'static str = "constant";
+    const SUMMARY: &'static str = "u = value from `start` on, 0 before (a step if start > 0)";
+    const PARAMETERS: &'static [Parameter] = &[
+        Parameter::required("value", ParameterKind::Amplitude, "the value [N or m]"),
+        Parameter::optional(
+            "start",
+            ParameterKind::Quantity(Dimension::TIME),
+            "0 s",
+            "when it is switched on [s]",
+        ),
+    ];
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        Ok(Self { value: number(values, 0, "value")?, start: number(values, 1, "start")? })
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Number(self.value), Value::Number(self.start)]
+    }
+
+    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
+        finite("value", self.value)?;
+        finite("start", self.start)?;
+        if self.start <= 0.0 {
+            return Ok(Waveform::constant(self.value));
+        }
+        let on = Piece { start: self.start, value: self.value, ..Piece::default() };
+        pieces("start", vec![Piece::default(), on])
+    }
+
+    fn sample() -> Self {
+        Self { value: 1.0, start: 0.25 }
+    }
+}

@@ -1,0 +1,70 @@
+//! Half-sine pulse.
+
+use std::f64::consts::PI;
+
+use dashpot_dae::{Piece, Waveform};
+
+use super::{WaveformKind, pieces};
+use crate::{
+    elements::number,
+    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite, positive},
+};
+
+/// One arch of a sine: `u(t) = peak · sin(π (t − start)/duration)` for `start ≤ t ≤ start +
+/// duration`, 0 elsewhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfSine {
+    /// The peak \[N or m\].
+    pub peak: f64,
+    /// The duration \[s\], positive.
+    pub duration: f64,
+    /// When it begins \[s\].
+    pub start: f64,
+}
+
+impl WaveformKind for HalfSine {
+    const KIND: &'static str = "half-sine";
+    const SUMMARY: &'static str = "one arch of a sine, `peak` high and `duration` long";
+    const PARAMETERS: &'static [Parameter] = &[
+        Parameter::required("peak", ParameterKind::Amplitude, "largest value [N or m]"),
+        Parameter::required(
+            "duration",
+            ParameterKind::Quantity(Dimension::TIME),
+            "length of the pulse [s], positive",
+        ),
+        Parameter::optional(
+            "start",
+            ParameterKind::Quantity(Dimension::TIME),
+            "0 s",
+            "when the pulse begins [s]",
+        ),
+    ];
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        let pulse = Self {
+            peak: number(values, 0, "peak")?,
+            duration: number(values, 1, "duration")?,
+            start: number(values, 2, "start")?,
+        };
+        positive("duration", pulse.duration).map(|()| pulse)
+    }
+
+    fn values(&self) -> Vec<Value> {
+        [self.peak, self.duration, self.start].map(Value::Number).into()
+    }
+
+    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
+        finite("peak", self.peak)?;
+        positive("duration", self.duration)?;
+        finite("start", self.start)?;
+        let before = Piece { start: self.start.min(0.0) - 1.0, ..Piece::default() };
+        let arch =
+            Piece { start: self.start, sine: self.peak, omega: PI / self.duration, ..before };
+        let after = Piece { start: self.start + self.duration, ..before };
+        pieces("duration", vec![before, arch, after])
+    }
+
+    fn sample() -> Self {
+        Self { peak: 2.0, duration: 0.5, start: 0.25 }
+    }
+}

@@ -1,0 +1,76 @@
+//! The register of driving functions: forces on nodes and motions of nodes as functions of time.
+
+mod constant;
+mod half_sine;
+mod ramp;
+mod sine;
+mod table;
+
+use std::fmt::Debug;
+
+pub use constant::Constant;
+use dashpot_dae::Waveform;
+pub use half_sine::HalfSine;
+pub use ramp::Ramp;
+pub use sine::Sine;
+pub use table::Table;
+
+use crate::parameters::{InvalidParameter, Parameter, Value};
+
+/// A kind of driving function.
+pub trait WaveformKind: Debug + Sized + 'static {
+    /// Word for the kind in scenes.
+    const KIND: &'static str;
+    /// One line for a list: law and unit.
+    const SUMMARY: &'static str;
+    /// Its parameters; a kind with one required parameter takes the value alone.
+    const PARAMETERS: &'static [Parameter];
+
+    /// The function with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] when a value is out of range.
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter>;
+
+    /// The parameters' values in the order of [`PARAMETERS`](Self::PARAMETERS).
+    fn values(&self) -> Vec<Value>;
+
+    /// The function as pieces, in SI units.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] when a field is out of range.
+    fn waveform(&self) -> Result<Waveform, InvalidParameter>;
+
+    /// A valid example.
+    fn sample() -> Self;
+}
+
+/// Sees every kind of driving function.
+pub trait WaveformVisitor {
+    /// Called once for each kind.
+    fn visit<W: WaveformKind>(&mut self);
+}
+
+/// Shows every kind of driving function to `visitor`. **A new kind is registered here.**
+pub fn visit_waveforms(visitor: &mut impl WaveformVisitor) {
+    visitor.visit::<Constant>();
+    visitor.visit::<Ramp>();
+    visitor.visit::<Sine>();
+    visitor.visit::<HalfSine>();
+    visitor.visit::<Table>();
+}
+
+/// The waveform of `pieces`, or an error that blames `parameter`.
+fn pieces(
+    parameter: &'static str,
+    pieces: Vec<dashpot_dae::Piece>,
+) -> Result<Waveform, InvalidParameter> {
+    Waveform::new(pieces).ok_or_else(|| {
+        InvalidParameter::new(parameter, "finite, with times in rising order", "not so")
+    })
+}
+
+#[cfg(test)]
+mod tests;
