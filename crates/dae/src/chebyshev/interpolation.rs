@@ -1,0 +1,93 @@
+//! From values at nodes to coefficients.
+
+use std::{borrow::Cow, f64::consts::FRAC_PI_2, f64::consts::PI, sync::OnceLock};
+
+use super::order;
+
+/// Highest degree that is kept ready.
+const KEPT: usize = 32;
+
+/// Interpolation of one degree at the Chebyshev–Lobatto points `x_j = −cos(π j/d)`, in rising
+/// order with both ends among them; the single node of degree 0 is the midpoint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interpolation {
+    nodes: Vec<f64>,
+    /// `c_k = Σ_j transform[k (d+1) + j] v_j`.
+    transform: Vec<f64>,
+}
+
+impl Interpolation {
+    /// Interpolation by polynomials of this degree.
+    pub fn new(degree: usize) -> Self {
+        if degree == 0 {
+            return Self { nodes: vec![0.0], transform: vec![1.0] };
+        }
+        let count = degree + 1;
+        let d = order(degree);
+        // The sine makes the nodes symmetric about an exact zero.
+        let nodes = (0..count).map(|j| (FRAC_PI_2 * (2.0 * order(j) - d) / d).sin()).collect();
+        let half = |index: usize| if index == 0 || index == degree { 0.5 } else { 1.0 };
+        let mut transform = Vec::with_capacity(count * count);
+        for k in 0..count {
+            for j in 0..count {
+                // T_k(x_j) = cos(π k (d − j)/d), with the argument reduced exactly.
+                let angle = PI * order(k * (degree - j) % (2 * degree)) / d;
+                transform.push(2.0 / d * half(k) * half(j) * angle.cos());
+            }
+        }
+        Self { nodes, transform }
+    }
+
+    /// As [`new`](Self::new), but shared for degrees up to 32.
+    pub fn of_degree(degree: usize) -> Cow<'static, Self> {
+        static TABLE: [OnceLock<Interpolation>; KEPT + 1] = [const { OnceLock::new() }; KEPT + 1];
+        match TABLE.get(degree) {
+            Some(cell) => Cow::Borrowed(cell.get_or_init(|| Self::new(degree))),
+            None => Cow::Owned(Self::new(degree)),
+        }
+    }
+
+    /// The degree of the polynomials.
+    pub fn degree(&self) -> usize {
+        self.nodes.len() - 1
+    }
+
+    /// The nodes in rising order, `degree + 1` of them.
+    pub fn nodes(&self) -> &[f64] {
+        &self.nodes
+    }
+
+    /// Writes to `out` the coefficients of the polynomial with these `values` at the nodes.
+    ///
+    /// # Panics
+    ///
+    /// When `values` or `out` has not `degree + 1` entries.
+    pub fn coefficients(&self, values: &[f64], out: &mut [f64]) {
+        self.coefficients_of_columns(values, 1, out);
+    }
+
+    /// As [`coefficients`](Self::coefficients) for many functions at a time: row `j` of `values`
+    /// holds their values at node `j`, row `k` of `out` their coefficients of `T_k`, each row
+    /// `columns` long.
+    ///
+    /// # Panics
+    ///
+    /// When `values` or `out` has not `(degree + 1) · columns` entries.
+    pub fn coefficients_of_columns(&self, values: &[f64], columns: usize, out: &mut [f64]) {
+        let count = self.nodes.len();
+        assert_eq!(values.len(), count * columns, "one row of values for each node");
+        assert_eq!(out.len(), count * columns, "one row of coefficients for each node");
+        if columns == 0 {
+            return;
+        }
+        for (row, weights) in out.chunks_exact_mut(columns).zip(self.transform.chunks_exact(count))
+        {
+            row.fill(0.0);
+            for (value_row, weight) in values.chunks_exact(columns).zip(weights) {
+                for (sum, value) in row.iter_mut().zip(value_row) {
+                    *sum += weight * value;
+                }
+            }
+        }
+    }
+}

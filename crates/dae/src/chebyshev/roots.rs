@@ -1,0 +1,96 @@
+//! Zeros of polynomials on `[−1, 1]`.
+
+use super::{bound, derivative, evaluate, restrict, variation};
+
+/// Intervals shorter than this are not divided further.
+const NARROWEST: f64 = 1e-15;
+
+/// Whether the coefficients prove that `p` rises all the way, or falls all the way; a constant does.
+///
+/// `false` proves nothing.
+pub fn is_monotone(coefficients: &[f64]) -> bool {
+    if coefficients.len() <= 2 {
+        return true;
+    }
+    let slope = derivative(coefficients);
+    slope[0].abs() >= variation(&slope)
+}
+
+/// All places in `(−1, 1)` at which `p` changes its sign, in rising order.
+///
+/// Intervals are divided until the coefficients prove that there is no zero in them, or one at
+/// most. Pairs of zeros between which `|p|` stays below its rounding error may be left out.
+pub fn sign_changes(coefficients: &[f64]) -> Vec<f64> {
+    let mut found = Vec::new();
+    let total = bound(coefficients);
+    if coefficients.len() < 2 || coefficients[0].abs() > total - coefficients[0].abs() {
+        return found;
+    }
+    let noise = 16.0 * f64::EPSILON * total;
+    let slope = derivative(coefficients);
+    let ends = (evaluate(coefficients, -1.0), evaluate(coefficients, 1.0));
+    let mut open = vec![((-1.0, ends.0), (1.0, ends.1))];
+    while let Some((a, b)) = open.pop() {
+        let part = restrict(coefficients, a.0, b.0);
+        let spread = variation(&part);
+        if part[0].abs() > spread + noise {
+            continue;
+        }
+        let flat = part[0].abs() + spread <= noise;
+        if flat || is_monotone(&part) || b.0 - a.0 < NARROWEST {
+            if (a.1 < 0.0) != (b.1 < 0.0) {
+                found.push(bracketed_root(coefficients, &slope, a, b).clamp(-1.0, 1.0));
+            }
+            continue;
+        }
+        let middle = 0.5 * (a.0 + b.0);
+        let middle = (middle, evaluate(coefficients, middle));
+        open.push((middle, b));
+        open.push((a, middle));
+    }
+    found
+}
+
+/// The zero of `p` between two places `(x, p(x))` at which it has different signs, to the last bit,
+/// by Newton's method kept within the bracket. `slope` holds the coefficients of `p′`.
+pub fn bracketed_root(
+    coefficients: &[f64],
+    slope: &[f64],
+    start: (f64, f64),
+    end: (f64, f64),
+) -> f64 {
+    let (mut a, mut b) = (start, end);
+    // The secant's zero is a good first guess, as the piece is monotone as a rule.
+    let mut x = a.0 + (b.0 - a.0) * (a.1 / (a.1 - b.1));
+    let mut last_width = b.0 - a.0;
+    for _ in 0..100 {
+        if !(x > a.0 && x < b.0) {
+            x = 0.5 * (a.0 + b.0);
+            if x <= a.0 || x >= b.0 {
+                break;
+            }
+        }
+        let value = evaluate(coefficients, x);
+        if value == 0.0 {
+            return x;
+        }
+        if (value < 0.0) == (a.1 < 0.0) {
+            a = (x, value);
+        } else {
+            b = (x, value);
+        }
+        let step = value / evaluate(slope, x);
+        if step.abs() <= 0.25 * f64::EPSILON {
+            return x;
+        }
+        // Where Newton's method does not at least halve its step, halve the bracket.
+        if step.abs() < 0.5 * last_width {
+            x -= step;
+            last_width = step.abs();
+        } else {
+            x = 0.5 * (a.0 + b.0);
+            last_width = 0.5 * (b.0 - a.0);
+        }
+    }
+    if a.1.abs() < b.1.abs() { a.0 } else { b.0 }
+}

@@ -1,0 +1,180 @@
+use std::f64::consts::PI;
+
+use super::*;
+
+/// A plain generator of numbers in `[−1, 1]` (Knuth's MMIX constants).
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        2.0 * order((self.0 >> 11) as usize) / order(1 << 53) - 1.0
+    }
+
+    fn coefficients(&mut self, degree: usize) -> Vec<f64> {
+        (0..=degree).map(|_| self.next()).collect()
+    }
+}
+
+fn places() -> impl Iterator<Item = f64> {
+    (0..=40_u32).map(|i| f64::from(i) / 20.0 - 1.0)
+}
+
+fn interpolate(degree: usize, f: impl Fn(f64) -> f64) -> Vec<f64> {
+    let interpolation = Interpolation::new(degree);
+    let values: Vec<f64> = interpolation.nodes().iter().map(|&x| f(x)).collect();
+    let mut coefficients = vec![0.0; degree + 1];
+    interpolation.coefficients(&values, &mut coefficients);
+    coefficients
+}
+
+#[test]
+fn evaluation_agrees_with_the_cosine_form() {
+    for degree in 0..=20 {
+        let mut unit = vec![0.0; degree + 1];
+        unit[degree] = 1.0;
+        for x in places() {
+            let exact = (order(degree) * x.acos()).cos();
+            assert!((evaluate(&unit, x) - exact).abs() < 4e-15 * (1.0 + order(degree)));
+        }
+    }
+}
+
+#[test]
+fn interpolation_returns_the_coefficients_of_a_polynomial() {
+    let mut numbers = Numbers(1);
+    for degree in 0..=40 {
+        let exact = numbers.coefficients(degree);
+        let found = interpolate(degree, |x| evaluate(&exact, x));
+        for (found, exact) in found.iter().zip(&exact) {
+            assert!((found - exact).abs() < 4e-16 * bound(&[order(degree) + 4.0]));
+        }
+    }
+}
+
+#[test]
+fn many_columns_are_interpolated_as_one_by_one() {
+    let mut numbers = Numbers(2);
+    let interpolation = Interpolation::of_degree(5);
+    let values = numbers.coefficients(6 * 3 - 1);
+    let mut together = vec![0.0; 18];
+    interpolation.coefficients_of_columns(&values, 3, &mut together);
+    for column in 0..3 {
+        let one: Vec<f64> = values.iter().skip(column).step_by(3).copied().collect();
+        let mut alone = vec![0.0; 6];
+        interpolation.coefficients(&one, &mut alone);
+        assert!(together.iter().skip(column).step_by(3).eq(&alone));
+    }
+    assert_eq!(interpolation.degree(), 5);
+}
+
+#[test]
+fn nodes_rise_from_end_to_end() {
+    for degree in 1..=40 {
+        let interpolation = Interpolation::new(degree);
+        let nodes = interpolation.nodes();
+        assert_eq!((nodes[0], nodes[degree]), (-1.0, 1.0));
+        assert!(nodes.windows(2).all(|pair| pair[0] < pair[1]));
+    }
+}
+
+#[test]
+fn derivative_undoes_antiderivative() {
+    let mut numbers = Numbers(3);
+    for degree in 0..=20 {
+        let p = numbers.coefficients(degree);
+        let area = antiderivative(&p);
+        assert!(evaluate(&area, -1.0).abs() < 1e-14);
+        assert!((evaluate(&area, 1.0) - integral(&p)).abs() < 1e-14);
+        for (c, exact) in derivative(&area).iter().zip(&p) {
+            assert!((c - exact).abs() < 1e-13);
+        }
+    }
+    assert_eq!(derivative(&[3.0]), [0.0]);
+}
+
+#[test]
+fn restriction_is_the_same_polynomial() {
+    let mut numbers = Numbers(4);
+    for degree in 0..=20 {
+        let p = numbers.coefficients(degree);
+        let (a, b) = (numbers.next() * 0.5 - 0.5, numbers.next() * 0.5 + 0.5);
+        let part = restrict(&p, a, b);
+        for x in places() {
+            let exact = evaluate(&p, 0.5 * (a + b) + 0.5 * (b - a) * x);
+            assert!((evaluate(&part, x) - exact).abs() < 1e-14 * (1.0 + order(degree)));
+        }
+        let area = antiderivative(&p);
+        let exact = evaluate(&area, b) - evaluate(&area, a);
+        assert!((integral_over(&p, a, b) - exact).abs() < 1e-14 * (1.0 + order(degree)));
+    }
+}
+
+#[test]
+fn gauss_is_exact_up_to_its_degree() {
+    for points in 1..=40_u32 {
+        let rule = GaussLegendre::with_points(points as usize);
+        let degree = 2 * points.cast_signed() - 1;
+        let power = rule.integrate(0.0, 1.0, |x| x.powi(degree));
+        assert!((power * f64::from(degree + 1) - 1.0).abs() < 1e-13, "{points}: {power}");
+        assert!((rule.weights().iter().sum::<f64>() - 2.0).abs() < 1e-14);
+        assert!(rule.nodes().windows(2).all(|pair| pair[0] < pair[1]));
+    }
+}
+
+#[test]
+fn sign_changes_are_the_zeros_of_chebyshev_polynomials() {
+    for degree in 1..=24_usize {
+        let mut unit = vec![0.0; degree + 1];
+        unit[degree] = 1.0;
+        let zeros = sign_changes(&unit);
+        assert_eq!(zeros.len(), degree);
+        for (k, zero) in zeros.iter().enumerate() {
+            let exact = -(PI * (order(k) + 0.5) / order(degree)).cos();
+            assert!((zero - exact).abs() < 4e-16);
+        }
+    }
+}
+
+#[test]
+fn sign_changes_leave_out_zeros_of_even_order() {
+    let double = interpolate(3, |x| (x - 0.3) * (x - 0.3) * (x + 0.5));
+    let zeros = sign_changes(&double);
+    assert!(zeros.len() == 1 || zeros.len() == 3, "{zeros:?}");
+    assert!((zeros[0] + 0.5).abs() < 1e-15);
+    assert!(zeros[1..].iter().all(|zero| (zero - 0.3).abs() < 1e-7));
+    let triple = sign_changes(&interpolate(3, |x| (x - 0.3).powi(3)));
+    assert!(!triple.is_empty() && triple.iter().all(|zero| (zero - 0.3).abs() < 3e-5));
+    assert!(sign_changes(&[1.0, 0.5, 0.49]).is_empty());
+    assert!(sign_changes(&[0.0]).is_empty());
+    assert!(sign_changes(&[]).is_empty());
+    assert!(sign_changes(&[0.0, 0.0, 0.0]).is_empty());
+    assert_eq!(sign_changes(&[0.0, 0.0, 0.0, 1.0]).len(), 3);
+}
+
+#[test]
+fn sign_changes_of_random_polynomials_agree_with_dense_samples() {
+    let mut numbers = Numbers(5);
+    for round in 0..2000 {
+        let p = numbers.coefficients(round % 21);
+        let zeros = sign_changes(&p);
+        let mut side = evaluate(&p, -1.0) < 0.0;
+        let mut sampled = 0;
+        for i in 1..=4000_u32 {
+            let next = evaluate(&p, f64::from(i) / 2000.0 - 1.0) < 0.0;
+            sampled += usize::from(next != side);
+            side = next;
+        }
+        assert!(
+            zeros.len() >= sampled && (zeros.len() - sampled).is_multiple_of(2),
+            "{p:?}: {zeros:?}"
+        );
+        assert!(zeros.len() < p.len().max(1) && zeros.windows(2).all(|pair| pair[0] < pair[1]));
+        let slope = derivative(&p);
+        for &zero in &zeros {
+            let noise = 1e-14 + 2e-16 * bound(&slope);
+            assert!(evaluate(&p, zero).abs() < noise);
+        }
+    }
+}

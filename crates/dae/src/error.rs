@@ -1,0 +1,81 @@
+//! What can go wrong while a system is solved.
+
+use thiserror::Error;
+
+/// Why a method did not deliver a trajectory.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SolveError {
+    /// The method cannot solve systems of this structure.
+    #[error("`{method}` cannot solve this: {reason}")]
+    NotApplicable {
+        /// The method's name.
+        method: &'static str,
+        /// Why, and what can.
+        reason: String,
+    },
+    /// A setting is out of its range.
+    #[error("`{setting}` must be {range}, but it is {value}")]
+    InvalidSetting {
+        /// Name of the setting.
+        setting: &'static str,
+        /// Its range in words.
+        range: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// The step became too small to go on.
+    #[error("the step of `{method}` became too small at {time:e} s (worst unknown: `{unknown}`)")]
+    StepTooSmall {
+        /// The method's name.
+        method: &'static str,
+        /// Time reached \[s\].
+        time: f64,
+        /// The unknown that changes fastest.
+        unknown: String,
+    },
+    /// The Newton iteration failed too often.
+    #[error("the equations of a step of `{method}` could not be solved at {time:e} s")]
+    NewtonFailed {
+        /// The method's name.
+        method: &'static str,
+        /// Time reached \[s\].
+        time: f64,
+    },
+    /// The result contains a number that is not finite.
+    #[error("`{method}` lost `{unknown}` at {time:e} s: its value is not finite")]
+    NotFinite {
+        /// The method's name.
+        method: &'static str,
+        /// Time reached \[s\].
+        time: f64,
+        /// The first unknown that is not finite.
+        unknown: String,
+    },
+    /// More steps than the limit were needed.
+    #[error("`{method}` took {steps} steps and reached only {time:e} s")]
+    TooManySteps {
+        /// The method's name.
+        method: &'static str,
+        /// Time reached \[s\].
+        time: f64,
+        /// The limit.
+        steps: usize,
+    },
+    /// An observer ended the run.
+    #[error("the run was cancelled at {time:e} s")]
+    Cancelled {
+        /// Time reached \[s\].
+        time: f64,
+    },
+    /// The integrator gave up for another reason, which it states.
+    #[error("`{method}` failed at {time:e} s: {reason}")]
+    Integrator {
+        /// The method's name.
+        method: &'static str,
+        /// Time reached \[s\].
+        time: f64,
+        /// The integrator's own words.
+        reason: String,
+    },
+}

@@ -1,0 +1,51 @@
+//! Guards: conditions on outputs that are watched during a run.
+//!
+//! One layer serves every method: it looks for crossings on the polynomials of the outputs, so that
+//! none is missed for lying between steps, and two in one step are two events. A [`Watch`] follows a
+//! run that comes step by step; [`scan`] looks at one that is there as a whole.
+//!
+//! What counts as a crossing is told by [`Signal::crossings`](crate::Signal::crossings): a guard
+//! that starts on its level, up to rounding, is armed by the way in which its output leaves the
+//! level, and does not fire there; an output that touches the level, or ends on it, does not cross
+//! it; a jump across it does.
+
+mod watch;
+
+pub use watch::{Stop, Watch, scan};
+
+/// Which crossings of the level count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// From below to above.
+    Rising,
+    /// From above to below.
+    Falling,
+    /// Both.
+    Either,
+}
+
+/// A condition: an output crosses a level in a direction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Guard {
+    /// What it stands for, for the report.
+    pub name: String,
+    /// Index into [`System::outputs`](crate::System::outputs).
+    pub output: usize,
+    /// The level, in the output's SI unit.
+    pub level: f64,
+    /// Which crossings count.
+    pub direction: Direction,
+    /// Whether the run ends at the first crossing.
+    pub stops: bool,
+}
+
+/// A crossing that was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// When \[s\].
+    pub time: f64,
+    /// Index into [`Run::guards`](crate::Run::guards).
+    pub guard: usize,
+    /// Whether the output rose through the level.
+    pub rising: bool,
+}

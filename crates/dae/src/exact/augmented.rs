@@ -1,0 +1,177 @@
+//! The unknowns and the generators of their driving functions in one autonomous system.
+
+use nalgebra::DMatrix;
+
+use super::{
+    balance::{balance, power_of_two},
+    generators::Generators,
+};
+use crate::{LinearForm, Output, System};
+
+/// The time between two breakpoints.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Span {
+    /// Where it begins, dimensionless.
+    pub(super) start: f64,
+    /// Where it ends.
+    pub(super) end: f64,
+    /// The generators at its start, in their own units.
+    pub(super) generators: Vec<f64>,
+}
+
+impl Span {
+    /// How long it is.
+    pub(super) fn length(&self) -> f64 {
+        self.end - self.start
+    }
+}
+
+/// `ż = Ā z`, `z = D⁻¹ [y; g]`, where `g` are the generators and `D` a diagonal of powers of two
+/// that balances `Ā = D⁻¹ [A B C; 0 G] D`.
+#[derive(Debug, Clone)]
+pub(crate) struct Augmented {
+    /// Number of unknowns `y`.
+    pub(super) states: usize,
+    /// `Ā`.
+    pub(super) matrix: DMatrix<f64>,
+    /// The diagonal of `D`.
+    pub(super) units: Vec<f64>,
+    /// `z` at the start of the run.
+    pub(super) initial: Vec<f64>,
+    /// The spans in order of time; at least one.
+    pub(super) spans: Vec<Span>,
+    /// The generators.
+    pub(super) generators: Generators,
+    /// The inputs as forms over `[y; g]`.
+    inputs: Vec<LinearForm>,
+}
+
+impl Augmented {
+    /// The augmented form of a system without algebraic unknowns on `[0, end]`.
+    pub(crate) fn new(system: &System, end: f64) -> Self {
+        let states = system.len();
+        let generators = Generators::new(system);
+        let size = states + generators.len();
+        let mut matrix = DMatrix::zeros(size, size);
+        for (i, j, &value) in system.jacobian.triplet_iter() {
+            matrix[(i, j)] += value;
+        }
+        let mut units = balance(&mut matrix, states);
+        let inputs: Vec<LinearForm> =
+            system.inputs.iter().map(|&input| generators.form(input, states)).collect();
+        for (i, input, &value) in system.input_matrix.triplet_iter() {
+            for &(j, coefficient) in inputs[input].terms() {
+                matrix[(i, j)] += value * coefficient / units[i];
+            }
+        }
+        generators.fill(&mut matrix, states);
+        scale_generators(&mut matrix, &mut units, &generators, end);
+        let mut augmented =
+            Self { states, matrix, units, initial: Vec::new(), spans: Vec::new(), generators, inputs };
+        augmented.cut(system, end);
+        let unknowns = system.initial.iter();
+        let first = augmented.spans[0].generators.iter();
+        augmented.initial =
+            unknowns.zip(&augmented.units).map(|(y, d)| y / d).chain(first.copied()).collect();
+        augmented
+    }
+
+    fn cut(&mut self, system: &System, end: f64) {
+        let mut start = 0.0;
+        let inner = if self.generators.len() == 0 { Vec::new() } else { system.breakpoints(end) };
+        for stop in inner.into_iter().chain([end]) {
+            let mut generators = self.generators.values(system, start);
+            for (value, unit) in generators.iter_mut().zip(&self.units[self.states..]) {
+                *value /= unit;
+            }
+            self.spans.push(Span { start, end: stop, generators });
+            start = stop;
+        }
+    }
+
+    /// Number of unknowns and generators.
+    pub(crate) fn size(&self) -> usize {
+        self.matrix.nrows()
+    }
+
+    /// The end of the run, dimensionless.
+    pub(super) fn end(&self) -> f64 {
+        self.spans.last().map_or(0.0, |span| span.end)
+    }
+
+    /// The span that begins at or before `t` and is not over.
+    pub(super) fn span_at(&self, t: f64) -> usize {
+        self.spans.partition_point(|span| span.start <= t).saturating_sub(1)
+    }
+
+    /// The output, dimensionless, as a form over `z`.
+    pub(super) fn form(&self, output: &Output) -> Vec<(usize, f64)> {
+        let mut form = output.unknowns.clone();
+        for &(input, coefficient) in output.inputs.terms() {
+            form = form.plus(coefficient, &self.inputs[input]);
+        }
+        form.terms().iter().map(|&(i, c)| (i, c * self.units[i])).collect()
+    }
+
+    /// `‖Ā‖₁`.
+    pub(crate) fn norm(&self) -> f64 {
+        self.matrix.column_iter().map(|column| column.lp_norm(1)).fold(0.0, f64::max)
+    }
+
+    /// Whether a logarithmic norm already shows that no state grows beyond the range of numbers.
+    pub(super) fn stays_finite(&self) -> bool {
+        let rate = |(j, column): (usize, nalgebra::DVectorView<'_, f64>)| {
+            column.lp_norm(1) - column[j].abs() + column[j]
+        };
+        let growth = self.matrix.column_iter().enumerate().map(rate).fold(0.0, f64::max);
+        let size: f64 = self.initial.iter().map(|z| z.abs()).sum();
+        growth * self.end() + size.max(1.0).ln() < 600.0
+    }
+}
+
+/// Chooses the generators' units so that their columns are as large as `A` itself: then rounding
+/// relative to the norm of the whole is rounding relative to each part.
+fn scale_generators(
+    matrix: &mut DMatrix<f64>,
+    units: &mut Vec<f64>,
+    generators: &Generators,
+    end: f64,
+) {
+    let (states, size) = (units.len(), matrix.nrows());
+    units.resize(size, 1.0);
+    if size == states {
+        return;
+    }
+    let part = |matrix: &DMatrix<f64>, j: usize| matrix.column(j).rows(0, states).lp_norm(1);
+    let norm = (0..states).map(|j| part(matrix, j)).fold(0.0, f64::max);
+    let norm = if norm > 0.0 { norm } else { 1.0 / end.max(f64::MIN_POSITIVE).min(1e300) };
+    let pairs: Vec<usize> = generators.waves().map(|(at, _)| states + at).collect();
+    let mut j = states;
+    while j < size {
+        let pair = pairs.contains(&j);
+        let coupling = if pair {
+            part(matrix, j) + part(matrix, j + 1)
+        } else if j > states && matrix[(j - 1, j)] != 0.0 {
+            // A slope feeds its value, whose unit is settled.
+            part(matrix, j) + matrix[(j - 1, j)]
+        } else {
+            part(matrix, j)
+        };
+        let factor = if coupling > 0.0 { power_of_two(norm / coupling) } else { 1.0 };
+        let width = if pair { 2 } else { 1 };
+        for column in j..j + width {
+            for row in 0..size {
+                if !(pair && row >= states) {
+                    matrix[(row, column)] *= factor;
+                }
+            }
+            units[column] = factor;
+        }
+        if !pair {
+            for column in 0..size {
+                matrix[(j, column)] /= factor;
+            }
+        }
+        j += width;
+    }
+}

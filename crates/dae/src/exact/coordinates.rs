@@ -1,0 +1,146 @@
+//! The solution in modal coordinates, span by span.
+
+use nalgebra::DMatrix;
+
+use super::{
+    Augmented, Complex, augmented::Span, bounds::coupling_error, double_double::Accumulator,
+    modes::Modes,
+};
+
+/// Unit roundoff, with the few operations that a modal coordinate goes through.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// The modal coordinates of one span.
+#[derive(Debug, Clone)]
+pub(super) struct SpanCoordinates {
+    /// `c = X⁻¹ z` at the start of the span.
+    pub(super) start: Vec<Complex>,
+    /// Bounds of the errors of `e^{D t} c`, the largest over the span.
+    pub(super) error: Vec<f64>,
+}
+
+/// The coordinates of all spans, each continued from the one before: only what the generators jump
+/// by is added at a breakpoint, so nothing is lost in going to and fro between `c` and `z`.
+pub(super) fn follow(system: &Augmented, modes: &Modes) -> Vec<SpanCoordinates> {
+    let (mut start, mut inherited) = initial(system, modes);
+    let kept = if system.spans.len() > 1 { kept_errors(system, modes) } else { DMatrix::zeros(0, 0) };
+    let mut all = Vec::with_capacity(system.spans.len());
+    for (at, span) in system.spans.iter().enumerate() {
+        let (largest, last) = span_errors(modes, &start, &inherited, span.length());
+        all.push(SpanCoordinates { start: start.clone(), error: largest });
+        inherited = last;
+        if let Some(next) = system.spans.get(at + 1) {
+            inherited = forget(&kept, &inherited);
+            cross(system, modes, span, next, &mut start, &mut inherited);
+        }
+    }
+    all
+}
+
+/// `|1 − X⁻¹ P X|`, where `P` picks the generators: what is left of an error at a breakpoint, where
+/// the generators are set anew without any.
+fn kept_errors(system: &Augmented, modes: &Modes) -> DMatrix<f64> {
+    let (size, states) = (modes.len(), system.states);
+    let generators = size - states;
+    let dual = modes.dual.columns(states, generators);
+    let lost = dual * modes.basis.rows(states, generators);
+    DMatrix::from_fn(size, size, |i, j| {
+        (Complex::new(if i == j { 1.0 } else { 0.0 }, 0.0) - lost[(i, j)]).norm()
+    })
+}
+
+fn forget(kept: &DMatrix<f64>, error: &[f64]) -> Vec<f64> {
+    let sum = |i| error.iter().enumerate().map(|(j, e)| kept[(i, j)] * e).sum();
+    (0..error.len()).map(sum).collect()
+}
+
+/// `X⁻¹ z(0)`, improved until `X c = z(0)` to rounding, and the bound of its error.
+fn initial(system: &Augmented, modes: &Modes) -> (Vec<Complex>, Vec<f64>) {
+    let size = modes.len();
+    let mut c = vec![Complex::default(); size];
+    let mut missing: Vec<Complex> =
+        system.initial.iter().map(|&z| Complex::new(z, 0.0)).collect();
+    let mut error = vec![0.0; size];
+    for _ in 0..4 {
+        for (i, c) in c.iter_mut().enumerate() {
+            let change: Complex = (0..size).map(|k| modes.dual[(i, k)] * missing[k]).sum();
+            *c += change;
+        }
+        for (i, missing) in missing.iter_mut().enumerate() {
+            *missing = defect(modes, i, system.initial[i], &c);
+        }
+    }
+    for (i, error) in error.iter_mut().enumerate() {
+        let rest: f64 = (0..size).map(|k| modes.dual[(i, k)].norm() * missing[k].norm()).sum();
+        *error = ROUNDING * c[i].norm() + 2.0 * rest;
+    }
+    (c, error)
+}
+
+/// `z_i − (X c)_i`.
+fn defect(modes: &Modes, i: usize, z: f64, c: &[Complex]) -> Complex {
+    let (mut re, mut im) = (Accumulator::default(), Accumulator::default());
+    re.add(z);
+    for (k, c) in c.iter().enumerate() {
+        let (x, low) = (modes.basis[(i, k)], modes.basis_low[(i, k)]);
+        re.add_product(-x.re, c.re);
+        re.add_product(x.im, c.im);
+        im.add_product(-x.re, c.im);
+        im.add_product(-x.im, c.re);
+        let small = low * c;
+        re.add_small(-small.re);
+        im.add_small(-small.im);
+    }
+    Complex::new(re.value(), im.value())
+}
+
+/// Errors of the coordinates over a span of the given length: the largest, and those at its end.
+fn span_errors(
+    modes: &Modes,
+    start: &[Complex],
+    inherited: &[f64],
+    length: f64,
+) -> (Vec<f64>, Vec<f64>) {
+    let sizes: Vec<f64> = start.iter().map(|c| c.norm()).collect();
+    let coupled = coupling_error(modes, &sizes, length);
+    let (mut largest, mut last) = (coupled.clone(), coupled);
+    for block in &modes.blocks {
+        let range = block.range();
+        let top = block.largest(length, &inherited[range.clone()]);
+        let end = block.last(length, &inherited[range.clone()]);
+        let size = block.largest(length, &sizes[range.clone()]);
+        for (k, i) in range.enumerate() {
+            largest[i] += top[k] + ROUNDING * size[k];
+            last[i] += end[k] + ROUNDING * size[k];
+        }
+    }
+    (largest, last)
+}
+
+/// Goes from the start of one span to that of the next.
+fn cross(
+    system: &Augmented,
+    modes: &Modes,
+    span: &Span,
+    next: &Span,
+    c: &mut [Complex],
+    error: &mut [f64],
+) {
+    for block in &modes.blocks {
+        block.advance(span.length(), &mut c[block.range()]);
+    }
+    let jumps: Vec<f64> = next
+        .generators
+        .iter()
+        .enumerate()
+        .map(|(k, &value)| defect(modes, system.states + k, value, c).re)
+        .collect();
+    for (i, (c, error)) in c.iter_mut().zip(error.iter_mut()).enumerate() {
+        for (k, &jump) in jumps.iter().enumerate() {
+            let change = modes.dual[(i, system.states + k)] * jump;
+            *c += change;
+            *error += ROUNDING * change.norm();
+        }
+        *error += ROUNDING * c.norm();
+    }
+}

@@ -1,0 +1,150 @@
+//! From a triangular matrix to a block-diagonal one.
+
+use nalgebra::DMatrix;
+
+use super::{Complex, schur::ComplexSchur};
+
+/// Couplings above this between eigenvalues that the run cannot tell apart join them.
+const STRONG: f64 = 30.0;
+/// Couplings above this between eigenvalues that rounding cannot tell apart join them.
+const VERY_STRONG: f64 = 1e3;
+/// How far, relative to the norm, rounding may move the eigenvalues of a defective matrix.
+const BLUR: f64 = 1e-7;
+/// Change of phase or decay over a lifetime below which two modes look alike.
+const ALIKE: f64 = 0.5;
+
+/// `T Y = Y D` with block-diagonal `D`: the blocks' sizes and the unit upper triangular `Y`.
+#[derive(Debug, Clone)]
+pub(super) struct Decoupling {
+    /// The sizes of the blocks, in order.
+    pub(super) sizes: Vec<usize>,
+    /// `Y`; its diagonal blocks are identities.
+    pub(super) transform: DMatrix<Complex>,
+}
+
+/// Sorts the eigenvalues of `schur` so that those that belong together adjoin, and decouples the
+/// clusters (after Bavely & Stewart, SIAM J. Numer. Anal. 16 (1979) 359).
+///
+/// Eigenvalues are told apart wherever they can be. Two of them share a cluster only if the
+/// decoupling of one from the other is ill-conditioned *and* they stay alike over their lifetime
+/// within `horizon`, or lie within the blur that rounding gives a defective eigenvalue: then their
+/// modes nearly cancel, and only their common exponential is well-conditioned (rigid motion,
+/// critical damping, resonance).
+pub(super) fn decouple(schur: &mut ComplexSchur, horizon: f64) -> Decoupling {
+    let size = schur.triangle.nrows();
+    let norm = schur.triangle.iter().map(|z| z.norm()).fold(0.0, f64::max);
+    let mut labels: Vec<usize> = (0..size).collect();
+    loop {
+        let (transform, mut joined) = solve(&schur.triangle, &labels);
+        for b in 0..size {
+            for a in 0..b {
+                let coupling = transform[(a, b)].norm();
+                if labels[a] == labels[b] || coupling <= STRONG {
+                    continue;
+                }
+                let (first, second) = (schur.eigenvalue(a), schur.eigenvalue(b));
+                let gap = (first - second).norm();
+                let slower = first.re.abs().min(second.re.abs());
+                let lifetime = if slower * horizon > 1.0 { slower.recip() } else { horizon };
+                let blurred = gap <= BLUR * norm && coupling > VERY_STRONG;
+                if gap * lifetime <= ALIKE || blurred {
+                    joined.push((a, b));
+                }
+            }
+        }
+        if joined.is_empty() {
+            return Decoupling { sizes: sizes(&labels), transform };
+        }
+        for (a, b) in joined {
+            let (keep, drop) = (labels[a].min(labels[b]), labels[a].max(labels[b]));
+            labels.iter_mut().filter(|label| **label == drop).for_each(|label| *label = keep);
+        }
+        schur.sort(&mut labels);
+    }
+}
+
+/// The lengths of the runs of equal labels.
+fn sizes(labels: &[usize]) -> Vec<usize> {
+    labels.chunk_by(|a, b| a == b).map(<[usize]>::len).collect()
+}
+
+/// Solves `T Y = Y D` column by column from the diagonal up; also returns the pairs of equal
+/// eigenvalues that cannot be decoupled.
+fn solve(t: &DMatrix<Complex>, labels: &[usize]) -> (DMatrix<Complex>, Vec<(usize, usize)>) {
+    let size = labels.len();
+    let mut y = DMatrix::identity(size, size);
+    let mut inseparable = Vec::new();
+    for b in 0..size {
+        let first = labels.partition_point(|&label| label < labels[b]);
+        for a in (0..first).rev() {
+            let mut rest = -t[(a, b)];
+            for k in a + 1..first {
+                rest -= t[(a, k)] * y[(k, b)];
+            }
+            for k in first..b {
+                rest += y[(a, k)] * t[(k, b)];
+            }
+            if rest == Complex::default() {
+                continue;
+            }
+            let gap = t[(a, a)] - t[(b, b)];
+            let value = rest / gap;
+            if value.re.is_finite() && value.im.is_finite() {
+                y[(a, b)] = value;
+            } else {
+                inseparable.push((a, b));
+            }
+        }
+    }
+    (y, inseparable)
+}
+
+/// The inverse of a unit upper triangular matrix.
+pub(super) fn invert_unit_triangle(y: &DMatrix<Complex>) -> DMatrix<Complex> {
+    let size = y.nrows();
+    let mut inverse = DMatrix::identity(size, size);
+    for b in 0..size {
+        for a in (0..b).rev() {
+            let sum: Complex = (a + 1..=b).map(|k| y[(a, k)] * inverse[(k, b)]).sum();
+            inverse[(a, b)] = -sum;
+        }
+    }
+    inverse
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sizes_of(rows: &[f64], size: usize, horizon: f64) -> Vec<usize> {
+        let a = DMatrix::from_row_slice(size, size, rows);
+        let mut schur = ComplexSchur::new(&a).unwrap();
+        let mut sizes = decouple(&mut schur, horizon).sizes;
+        sizes.sort_unstable();
+        sizes
+    }
+
+    #[test]
+    fn only_what_cannot_be_told_apart_is_joined() {
+        assert_eq!(sizes_of(&[0.0, 1.0, -1.0, -2.0], 2, 10.0), [2], "critical damping");
+        assert_eq!(sizes_of(&[0.0, 1.0, 0.0, 0.0], 2, 10.0), [2], "free mass");
+        assert_eq!(sizes_of(&[0.0, 1.0, -1.0, -0.1], 2, 10.0), [1, 1], "oscillator");
+        assert_eq!(sizes_of(&[0.0, 0.0, 0.0, 0.0], 2, 10.0), [1, 1], "two resting states");
+        assert_eq!(sizes_of(&[-1e-9, 0.0, 1.0, -1e3], 2, 1e6), [1, 1], "rates far apart");
+    }
+
+    #[test]
+    fn the_decoupled_matrix_is_similar() {
+        let a = DMatrix::from_fn(9, 9, |i, j| ((5 * i + 2 * j + i * j) as f64).sin());
+        let mut schur = ComplexSchur::new(&a).unwrap();
+        let Decoupling { sizes, transform } = decouple(&mut schur, 3.0);
+        let d = invert_unit_triangle(&transform) * &schur.triangle * &transform;
+        assert_eq!(sizes, [1; 9]);
+        for i in 0..9 {
+            for j in 0..9 {
+                let expected = if i == j { schur.eigenvalue(i) } else { Complex::default() };
+                assert!((d[(i, j)] - expected).norm() < 1e-12);
+            }
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! The exact solution of `ẏ = A y + B w(t)`.
+//!
+//! Constants, lines and sines obey linear equations of their own, so between two breakpoints the
+//! unknowns together with those *generators* are `ż = Ā z`, `z(t) = e^{Ā t} z(0)`
+//! ([`augmented`]). Two evaluations of that exponential are kept, which share no arithmetic:
+//!
+//! - the propagator ([`exponential`], [`propagator`]): `z_{k+1} = e^{Ā Δt} z_k` on uniform grids;
+//! - the modal form ([`modes`]): `z(t) = X e^{D t} X⁻¹ z(0)` with block-diagonal `D`, which gives
+//!   every output as a sum of modes and from it, with a rigorous bound of the interpolation error,
+//!   a piecewise polynomial ([`panels`]).
+
+mod augmented;
+mod balance;
+mod block;
+mod bounds;
+mod coordinates;
+mod decoupling;
+mod double_double;
+mod exponential;
+mod generators;
+mod modes;
+mod panels;
+mod propagator;
+mod refinement;
+mod schur;
+mod solution;
+
+#[cfg(test)]
+mod tests;
+
+pub(crate) use augmented::Augmented;
+pub(crate) use solution::Solution;
+
+/// A complex number.
+type Complex = nalgebra::Complex<f64>;
+
+/// A count as a number.
+#[expect(clippy::cast_precision_loss, reason = "counts are far below 2^52")]
+fn number(count: usize) -> f64 {
+    count as f64
+}

@@ -1,0 +1,256 @@
+//! Outputs as piecewise polynomials, with a bound of the interpolation error that holds everywhere.
+
+use super::{
+    Complex,
+    block::{Block, exponential_of},
+    coordinates::SpanCoordinates,
+    double_double::Accumulator,
+    modes::Modes,
+    number,
+};
+use crate::chebyshev::Interpolation;
+
+/// Degree of the panels.
+const DEGREE: usize = 16;
+/// Interpolation error of a function that is not resolved, relative to its size (1 + Lebesgue
+/// constant at degree 16 is below 4).
+const UNRESOLVED: f64 = 4.0;
+/// Steps per octave to which panel widths are rounded, so that neighbours can share their table.
+const PER_OCTAVE: f64 = 4.0;
+/// Part of the largest size that counts where the solution itself has decayed.
+const FLOOR: f64 = 1e-2;
+/// Most panels in one span; `applies` refuses before that.
+pub(super) const MOST: f64 = 4e6;
+
+/// One polynomial of an output on `[start, end]`, dimensionless.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Piece {
+    /// Where it begins.
+    pub(super) start: f64,
+    /// Where it ends.
+    pub(super) end: f64,
+    /// Its Chebyshev coefficients.
+    pub(super) coefficients: Vec<f64>,
+}
+
+/// The modal form of an output: `Σ_j Re (r_j c_j(t))`.
+#[derive(Debug, Clone)]
+pub(super) struct ModalRow {
+    row: Vec<Complex>,
+    sizes: Vec<f64>,
+}
+
+/// What is known about a piecewise polynomial as a whole.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Quality {
+    /// Largest sum of the sizes of all terms: rounding is relative to it.
+    pub(super) size: f64,
+    /// Bound of the error.
+    pub(super) error: f64,
+}
+
+impl ModalRow {
+    /// The row `form · X` of a linear form over `z`.
+    pub(super) fn new(modes: &Modes, form: &[(usize, f64)]) -> Self {
+        let mut row = vec![Complex::default(); modes.len()];
+        for block in modes.blocks.iter().filter(|block| block.weight > 0.0) {
+            for j in block.range() {
+                let (mut re, mut im) = (Accumulator::default(), Accumulator::default());
+                for &(i, coefficient) in form {
+                    let (x, low) = (modes.basis[(i, j)], modes.basis_low[(i, j)]);
+                    re.add_product(coefficient, x.re);
+                    im.add_product(coefficient, x.im);
+                    re.add_small(coefficient * low.re);
+                    im.add_small(coefficient * low.im);
+                }
+                row[j] = Complex::new(re.value(), im.value()) * block.weight;
+            }
+        }
+        let sizes = row.iter().map(|r| r.norm()).collect();
+        Self { row, sizes }
+    }
+
+    /// The value where the modal coordinates are `c`.
+    pub(super) fn value(&self, c: &[Complex]) -> f64 {
+        self.row.iter().zip(c).map(|(r, c)| (r * c).re).sum()
+    }
+
+    /// An upper bound of the sum of all terms' sizes over a span.
+    pub(super) fn size(&self, modes: &Modes, span: &SpanCoordinates, length: f64) -> f64 {
+        let part = |block: &Block| {
+            let sizes: Vec<f64> = span.start[block.range()].iter().map(|c| c.norm()).collect();
+            let largest = block.largest(length, &sizes);
+            block.range().zip(largest).map(|(i, c)| self.sizes[i] * c).sum::<f64>()
+        };
+        modes.blocks.iter().filter(|block| block.weight > 0.0).map(part).sum()
+    }
+
+    /// Appends the output on `[start, start + length]`, a span whose coordinates are given, and
+    /// updates the `quality`.
+    ///
+    /// A panel of width `h` misses the solution by at most `4 (h/4)^n/n! · |g^(n)|`, `n = 17`; the
+    /// derivative is bounded mode by mode by `|r_j| |λ_j|^n |c_j|`, and no mode can contribute more
+    /// than its own size. The widest panel is taken for which that is below the rounding errors.
+    pub(super) fn interpolate(
+        &self,
+        modes: &Modes,
+        span: &SpanCoordinates,
+        (start, length): (f64, f64),
+        scale: f64,
+        quality: &mut Quality,
+        pieces: &mut Vec<Piece>,
+    ) {
+        let spread = |block: &Block| {
+            block.range().map(|i| self.sizes[i] * span.error[i]).sum::<f64>()
+        };
+        let inherited: f64 =
+            modes.blocks.iter().filter(|block| block.weight > 0.0).map(spread).sum();
+        let mut worst = 0.0_f64;
+        let mut table = Table::default();
+        let (mut at, mut width) = (0.0, length);
+        loop {
+            let coordinates = coordinates_at(modes, &span.start, at);
+            let local: f64 = self.sizes.iter().zip(&coordinates).map(|(r, c)| r * c.norm()).sum();
+            quality.size = quality.size.max(local);
+            let tolerance = 2.0 * f64::EPSILON * (local + FLOOR * scale);
+            let remaining = length - at;
+            let (chosen, missed) =
+                self.widest(modes, &coordinates, tolerance, remaining, (4.0 * width).min(remaining), length);
+            width = chosen;
+            worst = worst.max(missed);
+            let end = if width >= remaining { length } else { at + width };
+            table.prepare(modes, end - at);
+            let mut coefficients = self.fit(modes, &coordinates, &table);
+            trim(&mut coefficients, 0.1 * tolerance);
+            pieces.push(Piece { start: start + at, end: start + end, coefficients });
+            at = end;
+            if at >= length {
+                break;
+            }
+        }
+        quality.error = quality.error.max(inherited + worst);
+    }
+
+    /// The widest panel that is good to `tolerance`, and by how much it may miss.
+    fn widest(
+        &self,
+        modes: &Modes,
+        coordinates: &[Complex],
+        tolerance: f64,
+        remaining: f64,
+        guess: f64,
+        length: f64,
+    ) -> (f64, f64) {
+        let smallest = length / MOST;
+        let mut width = guess;
+        loop {
+            let missed = self.missed(modes, coordinates, width);
+            if missed <= tolerance || width <= smallest {
+                return (width, missed);
+            }
+            let factor = (tolerance / missed).powf(1.0 / number(DEGREE + 1));
+            let next = (width * factor.clamp(0.1, 0.97)).max(smallest);
+            // Rounded down to a step of the scale; the end of a span is no multiple of anything.
+            width = ((next.log2() * PER_OCTAVE).floor() / PER_OCTAVE).exp2().min(remaining);
+        }
+    }
+
+    /// The bound of the interpolation error of a panel of this width.
+    fn missed(&self, modes: &Modes, coordinates: &[Complex], width: f64) -> f64 {
+        let part = |block: &Block| {
+            let range = block.range();
+            let rows = &self.sizes[range.clone()];
+            if rows.iter().all(|&r| r == 0.0) {
+                return 0.0;
+            }
+            let sizes: Vec<f64> = coordinates[range].iter().map(|c| c.norm()).collect();
+            let largest = block.largest(width, &sizes);
+            let weights = block.derivative_weights(rows, 0.25 * width, DEGREE + 1);
+            let sum = |weights: &[f64]| weights.iter().zip(&largest).map(|(w, c)| w * c).sum();
+            let (resolved, unresolved): (f64, f64) = (sum(&weights), sum(rows));
+            // A product of an overflow and an underflow is not a number: then the size counts.
+            4.0 * if resolved < unresolved { resolved } else { unresolved * UNRESOLVED / 4.0 }
+        };
+        modes.blocks.iter().map(part).sum()
+    }
+
+    /// The interpolating polynomial on the panel for which the table was prepared.
+    fn fit(&self, modes: &Modes, coordinates: &[Complex], table: &Table) -> Vec<f64> {
+        let mut values = vec![0.0; DEGREE + 1];
+        for (block, factors) in modes.blocks.iter().zip(&table.factors) {
+            if block.weight == 0.0 {
+                continue;
+            }
+            if block.len() == 1 {
+                let term = self.row[block.start] * coordinates[block.start];
+                for (value, factor) in values.iter_mut().zip(factors) {
+                    *value += term.re * factor.re - term.im * factor.im;
+                }
+            } else {
+                for (value, &time) in values.iter_mut().zip(&table.times) {
+                    let mut vector = coordinates[block.range()].to_vec();
+                    block.advance(time, &mut vector);
+                    *value += self.row[block.range()]
+                        .iter()
+                        .zip(&vector)
+                        .map(|(r, c)| (r * c).re)
+                        .sum::<f64>();
+                }
+            }
+        }
+        let mut coefficients = vec![0.0; DEGREE + 1];
+        Interpolation::of_degree(DEGREE).coefficients(&values, &mut coefficients);
+        coefficients
+    }
+}
+
+/// `e^{D t} c`.
+pub(super) fn coordinates_at(modes: &Modes, start: &[Complex], t: f64) -> Vec<Complex> {
+    let mut coordinates = start.to_vec();
+    if t != 0.0 {
+        for block in modes.blocks.iter().filter(|block| block.weight > 0.0) {
+            block.advance(t, &mut coordinates[block.range()]);
+        }
+    }
+    coordinates
+}
+
+/// `e^{λ t}` of all single modes at the nodes of a panel of one width.
+#[derive(Debug, Default)]
+struct Table {
+    width: f64,
+    times: Vec<f64>,
+    factors: Vec<Vec<Complex>>,
+}
+
+impl Table {
+    #[expect(clippy::float_cmp, reason = "panels of the very same width share the table")]
+    fn prepare(&mut self, modes: &Modes, width: f64) {
+        if self.width == width && !self.factors.is_empty() {
+            return;
+        }
+        self.width = width;
+        let nodes = Interpolation::of_degree(DEGREE);
+        self.times = nodes.nodes().iter().map(|x| 0.5 * width * (1.0 + x)).collect();
+        let factors = |block: &Block| {
+            if block.len() > 1 || block.weight == 0.0 {
+                return Vec::new();
+            }
+            let (high, low) = (block.matrix[(0, 0)], block.low[(0, 0)]);
+            self.times.iter().map(|&t| exponential_of(high, low, t)).collect()
+        };
+        self.factors = modes.blocks.iter().map(factors).collect();
+    }
+}
+
+/// Drops the last coefficients as long as their sum stays below `negligible`.
+fn trim(coefficients: &mut Vec<f64>, negligible: f64) {
+    let mut dropped = 0.0;
+    while coefficients.len() > 1 {
+        dropped += coefficients[coefficients.len() - 1].abs();
+        if dropped > negligible {
+            break;
+        }
+        coefficients.pop();
+    }
+}

@@ -1,0 +1,150 @@
+//! Marching on a uniform grid: `z_{k+1} = e^{Ā Δt} z_k`.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::exponential::{Columns, Square, apply, exponential};
+
+/// Equally spaced times, counted from the state that is marched.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Grid {
+    /// The first time.
+    pub(super) first: f64,
+    /// The distance of two times.
+    pub(super) step: f64,
+    /// How many there are.
+    pub(super) count: usize,
+}
+
+/// Appends to `out`, for each time of the grid, the first `units.len()` entries of `D z(t)`, where
+/// `ż = matrix · z` and `z(0) = state`.
+pub(super) fn march(
+    matrix: &DMatrix<f64>,
+    state: &[f64],
+    units: &[f64],
+    grid: Grid,
+    out: &mut Vec<f64>,
+) {
+    match matrix.nrows() {
+        0 => {}
+        1 | 2 => march_fixed::<2>(matrix, state, units, grid, out),
+        3 | 4 => march_fixed::<4>(matrix, state, units, grid, out),
+        5 | 6 => march_fixed::<6>(matrix, state, units, grid, out),
+        7 | 8 => march_fixed::<8>(matrix, state, units, grid, out),
+        9 | 10 => march_fixed::<10>(matrix, state, units, grid, out),
+        11 | 12 => march_fixed::<12>(matrix, state, units, grid, out),
+        13..=16 => march_fixed::<16>(matrix, state, units, grid, out),
+        _ => march_any(matrix, state, units, grid, out),
+    }
+}
+
+/// The state after `time`.
+pub(super) fn advance(matrix: &DMatrix<f64>, state: &[f64], time: f64) -> Vec<f64> {
+    let mut end = Vec::with_capacity(state.len());
+    let ones = vec![1.0; state.len()];
+    march(matrix, state, &ones, Grid { first: time, step: 0.0, count: 1 }, &mut end);
+    end
+}
+
+/// With sizes that the compiler knows; four states at a time, which do not wait for one another.
+fn march_fixed<const N: usize>(
+    matrix: &DMatrix<f64>,
+    state: &[f64],
+    units: &[f64],
+    grid: Grid,
+    out: &mut Vec<f64>,
+) {
+    let size = matrix.nrows();
+    let mut a = [[0.0; N]; N];
+    for (padded, column) in a.iter_mut().zip(matrix.as_slice().chunks_exact(size)) {
+        padded[..size].copy_from_slice(column);
+    }
+    let mut z = [0.0; N];
+    z[..size].copy_from_slice(state);
+    if grid.first != 0.0 {
+        z = apply(&exponential(&a, grid.first), &z);
+    }
+    let mut d = [0.0; N];
+    d[..units.len()].copy_from_slice(units);
+    let mut write = |z: &[f64; N]| {
+        let mut y = *z;
+        y.iter_mut().zip(&d).for_each(|(y, unit)| *y *= unit);
+        out.extend_from_slice(&y[..units.len()]);
+    };
+    if grid.count == 1 {
+        write(&z);
+        return;
+    }
+    let e = exponential(&a, grid.step);
+    let mut lanes = [z; 4];
+    for lane in 1..4 {
+        lanes[lane] = apply(&e, &lanes[lane - 1]);
+    }
+    let e2 = e.product(&e);
+    let e4 = e2.product(&e2);
+    for _ in 0..grid.count / 4 {
+        lanes.iter().for_each(&mut write);
+        lanes = apply_four(&e4, &lanes);
+    }
+    lanes.iter().take(grid.count % 4).for_each(write);
+}
+
+/// `matrix · vector` for four vectors.
+#[inline]
+fn apply_four<const N: usize>(matrix: &Columns<N>, vectors: &[[f64; N]; 4]) -> [[f64; N]; 4] {
+    let mut sums = [[0.0; N]; 4];
+    for (k, column) in matrix.iter().enumerate() {
+        for (sum, vector) in sums.iter_mut().zip(vectors) {
+            let factor = vector[k];
+            for (s, c) in sum.iter_mut().zip(column) {
+                *s += c * factor;
+            }
+        }
+    }
+    sums
+}
+
+fn march_any(
+    matrix: &DMatrix<f64>,
+    state: &[f64],
+    units: &[f64],
+    grid: Grid,
+    out: &mut Vec<f64>,
+) {
+    let mut z = DVector::from_column_slice(state);
+    if grid.first != 0.0 {
+        z = exponential(matrix, grid.first) * z;
+    }
+    let mut write = |z: &DVector<f64>| out.extend(units.iter().zip(z.iter()).map(|(d, z)| d * z));
+    write(&z);
+    if grid.count > 1 {
+        let e = exponential(matrix, grid.step);
+        for _ in 1..grid.count {
+            z = &e * z;
+            write(&z);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_size_marches_alike() {
+        for size in 1..=20 {
+            let matrix = DMatrix::from_fn(size, size, |i, j| match i.abs_diff(j) {
+                0 => -1.0,
+                1 => 0.5,
+                _ => 0.0,
+            });
+            let state = vec![1.0; size];
+            let grid = Grid { first: 0.25, step: 0.125, count: 11 };
+            let mut out = Vec::new();
+            march(&matrix, &state, &vec![1.0; size], grid, &mut out);
+            let last = exponential(&matrix, 1.5) * DVector::from_column_slice(&state);
+            for (got, expected) in out[10 * size..].iter().zip(last.iter()) {
+                assert!((got - expected).abs() < 1e-14, "size {size}");
+            }
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Newton's iteration for the modal form, with residuals in twice the digits of a double, and the
+//! bound of what is left.
+
+use nalgebra::DMatrix;
+
+use super::{
+    Complex,
+    double_double::{Accumulator, two_sum},
+    modes::Modes,
+    number,
+};
+
+/// Largest size whose residuals are formed in twice the digits.
+pub(super) const REFINED: usize = 64;
+/// Most iterations; convergence is quadratic until rounding stops it.
+const ITERATIONS: usize = 6;
+/// Corrections of the basis above this are not trusted to be in the range of Newton's method.
+const TRUST: f64 = 1e-3;
+
+/// Improves `X` and `D` of `Ā X = X D` and sets the bound `modes.defect`.
+///
+/// With `E = X⁻¹ (Ā X − X D)` the next basis is `X (1 + F)`, `D_i F_ij − F_ij D_j = −E_ij` off the
+/// blocks, and `D_i + E_ii` the next blocks.
+pub(super) fn refine(matrix: &DMatrix<f64>, modes: &mut Modes) {
+    let size = modes.len();
+    if size > REFINED {
+        let coupling = &modes.dual * residual_in_double(matrix, modes);
+        modes.defect = coupling.map(|z| z.norm()) + rounding(matrix, modes, f64::EPSILON);
+        return;
+    }
+    let mut best: Option<(f64, Modes)> = None;
+    for _ in 0..ITERATIONS {
+        let coupling = &modes.dual * residual(matrix, modes);
+        modes.defect = coupling.map(|z| z.norm());
+        let size = modes.defect.max();
+        let before = best.as_ref().map_or(f64::INFINITY, |(size, _)| *size);
+        // A comparison that is also false for a residual that is not a number.
+        if !(size < 0.5 * before) {
+            break;
+        }
+        best = Some((size, modes.clone()));
+        if size == 0.0 {
+            break;
+        }
+        step(modes, &coupling);
+    }
+    if let Some((_, kept)) = best {
+        *modes = kept;
+        modes.defect += rounding(matrix, modes, f64::EPSILON * f64::EPSILON);
+    } else {
+        modes.defect.fill(f64::INFINITY);
+    }
+}
+
+/// One correction of basis, dual and blocks.
+fn step(modes: &mut Modes, coupling: &DMatrix<Complex>) {
+    let size = modes.len();
+    let mut turn = DMatrix::<Complex>::zeros(size, size);
+    for j in &modes.blocks {
+        for i in modes.blocks.iter().filter(|i| i.start != j.start) {
+            for (b, column) in j.range().enumerate() {
+                for (a, row) in i.range().enumerate().rev() {
+                    let mut rest = -coupling[(row, column)];
+                    for k in a + 1..i.len() {
+                        rest -= i.matrix[(a, k)] * turn[(i.start + k, column)];
+                    }
+                    for k in 0..b {
+                        rest += turn[(row, j.start + k)] * j.matrix[(k, b)];
+                    }
+                    let value = rest / (i.matrix[(a, a)] - j.matrix[(b, b)]);
+                    if value.norm() < TRUST {
+                        turn[(row, column)] = value;
+                    }
+                }
+            }
+        }
+    }
+    for block in &mut modes.blocks {
+        for j in 0..block.len() {
+            for i in 0..block.len() {
+                block.correct(i, j, coupling[(block.start + i, block.start + j)]);
+            }
+        }
+    }
+    let change = &modes.basis * &turn;
+    for (high, (low, change)) in
+        modes.basis.iter_mut().zip(modes.basis_low.iter_mut().zip(change.iter()))
+    {
+        let (re, re_rest) = two_sum(high.re, low.re + change.re);
+        let (im, im_rest) = two_sum(high.im, low.im + change.im);
+        *high = Complex::new(re, im);
+        *low = Complex::new(re_rest, im_rest);
+    }
+    modes.dual -= turn * &modes.dual;
+    modes.mirror();
+}
+
+/// `Ā X − X D` with each entry summed in twice the digits.
+fn residual(matrix: &DMatrix<f64>, modes: &Modes) -> DMatrix<Complex> {
+    let size = modes.len();
+    let mut residual = DMatrix::zeros(size, size);
+    for block in &modes.blocks {
+        for (b, column) in block.range().enumerate() {
+            for i in 0..size {
+                let (mut re, mut im) = (Accumulator::default(), Accumulator::default());
+                for k in 0..size {
+                    let a = matrix[(i, k)];
+                    if a != 0.0 {
+                        let (x, low) = (modes.basis[(k, column)], modes.basis_low[(k, column)]);
+                        re.add_product(a, x.re);
+                        im.add_product(a, x.im);
+                        re.add_small(a * low.re);
+                        im.add_small(a * low.im);
+                    }
+                }
+                for (k, index) in block.range().enumerate() {
+                    let (x, x_low) = (modes.basis[(i, index)], modes.basis_low[(i, index)]);
+                    let (d, d_low) = (block.matrix[(k, b)], block.low[(k, b)]);
+                    re.add_product(-x.re, d.re);
+                    re.add_product(x.im, d.im);
+                    im.add_product(-x.re, d.im);
+                    im.add_product(-x.im, d.re);
+                    let small = x * d_low + x_low * d;
+                    re.add_small(-small.re);
+                    im.add_small(-small.im);
+                }
+                residual[(i, column)] = Complex::new(re.value(), im.value());
+            }
+        }
+    }
+    residual
+}
+
+fn residual_in_double(matrix: &DMatrix<f64>, modes: &Modes) -> DMatrix<Complex> {
+    let mut residual = matrix.map(|x| Complex::new(x, 0.0)) * &modes.basis;
+    for block in &modes.blocks {
+        let columns = modes.basis.columns(block.start, block.len()) * &block.matrix;
+        let mut part = residual.columns_mut(block.start, block.len());
+        part -= columns;
+    }
+    residual
+}
+
+/// `|X⁻¹| · 4 N u (|Ā| |X| + |X| |D|)`: what rounding at the unit `u` may hide in the residual.
+fn rounding(matrix: &DMatrix<f64>, modes: &Modes, unit: f64) -> DMatrix<f64> {
+    let basis = modes.basis.map(|z| z.norm());
+    let mut sizes = matrix.abs() * &basis;
+    for block in &modes.blocks {
+        let columns = basis.columns(block.start, block.len()) * block.matrix.map(|z| z.norm());
+        let mut part = sizes.columns_mut(block.start, block.len());
+        part += columns;
+    }
+    modes.dual.map(|z| z.norm()) * sizes * (4.0 * number(modes.len()) * unit)
+}

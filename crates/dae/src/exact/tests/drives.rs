@@ -1,0 +1,148 @@
+//! Driven motion: every kind of waveform against its closed form.
+
+use super::Scene;
+use crate::{Input, Piece, Waveform};
+
+const PI: f64 = std::f64::consts::PI;
+
+fn waveform(pieces: &[Piece]) -> Waveform {
+    Waveform::new(pieces.to_vec()).unwrap()
+}
+
+fn free_mass(drive: Waveform) -> Scene {
+    Scene::new(&[&[0.0, 1.0], &[0.0, 0.0]], &[0.0, 0.0]).driven(1, 1.0, 0, drive)
+}
+
+fn oscillator(drive: Waveform) -> Scene {
+    Scene::new(&[&[0.0, 1.0], &[-1.0, 0.0]], &[0.0, 0.0]).driven(1, 1.0, 0, drive)
+}
+
+#[test]
+fn a_fall_under_gravity() {
+    let g = 9.80665;
+    free_mass(Waveform::constant(g)).solve(100.0).judge(0, 1e-9, |t| 0.5 * g * t * t);
+}
+
+#[test]
+fn a_ramp_on_a_free_mass_is_a_cubic() {
+    let ramp = waveform(&[Piece { slope: 6.0, ..Piece::default() }]);
+    free_mass(ramp).solve(10.0).judge(0, 1e-10, |t| t * t * t);
+}
+
+#[test]
+fn resonance_grows_as_it_must() {
+    let sine = waveform(&[Piece { sine: 1.0, omega: 1.0, ..Piece::default() }]);
+    oscillator(sine).solve(200.0).judge(0, 1e-11, |t| 0.5 * (t.sin() - t * t.cos()));
+}
+
+#[test]
+fn near_resonance_beats() {
+    let w = 1.0 + 1e-7;
+    let sine = waveform(&[Piece { sine: 1.0, omega: w, ..Piece::default() }]);
+    // (sin ωt − ω sin t)/(1 − ω²), as the beat it is.
+    let eps = w - 1.0;
+    oscillator(sine).solve(50.0).judge(0, 1e-12, |t| {
+        let beat = 2.0 * (0.5 * (w + 1.0) * t).cos() * (0.5 * eps * t).sin();
+        (beat - eps * t.sin()) / (-eps * (1.0 + w))
+    });
+}
+
+#[test]
+fn a_constant_force_stretches_a_spring() {
+    oscillator(Waveform::constant(2.0)).solve(20.0).judge(0, 1e-13, |t| 2.0 * (1.0 - t.cos()));
+}
+
+#[test]
+fn a_ramp_with_a_stop() {
+    let drive = waveform(&[
+        Piece { slope: 0.5, ..Piece::default() },
+        Piece { start: 2.0, value: 1.0, ..Piece::default() },
+    ]);
+    let ramp = |t: f64| if t < 0.0 { 0.0 } else { 0.5 * (t - t.sin()) };
+    oscillator(drive).solve(20.0).judge(0, 1e-13, |t| ramp(t) - ramp(t - 2.0));
+}
+
+#[test]
+fn a_half_sine_pulse() {
+    let omega = 3.0;
+    let end = PI / omega;
+    let drive = waveform(&[
+        Piece::default(),
+        Piece { start: 1.0, sine: 1.0, omega, ..Piece::default() },
+        Piece { start: 1.0 + end, ..Piece::default() },
+    ]);
+    let wave = |t: f64| {
+        if t < 0.0 { 0.0 } else { ((omega * t).sin() - omega * t.sin()) / (1.0 - omega * omega) }
+    };
+    oscillator(drive).solve(20.0).judge(0, 1e-13, |t| wave(t - 1.0) + wave(t - 1.0 - end));
+}
+
+#[test]
+fn a_table_with_a_jump() {
+    let drive = waveform(&[
+        Piece { value: 1.0, slope: -0.25, ..Piece::default() },
+        Piece { start: 1.0, value: 0.75, slope: 0.5, ..Piece::default() },
+        Piece { start: 2.5, value: -2.0, ..Piece::default() },
+    ]);
+    let ramp = |t: f64| if t < 0.0 { 0.0 } else { t - t.sin() };
+    let step = |t: f64| if t < 0.0 { 0.0 } else { 1.0 - t.cos() };
+    oscillator(drive).solve(30.0).judge(0, 2e-13, |t| {
+        step(t) - 0.25 * ramp(t) + 0.75 * ramp(t - 1.0) - 0.5 * ramp(t - 2.5)
+            - 3.5 * step(t - 2.5)
+    });
+}
+
+#[test]
+fn a_table_of_a_thousand_rows_loses_nothing() {
+    // A saw on a free mass: v(t) is the integral, exactly periodic.
+    let pieces: Vec<Piece> = (0..1000)
+        .map(|k| {
+            let (start, up) = (f64::from(k), k % 2 == 0);
+            let (value, slope) = if up { (-1.0, 2.0) } else { (1.0, -2.0) };
+            Piece { start, value, slope, ..Piece::default() }
+        })
+        .collect();
+    let saw = |t: f64| {
+        let (whole, s) = (t.floor(), t - t.floor());
+        let sign = if whole % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        sign * (s * s - s)
+    };
+    let solved = free_mass(waveform(&pieces)).solve(1000.0);
+    let velocity = solved.signal(1);
+    let error = velocity.error.unwrap();
+    assert!(error < 1e-10, "{error:e}");
+    for k in 0..1000 {
+        let t = 0.9973 * f64::from(k);
+        assert!((velocity.value(t) - saw(t)).abs() <= error, "{t}");
+    }
+}
+
+#[test]
+fn rates_of_a_drive_reach_equations_and_outputs() {
+    // ẏ = u̇ follows u; the outputs are u, u̇ and ü.
+    let omega = 7.0;
+    let piece = Piece { value: 2.0, slope: 0.5, sine: 1.0, cosine: -0.5, omega, start: 0.0 };
+    let input = |derivative| Some(Input { waveform: 0, derivative });
+    let solved = Scene::new(&[&[0.0]], &[1.5])
+        .driven(0, 1.0, 1, waveform(&[piece]))
+        .reporting(&[0.0], input(0))
+        .reporting(&[0.0], input(1))
+        .reporting(&[0.0], input(2))
+        .solve(10.0);
+    solved.judge(0, 1e-12, |t| piece.derivative(0, t));
+    solved.judge(1, 1e-12, |t| piece.derivative(0, t));
+    solved.judge(2, 1e-12, |t| piece.derivative(1, t));
+    solved.judge(3, 1e-11, |t| piece.derivative(2, t));
+}
+
+#[test]
+fn two_drives_of_one_frequency_stay_apart() {
+    let cosine = waveform(&[Piece { cosine: 1.0, omega: 2.0, ..Piece::default() }]);
+    let sine = waveform(&[Piece { sine: 1.0, omega: 2.0, ..Piece::default() }]);
+    let solved = Scene::new(&[&[0.0, 0.0], &[0.0, 0.0]], &[0.0, -0.5])
+        .driven(0, 1.0, 0, cosine)
+        .driven(1, 1.0, 0, sine)
+        .solve(10.0);
+    solved.judge(0, 1e-13, |t| 0.5 * (2.0 * t).sin());
+    solved.judge(1, 1e-13, |t| -0.5 * (2.0 * t).cos());
+}

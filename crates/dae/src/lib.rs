@@ -1,0 +1,30 @@
+//! The narrow waist of `dashpot`: linear differential–algebraic systems in, trajectories out.
+//!
+//! A [`System`] is `M ẏ = J y + B w(t)` with `M = diag(1…1, 0…0)`, dimensionless, with named
+//! unknowns and named outputs. A [`Method`] integrates it to a [`Trajectory`], which yields every
+//! output as a [`Signal`]: a piecewise polynomial in SI units whose extrema, crossings and
+//! integrals are those of the continuous solution, not of samples.
+
+pub mod chebyshev;
+mod error;
+pub mod events;
+mod exact;
+mod linear_form;
+pub mod methods;
+mod pieces;
+pub mod problems;
+mod run;
+mod signal;
+mod system;
+mod trajectory;
+mod waveform;
+
+pub use error::SolveError;
+pub use events::{Direction, Event, Guard};
+pub use linear_form::LinearForm;
+pub use methods::{Method, MethodKind};
+pub use run::{Observer, Progress, Run, Silent};
+pub use signal::{Crossing, Extremum, Panel, Signal};
+pub use system::{Input, Linear, Output, System, Unknown, UnknownKind};
+pub use trajectory::{Dense, Outcome, Statistics, Trajectory};
+pub use waveform::{Piece, Waveform};

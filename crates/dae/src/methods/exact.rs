@@ -1,0 +1,175 @@
+//! The exact solution of linear systems.
+
+use std::time::Instant;
+
+use super::check;
+use crate::{
+    Method, MethodKind, Observer, Outcome, Progress, Run, SolveError, Statistics, System,
+    Trajectory,
+    events::scan,
+    exact::{Augmented, Solution},
+};
+
+/// Most states.
+const STATES: usize = 200;
+/// Most states with the generators of the driving functions.
+const SIZE: usize = 300;
+/// Largest `‖A‖T`.
+const STIFFNESS: f64 = 1e9;
+/// `‖A‖T` up to which the number of panels needs no counting.
+const QUICK: f64 = 6e6;
+/// Most radians that all oscillations together may pass through: some two million panels.
+const RADIANS: f64 = 6e6;
+/// Lifetimes after which a mode is forgotten.
+const LIFETIMES: f64 = 45.0;
+
+/// The solution by the matrix exponential: no steps, and no error but rounding.
+///
+/// `ẏ = A y + B w(t)` is solved between breakpoints of the driving functions as `z(t) = e^{Ā t} z(0)`,
+/// where `z` holds the unknowns and the generators of constants, lines and sines. Samples on a
+/// uniform grid come from one exponential of the step; outputs come from the modal form, as
+/// piecewise polynomials whose interpolation error is bounded mode by mode, so that no extremum and
+/// no crossing is missed for lying between samples. Nothing is computed before it is asked for.
+///
+/// # When exact stops being exact
+///
+/// - The values are those of the matrices as given. Their entries are rounded, and where stiffness
+///   ratios are great the slow motion of the *matrices* differs from that of the scene by about
+///   `ε ‖A‖ T`, whoever solves them; scenes beyond `‖A‖T = 1e9` are declined.
+/// - Up to 64 states the modal form is refined in twice the digits of a double, and the bound of
+///   each signal is that of its rounding. Beyond, the bound grows with `ε ‖A‖ T` times the condition
+///   of the modes, and so does the error.
+/// - Samples come from the propagator where `‖A‖T ≤ 1e6`; their error is about `ε ‖A‖ T`.
+/// - A bound of a signal covers the largest error over its spans. Where the eigenvalue iteration
+///   does not converge the values are still right, but no bound is stated.
+/// - The work of a signal grows with the number of oscillations; beyond six million radians of all
+///   undamped modes together the scene is declined.
+///
+/// Moler and Van Loan, Nineteen dubious ways to compute the exponential of a matrix, twenty-five
+/// years later, SIAM Rev. 45 (2003) 3–49.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Exact;
+
+impl Exact {
+    fn decline<T>(reason: String) -> Result<T, SolveError> {
+        Err(SolveError::NotApplicable { method: Self::KIND, reason })
+    }
+
+    /// The system with its generators, if its structure and stiffness permit.
+    fn prepare(system: &System, run: &Run) -> Result<Augmented, SolveError> {
+        check(system, run)?;
+        if system.linear().is_none() {
+            let count = system.algebraic();
+            return Self::decline(format!(
+                "{count} of its unknowns follow from balances that were not eliminated"
+            ));
+        }
+        let states = system.len();
+        if states > STATES {
+            return Self::decline(format!(
+                "it has {states} states, and dense matrices are kept up to {STATES}"
+            ));
+        }
+        let end = run.t_end / system.time_scale;
+        let augmented = Augmented::new(system, end);
+        if augmented.size() > SIZE {
+            return Self::decline(format!(
+                "its driving functions have {} frequencies and slopes of their own",
+                augmented.size() - states
+            ));
+        }
+        let stiffness = augmented.norm() * end;
+        if !stiffness.is_finite() || stiffness > STIFFNESS {
+            return Self::decline(format!(
+                "too stiff for the exact method in double precision: ‖A‖T = {stiffness:.1e}"
+            ));
+        }
+        Ok(augmented)
+    }
+
+    /// Whether the oscillations of the modes are few enough.
+    fn count(solution: &Solution, end: f64) -> Result<(), SolveError> {
+        let radians: f64 = solution
+            .rates()
+            .iter()
+            .map(|&(growth, frequency)| {
+                let alive = if growth < 0.0 { (LIFETIMES / -growth).min(end) } else { end };
+                frequency * alive
+            })
+            .sum();
+        if radians > RADIANS {
+            return Self::decline(format!(
+                "its modes pass through {radians:.1e} radians, and {RADIANS:.0e} are followed"
+            ));
+        }
+        Ok(())
+    }
+
+    fn solve(system: &System, run: &Run) -> Result<Solution, SolveError> {
+        let augmented = Self::prepare(system, run)?;
+        let end = run.t_end / system.time_scale;
+        let quick = augmented.norm() * end <= QUICK;
+        let solution = Solution::new(augmented, run.t_end, system.time_scale);
+        if !quick {
+            Self::count(&solution, end)?;
+        }
+        Ok(solution)
+    }
+}
+
+impl Method for Exact {
+    fn name(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn summary(&self) -> &'static str {
+        "the matrix exponential: for linear systems up to 200 states, exact up to rounding"
+    }
+
+    fn applies(&self, system: &System, run: &Run) -> Result<String, SolveError> {
+        Self::solve(system, run)?;
+        Ok(format!("the scene is linear with {} states", system.len()))
+    }
+
+    fn is_exact(&self) -> bool {
+        true
+    }
+
+    fn integrate(
+        &self,
+        system: &System,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Trajectory, SolveError> {
+        let begin = Instant::now();
+        let mut solution = Self::solve(system, run)?;
+        if let Some(lost) = solution.lost() {
+            let unknown = system.unknowns.get(lost).map_or(String::new(), |u| u.name.clone());
+            return Err(SolveError::NotFinite { method: Self::KIND, time: run.t_end, unknown });
+        }
+        let (mut t_end, mut outcome, mut events) = (run.t_end, Outcome::Finished, Vec::new());
+        if !run.guards.is_empty() {
+            let signals: Vec<_> = run
+                .guards
+                .iter()
+                .map(|guard| crate::Dense::signal(&solution, system, &system.outputs[guard.output]))
+                .collect();
+            let (found, stop) = scan(&run.guards, &signals);
+            events = found;
+            if let Some(stop) = stop {
+                (t_end, outcome) = (stop.time, Outcome::Stopped { guard: stop.guard });
+                solution = solution.until(t_end);
+            }
+        }
+        if observer.progress(Progress { time: t_end, steps: 0 }).is_break() {
+            return Err(SolveError::Cancelled { time: t_end });
+        }
+        let statistics = Statistics { wall: begin.elapsed(), ..Statistics::default() };
+        let dense = Box::new(solution);
+        Ok(Trajectory { method: Self::KIND, outcome, t_end, events, statistics, dense })
+    }
+}
+
+impl MethodKind for Exact {
+    const KIND: &'static str = "exact";
+}

@@ -1,0 +1,117 @@
+//! The register of methods.
+
+mod auto;
+mod bdf;
+mod esdirk34;
+mod exact;
+mod stepping;
+mod tr_bdf2;
+mod tsit45;
+
+pub use auto::Auto;
+pub use bdf::Bdf;
+pub use esdirk34::Esdirk34;
+pub use exact::Exact;
+pub use tr_bdf2::TrBdf2;
+pub use tsit45::Tsit45;
+
+use std::fmt::Debug;
+
+use crate::{Observer, Run, SolveError, System, Trajectory};
+
+/// Integrates a [`System`] over a time span.
+pub trait Method: Debug + Send + Sync {
+    /// Its name on the command line, for instance `bdf`.
+    fn name(&self) -> &'static str;
+
+    /// What it is good for, in one line.
+    fn summary(&self) -> &'static str;
+
+    /// Whether it can solve `system` over `run`, and if so why it is a fit (one clause, shown in
+    /// the report).
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotApplicable`] with the reason.
+    fn applies(&self, system: &System, run: &Run) -> Result<String, SolveError>;
+
+    /// Whether its only error is rounding, so that its signals carry a bound.
+    fn is_exact(&self) -> bool {
+        false
+    }
+
+    /// Runs from the initial state to `run.t_end`, or to the first guard that stops it.
+    ///
+    /// # Errors
+    ///
+    /// Any [`SolveError`]; a trajectory is returned only if every number in it is finite.
+    fn integrate(
+        &self,
+        system: &System,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Trajectory, SolveError>;
+}
+
+/// What a method says about itself.
+pub trait MethodKind: Method + Default + 'static {
+    /// Its name on the command line.
+    const KIND: &'static str;
+}
+
+/// Looks at every kind of method.
+pub trait MethodVisitor {
+    /// Called once for each kind, in the order of the register.
+    fn visit<M: MethodKind>(&mut self);
+}
+
+/// Shows every method to `visitor`. **A new method is registered here.**
+pub fn visit_methods(visitor: &mut impl MethodVisitor) {
+    visitor.visit::<Auto>();
+    visitor.visit::<Bdf>();
+    visitor.visit::<TrBdf2>();
+    visitor.visit::<Esdirk34>();
+    visitor.visit::<Tsit45>();
+    visitor.visit::<Exact>();
+}
+
+/// Every method of the register, in its order.
+pub fn all() -> Vec<Box<dyn Method>> {
+    struct Collect(Vec<Box<dyn Method>>);
+    impl MethodVisitor for Collect {
+        fn visit<M: MethodKind>(&mut self) {
+            self.0.push(Box::new(M::default()));
+        }
+    }
+    let mut collect = Collect(Vec::new());
+    visit_methods(&mut collect);
+    collect.0
+}
+
+/// The method of this name on the command line.
+pub fn by_name(name: &str) -> Option<Box<dyn Method>> {
+    all().into_iter().find(|method| method.name() == name)
+}
+
+/// Checks what every method asks of a run.
+///
+/// # Errors
+///
+/// [`SolveError::InvalidSetting`] for an end that is negative or not finite.
+fn check(system: &System, run: &Run) -> Result<(), SolveError> {
+    let setting = |setting, range, value| SolveError::InvalidSetting { setting, range, value };
+    if !(run.t_end >= 0.0 && run.t_end.is_finite()) {
+        return Err(setting("t_end", "zero or positive, and finite", run.t_end));
+    }
+    if !(system.time_scale > 0.0 && (run.t_end / system.time_scale).is_finite()) {
+        return Err(setting("time_scale", "positive, and finite", system.time_scale));
+    }
+    match run.guards.iter().find(|guard| guard.output >= system.outputs.len()) {
+        #[expect(clippy::cast_precision_loss, reason = "a small index")]
+        Some(guard) => Err(setting("guard", "about an output of the system", guard.output as f64)),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,96 @@
+//! The two matrix worlds that the integrators run in, behind one private trait.
+
+use diffsol::{
+    DiffsolError, FaerSparseLU, FaerSparseMat, FaerVec, LinearSolver, Matrix, NalgebraLU, NalgebraMat,
+    NalgebraVec, Vector, VectorCommon, matrix::sparsity::MatrixSparsityRef,
+};
+use nalgebra_sparse::CsrMatrix;
+
+/// Unknowns up to which dense matrices are faster than sparse ones.
+pub(super) const DENSE_UP_TO: usize = 30;
+
+/// A vector whose numbers lie in one slice.
+pub(in crate::methods) trait Slice {
+    /// The numbers.
+    fn slice(&self) -> &[f64];
+    /// The numbers, to be written.
+    fn slice_mut(&mut self) -> &mut [f64];
+}
+
+impl Slice for NalgebraVec<f64> {
+    fn slice(&self) -> &[f64] {
+        self.inner().as_slice()
+    }
+
+    fn slice_mut(&mut self) -> &mut [f64] {
+        self.inner_mut().as_mut_slice()
+    }
+}
+
+impl Slice for FaerVec<f64> {
+    fn slice(&self) -> &[f64] {
+        self.inner().col_as_slice(0)
+    }
+
+    fn slice_mut(&mut self) -> &mut [f64] {
+        self.inner_mut().col_as_slice_mut(0)
+    }
+}
+
+/// A matrix type and the direct solver that belongs to it.
+pub(in crate::methods) trait Algebra: Matrix<T = f64, V: Slice> {
+    /// Its factorisation.
+    type Factor: LinearSolver<Self>;
+}
+
+impl Algebra for NalgebraMat<f64> {
+    type Factor = NalgebraLU<f64>;
+}
+
+impl Algebra for FaerSparseMat<f64> {
+    type Factor = FaerSparseLU<f64>;
+}
+
+/// The matrix with the given entries `(row, column, value)`.
+pub(super) fn matrix<M: Algebra>(
+    size: usize,
+    entries: impl Iterator<Item = (usize, usize, f64)>,
+) -> Result<M, DiffsolError> {
+    let (places, values): (Vec<_>, Vec<_>) = entries.map(|(i, j, x)| ((i, j), x)).unzip();
+    Ok(M::try_from_triplets(size, size, places, values, M::C::default())?)
+}
+
+/// The pattern of a matrix, if it is sparse.
+pub(super) fn pattern<M: Algebra>(matrix: &M) -> Option<M::Sparsity> {
+    matrix.sparsity().map(|pattern| MatrixSparsityRef::to_owned(&pattern))
+}
+
+/// The entries `(row, column, value)` of a stored matrix.
+pub(super) fn entries(matrix: &CsrMatrix<f64>) -> impl Iterator<Item = (usize, usize, f64)> {
+    matrix.triplet_iter().map(|(i, j, &x)| (i, j, x))
+}
+
+/// `Σ_j a_ij x_j` for one row, straight from the stored arrays.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rows<'s> {
+    offsets: &'s [usize],
+    columns: &'s [usize],
+    values: &'s [f64],
+}
+
+impl<'s> Rows<'s> {
+    /// The rows of a stored matrix.
+    pub(super) fn of(matrix: &'s CsrMatrix<f64>) -> Self {
+        let (offsets, columns, values) = matrix.csr_data();
+        Self { offsets, columns, values }
+    }
+
+    /// `y = A x`.
+    pub(super) fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        for (ends, out) in self.offsets.windows(2).zip(y) {
+            let place = ends[0]..ends[1];
+            let terms = self.columns[place.clone()].iter().zip(&self.values[place]);
+            *out = terms.map(|(&column, value)| value * x[column]).sum();
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The integrators' errors in our words.
+
+use diffsol::{DiffsolError, error::OdeSolverError};
+
+use crate::{SolveError, System};
+
+/// Where and by whom something failed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Site<'a> {
+    /// Name of the method.
+    pub(super) method: &'static str,
+    /// Time reached \[s\].
+    pub(super) time: f64,
+    /// What is solved.
+    pub(super) system: &'a System,
+}
+
+/// Values beyond this overflow when they are squared in norms.
+const LARGEST: f64 = 1e150;
+
+impl Site<'_> {
+    /// The error of an integrator that stood at `state` with `slopes`.
+    pub(super) fn integrator(self, error: &DiffsolError, state: &[f64], slopes: &[f64]) -> SolveError {
+        let Self { method, time, .. } = self;
+        if let Err(lost) = self.finite(state).and_then(|()| self.finite(slopes)) {
+            return lost;
+        }
+        match error {
+            DiffsolError::OdeSolverError(
+                OdeSolverError::StepSizeTooSmall { .. }
+                | OdeSolverError::TooManyErrorTestFailures { .. },
+            ) => SolveError::StepTooSmall { method, time, unknown: self.fastest(state, slopes) },
+            DiffsolError::OdeSolverError(OdeSolverError::TooManyNonlinearSolverFailures {
+                ..
+            })
+            | DiffsolError::NonLinearSolverError(_) => SolveError::NewtonFailed { method, time },
+            other => SolveError::Integrator { method, time, reason: other.to_string() },
+        }
+    }
+
+    /// Whether all `values` are finite, and small enough to be squared.
+    pub(super) fn finite(self, values: &[f64]) -> Result<(), SolveError> {
+        let fine = |value: &f64| value.abs() < LARGEST;
+        if values.iter().all(fine) {
+            return Ok(());
+        }
+        let lost = values.iter().position(|value| !fine(value)).unwrap_or_default();
+        let Self { method, time, .. } = self;
+        Err(SolveError::NotFinite { method, time, unknown: self.name(lost) })
+    }
+
+    /// The unknown with the largest slope in parts of its value.
+    fn fastest(self, state: &[f64], slopes: &[f64]) -> String {
+        let rate = |at: usize| slopes[at].abs() / (state[at].abs() + 1.0);
+        let fastest = (0..slopes.len()).max_by(|&a, &b| rate(a).total_cmp(&rate(b)));
+        fastest.map(|at| self.name(at)).unwrap_or_default()
+    }
+
+    fn name(self, unknown: usize) -> String {
+        self.system.unknowns.get(unknown).map(|unknown| unknown.name.clone()).unwrap_or_default()
+    }
+}

@@ -1,0 +1,75 @@
+//! The step-by-step methods: one adapter to the integrators of `diffsol`, shared by all of them.
+//!
+//! What each smooth span of a run needs is prepared here: consistent values and slopes, the first
+//! step, limits relative to the span. Between two breakpoints of the driving functions an integrator
+//! runs freely; each of its steps is kept as a polynomial. No type of `diffsol` leaves this module
+//! and the methods' own files.
+//!
+//! # Error control
+//!
+//! The integrators keep the root mean square of `error / (rtol · |y| + rtol)` over all unknowns
+//! below one. Up to 30 unknowns `rtol` is the run's. Beyond, the mean would dilute what
+//! happens in a small part of a large system, so that `rtol` shrinks with `√(30/n)`: one unknown
+//! alone then has as much to say as in a system of 30.
+
+mod algebra;
+mod balance;
+mod equations;
+mod failure;
+mod spans;
+mod start;
+mod walk;
+
+pub(super) use algebra::Algebra;
+pub(super) use spans::integrate;
+pub(super) use start::Problem;
+pub(super) use walk::{Polynomial, Walk};
+
+use diffsol::{
+    DefaultDenseMatrix, DiffsolError, VectorRef, matrix::MatrixRef, ode_solver::state::StateCommon,
+};
+
+use crate::SolveError;
+
+/// What tells one step-by-step method from another.
+pub(super) trait Scheme {
+    /// Name of the method.
+    const NAME: &'static str;
+    /// Its order, from which the first step is estimated.
+    const ORDER: usize;
+
+    /// Integrates one span of `problem` from `state`, handing every step to `walk`.
+    fn span<M>(
+        problem: &Problem<'_, M>,
+        state: StateCommon<M::V>,
+        walk: &mut Walk<'_>,
+    ) -> Result<(), Stop>
+    where
+        M: Algebra,
+        M::V: DefaultDenseMatrix<T = f64, C = M::C>,
+        for<'v> &'v M::V: VectorRef<M::V>,
+        for<'m> &'m M: MatrixRef<M>;
+}
+
+/// Why a span ended early.
+#[derive(Debug)]
+pub(super) enum Stop {
+    /// A guard stopped the run.
+    Guard,
+    /// The integrator failed, before it could be asked where.
+    Integrator(DiffsolError),
+    /// The run failed.
+    Failed(SolveError),
+}
+
+impl From<DiffsolError> for Stop {
+    fn from(error: DiffsolError) -> Self {
+        Self::Integrator(error)
+    }
+}
+
+impl From<SolveError> for Stop {
+    fn from(error: SolveError) -> Self {
+        Self::Failed(error)
+    }
+}

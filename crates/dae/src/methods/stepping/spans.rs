@@ -1,0 +1,224 @@
+//! A whole run as a sequence of smooth spans.
+
+use std::time::Instant;
+
+use diffsol::{DefaultDenseMatrix, FaerSparseMat, NalgebraMat, VectorRef, matrix::MatrixRef};
+
+use super::{
+    Algebra, Scheme, Stop, Walk,
+    algebra::DENSE_UP_TO,
+    balance::{Balance, undetermined},
+    failure::Site,
+    start,
+};
+use crate::{
+    Observer, Outcome, Run, SolveError, Statistics, System, Trajectory, events::Watch,
+    methods::check, pieces::Pieces,
+};
+
+/// Steps for which room is set aside; more are no harm.
+const USUAL_STEPS: usize = 160;
+
+/// Integrates `system` by one of the step-by-step methods.
+pub(in crate::methods) fn integrate<S: Scheme>(
+    system: &System,
+    run: &Run,
+    observer: &mut dyn Observer,
+) -> Result<Trajectory, SolveError> {
+    integrate_in::<S>(World::of(system), system, run, observer)
+}
+
+/// The matrices to work with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum World {
+    Dense,
+    Sparse,
+}
+
+impl World {
+    fn of(system: &System) -> Self {
+        if system.len() <= DENSE_UP_TO { Self::Dense } else { Self::Sparse }
+    }
+}
+
+fn integrate_in<S: Scheme>(
+    world: World,
+    system: &System,
+    run: &Run,
+    observer: &mut dyn Observer,
+) -> Result<Trajectory, SolveError> {
+    let begin = Instant::now();
+    admit::<S>(system, run)?;
+    let site = Site { method: S::NAME, time: 0.0, system };
+    let mut walk = Walk {
+        method: S::NAME,
+        system,
+        run,
+        observer,
+        watch: Watch::new(&run.guards),
+        pieces: Pieces::new(system.len()),
+        statistics: Statistics::default(),
+        span: (0.0, 0.0),
+        state: system.initial.clone(),
+    };
+    let ended = if system.is_empty() || run.t_end == 0.0 {
+        walk.still()
+    } else {
+        match world {
+            World::Dense => {
+                walk.pieces.reserve(USUAL_STEPS);
+                walk.spans::<S, NalgebraMat<f64>>()
+            }
+            World::Sparse => walk.spans::<S, FaerSparseMat<f64>>(),
+        }
+    };
+    let (outcome, t_end) = match ended {
+        Ok(()) => (Outcome::Finished, run.t_end),
+        Err(Stop::Guard) => {
+            let stop = walk.watch.stop();
+            let (guard, time) = stop.map_or((0, run.t_end), |stop| (stop.guard, stop.time));
+            (Outcome::Stopped { guard }, time)
+        }
+        Err(Stop::Integrator(error)) => {
+            let time = walk.span.0 * system.time_scale;
+            let slopes = vec![0.0; system.len()];
+            return Err(Site { time, ..site }.integrator(&error, &walk.state, &slopes));
+        }
+        Err(Stop::Failed(error)) => return Err(error),
+    };
+    walk.pieces.finish(system.time_scale, t_end);
+    walk.statistics.wall = begin.elapsed();
+    Ok(Trajectory {
+        method: S::NAME,
+        outcome,
+        t_end,
+        events: walk.watch.into_events(),
+        statistics: walk.statistics,
+        dense: Box::new(walk.pieces),
+    })
+}
+
+/// Turns down what cannot be solved, before anything is built.
+fn admit<S: Scheme>(system: &System, run: &Run) -> Result<(), SolveError> {
+    check(system, run)?;
+    if !(1e-13..=1e-1).contains(&run.rtol) {
+        let range = "from 1e-13 to 1e-1";
+        return Err(SolveError::InvalidSetting { setting: "rtol", range, value: run.rtol });
+    }
+    for matrix in [&system.jacobian, &system.input_matrix] {
+        for (row, _, value) in matrix.triplet_iter() {
+            if !value.is_finite() {
+                let unknown = system.unknowns[row].name.clone();
+                return Err(SolveError::NotFinite { method: S::NAME, time: 0.0, unknown });
+            }
+        }
+    }
+    Site { method: S::NAME, time: 0.0, system }.finite(&system.initial)?;
+    if let Some(unknown) = undetermined(system) {
+        let name = &system.unknowns[unknown].name;
+        let reason = format!("no balance determines `{name}`");
+        return Err(SolveError::NotApplicable { method: S::NAME, reason });
+    }
+    Ok(())
+}
+
+impl Walk<'_> {
+    /// The borders of the smooth spans, dimensionless.
+    fn borders(&self) -> Vec<f64> {
+        let end = self.run.t_end / self.system.time_scale;
+        let mut borders = vec![0.0];
+        borders.extend(self.system.breakpoints(end));
+        borders.push(end);
+        borders
+    }
+
+    /// A run in which no unknown moves: there is none, or no time.
+    fn still(&mut self) -> Result<(), Stop> {
+        let borders = self.borders();
+        for span in borders.windows(2) {
+            self.span = (span[0], span[1]);
+            self.pieces.begin(span[0], &self.state);
+            self.pieces.rest(span[1] - span[0]);
+            self.report(span[1] * self.system.time_scale)?;
+        }
+        Ok(())
+    }
+
+    /// Integrates all spans in one world of matrices.
+    fn spans<S, M>(&mut self) -> Result<(), Stop>
+    where
+        S: Scheme,
+        M: Algebra,
+        M::V: DefaultDenseMatrix<T = f64, C = M::C>,
+        for<'v> &'v M::V: VectorRef<M::V>,
+        for<'m> &'m M: MatrixRef<M>,
+    {
+        let mut problem = start::problem::<M>(self.system, self.run.rtol)?;
+        let balance = Balance::<M>::new(self.system)?;
+        if balance.is_some() {
+            self.statistics.factorizations += 1;
+        }
+        let mut outcome = Ok(());
+        let borders = self.borders();
+        for span in borders.windows(2) {
+            self.span = (span[0], span[1]);
+            let length = span[1] - span[0];
+            let state =
+                start::enter(&mut problem, balance.as_ref(), (span[0], length), S::ORDER, &mut self.state)?;
+            let time = span[0] * self.system.time_scale;
+            Site { method: S::NAME, time, system: self.system }.finite(&self.state)?;
+            self.statistics.linear_solves += 2 * usize::from(balance.is_some());
+            self.pieces.begin(span[0], &self.state);
+            outcome = S::span(&problem, state, self);
+            if outcome.is_err() {
+                break;
+            }
+        }
+        let (calls, jacobians) = problem.eqn.counts();
+        self.statistics.rhs_calls = calls;
+        self.statistics.jacobian_calls = jacobians;
+        outcome
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        Silent,
+        methods::{Bdf, Esdirk34, Method, Tsit45, TrBdf2},
+        problems,
+    };
+
+    fn difference<S: Scheme>(problem: &problems::Problem) -> f64 {
+        let system = &problem.system;
+        let run = Run::to(problem.t_end).with_rtol(1e-7);
+        let end = problem.t_end / system.time_scale;
+        let times: Vec<f64> = (0..=100).map(|k| f64::from(k) / 100.0 * end).collect();
+        let sample = |world| {
+            let trajectory = integrate_in::<S>(world, system, &run, &mut Silent).unwrap();
+            trajectory.dense.sample(system, &times)
+        };
+        let (dense, sparse) = (sample(World::Dense), sample(World::Sparse));
+        dense.iter().zip(&sparse).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn sparse_and_dense_matrices_give_one_result() {
+        for problem in problems::all() {
+            let mut found = vec![
+                difference::<Bdf>(&problem),
+                difference::<TrBdf2>(&problem),
+                difference::<Esdirk34>(&problem),
+            ];
+            let run = Run::to(problem.t_end);
+            if !problem.stiff && Tsit45.applies(&problem.system, &run).is_ok() {
+                found.push(difference::<Tsit45>(&problem));
+            }
+            // Steps may be chosen differently by a rounding; the tolerance is 1e-7.
+            for difference in found {
+                assert!(difference < 1e-9, "{}: {difference:e}", problem.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The start of a span: problem, state and first step.
+
+use diffsol::{
+    Context as _, DiffsolError, OdeSolverOptions, OdeSolverProblem, StateRefMut, Vector,
+    ode_solver::{problem::InitialConditionSolverOptions, state::StateCommon},
+};
+
+use super::{
+    algebra::{Algebra, DENSE_UP_TO, Slice},
+    balance::Balance,
+    equations::Equations,
+};
+use crate::{System, UnknownKind};
+
+/// The problem that an integrator solves.
+pub(in crate::methods) type Problem<'s, M> = OdeSolverProblem<Equations<'s, M>>;
+
+/// Newton failures and rejected steps in a row after which an integrator gives up. A span may be
+/// long, and a first step far too large: the step size is what ends hopeless runs.
+const PATIENCE: usize = 10_000;
+
+/// Smallest step in parts of the span. Time is counted from the span's start, so that steps far
+/// below the resolution of absolute time are meaningful.
+const SMALLEST_STEP: f64 = 1e-18;
+
+/// Tightest tolerance that the Newton iterations can meet.
+const TIGHTEST: f64 = 1e-14;
+
+/// The problem of a whole run; each span enters it anew.
+pub(super) fn problem<M: Algebra>(
+    system: &System,
+    rtol: f64,
+) -> Result<Problem<'_, M>, DiffsolError> {
+    let rtol = tolerance(rtol, system.len());
+    let context = M::C::default();
+    let atol = context.vector_from_vec(vec![rtol; system.len()]);
+    Ok(OdeSolverProblem {
+        eqn: Equations::new(system)?,
+        rtol,
+        atol,
+        t0: 0.0,
+        h0: 1.0,
+        integrate_out: false,
+        sens_rtol: None,
+        sens_atol: None,
+        out_rtol: None,
+        out_atol: None,
+        param_rtol: None,
+        param_atol: None,
+        ic_options: InitialConditionSolverOptions::default(),
+        ode_options: OdeSolverOptions {
+            max_nonlinear_solver_failures: PATIENCE,
+            max_error_test_failures: PATIENCE,
+            ..OdeSolverOptions::default()
+        },
+    })
+}
+
+/// The integrator's tolerance in a system of `size` unknowns, see the [module](super).
+fn tolerance(rtol: f64, size: usize) -> f64 {
+    if size <= DENSE_UP_TO {
+        return rtol;
+    }
+    #[expect(clippy::cast_precision_loss, reason = "a ratio of sizes")]
+    let share = DENSE_UP_TO as f64 / size as f64;
+    (rtol * share.sqrt()).max(TIGHTEST.min(rtol))
+}
+
+/// Enters a span of the given start and length and returns the consistent state there; `state`
+/// receives its values.
+pub(super) fn enter<M: Algebra>(
+    problem: &mut Problem<'_, M>,
+    balance: Option<&Balance<M>>,
+    (start, length): (f64, f64),
+    order: usize,
+    state: &mut [f64],
+) -> Result<StateCommon<M::V>, DiffsolError> {
+    problem.ode_options.min_timestep = SMALLEST_STEP * length;
+    problem.eqn.enter(start, state);
+    let mut slopes = vec![0.0; state.len()];
+    if let Some(balance) = balance {
+        balance.values(&problem.eqn, state)?;
+        problem.eqn.enter(start, state);
+    }
+    problem.eqn.evaluate(0.0, state, &mut slopes);
+    let context = M::C::default();
+    // The estimate of the first step must not see slopes of algebraic unknowns, as the residuals
+    // that it compares them with are none.
+    for (slope, unknown) in slopes.iter_mut().zip(&problem.eqn.system().unknowns) {
+        if unknown.kind == UnknownKind::Algebraic {
+            *slope = 0.0;
+        }
+    }
+    let empty = || M::V::zeros(0, context.clone());
+    let mut common = StateCommon {
+        y: context.vector_from_vec(state.to_vec()),
+        dy: context.vector_from_vec(slopes.clone()),
+        g: empty(),
+        dg: empty(),
+        s: empty(),
+        ds: empty(),
+        sg: empty(),
+        dsg: empty(),
+        t: 0.0,
+        h: problem.h0,
+    };
+    let StateCommon { y, dy, g, dg, s, ds, sg, dsg, t, h } = &mut common;
+    let mut view = StateRefMut { y, dy, g, dg, s, ds, sg, dsg, t, h };
+    view.set_step_size(problem.h0, &problem.atol, problem.rtol, &problem.eqn, order);
+    if let Some(balance) = balance {
+        balance.slopes(&problem.eqn, &mut slopes)?;
+        common.dy.slice_mut().copy_from_slice(&slopes);
+    }
+    // Extreme slopes make the estimate zero, or no number.
+    common.h = common.h.min(length).max(SMALLEST_STEP * length);
+    Ok(common)
+}

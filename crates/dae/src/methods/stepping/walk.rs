@@ -1,0 +1,139 @@
+//! From one step to the next.
+
+use diffsol::{OdeSolverMethod, OdeSolverStopReason, Vector};
+
+use super::{
+    Algebra, Stop,
+    algebra::Slice,
+    equations::Equations,
+    failure::Site,
+};
+use crate::{
+    Observer, Progress, Run, SolveError, Statistics, System,
+    chebyshev::Interpolation,
+    events::Watch,
+    pieces::{Pieces, between},
+};
+
+/// Steps after which a run is given up.
+const MOST_STEPS: usize = 5_000_000;
+
+/// What a run has collected so far.
+pub(in crate::methods) struct Walk<'r> {
+    pub(super) method: &'static str,
+    pub(super) system: &'r System,
+    pub(super) run: &'r Run,
+    pub(super) observer: &'r mut dyn Observer,
+    pub(super) watch: Watch,
+    pub(super) pieces: Pieces,
+    pub(super) statistics: Statistics,
+    /// Start and end of the current span, dimensionless.
+    pub(super) span: (f64, f64),
+    /// The unknowns at the end of the last span.
+    pub(super) state: Vec<f64>,
+}
+
+/// What a step's dense output is.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::methods) enum Polynomial {
+    /// The polynomial of the solver's order through the ends of the last steps.
+    History,
+    /// The solver's own, of this degree, taken at points inside the step.
+    Inner(usize),
+}
+
+impl Walk<'_> {
+    /// Takes all steps of the current span. For the error of each the solver solves
+    /// `error_solves` linear systems, which it does not count.
+    pub(in crate::methods) fn steps<'p, 's: 'p, M, S>(
+        &mut self,
+        mut solver: S,
+        polynomial: Polynomial,
+        error_solves: usize,
+    ) -> Result<(), Stop>
+    where
+        M: Algebra,
+        S: OdeSolverMethod<'p, Equations<'s, M>>,
+    {
+        let (start, end) = self.span;
+        let outcome = self.advance(&mut solver, start, end, polynomial);
+        let work = solver.get_statistics();
+        self.statistics.accepted += work.number_of_steps;
+        self.statistics.rejected +=
+            work.number_of_error_test_failures + work.number_of_nonlinear_solver_fails;
+        self.statistics.factorizations += work.number_of_linear_solver_setups;
+        let judged = work.number_of_steps + work.number_of_error_test_failures;
+        self.statistics.linear_solves +=
+            work.number_of_nonlinear_solver_iterations + error_solves * judged;
+        outcome
+    }
+
+    fn advance<'p, 's: 'p, M, S>(
+        &mut self,
+        solver: &mut S,
+        start: f64,
+        end: f64,
+        polynomial: Polynomial,
+    ) -> Result<(), Stop>
+    where
+        M: Algebra,
+        S: OdeSolverMethod<'p, Equations<'s, M>>,
+    {
+        solver.set_stop_time(end - start)?;
+        let mut inner = M::V::zeros(self.system.len(), M::C::default());
+        let mut before = 0.0;
+        loop {
+            let reason = solver.step();
+            let state = solver.state();
+            let reached = matches!(reason, Ok(OdeSolverStopReason::TstopReached));
+            let t = if reached { end - start } else { state.t };
+            let site = Site {
+                method: self.method,
+                time: (start + t) * self.system.time_scale,
+                system: self.system,
+            };
+            if let Err(error) = reason {
+                return Err(site.integrator(&error, state.y.slice(), state.dy.slice()).into());
+            }
+            site.finite(state.y.slice())?;
+            let degree = match polynomial {
+                Polynomial::History => solver.order(),
+                Polynomial::Inner(degree) => {
+                    let nodes = Interpolation::of_degree(degree);
+                    for &node in nodes.nodes().get(1..degree).unwrap_or_default() {
+                        let time = between(before, state.t, node);
+                        solver.interpolate_inplace(time, &mut inner)?;
+                        self.pieces.add_row(time, inner.slice());
+                    }
+                    degree
+                }
+            };
+            self.pieces.add_row(t, state.y.slice());
+            self.pieces.end_step(degree);
+            before = state.t;
+            self.report(site.time)?;
+            if reached {
+                self.state.copy_from_slice(state.y.slice());
+                return Ok(());
+            }
+        }
+    }
+
+    /// Shows the last step to the observer and to the guards.
+    pub(super) fn report(&mut self, time: f64) -> Result<(), Stop> {
+        let steps = self.pieces.len();
+        if self.observer.progress(Progress { time, steps }).is_break() {
+            return Err(SolveError::Cancelled { time }.into());
+        }
+        if steps >= MOST_STEPS {
+            return Err(SolveError::TooManySteps { method: self.method, time, steps }.into());
+        }
+        if self.watch.is_idle() {
+            return Ok(());
+        }
+        let (system, pieces) = (self.system, &self.pieces);
+        let signal = |output: usize| pieces.signal_from(system, &system.outputs[output], steps - 1);
+        let signals: Vec<_> = self.run.guards.iter().map(|guard| signal(guard.output)).collect();
+        if self.watch.feed(&self.run.guards, &signals).is_some() { Err(Stop::Guard) } else { Ok(()) }
+    }
+}

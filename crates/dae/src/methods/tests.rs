@@ -1,0 +1,177 @@
+use super::*;
+use crate::{Silent, problems, problems::Problem};
+
+mod guards;
+mod limits;
+
+/// Times at which solutions are compared.
+fn times(problem: &Problem) -> Vec<f64> {
+    (0..=400).map(|k| problem.t_end * f64::from(k) / 400.0).collect()
+}
+
+/// Solves the problem and returns the largest error of samples and of signals, dimensionless.
+fn solve(method: &dyn Method, problem: &Problem, rtol: f64) -> (Trajectory, f64, f64) {
+    let system = &problem.system;
+    let run = Run::to(problem.t_end).with_rtol(rtol);
+    let trajectory = method.integrate(system, &run, &mut Silent).unwrap();
+    let times = times(problem);
+    let hats: Vec<f64> = times.iter().map(|t| t / system.time_scale).collect();
+    let samples = trajectory.dense.sample(system, &hats);
+    let signals: Vec<_> = (0..system.len()).map(|k| trajectory.signal(system, k)).collect();
+    let (mut in_samples, mut in_signals) = (0.0_f64, 0.0_f64);
+    for (&time, row) in times.iter().zip(samples.chunks_exact(system.len())) {
+        for (at, exact) in problem.exact(time).into_iter().enumerate() {
+            in_samples = in_samples.max((row[at] - exact).abs());
+            let value = signals[at].value(time) / system.outputs[at].scale;
+            in_signals = in_signals.max((value - exact).abs());
+        }
+    }
+    (trajectory, in_samples, in_signals)
+}
+
+/// Calls `judge` with every step-by-step method and every problem that it claims.
+fn for_all_steppers(mut judge: impl FnMut(&dyn Method, &Problem)) {
+    for problem in problems::all() {
+        for name in ["bdf", "tr-bdf2", "esdirk34", "tsit45"] {
+            let method = by_name(name).unwrap();
+            let claims = method.applies(&problem.system, &Run::to(problem.t_end)).is_ok();
+            if claims && !(problem.stiff && name == "tsit45") {
+                judge(&*method, &problem);
+            }
+        }
+    }
+}
+
+/// Orders that the ladder of tolerances must show: a method of order q that keeps the error of each
+/// step at the tolerance has a global error like its power q/(q + 1).
+fn least_slope(method: &str) -> f64 {
+    match method {
+        "tr-bdf2" => 0.62,
+        "tsit45" => 0.85,
+        _ => 0.7,
+    }
+}
+
+#[test]
+fn names_in_the_register_are_unique_and_found() {
+    let methods = all();
+    for method in &methods {
+        let same = methods.iter().filter(|other| other.name() == method.name()).count();
+        assert_eq!(same, 1, "{}", method.name());
+        assert_eq!(by_name(method.name()).unwrap().name(), method.name());
+        assert!(!method.summary().is_empty());
+    }
+    assert!(by_name("euler").is_none());
+}
+
+#[test]
+fn error_falls_with_the_tolerance() {
+    for_all_steppers(|method, problem| {
+        let ladder = [1e-4, 1e-6, 1e-8, 1e-10];
+        let errors = ladder.map(|rtol| solve(method, problem, rtol).1);
+        let what = format!("{} on {}: {errors:?}", method.name(), problem.name);
+        // Where the solution is a low polynomial, only rounding is left.
+        let rounding = if problem.t_end > 1.0 { 1e-10 } else { 3e-13 };
+        for pair in errors.windows(2) {
+            assert!(pair[1] <= pair[0] || pair[1] < rounding, "{what}");
+        }
+        let slope = (errors[0] / errors[3]).log10() / 6.0;
+        assert!(slope > least_slope(method.name()) || errors[0] < 1e-6, "{what}, slope {slope}");
+        assert!(errors[0] < 1e-2, "{what}");
+    });
+}
+
+#[test]
+fn signals_and_samples_are_the_same_solution() {
+    for_all_steppers(|method, problem| {
+        let (_, samples, signals) = solve(method, problem, 1e-5);
+        let what = format!("{} on {}", method.name(), problem.name);
+        let size = if problem.t_end > 1.0 { 500.0 } else { 1.0 };
+        assert!((samples - signals).abs() < 1e-13 * size, "{what}: {samples} {signals}");
+    });
+}
+
+#[test]
+fn exact_solutions_leave_only_rounding() {
+    for problem in problems::all() {
+        for method in all().iter().filter(|method| method.is_exact()) {
+            if method.applies(&problem.system, &Run::to(problem.t_end)).is_err() {
+                continue;
+            }
+            let (_, samples, signals) = solve(&**method, &problem, 1e-6);
+            let size = if problem.t_end > 1.0 { 500.0 } else { 1.0 };
+            assert!(samples.max(signals) < 1e-12 * size, "{}: {samples} {signals}", problem.name);
+        }
+    }
+}
+
+#[test]
+fn auto_takes_the_exact_method_where_it_applies_and_else_bdf() {
+    for problem in problems::all() {
+        let run = Run::to(problem.t_end);
+        let trajectory = Auto.integrate(&problem.system, &run, &mut Silent).unwrap();
+        let exact = Exact.applies(&problem.system, &run).is_ok();
+        assert_eq!(trajectory.method, if exact { "exact" } else { "bdf" }, "{}", problem.name);
+        assert!(Auto.applies(&problem.system, &run).unwrap().contains(trajectory.method));
+    }
+}
+
+#[test]
+fn a_run_repeats_to_the_bit() {
+    for_all_steppers(|method, problem| {
+        let (first, ..) = solve(method, problem, 1e-6);
+        let (second, ..) = solve(method, problem, 1e-6);
+        let (first_wall, second_wall) = (first.statistics.wall, second.statistics.wall);
+        let without = |trajectory: &Trajectory, wall| {
+            let mut statistics = trajectory.statistics;
+            assert_eq!(statistics.wall, wall);
+            statistics.wall = std::time::Duration::ZERO;
+            statistics
+        };
+        assert_eq!(without(&first, first_wall), without(&second, second_wall));
+        let times: Vec<f64> = times(problem).iter().map(|t| t / 0.01).collect();
+        let (a, b) = (
+            first.dense.sample(&problem.system, &times),
+            second.dense.sample(&problem.system, &times),
+        );
+        assert!(a.iter().zip(&b).all(|(a, b)| a.to_bits() == b.to_bits()));
+    });
+}
+
+#[test]
+fn the_work_has_not_grown() {
+    // Steps, evaluations of the right-hand side, factorisations and linear systems at 1e-6.
+    let pinned = [
+        ("bdf", 252, 290, 30, 290),
+        ("tr-bdf2", 958, 2100, 60, 3100),
+        ("esdirk34", 374, 1200, 40, 1600),
+        ("tsit45", 82, 520, 0, 0),
+    ];
+    let problem = problems::underdamped();
+    for (name, steps, calls, factorizations, solves) in pinned {
+        let work = solve(&*by_name(name).unwrap(), &problem, 1e-6).0.statistics;
+        assert!(work.accepted > steps / 2 && work.accepted <= steps + steps / 50, "{name} {work:?}");
+        assert!(work.rhs_calls > work.accepted && work.rhs_calls <= calls, "{name} {work:?}");
+        assert!(work.factorizations <= factorizations, "{name} {work:?}");
+        assert!(work.linear_solves <= solves, "{name} {work:?}");
+        assert!((work.factorizations > 0) == (factorizations > 0), "{name} {work:?}");
+        assert!((work.jacobian_calls > 0) == (factorizations > 0), "{name} {work:?}");
+        assert!((work.linear_solves > 0) == (solves > 0), "{name} {work:?}");
+        assert!(!work.wall.is_zero(), "{name}");
+    }
+}
+
+#[test]
+fn a_short_pulse_inside_a_long_run_is_not_missed() {
+    let problem = problems::struck_by_pulse();
+    for name in ["bdf", "tr-bdf2", "esdirk34", "tsit45", "exact"] {
+        let run = Run::to(problem.t_end);
+        let trajectory = by_name(name).unwrap().integrate(&problem.system, &run, &mut Silent).unwrap();
+        let velocity = trajectory.signal(&problem.system, 1);
+        let scale = problem.system.outputs[1].scale;
+        assert_eq!(velocity.value(0.49 * problem.t_end), 0.0, "{name}");
+        let gained = velocity.value(problem.t_end) / scale;
+        let impulse = problem.exact(problem.t_end)[1];
+        assert!((gained - impulse).abs() < 1e-9, "{name}: {gained} of {impulse}");
+    }
+}

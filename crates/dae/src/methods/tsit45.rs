@@ -1,0 +1,77 @@
+//! An explicit Runge–Kutta method of order 5.
+
+use diffsol::{
+    DefaultDenseMatrix, OdeSolverState, RkState, VectorRef, matrix::MatrixRef,
+    ode_solver::state::StateCommon,
+};
+
+use super::stepping::{self, Algebra, Polynomial, Problem, Scheme, Stop, Walk};
+use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
+
+/// Degree of the dense output in a step.
+const DEGREE: usize = 4;
+
+/// Tsitouras' explicit method of order 5 with an embedded one of order 4. Stiffness forces it to
+/// small steps, and it cannot solve algebraic unknowns; it is a check on the implicit methods that
+/// shares nothing with them.
+///
+/// Its dense output in a step is a polynomial of degree 4.
+///
+/// Tsitouras, Runge–Kutta pairs of order 5(4), Comput. Math. Appl. 62 (2011) 770–775.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Tsit45;
+
+impl Method for Tsit45 {
+    fn name(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn summary(&self) -> &'static str {
+        "explicit, order 5: an independent check where nothing is stiff"
+    }
+
+    fn applies(&self, system: &System, _run: &Run) -> Result<String, SolveError> {
+        let algebraic = system.algebraic();
+        if algebraic == 0 {
+            return Ok("every unknown has a rate of its own".to_owned());
+        }
+        let reason = format!(
+            "it is explicit, and {algebraic} of the unknowns follow from balances; `bdf` can"
+        );
+        Err(SolveError::NotApplicable { method: Self::KIND, reason })
+    }
+
+    fn integrate(
+        &self,
+        system: &System,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Trajectory, SolveError> {
+        self.applies(system, run)?;
+        stepping::integrate::<Self>(system, run, observer)
+    }
+}
+
+impl MethodKind for Tsit45 {
+    const KIND: &'static str = "tsit45";
+}
+
+impl Scheme for Tsit45 {
+    const NAME: &'static str = Self::KIND;
+    const ORDER: usize = 4;
+
+    fn span<M>(
+        problem: &Problem<'_, M>,
+        state: StateCommon<M::V>,
+        walk: &mut Walk<'_>,
+    ) -> Result<(), Stop>
+    where
+        M: Algebra,
+        M::V: DefaultDenseMatrix<T = f64, C = M::C>,
+        for<'v> &'v M::V: VectorRef<M::V>,
+        for<'m> &'m M: MatrixRef<M>,
+    {
+        let solver = problem.tsit45_solver(RkState::new_from_common(state))?;
+        walk.steps(solver, Polynomial::Inner(DEGREE), 0)
+    }
+}

@@ -1,0 +1,67 @@
+//! Values of an interpolation polynomial between its nodes.
+
+/// Highest degree of a step's polynomial.
+pub(super) const HIGHEST: usize = 7;
+
+/// The Lagrange polynomials on a few nodes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lagrange<'n> {
+    nodes: &'n [f64],
+    /// `1/Π_{i≠j} (x_j − x_i)`.
+    factors: [f64; HIGHEST + 1],
+}
+
+impl<'n> Lagrange<'n> {
+    /// The polynomials on these nodes: at least one, at most `HIGHEST + 1`, all different.
+    pub(super) fn new(nodes: &'n [f64]) -> Self {
+        let mut factors = [1.0; HIGHEST + 1];
+        for (j, at) in nodes.iter().enumerate() {
+            for (i, before) in nodes[..j].iter().enumerate() {
+                let distance = at - before;
+                factors[i] *= -distance;
+                factors[j] *= distance;
+            }
+        }
+        for factor in factors.iter_mut().take(nodes.len()) {
+            *factor = factor.recip();
+        }
+        Self { nodes, factors }
+    }
+
+    /// Their values at `x`, the weights of the values at the nodes; zero beyond the last node.
+    pub(super) fn weights(&self, x: f64) -> [f64; HIGHEST + 1] {
+        let mut weights = [0.0; HIGHEST + 1];
+        let mut product = 1.0;
+        for ((weight, node), factor) in weights.iter_mut().zip(self.nodes).zip(&self.factors) {
+            *weight = factor * product;
+            product *= x - node;
+        }
+        product = 1.0;
+        for (weight, node) in weights.iter_mut().zip(self.nodes).rev() {
+            *weight *= product;
+            product *= x - node;
+        }
+        weights
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polynomial_is_reproduced_between_its_nodes() {
+        let nodes = [-1.0, -0.8, -0.1, 0.3, 0.31, 0.9, 1.0];
+        for degree in 0..nodes.len() {
+            let lagrange = Lagrange::new(&nodes[..=degree]);
+            let power = i32::try_from(degree).unwrap();
+            for x in [-1.0, -0.83, 0.0, 0.4, 1.0] {
+                let weights = lagrange.weights(x);
+                let at_nodes = nodes[..=degree].iter().zip(weights);
+                let value: f64 = at_nodes.map(|(t, weight)| weight * (t + 0.3).powi(power)).sum();
+                let noise: f64 = weights.iter().map(|weight| weight.abs()).sum();
+                assert!((value - (x + 0.3).powi(power)).abs() < 1e-14 * noise, "degree {degree}");
+            }
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Signals made from signals.
+
+use super::{Panel, Signal};
+use crate::chebyshev;
+
+impl Signal {
+    /// A number that no `|value|` exceeds, and that is rarely much larger.
+    pub fn bound(&self) -> f64 {
+        self.panels.iter().map(|panel| chebyshev::bound(&panel.coefficients)).fold(0.0, f64::max)
+    }
+
+    /// The derivative with respect to time \[unit/s\], panel by panel: jumps leave no trace in it.
+    ///
+    /// Its `noise` is an estimate, in proportion to the size of the values; an error bound it has
+    /// none.
+    #[must_use]
+    pub fn derivative(&self) -> Self {
+        let panels: Vec<Panel> = self.panels.iter().map(Panel::derivative).collect();
+        let mut slope = Self { panels, error: None, noise: 0.0 };
+        let size = self.bound();
+        if size > 0.0 {
+            slope.noise = self.noise * (slope.bound() / size);
+        }
+        slope
+    }
+
+    /// The signal times `factor`.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = self.clone();
+        for panel in &mut scaled.panels {
+            for c in &mut panel.coefficients {
+                *c *= factor;
+            }
+        }
+        scaled.error = self.error.map(|error| error * factor.abs());
+        scaled.noise = self.noise * factor.abs();
+        scaled
+    }
+
+    /// `self + factor · other` over the time that both cover, with the panels of both. If there is
+    /// none, it is zero of no length at the beginning of `self`.
+    #[must_use]
+    pub fn plus(&self, other: &Self, factor: f64) -> Self {
+        let mut panels = Vec::with_capacity(self.panels.len() + other.panels.len());
+        self.overlaps(other, (self.start(), self.end()), |one, two, start, end| {
+            let mut coefficients = part(one, start, end);
+            let summand = part(two, start, end);
+            if coefficients.len() < summand.len() {
+                coefficients.resize(summand.len(), 0.0);
+            }
+            for (sum, c) in coefficients.iter_mut().zip(&summand) {
+                *sum += factor * c;
+            }
+            panels.push(Panel { start, end, coefficients });
+        });
+        if panels.is_empty() {
+            let t = self.start();
+            let common = (other.start()..=other.end()).contains(&t);
+            let value = if common { self.value(t) + factor * other.value(t) } else { 0.0 };
+            panels.push(Panel::constant(t, t, value));
+        }
+        let error = self.error.zip(other.error).map(|(one, two)| one + factor.abs() * two);
+        Self { panels, error, noise: self.noise + factor.abs() * other.noise }
+    }
+
+    /// Calls `visit` with a panel of each signal and the times between which both hold, in order
+    /// of time, for all such times of positive length in the window.
+    pub(super) fn overlaps(
+        &self,
+        other: &Self,
+        window: (f64, f64),
+        mut visit: impl FnMut(&Panel, &Panel, f64, f64),
+    ) {
+        let from = window.0.max(self.start()).max(other.start());
+        let to = window.1.min(self.end()).min(other.end());
+        let (mut i, mut j) = (self.panel_at(from), other.panel_at(from));
+        let mut start = from;
+        while start < to
+            && let (Some(one), Some(two)) = (self.panels.get(i), other.panels.get(j))
+        {
+            let end = one.end.min(two.end).min(to);
+            if start < end {
+                visit(one, two, start, end);
+                start = end;
+            }
+            if one.end <= start {
+                i += 1;
+            }
+            if two.end <= start {
+                j += 1;
+            }
+        }
+    }
+}
+
+fn part(panel: &Panel, start: f64, end: f64) -> Vec<f64> {
+    if start <= panel.start && end >= panel.end {
+        panel.coefficients.clone()
+    } else {
+        panel.part(start, end).coefficients
+    }
+}

@@ -1,0 +1,128 @@
+//! Largest and smallest values.
+
+use super::{Extremum, Signal};
+use crate::chebyshev::{self, evaluate, is_monotone, sign_changes};
+
+/// What is to be as large as possible.
+#[derive(Debug, Clone, Copy)]
+enum Goal {
+    Largest,
+    Smallest,
+    LargestAbsolute,
+}
+
+impl Goal {
+    fn merit(self, value: f64) -> f64 {
+        match self {
+            Self::Largest => value,
+            Self::Smallest => -value,
+            Self::LargestAbsolute => value.abs(),
+        }
+    }
+
+    /// What no merit of the polynomial exceeds, rounding included.
+    fn bound(self, coefficients: &[f64]) -> f64 {
+        let middle = coefficients.first().copied().unwrap_or(0.0);
+        let spread = chebyshev::variation(coefficients);
+        self.merit(middle) + spread + 8.0 * f64::EPSILON * (middle.abs() + spread)
+    }
+}
+
+impl Signal {
+    /// The largest value in the window and the first time at which it is reached. At a jump the
+    /// values of both sides count. Outside the signal it is the value of the nearer end.
+    pub fn maximum(&self, window: (f64, f64)) -> Extremum {
+        self.best(window, Goal::Largest)
+    }
+
+    /// The smallest value in the window and the first time at which it is reached; otherwise as
+    /// [`maximum`](Self::maximum).
+    pub fn minimum(&self, window: (f64, f64)) -> Extremum {
+        self.best(window, Goal::Smallest)
+    }
+
+    /// The largest absolute value in the window, which is not negative, and the first time at which
+    /// it is reached; otherwise as [`maximum`](Self::maximum).
+    pub fn absolute_maximum(&self, window: (f64, f64)) -> Extremum {
+        let best = self.best(window, Goal::LargestAbsolute);
+        Extremum { value: best.value.abs(), ..best }
+    }
+
+    /// The local maxima and minima in the window in order of time, beginning and end among them.
+    ///
+    /// Ups and downs within the noise, or some roundings, do not count, so a constant signal has one extremum, at
+    /// the beginning of the window. Of a plateau the first time is given.
+    pub fn extrema(&self, window: (f64, f64)) -> Vec<Extremum> {
+        let mut found = Vec::new();
+        let mut low: Option<Extremum> = None;
+        let mut high: Option<Extremum> = None;
+        // While the direction is not known, both are candidates for the first extremum.
+        let mut rising = None;
+        for panel in self.panels_in(window) {
+            let noise = self.floor(&panel, 0.0);
+            let mut places = vec![-1.0];
+            if !is_monotone(&panel.coefficients) {
+                places.extend(sign_changes(&chebyshev::derivative(&panel.coefficients)));
+            }
+            places.push(1.0);
+            for x in places {
+                let value = evaluate(&panel.coefficients, x);
+                let point = Extremum { time: panel.time(x), value };
+                let lowest = *low.get_or_insert(point);
+                let highest = *high.get_or_insert(point);
+                if rising != Some(false) && value < highest.value - noise {
+                    found.push(highest);
+                    (rising, low) = (Some(false), Some(point));
+                } else if rising != Some(true) && value > lowest.value + noise {
+                    found.push(lowest);
+                    (rising, high) = (Some(true), Some(point));
+                } else {
+                    if value < lowest.value {
+                        low = Some(point);
+                    }
+                    if value > highest.value {
+                        high = Some(point);
+                    }
+                }
+            }
+        }
+        found.extend(if rising == Some(true) { high } else { low });
+        found
+    }
+
+    /// Branch and bound: the values at the borders first, then the inside of those panels alone
+    /// that may hold more.
+    fn best(&self, window: (f64, f64), goal: Goal) -> Extremum {
+        let panels = self.panels_in(window);
+        let mut best: Option<Extremum> = None;
+        let mut consider = |time: f64, value: f64| {
+            let merit = goal.merit(value);
+            let better = best.is_none_or(|best| {
+                let most = goal.merit(best.value);
+                merit > most || (merit >= most && time < best.time)
+            });
+            if better {
+                best = Some(Extremum { time, value });
+            }
+            best.map_or(merit, |best| goal.merit(best.value))
+        };
+        let mut most = f64::NEG_INFINITY;
+        for panel in panels.clone() {
+            consider(panel.start, evaluate(&panel.coefficients, -1.0));
+            most = consider(panel.end, evaluate(&panel.coefficients, 1.0));
+        }
+        for panel in panels {
+            let coefficients = &panel.coefficients;
+            if goal.bound(coefficients) < most || is_monotone(coefficients) {
+                continue;
+            }
+            for x in sign_changes(&chebyshev::derivative(coefficients)) {
+                most = consider(panel.time(x), evaluate(coefficients, x));
+            }
+        }
+        best.unwrap_or_else(|| {
+            let time = if window.0 > self.end() { self.end() } else { self.start() };
+            Extremum { time, value: self.value(time) }
+        })
+    }
+}

@@ -1,0 +1,185 @@
+//! Areas under signals.
+
+use super::{Panel, Signal};
+use crate::chebyshev::{self, GaussLegendre, bracketed_root, evaluate, sign_changes};
+
+/// Relative difference of two rules at which the better one is taken.
+const TOLERANCE: f64 = 1e-12;
+
+/// How often a piece is halved at most, should `f` be rougher than promised.
+const MOST_HALVINGS: u32 = 200;
+
+impl Signal {
+    /// The integral over the window \[unit·s\], exact up to rounding.
+    pub fn integral(&self, window: (f64, f64)) -> f64 {
+        let mut sum = Sum::default();
+        for panel in self.panels_in(window) {
+            sum.add(panel.integral());
+        }
+        sum.value()
+    }
+
+    /// `∫ self · other dt` over the part of the window that both cover, exact up to rounding.
+    pub fn integral_of_product(&self, other: &Self, window: (f64, f64)) -> f64 {
+        let mut sum = Sum::default();
+        self.overlaps(other, window, |one, two, start, end| {
+            let points = usize::midpoint(one.coefficients.len(), two.coefficients.len()) + 1;
+            let rule = GaussLegendre::with_points(points);
+            sum.add(rule.integrate(start, end, |t| one.value(t) * two.value(t)));
+        });
+        sum.value()
+    }
+
+    /// `∫ f(s(t)) dt` over the window to about 1e-13 of `∫ |f(s(t))| dt`.
+    ///
+    /// `f` must be smooth but at the `breaks`, values of the signal at which it may have a kink, a
+    /// jump or a power such as `|s|^2.5`: the integral is split where the signal takes them, and in
+    /// panels in which it does so at its extrema.
+    pub fn integral_of(&self, window: (f64, f64), breaks: &[f64], f: impl Fn(f64) -> f64) -> f64 {
+        let panels = self.panels_in(window);
+        let middle = |panel: &Panel| panel.coefficients.first().map_or(0.0, |&c| f(c).abs());
+        let rough: f64 = panels.clone().map(|panel| panel.length() * middle(&panel)).sum();
+        let length: f64 = panels.clone().map(|panel| panel.length()).sum();
+        let density = if length > 0.0 { rough / length } else { 0.0 };
+        let (coarse, fine) = (GaussLegendre::with_points(6), GaussLegendre::with_points(10));
+        let mut sum = Sum::default();
+        for panel in panels.filter(|panel| panel.length() > 0.0) {
+            let curve = Curve { panel: &panel, f: &f, density, rules: (&coarse, &fine) };
+            let places = places(&panel.coefficients, breaks);
+            for pair in places.windows(2) {
+                sum.add(0.5 * panel.length() * curve.piece(pair[0], pair[1]));
+            }
+        }
+        sum.value()
+    }
+}
+
+/// A place and whether the signal takes a value there at which the integrand is not smooth.
+type Place = (f64, bool);
+
+/// The places that divide a panel: its ends, extrema and passages of the breaks.
+fn places(coefficients: &[f64], breaks: &[f64]) -> Vec<Place> {
+    let middle = coefficients.first().copied().unwrap_or(0.0);
+    let spread = chebyshev::variation(coefficients) * (1.0 + 8.0 * f64::EPSILON);
+    let met: Vec<f64> =
+        breaks.iter().copied().filter(|level| (middle - level).abs() <= spread).collect();
+    if met.is_empty() {
+        return vec![(-1.0, false), (1.0, false)];
+    }
+    let slope = chebyshev::derivative(coefficients);
+    let mut turns = vec![-1.0];
+    turns.extend(sign_changes(&slope));
+    turns.push(1.0);
+    let mut places: Vec<Place> = turns.iter().map(|&x| (x, false)).collect();
+    for level in met {
+        let mut gap = coefficients.to_vec();
+        gap[0] -= level;
+        let noise = 4.0 * f64::EPSILON * (spread + middle.abs() + level.abs());
+        for (at, pair) in turns.windows(2).enumerate() {
+            let (a, b) = ((pair[0], evaluate(&gap, pair[0])), (pair[1], evaluate(&gap, pair[1])));
+            for (end, (_, gap)) in [(at, a), (at + 1, b)] {
+                places[end].1 |= gap.abs() <= noise;
+            }
+            if a.1.abs() > noise && b.1.abs() > noise && (a.1 < 0.0) != (b.1 < 0.0) {
+                places.push((bracketed_root(&gap, &slope, a, b), true));
+            }
+        }
+    }
+    places.sort_by(|one, two| one.0.total_cmp(&two.0));
+    places
+}
+
+/// The integrand on a panel.
+struct Curve<'a, F> {
+    panel: &'a Panel,
+    f: &'a F,
+    /// Typical size of the integrand, against which errors are judged.
+    density: f64,
+    /// The rule by which the better one is judged, and the better one.
+    rules: (&'a GaussLegendre, &'a GaussLegendre),
+}
+
+impl<F: Fn(f64) -> f64> Curve<'_, F> {
+    fn at(&self, x: f64) -> f64 {
+        (self.f)(evaluate(&self.panel.coefficients, x))
+    }
+
+    /// The integral over `x` between two places.
+    fn piece(&self, a: Place, b: Place) -> f64 {
+        let width = b.0 - a.0;
+        let tolerance = self.tolerance(0.5 * (a.0 + b.0)) * width;
+        // x = a + width u³ makes a power of x − a smooth enough for the rule.
+        let cubic = |u: f64| (width * u * u * u, 3.0 * width * u * u);
+        let mut halvings = MOST_HALVINGS;
+        match (a.1, b.1) {
+            (false, false) => {
+                let g = |x: f64| self.at(x);
+                self.refine(&g, (a.0, b.0), tolerance, &mut halvings)
+            }
+            (true, false) => {
+                let g = |u: f64| cubic(u).1 * self.at(a.0 + cubic(u).0);
+                self.refine(&g, (0.0, 1.0), tolerance, &mut halvings)
+            }
+            (false, true) => {
+                let g = |u: f64| cubic(u).1 * self.at(b.0 - cubic(u).0);
+                self.refine(&g, (0.0, 1.0), tolerance, &mut halvings)
+            }
+            (true, true) => {
+                let middle = (0.5 * (a.0 + b.0), false);
+                self.piece(a, middle) + self.piece(middle, b)
+            }
+        }
+    }
+
+    /// The error of the integrand near `x` that does not count, or that its rounding makes.
+    fn tolerance(&self, x: f64) -> f64 {
+        let coefficients = &self.panel.coefficients;
+        let rounding = 4.0 * f64::EPSILON * chebyshev::bound(coefficients);
+        let value = evaluate(coefficients, x);
+        let noise = (self.f)(value + rounding) - (self.f)(value - rounding);
+        noise.abs().max(TOLERANCE * self.density)
+    }
+
+    /// The integral of `g` from `a` to `b` by halving until two rules agree.
+    fn refine(
+        &self,
+        g: &impl Fn(f64) -> f64,
+        (a, b): (f64, f64),
+        tolerance: f64,
+        halvings: &mut u32,
+    ) -> f64 {
+        let coarse = self.rules.0.integrate(a, b, g);
+        let fine = self.rules.1.integrate(a, b, g);
+        let agree = (fine - coarse).abs() <= tolerance.max(TOLERANCE * fine.abs());
+        if agree || *halvings == 0 {
+            return fine;
+        }
+        *halvings -= 1;
+        let middle = 0.5 * (a + b);
+        self.refine(g, (a, middle), 0.5 * tolerance, halvings)
+            + self.refine(g, (middle, b), 0.5 * tolerance, halvings)
+    }
+}
+
+/// A sum that keeps what its additions round off (Neumaier).
+#[derive(Debug, Default)]
+struct Sum {
+    sum: f64,
+    lost: f64,
+}
+
+impl Sum {
+    fn add(&mut self, summand: f64) {
+        let sum = self.sum + summand;
+        self.lost += if self.sum.abs() >= summand.abs() {
+            (self.sum - sum) + summand
+        } else {
+            (summand - sum) + self.sum
+        };
+        self.sum = sum;
+    }
+
+    fn value(&self) -> f64 {
+        self.sum + self.lost
+    }
+}

@@ -1,0 +1,136 @@
+//! The narrow waist's input.
+
+use nalgebra_sparse::CsrMatrix;
+
+use crate::{LinearForm, Waveform};
+
+/// How an unknown enters the system.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnknownKind {
+    /// It has a rate of its own: a row `ẏᵢ = …`.
+    Differential,
+    /// It follows from a balance: a row `0 = …`.
+    Algebraic,
+}
+
+/// One unknown of a [`System`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unknown {
+    /// Its name in mechanical words, for instance `velocity of head`.
+    pub name: String,
+    /// Differential or algebraic.
+    pub kind: UnknownKind,
+    /// SI value of the dimensionless value 1.
+    pub scale: f64,
+    /// SI unit of the scaled value.
+    pub unit: &'static str,
+}
+
+/// One entry `w_k(t̂)` of the input vector: the `derivative`-th derivative, with respect to
+/// dimensionless time, of a waveform.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Input {
+    /// Index into [`System::waveforms`].
+    pub waveform: usize,
+    /// 0 for the function itself, 1 or 2 for its rates.
+    pub derivative: u32,
+}
+
+/// A named scalar that the system can report: `scale · (unknowns·y + inputs·w)`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output {
+    /// Its name, for instance `padding.force`.
+    pub name: String,
+    /// SI unit of the reported value.
+    pub unit: &'static str,
+    /// SI value of the dimensionless value 1.
+    pub scale: f64,
+    /// Coefficients over the unknowns.
+    pub unknowns: LinearForm,
+    /// Coefficients over the inputs.
+    pub inputs: LinearForm,
+}
+
+/// The differential–algebraic system `M ẏ = J y + B w(t)`, `M = diag(1…1, 0…0)`.
+///
+/// Everything is dimensionless: time in units of [`time_scale`](Self::time_scale), unknowns in
+/// units of their own [`scale`](Unknown::scale). It is semi-explicit and of index 1: the block of
+/// `J` that belongs to the algebraic unknowns is regular.
+#[derive(Debug, Clone)]
+pub struct System {
+    /// The unknowns, in the order of the rows of `J`.
+    pub unknowns: Vec<Unknown>,
+    /// `J`, square, with its exact pattern.
+    pub jacobian: CsrMatrix<f64>,
+    /// `B`, one column for each entry of [`inputs`](Self::inputs).
+    pub input_matrix: CsrMatrix<f64>,
+    /// What the input vector `w` is made of.
+    pub inputs: Vec<Input>,
+    /// The driving functions, in dimensionless time and value.
+    pub waveforms: Vec<Waveform>,
+    /// Initial values of the unknowns; those of algebraic unknowns are a first guess, because methods
+    /// solve the balances before they start.
+    pub initial: Vec<f64>,
+    /// What can be reported.
+    pub outputs: Vec<Output>,
+    /// Seconds in one unit of dimensionless time \[s\].
+    pub time_scale: f64,
+}
+
+/// The matrices of a system without algebraic unknowns: `ẏ = A y + B w(t)`.
+#[derive(Debug, Clone, Copy)]
+pub struct Linear<'a> {
+    /// `A`.
+    pub a: &'a CsrMatrix<f64>,
+    /// `B`.
+    pub b: &'a CsrMatrix<f64>,
+}
+
+impl System {
+    /// The matrices, where the system is linear and every algebraic unknown has been eliminated.
+    pub fn linear(&self) -> Option<Linear<'_>> {
+        (self.algebraic() == 0).then_some(Linear { a: &self.jacobian, b: &self.input_matrix })
+    }
+
+    /// Number of unknowns.
+    pub fn len(&self) -> usize {
+        self.unknowns.len()
+    }
+
+    /// Whether there is no unknown at all.
+    pub fn is_empty(&self) -> bool {
+        self.unknowns.is_empty()
+    }
+
+    /// Number of differential unknowns.
+    pub fn states(&self) -> usize {
+        self.len() - self.algebraic()
+    }
+
+    /// Number of algebraic unknowns.
+    pub fn algebraic(&self) -> usize {
+        self.unknowns.iter().filter(|unknown| unknown.kind == UnknownKind::Algebraic).count()
+    }
+
+    /// The times in `(0, end)` at which a driving function or one of its rates may jump, sorted,
+    /// in dimensionless time.
+    pub fn breakpoints(&self, end: f64) -> Vec<f64> {
+        let mut times: Vec<f64> = self
+            .waveforms
+            .iter()
+            .flat_map(Waveform::breakpoints)
+            .filter(|&t| t > 0.0 && t < end)
+            .collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// The input vector at dimensionless time `t`, on the piece that holds at `piece_time`
+    /// (at a jump, the piece to take is not decided by `t`).
+    pub fn inputs_at(&self, piece_time: f64, t: f64, w: &mut [f64]) {
+        for (value, input) in w.iter_mut().zip(&self.inputs) {
+            *value = self.waveforms[input.waveform].piece_at(piece_time).derivative(input.derivative, t);
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! The narrow waist's output.
+
+use std::{fmt::Debug, time::Duration};
+
+use crate::{Event, Output, Signal, System};
+
+/// How much work a run was.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Statistics {
+    /// Steps accepted.
+    pub accepted: usize,
+    /// Steps tried and rejected.
+    pub rejected: usize,
+    /// Evaluations of the right-hand side.
+    pub rhs_calls: usize,
+    /// Evaluations of the Jacobian.
+    pub jacobian_calls: usize,
+    /// Matrix factorisations.
+    pub factorizations: usize,
+    /// Linear systems solved.
+    pub linear_solves: usize,
+    /// Wall-clock time \[s\].
+    pub wall: Duration,
+}
+
+/// How a run that went well came to its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Outcome {
+    /// It reached the end of its time span.
+    Finished,
+    /// A guard stopped it.
+    Stopped {
+        /// Index into [`Run::guards`](crate::Run::guards).
+        guard: usize,
+    },
+}
+
+/// A solution between its ends.
+pub trait Dense: Debug + Send + Sync {
+    /// The output as a function of time, in SI units, over the whole run.
+    fn signal(&self, system: &System, output: &Output) -> Signal;
+
+    /// All unknowns, dimensionless, at each of the dimensionless `times` (rising, within the run):
+    /// one row of `n` values after another.
+    fn sample(&self, system: &System, times: &[f64]) -> Vec<f64>;
+}
+
+/// The result of a run.
+#[derive(Debug)]
+pub struct Trajectory {
+    /// Name of the method that made it.
+    pub method: &'static str,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Time at its end \[s\].
+    pub t_end: f64,
+    /// Crossings of guards, in order of time.
+    pub events: Vec<Event>,
+    /// Work done.
+    pub statistics: Statistics,
+    /// The solution itself.
+    pub dense: Box<dyn Dense>,
+}
+
+impl Trajectory {
+    /// The output number `output` of `system` as a function of time, in SI units.
+    ///
+    /// # Panics
+    ///
+    /// When `system` is not the one that was solved and has fewer outputs.
+    pub fn signal(&self, system: &System, output: usize) -> Signal {
+        self.dense.signal(system, &system.outputs[output])
+    }
+}

@@ -1,0 +1,11 @@
+//! Integration tests of the whole chain, as one binary.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "tests say what they expect"
+)]
+
+mod independent;
+mod thesis;
