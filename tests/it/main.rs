@@ -7,5 +7,8 @@
     reason = "tests say what they expect"
 )]
 
+mod closed_forms;
 mod independent;
+mod order;
+mod random_networks;
 mod thesis;

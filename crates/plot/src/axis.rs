@@ -1,0 +1,190 @@
+//! Axes: a range that holds the data, round tick values, and short tick labels.
+
+use std::fmt::Write as _;
+
+/// Values beyond this magnitude are drawn at it, so that a span never overflows.
+const LARGEST: f64 = 1e290;
+/// Ranges narrower than this part of their values hold nothing but round-off and are drawn as a constant.
+const ROUND_OFF: f64 = 1e-6;
+/// Empty part of a padded range, at each end.
+const PADDING: f64 = 0.08;
+
+/// One axis of a chart, in the units of its label.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Axis {
+    low: f64,
+    high: f64,
+    ticks: Vec<f64>,
+    exponent: i32,
+    decimals: usize,
+}
+
+impl Axis {
+    /// An axis over the finite ones of `values`, with about `wanted` ticks; a `padded` one leaves room at its ends,
+    /// except at a bound that is zero. Without any value it runs from 0 to 1.
+    pub(crate) fn over(values: impl Iterator<Item = f64>, padded: bool, wanted: usize) -> Self {
+        let (low, high) = range(values, padded);
+        let step = round_step((high - low) / lossless(wanted.max(1)));
+        let first = (low / step - 1e-9).ceil();
+        let ticks: Vec<f64> = (0..=4 * wanted.max(1))
+            .map(|i| (first + lossless(i)) * step)
+            .take_while(|tick| *tick <= high + 1e-9 * step)
+            .collect();
+        let exponent = exponent_of(low.abs().max(high.abs()));
+        let decimals = decimals_of(step / 10_f64.powi(exponent));
+        Self { low, high, ticks, exponent, decimals }
+    }
+
+    /// Tick values, ascending.
+    pub(crate) fn ticks(&self) -> &[f64] {
+        &self.ticks
+    }
+
+    /// Place of `value` along the axis: 0 at its low end, 1 at its high end, beyond them outside.
+    pub(crate) fn fraction(&self, value: f64) -> f64 {
+        (value.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low)
+    }
+
+    /// Whether `value` lies on the axis.
+    pub(crate) fn holds(&self, value: f64) -> bool {
+        (self.low..=self.high).contains(&value)
+    }
+
+    /// Label of a tick, in units of the axis' power of ten.
+    pub(crate) fn tick_label(&self, tick: f64) -> String {
+        let number = format!("{:.*}", self.decimals, tick / 10_f64.powi(self.exponent));
+        match number.strip_prefix('-') {
+            Some(zero) if zero.chars().all(|c| c == '0' || c == '.') => zero.to_owned(),
+            Some(magnitude) => format!("−{magnitude}"),
+            None => number,
+        }
+    }
+
+    /// `label` followed by the power of ten that the tick labels leave out.
+    pub(crate) fn title(&self, label: &str) -> String {
+        if self.exponent == 0 {
+            return label.to_owned();
+        }
+        let mut title = format!("{label} × 10");
+        for digit in self.exponent.to_string().chars() {
+            let raised = digit.to_digit(10).and_then(|d| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(d as usize));
+            let _ = write!(title, "{}", raised.unwrap_or('⁻'));
+        }
+        title
+    }
+}
+
+fn range(values: impl Iterator<Item = f64>, padded: bool) -> (f64, f64) {
+    let (low, high) = values
+        .filter(|v| v.is_finite())
+        .map(|v| v.clamp(-LARGEST, LARGEST))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    if low > high {
+        return (0.0, 1.0);
+    }
+    let magnitude = low.abs().max(high.abs());
+    if magnitude < 1.0 / LARGEST {
+        return (-1.0, 1.0);
+    }
+    let span = high - low;
+    if span <= ROUND_OFF * magnitude {
+        return (low - 0.1 * magnitude, high + 0.1 * magnitude);
+    }
+    let room = if padded { PADDING * span } else { 0.0 };
+    (
+        low - if low.abs() > 0.0 { room } else { 0.0 },
+        high + if high.abs() > 0.0 { room } else { 0.0 },
+    )
+}
+
+/// The smallest of 1, 2, 2.5, 5 times a power of ten that is at least `rough`.
+fn round_step(rough: f64) -> f64 {
+    let decade = 10_f64.powf(rough.log10().floor());
+    [1.0, 2.0, 2.5, 5.0]
+        .iter()
+        .map(|m| m * decade)
+        .find(|s| *s >= rough * (1.0 - 1e-9))
+        .unwrap_or(10.0 * decade)
+}
+
+/// The power of ten left out of the labels: 0 for everyday numbers, else a multiple of three.
+fn exponent_of(magnitude: f64) -> i32 {
+    if (1e-2..1e4).contains(&magnitude) {
+        return 0;
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the magnitude of an axis is within 1e±290"
+    )]
+    let thousands = (magnitude.log10() / 3.0 + 1e-12).floor() as i32;
+    3 * thousands
+}
+
+/// Decimals that show `step` and its multiples apart.
+fn decimals_of(step: f64) -> usize {
+    let mut scaled = step;
+    let mut decimals = 0;
+    while decimals < 9 && (scaled - scaled.round()).abs() > 1e-6 * scaled {
+        scaled *= 10.0;
+        decimals += 1;
+    }
+    decimals
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts of ticks are far below 2^52")]
+fn lossless(count: usize) -> f64 {
+    count as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(axis: &Axis) -> Vec<String> {
+        axis.ticks().iter().map(|t| axis.tick_label(*t)).collect()
+    }
+
+    #[test]
+    fn ticks_are_round_and_within_the_range() {
+        let axis = Axis::over([0.0, 20.0].into_iter(), false, 8);
+        assert_eq!(
+            labels(&axis),
+            ["0.0", "2.5", "5.0", "7.5", "10.0", "12.5", "15.0", "17.5", "20.0"]
+        );
+        let axis = Axis::over([-9.7, 38.4].into_iter(), true, 6);
+        assert_eq!(labels(&axis), ["−10", "0", "10", "20", "30", "40"]);
+    }
+
+    #[test]
+    fn large_and_small_numbers_share_a_power_of_ten() {
+        let axis = Axis::over([0.0, 2.4e7].into_iter(), false, 5);
+        assert_eq!(axis.title("force (N)"), "force (N) × 10⁶");
+        assert_eq!(labels(&axis), ["0", "5", "10", "15", "20"]);
+        assert_eq!(Axis::over([0.0, 3e-5].into_iter(), false, 3).title("y"), "y × 10⁻⁶");
+    }
+
+    #[test]
+    fn any_input_gives_a_finite_axis() {
+        let hard: [&[f64]; 8] = [
+            &[],
+            &[f64::NAN, f64::INFINITY],
+            &[0.0],
+            &[5.0, 5.0],
+            &[1.0, 1.0 + 1e-15],
+            &[-f64::MAX, f64::MAX],
+            &[f64::MIN_POSITIVE],
+            &[1e-280, 1e280],
+        ];
+        for values in hard {
+            for padded in [false, true] {
+                let axis = Axis::over(values.iter().copied(), padded, 6);
+                assert!(axis.low < axis.high, "{values:?}");
+                assert!((1..=24).contains(&axis.ticks().len()), "{values:?}: {:?}", axis.ticks());
+                for v in values.iter().filter(|v| v.is_finite()) {
+                    assert!((-1e-9..=1.0 + 1e-9).contains(&axis.fraction(*v)), "{v} on {axis:?}");
+                }
+                assert!(labels(&axis).iter().all(|l| l.len() < 16), "{:?}", labels(&axis));
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Layers, strokes and letters on the oversampled canvas of a chart: what plotters' SVG back-end is asked for.
+//!
+//! Each part of a chart is drawn into a layer of its own and wrapped in a group, which carries what the back-end
+//! cannot say: dash patterns, round joints, halos behind text, names of curves.
+
+use plotters::backend::SVGBackend;
+use plotters::coord::Shift;
+use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
+use plotters::element::PathElement;
+use plotters::style::text_anchor::Pos;
+use plotters::style::{Color, FontFamily, IntoFont, ShapeStyle, TextStyle};
+
+use super::{Pattern, Stroke};
+use crate::lettering::escape;
+use crate::theme::{self, Colour};
+
+/// Where a layer is drawn.
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// What the back-end answers.
+pub(super) type Fault = DrawingAreaErrorKind<std::io::Error>;
+
+pub(super) fn opening(size: (f64, f64), title: &str) -> String {
+    let (width, height) = (size.0.ceil(), size.1.ceil());
+    let (wide, high) = (pixels(width), pixels(height));
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {wide} {high}\" role=\"img\">\n<title>{}</title>\n\
+         <rect width=\"{wide}\" height=\"{high}\" fill=\"{}\"/>\n",
+        escape(title),
+        theme::PAPER.hex()
+    )
+}
+
+/// One layer as a group: the back-end's document without its outermost element.
+pub(super) fn layer(
+    size: (f64, f64),
+    attributes: &str,
+    draw: impl FnOnce(&Area<'_>) -> Result<(), Fault>,
+) -> Result<String, Fault> {
+    let mut document = String::new();
+    {
+        let area = SVGBackend::with_string(&mut document, (pixels(size.0), pixels(size.1)))
+            .into_drawing_area();
+        draw(&area)?;
+        area.present()?;
+    }
+    let inner = document.split_once('>').map_or("", |(_, rest)| rest.trim_end());
+    let inner = inner.strip_suffix("</svg>").unwrap_or(inner).trim_start();
+    Ok(format!("<g {attributes}>\n{inner}</g>\n"))
+}
+
+pub(super) fn dashes(pattern: Pattern) -> &'static str {
+    match pattern {
+        Pattern::Solid | Pattern::Broad => "",
+        Pattern::Dashed => " stroke-dasharray=\"80 50\"",
+        Pattern::Dotted => " stroke-dasharray=\"20 40\"",
+    }
+}
+
+pub(super) fn pen(stroke: Stroke) -> ShapeStyle {
+    let colour = theme::curve_colour(stroke.colour);
+    let width = match stroke.pattern {
+        Pattern::Broad => theme::BROAD_WIDTH,
+        _ => theme::CURVE_WIDTH,
+    };
+    let alpha = if stroke.pattern == Pattern::Broad { 0.4 } else { 1.0 };
+    ShapeStyle { color: colour.rgb().mix(alpha), filled: false, stroke_width: pixels(width) }
+}
+
+pub(super) fn line(colour: Colour, width: f64) -> ShapeStyle {
+    ShapeStyle { color: colour.rgb().to_rgba(), filled: false, stroke_width: pixels(width) }
+}
+
+pub(super) fn path(points: &[(f64, f64)], style: ShapeStyle) -> PathElement<(i32, i32)> {
+    PathElement::new(points.iter().map(|p| canvas(*p)).collect::<Vec<_>>(), style)
+}
+
+pub(super) fn text_style(size: f64, colour: Colour, pos: Pos) -> TextStyle<'static> {
+    // The back-end divides font sizes by 1.24.
+    let scaled = 1.24 * size * theme::OVERSAMPLING;
+    (FontFamily::Name(theme::FONT), scaled).into_font().color(&colour.rgb()).pos(pos)
+}
+
+/// A place on the oversampled canvas.
+#[expect(clippy::cast_possible_truncation, reason = "places lie on the canvas, far within i32")]
+pub(super) fn canvas((x, y): (f64, f64)) -> (i32, i32) {
+    ((x * theme::OVERSAMPLING).round() as i32, (y * theme::OVERSAMPLING).round() as i32)
+}
+
+/// A length on the oversampled canvas.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "lengths are positive and far within u32"
+)]
+pub(super) fn pixels(length: f64) -> u32 {
+    (length * theme::OVERSAMPLING).round() as u32
+}

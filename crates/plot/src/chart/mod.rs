@@ -1,0 +1,188 @@
+//! Charts: curves over an axis, as SVG and as text.
+
+mod canvas;
+mod labels;
+mod legend;
+mod naming;
+mod svg;
+mod text;
+
+/// A chart in the units of its labels.
+///
+/// Values that are not finite are gaps; any other data are drawn, however many, constant or far apart.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_plot::{Chart, Series};
+///
+/// let chart = Chart {
+///     title: "Pad force".into(),
+///     x_label: "time (ms)".into(),
+///     y_label: "force (kN)".into(),
+///     series: vec![Series::new("exact", vec![(0.0, 0.0), (1.0, 38.4), (2.0, 31.0)])],
+///     ..Chart::default()
+/// };
+/// assert!(chart.svg()?.starts_with("<svg"));
+/// assert!(chart.text(80, 20).contains("force (kN)"));
+/// # Ok::<(), dashpot_plot::PlotError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Chart {
+    /// Heading.
+    pub title: String,
+    /// A remark below the heading; empty for none.
+    pub note: String,
+    /// Quantity and unit along the horizontal axis, as in `time (ms)`.
+    pub x_label: String,
+    /// Quantity and unit along the vertical axis, as in `force (kN)`.
+    pub y_label: String,
+    /// Curves; later ones are drawn over earlier ones.
+    pub series: Vec<Series>,
+    /// Points that carry a text.
+    pub markers: Vec<Marker>,
+    /// Limits and other constants.
+    pub lines: Vec<ReferenceLine>,
+}
+
+/// One curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// Name in the legend.
+    pub name: String,
+    /// Points (x, y) along the curve, in the units of the axes.
+    pub points: Vec<(f64, f64)>,
+    /// How the curve is drawn; `None` for the next colour and pattern in turn.
+    pub stroke: Option<Stroke>,
+}
+
+impl Series {
+    /// A curve in the next colour and pattern.
+    pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { name: name.into(), points, stroke: None }
+    }
+}
+
+/// Colour and pattern of a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stroke {
+    /// Number of the colour in the theme; after the last one they begin again.
+    pub colour: usize,
+    /// Pattern.
+    pub pattern: Pattern,
+}
+
+/// Pattern of a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Pattern {
+    /// A plain line.
+    Solid,
+    /// A broad pale line, on which another one of the same colour stays visible.
+    Broad,
+    /// A dashed line.
+    Dashed,
+    /// A dotted line.
+    Dotted,
+}
+
+/// A point that carries a text, such as a peak.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Marker {
+    /// Horizontal place, in the unit of the axis.
+    pub x: f64,
+    /// Vertical place, in the unit of the axis.
+    pub y: f64,
+    /// Text beside the point.
+    pub label: String,
+}
+
+/// A straight line across the chart, such as the thickness of a pad.
+///
+/// It widens the axes when it lies near the data; a line far away is named in the legend instead of squeezing the curves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReferenceLine {
+    /// Which way the line runs.
+    pub direction: Direction,
+    /// Where it crosses the axis, in the unit of that axis.
+    pub at: f64,
+    /// Text at the line.
+    pub label: String,
+}
+
+/// Which way a [`ReferenceLine`] runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// At one value of y, over all x.
+    Horizontal,
+    /// At one value of x, over all y.
+    Vertical,
+}
+
+impl Chart {
+    /// The stroke of the `index`-th curve.
+    fn stroke(&self, index: usize) -> Stroke {
+        let pattern = match index % 3 {
+            0 => Pattern::Solid,
+            1 => Pattern::Dashed,
+            _ => Pattern::Dotted,
+        };
+        self.series[index].stroke.unwrap_or(Stroke { colour: index, pattern })
+    }
+
+    /// Horizontal and vertical axis with about so many ticks each.
+    fn axes(&self, x_ticks: usize, y_ticks: usize) -> (crate::axis::Axis, crate::axis::Axis) {
+        let points = || self.series.iter().flat_map(|s| s.points.iter().copied());
+        let drawn = || points().filter(|(x, y)| x.is_finite() && y.is_finite());
+        let marked = || self.markers.iter().filter(|m| m.x.is_finite() && m.y.is_finite());
+        let xs = || drawn().map(|p| p.0).chain(marked().map(|m| m.x));
+        let ys = || drawn().map(|p| p.1).chain(marked().map(|m| m.y));
+        let x_lines = self.near_lines(Direction::Vertical, xs());
+        let y_lines = self.near_lines(Direction::Horizontal, ys());
+        let runs_on = self.series.iter().all(|s| s.points.is_sorted_by(|a, b| a.0 <= b.0));
+        let padded = !runs_on || !x_lines.is_empty();
+        (
+            crate::axis::Axis::over(xs().chain(x_lines.iter().copied()), padded, x_ticks),
+            crate::axis::Axis::over(ys().chain(y_lines.iter().copied()), true, y_ticks),
+        )
+    }
+
+    /// Places of the reference lines that do not blow the range of `values` up to more than twice its size.
+    fn near_lines(&self, direction: Direction, values: impl Iterator<Item = f64>) -> Vec<f64> {
+        let (low, high) =
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        let room = (high - low).max(low.abs()).max(high.abs());
+        let lines = self.lines.iter().filter(|l| l.direction == direction && l.at.is_finite());
+        lines
+            .map(|l| l.at)
+            .filter(|at| low > high || (low - room..=high + room).contains(at))
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(at: f64) -> ReferenceLine {
+        ReferenceLine { direction: Direction::Horizontal, at, label: "thickness".into() }
+    }
+
+    #[test]
+    fn a_near_limit_widens_the_axis_and_a_far_one_does_not() {
+        let series = vec![Series::new("pad", vec![(0.0, 0.0), (1.0, 17.5)])];
+        let near = Chart { series: series.clone(), lines: vec![line(20.0)], ..Chart::default() };
+        assert!(near.axes(5, 5).1.holds(20.0));
+        let far = Chart { series, lines: vec![line(2000.0)], ..Chart::default() };
+        assert!(!far.axes(5, 5).1.holds(2000.0));
+    }
+
+    #[test]
+    fn curves_without_a_stroke_differ_in_colour_and_pattern() {
+        let chart = Chart {
+            series: vec![Series::new("exact", vec![]), Series::new("bdf", vec![])],
+            ..Chart::default()
+        };
+        assert_eq!(chart.stroke(0).pattern, Pattern::Solid);
+        assert_eq!(chart.stroke(1), Stroke { colour: 1, pattern: Pattern::Dashed });
+    }
+}

@@ -1,0 +1,78 @@
+//! Which curve is which on a terminal without colours: a letter on each curve that runs by itself.
+
+use std::collections::BTreeSet;
+
+/// A character of the plot as (row, column).
+pub(super) type Place = (usize, usize);
+
+/// How a curve is told apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Tag {
+    /// It runs by itself, with a letter at this place if there is a free one.
+    Letter(char, Option<Place>),
+    /// It lies on the curve of this index.
+    On(usize),
+}
+
+/// Tags for curves that run through these places, in the order of the curves; after `z` the letters begin again.
+pub(super) fn tags(curves: &[Vec<Place>]) -> Vec<Tag> {
+    let sets: Vec<BTreeSet<Place>> = curves.iter().map(|c| c.iter().copied().collect()).collect();
+    let mut hosts: Vec<Option<usize>> = Vec::with_capacity(curves.len());
+    for (index, set) in sets.iter().enumerate() {
+        let host = (0..index).find(|i| hosts[*i].is_none() && lies_on(set, &sets[*i]));
+        hosts.push(host);
+    }
+    let apart = hosts.iter().filter(|host| host.is_none()).count();
+    let mut letters = ('a'..='z').cycle();
+    let mut turn = 0;
+    let mut tag = |index: usize| {
+        if let Some(host) = hosts[index] {
+            return Tag::On(host);
+        }
+        let letter = letters.next().unwrap_or('a');
+        turn += 1;
+        let free = |place: &Place| {
+            let others = (0..curves.len()).filter(|i| *i != index && hosts[*i] != Some(index));
+            others.into_iter().all(|i| !sets[i].contains(place))
+        };
+        let wish = turn * curves[index].len() / (apart + 1);
+        let spot = curves[index].iter().enumerate().filter(|(_, place)| free(place));
+        let spot = spot.min_by_key(|(at, _)| at.abs_diff(wish)).map(|(_, place)| *place);
+        Tag::Letter(letter, spot)
+    };
+    (0..curves.len()).map(&mut tag).collect()
+}
+
+/// Whether all but a few places of a curve are places of the other one or next to one.
+fn lies_on(curve: &BTreeSet<Place>, other: &BTreeSet<Place>) -> bool {
+    let near = |(row, column): &Place| {
+        (row.saturating_sub(1)..=row + 1)
+            .any(|r| (column.saturating_sub(1)..=column + 1).any(|c| other.contains(&(r, c))))
+    };
+    let off = curve.iter().filter(|place| !near(place)).count();
+    !curve.is_empty() && off * 50 <= curve.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_on_another_one_is_said_to_be_there() {
+        let line: Vec<Place> = (0..40).map(|c| (c / 4, c)).collect();
+        let beside: Vec<Place> = line.iter().map(|(r, c)| (r + 1, *c)).collect();
+        let far: Vec<Place> = line.iter().map(|(r, c)| (r + 5, *c)).collect();
+        let tags = tags(&[line.clone(), beside, far.clone()]);
+        assert_eq!(tags[1], Tag::On(0));
+        let (Tag::Letter('a', Some(a)), Tag::Letter('b', Some(b))) = (tags[0], tags[2]) else {
+            panic!("{tags:?}");
+        };
+        assert!(line.contains(&a) && !far.contains(&a));
+        assert!(far.contains(&b) && !line.contains(&b));
+    }
+
+    #[test]
+    fn empty_curves_have_a_letter_without_a_place() {
+        assert_eq!(tags(&[vec![], vec![]])[1], Tag::Letter('b', None));
+    }
+}

@@ -1,0 +1,387 @@
+//! A chart as SVG, through plotters' SVG back-end.
+
+use plotters::element::{Circle, Text};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, FontTransform};
+
+use super::canvas::{
+    Area, Fault, canvas, dashes, layer, line, opening, path, pen, pixels, text_style,
+};
+use super::legend::{Entry, Legend, Sample};
+use super::{Chart, Direction, ReferenceLine, Stroke, labels};
+use crate::PlotError;
+use crate::axis::Axis;
+use crate::lettering::{clip_width, escape, one_line, text_width};
+use crate::theme;
+use crate::thinning::{Path, stretches, thin};
+
+/// Distance of a text from its point from which on a line joins the two \[px\].
+const LEADER: f64 = 22.0;
+
+/// Both ends of a straight line \[px\].
+type Ends = [(f64, f64); 2];
+type Drawn = Result<(), Fault>;
+
+/// The plotting frame and its axes \[px\].
+struct Frame {
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+    x: Axis,
+    y: Axis,
+}
+
+impl Frame {
+    fn at(&self, x: f64, y: f64) -> (f64, f64) {
+        (
+            self.left + self.x.fraction(x) * (self.right - self.left),
+            self.bottom - self.y.fraction(y) * (self.bottom - self.top),
+        )
+    }
+}
+
+impl Chart {
+    /// The chart as one SVG element, 760 pixels wide, without any outer resource.
+    ///
+    /// # Errors
+    ///
+    /// [`PlotError::Backend`] when the drawing back-end refuses a shape.
+    pub fn svg(&self) -> Result<String, PlotError> {
+        self.draw().map_err(|fault| PlotError::Backend {
+            title: self.title.clone(),
+            reason: fault.to_string(),
+        })
+    }
+
+    fn draw(&self) -> Result<String, Fault> {
+        let (x, y) = self.axes(theme::X_TICKS, theme::Y_TICKS);
+        let widest_tick = y
+            .ticks()
+            .iter()
+            .map(|t| text_width(&y.tick_label(*t), theme::TICK_SIZE))
+            .fold(0.0_f64, f64::max);
+        let left = theme::MARGIN + 1.5 * theme::LABEL_SIZE + widest_tick + 12.0;
+        let right = theme::CHART_WIDTH - theme::MARGIN - 8.0;
+        let legend = Legend::new(self.entries(&x, &y), right - left);
+        let note_height = if self.note.is_empty() { 0.0 } else { 1.4 * theme::TICK_SIZE };
+        let heading = theme::MARGIN + 1.5 * theme::TITLE_SIZE + note_height;
+        let top = heading + legend.height() + 10.0;
+        let frame = Frame { left, right, top, bottom: top + theme::FRAME_HEIGHT, x, y };
+        let size =
+            (theme::CHART_WIDTH, frame.bottom + 2.6 * theme::LABEL_SIZE + theme::MARGIN + 8.0);
+
+        let curves: Vec<Vec<Path>> = self.series.iter().map(|s| curve(&frame, &s.points)).collect();
+        let mut svg = opening(size, &self.title);
+        svg += &layer(size, "class=\"axes\"", |area| self.draw_axes(area, &frame))?;
+        svg += &layer(size, "class=\"limits\" stroke-dasharray=\"70 50\"", |area| {
+            self.draw_lines(area, &frame)
+        })?;
+        for (index, paths) in curves.iter().enumerate() {
+            let stroke = self.stroke(index);
+            let attributes = format!(
+                "class=\"series\" data-name=\"{}\" stroke-linejoin=\"round\"{}",
+                escape(&self.series[index].name),
+                dashes(stroke.pattern)
+            );
+            svg += &layer(size, &attributes, |area| draw_curve(area, paths, stroke))?;
+        }
+        for entry in legend.entries() {
+            let dashes = match entry.sample {
+                Sample::Curve(stroke) => dashes(stroke.pattern),
+                Sample::Line => " stroke-dasharray=\"70 50\"",
+            };
+            let attributes = format!("class=\"sample\"{dashes}");
+            svg += &layer(size, &attributes, |area| draw_sample(area, entry, (left, heading)))?;
+        }
+        let halo = format!(
+            "class=\"labels\" stroke=\"{}\" stroke-width=\"35\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
+            theme::PAPER.hex()
+        );
+        svg += &layer(size, &halo, |area| self.draw_labels(area, &frame, &curves))?;
+        svg += "</svg>\n";
+        Ok(svg)
+    }
+
+    fn entries(&self, x: &Axis, y: &Axis) -> Vec<(Sample, String)> {
+        let curves = self.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty());
+        let curves = curves.map(|(i, s)| (Sample::Curve(self.stroke(i)), one_line(&s.name)));
+        let far = self.lines.iter().filter(|line| match line.direction {
+            Direction::Horizontal => !y.holds(line.at),
+            Direction::Vertical => !x.holds(line.at),
+        });
+        curves
+            .chain(far.map(|l| (Sample::Line, format!("{} (off the axis)", one_line(&l.label)))))
+            .collect()
+    }
+
+    fn draw_axes(&self, area: &Area<'_>, frame: &Frame) -> Drawn {
+        let Frame { left, right, top, bottom, .. } = *frame;
+        let grid = line(theme::GRID, theme::HAIR_WIDTH);
+        let tick = |pos| text_style(theme::TICK_SIZE, theme::INK, pos);
+        for value in frame.x.ticks() {
+            let (at, _) = frame.at(*value, 0.0);
+            area.draw(&path(&[(at, top), (at, bottom)], grid))?;
+            let style = tick(Pos::new(HPos::Center, VPos::Top));
+            area.draw(&Text::new(frame.x.tick_label(*value), canvas((at, bottom + 7.0)), style))?;
+        }
+        for value in frame.y.ticks() {
+            let at = bottom - frame.y.fraction(*value) * (bottom - top);
+            area.draw(&path(&[(left, at), (right, at)], grid))?;
+            let style = tick(Pos::new(HPos::Right, VPos::Center));
+            area.draw(&Text::new(frame.y.tick_label(*value), canvas((left - 7.0, at)), style))?;
+        }
+        let (x_zero, y_zero) = frame.at(0.0, 0.0);
+        if frame.x.holds(0.0) {
+            let ends = [(x_zero, top), (x_zero, bottom)];
+            area.draw(&path(&ends, line(theme::FAINT, theme::HAIR_WIDTH)))?;
+        }
+        if frame.y.holds(0.0) {
+            let ends = [(left, y_zero), (right, y_zero)];
+            area.draw(&path(&ends, line(theme::FAINT, theme::HAIR_WIDTH)))?;
+        }
+        let border = [(left, top), (left, bottom), (right, bottom)];
+        area.draw(&path(&border, line(theme::INK, theme::LINE_WIDTH)))?;
+        self.draw_headings(area, frame)
+    }
+
+    fn draw_headings(&self, area: &Area<'_>, frame: &Frame) -> Drawn {
+        let Frame { left, right, top, bottom, .. } = *frame;
+        let width = theme::CHART_WIDTH - 2.0 * theme::MARGIN;
+        let text = |text: &str, size: f64, room: f64| clip_width(&one_line(text), size, room);
+
+        let corner = Pos::new(HPos::Left, VPos::Top);
+        let title = text_style(theme::TITLE_SIZE, theme::INK, corner);
+        let at = canvas((left, theme::MARGIN));
+        area.draw(&Text::new(text(&self.title, theme::TITLE_SIZE, width - left), at, title))?;
+        let note = text_style(theme::TICK_SIZE, theme::FAINT, corner);
+        let at = canvas((left, theme::MARGIN + 1.5 * theme::TITLE_SIZE));
+        area.draw(&Text::new(text(&self.note, theme::TICK_SIZE, width - left), at, note))?;
+
+        let x_label = text(&frame.x.title(&self.x_label), theme::LABEL_SIZE, right - left);
+        let below = text_style(theme::LABEL_SIZE, theme::INK, Pos::new(HPos::Center, VPos::Top));
+        let at = canvas((0.5 * (left + right), bottom + 13.0 + theme::TICK_SIZE));
+        area.draw(&Text::new(x_label, at, below))?;
+        let y_label = text(&frame.y.title(&self.y_label), theme::LABEL_SIZE, bottom - top);
+        let beside = text_style(theme::LABEL_SIZE, theme::INK, Pos::new(HPos::Center, VPos::Top))
+            .transform(FontTransform::Rotate270);
+        area.draw(&Text::new(y_label, canvas((theme::MARGIN, 0.5 * (top + bottom))), beside))
+    }
+
+    fn draw_lines(&self, area: &Area<'_>, frame: &Frame) -> Drawn {
+        for (_, ends) in self.limits(frame) {
+            area.draw(&path(&ends, line(theme::FAINT, theme::LINE_WIDTH)))?;
+        }
+        Ok(())
+    }
+
+    /// The reference lines on the axes, with their ends.
+    fn limits(&self, frame: &Frame) -> Vec<(&ReferenceLine, Ends)> {
+        let placed = self.lines.iter().filter_map(|limit| {
+            let (x, y) = frame.at(limit.at, limit.at);
+            let ends = match limit.direction {
+                Direction::Horizontal if frame.y.holds(limit.at) => {
+                    [(frame.left, y), (frame.right, y)]
+                }
+                Direction::Vertical if frame.x.holds(limit.at) => {
+                    [(x, frame.top), (x, frame.bottom)]
+                }
+                _ => return None,
+            };
+            Some((limit, ends))
+        });
+        placed.collect()
+    }
+
+    fn draw_labels(&self, area: &Area<'_>, frame: &Frame, curves: &[Vec<Path>]) -> Drawn {
+        let bounds = labels::Area {
+            left: frame.left,
+            right: frame.right,
+            top: frame.top,
+            bottom: frame.bottom,
+        };
+        let mut placer = labels::Placer::new(bounds, curves);
+        let limits = self.limits(frame);
+        limits.iter().for_each(|(_, ends)| placer.avoid_path(ends));
+        for (limit, [start, _]) in limits {
+            let label = one_line(&limit.label);
+            let is_horizontal = limit.direction == Direction::Horizontal;
+            let at = if is_horizontal { start.1 } else { start.0 };
+            let anchor = placer.along(at, is_horizontal, &label, theme::TICK_SIZE);
+            let style =
+                text_style(theme::TICK_SIZE, theme::FAINT, Pos::new(HPos::Left, VPos::Center));
+            area.draw(&Text::new(label, canvas(anchor), style))?;
+        }
+        let marked = self.markers.iter().filter(|m| m.x.is_finite() && m.y.is_finite());
+        let marked: Vec<_> = marked.map(|m| (frame.at(m.x, m.y), one_line(&m.label))).collect();
+        for (point, _) in &marked {
+            placer.avoid(*point, theme::MARKER_RADIUS);
+        }
+        let texts: Vec<_> = marked
+            .iter()
+            .map(|(point, label)| placer.beside(*point, label, theme::TICK_SIZE))
+            .collect();
+        for ((point, label), anchor) in marked.iter().zip(&texts) {
+            let end = anchor.0 + text_width(label, theme::TICK_SIZE);
+            let touch = (point.0.clamp(anchor.0 + 4.0, end - 4.0), anchor.1);
+            if (touch.0 - point.0).hypot(touch.1 - point.1) > LEADER {
+                area.draw(&path(&[*point, touch], line(theme::FAINT, theme::HAIR_WIDTH)))?;
+            }
+        }
+        for ((point, label), anchor) in marked.into_iter().zip(texts) {
+            let radius = pixels(theme::MARKER_RADIUS);
+            area.draw(&Circle::new(canvas(point), radius, theme::INK.rgb().filled()))?;
+            let style =
+                text_style(theme::TICK_SIZE, theme::INK, Pos::new(HPos::Left, VPos::Center));
+            area.draw(&Text::new(label, canvas(anchor), style))?;
+        }
+        Ok(())
+    }
+}
+
+/// The stretches of a curve on the display, thinned to what can be seen.
+fn curve(frame: &Frame, points: &[(f64, f64)]) -> Vec<Path> {
+    let gap_or = |v: f64, place: f64| if v.is_finite() { place } else { f64::NAN };
+    let placed = points.iter().map(|&(x, y)| {
+        let at = frame.at(x, y);
+        (gap_or(x, at.0), gap_or(y, at.1))
+    });
+    stretches(placed).iter().map(|stretch| thin(stretch, 0.5)).collect()
+}
+
+fn draw_curve(area: &Area<'_>, paths: &[Path], stroke: Stroke) -> Drawn {
+    let colour = theme::curve_colour(stroke.colour);
+    for points in paths {
+        if let [point] = points[..] {
+            let radius = pixels(0.6 * theme::MARKER_RADIUS);
+            area.draw(&Circle::new(canvas(point), radius, colour.rgb().filled()))?;
+        } else {
+            area.draw(&path(points, pen(stroke)))?;
+        }
+    }
+    Ok(())
+}
+
+fn draw_sample(area: &Area<'_>, entry: &Entry, origin: (f64, f64)) -> Drawn {
+    let pen = match entry.sample {
+        Sample::Curve(stroke) => pen(stroke),
+        Sample::Line => line(theme::FAINT, theme::LINE_WIDTH),
+    };
+    let (x, y) = (origin.0 + entry.x, origin.1 + entry.y);
+    area.draw(&path(&[(x, y), (x + Legend::SAMPLE, y)], pen))?;
+    let style = text_style(theme::TICK_SIZE, theme::INK, Pos::new(HPos::Left, VPos::Center));
+    area.draw(&Text::new(entry.text.clone(), canvas((x + Legend::SAMPLE + 6.0, y)), style))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::well_formed::assert_well_formed;
+    use crate::{Marker, Series};
+
+    fn chart(points: Vec<(f64, f64)>) -> Chart {
+        Chart {
+            title: "Köpfe <&>".into(),
+            x_label: "time (ms)".into(),
+            y_label: "force (kN)".into(),
+            series: vec![Series::new("exact", points.clone()), Series::new("bdf", points)],
+            ..Chart::default()
+        }
+    }
+
+    /// The coordinates of every polyline in a curve's group.
+    fn drawn(svg: &str, name: &str) -> Vec<Vec<(f64, f64)>> {
+        let group =
+            svg.split("<g ").find(|g| g.contains(&format!("data-name=\"{name}\""))).unwrap();
+        let lists = group.split("points=\"").skip(1).map(|rest| rest.split('"').next().unwrap());
+        let point = |pair: &str| {
+            let (x, y) = pair.split_once(',').unwrap();
+            (x.parse().unwrap(), y.parse().unwrap())
+        };
+        lists.map(|list| list.split_whitespace().map(point).collect()).collect()
+    }
+
+    #[test]
+    fn both_of_two_equal_curves_are_drawn_and_the_second_is_dashed() {
+        let svg = chart(vec![(0.0, 0.0), (1.0, 38.4), (2.0, -9.7)]).svg().unwrap();
+        assert_well_formed(&svg);
+        assert_eq!(drawn(&svg, "exact"), drawn(&svg, "bdf"));
+        let groups: Vec<&str> = svg.split("<g ").filter(|g| g.contains("data-name")).collect();
+        assert!(!groups[0].contains("stroke-dasharray") && groups[1].contains("stroke-dasharray"));
+        for text in ["time (ms)", "force (kN)", "Köpfe &lt;&amp;&gt;", "exact", "bdf", "−10"] {
+            assert!(svg.contains(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn drawn_points_are_the_data_on_a_linear_scale() {
+        let data = [(0.0, 0.0), (1.0, 38.4), (2.0, 10.0)];
+        let svg = chart(data.to_vec()).svg().unwrap();
+        let points = drawn(&svg, "exact").remove(0);
+        let slope = (points[1].1 - points[0].1) / 38.4;
+        assert!((points[2].1 - points[0].1 - slope * 10.0).abs() <= 1.0, "{points:?}");
+        assert!((points[1].0 - 0.5 * (points[0].0 + points[2].0)).abs() <= 1.0, "{points:?}");
+    }
+
+    #[test]
+    fn a_long_signal_keeps_its_extremes_in_a_small_file() {
+        let mut points: Vec<(f64, f64)> = (0..200_000).map(|i| (f64::from(i), 0.0)).collect();
+        points[123_456].1 = 7.0;
+        points[123_457].1 = -3.0;
+        let svg = chart(points).svg().unwrap();
+        assert!(svg.len() < 300_000, "{}", svg.len());
+        let curve = drawn(&svg, "exact").remove(0);
+        let heights: Vec<f64> = curve.iter().map(|p| p.1).collect();
+        let (top, bottom) =
+            heights.iter().fold((f64::MAX, 0.0_f64), |(l, h), y| (l.min(*y), h.max(*y)));
+        let zero = heights[0];
+        assert!(((zero - top) * 3.0 - (bottom - zero) * 7.0).abs() < 12.0, "{top} {zero} {bottom}");
+    }
+
+    #[test]
+    fn values_that_are_not_finite_leave_gaps() {
+        let points = vec![(0.0, 0.0), (1.0, 1.0), (2.0, f64::NAN), (3.0, 1.0), (4.0, 0.0)];
+        let svg = chart(points).svg().unwrap();
+        assert_eq!(drawn(&svg, "exact").len(), 2);
+        assert!(!svg.contains("NaN"));
+    }
+
+    #[test]
+    fn any_data_give_a_well_formed_drawing() {
+        let hard = [
+            vec![],
+            vec![(0.0, 0.0)],
+            vec![(f64::NAN, f64::NAN)],
+            vec![(1.0, 5.0), (2.0, 5.0)],
+            vec![(-f64::MAX, f64::MAX), (f64::MAX, -f64::MAX)],
+            vec![(0.0, 1e-320), (1e-320, 0.0)],
+        ];
+        for points in hard {
+            let mut chart = chart(points);
+            chart.markers.push(Marker { x: f64::NAN, y: 1.0, label: "nowhere".into() });
+            chart.lines.push(ReferenceLine {
+                direction: Direction::Vertical,
+                at: f64::INFINITY,
+                label: "never".into(),
+            });
+            assert_well_formed(&chart.svg().unwrap());
+        }
+    }
+
+    #[test]
+    fn limits_and_markers_carry_their_labels() {
+        let mut chart = chart(vec![(0.0, 0.0), (1.0, 17.5)]);
+        chart.markers.push(Marker { x: 1.0, y: 17.5, label: "deepest 17.5 mm".into() });
+        let limit = |at, label: &str| ReferenceLine {
+            direction: Direction::Horizontal,
+            at,
+            label: label.into(),
+        };
+        chart.lines.extend([limit(20.0, "thickness 20 mm"), limit(500.0, "ceiling")]);
+        let svg = chart.svg().unwrap();
+        for text in ["deepest 17.5 mm", "thickness 20 mm", "ceiling (off the axis)"] {
+            assert!(svg.contains(text), "{text}");
+        }
+        assert_eq!(svg.matches("<circle").count(), 1);
+    }
+}

@@ -1,0 +1,279 @@
+//! A chart as text for a terminal, with curves in braille dots.
+
+use super::naming::{Place, Tag, tags};
+use super::{Chart, Direction};
+use crate::axis::Axis;
+use crate::lettering::{clip_columns, columns, one_line};
+
+/// Dots of a braille character at (column, row from the top), as bits above U+2800.
+const DOTS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
+
+/// What stands in one character of the plot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Cell {
+    Dots(u32),
+    Char(char),
+}
+
+impl Chart {
+    /// The chart as lines of at most `width` columns; the plot itself has `height` lines, the frame, title, axis
+    /// labels and legend come to it. Sizes below 30 × 4 are raised to that.
+    pub fn text(&self, width: usize, height: usize) -> String {
+        let (width, height) = (width.max(30), height.max(4));
+        let (x, y) = self.axes(width / 12, height / 3);
+        let ticks: Vec<(usize, String)> =
+            y.ticks().iter().map(|t| (row(&y, *t, height), y.tick_label(*t))).collect();
+        let margin = ticks.iter().map(|(_, label)| columns(label)).max().unwrap_or(0);
+        let wide = width - margin - 2;
+        let dots: Vec<_> =
+            self.series.iter().map(|s| dots(&s.points, &x, &y, 2 * wide, 4 * height)).collect();
+        let tags = tags(&dots.iter().map(|dots| places(dots)).collect::<Vec<_>>());
+        let cells = self.plot(&x, &y, &dots, &tags, (wide, height));
+
+        let mut lines = Vec::new();
+        for heading in [&self.title, &self.note, &y.title(&self.y_label)] {
+            if !heading.is_empty() {
+                lines.push(clip_columns(&one_line(heading), width));
+            }
+        }
+        for (index, cells) in cells.iter().enumerate() {
+            let label =
+                ticks.iter().find(|(row, _)| *row == index).map(|(_, label)| label.as_str());
+            let border = if label.is_some() { '┤' } else { '│' };
+            let plot: String = cells.iter().map(|cell| character(*cell)).collect();
+            lines
+                .push(format!("{:>margin$} {border}{plot}", label.unwrap_or("")).trim_end().into());
+        }
+        lines.extend(self.bottom(&x, margin, wide));
+        lines.extend(self.names(&tags, width));
+        lines.extend(self.remarks(&x, &y, width));
+        lines.join("\n") + "\n"
+    }
+
+    fn plot(
+        &self,
+        x: &Axis,
+        y: &Axis,
+        dots: &[Vec<(usize, usize)>],
+        tags: &[Tag],
+        (wide, height): (usize, usize),
+    ) -> Vec<Vec<Cell>> {
+        let mut cells = vec![vec![Cell::Dots(0); wide]; height];
+        for limit in &self.lines {
+            match limit.direction {
+                Direction::Horizontal if y.holds(limit.at) => {
+                    cells[row(y, limit.at, height)].fill(Cell::Char('┄'));
+                }
+                Direction::Vertical if x.holds(limit.at) => {
+                    let at = place(x.fraction(limit.at), wide);
+                    cells.iter_mut().for_each(|row| row[at] = Cell::Char('┆'));
+                }
+                _ => {}
+            }
+        }
+        for (column, row) in dots.iter().flatten() {
+            let cell = &mut cells[row / 4][column / 2];
+            let already = if let Cell::Dots(dots) = *cell { dots } else { 0 };
+            *cell = Cell::Dots(already | DOTS[column % 2][row % 4]);
+        }
+        let is_single = !tags.iter().any(|tag| matches!(tag, Tag::Letter('b', _)));
+        for tag in tags.iter().filter(|_| !is_single) {
+            if let Tag::Letter(letter, Some((row, column))) = *tag {
+                cells[row][column] = Cell::Char(letter);
+            }
+        }
+        for marker in self.markers.iter().filter(|m| m.x.is_finite() && m.y.is_finite()) {
+            cells[row(y, marker.y, height)][place(x.fraction(marker.x), wide)] = Cell::Char('●');
+        }
+        cells
+    }
+
+    /// The horizontal axis with its ticks and its label.
+    fn bottom(&self, x: &Axis, margin: usize, wide: usize) -> [String; 3] {
+        let mut axis = vec!['─'; wide];
+        let mut labels = String::new();
+        for tick in x.ticks() {
+            let at = place(x.fraction(*tick), wide);
+            axis[at] = '┬';
+            let label = x.tick_label(*tick);
+            let start = (margin + 2 + at).saturating_sub(columns(&label) / 2);
+            let start = start.min((margin + 2 + wide).saturating_sub(columns(&label)));
+            if labels.is_empty() || start > columns(&labels) {
+                labels.extend(std::iter::repeat_n(' ', start.saturating_sub(columns(&labels))));
+                labels += &label;
+            }
+        }
+        let label = clip_columns(&one_line(&x.title(&self.x_label)), wide);
+        let indent = margin + 2 + (wide - columns(&label)) / 2;
+        let axis: String = axis.into_iter().collect();
+        [format!("{:margin$} └{axis}", ""), labels, format!("{:indent$}{label}", "")]
+    }
+
+    /// The curves' names with their letters, in lines.
+    fn names(&self, tags: &[Tag], width: usize) -> Vec<String> {
+        let letter = |index: usize| match tags[index] {
+            Tag::Letter(letter, _) => letter,
+            Tag::On(_) => ' ',
+        };
+        let is_single = !tags.iter().any(|tag| matches!(tag, Tag::Letter('b', _)));
+        let mut lines: Vec<String> = Vec::new();
+        for (index, series) in self.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty()) {
+            let name = one_line(&series.name);
+            let entry = match tags[index] {
+                Tag::Letter(..) if is_single => format!("  {name}"),
+                Tag::Letter(letter, _) => format!("  {letter} {name}"),
+                Tag::On(_) if is_single => format!("  {name} (on it)"),
+                Tag::On(host) => format!("  {name} (on {})", letter(host)),
+            };
+            match lines.last_mut() {
+                Some(line) if columns(line) + columns(&entry) <= width => *line += &entry,
+                _ => lines.push(clip_columns(&entry, width)),
+            }
+        }
+        lines
+    }
+
+    /// Limits and markers, one a line.
+    fn remarks(&self, x: &Axis, y: &Axis, width: usize) -> Vec<String> {
+        let mut lines = Vec::new();
+        for line in &self.lines {
+            let (on_axis, dash) = match line.direction {
+                Direction::Horizontal => (y.holds(line.at), '┄'),
+                Direction::Vertical => (x.holds(line.at), '┆'),
+            };
+            let remark = if on_axis { "" } else { " (off the axis)" };
+            lines.push(format!("  {dash} {}{remark}", one_line(&line.label)));
+        }
+        lines.extend(self.markers.iter().map(|marker| format!("  ● {}", one_line(&marker.label))));
+        lines.iter().map(|line| clip_columns(line, width)).collect()
+    }
+}
+
+/// The characters in which a curve's dots lie, in its order.
+fn places(dots: &[(usize, usize)]) -> Vec<Place> {
+    let mut places: Vec<Place> = dots.iter().map(|(column, row)| (row / 4, column / 2)).collect();
+    places.dedup();
+    places
+}
+
+fn character(cell: Cell) -> char {
+    match cell {
+        Cell::Dots(0) => ' ',
+        Cell::Dots(dots) => char::from_u32(0x2800 + dots).unwrap_or(' '),
+        Cell::Char(c) => c,
+    }
+}
+
+/// All dots on the straight lines between neighbouring points; points that are not finite leave a gap.
+fn dots(
+    points: &[(f64, f64)],
+    x: &Axis,
+    y: &Axis,
+    wide: usize,
+    high: usize,
+) -> Vec<(usize, usize)> {
+    let at = |p: (f64, f64)| (x.fraction(p.0), 1.0 - y.fraction(p.1));
+    let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
+    let mut dots: Vec<(usize, usize)> = Vec::new();
+    for (i, point) in points.iter().enumerate().filter(|(_, p)| finite(p)) {
+        let end = at(*point);
+        let start = i.checked_sub(1).map(|i| points[i]).filter(finite).map_or(end, at);
+        let stride = lossless(wide).recip().min(lossless(high).recip());
+        let steps =
+            1.0_f64.max(((end.0 - start.0).abs().max((end.1 - start.1).abs()) / stride).ceil());
+        let mut step = 0.0;
+        while step <= steps {
+            let part = step / steps;
+            let dot = (
+                place(start.0 + part * (end.0 - start.0), wide),
+                place(start.1 + part * (end.1 - start.1), high),
+            );
+            if dots.last() != Some(&dot) {
+                dots.push(dot);
+            }
+            step += 1.0;
+        }
+    }
+    dots
+}
+
+fn row(y: &Axis, value: f64, height: usize) -> usize {
+    place(1.0 - y.fraction(value), height)
+}
+
+/// The one of `count` equal parts of 0…1 in which `fraction` lies, kept within them.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the value is clamped to 0…count before"
+)]
+fn place(fraction: f64, count: usize) -> usize {
+    ((fraction.clamp(0.0, 1.0) * lossless(count)) as usize).min(count - 1)
+}
+
+#[expect(clippy::cast_precision_loss, reason = "terminals are far narrower than 2^52 columns")]
+fn lossless(count: usize) -> f64 {
+    count as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Marker, ReferenceLine, Series};
+
+    fn chart(points: Vec<(f64, f64)>) -> Chart {
+        Chart {
+            title: "Köpfe".into(),
+            x_label: "time (ms)".into(),
+            y_label: "force (kN)".into(),
+            series: vec![Series::new("頭部", points)],
+            markers: vec![Marker { x: 1.0, y: 38.0, label: "peak".into() }],
+            lines: vec![ReferenceLine {
+                direction: Direction::Horizontal,
+                at: 20.0,
+                label: "limit".into(),
+            }],
+            ..Chart::default()
+        }
+    }
+
+    #[test]
+    fn lines_keep_the_width_and_carry_labels_and_markers() {
+        let points = (0..500).map(|i| f64::from(i) * 0.04).map(|t| (t, 38.0 * t * (1.0 - t).exp()));
+        let text = chart(points.collect()).text(80, 16);
+        assert!(text.lines().all(|line| columns(line) <= 80), "{text}");
+        for part in ["Köpfe", "time (ms)", "force (kN)", "頭部", "● peak", "┄ limit", "20"] {
+            assert!(text.contains(part), "{part} in\n{text}");
+        }
+    }
+
+    #[test]
+    fn any_data_give_a_plot_of_the_asked_height() {
+        let hard = [
+            vec![],
+            vec![(0.0, 0.0)],
+            vec![(0.0, f64::NAN), (1.0, f64::INFINITY)],
+            vec![(-f64::MAX, -f64::MAX), (f64::MAX, f64::MAX)],
+            vec![(0.0, 5.0), (1.0, 5.0)],
+        ];
+        for points in hard {
+            let chart = Chart {
+                y_label: "force (N)".into(),
+                series: vec![Series::new("", points)],
+                ..Chart::default()
+            };
+            let text = chart.text(40, 8);
+            assert_eq!(text.lines().count(), 1 + 8 + 3, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_rising_line_goes_from_the_lower_left_to_the_upper_right() {
+        let x = Axis::over([0.0, 1.0].into_iter(), false, 4);
+        let dots = dots(&[(0.0, 0.0), (1.0, 1.0)], &x, &x, 20, 12);
+        assert_eq!((dots.first(), dots.last()), (Some(&(0, 11)), Some(&(19, 0))));
+        assert!(
+            dots.windows(2).all(|d| d[0].0.abs_diff(d[1].0) <= 1 && d[0].1.abs_diff(d[1].1) <= 1)
+        );
+    }
+}

@@ -1,0 +1,82 @@
+//! Units in which people read an impact.
+
+/// A unit on an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Unit {
+    /// SI value of one unit.
+    pub(super) factor: f64,
+    symbol: &'static str,
+    /// Smallest magnitude \[SI\] that is read in this unit.
+    from: f64,
+}
+
+const fn unit(symbol: &'static str, factor: f64, from: f64) -> Unit {
+    Unit { factor, symbol, from }
+}
+
+// Descending; the second one is the usual one in an impact.
+const TIME: [Unit; 3] = [unit("s", 1.0, 2.0), unit("ms", 1e-3, 5e-4), unit("µs", 1e-6, 0.0)];
+const LENGTH: [Unit; 3] = [unit("m", 1.0, 2.0), unit("mm", 1e-3, 1e-4), unit("µm", 1e-6, 0.0)];
+const FORCE: [Unit; 4] =
+    [unit("MN", 1e6, 5e6), unit("kN", 1e3, 5e2), unit("N", 1.0, 0.5), unit("mN", 1e-3, 0.0)];
+const ENERGY: [Unit; 3] = [unit("kJ", 1e3, 1e4), unit("J", 1.0, 0.5), unit("mJ", 1e-3, 0.0)];
+
+impl Unit {
+    /// Unit for times \[s\].
+    pub(super) fn time(values: impl Iterator<Item = f64>) -> Self {
+        fitting(&TIME, values)
+    }
+
+    /// Unit for lengths \[m\].
+    pub(super) fn length(values: impl Iterator<Item = f64>) -> Self {
+        fitting(&LENGTH, values)
+    }
+
+    /// Unit for forces \[N\].
+    pub(super) fn force(values: impl Iterator<Item = f64>) -> Self {
+        fitting(&FORCE, values)
+    }
+
+    /// Unit for energies \[J\].
+    pub(super) fn energy(values: impl Iterator<Item = f64>) -> Self {
+        fitting(&ENERGY, values)
+    }
+
+    /// `quantity (unit)`.
+    pub(super) fn label(self, quantity: &str) -> String {
+        format!("{quantity} ({})", self.symbol)
+    }
+
+    /// A value \[SI\] with three figures or more and this unit, as in `20 mm`.
+    pub(super) fn print(self, value: f64) -> String {
+        let rounded = (value / self.factor * 1e3).round() / 1e3;
+        format!("{rounded} {}", self.symbol)
+    }
+}
+
+fn fitting(units: &[Unit], values: impl Iterator<Item = f64>) -> Unit {
+    let largest = values.map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let usual = units[1];
+    if largest > 0.0 { *units.iter().find(|u| largest >= u.from).unwrap_or(&usual) } else { usual }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn impacts_are_read_in_milliseconds_millimetres_and_kilonewtons() {
+        assert_eq!(Unit::time([0.0, 0.02].into_iter()).label("time"), "time (ms)");
+        assert_eq!(Unit::length([-0.0175].into_iter()).label("deformation"), "deformation (mm)");
+        assert_eq!(Unit::force([38_400.0, f64::NAN].into_iter()).label("force"), "force (kN)");
+        assert_eq!(Unit::energy([500.0].into_iter()).label("energy"), "energy (J)");
+    }
+
+    #[test]
+    fn other_magnitudes_get_units_of_their_own_and_zero_the_usual_one() {
+        assert_eq!(Unit::force([12.0].into_iter()).label("force"), "force (N)");
+        assert_eq!(Unit::time([100.0].into_iter()).label("time"), "time (s)");
+        assert_eq!(Unit::length(std::iter::empty()).label("y"), "y (mm)");
+        assert_eq!(Unit::length([0.02].into_iter()).print(0.02), "20 mm");
+    }
+}

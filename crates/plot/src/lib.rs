@@ -1,0 +1,26 @@
+//! Charts, network drawings and reports of dashpot, from plain numbers and texts to SVG, HTML and terminal text.
+//!
+//! - [`Chart`]: curves with markers and limits, as [SVG](Chart::svg) and as [text](Chart::text).
+//! - [`figures`]: the register of figures that are drawn from the [`RunSeries`] of one or several runs.
+//! - [`Sketch`]: a network of masses, springs, dashpots and supports, as [SVG](Sketch::svg) and as [text](Sketch::text).
+//! - [`Report`]: one self-contained HTML page.
+//!
+//! Nothing here knows scenes, systems or solvers, reads files or prints: data in, text out.
+
+mod axis;
+mod chart;
+mod error;
+pub mod figures;
+mod lettering;
+mod report;
+mod sketch;
+mod theme;
+mod thinning;
+#[cfg(test)]
+mod well_formed;
+
+pub use chart::{Chart, Direction, Marker, Pattern, ReferenceLine, Series, Stroke};
+pub use error::PlotError;
+pub use figures::{ElementSeries, EnergySeries, Figure, RunMarker, RunMarkerKind, RunSeries};
+pub use report::{Report, ReportFigure, Table};
+pub use sketch::{Sketch, SketchKind, SketchLink, SketchNode, SketchTree};

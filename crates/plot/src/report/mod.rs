@@ -1,0 +1,232 @@
+//! Reports: one HTML page that holds everything a run says.
+
+use std::fmt::Write as _;
+
+use crate::lettering::escape;
+
+/// The style sheet; colours of the theme are turned for dark pages there.
+const STYLE: &str = include_str!("style.css");
+
+/// Everything a run says, as texts, tables and drawings.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_plot::{Report, Table};
+///
+/// let report = Report {
+///     title: "Head on a padded panel".into(),
+///     verdict: vec!["peak force 38.4 kN at 0.98 ms".into()],
+///     warnings: vec!["from 7.43 ms the padding pulls: separation is off".into()],
+///     tables: vec![Table {
+///         caption: "Measures".into(),
+///         header: vec!["measure".into(), "exact".into()],
+///         rows: vec![vec!["padding.peak-force".into(), "38.359".into()]],
+///     }],
+///     ..Report::default()
+/// };
+/// let page = report.html();
+/// assert!(page.starts_with("<!DOCTYPE html>"));
+/// assert!(page.find("pulls") < page.find("38.359"));
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Report {
+    /// Title of the page.
+    pub title: String,
+    /// What a reader must know before any number.
+    pub warnings: Vec<String>,
+    /// The answer in a few lines.
+    pub verdict: Vec<String>,
+    /// Results, such as measures and the energy ledger.
+    pub tables: Vec<Table>,
+    /// Drawings after the tables: the network first, then the figures.
+    pub figures: Vec<ReportFigure>,
+    /// How the results came about: methods, steps, times, resolved settings.
+    pub details: Vec<Table>,
+    /// The scene as it was read.
+    pub scene_text: String,
+}
+
+/// A table of texts.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Table {
+    /// Heading.
+    pub caption: String,
+    /// Column headings; empty for none.
+    pub header: Vec<String>,
+    /// Rows, which may be shorter than the header.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// A drawing with its caption.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ReportFigure {
+    /// Text below the drawing; empty for none.
+    pub caption: String,
+    /// SVG element as [`Chart::svg`](crate::Chart::svg) and [`Sketch::svg`](crate::Sketch::svg) write it. It is taken
+    /// over as it stands.
+    pub svg: String,
+}
+
+impl Report {
+    /// The report as one page without script and without any outer resource. All texts are escaped.
+    pub fn html(&self) -> String {
+        let title = escape(&self.title);
+        let mut page = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+             <meta name=\"color-scheme\" content=\"light dark\"/>\n\
+             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n"
+        );
+        page += &list("warnings", &self.warnings);
+        page += &list("verdict", &self.verdict);
+        self.tables.iter().for_each(|table| page += &table.html());
+        for figure in &self.figures {
+            let _ = write!(page, "<figure><div class=\"drawing\">\n{}</div>", figure.svg);
+            if !figure.caption.is_empty() {
+                let _ = write!(page, "<figcaption>{}</figcaption>", escape(&figure.caption));
+            }
+            page += "</figure>\n";
+        }
+        self.details.iter().for_each(|table| page += &table.html());
+        if !self.scene_text.is_empty() {
+            let _ = writeln!(
+                page,
+                "<section><h2>Scene</h2><pre>{}</pre></section>",
+                verbatim(&self.scene_text)
+            );
+        }
+        page += "</main>\n</body>\n</html>\n";
+        page
+    }
+}
+
+impl Table {
+    fn html(&self) -> String {
+        let columns = self.rows.iter().map(Vec::len).fold(self.header.len(), usize::max);
+        let classes: Vec<&str> = (0..columns)
+            .map(|c| if self.is_numeric(c) { " class=\"number\"" } else { "" })
+            .collect();
+        let row = |cells: &[String], tag: &str| {
+            let mut html = String::from("<tr>");
+            for (column, class) in classes.iter().enumerate() {
+                let text = escape(cells.get(column).map_or("", String::as_str));
+                let _ = write!(html, "<{tag}{class}>{text}</{tag}>");
+            }
+            html + "</tr>\n"
+        };
+        let mut html =
+            format!("<section><h2>{}</h2>\n<div class=\"table\"><table>\n", escape(&self.caption));
+        if !self.header.is_empty() {
+            let _ = writeln!(html, "<thead>{}</thead>", row(&self.header, "th"));
+        }
+        html += "<tbody>\n";
+        self.rows.iter().for_each(|cells| html += &row(cells, "td"));
+        html + "</tbody>\n</table></div></section>\n"
+    }
+
+    /// Whether a column holds numbers only, which are set to the right.
+    fn is_numeric(&self, column: usize) -> bool {
+        let mut cells = self
+            .rows
+            .iter()
+            .filter_map(|row| row.get(column))
+            .filter(|cell| !cell.is_empty())
+            .peekable();
+        let is_number = |cell: &String| {
+            let digits = cell.trim_start_matches(['-', '−', '+', '±', '<', '≤', ' ']);
+            digits.starts_with(|c: char| c.is_ascii_digit()) || matches!(cell.as_str(), "–" | "—")
+        };
+        cells.peek().is_some() && cells.all(is_number)
+    }
+}
+
+fn list(class: &str, lines: &[String]) -> String {
+    if lines.is_empty() {
+        return String::new();
+    }
+    let mut html = format!("<ul class=\"{class}\">\n");
+    for line in lines {
+        let _ = writeln!(html, "<li>{}</li>", escape(line));
+    }
+    html + "</ul>\n"
+}
+
+/// Escaped text that keeps its line breaks and tabs.
+fn verbatim(text: &str) -> String {
+    let lines: Vec<String> = text
+        .lines()
+        .map(|line| line.split('\t').map(escape).collect::<Vec<_>>().join("\t"))
+        .collect();
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::{FIGURES, tests::runs};
+    use crate::sketch::tests::tangled;
+    use crate::theme;
+    use crate::well_formed::assert_well_formed;
+
+    fn report() -> Report {
+        let row = |cells: &[&str]| cells.iter().map(|c| (*c).to_owned()).collect::<Vec<_>>();
+        let network = ReportFigure { caption: "Network".into(), svg: tangled().svg() };
+        let figures = FIGURES.iter().map(|figure| ReportFigure {
+            caption: figure.title().into(),
+            svg: figure.chart(&runs()).svg().unwrap(),
+        });
+        Report {
+            title: "Head <of 10 kg> & panel".into(),
+            warnings: vec!["from 7.43 ms the padding pulls: separation is off".into()],
+            verdict: row(&["peak force 38.4 kN at 0.98 ms, 391 g", "deepest 17.5 mm, 2.5 mm left"]),
+            tables: vec![Table {
+                caption: "Measures".into(),
+                header: row(&["measure", "unit", "time", "exact", "bdf", "difference"]),
+                rows: vec![
+                    row(&["padding.peak-force", "kN", "0.979 ms", "38.359", "38.360", "2.9e-6"]),
+                    row(&["padding.peak-deformation", "mm", "6.852 ms", "17.539", "17.538"]),
+                ],
+            }],
+            figures: std::iter::once(network).chain(figures).collect(),
+            details: vec![Table {
+                caption: "Settings".into(),
+                header: vec![],
+                rows: vec![row(&["run.duration", "20 ms"])],
+            }],
+            scene_text: "[nodes]\n\thead = { mass = \"10 kg\" } # <b>\n".into(),
+        }
+    }
+
+    #[test]
+    fn the_page_is_well_formed_and_self_contained() {
+        let page = report().html();
+        assert_well_formed(&page);
+        assert!(!page.contains("<script") && !page.contains("href") && !page.contains("src="));
+        let outer = page.replace("http://www.w3.org/2000/svg", "");
+        assert!(!outer.contains("http"), "an outer resource");
+        assert_eq!(page.matches("<svg").count(), 5);
+    }
+
+    #[test]
+    fn warnings_come_first_and_texts_are_escaped() {
+        let page = report().html();
+        assert!(page.find("padding pulls") < page.find("peak force"));
+        assert!(page.contains("Head &lt;of 10 kg&gt; &amp; panel"));
+        assert!(page.contains("\thead = { mass = &quot;10 kg&quot; } # &lt;b&gt;"));
+    }
+
+    #[test]
+    fn numbers_are_set_to_the_right_and_words_to_the_left() {
+        let table = &report().tables[0];
+        let numeric: Vec<bool> = (0..6).map(|c| table.is_numeric(c)).collect();
+        assert_eq!(numeric, [false, false, true, true, true, true]);
+    }
+
+    #[test]
+    fn the_style_sheet_turns_every_colour_of_the_theme() {
+        for colour in [theme::INK, theme::FAINT, theme::GRID, theme::PAPER, theme::FILL] {
+            assert!(STYLE.contains(&colour.hex()), "{}", colour.hex());
+        }
+    }
+}

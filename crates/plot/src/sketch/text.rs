@@ -1,0 +1,260 @@
+//! A network as text for a terminal.
+
+use std::fmt::Write as _;
+
+use super::blocks::Sizes;
+use super::grid::{Grid, centred};
+use super::layout::{Metrics, Placed, plan};
+use super::order::Extent;
+use super::{Sketch, SketchKind, SketchLink, SketchNode, SketchTree, list};
+use crate::lettering::{self, one_line};
+
+/// Elements or nodes beyond which a list is clearer.
+const MOST: usize = 30;
+
+impl Sketch {
+    /// The network as lines of at most `width` columns (80 is usual; at least 40).
+    ///
+    /// A chain that is too wide goes on in further rows; any other network that is too wide, and one of more than
+    /// 30 elements or nodes, becomes a list with counts.
+    pub fn text(&self, width: usize) -> String {
+        let width = width.max(40);
+        if self.nodes.is_empty() {
+            return String::from("no nodes\n");
+        }
+        if !self.is_drawable(MOST) {
+            return list::list(self, width);
+        }
+        self.rows(width).unwrap_or_else(|| list::list(self, width))
+    }
+
+    /// The drawing in one or, for a chain, several rows.
+    fn rows(&self, width: usize) -> Option<String> {
+        if let Some(drawing) = self.drawing(width) {
+            return Some(drawing);
+        }
+        let chain = self.chain()?;
+        let mut text = String::new();
+        let mut start = 0;
+        while start + 1 < chain.len() {
+            let row = |end: usize| self.section(&chain[start..=end]).drawing(width);
+            let (end, drawing) =
+                (start + 1..chain.len()).map_while(|end| Some((end, row(end)?))).last()?;
+            if start > 0 {
+                let name = one_line(&self.nodes[chain[start]].name);
+                let _ = writeln!(text, "\n… from {name} on:");
+            }
+            text += &drawing;
+            start = end;
+        }
+        Some(text)
+    }
+
+    /// The nodes from left to right when each is linked to the next one only.
+    fn chain(&self) -> Option<Vec<usize>> {
+        let count = self.nodes.len();
+        let next = |v: usize| {
+            let mut ahead: Vec<usize> =
+                self.links.iter().filter(|l| l.from == v && l.to < count).map(|l| l.to).collect();
+            ahead.dedup();
+            ahead
+        };
+        let mut at = (0..count).find(|v| self.links.iter().all(|l| l.to != *v))?;
+        let mut chain = vec![at];
+        while let [only] = next(at)[..] {
+            if chain.contains(&only) {
+                return None;
+            }
+            chain.push(only);
+            at = only;
+        }
+        (chain.len() == count && next(at).is_empty()).then_some(chain)
+    }
+
+    /// The sketch of some of the nodes.
+    fn section(&self, nodes: &[usize]) -> Self {
+        let place = |v: usize| nodes.iter().position(|n| *n == v);
+        let links = self.links.iter().filter_map(|link| {
+            Some(SketchLink { from: place(link.from)?, to: place(link.to)?, ..link.clone() })
+        });
+        Self {
+            nodes: nodes.iter().map(|v| self.nodes[*v].clone()).collect(),
+            links: links.collect(),
+        }
+    }
+
+    /// The drawing in one row, if it is not wider than `width`.
+    fn drawing(&self, width: usize) -> Option<String> {
+        let sizes = Sizes { leaf: &leaf_extent, gap: 1.0, rail: 1.0, wire: 1.0 };
+        let link_extent = |index: usize| {
+            let link = &self.links[index];
+            let tree = sizes.extent(&link.tree);
+            let is_named = if link.name.is_empty() { 0.0 } else { 1.0 };
+            Extent { width: tree.width.max(columns(&link.name)), up: tree.up + is_named, ..tree }
+        };
+        let metrics = Metrics {
+            node: &|index| node_extent(&self.nodes[index]),
+            link: &link_extent,
+            through: Extent { width: 1.0, up: 0.0, down: 0.0 },
+            gap: 1.0,
+            lead: 0.0,
+            track: 1.0,
+            wire: 1.0,
+        };
+        let plan = plan(self, &metrics);
+        if index_limit(width) < plan.width {
+            return None;
+        }
+        let mut grid = Grid::default();
+        for wire in &plan.wires {
+            wire.windows(2).for_each(|ends| grid.line(ends[0], ends[1]));
+        }
+        for placed in &plan.links {
+            let link = &self.links[placed.index];
+            let tree = sizes.extent(&link.tree);
+            let start = placed.x + (0.5 * (placed.extent.width - tree.width)).floor();
+            let right = placed.x + placed.extent.width - 1.0;
+            grid.line((placed.x, placed.y), (start, placed.y));
+            grid.line((start + tree.width - 1.0, placed.y), (right, placed.y));
+            sizes.draw(&link.tree, (start, placed.y), placed.reversed, &mut grid);
+            let name = one_line(&link.name);
+            let above = placed.y - placed.extent.up;
+            grid.text((centred(placed.x, placed.extent.width, &name), above), &name);
+        }
+        for placed in &plan.nodes {
+            draw_node(&mut grid, &self.nodes[placed.index], placed);
+        }
+        Some(grid.print())
+    }
+}
+
+fn draw_node(grid: &mut Grid, node: &SketchNode, placed: &Placed) {
+    let Extent { width, up, down } = placed.extent;
+    let top = placed.y - up;
+    match node.kind {
+        SketchKind::Mass | SketchKind::Prescribed => {
+            grid.frame((placed.x, top), (width, up + down + 1.0));
+        }
+        SketchKind::Fixed | SketchKind::Massless => {}
+    }
+    let mut row = match node.kind {
+        SketchKind::Mass | SketchKind::Prescribed => top + 1.0,
+        SketchKind::Fixed | SketchKind::Massless => placed.y,
+    };
+    for line in inscription(node, placed.wired.1) {
+        let start = match node.kind {
+            SketchKind::Fixed if placed.wired.1 => placed.x + width - columns(&line),
+            SketchKind::Fixed => placed.x,
+            _ => centred(placed.x, width, &line),
+        };
+        grid.text((start, row), &line);
+        row += 1.0;
+    }
+}
+
+/// What stands in a node, line by line.
+fn inscription(node: &SketchNode, is_left_end: bool) -> Vec<String> {
+    let name = one_line(&node.name);
+    let first = match node.kind {
+        SketchKind::Mass => name,
+        SketchKind::Prescribed => format!("↔ {name}"),
+        SketchKind::Massless => format!("({name})"),
+        SketchKind::Fixed if is_left_end => format!("{name} ▒"),
+        SketchKind::Fixed => format!("▒ {name}"),
+    };
+    std::iter::once(first).chain(node.lines.iter().map(|line| one_line(line))).collect()
+}
+
+fn node_extent(node: &SketchNode) -> Extent {
+    let lines = inscription(node, false);
+    let widest = lines.iter().map(|line| columns(line)).fold(0.0, f64::max);
+    let count = lines.iter().fold(0.0, |n, _| n + 1.0);
+    match node.kind {
+        SketchKind::Mass | SketchKind::Prescribed => {
+            let up = f64::midpoint(count, 1.0).floor();
+            Extent { width: widest + 2.0, up, down: count + 1.0 - up }
+        }
+        SketchKind::Fixed | SketchKind::Massless => {
+            Extent { width: widest, up: 0.0, down: count - 1.0 }
+        }
+    }
+}
+
+fn leaf_extent(leaf: &SketchTree) -> Extent {
+    let (symbol, label) = symbol(leaf);
+    let up = if label.is_empty() { 0.0 } else { 1.0 };
+    Extent { width: columns(&symbol).max(columns(label)) + 2.0, up, down: 0.0 }
+}
+
+/// Symbol of an element and the value above it.
+pub(super) fn symbol(leaf: &SketchTree) -> (String, &str) {
+    match leaf {
+        SketchTree::Spring { label } => (String::from("/\\/\\/\\"), label),
+        SketchTree::Dashpot { label } => (String::from("]="), label),
+        SketchTree::Other { word, label } => (format!("[{}]", one_line(word)), label),
+        SketchTree::Rigid => (String::from("═══"), ""),
+        SketchTree::Series(_) | SketchTree::Parallel(_) => (String::new(), ""),
+    }
+}
+
+/// Terminal columns of a text.
+pub(super) fn columns(text: &str) -> f64 {
+    index_limit(lettering::columns(text))
+}
+
+#[expect(clippy::cast_precision_loss, reason = "texts are far shorter than 2^52 columns")]
+fn index_limit(count: usize) -> f64 {
+    count as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sketch::tests::{chain, reference, tangled};
+
+    fn assert_narrow(text: &str, width: usize) {
+        for line in text.lines() {
+            assert!(lettering::columns(line) <= width, "{line:?} in\n{text}");
+        }
+    }
+
+    #[test]
+    fn the_reference_network_fits_80_columns() {
+        let text = reference().text(80);
+        assert_narrow(&text, 80);
+        for part in ["head", "10 m/s →", "padding", "6 kN s/m", "]=", "/\\/\\/\\", "▒ ground", "├"]
+        {
+            assert!(text.contains(part), "{part} in\n{text}");
+        }
+    }
+
+    #[test]
+    fn a_long_chain_goes_on_in_further_rows() {
+        let text = chain(12).text(80);
+        assert_narrow(&text, 80);
+        assert!(text.contains("… from m"), "{text}");
+        assert_eq!(text.matches("/\\/\\/\\").count(), 11, "{text}");
+    }
+
+    #[test]
+    fn any_graph_keeps_the_width() {
+        for width in [40, 60, 80, 200] {
+            let text = tangled().text(width);
+            assert_narrow(&text, width);
+            assert!(text.contains("Körper 頭"), "{text}");
+        }
+    }
+
+    #[test]
+    fn big_networks_become_a_list_with_counts() {
+        let text = chain(500).text(80);
+        assert_narrow(&text, 80);
+        assert!(text.contains("500 masses") && text.contains("499 springs"), "{text}");
+        assert!(text.lines().count() < 40, "{text}");
+    }
+
+    #[test]
+    fn an_empty_network_says_so() {
+        assert_eq!(Sketch::default().text(80), "no nodes\n");
+    }
+}

@@ -1,0 +1,108 @@
+//! Sizes, colours and fonts of every drawing: the one place that decides how things look.
+//!
+//! Lengths are display pixels. The colours of ink, paper, grid and fills are written as they stand here into the
+//! SVG, so that the report's style sheet can turn them for a dark page.
+
+use plotters::style::RGBColor;
+
+/// The back-end writes whole numbers: charts are drawn on a canvas this many times as large as shown.
+pub(crate) const OVERSAMPLING: f64 = 10.0;
+
+/// Width of a chart \[px\].
+pub(crate) const CHART_WIDTH: f64 = 760.0;
+/// Height of a chart's plotting frame \[px\].
+pub(crate) const FRAME_HEIGHT: f64 = 330.0;
+/// Empty border around a drawing \[px\].
+pub(crate) const MARGIN: f64 = 16.0;
+
+/// Generic family, so that no font has to be installed where the drawing is made.
+pub(crate) const FONT: &str = "sans-serif";
+/// Font size of titles \[px\].
+pub(crate) const TITLE_SIZE: f64 = 17.0;
+/// Font size of axis labels, legends and names \[px\].
+pub(crate) const LABEL_SIZE: f64 = 14.0;
+/// Font size of tick labels, notes and values \[px\].
+pub(crate) const TICK_SIZE: f64 = 13.0;
+
+/// Width of a curve \[px\].
+pub(crate) const CURVE_WIDTH: f64 = 2.2;
+/// Width of a curve on which another one is expected to lie \[px\].
+pub(crate) const BROAD_WIDTH: f64 = 6.0;
+/// Width of frames, symbols and wires \[px\].
+pub(crate) const LINE_WIDTH: f64 = 1.4;
+/// Width of grid lines \[px\].
+pub(crate) const HAIR_WIDTH: f64 = 0.8;
+/// Radius of a marker \[px\].
+pub(crate) const MARKER_RADIUS: f64 = 4.5;
+
+/// Number of tick marks aimed at on the horizontal axis.
+pub(crate) const X_TICKS: usize = 8;
+/// Number of tick marks aimed at on the vertical axis.
+pub(crate) const Y_TICKS: usize = 6;
+
+/// A colour as three bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Colour(pub(crate) u8, pub(crate) u8, pub(crate) u8);
+
+impl Colour {
+    /// The spelling in SVG and CSS, `#RRGGBB`, as the back-end writes it too.
+    pub(crate) fn hex(self) -> String {
+        format!("#{:02X}{:02X}{:02X}", self.0, self.1, self.2)
+    }
+
+    /// The back-end's type.
+    pub(crate) fn rgb(self) -> RGBColor {
+        RGBColor(self.0, self.1, self.2)
+    }
+}
+
+/// Lines and text.
+pub(crate) const INK: Colour = Colour(0x1F, 0x29, 0x33);
+/// Text of second rank and reference lines.
+pub(crate) const FAINT: Colour = Colour(0x5B, 0x67, 0x70);
+/// Grid lines.
+pub(crate) const GRID: Colour = Colour(0xDF, 0xE4, 0xE8);
+/// Background.
+pub(crate) const PAPER: Colour = Colour(0xFF, 0xFF, 0xFE);
+/// Filling of masses.
+pub(crate) const FILL: Colour = Colour(0xE9, 0xEE, 0xF3);
+
+/// Colours of curves that stay apart for colour-blind eyes and on light and dark pages
+/// (Okabe and Ito, Color Universal Design, 2008; without black and yellow).
+const PALETTE: [Colour; 7] = [
+    Colour(0x00, 0x72, 0xB2),
+    Colour(0xD5, 0x5E, 0x00),
+    Colour(0x00, 0x9E, 0x73),
+    Colour(0xCC, 0x79, 0xA7),
+    Colour(0xE6, 0x9F, 0x00),
+    Colour(0x56, 0xB4, 0xE9),
+    Colour(0x8C, 0x6D, 0x53),
+];
+
+/// Number of different curve colours.
+pub(crate) const COLOURS: usize = PALETTE.len();
+
+/// The `index`-th curve colour; after the last one they begin again.
+pub(crate) fn curve_colour(index: usize) -> Colour {
+    PALETTE[index % COLOURS]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_spelt_as_in_css() {
+        assert_eq!(INK.hex(), "#1F2933");
+    }
+
+    #[test]
+    fn curve_colours_differ_and_repeat() {
+        for i in 0..COLOURS {
+            for j in 0..i {
+                assert_ne!(curve_colour(i), curve_colour(j));
+            }
+        }
+        assert_eq!(curve_colour(COLOURS + 1), curve_colour(1));
+    }
+}
