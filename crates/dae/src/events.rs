@@ -4,6 +4,11 @@
 //! none is missed for lying between steps, and two in one step are two events. A [`Watch`] follows a
 //! run that comes step by step; [`scan`] looks at one that is there as a whole.
 //!
+//! A value that cannot be told from the level is neither above nor below it. With the exact method
+//! that is a matter of rounding; a method with a tolerance `rtol` does not tell apart what is closer
+//! than `rtol` times the largest value so far, so that its error makes no events of an output that
+//! decays to its level.
+//!
 //! What counts as a crossing is told by [`Signal::crossings`](crate::Signal::crossings): a guard
 //! that starts on its level, up to rounding, is armed by the way in which its output leaves the
 //! level, and does not fire there; an output that touches the level, or ends on it, does not cross

@@ -170,20 +170,18 @@ impl Dense for Pieces {
         }
         let mut rest = times.iter().zip(samples.chunks_exact_mut(self.size)).peekable();
         for (at, step) in self.steps.iter().enumerate() {
-            let next = self.steps.get(at + 1).map_or(f64::INFINITY, |next| next.origin + next.start);
+            let next =
+                self.steps.get(at + 1).map_or(f64::INFINITY, |next| next.origin + next.start);
             if rest.peek().is_none_or(|(time, _)| **time >= next) {
                 continue;
             }
-            let lagrange = self.lagrange(step);
-            let rows = &self.rows[step.first * self.size..][..(step.degree + 1) * self.size];
-            while let Some((time, out)) = rest.next_if(|(time, _)| **time < next) {
-                let weights = lagrange.weights((time - step.origin).clamp(step.start, step.end));
-                for (row, weight) in rows.chunks_exact(self.size).zip(weights) {
-                    for (sum, value) in out.iter_mut().zip(row) {
-                        *sum += weight * value;
-                    }
-                }
-            }
+            let (first, count) = (step.first, step.degree + 1);
+            let rows = &self.rows[first * self.size..][..count * self.size];
+            let here = std::iter::from_fn(|| {
+                let (time, out) = rest.next_if(|(time, _)| **time < next)?;
+                Some(((time - step.origin).clamp(step.start, step.end), out))
+            });
+            lagrange::sample(&self.times[first..first + count], rows, self.size, here);
         }
         samples
     }

@@ -90,6 +90,7 @@ impl Waveform {
     }
 
     /// The jump of the value at `t`, zero where the function is continuous up to rounding.
+    #[expect(clippy::float_cmp, reason = "a breakpoint is met exactly or not at all")]
     pub fn jump(&self, t: f64) -> f64 {
         let Some(at) = self.pieces.iter().skip(1).position(|piece| piece.start == t) else {
             return 0.0;

@@ -52,7 +52,10 @@ impl Watch {
             track.advance(guard.level, signal, |crossing, spread| {
                 let Some(rising) = crossing.rising else { return };
                 if guard.direction.counts(rising) {
-                    found.push(Found { event: Event { time: crossing.time, guard: at, rising }, spread });
+                    found.push(Found {
+                        event: Event { time: crossing.time, guard: at, rising },
+                        spread,
+                    });
                 }
             });
         }
@@ -134,14 +137,15 @@ impl Track {
         let mut panels = Vec::with_capacity(self.open.len() + signal.panels.len() + 1);
         let first = self.open.first().or(signal.panels.first()).map_or(0.0, |panel| panel.start);
         if let Some(above) = self.side {
-            // What came before is summed up by a point on its side, well off the level.
-            let size = 1.0_f64.max(level.abs()).max(noise);
-            panels.push(Panel::constant(first, first, if above { level + size } else { level - size }));
+            // What came before is summed up by an instant on its side, well off the level.
+            let size = 1.0_f64.max(level.abs()).max(2.0 * noise);
+            let value = if above { level + size } else { level - size };
+            panels.push(Panel::constant(first.next_down(), first, value));
         }
         panels.append(&mut self.open);
         panels.extend_from_slice(&signal.panels);
         let all = Signal::new(panels, signal.error, noise);
-        let crossings = all.crossings(level, (first, all.end()));
+        let crossings = all.crossings(level, (all.start(), all.end()));
         for &crossing in crossings.iter().skip(self.told) {
             let rounding = 4.0 * f64::EPSILON * crossing.time.abs();
             let spread = noise / crossing.slope.abs();
@@ -173,3 +177,6 @@ impl Track {
         self.told = told;
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -66,8 +66,15 @@ impl Augmented {
         }
         generators.fill(&mut matrix, states);
         scale_generators(&mut matrix, &mut units, &generators, end);
-        let mut augmented =
-            Self { states, matrix, units, initial: Vec::new(), spans: Vec::new(), generators, inputs };
+        let mut augmented = Self {
+            states,
+            matrix,
+            units,
+            initial: Vec::new(),
+            spans: Vec::new(),
+            generators,
+            inputs,
+        };
         augmented.cut(system, end);
         let unknowns = system.initial.iter();
         let first = augmented.spans[0].generators.iter();
@@ -144,7 +151,7 @@ fn scale_generators(
     }
     let part = |matrix: &DMatrix<f64>, j: usize| matrix.column(j).rows(0, states).lp_norm(1);
     let norm = (0..states).map(|j| part(matrix, j)).fold(0.0, f64::max);
-    let norm = if norm > 0.0 { norm } else { 1.0 / end.max(f64::MIN_POSITIVE).min(1e300) };
+    let norm = if norm > 0.0 { norm } else { 1.0 / end.clamp(1e-300, 1e300) };
     let pairs: Vec<usize> = generators.waves().map(|(at, _)| states + at).collect();
     let mut j = states;
     while j < size {

@@ -185,8 +185,31 @@ impl Block {
         })
     }
 
+    /// Bounds of `|row · e^{D_i t} c|` and of `|row| |D_i h/4|^n/n! |e^{D_i t} c|` for all `t` in
+    /// `[0, h]`: how large the block's part of an output can be, and how far a polynomial of degree
+    /// `n − 1` can miss it, but for a factor.
+    pub(super) fn sizes_on_panel(
+        &self,
+        row: &[f64],
+        c: &[Complex],
+        h: f64,
+        n: usize,
+    ) -> (f64, f64) {
+        if let ([row], [c]) = (row, c) {
+            let rate = self.matrix[(0, 0)];
+            let size = row * c.norm() * (rate.re * h).exp().max(1.0);
+            let step = 0.25 * h * rate.norm();
+            return (size, (1..=n).fold(size, |term, order| term * (step / number(order))));
+        }
+        let sizes: Vec<f64> = c.iter().map(|c| c.norm()).collect();
+        let largest = self.largest(h, &sizes);
+        let weights = self.derivative_weights(row, 0.25 * h, n);
+        let sum = |weights: &[f64]| weights.iter().zip(&largest).map(|(w, c)| w * c).sum();
+        (sum(row), sum(&weights))
+    }
+
     /// `|row| |D_i h|^n / n!`, the share of each mode in the `n`-th Taylor term of `row · e^{D_i h}`.
-    pub(super) fn derivative_weights(&self, row: &[f64], h: f64, n: usize) -> Vec<f64> {
+    fn derivative_weights(&self, row: &[f64], h: f64, n: usize) -> Vec<f64> {
         let mut weights = row.to_vec();
         for order in 1..=n {
             let mut next = vec![0.0; weights.len()];

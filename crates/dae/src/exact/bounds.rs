@@ -13,8 +13,7 @@ const SECOND_ORDER: f64 = 2.0;
 /// Growth that all modes are granted is taken out first, so that it does not count twice.
 pub(super) fn coupling_error(modes: &Modes, sizes: &[f64], length: f64) -> Vec<f64> {
     let growth = modes.blocks.iter().map(Block::growth_rate).fold(0.0, f64::max);
-    let largest =
-        |block: &Block, sizes: &[f64]| block.largest_discounted(length, sizes, growth);
+    let largest = |block: &Block, sizes: &[f64]| block.largest_discounted(length, sizes, growth);
     let integral = |block: &Block, sizes: &[f64]| block.integral(length, sizes, growth);
     let factor = SECOND_ORDER * (growth * length).exp();
     let mut tops = Vec::with_capacity(sizes.len());

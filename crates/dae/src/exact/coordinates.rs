@@ -23,7 +23,8 @@ pub(super) struct SpanCoordinates {
 /// by is added at a breakpoint, so nothing is lost in going to and fro between `c` and `z`.
 pub(super) fn follow(system: &Augmented, modes: &Modes) -> Vec<SpanCoordinates> {
     let (mut start, mut inherited) = initial(system, modes);
-    let kept = if system.spans.len() > 1 { kept_errors(system, modes) } else { DMatrix::zeros(0, 0) };
+    let kept =
+        if system.spans.len() > 1 { kept_errors(system, modes) } else { DMatrix::zeros(0, 0) };
     let mut all = Vec::with_capacity(system.spans.len());
     for (at, span) in system.spans.iter().enumerate() {
         let (largest, last) = span_errors(modes, &start, &inherited, span.length());
@@ -58,8 +59,7 @@ fn forget(kept: &DMatrix<f64>, error: &[f64]) -> Vec<f64> {
 fn initial(system: &Augmented, modes: &Modes) -> (Vec<Complex>, Vec<f64>) {
     let size = modes.len();
     let mut c = vec![Complex::default(); size];
-    let mut missing: Vec<Complex> =
-        system.initial.iter().map(|&z| Complex::new(z, 0.0)).collect();
+    let mut missing: Vec<Complex> = system.initial.iter().map(|&z| Complex::new(z, 0.0)).collect();
     let mut error = vec![0.0; size];
     for _ in 0..4 {
         for (i, c) in c.iter_mut().enumerate() {

@@ -29,7 +29,8 @@ impl Generators {
     pub(super) fn new(system: &System) -> Self {
         let mut states = Vec::new();
         for (index, waveform) in system.waveforms.iter().enumerate() {
-            let orders = || system.inputs.iter().filter(|i| i.waveform == index).map(|i| i.derivative);
+            let orders =
+                || system.inputs.iter().filter(|i| i.waveform == index).map(|i| i.derivative);
             let Some(lowest) = orders().min() else { continue };
             let sloped = waveform.pieces().iter().any(|piece| piece.slope != 0.0);
             let offset = waveform.pieces().iter().any(|piece| constant_part(piece) != 0.0);

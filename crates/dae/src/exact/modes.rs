@@ -42,7 +42,7 @@ impl Modes {
         if modes.defect.iter().all(|d| d.is_finite()) { modes } else { Self::undivided(system) }
     }
 
-    fn undivided(system: &Augmented) -> Self {
+    pub(super) fn undivided(system: &Augmented) -> Self {
         let size = system.size();
         let matrix = system.matrix.map(|x| Complex::new(x, 0.0));
         let defect = DMatrix::from_element(size, size, f64::INFINITY);

@@ -19,8 +19,11 @@ const UNRESOLVED: f64 = 4.0;
 const PER_OCTAVE: f64 = 4.0;
 /// Part of the largest size that counts where the solution itself has decayed.
 const FLOOR: f64 = 1e-2;
-/// Most panels in one span; `applies` refuses before that.
-pub(super) const MOST: f64 = 4e6;
+/// Most panels of a signal, so that no input can make it run for ever; the method declines before
+/// that, and the error of a last panel that is too wide would be stated.
+const MOST: usize = 4_000_000;
+/// Narrowest panel, relative to its span.
+const NARROWEST: f64 = 1e-18;
 
 /// One polynomial of an output on `[start, end]`, dimensionless.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +78,11 @@ impl ModalRow {
         self.row.iter().zip(c).map(|(r, c)| (r * c).re).sum()
     }
 
+    /// The sum of all terms' sizes where the modal coordinates are `c`.
+    fn size_at(&self, c: &[Complex]) -> f64 {
+        self.sizes.iter().zip(c).map(|(r, c)| r * c.norm()).sum()
+    }
+
     /// An upper bound of the sum of all terms' sizes over a span.
     pub(super) fn size(&self, modes: &Modes, span: &SpanCoordinates, length: f64) -> f64 {
         let part = |block: &Block| {
@@ -100,9 +108,8 @@ impl ModalRow {
         quality: &mut Quality,
         pieces: &mut Vec<Piece>,
     ) {
-        let spread = |block: &Block| {
-            block.range().map(|i| self.sizes[i] * span.error[i]).sum::<f64>()
-        };
+        let spread =
+            |block: &Block| block.range().map(|i| self.sizes[i] * span.error[i]).sum::<f64>();
         let inherited: f64 =
             modes.blocks.iter().filter(|block| block.weight > 0.0).map(spread).sum();
         let mut worst = 0.0_f64;
@@ -110,14 +117,19 @@ impl ModalRow {
         let (mut at, mut width) = (0.0, length);
         loop {
             let coordinates = coordinates_at(modes, &span.start, at);
-            let local: f64 = self.sizes.iter().zip(&coordinates).map(|(r, c)| r * c.norm()).sum();
+            let local = self.size_at(&coordinates);
             quality.size = quality.size.max(local);
             let tolerance = 2.0 * f64::EPSILON * (local + FLOOR * scale);
             let remaining = length - at;
-            let (chosen, missed) =
-                self.widest(modes, &coordinates, tolerance, remaining, (4.0 * width).min(remaining), length);
-            width = chosen;
-            worst = worst.max(missed);
+            let exhausted = pieces.len() >= MOST;
+            let least = if exhausted {
+                remaining
+            } else {
+                (NARROWEST * length).max(4.0 * f64::EPSILON * at)
+            };
+            width = (4.0 * width).min(remaining).max(least);
+            let missed = self.narrow(modes, &coordinates, tolerance, least, &mut width);
+            worst = if missed.is_finite() { worst.max(missed) } else { f64::INFINITY };
             let end = if width >= remaining { length } else { at + width };
             table.prepare(modes, end - at);
             let mut coefficients = self.fit(modes, &coordinates, &table);
@@ -128,30 +140,31 @@ impl ModalRow {
                 break;
             }
         }
-        quality.error = quality.error.max(inherited + worst);
+        // The sizes at the starts of all panels are known, and here that at the very end.
+        quality.size = quality.size.max(self.size_at(&coordinates_at(modes, &span.start, length)));
+        let error = inherited + worst;
+        // Also where it is not a number: then nothing is known.
+        quality.error = if error.is_finite() { quality.error.max(error) } else { f64::INFINITY };
     }
 
-    /// The widest panel that is good to `tolerance`, and by how much it may miss.
-    fn widest(
+    /// Narrows a panel until it is good to `tolerance`, and returns by how much it may miss.
+    fn narrow(
         &self,
         modes: &Modes,
         coordinates: &[Complex],
         tolerance: f64,
-        remaining: f64,
-        guess: f64,
-        length: f64,
-    ) -> (f64, f64) {
-        let smallest = length / MOST;
-        let mut width = guess;
+        least: f64,
+        width: &mut f64,
+    ) -> f64 {
         loop {
-            let missed = self.missed(modes, coordinates, width);
-            if missed <= tolerance || width <= smallest {
-                return (width, missed);
+            let missed = self.missed(modes, coordinates, *width);
+            if missed <= tolerance || *width <= least {
+                return missed;
             }
             let factor = (tolerance / missed).powf(1.0 / number(DEGREE + 1));
-            let next = (width * factor.clamp(0.1, 0.97)).max(smallest);
-            // Rounded down to a step of the scale; the end of a span is no multiple of anything.
-            width = ((next.log2() * PER_OCTAVE).floor() / PER_OCTAVE).exp2().min(remaining);
+            let next = (*width * factor.clamp(0.1, 0.97)).max(least);
+            // Rounded down to a step of the scale, so that neighbours have the same width.
+            *width = ((next.log2() * PER_OCTAVE).floor() / PER_OCTAVE).exp2();
         }
     }
 
@@ -163,13 +176,9 @@ impl ModalRow {
             if rows.iter().all(|&r| r == 0.0) {
                 return 0.0;
             }
-            let sizes: Vec<f64> = coordinates[range].iter().map(|c| c.norm()).collect();
-            let largest = block.largest(width, &sizes);
-            let weights = block.derivative_weights(rows, 0.25 * width, DEGREE + 1);
-            let sum = |weights: &[f64]| weights.iter().zip(&largest).map(|(w, c)| w * c).sum();
-            let (resolved, unresolved): (f64, f64) = (sum(&weights), sum(rows));
+            let (size, missed) = block.sizes_on_panel(rows, &coordinates[range], width, DEGREE + 1);
             // A product of an overflow and an underflow is not a number: then the size counts.
-            4.0 * if resolved < unresolved { resolved } else { unresolved * UNRESOLVED / 4.0 }
+            if missed < size { 4.0 * missed } else { UNRESOLVED * size }
         };
         modes.blocks.iter().map(part).sum()
     }

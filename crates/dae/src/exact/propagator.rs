@@ -63,18 +63,19 @@ fn march_fixed<const N: usize>(
     if grid.first != 0.0 {
         z = apply(&exponential(&a, grid.first), &z);
     }
-    let mut d = [0.0; N];
+    // From here on in the units of `y`: powers of two, so that nothing is rounded.
+    let mut d = [1.0; N];
     d[..units.len()].copy_from_slice(units);
-    let mut write = |z: &[f64; N]| {
-        let mut y = *z;
-        y.iter_mut().zip(&d).for_each(|(y, unit)| *y *= unit);
-        out.extend_from_slice(&y[..units.len()]);
-    };
+    z.iter_mut().zip(&d).for_each(|(z, unit)| *z *= unit);
+    let keep = units.len();
     if grid.count == 1 {
-        write(&z);
+        out.extend_from_slice(&z[..keep]);
         return;
     }
-    let e = exponential(&a, grid.step);
+    let mut e = exponential(&a, grid.step);
+    for (column, from) in e.iter_mut().zip(&d) {
+        column.iter_mut().zip(&d).for_each(|(entry, to)| *entry *= to / from);
+    }
     let mut lanes = [z; 4];
     for lane in 1..4 {
         lanes[lane] = apply(&e, &lanes[lane - 1]);
@@ -82,10 +83,14 @@ fn march_fixed<const N: usize>(
     let e2 = e.product(&e);
     let e4 = e2.product(&e2);
     for _ in 0..grid.count / 4 {
-        lanes.iter().for_each(&mut write);
+        if keep == N {
+            out.extend_from_slice(lanes.as_flattened());
+        } else {
+            lanes.iter().for_each(|z| out.extend_from_slice(&z[..keep]));
+        }
         lanes = apply_four(&e4, &lanes);
     }
-    lanes.iter().take(grid.count % 4).for_each(write);
+    lanes.iter().take(grid.count % 4).for_each(|z| out.extend_from_slice(&z[..keep]));
 }
 
 /// `matrix · vector` for four vectors.
@@ -103,13 +108,7 @@ fn apply_four<const N: usize>(matrix: &Columns<N>, vectors: &[[f64; N]; 4]) -> [
     sums
 }
 
-fn march_any(
-    matrix: &DMatrix<f64>,
-    state: &[f64],
-    units: &[f64],
-    grid: Grid,
-    out: &mut Vec<f64>,
-) {
+fn march_any(matrix: &DMatrix<f64>, state: &[f64], units: &[f64], grid: Grid, out: &mut Vec<f64>) {
     let mut z = DVector::from_column_slice(state);
     if grid.first != 0.0 {
         z = exponential(matrix, grid.first) * z;

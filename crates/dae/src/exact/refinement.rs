@@ -10,10 +10,10 @@ use super::{
     number,
 };
 
-/// Largest size whose residuals are formed in twice the digits.
-pub(super) const REFINED: usize = 64;
 /// Most iterations; convergence is quadratic until rounding stops it.
 const ITERATIONS: usize = 6;
+/// Defect relative to the matrix below which another iteration would be of no use to doubles.
+const ENOUGH: f64 = 1e-26;
 /// Corrections of the basis above this are not trusted to be in the range of Newton's method.
 const TRUST: f64 = 1e-3;
 
@@ -22,31 +22,24 @@ const TRUST: f64 = 1e-3;
 /// With `E = X⁻¹ (Ā X − X D)` the next basis is `X (1 + F)`, `D_i F_ij − F_ij D_j = −E_ij` off the
 /// blocks, and `D_i + E_ii` the next blocks.
 pub(super) fn refine(matrix: &DMatrix<f64>, modes: &mut Modes) {
-    let size = modes.len();
-    if size > REFINED {
-        let coupling = &modes.dual * residual_in_double(matrix, modes);
-        modes.defect = coupling.map(|z| z.norm()) + rounding(matrix, modes, f64::EPSILON);
-        return;
-    }
     let mut best: Option<(f64, Modes)> = None;
     for _ in 0..ITERATIONS {
         let coupling = &modes.dual * residual(matrix, modes);
-        modes.defect = coupling.map(|z| z.norm());
+        modes.defect = coupling.map(Complex::norm);
         let size = modes.defect.max();
         let before = best.as_ref().map_or(f64::INFINITY, |(size, _)| *size);
-        // A comparison that is also false for a residual that is not a number.
-        if !(size < 0.5 * before) {
+        if size.is_nan() || size >= 0.5 * before {
             break;
         }
         best = Some((size, modes.clone()));
-        if size == 0.0 {
+        if size <= ENOUGH * matrix.amax() {
             break;
         }
         step(modes, &coupling);
     }
     if let Some((_, kept)) = best {
         *modes = kept;
-        modes.defect += rounding(matrix, modes, f64::EPSILON * f64::EPSILON);
+        modes.defect += rounding(matrix, modes);
     } else {
         modes.defect.fill(f64::INFINITY);
     }
@@ -131,24 +124,16 @@ fn residual(matrix: &DMatrix<f64>, modes: &Modes) -> DMatrix<Complex> {
     residual
 }
 
-fn residual_in_double(matrix: &DMatrix<f64>, modes: &Modes) -> DMatrix<Complex> {
-    let mut residual = matrix.map(|x| Complex::new(x, 0.0)) * &modes.basis;
-    for block in &modes.blocks {
-        let columns = modes.basis.columns(block.start, block.len()) * &block.matrix;
-        let mut part = residual.columns_mut(block.start, block.len());
-        part -= columns;
-    }
-    residual
-}
-
-/// `|X⁻¹| · 4 N u (|Ā| |X| + |X| |D|)`: what rounding at the unit `u` may hide in the residual.
-fn rounding(matrix: &DMatrix<f64>, modes: &Modes, unit: f64) -> DMatrix<f64> {
-    let basis = modes.basis.map(|z| z.norm());
+/// `|X⁻¹| · 4 N ε² (|Ā| |X| + |X| |D|)`: what rounding may hide in the residual.
+fn rounding(matrix: &DMatrix<f64>, modes: &Modes) -> DMatrix<f64> {
+    let basis = modes.basis.map(Complex::norm);
     let mut sizes = matrix.abs() * &basis;
     for block in &modes.blocks {
-        let columns = basis.columns(block.start, block.len()) * block.matrix.map(|z| z.norm());
+        let columns = basis.columns(block.start, block.len()) * block.matrix.map(Complex::norm);
         let mut part = sizes.columns_mut(block.start, block.len());
         part += columns;
     }
-    modes.dual.map(|z| z.norm()) * sizes * (4.0 * number(modes.len()) * unit)
+    modes.dual.map(Complex::norm)
+        * sizes
+        * (4.0 * number(modes.len()) * f64::EPSILON * f64::EPSILON)
 }

@@ -123,7 +123,7 @@ mod tests {
 
     fn residual(a: &DMatrix<f64>, schur: &ComplexSchur) -> f64 {
         let a = a.map(|x| Complex::new(x, 0.0));
-        (&a * &schur.basis - &schur.basis * &schur.triangle).map(|z| z.norm()).max()
+        (&a * &schur.basis - &schur.basis * &schur.triangle).map(Complex::norm).max()
     }
 
     fn below(schur: &ComplexSchur) -> f64 {
@@ -153,8 +153,8 @@ mod tests {
             DMatrix::from_row_slice(3, 3, &[0.0, 1.0, 0.0, 0.0, 0.0, 1.0, -1.0, -3.0, -3.0]),
         ] {
             let schur = ComplexSchur::new(&a).unwrap();
-            assert!(residual(&a, &schur) < 1e-14, "{a} {:e}", residual(&a, &schur));
-            assert_eq!(below(&schur), 0.0);
+            assert!(residual(&a, &schur) < 1e-13, "{a} {:e}", residual(&a, &schur));
+            assert!(below(&schur) == 0.0);
         }
     }
 }

@@ -18,7 +18,7 @@ const NOISE: f64 = 16.0;
 /// Spans up to which the propagator is used for samples; each takes exponentials of its own.
 const FEW_SPANS: usize = 8;
 /// `‖Ā‖ T` up to which the propagator is used for samples; beyond it the modes are more accurate.
-const GENTLE: f64 = 1e6;
+const GENTLE: f64 = 1e4;
 /// Deviation from a uniform grid that is rounding, relative to the last time.
 const UNIFORM: f64 = 1e-14;
 

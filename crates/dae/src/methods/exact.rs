@@ -14,8 +14,8 @@ use crate::{
 const STATES: usize = 200;
 /// Most states with the generators of the driving functions.
 const SIZE: usize = 300;
-/// Largest `‖A‖T`.
-const STIFFNESS: f64 = 1e9;
+/// Largest `‖A‖T`; beyond it the eigenvalues found in double precision are no start for a refinement.
+const STIFFNESS: f64 = 1e15;
 /// `‖A‖T` up to which the number of panels needs no counting.
 const QUICK: f64 = 6e6;
 /// Most radians that all oscillations together may pass through: some two million panels.
@@ -33,13 +33,14 @@ const LIFETIMES: f64 = 45.0;
 ///
 /// # When exact stops being exact
 ///
-/// - The values are those of the matrices as given. Their entries are rounded, and where stiffness
-///   ratios are great the slow motion of the *matrices* differs from that of the scene by about
-///   `ε ‖A‖ T`, whoever solves them; scenes beyond `‖A‖T = 1e9` are declined.
-/// - Up to 64 states the modal form is refined in twice the digits of a double, and the bound of
-///   each signal is that of its rounding. Beyond, the bound grows with `ε ‖A‖ T` times the condition
-///   of the modes, and so does the error.
-/// - Samples come from the propagator where `‖A‖T ≤ 1e6`; their error is about `ε ‖A‖ T`.
+/// - The values are those of the matrices as given. Their entries are rounded, and where an entry is
+///   a difference of great numbers the slow motion of the *matrices* differs from that of the scene,
+///   whoever solves them; no bound knows of that. Beyond `‖A‖T = 1e15` scenes are declined.
+/// - The modal form is refined in twice the digits of a double, so the error of a signal is that of
+///   its evaluation: about `16 ε` of the largest sum of its modes' sizes, which is more than that of
+///   the signal itself where modes cancel. The stated bound says how much.
+/// - Samples on a uniform grid come from the propagator where `‖A‖T ≤ 1e4`; their error is about
+///   `ε ‖A‖ T`, of rigid motion its square. All other samples come from the modal form.
 /// - A bound of a signal covers the largest error over its spans. Where the eigenvalue iteration
 ///   does not converge the values are still right, but no bound is stated.
 /// - The work of a signal grows with the number of oscillations; beyond six million radians of all

@@ -1,7 +1,10 @@
 //! The panels of one step, where outputs may follow driving functions directly.
 
 use super::{Step, between};
-use crate::{Output, Panel, Piece, System, chebyshev::{Interpolation, evaluate}};
+use crate::{
+    Output, Panel, Piece, System,
+    chebyshev::{Interpolation, evaluate},
+};
 
 /// Half periods, as `ω · length / 2`, that one panel may hold; longer steps are divided.
 const LONGEST: f64 = 8.0;
@@ -26,7 +29,8 @@ pub(super) fn add(
     panels: &mut Vec<Panel>,
     magnitude: &mut f64,
 ) {
-    let terms: Vec<Term> = output.inputs.terms().iter().map(|term| term_of(system, step, *term)).collect();
+    let terms: Vec<Term> =
+        output.inputs.terms().iter().map(|term| term_of(system, step, *term)).collect();
     let half = 0.5 * terms.iter().map(Term::omega).fold(0.0, f64::max) * (step.end - step.start);
     let parts = count((half / LONGEST).ceil()).max(1);
     let degree = degree(step, &terms, half / size(parts));

@@ -45,6 +45,59 @@ impl<'n> Lagrange<'n> {
     }
 }
 
+/// Writes to each row of `out` the polynomial through `rows` at one of the times; `rows` holds one
+/// row for each node.
+///
+/// The same as [`Lagrange`] for a number of nodes that the compiler knows, as sampling is most of
+/// what many outputs cost.
+pub(super) fn sample<'o>(
+    nodes: &[f64],
+    rows: &[f64],
+    size: usize,
+    places: impl Iterator<Item = (f64, &'o mut [f64])>,
+) {
+    match nodes.len() {
+        1 => sample_on::<1>(nodes, rows, size, places),
+        2 => sample_on::<2>(nodes, rows, size, places),
+        3 => sample_on::<3>(nodes, rows, size, places),
+        4 => sample_on::<4>(nodes, rows, size, places),
+        5 => sample_on::<5>(nodes, rows, size, places),
+        6 => sample_on::<6>(nodes, rows, size, places),
+        7 => sample_on::<7>(nodes, rows, size, places),
+        _ => sample_on::<8>(nodes, rows, size, places),
+    }
+}
+
+fn sample_on<'o, const N: usize>(
+    nodes: &[f64],
+    rows: &[f64],
+    size: usize,
+    places: impl Iterator<Item = (f64, &'o mut [f64])>,
+) {
+    let Ok(nodes) = <&[f64; N]>::try_from(nodes) else { return };
+    let rows: [&[f64]; N] = std::array::from_fn(|at| &rows[at * size..(at + 1) * size]);
+    let factors = Lagrange::new(nodes).factors;
+    for (x, out) in places {
+        let mut weights = [0.0; N];
+        let (mut before, mut after) = (1.0, 1.0);
+        for at in 0..N {
+            weights[at] = factors[at] * before;
+            before *= x - nodes[at];
+        }
+        for at in (0..N).rev() {
+            weights[at] *= after;
+            after *= x - nodes[at];
+        }
+        for (unknown, value) in out.iter_mut().enumerate() {
+            let mut sum = 0.0;
+            for at in 0..N {
+                sum += weights[at] * rows[at][unknown];
+            }
+            *value = sum;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -34,8 +34,12 @@ pub fn driven_by_table() -> Problem {
     /// Start, value and slope of each piece.
     const TABLE: [(f64, f64, f64); 4] =
         [(0.0, 0.0, 1.0), (1.0, 1.0, 0.0), (2.5, 3.0, -2.0), (4.0, 0.0, 0.0)];
-    let piece =
-        |&(start, value, slope): &(f64, f64, f64)| Piece { start, value, slope, ..Piece::default() };
+    let piece = |&(start, value, slope): &(f64, f64, f64)| Piece {
+        start,
+        value,
+        slope,
+        ..Piece::default()
+    };
     let system = body(0.0, 1.0, waveform(TABLE.iter().map(piece).collect()));
     let solution = |t: f64| {
         // Every jump a and change of slope b at τ adds a (1 − cos s) + b (s − sin s), s = t − τ.

@@ -103,9 +103,15 @@ impl<'a> DashpotBalance<'a> {
         Self { structure, ends, solution }
     }
 
-    /// Velocity of a body in a cluster, relative to what its position is counted from.
+    /// Velocity of a body in a cluster, relative to the cluster's anchor if it has one only, and to
+    /// its first body if it has none.
     pub(super) fn velocity(&self, body: usize) -> &Row {
         self.solution.value(body)
+    }
+
+    /// Difference of the velocities of two bodies in one cluster.
+    pub(super) fn difference(&self, p: usize, q: usize) -> Row {
+        self.solution.difference(p, q)
     }
 
     /// Deformation rate of a dashpot, one end of which is in a cluster.

@@ -74,7 +74,7 @@ pub(super) fn build(given: &Given<'_>, inputs: &mut Inputs, places: &mut Places)
     let dashpots = DashpotBalance::solve(structure, &net, &motion.velocity, most, places, |body| {
         (names(body), scales.velocity[body])
     });
-    cluster_velocities(structure, &dashpots, places, &mut motion);
+    cluster_velocities(structure, &dashpots, &mut motion);
     for dashpot in &structure.dashpots {
         let [a, b] = dashpot.ends;
         let rate = dashpots.rate(dashpot.ends).unwrap_or_else(|| {
@@ -111,17 +111,17 @@ fn known_velocities(bodies: &Bodies, places: &Places, inputs: &mut Inputs) -> Ve
 fn cluster_velocities(
     structure: &Structure,
     dashpots: &DashpotBalance<'_>,
-    places: &Places,
     motion: &mut Motion,
 ) {
     for (at, cluster) in structure.clusters.iter().enumerate() {
         if structure.is_algebraic(at) {
             continue;
         }
+        let anchor = (cluster.anchors.len() == 1).then(|| cluster.anchors.first()).flatten();
         for &body in &cluster.bodies {
             let own = dashpots.velocity(body);
-            motion.velocity[body] = match places.parent[body] {
-                Some(anchor) => motion.velocity[anchor].as_ref().map(|base| base.plus(1.0, own)),
+            motion.velocity[body] = match anchor {
+                Some(&anchor) => motion.velocity[anchor].as_ref().map(|base| base.plus(1.0, own)),
                 None => Some(own.clone()),
             };
         }
@@ -137,13 +137,23 @@ fn unknown_rates(
     velocity: &[Option<Row>],
     places: &mut Places,
 ) {
+    let of = |body: usize| velocity[body].clone().unwrap_or_default();
     for (at, body) in bodies.all.iter().enumerate() {
         if let Some(unknown) = places.unknown[at] {
-            places.drafts[unknown].row = if structure.cluster_of[at].is_some() {
-                dashpots.velocity(at).clone()
-            } else {
-                let of = |body: usize| velocity[body].clone().unwrap_or_default();
-                places.parent[at].map_or_else(|| of(at), |parent| of(at).plus(-1.0, &of(parent)))
+            let cluster = structure.cluster_of[at];
+            let anchors = cluster.map(|cluster| &structure.clusters[cluster].anchors);
+            places.drafts[unknown].row = match (places.parent[at], anchors) {
+                (None, _) => of(at),
+                (Some(_), Some(anchors)) if anchors.is_empty() => dashpots.velocity(at).clone(),
+                (Some(parent), Some(_)) if structure.cluster_of[parent] == cluster => {
+                    dashpots.difference(at, parent)
+                }
+                (Some(parent), Some(anchors))
+                    if anchors.len() == 1 && anchors.contains(&parent) =>
+                {
+                    dashpots.velocity(at).clone()
+                }
+                (Some(parent), _) => of(at).plus(-1.0, &of(parent)),
             };
         }
         if let (Some(unknown), Role::Mass(mass)) = (places.velocity[at], body.role) {

@@ -28,8 +28,6 @@ pub(super) struct Scales {
     pub(super) length: Vec<f64>,
     /// Velocity of each body \[m/s\].
     pub(super) velocity: Vec<f64>,
-    /// Root of the energy \[√J\].
-    pub(super) root_energy: f64,
 }
 
 impl Scales {
@@ -96,7 +94,7 @@ impl Scales {
         let velocity = (0..count)
             .map(|body| if mass(body) > 0.0 { of_mass(body) } else { length[body] / unit })
             .collect();
-        let scales = Self { time: unit, length, velocity, root_energy };
+        let scales = Self { time: unit, length, velocity };
         scales.check()?;
         Ok(scales)
     }

@@ -9,9 +9,9 @@ use super::{
     expand::Expansion,
     row::{Combination, Row},
     scales::Scales,
-    structure::Structure,
+    structure::{Structure, jumps},
 };
-use crate::Network;
+use crate::{Network, Support};
 
 /// An unknown in the making.
 #[derive(Debug, Clone)]
@@ -83,19 +83,16 @@ pub(super) struct Places {
     pub(super) position: Vec<Row>,
 }
 
-/// A spring is very stiff where rounding of positions would show in its force: its energy at the
-/// network's largest displacement exceeds the energy of the run by this factor.
-const VERY_STIFF: f64 = 1e8;
-
 /// Deformations instead of positions are unknowns up to this many bodies only, because they make
 /// dense rows.
 const MOST_RELATIVE: usize = 100;
 
 /// Chooses the unknowns that have a rate.
 ///
-/// Masses have position and velocity. Massless bodies that dashpots tie to one anchor are counted
-/// from that anchor, and those of an algebraic cluster from its first body, so that forces do not
-/// come from small differences of large numbers; so are masses joined by very stiff springs.
+/// Masses have position and velocity. So that forces do not come from small differences of large
+/// numbers, the deformations of a spanning tree of the stiffest springs stand for positions in
+/// small networks; massless bodies that dashpots tie to one anchor are else counted from that
+/// anchor, and those of an algebraic cluster from its first body.
 pub(super) fn choose(
     network: &Network,
     expansion: &Expansion,
@@ -108,7 +105,7 @@ pub(super) fn choose(
     let mut places = Places {
         unknown: vec![None; count],
         velocity: vec![None; count],
-        parent: stiff_parents(bodies, structure, scales),
+        parent: spring_parents(network, bodies, structure),
         position: vec![Row::default(); count],
         drafts: Vec::new(),
     };
@@ -122,7 +119,8 @@ pub(super) fn choose(
             _ => None,
         };
         for &body in members {
-            places.parent[body] = reference.filter(|&reference| reference != body);
+            let reference = reference.filter(|&reference| reference != body);
+            places.parent[body] = places.parent[body].or(reference);
         }
     }
     for body in 0..count {
@@ -186,37 +184,49 @@ impl Places {
     }
 }
 
-/// A spanning tree of the stiffest springs between masses; each mass is counted from the one
-/// before it.
-fn stiff_parents(bodies: &Bodies, structure: &Structure, scales: &Scales) -> Vec<Option<usize>> {
+/// A spanning tree of the stiffest springs; each body is counted from the one before it.
+///
+/// Bodies whose place may jump are left out, and so is what dashpots let jump with them.
+fn spring_parents(
+    network: &Network,
+    bodies: &Bodies,
+    structure: &Structure,
+) -> Vec<Option<usize>> {
     let count = bodies.all.len();
     let mut parent = vec![None; count];
-    let masses = bodies.all.iter().filter(|body| matches!(body.role, Role::Mass(_))).count();
-    if masses > MOST_RELATIVE {
+    let jumps = |body: usize| match bodies.all[body].role {
+        Role::Prescribed(node) => match &network.nodes[node].support {
+            Support::Prescribed(motion) => !jumps(motion, f64::INFINITY).is_empty(),
+            _ => false,
+        },
+        _ => false,
+    };
+    let joins = |body: usize| match structure.cluster_of[body] {
+        Some(cluster) => {
+            let anchors = &structure.clusters[cluster].anchors;
+            !anchors.is_empty() && !anchors.iter().any(|&anchor| jumps(anchor))
+        }
+        None => !jumps(body),
+    };
+    let joined: Vec<bool> = (0..count).map(joins).collect();
+    if joined.iter().filter(|&&joins| joins).count() > MOST_RELATIVE {
         return parent;
     }
-    let reach = scales.length.iter().copied().fold(0.0, f64::max) / scales.root_energy;
-    let joins = |body: usize| matches!(bodies.all[body].role, Role::Mass(_) | Role::Fixed);
-    let mut stiff: Vec<_> = structure
-        .springs
-        .iter()
-        .filter(|spring| spring.ends.iter().all(|&end| joins(end)))
-        .filter(|spring| 0.5 * spring.constant * reach * reach > VERY_STIFF)
-        .collect();
-    stiff.sort_by(|a, b| b.constant.total_cmp(&a.constant));
+    let mut springs: Vec<_> =
+        structure.springs.iter().filter(|edge| edge.ends.iter().all(|&end| joined[end])).collect();
+    springs.sort_by(|a, b| b.constant.total_cmp(&a.constant));
     let mut groups = Groups::new(count);
     let mut tree: Vec<Vec<usize>> = vec![Vec::new(); count];
-    for spring in stiff {
-        let [a, b] = spring.ends;
+    for [a, b] in springs.into_iter().map(|edge| edge.ends) {
         if groups.join(a, b) {
             tree[a].push(b);
             tree[b].push(a);
         }
     }
+    let is_given = |body: usize| matches!(bodies.all[body].role, Role::Fixed | Role::Prescribed(_));
+    let mut roots: Vec<usize> = (0..count).filter(|&body| joined[body]).collect();
+    roots.sort_by_key(|&body| (!is_given(body), bodies.all[body].is_massless(), body));
     let mut is_done = vec![false; count];
-    let fixed_first = |body: &usize| bodies.all[*body].role != Role::Fixed;
-    let mut roots: Vec<usize> = (0..count).filter(|&body| joins(body)).collect();
-    roots.sort_by_key(|body| (fixed_first(body), *body));
     for root in roots {
         let mut stack = vec![root];
         while let Some(body) = stack.pop() {
@@ -224,7 +234,7 @@ fn stiff_parents(bodies: &Bodies, structure: &Structure, scales: &Scales) -> Vec
                 continue;
             }
             for &next in tree[body].iter().filter(|&&next| !is_done[next]) {
-                if bodies.all[next].role != Role::Fixed {
+                if !is_given(next) {
                     parent[next] = Some(body);
                 }
                 stack.push(next);

@@ -87,8 +87,7 @@ fn a_table_with_a_jump() {
     let ramp = |t: f64| if t < 0.0 { 0.0 } else { t - t.sin() };
     let step = |t: f64| if t < 0.0 { 0.0 } else { 1.0 - t.cos() };
     oscillator(drive).solve(30.0).judge(0, 2e-13, |t| {
-        step(t) - 0.25 * ramp(t) + 0.75 * ramp(t - 1.0) - 0.5 * ramp(t - 2.5)
-            - 3.5 * step(t - 2.5)
+        step(t) - 0.25 * ramp(t) + 0.75 * ramp(t - 1.0) - 0.5 * ramp(t - 2.5) - 3.5 * step(t - 2.5)
     });
 }
 

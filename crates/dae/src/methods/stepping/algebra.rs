@@ -1,8 +1,8 @@
 //! The two matrix worlds that the integrators run in, behind one private trait.
 
 use diffsol::{
-    DiffsolError, FaerSparseLU, FaerSparseMat, FaerVec, LinearSolver, Matrix, NalgebraLU, NalgebraMat,
-    NalgebraVec, Vector, VectorCommon, matrix::sparsity::MatrixSparsityRef,
+    DiffsolError, FaerSparseLU, FaerSparseMat, FaerVec, LinearSolver, Matrix, NalgebraLU,
+    NalgebraMat, NalgebraVec, Vector, VectorCommon, matrix::sparsity::MatrixSparsityRef,
 };
 use nalgebra_sparse::CsrMatrix;
 

@@ -1,9 +1,6 @@
 //! Values and slopes that satisfy the balances at the start of a span.
 
-use diffsol::{
-    Context as _, DiffsolError, LinearSolver, NonLinearOp,
-    NonLinearOpJacobian, Op,
-};
+use diffsol::{Context as _, DiffsolError, LinearSolver, NonLinearOp, NonLinearOpJacobian, Op};
 use nalgebra_sparse::CsrMatrix;
 
 use super::{
@@ -90,8 +87,7 @@ impl<M: Algebra> Balance<M> {
             entries(&system.jacobian).filter(|entry| kind(entry.0) == UnknownKind::Algebraic);
         let context = M::C::default();
         let zero: M::V = context.vector_zeros(system.len());
-        let stored =
-            Stored { context, matrix: matrix::<M>(system.len(), kept.chain(balances))? };
+        let stored = Stored { context, matrix: matrix::<M>(system.len(), kept.chain(balances))? };
         let mut factor = M::Factor::default();
         factor.set_problem(&stored);
         factor.set_linearisation(&stored, &zero, 0.0);
@@ -133,7 +129,10 @@ impl<M: Algebra> Balance<M> {
 }
 
 /// Solves with a factorised matrix.
-fn solve<M: Algebra, F: LinearSolver<M>>(factor: &F, vector: &mut M::V) -> Result<(), DiffsolError> {
+fn solve<M: Algebra, F: LinearSolver<M>>(
+    factor: &F,
+    vector: &mut M::V,
+) -> Result<(), DiffsolError> {
     Ok(factor.solve_in_place(vector)?)
 }
 
@@ -148,6 +147,9 @@ fn algebraic(system: &System) -> impl Iterator<Item = usize> {
 /// The sparse factorisation cannot be asked for a matrix of deficient structure, so that this has to
 /// be found before.
 pub(super) fn undetermined(system: &System) -> Option<usize> {
+    if system.algebraic() == 0 {
+        return None;
+    }
     let mut assignment = Assignment {
         jacobian: &system.jacobian,
         system,
@@ -178,7 +180,10 @@ impl Assignment<'_> {
         let wanted = |column: usize, value: f64| {
             value != 0.0 && self.system.unknowns[column].kind == UnknownKind::Algebraic
         };
-        terms.filter(|&(&column, &value)| wanted(column, value)).map(|(&column, _)| column).collect()
+        terms
+            .filter(|&(&column, &value)| wanted(column, value))
+            .map(|(&column, _)| column)
+            .collect()
     }
 
     /// Gives the balance `root` an unknown of its own, by an augmenting path found depth first.

@@ -3,8 +3,8 @@
 use std::cell::Cell;
 
 use diffsol::{
-    ConstantOp, Context as _, DiffsolError, LinearOp, NonLinearOp, NonLinearOpJacobian, OdeEquations,
-    OdeEquationsRef, Op, UnitCallable,
+    ConstantOp, Context as _, DiffsolError, LinearOp, NonLinearOp, NonLinearOpJacobian,
+    OdeEquations, OdeEquationsRef, Op, UnitCallable,
 };
 
 use super::algebra::{Algebra, Rows, Slice, entries, matrix, pattern};

@@ -20,7 +20,12 @@ const LARGEST: f64 = 1e150;
 
 impl Site<'_> {
     /// The error of an integrator that stood at `state` with `slopes`.
-    pub(super) fn integrator(self, error: &DiffsolError, state: &[f64], slopes: &[f64]) -> SolveError {
+    pub(super) fn integrator(
+        self,
+        error: &DiffsolError,
+        state: &[f64],
+        slopes: &[f64],
+    ) -> SolveError {
         let Self { method, time, .. } = self;
         if let Err(lost) = self.finite(state).and_then(|()| self.finite(slopes)) {
             return lost;
@@ -29,13 +34,28 @@ impl Site<'_> {
             DiffsolError::OdeSolverError(
                 OdeSolverError::StepSizeTooSmall { .. }
                 | OdeSolverError::TooManyErrorTestFailures { .. },
-            ) => SolveError::StepTooSmall { method, time, unknown: self.fastest(state, slopes) },
+            ) => self.too_small(state, slopes),
             DiffsolError::OdeSolverError(OdeSolverError::TooManyNonlinearSolverFailures {
                 ..
             })
             | DiffsolError::NonLinearSolverError(_) => SolveError::NewtonFailed { method, time },
             other => SolveError::Integrator { method, time, reason: other.to_string() },
         }
+    }
+
+    /// The step became too small, at `state` with `slopes`.
+    pub(super) fn too_small(self, state: &[f64], slopes: &[f64]) -> SolveError {
+        let Self { method, time, .. } = self;
+        SolveError::StepTooSmall { method, time, unknown: self.fastest(state, slopes) }
+    }
+
+    /// The balances do not determine the algebraic unknowns, which came out as `state`.
+    pub(super) fn singular(self, state: &[f64]) -> SolveError {
+        let reason = match state.iter().position(|value| !value.is_finite()) {
+            Some(unknown) => format!("the balances do not determine `{}`", self.name(unknown)),
+            None => "the balances do not determine all of their unknowns".to_owned(),
+        };
+        SolveError::NotApplicable { method: self.method, reason }
     }
 
     /// Whether all `values` are finite, and small enough to be squared.

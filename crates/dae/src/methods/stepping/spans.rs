@@ -56,6 +56,7 @@ fn integrate_in<S: Scheme>(
         run,
         observer,
         watch: Watch::new(&run.guards),
+        largest: vec![0.0; run.guards.len()],
         pieces: Pieces::new(system.len()),
         statistics: Statistics::default(),
         span: (0.0, 0.0),
@@ -106,11 +107,9 @@ fn admit<S: Scheme>(system: &System, run: &Run) -> Result<(), SolveError> {
         return Err(SolveError::InvalidSetting { setting: "rtol", range, value: run.rtol });
     }
     for matrix in [&system.jacobian, &system.input_matrix] {
-        for (row, _, value) in matrix.triplet_iter() {
-            if !value.is_finite() {
-                let unknown = system.unknowns[row].name.clone();
-                return Err(SolveError::NotFinite { method: S::NAME, time: 0.0, unknown });
-            }
+        if let Some((row, ..)) = matrix.triplet_iter().find(|entry| !entry.2.is_finite()) {
+            let unknown = system.unknowns[row].name.clone();
+            return Err(SolveError::NotFinite { method: S::NAME, time: 0.0, unknown });
         }
     }
     Site { method: S::NAME, time: 0.0, system }.finite(&system.initial)?;
@@ -163,10 +162,15 @@ impl Walk<'_> {
         for span in borders.windows(2) {
             self.span = (span[0], span[1]);
             let length = span[1] - span[0];
-            let state =
-                start::enter(&mut problem, balance.as_ref(), (span[0], length), S::ORDER, &mut self.state)?;
             let time = span[0] * self.system.time_scale;
-            Site { method: S::NAME, time, system: self.system }.finite(&self.state)?;
+            let site = Site { method: S::NAME, time, system: self.system };
+            let balance = balance.as_ref();
+            let within = (span[0], length);
+            let state = start::enter(&mut problem, balance, within, S::ORDER, &mut self.state)
+                .map_err(|_| site.singular(&self.state))?;
+            if balance.is_some() && self.state.iter().any(|value| !value.is_finite()) {
+                return Err(site.singular(&self.state).into());
+            }
             self.statistics.linear_solves += 2 * usize::from(balance.is_some());
             self.pieces.begin(span[0], &self.state);
             outcome = S::span(&problem, state, self);
@@ -186,7 +190,7 @@ mod tests {
     use super::*;
     use crate::{
         Silent,
-        methods::{Bdf, Esdirk34, Method, Tsit45, TrBdf2},
+        methods::{Bdf, Esdirk34, Method, TrBdf2, Tsit45},
         problems,
     };
 

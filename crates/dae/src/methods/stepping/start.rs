@@ -19,9 +19,10 @@ pub(in crate::methods) type Problem<'s, M> = OdeSolverProblem<Equations<'s, M>>;
 /// long, and a first step far too large: the step size is what ends hopeless runs.
 const PATIENCE: usize = 10_000;
 
-/// Smallest step in parts of the span. Time is counted from the span's start, so that steps far
-/// below the resolution of absolute time are meaningful.
-const SMALLEST_STEP: f64 = 1e-18;
+/// Smallest step in parts of the span. Time is counted from the span's start, so that first steps
+/// far below the resolution of absolute time are meaningful; later, a step that the time in the span
+/// cannot resolve ends the run.
+const SMALLEST_STEP: f64 = 1e-30;
 
 /// Tightest tolerance that the Newton iterations can meet.
 const TIGHTEST: f64 = 1e-14;

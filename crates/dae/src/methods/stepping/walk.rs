@@ -2,12 +2,7 @@
 
 use diffsol::{OdeSolverMethod, OdeSolverStopReason, Vector};
 
-use super::{
-    Algebra, Stop,
-    algebra::Slice,
-    equations::Equations,
-    failure::Site,
-};
+use super::{Algebra, Stop, algebra::Slice, equations::Equations, failure::Site};
 use crate::{
     Observer, Progress, Run, SolveError, Statistics, System,
     chebyshev::Interpolation,
@@ -25,6 +20,8 @@ pub(in crate::methods) struct Walk<'r> {
     pub(super) run: &'r Run,
     pub(super) observer: &'r mut dyn Observer,
     pub(super) watch: Watch,
+    /// The largest absolute value of each guard's output so far.
+    pub(super) largest: Vec<f64>,
     pub(super) pieces: Pieces,
     pub(super) statistics: Statistics,
     /// Start and end of the current span, dimensionless.
@@ -96,6 +93,9 @@ impl Walk<'_> {
                 return Err(site.integrator(&error, state.y.slice(), state.dy.slice()).into());
             }
             site.finite(state.y.slice())?;
+            if t <= before {
+                return Err(site.too_small(state.y.slice(), state.dy.slice()).into());
+            }
             let degree = match polynomial {
                 Polynomial::History => solver.order(),
                 Polynomial::Inner(degree) => {
@@ -131,9 +131,21 @@ impl Walk<'_> {
         if self.watch.is_idle() {
             return Ok(());
         }
-        let (system, pieces) = (self.system, &self.pieces);
-        let signal = |output: usize| pieces.signal_from(system, &system.outputs[output], steps - 1);
-        let signals: Vec<_> = self.run.guards.iter().map(|guard| signal(guard.output)).collect();
-        if self.watch.feed(&self.run.guards, &signals).is_some() { Err(Stop::Guard) } else { Ok(()) }
+        let mut signals = Vec::with_capacity(self.run.guards.len());
+        for (guard, largest) in self.run.guards.iter().zip(&mut self.largest) {
+            let output = &self.system.outputs[guard.output];
+            let mut signal = self.pieces.signal_from(self.system, output, steps - 1);
+            for panel in &signal.panels {
+                *largest =
+                    largest.max(panel.value(panel.start).abs()).max(panel.value(panel.end).abs());
+            }
+            signal.noise = signal.noise.max(self.run.rtol * *largest);
+            signals.push(signal);
+        }
+        if self.watch.feed(&self.run.guards, &signals).is_some() {
+            Err(Stop::Guard)
+        } else {
+            Ok(())
+        }
     }
 }

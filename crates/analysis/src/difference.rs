@@ -1,0 +1,26 @@
+//! Two runs side by side.
+
+use crate::RunReport;
+
+/// How far two runs are apart in one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// Key of the measure.
+    pub key: String,
+    /// `|a − b|` over the larger magnitude of both; 0 where both are zero.
+    pub relative: f64,
+}
+
+/// The differences in all measures that have a value in both runs, in the order of the first.
+pub fn differences(one: &RunReport, other: &RunReport) -> Vec<Difference> {
+    one.measures
+        .iter()
+        .filter_map(|measure| {
+            let a = measure.value?;
+            let b = other.measure(&measure.key)?.value?;
+            let size = a.abs().max(b.abs());
+            let relative = if size > 0.0 { (a - b).abs() / size } else { 0.0 };
+            Some(Difference { key: measure.key.clone(), relative })
+        })
+        .collect()
+}

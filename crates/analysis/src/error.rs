@@ -1,0 +1,84 @@
+//! What can go wrong with a run.
+
+use dashpot_dae::SolveError;
+use dashpot_network::NetworkErrors;
+use thiserror::Error;
+
+/// Why a run has no report.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The network cannot be turned into a system.
+    #[error(transparent)]
+    Network(#[from] NetworkErrors),
+    /// The method did not deliver a trajectory.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// There is no such method.
+    #[error("unknown method `{name}`; known methods: {}", .known.join(", "))]
+    UnknownMethod {
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        known: Vec<&'static str>,
+    },
+    /// A measure is asked of something that does not exist.
+    #[error(
+        "`{kind}` is asked of `{target}`, but there is no such {family}; known: {}",
+        .known.join(", ")
+    )]
+    UnknownTarget {
+        /// The measure's word.
+        kind: &'static str,
+        /// What it is asked of.
+        target: String,
+        /// `element` or `node`.
+        family: &'static str,
+        /// Names of that family.
+        known: Vec<String>,
+    },
+    /// An accuracy is asked of a measure that is not reported.
+    #[error(
+        "an accuracy is asked of `{key}`, which is not reported; reported: {}",
+        .known.join(", ")
+    )]
+    UnknownMeasure {
+        /// What was asked for.
+        key: String,
+        /// What is reported.
+        known: Vec<String>,
+    },
+    /// The run is to stop at a level of an output that does not exist.
+    #[error(
+        "the run is to stop by `{output}`, but there is no such output; known: {}",
+        .known.join(", ")
+    )]
+    UnknownOutput {
+        /// What was asked for.
+        output: String,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// A setting is out of its range.
+    #[error("`{setting}` must be {range}, but it is {value}")]
+    InvalidSetting {
+        /// The setting, or the measure whose accuracy it is.
+        setting: String,
+        /// Its range in words.
+        range: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// Energy appeared or vanished.
+    #[error(
+        "the solution of `{method}` cannot be trusted: {} of the energy turned over {}",
+        crate::wording::percent(.closure.abs()),
+        if *.closure > 0.0 { "is missing" } else { "is too much" }
+    )]
+    EnergyLost {
+        /// The method that was used.
+        method: &'static str,
+        /// The part of the energy turned over that is missing; negative if there is too much.
+        closure: f64,
+    },
+}

@@ -1,0 +1,133 @@
+//! The area under the absolute value of a signal.
+
+use dashpot_dae::{Panel, Signal, chebyshev};
+
+use super::Range;
+
+/// `|s|` over a window, cut at knots into monotone pieces, with its exact integral.
+#[derive(Debug)]
+pub(super) struct Area<'a> {
+    /// Where a piece begins or ends, in rising order.
+    knots: Vec<f64>,
+    /// The knots at which `|s|` jumps or ends.
+    borders: Vec<f64>,
+    /// Parts of panels on which the signal keeps its sign, in order of time.
+    parts: Vec<Part<'a>>,
+    largest: f64,
+}
+
+/// A part of a panel on which the signal keeps its sign.
+#[derive(Debug)]
+struct Part<'a> {
+    panel: &'a Panel,
+    /// Coefficients of the panel's antiderivative, with the sign that the signal has.
+    antiderivative: Vec<f64>,
+    /// Where the part begins \[s\].
+    start: f64,
+    /// Value of the antiderivative there.
+    offset: f64,
+    /// Area before the part.
+    before: f64,
+}
+
+impl Part<'_> {
+    fn area_until(&self, t: f64) -> f64 {
+        let half = 0.5 * self.panel.length();
+        let value = chebyshev::evaluate(&self.antiderivative, self.panel.place(t));
+        self.before + (half * (value - self.offset)).max(0.0)
+    }
+}
+
+impl<'a> Area<'a> {
+    /// Cuts the signal in the window.
+    pub(super) fn new(signal: &'a Signal, window: (f64, f64)) -> Self {
+        let window = (window.0.max(signal.start()), window.1.min(signal.end()));
+        let inside = |t: &f64| *t > window.0 && *t < window.1;
+        let zeros = signal.crossings(0.0, window).into_iter().map(|crossing| crossing.time);
+        let zeros: Vec<f64> = zeros.filter(inside).collect();
+        let jumps = signal.panels.windows(2).filter_map(|pair| {
+            let (before, after) = (pair[0].value(pair[0].end), pair[1].value(pair[1].start));
+            let rounding = 1e-12 * (before.abs() + after.abs());
+            ((after - before).abs() > signal.noise.max(rounding)).then_some(pair[1].start)
+        });
+        let jumps: Vec<f64> = jumps.filter(inside).collect();
+        let turns = signal.extrema(window).into_iter().map(|extremum| extremum.time);
+        let mut knots: Vec<f64> = turns.filter(inside).chain(zeros.iter().copied()).collect();
+        knots.extend(jumps.iter().copied().chain([window.0, window.1]));
+        knots.sort_by(f64::total_cmp);
+        knots.dedup();
+        let mut borders = jumps;
+        borders.extend([window.0, window.1]);
+        borders.sort_by(f64::total_cmp);
+        Self {
+            knots,
+            borders,
+            parts: parts(signal, window, &zeros),
+            largest: signal.absolute_maximum(window).value,
+        }
+    }
+
+    /// Where the monotone pieces meet, and both ends.
+    pub(super) fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
+    /// The largest value of `|s|`.
+    pub(super) fn largest(&self) -> f64 {
+        self.largest
+    }
+
+    /// Whether `|s|` jumps or ends at `t`.
+    pub(super) fn is_border(&self, t: f64) -> bool {
+        self.borders.binary_search_by(|border| border.total_cmp(&t)).is_ok()
+    }
+
+    /// The area from `from` to `to`.
+    pub(super) fn between(&self, from: f64, to: f64) -> f64 {
+        let until = |t: f64| {
+            let at = self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
+            self.parts.get(at).map_or(0.0, |part| part.area_until(t))
+        };
+        (until(to) - until(from)).max(0.0)
+    }
+
+    /// Bounds of `|s|` between two times on one monotone piece; from the right at the first, from
+    /// the left at the second.
+    pub(super) fn range(&self, from: f64, to: f64) -> Range {
+        let panels = |t: f64| self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
+        let value =
+            |at: usize, t: f64| self.parts.get(at).map_or(0.0, |part| part.panel.value(t).abs());
+        let first = value(panels(from), from);
+        let mut at = panels(to);
+        if at > 0 && self.parts[at].start >= to {
+            at -= 1;
+        }
+        let last = value(at, to);
+        Range { low: first.min(last), high: first.max(last) }
+    }
+}
+
+/// The panels of the signal in the window, cut at its zeros.
+fn parts<'a>(signal: &'a Signal, window: (f64, f64), zeros: &[f64]) -> Vec<Part<'a>> {
+    let mut parts = Vec::with_capacity(signal.panels.len() + zeros.len());
+    let mut before = 0.0;
+    for panel in &signal.panels {
+        let (start, end) = (panel.start.max(window.0), panel.end.min(window.1));
+        if start >= end {
+            continue;
+        }
+        let antiderivative = chebyshev::antiderivative(&panel.coefficients);
+        let mut places = vec![start];
+        places.extend(zeros.iter().copied().filter(|&zero| zero > start && zero < end));
+        places.push(end);
+        for pair in places.windows(2) {
+            let sign = panel.value(0.5 * (pair[0] + pair[1])).signum();
+            let antiderivative: Vec<f64> = antiderivative.iter().map(|c| sign * c).collect();
+            let offset = chebyshev::evaluate(&antiderivative, panel.place(pair[0]));
+            let part = Part { panel, antiderivative, start: pair[0], offset, before };
+            before = part.area_until(pair[1]);
+            parts.push(part);
+        }
+    }
+    parts
+}

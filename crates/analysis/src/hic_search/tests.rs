@@ -1,0 +1,108 @@
+use std::f64::consts::PI;
+
+use dashpot_dae::{Panel, chebyshev::Interpolation};
+
+use super::*;
+
+/// The function as a signal of this many panels of degree 15.
+fn signal(end: f64, panels: u32, function: impl Fn(f64) -> f64) -> Signal {
+    let interpolation = Interpolation::of_degree(15);
+    let panels = (0..panels).map(|at| {
+        let (start, end) =
+            (end * f64::from(at) / f64::from(panels), end * f64::from(at + 1) / f64::from(panels));
+        let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
+        let values: Vec<f64> = interpolation.nodes().iter().map(|x| function(time(x))).collect();
+        let mut coefficients = vec![0.0; 16];
+        interpolation.coefficients(&values, &mut coefficients);
+        Panel { start, end, coefficients }
+    });
+    Signal::new(panels.collect(), None, 1e-14)
+}
+
+fn close(found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() <= tolerance, "{found} is not {expected}");
+}
+
+#[test]
+fn half_sine_has_its_closed_form() {
+    for panels in [1, 3, 16] {
+        let pulse = signal(2.0, panels, |t| 5.0 * (PI * t / 2.0).sin());
+        let found = optimum(&pulse, (0.0, 2.0), 1e9);
+        let unit = 5.0_f64.powf(2.5) * 2.0;
+        close(found.value / unit, 0.414_645_65, 1e-8);
+        close((found.interval.1 - found.interval.0) / 2.0, 0.670_229_7, 1e-7);
+        assert!(found.doubt <= 0.0);
+    }
+}
+
+#[test]
+fn haversine_has_its_closed_form() {
+    let pulse = signal(1.0, 4, |t| (PI * t).sin().powi(2));
+    let found = optimum(&pulse, (0.0, 1.0), 1e9);
+    close(found.value, 0.302_939, 1e-6);
+    close(found.interval.1 - found.interval.0, 0.507_59, 1e-5);
+}
+
+#[test]
+fn triangle_has_its_closed_form() {
+    let pulse = signal(1.0, 2, |t| 1.0 - (2.0 * t - 1.0).abs());
+    let found = optimum(&pulse, (0.0, 1.0), 1e9);
+    close(found.value, 0.246_401, 1e-6);
+    close(found.interval.1 - found.interval.0, 4.0 / 7.0, 1e-7);
+}
+
+#[test]
+fn rectangle_is_its_own_interval() {
+    let piece = |start, end, value| Panel::constant(start, end, value);
+    let panels = vec![piece(0.0, 1.0, 0.0), piece(1.0, 2.0, -4.0), piece(2.0, 3.0, 0.0)];
+    let pulse = Signal::new(panels, None, 0.0);
+    let found = optimum(&pulse, (0.0, 3.0), 1e9);
+    close(found.value, 32.0, 1e-12);
+    assert_eq!(found.interval, (1.0, 2.0));
+    let capped = optimum(&pulse, (0.0, 3.0), 0.5);
+    close(capped.value, 16.0, 1e-12);
+}
+
+#[test]
+fn zero_signal_has_none() {
+    let found =
+        optimum(&Signal::new(vec![Panel::constant(0.0, 1.0, 0.0)], None, 0.0), (0.0, 1.0), 1e9);
+    close(found.value, 0.0, 0.0);
+    let empty = optimum(&signal(1.0, 1, |_| 1.0), (0.5, 0.5), 1e9);
+    close(empty.value, 0.0, 0.0);
+}
+
+#[test]
+fn capped_interval_has_equal_ends() {
+    let pulse = signal(2.0, 5, |t| t * t * (2.0 - t));
+    let found = optimum(&pulse, (0.0, 2.0), 0.3);
+    let (from, to) = found.interval;
+    close(to - from, 0.3, 1e-15);
+    close(pulse.value(from), pulse.value(to), 1e-6);
+}
+
+#[test]
+fn best_of_many_peaks_is_found() {
+    // Two pulses, the later one better; a grid over all intervals is the judge.
+    let function = |t: f64| (8.0 * t).sin().powi(2) * (1.0 + 0.3 * t) + 0.2 * (31.0 * t).cos();
+    let pulse = signal(1.5, 24, function);
+    for cap in [0.05, 0.2, 0.7, 10.0] {
+        let found = optimum(&pulse, (0.0, 1.5), cap);
+        let steps = 600_u32;
+        let area = Area::new(&pulse, (0.0, 1.5));
+        let mut best = 0.0_f64;
+        for i in 0..steps {
+            for j in i + 1..=steps {
+                let (from, to) =
+                    (1.5 * f64::from(i) / f64::from(steps), 1.5 * f64::from(j) / f64::from(steps));
+                if to - from <= cap {
+                    best = best.max(criterion(area.between(from, to), to - from));
+                }
+            }
+        }
+        assert!(found.value >= best * (1.0 - 1e-12), "{} < {best}", found.value);
+        assert!(found.value <= best * 1.01, "{} > {best}", found.value);
+        assert!(found.interval.1 - found.interval.0 <= cap * (1.0 + 1e-12));
+        assert!(found.doubt <= 0.0, "cap {cap}: {}", found.doubt);
+    }
+}

@@ -1,0 +1,218 @@
+//! The time span of an impact.
+
+use dashpot_dae::Signal;
+use dashpot_network::parameters::WindowWish;
+
+/// How the contact of an impact ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Contact {
+    /// The contact force falls to zero and would turn to tension.
+    Released,
+    /// The contact force pushes until the run ends.
+    Lasting,
+    /// The contact force pulls from the start, so there is no impact.
+    Pulling,
+    /// There is never a contact force.
+    Unloaded,
+    /// The scene has no impactor.
+    NoImpactor,
+}
+
+/// The time from first contact to the first zero of the contact force.
+///
+/// A force that is zero at the start and then pushes (a Maxwell element's) has its first zero
+/// later; a force that decays towards zero from above has none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// When it begins \[s\].
+    pub start: f64,
+    /// When it ends \[s\]: at release, or with the run.
+    pub end: f64,
+    /// Bound of the error of `end` \[s\], where the method states one.
+    pub end_error: Option<f64>,
+    /// How it ends.
+    pub contact: Contact,
+}
+
+impl Impact {
+    /// The impact of a contact force that exists from the start of a run of `run_end` \[s\].
+    pub(crate) fn of_force(force: &Signal, run_end: f64) -> Self {
+        let run =
+            Self { start: 0.0, end: run_end, end_error: Some(0.0), contact: Contact::Lasting };
+        match force.departure(0.0, 0.0) {
+            None => Self { contact: Contact::Unloaded, ..run },
+            Some(false) => Self { end: 0.0, contact: Contact::Pulling, ..run },
+            Some(true) => match force.first_crossing(0.0, (0.0, run_end), Some(false)) {
+                None if ends_at_zero(force, run_end) => {
+                    Self { end_error: force.error.map(|_| 0.0), contact: Contact::Released, ..run }
+                }
+                None => run,
+                Some(release) => {
+                    let rounding = 4.0 * f64::EPSILON * release.time;
+                    let shift = |error: f64| (error / release.slope.abs()).min(run_end) + rounding;
+                    let end_error = force.error.map(shift);
+                    Self { end: release.time, end_error, contact: Contact::Released, ..run }
+                }
+            },
+        }
+    }
+
+    /// The impact of a node that nothing touches.
+    pub(crate) fn unloaded(run_end: f64) -> Self {
+        Self { start: 0.0, end: run_end, end_error: Some(0.0), contact: Contact::Unloaded }
+    }
+
+    /// The run of a scene without an impactor.
+    pub(crate) fn without_impactor(run_end: f64) -> Self {
+        Self { contact: Contact::NoImpactor, ..Self::unloaded(run_end) }
+    }
+
+    /// The span from the first contact of either to the last end of either; an impact that does
+    /// not take place adds nothing.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        if !self.takes_place() {
+            return other;
+        }
+        if !other.takes_place() {
+            return self;
+        }
+        let later = if other.end > self.end { other } else { self };
+        Self { start: self.start.min(other.start), ..later }
+    }
+
+    fn takes_place(self) -> bool {
+        matches!(self.contact, Contact::Released | Contact::Lasting)
+    }
+
+    /// The part of a run of `run_end` \[s\] that a measure with the given wish looks at; `Err` says
+    /// why there is none.
+    pub(crate) fn span(self, wish: WindowWish, run_end: f64) -> Result<Span, &'static str> {
+        let fixed = |from, to, note| Ok(Span { from, to, to_error: Some(0.0), note });
+        match wish {
+            WindowWish::Run => fixed(0.0, run_end, None),
+            WindowWish::Times(from, to) => {
+                if from > run_end || to < 0.0 {
+                    return Err("the window lies outside the run");
+                }
+                let note = (to > run_end).then_some("the run ends before the window does");
+                fixed(from.max(0.0), to.min(run_end), note)
+            }
+            WindowWish::Impact => match self.contact {
+                Contact::Released => Ok(Span {
+                    from: self.start,
+                    to: self.end,
+                    to_error: self.end_error,
+                    note: None,
+                }),
+                Contact::Lasting => fixed(self.start, self.end, Some(STILL_IN_CONTACT)),
+                Contact::NoImpactor => fixed(0.0, run_end, None),
+                Contact::Pulling => Err(PULLS_FROM_THE_START),
+                Contact::Unloaded => Err(NEVER_LOADED),
+            },
+        }
+    }
+}
+
+/// Whether the force is about to pass zero where the run ends, as it is when the run stops there; a
+/// force that decays towards zero would take longer.
+fn ends_at_zero(force: &Signal, run_end: f64) -> bool {
+    const SOON: f64 = 1e-9;
+    let slope = force.slope(run_end);
+    slope < 0.0 && force.left_value(run_end).abs() <= SOON * run_end * slope.abs()
+}
+
+/// Note on a measure whose impact has no end within the run.
+pub(crate) const STILL_IN_CONTACT: &str = "still in contact at the end of the run";
+/// Note on a measure of an impact that does not take place.
+pub(crate) const PULLS_FROM_THE_START: &str = "the contact force pulls from the start";
+/// Note on a measure of an impact without any force.
+pub(crate) const NEVER_LOADED: &str = "there is never a contact force";
+
+/// The part of a run that a measure looks at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// Its begin \[s\].
+    pub from: f64,
+    /// Its end \[s\].
+    pub to: f64,
+    /// Bound of the error of the end \[s\], where the method states one.
+    pub to_error: Option<f64>,
+    /// What is to be said about it.
+    pub note: Option<&'static str>,
+}
+
+impl Span {
+    /// Both ends.
+    pub fn window(&self) -> (f64, f64) {
+        (self.from, self.to)
+    }
+
+    /// How long it is \[s\].
+    pub fn length(&self) -> f64 {
+        self.to - self.from
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dashpot_dae::Panel;
+
+    use super::*;
+
+    fn line(start: f64, end: f64) -> Signal {
+        let coefficients = vec![0.5 * (start + end), 0.5 * (end - start)];
+        Signal::new(vec![Panel { start: 0.0, end: 2.0, coefficients }], Some(1e-6), 1e-12)
+    }
+
+    #[test]
+    fn impact_ends_where_the_force_falls_through_zero() {
+        let impact = Impact::of_force(&line(3.0, -1.0), 2.0);
+        assert_eq!(impact.contact, Contact::Released);
+        assert!((impact.end - 1.5).abs() < 1e-15);
+        assert!((impact.end_error.unwrap() - 5e-7).abs() < 1e-14);
+    }
+
+    #[test]
+    fn force_that_starts_at_zero_and_pushes_is_a_contact() {
+        let impact = Impact::of_force(&line(0.0, 1.0), 2.0);
+        assert_eq!((impact.contact, impact.end), (Contact::Lasting, 2.0));
+        let span = impact.span(WindowWish::Impact, 2.0).unwrap();
+        assert_eq!(span.note, Some(STILL_IN_CONTACT));
+    }
+
+    #[test]
+    fn run_that_stops_at_release_has_its_impact() {
+        let impact = Impact::of_force(&line(1.0, 1e-17), 2.0);
+        assert_eq!((impact.contact, impact.end), (Contact::Released, 2.0));
+        let decaying = Impact::of_force(&line(1.0, 1e-6), 2.0);
+        assert_eq!(decaying.contact, Contact::Lasting);
+    }
+
+    #[test]
+    fn force_that_pulls_from_the_start_is_no_impact() {
+        for force in [line(0.0, -1.0), line(-1.0, 1.0)] {
+            let impact = Impact::of_force(&force, 2.0);
+            assert_eq!((impact.contact, impact.end), (Contact::Pulling, 0.0));
+            assert!(impact.span(WindowWish::Impact, 2.0).is_err());
+            assert!(impact.span(WindowWish::Run, 2.0).is_ok());
+        }
+    }
+
+    #[test]
+    fn two_impacts_join_to_the_longer_one() {
+        let short = Impact::of_force(&line(3.0, -1.0), 2.0);
+        let long = Impact::of_force(&line(1.0, 1.0), 2.0);
+        assert_eq!(short.joined(long), long);
+        let pulling = Impact::of_force(&line(-1.0, 1.0), 2.0);
+        assert_eq!(pulling.joined(short), short);
+    }
+
+    #[test]
+    fn windows_are_cut_to_the_run() {
+        let impact = Impact::without_impactor(2.0);
+        let span = impact.span(WindowWish::Times(1.0, 5.0), 2.0).unwrap();
+        assert_eq!(span.window(), (1.0, 2.0));
+        assert!(span.note.is_some());
+        assert!(impact.span(WindowWish::Times(3.0, 5.0), 2.0).is_err());
+    }
+}

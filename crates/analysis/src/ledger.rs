@@ -1,0 +1,224 @@
+//! Where the energy of a run comes from and where it goes.
+
+mod series;
+
+use std::ops::Range;
+
+use dashpot_dae::Signal;
+use dashpot_network::elements::Law;
+pub use series::{EnergySeries, energy_series};
+
+use crate::Solution;
+
+/// The energy balance from the start of a run until a time.
+///
+/// `start + work in = kinetic + stored + dissipated + missing`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ledger {
+    /// Until when \[s\].
+    pub time: f64,
+    /// Kinetic and stored energy at the start \[J\].
+    pub start: f64,
+    /// Kinetic energy of all masses \[J\].
+    pub kinetic: f64,
+    /// Energy stored in each spring \[J\], by path.
+    pub stored: Vec<(String, f64)>,
+    /// Energy dissipated in each dashpot \[J\], by path.
+    pub dissipated: Vec<(String, f64)>,
+    /// Work done by each drive (load, weight, prescribed motion) \[J\].
+    pub work_in: Vec<(String, f64)>,
+    /// The largest amount of energy that was in play \[J\].
+    pub turned_over: f64,
+    /// Bound of the error of the balance \[J\], where the method bounds that of its signals.
+    pub error: Option<f64>,
+}
+
+impl Ledger {
+    /// All work done from outside \[J\].
+    pub fn total_work_in(&self) -> f64 {
+        total(&self.work_in)
+    }
+
+    /// All energy stored \[J\].
+    pub fn total_stored(&self) -> f64 {
+        total(&self.stored)
+    }
+
+    /// All energy dissipated \[J\].
+    pub fn total_dissipated(&self) -> f64 {
+        total(&self.dissipated)
+    }
+
+    /// The energy that is missing \[J\]; negative if there is too much.
+    pub fn missing(&self) -> f64 {
+        self.start + self.total_work_in()
+            - (self.kinetic + self.total_stored() + self.total_dissipated())
+    }
+
+    /// The missing energy in parts of the energy turned over; 0 where nothing happens.
+    pub fn closure(&self) -> f64 {
+        if self.turned_over > 0.0 { self.missing() / self.turned_over } else { 0.0 }
+    }
+}
+
+fn total(entries: &[(String, f64)]) -> f64 {
+    entries.iter().map(|entry| entry.1).sum()
+}
+
+/// Name of the work that loads and motions do where they jump.
+const STEPS: &str = "jumps of loads and motions";
+
+/// The energy balance of `solution` until `time` \[s\], by quadrature that is exact for its
+/// polynomials.
+///
+/// Dashpots dissipate `∫ F ẏ dt`; springs store the energy of their deformation. Where a load or a
+/// prescribed motion jumps, the work done is the jump of the stored energy.
+pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
+    let assembly = solution.assembly();
+    let window = (0.0, time);
+    let mut balance = Balance::default();
+    let (mut start, mut kinetic) = (0.0, 0.0);
+    for node in assembly.nodes.iter().filter(|node| node.mass > 0.0) {
+        let Some(velocity) = node.velocity else { continue };
+        let velocity = solution.signal(velocity);
+        let energy = |v: f64| 0.5 * node.mass * v * v;
+        let last = velocity.left_value(time);
+        start += energy(velocity.value(0.0));
+        kinetic += energy(last);
+        balance.add_error(velocity.error.map(|error| node.mass * error * (last.abs() + error)));
+    }
+    let (mut stored, mut dissipated) = (Vec::new(), Vec::new());
+    for primitive in &assembly.primitives {
+        match primitive.element.law() {
+            Law::Spring(stiffness) => {
+                let deformation = solution.signal(primitive.deformation);
+                let last = deformation.left_value(time);
+                start += primitive.element.stored(deformation.value(0.0));
+                stored.push((primitive.name.clone(), primitive.element.stored(last)));
+                let bound = |error: f64| stiffness * error * (last.abs() + error);
+                balance.add_error(deformation.error.map(bound));
+            }
+            Law::Dashpot(_) => {
+                let (force, rate) = (
+                    solution.signal(primitive.force),
+                    &solution.rate(primitive.rate, primitive.deformation),
+                );
+                let energy = balance.work(force, rate, window);
+                dissipated.push((primitive.name.clone(), energy));
+            }
+            Law::Rigid => {}
+        }
+    }
+    let mut work_in: Vec<(String, f64)> = assembly
+        .drives
+        .iter()
+        .map(|drive| {
+            let (force, velocity) = (solution.signal(drive.force), solution.signal(drive.velocity));
+            (drive.name.clone(), balance.work(force, velocity, window))
+        })
+        .collect();
+    let steps = steps(solution, 0..assembly.primitives.len(), window);
+    if steps != 0.0 {
+        work_in.push((STEPS.to_owned(), steps));
+    }
+    let supplied = start + work_in.iter().map(|entry| entry.1.max(0.0)).sum::<f64>();
+    let kept = kinetic + total(&stored) + total(&dissipated);
+    let turned_over = if assembly.drives.is_empty() {
+        supplied.max(kept)
+    } else {
+        supplied.max(kept).max(most_in_one_place(solution, window))
+    };
+    Ledger {
+        time,
+        start,
+        kinetic,
+        stored,
+        dissipated,
+        work_in,
+        turned_over,
+        error: balance.error(),
+    }
+}
+
+/// The largest energy \[J\] that any one mass or spring holds within the window: what is driven may
+/// come to rest again with all energy given back.
+fn most_in_one_place(solution: &Solution<'_>, window: (f64, f64)) -> f64 {
+    let assembly = solution.assembly();
+    let largest = |output: usize| solution.signal(output).absolute_maximum(window).value;
+    let masses = assembly.nodes.iter().filter(|node| node.mass > 0.0).filter_map(|node| {
+        let fastest = largest(node.velocity?);
+        Some(0.5 * node.mass * fastest * fastest)
+    });
+    let springs =
+        assembly.primitives.iter().filter_map(|primitive| match primitive.element.law() {
+            Law::Spring(_) => Some(primitive.element.stored(largest(primitive.deformation))),
+            Law::Dashpot(_) | Law::Rigid => None,
+        });
+    masses.chain(springs).fold(0.0, f64::max)
+}
+
+/// Adds up the errors of a balance.
+#[derive(Debug, Default)]
+struct Balance {
+    error: f64,
+    unbounded: bool,
+}
+
+impl Balance {
+    fn add_error(&mut self, error: Option<f64>) {
+        match error {
+            Some(error) => self.error += error,
+            None => self.unbounded = true,
+        }
+    }
+
+    /// `∫ force · velocity dt`.
+    fn work(&mut self, force: &Signal, velocity: &Signal, window: (f64, f64)) -> f64 {
+        let bound = |(force_error, velocity_error): (f64, f64)| {
+            (window.1 - window.0)
+                * (force_error * (velocity.bound() + velocity_error)
+                    + velocity_error * force.bound())
+        };
+        self.add_error(force.error.zip(velocity.error).map(bound));
+        force.integral_of_product(velocity, window)
+    }
+
+    fn error(&self) -> Option<f64> {
+        (!self.unbounded).then_some(self.error)
+    }
+}
+
+/// The energy \[J\] that these primitives take up in no time where driving functions jump within
+/// the window, its begin excluded.
+pub(crate) fn steps(solution: &Solution<'_>, primitives: Range<usize>, window: (f64, f64)) -> f64 {
+    let assembly = solution.assembly();
+    let system = &assembly.system;
+    let end = window.1 / system.time_scale;
+    let times = system.breakpoints(end).into_iter().map(|time| time * system.time_scale);
+    let times: Vec<f64> = times.filter(|&time| time > window.0).collect();
+    if times.is_empty() {
+        return 0.0;
+    }
+    let springs = assembly.primitives.get(primitives).unwrap_or_default().iter();
+    let springs = springs.filter(|primitive| matches!(primitive.element.law(), Law::Spring(_)));
+    springs
+        .map(|primitive| {
+            let deformation = solution.signal(primitive.deformation);
+            let energy = |y: f64| primitive.element.stored(y);
+            let taken = times.iter().filter_map(|&time| jump(deformation, time));
+            taken.map(|(before, after)| energy(after) - energy(before)).sum::<f64>()
+        })
+        .sum()
+}
+
+/// The values on both sides of a border of panels at `time`, if they differ beyond the noise.
+fn jump(signal: &Signal, time: f64) -> Option<(f64, f64)> {
+    let rounding = 1e-12 * signal.end().abs();
+    let after = signal.panels.partition_point(|panel| panel.start < time - rounding);
+    let (left, right) = (signal.panels.get(after.checked_sub(1)?)?, signal.panels.get(after)?);
+    if (right.start - time).abs() > rounding {
+        return None;
+    }
+    let values = (left.value(left.end), right.value(right.start));
+    ((values.1 - values.0).abs() > signal.noise).then_some(values)
+}

@@ -1,0 +1,87 @@
+//! Energies over time.
+
+use dashpot_dae::Signal;
+use dashpot_network::elements::Law;
+
+use super::steps;
+use crate::Solution;
+
+/// Energies of a run at given times \[J\].
+#[derive(Debug, Clone, PartialEq)]
+pub struct EnergySeries {
+    /// The times \[s\].
+    pub times: Vec<f64>,
+    /// Kinetic energy of all masses.
+    pub kinetic: Vec<f64>,
+    /// Energy stored in all springs.
+    pub stored: Vec<f64>,
+    /// Energy dissipated so far in all dashpots.
+    pub dissipated: Vec<f64>,
+    /// Work done so far from outside.
+    pub work_in: Vec<f64>,
+}
+
+/// The energies of `solution` at these times \[s\], which rise.
+pub fn energy_series(solution: &Solution<'_>, times: &[f64]) -> EnergySeries {
+    let assembly = solution.assembly();
+    let zero = || vec![0.0; times.len()];
+    let mut series = EnergySeries {
+        times: times.to_vec(),
+        kinetic: zero(),
+        stored: zero(),
+        dissipated: zero(),
+        work_in: zero(),
+    };
+    for node in assembly.nodes.iter().filter(|node| node.mass > 0.0) {
+        if let Some(velocity) = node.velocity {
+            let velocity = solution.signal(velocity);
+            add(&mut series.kinetic, times, |t| 0.5 * node.mass * velocity.value(t).powi(2));
+        }
+    }
+    for primitive in &assembly.primitives {
+        match primitive.element.law() {
+            Law::Spring(_) => {
+                let deformation = solution.signal(primitive.deformation);
+                add(&mut series.stored, times, |t| primitive.element.stored(deformation.value(t)));
+            }
+            Law::Dashpot(_) => {
+                let force = solution.signal(primitive.force);
+                accumulate(
+                    &mut series.dissipated,
+                    times,
+                    force,
+                    &solution.rate(primitive.rate, primitive.deformation),
+                );
+            }
+            Law::Rigid => {}
+        }
+    }
+    for drive in &assembly.drives {
+        let force = solution.signal(drive.force);
+        accumulate(&mut series.work_in, times, force, solution.signal(drive.velocity));
+    }
+    let (mut sum, mut from) = (0.0, 0.0);
+    for (work, &time) in series.work_in.iter_mut().zip(times) {
+        // At a jump the values are those from the right, so it has been made.
+        let just_after = time * (1.0 + 1e-12);
+        sum += steps(solution, 0..assembly.primitives.len(), (from, just_after));
+        from = just_after;
+        *work += sum;
+    }
+    series
+}
+
+fn add(sums: &mut [f64], times: &[f64], energy: impl Fn(f64) -> f64) {
+    for (sum, &time) in sums.iter_mut().zip(times) {
+        *sum += energy(time);
+    }
+}
+
+fn accumulate(sums: &mut [f64], times: &[f64], force: &Signal, velocity: &Signal) {
+    let (mut work, mut from) = (0.0, 0.0);
+    for (sum, &time) in sums.iter_mut().zip(times) {
+        work += force.integral_of_product(velocity, (from, time));
+        from = time;
+        *sum += work;
+    }
+}

@@ -1,0 +1,37 @@
+//! From trajectories to numbers: measures, the energy ledger, their errors, and the report of a
+//! run.
+//!
+//! [`solve`] compiles a network, integrates it as often as its errors ask for, and returns a
+//! [`RunReport`]. All measures are read off the continuous solution, never off samples.
+
+mod accuracy;
+mod difference;
+mod error;
+mod hic_search;
+mod impact;
+pub mod ledger;
+pub mod measures;
+mod refinement;
+mod report;
+mod sample;
+mod selection;
+mod settings;
+mod solution;
+mod solve;
+mod warnings;
+mod wording;
+
+pub use accuracy::Accuracy;
+pub use difference::{Difference, differences};
+pub use error::RunError;
+pub use impact::{Contact, Impact, Span};
+pub use ledger::{EnergySeries, Ledger};
+pub use measures::{Family, Measure, MeasureKind, MeasureVisitor, Reading, visit_measures};
+pub use report::{
+    ContactReport, EventReport, MeasureReport, RunReport, SolverReport, SystemReport,
+};
+pub use sample::{Column, Table, regular_times, table};
+pub use selection::MeasureWish;
+pub use settings::{SolveSettings, Stop};
+pub use solution::{Solution, is_impactor};
+pub use solve::{solve, solve_assembly};

@@ -1,0 +1,55 @@
+//! Average deceleration.
+
+use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+
+use super::{Family, MASSLESS, MeasureKind, Reading, reading::integral, window};
+use crate::Solution;
+
+/// The magnitude of the mean of what an accelerometer on a body reads, `|∫ a dt| / T` \[m/s²\]:
+/// without gravity the change of velocity over the time `T` that it takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AverageDeceleration {
+    /// The part of the run that it looks at.
+    pub window: WindowWish,
+}
+
+impl Default for AverageDeceleration {
+    fn default() -> Self {
+        Self { window: WindowWish::Impact }
+    }
+}
+
+impl MeasureKind for AverageDeceleration {
+    const KIND: &'static str = "average-deceleration";
+    const SUMMARY: &'static str = "mean of what an accelerometer reads [m/s^2]";
+    const UNIT: &'static str = "m/s^2";
+    const APPLIES_TO: Family = Family::Node;
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        window(values, 0).map(|window| Self { window })
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Window(self.window)]
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
+            return Reading::undefined(MASSLESS);
+        };
+        let span = match solution.node_impact(target).span(self.window, solution.end()) {
+            Ok(span) => span,
+            Err(note) => return Reading::undefined(note),
+        };
+        let length = span.length();
+        if length <= 0.0 {
+            return Reading::undefined("the window has no length");
+        }
+        let impulse = integral(solution.signal(acceleration), &span);
+        let value = impulse.value.map_or(f64::NAN, |value| value.abs() / length);
+        // A longer window adds to the integral, and divides it by more.
+        let stretch = span.to_error.map(|shift| value * shift / length);
+        let error = impulse.error.zip(stretch).map(|(error, stretch)| error / length + stretch);
+        Reading::over(&span, value, error).of_size(impulse.size / length)
+    }
+}

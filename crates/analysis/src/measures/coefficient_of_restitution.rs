@@ -1,0 +1,55 @@
+//! Coefficient of restitution.
+
+use dashpot_network::parameters::{InvalidParameter, Parameter, Value, WindowWish};
+
+use super::{Family, MeasureKind, Reading, reading::end_value};
+use crate::{
+    Solution,
+    impact::{Contact, STILL_IN_CONTACT},
+};
+
+/// The speed at which an element's ends part at release over that at which they met,
+/// `e = −ẏ(release)/ẏ(contact)` \[1\], for elements that touch an impactor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct CoefficientOfRestitution;
+
+impl MeasureKind for CoefficientOfRestitution {
+    const KIND: &'static str = "coefficient-of-restitution";
+    const SUMMARY: &'static str = "speed of parting over speed of meeting [1]";
+    const UNIT: &'static str = "1";
+    const PARAMETERS: &'static [Parameter] = &[];
+    const APPLIES_TO: Family = Family::Element;
+
+    fn from_values(_values: &[Value]) -> Result<Self, InvalidParameter> {
+        Ok(Self)
+    }
+
+    fn values(&self) -> Vec<Value> {
+        Vec::new()
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        let connection = &solution.assembly().connections[target];
+        if !solution.touches_impactor(connection) {
+            return Reading::undefined("it touches no impactor");
+        }
+        let impact = solution.element_impact(target);
+        if impact.contact == Contact::Lasting {
+            return Reading::undefined(STILL_IN_CONTACT);
+        }
+        let span = match impact.span(WindowWish::Impact, solution.end()) {
+            Ok(span) => span,
+            Err(note) => return Reading::undefined(note),
+        };
+        let rate = solution.rate(connection.rate, connection.deformation);
+        let meeting = rate.value(span.from);
+        if meeting.abs() <= rate.noise {
+            return Reading::undefined("the ends meet without speed");
+        }
+        let parting = end_value(&rate, &span);
+        let value = -parting.value.unwrap_or(f64::NAN) / meeting;
+        let error = parting.error.zip(rate.error);
+        let error = error.map(|(end, start)| (end + value.abs() * start) / meeting.abs());
+        Reading::over(&span, value, error).of_size(1.0).at(span.to)
+    }
+}

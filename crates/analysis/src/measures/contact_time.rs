@@ -1,0 +1,61 @@
+//! Contact time.
+
+use dashpot_network::parameters::{InvalidParameter, Parameter, Value};
+
+use super::{Family, MeasureKind, Reading};
+use crate::{
+    Solution,
+    impact::{Contact, NEVER_LOADED, PULLS_FROM_THE_START, STILL_IN_CONTACT},
+};
+
+/// The time from first contact to the first zero of an element's force \[s\], for elements that
+/// touch an impactor.
+///
+/// It is 0 where the element pulls from the start, and undefined where it still pushes at the end
+/// of the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ContactTime;
+
+impl MeasureKind for ContactTime {
+    const KIND: &'static str = "contact-time";
+    const SUMMARY: &'static str = "time from first contact to the first zero of the force [s]";
+    const UNIT: &'static str = "s";
+    const PARAMETERS: &'static [Parameter] = &[];
+    const APPLIES_TO: Family = Family::Element;
+    const BY_DEFAULT: bool = true;
+
+    fn from_values(_values: &[Value]) -> Result<Self, InvalidParameter> {
+        Ok(Self)
+    }
+
+    fn values(&self) -> Vec<Value> {
+        Vec::new()
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        if !solution.touches_impactor(&solution.assembly().connections[target]) {
+            return Reading::undefined("it touches no impactor");
+        }
+        let impact = solution.element_impact(target);
+        match impact.contact {
+            Contact::Released => {
+                let length = impact.end - impact.start;
+                Reading {
+                    value: Some(length),
+                    size: length,
+                    time: Some(impact.end),
+                    error: impact.end_error,
+                    ..Reading::default()
+                }
+            }
+            Contact::Pulling => Reading {
+                value: Some(0.0),
+                time: Some(impact.start),
+                error: Some(0.0),
+                ..Reading::undefined(PULLS_FROM_THE_START)
+            },
+            Contact::Lasting => Reading::undefined(STILL_IN_CONTACT),
+            Contact::Unloaded | Contact::NoImpactor => Reading::undefined(NEVER_LOADED),
+        }
+    }
+}

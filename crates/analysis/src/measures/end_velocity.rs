@@ -1,0 +1,47 @@
+//! Velocity at the end.
+
+use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+
+use super::{Family, MeasureKind, NO_VELOCITY, Reading, reading::end_value, window};
+use crate::Solution;
+
+/// A node's velocity at the end of the window, `v(t_end)` \[m/s\], positive towards the support:
+/// at the end of its impact an impactor's rebound speed, negative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EndVelocity {
+    /// The part of the run that it looks at.
+    pub window: WindowWish,
+}
+
+impl Default for EndVelocity {
+    fn default() -> Self {
+        Self { window: WindowWish::Impact }
+    }
+}
+
+impl MeasureKind for EndVelocity {
+    const KIND: &'static str = "end-velocity";
+    const SUMMARY: &'static str =
+        "velocity at the end of the window: the rebound speed of an impactor [m/s]";
+    const UNIT: &'static str = "m/s";
+    const APPLIES_TO: Family = Family::Node;
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        window(values, 0).map(|window| Self { window })
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Window(self.window)]
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        let Some(velocity) = solution.assembly().nodes[target].velocity else {
+            return Reading::undefined(NO_VELOCITY);
+        };
+        let span = match solution.node_impact(target).span(self.window, solution.end()) {
+            Ok(span) => span,
+            Err(note) => return Reading::undefined(note),
+        };
+        end_value(solution.signal(velocity), &span)
+    }
+}

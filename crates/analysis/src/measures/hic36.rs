@@ -1,0 +1,38 @@
+//! Head injury criterion over at most 36 ms.
+
+use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+
+use super::{Family, Hic, MeasureKind, Reading, window};
+use crate::Solution;
+
+/// The head injury criterion over intervals of at most 36 ms \[s\]; otherwise as [`Hic`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hic36 {
+    /// The part of the run in which the interval lies.
+    pub window: WindowWish,
+}
+
+impl Default for Hic36 {
+    fn default() -> Self {
+        Self { window: WindowWish::Impact }
+    }
+}
+
+impl MeasureKind for Hic36 {
+    const KIND: &'static str = "hic36";
+    const SUMMARY: &'static str = "head injury criterion over intervals up to 36 ms [s]";
+    const UNIT: &'static str = "s";
+    const APPLIES_TO: Family = Family::Node;
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        window(values, 0).map(|window| Self { window })
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Window(self.window)]
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        MeasureKind::read(&Hic { cap: 0.036, window: self.window }, solution, target)
+    }
+}

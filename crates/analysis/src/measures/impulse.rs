@@ -1,0 +1,47 @@
+//! Impulse.
+
+use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+
+use super::{Family, MeasureKind, Reading, UNDETERMINED_FORCE, reading::integral, window};
+use crate::Solution;
+
+/// The integral of an element's force over time, `∫ F dt` \[N s\], positive in compression.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impulse {
+    /// The part of the run that it looks at.
+    pub window: WindowWish,
+}
+
+impl Default for Impulse {
+    fn default() -> Self {
+        Self { window: WindowWish::Impact }
+    }
+}
+
+impl MeasureKind for Impulse {
+    const KIND: &'static str = "impulse";
+    const SUMMARY: &'static str = "integral of the force over time [N s]";
+    const UNIT: &'static str = "N s";
+    const APPLIES_TO: Family = Family::Element;
+    const BY_DEFAULT: bool = true;
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        window(values, 0).map(|window| Self { window })
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Window(self.window)]
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        let connection = &solution.assembly().connections[target];
+        let Some(force) = connection.force else {
+            return Reading::undefined(UNDETERMINED_FORCE);
+        };
+        let force = solution.signal(force);
+        let span = match solution.element_impact(target).span(self.window, solution.end()) {
+            Ok(span) => span,
+            Err(note) => return Reading::undefined(note),
+        };
+        integral(force, &span)
+    }
+}

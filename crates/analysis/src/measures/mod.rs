@@ -1,0 +1,229 @@
+//! The register of measures: scalars read off a continuous solution, never off samples.
+
+mod average_deceleration;
+mod coefficient_of_restitution;
+mod contact_time;
+mod end_deformation;
+mod end_position;
+mod end_velocity;
+mod energy;
+mod energy_at_end;
+mod hic;
+mod hic15;
+mod hic36;
+mod impulse;
+mod peak_acceleration;
+mod peak_deformation;
+mod peak_displacement;
+mod peak_force;
+mod peak_rate;
+mod reading;
+mod severity_index;
+
+use std::{fmt::Debug, sync::Arc};
+
+use dashpot_network::parameters::{InvalidParameter, Parameter, ParameterKind, Value, WindowWish};
+
+pub use average_deceleration::AverageDeceleration;
+pub use coefficient_of_restitution::CoefficientOfRestitution;
+pub use contact_time::ContactTime;
+pub use end_deformation::EndDeformation;
+pub use end_position::EndPosition;
+pub use end_velocity::EndVelocity;
+pub use energy::Energy;
+pub use energy_at_end::EnergyAtEnd;
+pub use hic::Hic;
+pub use hic15::Hic15;
+pub use hic36::Hic36;
+pub use impulse::Impulse;
+pub use peak_acceleration::PeakAcceleration;
+pub use peak_deformation::PeakDeformation;
+pub use peak_displacement::PeakDisplacement;
+pub use peak_force::PeakForce;
+pub use peak_rate::PeakRate;
+pub use reading::Reading;
+pub use severity_index::SeverityIndex;
+
+use crate::Solution;
+
+/// Standard gravity \[m/s²\], the unit of the injury measures (3rd CGPM, 1901).
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// What a measure is a measure of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Family {
+    /// An element between two nodes.
+    Element,
+    /// A node.
+    Node,
+}
+
+/// A scalar that can be read off a solution.
+///
+/// Implemented for every [`MeasureKind`]; this is the form in which measures are stored.
+pub trait Measure: Debug + Send + Sync {
+    /// Word for the measure, for instance `peak-force`.
+    fn kind(&self) -> &'static str;
+
+    /// SI unit of the value.
+    fn unit(&self) -> &'static str;
+
+    /// What it is a measure of.
+    fn applies_to(&self) -> Family;
+
+    /// The parameters that it has.
+    fn parameters(&self) -> &'static [Parameter];
+
+    /// The parameters' values in the order of [`parameters`](Self::parameters).
+    fn values(&self) -> Vec<Value>;
+
+    /// Reads the measure off `solution` for the element or node number `target`.
+    ///
+    /// # Panics
+    ///
+    /// When the network has no such element or node.
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading;
+}
+
+/// What a measure kind says about itself.
+pub trait MeasureKind: Debug + Default + Send + Sync + Sized + 'static {
+    /// Word for the measure in scenes.
+    const KIND: &'static str;
+    /// One line for a list: what it is, and its unit.
+    const SUMMARY: &'static str;
+    /// SI unit of the value.
+    const UNIT: &'static str;
+    /// Its parameters, all optional.
+    const PARAMETERS: &'static [Parameter] = WINDOW_ONLY;
+    /// What it is a measure of.
+    const APPLIES_TO: Family;
+    /// Whether every run reports it: for elements that touch an impactor, or for impactors.
+    const BY_DEFAULT: bool = false;
+
+    /// The measure with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] when a value is out of range.
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter>;
+
+    /// The parameters' values in the order of [`PARAMETERS`](Self::PARAMETERS).
+    fn values(&self) -> Vec<Value>;
+
+    /// Reads the measure off `solution` for the element or node number `target`.
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading;
+
+    /// A valid example.
+    fn sample() -> Self {
+        Self::default()
+    }
+}
+
+impl<M: MeasureKind> Measure for M {
+    fn kind(&self) -> &'static str {
+        M::KIND
+    }
+
+    fn unit(&self) -> &'static str {
+        M::UNIT
+    }
+
+    fn applies_to(&self) -> Family {
+        M::APPLIES_TO
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        M::PARAMETERS
+    }
+
+    fn values(&self) -> Vec<Value> {
+        MeasureKind::values(self)
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        MeasureKind::read(self, solution, target)
+    }
+}
+
+/// Sees every measure kind.
+pub trait MeasureVisitor {
+    /// Called once for each kind.
+    fn visit<M: MeasureKind>(&mut self);
+}
+
+/// Shows every measure kind to `visitor`. **A new kind is registered here.**
+pub fn visit_measures(visitor: &mut impl MeasureVisitor) {
+    visitor.visit::<PeakForce>();
+    visitor.visit::<PeakDeformation>();
+    visitor.visit::<ContactTime>();
+    visitor.visit::<Impulse>();
+    visitor.visit::<Energy>();
+    visitor.visit::<EnergyAtEnd>();
+    visitor.visit::<PeakRate>();
+    visitor.visit::<EndDeformation>();
+    visitor.visit::<CoefficientOfRestitution>();
+    visitor.visit::<PeakAcceleration>();
+    visitor.visit::<SeverityIndex>();
+    visitor.visit::<Hic15>();
+    visitor.visit::<Hic36>();
+    visitor.visit::<Hic>();
+    visitor.visit::<AverageDeceleration>();
+    visitor.visit::<EndVelocity>();
+    visitor.visit::<EndPosition>();
+    visitor.visit::<PeakDisplacement>();
+}
+
+/// The measures of a family that every run reports, in the order of the register.
+pub fn by_default(family: Family) -> Vec<Arc<dyn Measure>> {
+    struct Collect(Family, Vec<Arc<dyn Measure>>);
+    impl MeasureVisitor for Collect {
+        fn visit<M: MeasureKind>(&mut self) {
+            if M::BY_DEFAULT && M::APPLIES_TO == self.0 {
+                self.1.push(Arc::new(M::default()));
+            }
+        }
+    }
+    let mut collect = Collect(family, Vec::new());
+    visit_measures(&mut collect);
+    collect.1
+}
+
+/// Note on a measure of the force of a rigid link in a loop of rigid links.
+const UNDETERMINED_FORCE: &str = "the force is undetermined in a loop of rigid links";
+/// Note on a measure of the acceleration of a node without mass.
+const MASSLESS: &str = "the node has no mass";
+/// Note on a measure of a velocity that is not a function of time.
+const NO_VELOCITY: &str = "the velocity of this massless node jumps with the loads' rates";
+
+/// The `window` parameter of a measure of the impact.
+const WINDOW: Parameter = Parameter::optional(
+    "window",
+    ParameterKind::Window,
+    "impact",
+    "`impact`, `run`, or a pair of times [s]",
+);
+
+/// The parameters of a measure that has no other.
+const WINDOW_ONLY: &[Parameter] = &[WINDOW];
+
+/// The window at `at`, for [`MeasureKind::from_values`].
+fn window(values: &[Value], at: usize) -> Result<WindowWish, InvalidParameter> {
+    let invalid =
+        |found: &str| InvalidParameter::new("window", "`impact`, `run` or a pair of times", found);
+    let Some(Value::Window(window)) = values.get(at) else {
+        return Err(invalid("missing"));
+    };
+    match *window {
+        WindowWish::Times(from, to) if !(from.is_finite() && to.is_finite() && from < to) => {
+            Err(InvalidParameter::new(
+                "window",
+                "a pair of times, the earlier one first",
+                format!("{from} s to {to} s"),
+            ))
+        }
+        window => Ok(window),
+    }
+}
+
+#[cfg(test)]
+mod tests;

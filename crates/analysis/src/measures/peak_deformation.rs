@@ -1,0 +1,50 @@
+//! Peak deformation.
+
+use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+
+use super::{
+    Family, MeasureKind, Reading,
+    reading::{peak, peaks_below_zero},
+    window,
+};
+use crate::Solution;
+
+/// The largest magnitude of an element's deformation, `max |y(t)|` \[m\], with its time; a peak in
+/// elongation is noted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PeakDeformation {
+    /// The part of the run that it looks at.
+    pub window: WindowWish,
+}
+
+impl Default for PeakDeformation {
+    fn default() -> Self {
+        Self { window: WindowWish::Impact }
+    }
+}
+
+impl MeasureKind for PeakDeformation {
+    const KIND: &'static str = "peak-deformation";
+    const SUMMARY: &'static str =
+        "largest magnitude of the deformation, positive in compression [m]";
+    const UNIT: &'static str = "m";
+    const APPLIES_TO: Family = Family::Element;
+    const BY_DEFAULT: bool = true;
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        window(values, 0).map(|window| Self { window })
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Window(self.window)]
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        let span = match solution.element_impact(target).span(self.window, solution.end()) {
+            Ok(span) => span,
+            Err(note) => return Reading::undefined(note),
+        };
+        let deformation = solution.signal(solution.assembly().connections[target].deformation);
+        let reading = peak(deformation, &span);
+        if peaks_below_zero(deformation, &span) { reading.noting("in elongation") } else { reading }
+    }
+}

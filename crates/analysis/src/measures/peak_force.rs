@@ -1,0 +1,54 @@
+//! Peak force.
+
+use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+
+use super::{
+    Family, MeasureKind, Reading, UNDETERMINED_FORCE,
+    reading::{peak, peaks_below_zero},
+    window,
+};
+use crate::Solution;
+
+/// The largest magnitude of an element's force, `max |F(t)|` \[N\], with its time.
+///
+/// In an impact the force pushes throughout; in other windows a peak in tension is noted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PeakForce {
+    /// The part of the run that it looks at.
+    pub window: WindowWish,
+}
+
+impl Default for PeakForce {
+    fn default() -> Self {
+        Self { window: WindowWish::Impact }
+    }
+}
+
+impl MeasureKind for PeakForce {
+    const KIND: &'static str = "peak-force";
+    const SUMMARY: &'static str = "largest magnitude of the force, positive in compression [N]";
+    const UNIT: &'static str = "N";
+    const APPLIES_TO: Family = Family::Element;
+    const BY_DEFAULT: bool = true;
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        window(values, 0).map(|window| Self { window })
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Window(self.window)]
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        let connection = &solution.assembly().connections[target];
+        let Some(force) = connection.force else {
+            return Reading::undefined(UNDETERMINED_FORCE);
+        };
+        let force = solution.signal(force);
+        let span = match solution.element_impact(target).span(self.window, solution.end()) {
+            Ok(span) => span,
+            Err(note) => return Reading::undefined(note),
+        };
+        let reading = peak(force, &span);
+        if peaks_below_zero(force, &span) { reading.noting("in tension") } else { reading }
+    }
+}

@@ -1,0 +1,91 @@
+//! Severity index.
+
+use dashpot_network::parameters::{
+    Dimension, InvalidParameter, Parameter, ParameterKind, Value, WindowWish,
+};
+
+use super::{Family, MASSLESS, MeasureKind, Reading, STANDARD_GRAVITY, WINDOW, window};
+use crate::Solution;
+
+/// Gadd's severity index, `SI = ∫ (|a|/g0)^n dt` \[s\], of what an accelerometer on a body reads.
+///
+/// | symbol | field      | unit | range            |
+/// |--------|------------|------|------------------|
+/// | `n`    | `exponent` | 1    | positive         |
+/// | `g0`   | [`STANDARD_GRAVITY`] | m/s² |        |
+///
+/// A half-sine of height `A g0` and length `T` has `SI = 0.45765586 A^2.5 T` at `n = 2.5`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SeverityIndex {
+    /// Exponent `n`.
+    pub exponent: f64,
+    /// The part of the run that it looks at.
+    pub window: WindowWish,
+}
+
+impl Default for SeverityIndex {
+    fn default() -> Self {
+        Self { exponent: 2.5, window: WindowWish::Impact }
+    }
+}
+
+impl MeasureKind for SeverityIndex {
+    const KIND: &'static str = "severity-index";
+    const SUMMARY: &'static str = "integral of (|a|/g0)^exponent over time [s]";
+    const UNIT: &'static str = "s";
+    const PARAMETERS: &'static [Parameter] = &[
+        Parameter::optional(
+            "exponent",
+            ParameterKind::Quantity(Dimension::NUMBER),
+            "2.5",
+            "exponent n, positive",
+        ),
+        WINDOW,
+    ];
+    const APPLIES_TO: Family = Family::Node;
+    const BY_DEFAULT: bool = true;
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        let range = "positive and finite";
+        match values.first().and_then(Value::number) {
+            Some(exponent) if exponent > 0.0 && exponent.is_finite() => {
+                Ok(Self { exponent, window: window(values, 1)? })
+            }
+            Some(exponent) => Err(InvalidParameter::new("exponent", range, exponent)),
+            None => Err(InvalidParameter::new("exponent", range, "missing")),
+        }
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Number(self.exponent), Value::Window(self.window)]
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
+            return Reading::undefined(MASSLESS);
+        };
+        let span = match solution.node_impact(target).span(self.window, solution.end()) {
+            Ok(span) => span,
+            Err(note) => return Reading::undefined(note),
+        };
+        let acceleration = solution.signal(acceleration);
+        let severity = |a: f64| (a.abs() / STANDARD_GRAVITY).powf(self.exponent);
+        let value = acceleration.integral_of(span.window(), &[0.0], severity);
+        let error = acceleration.error.zip(span.to_error).map(|(error, shift)| {
+            // How much the integrand grows at most when the acceleration does by its error.
+            let n = self.exponent;
+            let growth = |a: f64| {
+                let most = (a.abs() + error) / STANDARD_GRAVITY;
+                if n >= 1.0 {
+                    n * most.powf(n - 1.0) * error / STANDARD_GRAVITY
+                } else {
+                    severity(error)
+                }
+            };
+            acceleration.integral_of(span.window(), &[0.0], growth)
+                + severity(acceleration.left_value(span.to)) * shift
+                + 1e-13 * value
+        });
+        Reading::over(&span, value, error)
+    }
+}

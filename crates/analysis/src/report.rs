@@ -1,0 +1,136 @@
+//! The report of a run.
+
+use std::{sync::Arc, time::Duration};
+
+use dashpot_dae::{Statistics, Trajectory};
+use dashpot_network::{Assembly, parameters::Value};
+
+use crate::{Impact, Ledger, Solution};
+
+/// All that a run yields.
+#[derive(Debug)]
+pub struct RunReport {
+    /// How it was solved.
+    pub solver: SolverReport,
+    /// What was solved.
+    pub system: SystemReport,
+    /// The measures: those that every run reports, then those wanted.
+    pub measures: Vec<MeasureReport>,
+    /// The contact of each element that touches an impactor.
+    pub contacts: Vec<ContactReport>,
+    /// The energy balance at the end of the run.
+    pub energy: Ledger,
+    /// The energy balance at the end of the impact, where it ends within the run.
+    pub energy_after_impact: Option<Ledger>,
+    /// What happened, in order of time.
+    pub events: Vec<EventReport>,
+    /// What the reader must know, the most important first.
+    pub warnings: Vec<String>,
+    /// The equations.
+    pub assembly: Arc<Assembly>,
+    /// The solution that is reported, the finest one.
+    pub trajectory: Trajectory,
+}
+
+/// How a run was solved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolverReport {
+    /// The method that was used.
+    pub method: &'static str,
+    /// Why it was.
+    pub why: String,
+    /// Its relative tolerance; `None` for a method that has none.
+    pub rtol: Option<f64>,
+    /// Work done for the solution that is reported.
+    pub statistics: Statistics,
+    /// Further solutions, from which the errors come.
+    pub solves_for_error: usize,
+    /// Wall-clock time of those.
+    pub wall_for_error: Duration,
+}
+
+/// What was solved.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SystemReport {
+    /// Differential unknowns.
+    pub states: usize,
+    /// Algebraic unknowns.
+    pub algebraic: usize,
+    /// Modes between which the system can switch.
+    pub modes: usize,
+    /// Effects that are on.
+    pub effects: Vec<&'static str>,
+}
+
+/// One measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasureReport {
+    /// `<target>.<kind>`, unique in a report.
+    pub key: String,
+    /// Name of the element or node.
+    pub target: String,
+    /// The measure's word.
+    pub kind: &'static str,
+    /// SI unit of the value.
+    pub unit: &'static str,
+    /// The value; `None` where it is infinite or undefined, and the note says why.
+    pub value: Option<f64>,
+    /// When it occurs \[s\].
+    pub time: Option<f64>,
+    /// The part of the run that it belongs to \[s\].
+    pub window: Option<(f64, f64)>,
+    /// Its absolute error: a bound (exact method) or an estimate; infinite where its kind changes
+    /// with the tolerance, `None` where it was not estimated.
+    pub error: Option<f64>,
+    /// What is to be said about it.
+    pub note: Option<String>,
+    /// Its parameters but the window, by name.
+    pub parameters: Vec<(&'static str, Value)>,
+    /// The size to which a relative accuracy refers.
+    pub size: f64,
+    /// The error in parts of what the accuracy wanted allows: at most 1 where it is reached, 0
+    /// where the error was not estimated.
+    pub excess: f64,
+}
+
+impl MeasureReport {
+    /// The error relative to the measure's size, where both are known.
+    pub fn relative_error(&self) -> Option<f64> {
+        self.error.filter(|_| self.size > 0.0).map(|error| error / self.size)
+    }
+}
+
+/// The contact of an element that touches an impactor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactReport {
+    /// Name of the element.
+    pub element: String,
+    /// Its impact.
+    pub impact: Impact,
+}
+
+/// Something that happened.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EventReport {
+    /// When \[s\].
+    pub time: f64,
+    /// What, in words.
+    pub what: String,
+}
+
+impl RunReport {
+    /// The measure with this key, for instance `padding.peak-force`.
+    pub fn measure(&self, key: &str) -> Option<&MeasureReport> {
+        self.measures.iter().find(|measure| measure.key == key)
+    }
+
+    /// The solution, for further measures, series and plots.
+    pub fn solution(&self) -> Solution<'_> {
+        Solution::new(&self.assembly, &self.trajectory)
+    }
+
+    /// The largest relative error of any measure, where errors are known.
+    pub fn worst_relative_error(&self) -> Option<f64> {
+        self.measures.iter().filter_map(MeasureReport::relative_error).reduce(f64::max)
+    }
+}

@@ -1,0 +1,86 @@
+//! What is asked of a run.
+
+use dashpot_dae::Direction;
+
+use crate::{Accuracy, MeasureWish, RunError};
+
+/// What is asked of a run.
+#[derive(Debug, Clone)]
+pub struct SolveSettings {
+    /// Name of the method; `auto` chooses.
+    pub method: String,
+    /// Length of the run \[s\], zero or positive.
+    pub duration: f64,
+    /// The method's own relative tolerance, that of the finest of three solutions where errors are
+    /// estimated, from 1e-13 to 1e-3 (to 1e-1 without estimate); `None` finds one that gives the
+    /// accuracy wanted.
+    pub rtol: Option<f64>,
+    /// The accuracy wanted of the measures.
+    pub accuracy: Accuracy,
+    /// Whether errors are estimated, by further solutions where the method states no bound.
+    pub estimate: bool,
+    /// Conditions that end the run early.
+    pub stops: Vec<Stop>,
+    /// Measures besides those that every run reports.
+    pub measures: Vec<MeasureWish>,
+}
+
+/// A condition that ends the run: an output crosses a level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stop {
+    /// Name of the output, for instance `padding.force`.
+    pub output: String,
+    /// The level, in the output's SI unit.
+    pub level: f64,
+    /// Which crossings count.
+    pub direction: Direction,
+}
+
+impl SolveSettings {
+    /// A run of `duration` \[s\] by the method that suits, with measures good to 0.1 %.
+    pub fn lasting(duration: f64) -> Self {
+        Self {
+            method: "auto".to_owned(),
+            duration,
+            rtol: None,
+            accuracy: Accuracy::default(),
+            estimate: true,
+            stops: Vec::new(),
+            measures: Vec::new(),
+        }
+    }
+
+    /// The same run by another method.
+    #[must_use]
+    pub fn by(self, method: impl Into<String>) -> Self {
+        Self { method: method.into(), ..self }
+    }
+
+    pub(crate) fn validate(&self) -> Result<(), RunError> {
+        let invalid = |setting: &str, range, value| {
+            Err(RunError::InvalidSetting { setting: setting.to_owned(), range, value })
+        };
+        if !(self.duration >= 0.0 && self.duration.is_finite()) {
+            return invalid("duration", "zero or positive, and finite", self.duration);
+        }
+        // The coarsest of three solutions takes 100 times the tolerance.
+        let (coarsest, range) = if self.estimate {
+            (1e-3, "from 1e-13 to 1e-3 where errors are estimated")
+        } else {
+            (1e-1, "from 1e-13 to 1e-1")
+        };
+        if let Some(rtol) = self.rtol
+            && !(1e-13..=coarsest).contains(&rtol)
+        {
+            return invalid("rtol", range, rtol);
+        }
+        let all = [("accuracy", self.accuracy.default)];
+        let single = self.accuracy.by_measure.iter().map(|(key, &wish)| (key.as_str(), wish));
+        for (key, wish) in all.into_iter().chain(single) {
+            if !(wish > 0.0 && wish.is_finite()) {
+                return invalid(key, "positive and finite", wish);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,250 @@
+//! From a network to the report of a run.
+
+use std::sync::Arc;
+
+use dashpot_dae::{Guard, Method, Observer, Run, Trajectory, methods};
+use dashpot_network::{Assembly, Network, parameters::ParameterKind};
+
+use crate::{
+    ContactReport, EventReport, MeasureReport, Reading, RunError, RunReport, Solution,
+    SolveSettings, SolverReport, SystemReport,
+    accuracy::excess,
+    impact::Contact,
+    ledger::ledger,
+    refinement::{MOST_LOST, Outcome, Solved, Task},
+    selection::{Selected, select},
+    warnings,
+};
+
+/// Tolerance of a single solution whose error is not estimated, when none is given.
+const SINGLE: f64 = 1e-6;
+
+/// Compiles a network, integrates it, and reports.
+///
+/// A method that bounds its own error solves once. The others solve at three tolerances a factor 10
+/// apart and take the errors of the finest solution from the differences; as long as an error
+/// exceeds what is wanted, or the energy does not close as well, they go on to the next tolerance.
+///
+/// # Errors
+///
+/// Any [`RunError`]: what is wrong with the network or the settings, a method that fails, and an
+/// energy balance that is off by more than 1 % of the energy turned over.
+pub fn solve(
+    network: &Network,
+    settings: &SolveSettings,
+    observer: &mut dyn Observer,
+) -> Result<RunReport, RunError> {
+    settings.validate()?;
+    let assembly = Arc::new(network.compile(settings.duration)?);
+    let effects: Vec<_> = network.effects().iter().map(|effect| effect.kind()).collect();
+    solve_assembly(&assembly, &effects, settings, observer)
+}
+
+/// Integrates a network that is compiled already, and reports; otherwise as [`solve`]. `effects`
+/// are the words of those that are on.
+///
+/// # Errors
+///
+/// As [`solve`], but for the network.
+pub fn solve_assembly(
+    assembly: &Arc<Assembly>,
+    effects: &[&'static str],
+    settings: &SolveSettings,
+    observer: &mut dyn Observer,
+) -> Result<RunReport, RunError> {
+    settings.validate()?;
+    let selected = select(assembly, &settings.measures)?;
+    check_keys(settings, &selected)?;
+    let run = Run {
+        t_end: settings.duration,
+        rtol: settings.rtol.unwrap_or(SINGLE),
+        guards: guards(assembly, settings)?,
+    };
+    let (method, why) = choose(&settings.method, assembly, &run)?;
+    let task = Task { assembly, settings, selected: &selected, method: method.as_ref() };
+    let outcome = task.run(&run, observer)?;
+    if settings.method == "auto" && method.is_exact() && !task.suffices(&outcome) {
+        // Rounding has spoilt the exact solution; another method may do better.
+        let other = Task { method: &methods::Bdf, ..task };
+        if let Ok(outcome) = other.run(&run, observer)
+            && other.suffices(&outcome)
+        {
+            let why = "the error of `exact` may exceed what is wanted".to_owned();
+            return report(assembly, effects, &other, &run, why, outcome);
+        }
+    }
+    report(assembly, effects, &task, &run, why, outcome)
+}
+
+fn choose(
+    name: &str,
+    assembly: &Assembly,
+    run: &Run,
+) -> Result<(Box<dyn Method>, String), RunError> {
+    if name == "auto" {
+        return Ok(methods::Auto::choose(&assembly.system, run));
+    }
+    let Some(method) = methods::by_name(name) else {
+        let known = methods::all().iter().map(|method| method.name()).collect();
+        return Err(RunError::UnknownMethod { name: name.to_owned(), known });
+    };
+    let why = method.applies(&assembly.system, run)?;
+    Ok((method, why))
+}
+
+fn check_keys(settings: &SolveSettings, selected: &[Selected]) -> Result<(), RunError> {
+    let is_known = |key: &&String| selected.iter().any(|entry| entry.key == **key);
+    match settings.accuracy.by_measure.keys().find(|key| !is_known(key)) {
+        None => Ok(()),
+        Some(key) => Err(RunError::UnknownMeasure {
+            key: key.clone(),
+            known: selected.iter().map(|entry| entry.key.clone()).collect(),
+        }),
+    }
+}
+
+fn guards(assembly: &Assembly, settings: &SolveSettings) -> Result<Vec<Guard>, RunError> {
+    let guard = |stop: &crate::Stop| {
+        let output = assembly.output(&stop.output).ok_or_else(|| RunError::UnknownOutput {
+            output: stop.output.clone(),
+            known: assembly.system.outputs.iter().map(|output| output.name.clone()).collect(),
+        })?;
+        Ok(Guard {
+            name: format!("{} reaches {}", stop.output, stop.level),
+            output,
+            level: stop.level,
+            direction: stop.direction,
+            stops: true,
+        })
+    };
+    settings.stops.iter().map(guard).collect()
+}
+
+fn report(
+    assembly: &Arc<Assembly>,
+    effects: &[&'static str],
+    task: &Task<'_>,
+    run: &Run,
+    why: String,
+    outcome: Outcome,
+) -> Result<RunReport, RunError> {
+    let Outcome { solved, errors, solves_for_error, wall_for_error, obstacle } = outcome;
+    let Solved { rtol, trajectory, readings, energy } = solved;
+    let closure = energy.closure();
+    if closure.is_nan() || closure.abs() > MOST_LOST {
+        return Err(RunError::EnergyLost { method: trajectory.method, closure });
+    }
+    let solution = Solution::new(assembly, &trajectory);
+    let measures: Vec<MeasureReport> = task
+        .selected
+        .iter()
+        .zip(readings)
+        .zip(errors)
+        .map(|((entry, reading), error)| {
+            let wish = task.settings.accuracy.of(&entry.key);
+            measure_report(entry, reading, error, wish)
+        })
+        .collect();
+    let contacts = contacts(&solution);
+    let impact = solution.scene_impact();
+    let energy_after_impact =
+        (impact.contact == Contact::Released).then(|| ledger(&solution, impact.end));
+    let events = events(run, &trajectory, &contacts);
+    let warnings = warnings::collect(&warnings::Findings {
+        solution: &solution,
+        accuracy: &task.settings.accuracy,
+        measures: &measures,
+        contacts: &contacts,
+        energy: &energy,
+        obstacle: obstacle.as_ref(),
+    });
+    drop(solution);
+    Ok(RunReport {
+        solver: SolverReport {
+            method: trajectory.method,
+            why,
+            rtol: (!task.method.is_exact()).then_some(rtol),
+            statistics: trajectory.statistics,
+            solves_for_error,
+            wall_for_error,
+        },
+        system: SystemReport {
+            states: assembly.system.states(),
+            algebraic: assembly.system.algebraic(),
+            modes: 1,
+            effects: effects.to_vec(),
+        },
+        measures,
+        contacts,
+        energy,
+        energy_after_impact,
+        events,
+        warnings,
+        assembly: Arc::clone(assembly),
+        trajectory,
+    })
+}
+
+fn measure_report(
+    entry: &Selected,
+    reading: Reading,
+    error: Option<f64>,
+    wish: f64,
+) -> MeasureReport {
+    let parameters = entry.measure.parameters().iter().zip(entry.measure.values());
+    let parameters = parameters.filter(|(parameter, _)| parameter.kind != ParameterKind::Window);
+    let excess = excess(&reading, error, wish);
+    let comes_and_goes = error.is_some_and(f64::is_infinite);
+    let reading = if comes_and_goes {
+        reading.noting("it has a value at some tolerances only")
+    } else {
+        reading
+    };
+    MeasureReport {
+        key: entry.key.clone(),
+        target: entry.name.clone(),
+        kind: entry.measure.kind(),
+        unit: entry.measure.unit(),
+        value: reading.value,
+        time: reading.time,
+        window: reading.window,
+        error,
+        note: reading.note,
+        parameters: parameters.map(|(parameter, value)| (parameter.name, value)).collect(),
+        size: reading.size,
+        excess,
+    }
+}
+
+fn contacts(solution: &Solution<'_>) -> Vec<ContactReport> {
+    let connections = solution.assembly().connections.iter().enumerate();
+    connections
+        .filter(|(_, connection)| {
+            connection.force.is_some() && solution.touches_impactor(connection)
+        })
+        .map(|(at, connection)| ContactReport {
+            element: connection.name.clone(),
+            impact: solution.element_impact(at),
+        })
+        .collect()
+}
+
+fn events(run: &Run, trajectory: &Trajectory, contacts: &[ContactReport]) -> Vec<EventReport> {
+    let guards = trajectory.events.iter().filter_map(|event| {
+        let guard = run.guards.get(event.guard)?;
+        Some(EventReport { time: event.time, what: guard.name.clone() })
+    });
+    let releases = contacts.iter().filter(|contact| contact.impact.contact == Contact::Released);
+    let releases = releases.map(|contact| EventReport {
+        time: contact.impact.end,
+        what: format!("{} force turns to tension", contact.element),
+    });
+    let mut events: Vec<EventReport> = releases.chain(guards).collect();
+    events.sort_by(|one, other| one.time.total_cmp(&other.time));
+    events
+}
+
+#[cfg(test)]
+mod random;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,138 @@
+//! What the reader of a report must know.
+
+use dashpot_dae::SolveError;
+
+use crate::{
+    Accuracy, ContactReport, Ledger, MeasureReport, Solution,
+    impact::Contact,
+    wording::{percent, quantity},
+};
+
+/// What warnings are made of.
+pub(crate) struct Findings<'a> {
+    pub(crate) solution: &'a Solution<'a>,
+    pub(crate) accuracy: &'a Accuracy,
+    pub(crate) measures: &'a [MeasureReport],
+    pub(crate) contacts: &'a [ContactReport],
+    pub(crate) energy: &'a Ledger,
+    pub(crate) obstacle: Option<&'a SolveError>,
+}
+
+/// Closure in parts of the energy turned over that rounding may leave.
+const ROUNDING: f64 = 1e-10;
+/// How many measures one warning names.
+const NAMED: usize = 4;
+
+/// All warnings, the most important first.
+pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
+    let mut warnings = pulling(findings);
+    warnings.extend(beyond_thickness(findings.solution));
+    warnings.extend(energy(findings));
+    warnings.extend(still_in_contact(findings.contacts));
+    warnings.extend(accuracy(findings));
+    warnings.extend(findings.solution.assembly().warnings.iter().cloned());
+    warnings
+}
+
+fn pulling(findings: &Findings<'_>) -> Vec<String> {
+    let since = |contact: &ContactReport| match contact.impact.contact {
+        Contact::Released if contact.impact.end < findings.solution.end() => {
+            Some(format!("from {}", quantity(contact.impact.end, "s")))
+        }
+        Contact::Pulling => Some("from the start".to_owned()),
+        _ => None,
+    };
+    let warning = |contact: &ContactReport| {
+        since(contact)
+            .map(|since| format!("{since} the {} pulls: separation is off", contact.element))
+    };
+    findings.contacts.iter().filter_map(warning).collect()
+}
+
+fn beyond_thickness(solution: &Solution<'_>) -> Vec<String> {
+    let connections = solution.assembly().connections.iter();
+    connections
+        .filter_map(|connection| {
+            let thickness = connection.thickness?;
+            let deepest = solution.signal(connection.deformation).maximum((0.0, solution.end()));
+            (deepest.value > thickness).then(|| {
+                format!(
+                    "the {} is pressed in by {} at {}: {} more than its thickness of {}",
+                    connection.name,
+                    quantity(deepest.value, "m"),
+                    quantity(deepest.time, "s"),
+                    quantity(deepest.value - thickness, "m"),
+                    quantity(thickness, "m"),
+                )
+            })
+        })
+        .collect()
+}
+
+fn energy(findings: &Findings<'_>) -> Option<String> {
+    let closure = findings.energy.closure();
+    let bound = match findings.energy.error {
+        Some(error) if findings.energy.turned_over > 0.0 => error / findings.energy.turned_over,
+        _ => worst(findings.measures).unwrap_or(findings.accuracy.default),
+    };
+    (closure.abs() > bound.max(ROUNDING)).then(|| {
+        format!(
+            "the energy does not close: {} of the energy turned over {}, more than the errors \
+             reported",
+            percent(closure.abs()),
+            if closure > 0.0 { "is missing" } else { "is too much" },
+        )
+    })
+}
+
+fn worst(measures: &[MeasureReport]) -> Option<f64> {
+    measures.iter().filter_map(MeasureReport::relative_error).reduce(f64::max)
+}
+
+fn still_in_contact(contacts: &[ContactReport]) -> Vec<String> {
+    let lasting = contacts.iter().filter(|contact| contact.impact.contact == Contact::Lasting);
+    lasting
+        .map(|contact| {
+            let end = quantity(contact.impact.end, "s");
+            format!("the {} is still in contact at the end of the run at {end}", contact.element)
+        })
+        .collect()
+}
+
+fn accuracy(findings: &Findings<'_>) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let undecided: Vec<String> = findings
+        .measures
+        .iter()
+        .filter(|measure| measure.error.is_some_and(f64::is_infinite))
+        .map(|measure| format!("`{}`", measure.key))
+        .collect();
+    if !undecided.is_empty() {
+        let names = listed(&undecided);
+        warnings.push(format!("whether there is a value depends on the tolerance: {names}"));
+    }
+    let missed: Vec<String> = findings
+        .measures
+        .iter()
+        .filter_map(|measure| {
+            let reached = measure.relative_error().filter(|error| error.is_finite())?;
+            let wish = findings.accuracy.of(&measure.key);
+            (measure.excess > 1.0).then(|| {
+                format!("`{}` is good to {}, not {}", measure.key, percent(reached), percent(wish))
+            })
+        })
+        .collect();
+    if !missed.is_empty() {
+        let why = findings.obstacle.map_or(String::new(), |error| format!(" ({error})"));
+        warnings.push(format!("the accuracy wanted is not reached: {}{why}", listed(&missed)));
+    }
+    warnings
+}
+
+fn listed(entries: &[String]) -> String {
+    let shown = entries.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
+    match entries.len().checked_sub(NAMED) {
+        None | Some(0) => shown,
+        Some(more) => format!("{shown} and {more} more"),
+    }
+}

@@ -1,0 +1,47 @@
+//! Scenes: TOML text in, checked values out, with errors that point at the text.
+//!
+//! [`read`] turns a text into a [`Scene`]: a network, compiled, and what is to be done with it. All
+//! faults of a text are found in one reading and returned together as [`Diagnostics`], which
+//! [`render`](Diagnostics::render) with the value under a caret, the nearest known word and the unit
+//! that is expected. The crate knows no file system: other files come through a [`Loader`].
+//!
+//! What may stand in a scene follows from the registers of elements, forms, driving functions,
+//! effects, measures and methods; there is no second list. [`schema`] writes it down as a JSON
+//! schema, [`templates`] are commented scenes to start from.
+//!
+//! Quantities carry [`units`]; inside all values are SI.
+
+mod diagnostics;
+mod document;
+mod fault;
+mod kinds;
+mod library;
+mod models;
+mod nearest;
+mod nesting;
+mod network_faults;
+mod parameters;
+mod quantity;
+mod render;
+mod scene;
+mod schema;
+mod sections;
+mod shipped;
+mod source;
+mod table;
+pub mod units;
+mod values;
+mod write;
+
+pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
+pub use fault::Fault;
+pub use library::Loader;
+pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_model, text_of_bytes};
+pub use schema::schema;
+pub use shipped::{Shipped, reference, references, template, templates};
+pub use source::Source;
+pub use values::NamedValue;
+pub use write::{write_kind, write_model};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,61 @@
+//! The word that was probably meant.
+
+/// How many known words a message shows.
+const SHOWN: usize = 20;
+
+/// The word of `known` that is nearest to `word`, if one is near.
+pub(crate) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+    let lower = word.to_lowercase();
+    let limit = match lower.chars().count() {
+        0 => return None,
+        1..=3 => 1,
+        count => (count / 3).max(2),
+    };
+    known
+        .into_iter()
+        .map(|candidate| {
+            let distance = strsim::damerau_levenshtein(&lower, &candidate.to_lowercase());
+            (distance, candidate)
+        })
+        .filter(|(distance, candidate)| *distance <= limit && *distance < candidate.chars().count())
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, candidate)| candidate)
+}
+
+/// "did you mean …?" and the known words, as far as they fit into a line.
+pub(crate) fn suggestion<S: AsRef<str>>(word: &str, family: &str, known: &[S]) -> Option<String> {
+    if known.is_empty() {
+        return None;
+    }
+    let listed = list(known);
+    Some(match nearest(word, known.iter().map(AsRef::as_ref)) {
+        Some(near) if known.len() == 1 => format!("did you mean `{near}`?"),
+        Some(near) => format!("did you mean `{near}`? known {family}: {listed}"),
+        None => format!("known {family}: {listed}"),
+    })
+}
+
+/// The words in a row, cut after twenty.
+pub(crate) fn list<S: AsRef<str>>(words: &[S]) -> String {
+    let shown = words.iter().take(SHOWN).map(AsRef::as_ref).collect::<Vec<_>>().join(", ");
+    match words.len().saturating_sub(SHOWN) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_finds_its_word_and_a_stranger_finds_none() {
+        let known = ["spring", "dashpot", "series", "parallel", "model"];
+        assert_eq!(nearest("sprnig", known), Some("spring"));
+        assert_eq!(nearest("Dashpot", known), Some("dashpot"));
+        assert_eq!(nearest("serie", known), Some("series"));
+        assert_eq!(nearest("colour", known), None);
+        assert_eq!(nearest("", known), None);
+        assert_eq!(nearest("x", ["K", "C"]), None);
+    }
+}

@@ -1,0 +1,79 @@
+//! Faults of a network, brought to the places in the text that they are about.
+
+use std::collections::HashMap;
+
+use dashpot_network::{NetworkError, NetworkErrors, Subject};
+
+use crate::{document::Entry, fault::Fault, sections::Reading, source::Place};
+
+/// The entries of a scene by what they describe.
+struct Entries<'d> {
+    nodes: HashMap<&'d str, &'d Entry>,
+    elements: &'d HashMap<&'d str, &'d Entry>,
+    loads: &'d [Entry],
+    effects: &'d [Entry],
+}
+
+/// Notes all errors of a network.
+pub(crate) fn note_errors(reading: &Reading<'_>, errors: NetworkErrors) {
+    let entries = Entries::of(reading);
+    for error in errors.0 {
+        let place = entries.place_of(&error);
+        let fault = match error {
+            NetworkError::Invalid { invalid, .. } => Fault::Invalid(invalid),
+            error => Fault::Network(error),
+        };
+        reading.faults.error(place, fault);
+    }
+}
+
+/// Notes what is odd about a network, at the first element or node that each sentence names.
+pub(crate) fn note_warnings(reading: &Reading<'_>, warnings: &[String]) {
+    let entries = Entries::of(reading);
+    for message in warnings {
+        let names = message.split('`').skip(1).step_by(2);
+        let place =
+            names.filter_map(|name| entries.named(name)).map(|entry| entry.key_place).next();
+        reading.faults.warning(place, Fault::Odd { message: message.clone() });
+    }
+}
+
+impl<'d> Entries<'d> {
+    fn of(reading: &'d Reading<'_>) -> Self {
+        let by_name = |entry: &'d Entry| (entry.key.as_str(), entry);
+        Self {
+            nodes: reading.section("nodes").iter().map(by_name).collect(),
+            elements: &reading.elements,
+            loads: reading.section("loads"),
+            effects: reading.section("effects"),
+        }
+    }
+
+    /// The entry of an element or node, or of the element to which a part or inner node belongs.
+    fn named(&self, name: &str) -> Option<&'d Entry> {
+        let find = |name| self.elements.get(name).or_else(|| self.nodes.get(name)).copied();
+        let outer = name.split(['.', ' ']).next().unwrap_or_default();
+        find(name).or_else(|| find(outer))
+    }
+
+    fn place_of(&self, error: &NetworkError) -> Option<Place> {
+        let entry = match error.subject()? {
+            Subject::Node(name) => {
+                self.nodes.get(name.as_str()).copied().or_else(|| self.named(&name))?
+            }
+            Subject::Element { name, .. } => self.named(&name)?,
+            Subject::Load(name) => self.loads.iter().find(|entry| entry.key == name)?,
+            Subject::Effect(word) => self.effects.iter().find(|entry| entry.key == word)?,
+        };
+        let keys: &[&str] = match error {
+            NetworkError::Invalid { invalid, .. } => &[invalid.parameter],
+            NetworkError::BothEndsAtOneNode { .. } => &["between"],
+            NetworkError::StartSpeed { .. } => &["velocity", "drop"],
+            NetworkError::StepAcrossDashpots { .. } => &["motion"],
+            _ => &[],
+        };
+        let own = entry.item.table().unwrap_or(&[]).iter();
+        let value = own.filter(|own| keys.contains(&own.key.as_str())).map(|own| own.item.place);
+        value.min_by_key(|place| place.start).or(Some(entry.key_place))
+    }
+}

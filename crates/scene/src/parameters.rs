@@ -1,0 +1,189 @@
+//! Values of a kind's parameters, read as the kind declares them.
+
+use dashpot_network::parameters::{Dimension, Parameter, ParameterKind, Value, WindowWish};
+
+use crate::{
+    document::{Content, Item},
+    fault::Fault,
+    kinds::{Kind, example_value},
+    quantity::{Quantities, Values},
+    source::Place,
+    table::{Table, list_of, text_of, wrong_type},
+    units::parse_quantity,
+};
+
+/// Reads things of the kinds in the registers.
+#[derive(Clone, Copy)]
+pub(crate) struct KindReader<'d> {
+    /// Reads their quantities.
+    pub(crate) quantities: Quantities<'d>,
+    /// Dimension of amplitudes.
+    pub(crate) driven: Dimension,
+    /// Keys of their tables that others read.
+    pub(crate) other_keys: &'static [&'static str],
+}
+
+impl<'d> KindReader<'d> {
+    /// A reader for kinds that drive a force.
+    pub(crate) fn new(quantities: Quantities<'d>) -> Self {
+        Self { quantities, driven: Dimension::FORCE, other_keys: &[] }
+    }
+
+    /// Reads the thing of `kind` that `item` describes; its word stands at `place`.
+    ///
+    /// A kind with one required parameter takes the value alone; all others take a table.
+    pub(crate) fn read<T>(self, kind: &Kind<T>, item: &Item, place: Place) -> Option<T> {
+        let (values, places) = self.values(kind, item, place)?;
+        match (kind.make)(&values) {
+            Ok(made) => Some(made),
+            Err(invalid) => {
+                let at = kind.parameters.iter().position(|known| known.name == invalid.parameter);
+                let place = at.and_then(|at| places.get(at).copied()).unwrap_or(item.place);
+                self.quantities.faults.error(place, invalid.into());
+                None
+            }
+        }
+    }
+
+    /// The thing of `kind` with all keys left out.
+    pub(crate) fn defaults<T>(self, kind: &Kind<T>, place: Place) -> Option<T> {
+        self.read(kind, &Item { value: Content::Table(Vec::new()), place }, place)
+    }
+
+    fn values<T>(
+        self,
+        kind: &Kind<T>,
+        item: &Item,
+        place: Place,
+    ) -> Option<(Vec<Value>, Vec<Place>)> {
+        let faults = self.quantities.faults;
+        let required = kind.parameters.iter().filter(|known| known.default.is_none()).count();
+        let is_table = item.table().is_some();
+        if required == 1 && (!is_table || kind.parameters.len() == 1) {
+            let read = |parameter: &Parameter| {
+                if parameter.default.is_none() {
+                    self.value(parameter, item)
+                } else {
+                    self.default(parameter)
+                }
+            };
+            let values = kind.parameters.iter().map(read).collect::<Option<Vec<_>>>()?;
+            return Some((values, vec![item.place; kind.parameters.len()]));
+        }
+        if !is_table {
+            let expected = format!("a table, for example `{}`", example_value(kind.parameters));
+            wrong_type(item, &format!("`{}`", kind.word), &expected, faults);
+            return None;
+        }
+        let table = Table::new(item, format!("`{}`", kind.word), place, faults)?;
+        for key in self.other_keys {
+            table.take(key);
+        }
+        let mut places = Vec::with_capacity(kind.parameters.len());
+        let mut values = Vec::with_capacity(kind.parameters.len());
+        for parameter in kind.parameters {
+            let entry = match parameter.default {
+                None => {
+                    let value = example_value(std::slice::from_ref(parameter));
+                    let entry =
+                        table.require(parameter.name, &format!("{} = {value}", parameter.name));
+                    places.push(entry.map_or(place, |entry| entry.item.place));
+                    values.push(entry.and_then(|entry| self.value(parameter, &entry.item)));
+                    continue;
+                }
+                Some(_) => table.take(parameter.name),
+            };
+            places.push(entry.map_or(place, |entry| entry.item.place));
+            values.push(match entry {
+                Some(entry) => self.value(parameter, &entry.item),
+                None => self.default(parameter),
+            });
+        }
+        table.finish();
+        Some((values.into_iter().collect::<Option<Vec<_>>>()?, places))
+    }
+
+    fn value(self, parameter: &Parameter, item: &Item) -> Option<Value> {
+        let faults = self.quantities.faults;
+        let what = || format!("`{}`", parameter.name);
+        match parameter.kind {
+            ParameterKind::Quantity(dimension) => {
+                self.quantities.read(item, dimension).map(Value::Number)
+            }
+            ParameterKind::Amplitude => self.quantities.read(item, self.driven).map(Value::Number),
+            ParameterKind::TimeTable => self.time_table(item).map(Value::Table),
+            ParameterKind::Choice(words) => {
+                let word = text_of(item, &what(), faults)?;
+                if words.contains(&word) {
+                    return Some(Value::Word(word.to_owned()));
+                }
+                let (word, known) = (word.to_owned(), words.to_vec());
+                let family = format!("a value of {}", what());
+                faults.error(item.place, Fault::UnknownWord { family, word, known });
+                None
+            }
+            ParameterKind::Flag => {
+                if matches!(item.value, Content::Switch(true)) {
+                    return Some(Value::Flag);
+                }
+                wrong_type(item, &what(), "`true`, or left out", faults);
+                None
+            }
+            ParameterKind::Window => self.window(item).map(Value::Window),
+        }
+    }
+
+    fn time_table(self, item: &Item) -> Option<Vec<(f64, f64)>> {
+        let points = list_of(item, "a table of time", self.quantities.faults)?;
+        // Every point is read, so that all faults are found.
+        let points = points.iter().map(|point| self.point(point)).collect::<Vec<_>>();
+        points.into_iter().collect()
+    }
+
+    fn point(self, item: &Item) -> Option<(f64, f64)> {
+        match &item.value {
+            Content::List(pair) if pair.len() == 2 => {
+                let time = self.quantities.read(&pair[0], Dimension::TIME);
+                let value = self.quantities.read(&pair[1], self.driven);
+                time.zip(value)
+            }
+            _ => {
+                wrong_type(item, "a point", "a pair [time, value]", self.quantities.faults);
+                None
+            }
+        }
+    }
+
+    fn window(self, item: &Item) -> Option<WindowWish> {
+        match &item.value {
+            Content::Text(word) if word == "impact" => Some(WindowWish::Impact),
+            Content::Text(word) if word == "run" => Some(WindowWish::Run),
+            Content::List(pair) if pair.len() == 2 => {
+                let from = self.quantities.read(&pair[0], Dimension::TIME);
+                let to = self.quantities.read(&pair[1], Dimension::TIME);
+                from.zip(to).map(|(from, to)| WindowWish::Times(from, to))
+            }
+            _ => {
+                let expected = "\"impact\", \"run\" or a pair of times";
+                wrong_type(item, "a window", expected, self.quantities.faults);
+                None
+            }
+        }
+    }
+
+    /// The value that stands for a key that is left out. The registers write it as a scene would.
+    fn default(self, parameter: &Parameter) -> Option<Value> {
+        let text = parameter.default?;
+        let content = match parameter.kind {
+            ParameterKind::Flag => Content::Switch(text == "true"),
+            _ => Content::Text(text.to_owned()),
+        };
+        let place = Place { source: u32::MAX, start: 0, end: 0 };
+        let without_names = Quantities { values: &Values::new(), faults: self.quantities.faults };
+        let reader = KindReader { quantities: without_names, ..self };
+        match parameter.kind {
+            ParameterKind::Amplitude => parse_quantity(text).ok().map(|q| Value::Number(q.value)),
+            _ => reader.value(parameter, &Item { value: content, place }),
+        }
+    }
+}

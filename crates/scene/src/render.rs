@@ -1,0 +1,77 @@
+//! Diagnostics as text for a terminal.
+
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+
+use crate::{
+    diagnostics::{Diagnostic, Diagnostics, Severity},
+    source::Source,
+};
+
+/// So many lines of the text are shown for one fault.
+const LINES: usize = 3;
+
+/// Longer lines are cut around the place, in bytes.
+const LONG_LINE: usize = 400;
+
+/// See [`Diagnostics::render`].
+pub(crate) fn render(diagnostics: &Diagnostics, color: bool) -> String {
+    let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+    let mut texts: Vec<String> =
+        diagnostics.list.iter().map(|diagnostic| one(&renderer, diagnostic)).collect();
+    if diagnostics.omitted > 0 {
+        texts.push(format!("and {} more", diagnostics.omitted));
+    }
+    texts.join("\n\n")
+}
+
+fn one(renderer: &Renderer, diagnostic: &Diagnostic) -> String {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let title = level.primary_title(diagnostic.message());
+    let mut group = match (&diagnostic.source, &diagnostic.span) {
+        (Some(source), Some(span)) => title.element(snippet(source, span, diagnostic)),
+        (Some(source), None) => {
+            title.element(annotate_snippets::Origin::path(source.name.as_str()))
+        }
+        _ => Group::with_title(title),
+    };
+    if let Some(help) = diagnostic.help() {
+        group = group.element(Level::HELP.message(help));
+    }
+    renderer.render(&[group])
+}
+
+fn snippet<'a>(
+    source: &'a Source,
+    span: &Range<usize>,
+    diagnostic: &Diagnostic,
+) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
+    let lines = excerpt(source, span);
+    let first_line = source.line_and_column(lines.start).0;
+    let start = span.start.clamp(lines.start, lines.end);
+    let end = span.end.clamp(start, lines.end);
+    let marked = start - lines.start..end - lines.start;
+    let annotation = AnnotationKind::Primary.span(marked).label(diagnostic.fault.label());
+    Snippet::source(&source.text[lines])
+        .line_start(first_line)
+        .path(source.name.as_str())
+        .annotation(annotation)
+}
+
+/// The lines to show: few, and cut where they are very long.
+fn excerpt(source: &Source, span: &Range<usize>) -> Range<usize> {
+    let mut lines = source.lines(span, LINES);
+    if source.text[lines.clone()].starts_with('\u{feff}') {
+        lines.start += '\u{feff}'.len_utf8();
+    }
+    if lines.len() <= LONG_LINE {
+        return lines;
+    }
+    let start = span.start.saturating_sub(LONG_LINE / 2).max(lines.start);
+    let end = (span.start + LONG_LINE / 2).min(lines.end);
+    source.clamp(&(start..end))
+}

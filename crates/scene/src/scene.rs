@@ -1,0 +1,235 @@
+//! Scenes: a network and what is to be done with it.
+
+use std::sync::Arc;
+
+use dashpot_analysis::{Accuracy, MeasureWish, SolveSettings};
+use dashpot_network::{Assembly, Model, Network};
+
+pub use crate::sections::RunSettings;
+use crate::{
+    diagnostics::{Checked, Diagnostics, Faults},
+    document::{Entry, MAX_BYTES, parse},
+    fault::Fault,
+    library::{Library, Loader},
+    models::ModelReader,
+    network_faults::{note_errors, note_warnings},
+    sections::{
+        Reading, check_stops, read_accuracy, read_effects, read_elements, read_loads,
+        read_measures, read_nodes, read_run,
+    },
+    source::Source,
+    table::text_of,
+    values::{NamedValue, Overrides},
+};
+
+/// The sections of a scene and of a file of models.
+const SECTIONS: [&str; 10] = [
+    "title", "values", "models", "nodes", "elements", "effects", "loads", "measures", "accuracy",
+    "run",
+];
+
+/// Everything that a scene says, checked.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// What it is, in the author's words.
+    pub title: Option<String>,
+    /// Path of the file that it was read from.
+    pub file: Option<String>,
+    /// Nodes, elements, loads and effects.
+    pub network: Network,
+    /// The network compiled for [`RunSettings::duration`].
+    pub assembly: Assembly,
+    /// How it is to be run.
+    pub run: RunSettings,
+    /// How accurate the measures are to be.
+    pub accuracy: Accuracy,
+    /// What is to be reported besides what every run reports.
+    pub measures: Vec<MeasureWish>,
+    /// Named values, those set from outside included, by name.
+    pub values: Vec<NamedValue>,
+    /// The text.
+    pub text: Arc<str>,
+}
+
+impl Scene {
+    /// What is to be asked of a run by `method`.
+    pub fn settings(&self, method: &str) -> SolveSettings {
+        SolveSettings {
+            method: method.to_owned(),
+            duration: self.run.duration,
+            rtol: self.run.rtol,
+            accuracy: self.accuracy.clone(),
+            estimate: true,
+            stops: self.run.stops.clone(),
+            measures: self.measures.clone(),
+        }
+    }
+}
+
+/// How a text is to be read.
+#[derive(Clone, Copy, Default)]
+pub struct ReadOptions<'o> {
+    /// Path of the file, for messages and for finding others beside it.
+    pub file: Option<&'o str>,
+    /// Named values that override those of the text: name and quantity.
+    pub set: &'o [(String, String)],
+    /// Gives the text of other files, for `model = "pads.toml:valox-pad"`.
+    pub loader: Option<Loader<'o>>,
+}
+
+impl std::fmt::Debug for ReadOptions<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let loader = self.loader.map(|_| "…");
+        formatter
+            .debug_struct("ReadOptions")
+            .field("file", &self.file)
+            .field("set", &self.set)
+            .field("loader", &loader)
+            .finish()
+    }
+}
+
+/// Reads a scene.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_scene::{ReadOptions, reference, read};
+///
+/// let scene = read(reference(), &ReadOptions::default())?.value;
+/// assert_eq!(scene.network.connections()[0].name, "padding");
+/// assert_eq!(scene.run.duration, 0.02);
+///
+/// let faults = read("[run]\nduration = \"20 mm\"", &ReadOptions::default()).unwrap_err();
+/// assert!(faults.render(false).contains("`20 mm` is a length (m); a time (s) is expected here"));
+/// # Ok::<(), dashpot_scene::Diagnostics>(())
+/// ```
+///
+/// # Errors
+///
+/// All faults of the text, each with its place.
+pub fn read(text: &str, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
+    let faults = Faults::default();
+    let scene = read_scene(text, options, &faults);
+    let errors = faults.errors();
+    let found = faults.finish();
+    match scene {
+        Some(value) if errors == 0 => Ok(Checked { value, warnings: found }),
+        _ => Err(found),
+    }
+}
+
+/// Reads a scene from the bytes of a file.
+///
+/// # Errors
+///
+/// All faults of the text, each with its place; bytes that are not UTF-8.
+pub fn read_bytes(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
+    read(text_of_bytes(bytes, options.file)?, options)
+}
+
+/// The bytes of a file as text.
+///
+/// # Errors
+///
+/// A file that is too large, or not UTF-8.
+pub fn text_of_bytes<'b>(bytes: &'b [u8], file: Option<&str>) -> Result<&'b str, Diagnostics> {
+    let nowhere = || file.map(|name| Arc::new(Source::new(name, "")));
+    if bytes.len() > MAX_BYTES {
+        return Err(Diagnostics::single(Fault::TooLarge { bytes: bytes.len() }, nowhere()));
+    }
+    std::str::from_utf8(bytes).map_err(|error| {
+        let at = error.valid_up_to();
+        let line = bytes[..at].split(|&byte| byte == b'\n').count();
+        Diagnostics::single(Fault::NotUtf8 { at, line }, nowhere())
+    })
+}
+
+/// Reads the model `name` of a text, a scene or a file of models.
+///
+/// # Errors
+///
+/// All faults of its models, each with its place; a name that the text does not have.
+pub fn read_model(
+    text: &str,
+    name: &str,
+    options: &ReadOptions<'_>,
+) -> Result<Checked<Model>, Diagnostics> {
+    let faults = Faults::default();
+    let model = load(text, options, &faults).and_then(|(library, _)| match library.find(0, name) {
+        Ok(reference) => ModelReader::new(&library, &faults).named(reference?),
+        Err(fault) => {
+            faults.error(None, fault);
+            None
+        }
+    });
+    let errors = faults.errors();
+    let found = faults.finish();
+    match model {
+        Some(value) if errors == 0 => Ok(Checked { value, warnings: found }),
+        _ => Err(found),
+    }
+}
+
+fn load(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<(Library, Arc<Source>)> {
+    let name = options.file.unwrap_or("scene");
+    let source = Arc::new(Source::new(name, text));
+    let root = parse(&source, faults)?;
+    let overrides = Overrides::new(options.set, faults);
+    Some((Library::load(name, root, options.loader, &overrides, faults), source))
+}
+
+fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<Scene> {
+    let (library, source) = load(text, options, faults)?;
+    let is_stranger = |own: &&Entry| !SECTIONS.contains(&own.key.as_str()) && !faults.damaged();
+    for entry in library.sections().iter().filter(is_stranger) {
+        let (key, owner) = (entry.key.clone(), "the scene".to_owned());
+        faults.error(entry.key_place, Fault::UnknownKey { key, owner, known: SECTIONS.to_vec() });
+    }
+    let title = library.section("title");
+    let title = title.and_then(|entry| text_of(&entry.item, "`title`", faults)).map(str::to_owned);
+    let models = ModelReader::new(&library, faults);
+    let mut reading = Reading::new(&library, faults);
+    let mut network = Network::new();
+    read_nodes(&mut reading, &mut network);
+    read_elements(&mut reading, &models, &mut network);
+    models.check_unused();
+    read_effects(&reading, &mut network);
+    read_loads(&reading, &mut network);
+    let measures = read_measures(&reading);
+    let accuracy = read_accuracy(&reading);
+    let (mut run, stops) = read_run(&reading);
+    if faults.errors() > 0 {
+        return None;
+    }
+    let assembly = match network.compile(run.duration) {
+        Ok(assembly) => assembly,
+        Err(errors) => {
+            note_errors(&reading, errors);
+            return None;
+        }
+    };
+    note_warnings(&reading, &assembly.warnings);
+    run.stops = check_stops(&reading, &stops, &assembly);
+    let mut values: Vec<NamedValue> = library
+        .values()
+        .iter()
+        .filter_map(|(name, quantity)| {
+            let quantity = (*quantity)?;
+            let (value, dimension) = (quantity.value, quantity.dimension);
+            Some(NamedValue { name: name.clone(), value, dimension })
+        })
+        .collect();
+    values.sort_by(|a, b| a.name.cmp(&b.name));
+    Some(Scene {
+        title,
+        file: options.file.map(str::to_owned),
+        network,
+        assembly,
+        run,
+        accuracy,
+        measures,
+        values,
+        text: Arc::clone(&source.text),
+    })
+}

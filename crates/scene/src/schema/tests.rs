@@ -1,0 +1,94 @@
+use serde_json::Value;
+
+use super::schema;
+use crate::{references, templates};
+
+/// The keywords that the schema uses, and no others.
+fn fits(root: &Value, schema: &Value, value: &Value) -> bool {
+    let Some(rules) = schema.as_object() else { return schema.as_bool().unwrap() };
+    rules.iter().all(|(keyword, rule)| rule_fits(root, schema, keyword, rule, value))
+}
+
+fn rule_fits(root: &Value, schema: &Value, keyword: &str, rule: &Value, value: &Value) -> bool {
+    let each = || rule.as_array().unwrap().iter();
+    let number = || usize::try_from(rule.as_u64().unwrap()).unwrap();
+    match keyword {
+        "$schema" | "$defs" | "title" | "description" | "default" | "examples" => true,
+        "$ref" => {
+            let path = rule.as_str().unwrap().strip_prefix('#').unwrap();
+            fits(root, root.pointer(path).unwrap_or_else(|| panic!("{path}")), value)
+        }
+        "type" => match rule {
+            Value::Array(types) => types.iter().any(|one| is_type(one, value)),
+            one => is_type(one, value),
+        },
+        "enum" => each().any(|one| one == value),
+        "const" => rule == value,
+        "anyOf" => each().any(|one| fits(root, one, value)),
+        "oneOf" => each().filter(|one| fits(root, one, value)).count() == 1,
+        "required" => each().all(|key| value.get(key.as_str().unwrap()).is_some()),
+        "properties" => rule
+            .as_object()
+            .unwrap()
+            .iter()
+            .all(|(key, one)| value.get(key).is_none_or(|own| fits(root, one, own))),
+        "additionalProperties" => value.as_object().is_none_or(|table| {
+            let known = schema.get("properties").and_then(Value::as_object);
+            let is_known = |key: &String| known.is_some_and(|known| known.contains_key(key));
+            table.iter().all(|(key, own)| is_known(key) || fits(root, rule, own))
+        }),
+        "items" => value.as_array().is_none_or(|all| all.iter().all(|own| fits(root, rule, own))),
+        "prefixItems" => value
+            .as_array()
+            .is_none_or(|all| all.iter().zip(each()).all(|(own, rule)| fits(root, rule, own))),
+        "minItems" => value.as_array().is_none_or(|all| all.len() >= number()),
+        "maxItems" => value.as_array().is_none_or(|all| all.len() <= number()),
+        "minProperties" => value.as_object().is_none_or(|all| all.len() >= number()),
+        "maxProperties" => value.as_object().is_none_or(|all| all.len() <= number()),
+        "minimum" => value.as_u64().is_none_or(|own| own >= rule.as_u64().unwrap()),
+        "maximum" => value.as_u64().is_none_or(|own| own <= rule.as_u64().unwrap()),
+        other => panic!("the schema uses {other}"),
+    }
+}
+
+fn is_type(word: &Value, value: &Value) -> bool {
+    match word.as_str().unwrap() {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "number" => value.is_number(),
+        "integer" => value.is_u64() || value.is_i64(),
+        other => panic!("the schema uses type {other}"),
+    }
+}
+
+fn json(text: &str) -> Value {
+    serde_json::to_value(text.parse::<toml::Table>().unwrap()).unwrap()
+}
+
+#[test]
+fn shipped_scenes_fit_the_schema() {
+    let schema = schema();
+    for shipped in templates().iter().chain(references()) {
+        assert!(fits(&schema, &schema, &json(shipped.text)), "{}", shipped.name);
+    }
+}
+
+#[test]
+fn faults_do_not_fit_the_schema() {
+    let schema = schema();
+    let scene = |element: &str| {
+        json(&format!(
+            "[elements]\np = {element}\n[nodes]\na = {{ mass = 1 }}\n[run]\nduration = 1"
+        ))
+    };
+    let fits = |element: &str| fits(&schema, &schema, &scene(element));
+    assert!(fits("{ between = [\"a\", \"ground\"], spring = 1 }"));
+    assert!(fits("{ between = [\"a\", \"ground\"], series = [{ spring = 1, name = \"s\" }] }"));
+    assert!(!fits("{ between = [\"a\", \"ground\"] }"));
+    assert!(!fits("{ between = [\"a\"], spring = 1 }"));
+    assert!(!fits("{ between = [\"a\", \"ground\"], spring = 1, dashpot = 1 }"));
+    assert!(!fits("{ between = [\"a\", \"ground\"], sprong = 1 }"));
+    assert!(!fits("{ between = [\"a\", \"ground\"], series = [] }"));
+    assert!(!fits("{ between = [\"a\", \"ground\"], rigid = false }"));
+}

@@ -1,0 +1,70 @@
+//! `[elements]`: models between nodes.
+
+use dashpot_network::{
+    Network, NodeId,
+    parameters::{Dimension, positive},
+};
+
+use super::Reading;
+use crate::{
+    document::{Content, Entry},
+    fault::Fault,
+    models::ModelReader,
+    table::{Table, check_name, wrong_type},
+};
+
+/// The keys of an element besides its law.
+const OWN_KEYS: &[&str] = &["between", "thickness"];
+
+/// Reads the elements into `network`.
+pub(crate) fn read_elements<'d>(
+    reading: &mut Reading<'d>,
+    models: &ModelReader<'d>,
+    network: &mut Network,
+) {
+    for entry in reading.section("elements") {
+        check_name(&entry.key, entry.key_place, reading.faults);
+        reading.elements.insert(&entry.key, entry);
+        read_element(reading, models, entry, network);
+    }
+    if reading.library.section("elements").is_none() && !reading.faults.damaged() {
+        reading.faults.error(None, Fault::MissingSection { section: "elements" });
+    }
+}
+
+fn read_element<'d>(
+    reading: &Reading<'d>,
+    models: &ModelReader<'d>,
+    entry: &'d Entry,
+    network: &mut Network,
+) -> Option<()> {
+    let table = reading.table(entry, "element")?;
+    let example = "between = [\"head\", \"ground\"]";
+    let between = table.require("between", example).and_then(|own| ends(reading, own));
+    let thickness = table.take("thickness").map(|own| {
+        let check = |thickness| positive("thickness", thickness);
+        reading.quantities().read_checked(&own.item, Dimension::LENGTH, check)
+    });
+    // The model reader looks at the other keys.
+    table.finish_missing();
+    let Table { owner, place, .. } = table;
+    let model = models.element(&entry.item, owner, place, OWN_KEYS);
+    let ([from, to], model) = between.zip(model)?;
+    network.connect(&*entry.key, from, to, model).thickness = thickness.unwrap_or_default();
+    Some(())
+}
+
+fn ends(reading: &Reading<'_>, entry: &Entry) -> Option<[NodeId; 2]> {
+    match &entry.item.value {
+        Content::List(ends) if ends.len() == 2 => {
+            let from = reading.node(&ends[0]);
+            let to = reading.node(&ends[1]);
+            from.zip(to).map(|(from, to)| [from, to])
+        }
+        _ => {
+            let expected = "a pair of nodes such as [\"head\", \"ground\"]";
+            wrong_type(&entry.item, "`between`", expected, reading.faults);
+            None
+        }
+    }
+}

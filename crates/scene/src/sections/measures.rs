@@ -1,0 +1,94 @@
+//! `[measures]`: what is to be reported besides what every run reports.
+
+use dashpot_analysis::{Family, MeasureWish};
+
+use super::Reading;
+use crate::{
+    document::{Content, Entry, Item},
+    fault::Fault,
+    kinds::{MeasureEntry, registers},
+    parameters::KindReader,
+    source::Place,
+    table::{one_or_many, text_of, wrong_type},
+};
+
+/// Reads the measures that are wanted.
+pub(crate) fn read_measures(reading: &Reading<'_>) -> Vec<MeasureWish> {
+    let mut wishes = Vec::new();
+    for entry in reading.section("measures") {
+        let family = family_of(reading, &entry.key, entry.key_place);
+        for item in one_or_many(&entry.item) {
+            wishes.extend(read_wish(reading, entry, item, family));
+        }
+    }
+    wishes
+}
+
+/// Whether a name is that of an element or a node, with an error where it is neither.
+pub(super) fn family_of(reading: &Reading<'_>, name: &str, place: Place) -> Option<Family> {
+    if reading.elements.contains_key(name) {
+        return Some(Family::Element);
+    }
+    if reading.nodes.contains_key(name) {
+        return Some(Family::Node);
+    }
+    let known = reading.elements.keys().chain(reading.nodes.keys()).copied();
+    reading.unknown("element or node", name, place, known);
+    None
+}
+
+/// The measure of this word for a family, with an error where there is none.
+pub(super) fn measure_of(
+    reading: &Reading<'_>,
+    word: &str,
+    family: Option<Family>,
+    place: Place,
+) -> Option<&'static MeasureEntry> {
+    let measures = &registers().measures;
+    let fits = |measure: &&MeasureEntry| family.is_none_or(|family| measure.family == family);
+    let found = measures.iter().find(|measure| measure.kind.word == word);
+    if let Some(found) = found.filter(fits) {
+        return Some(found);
+    }
+    let known = measures.iter().filter(fits).map(|measure| measure.kind.word).collect();
+    let family = match family {
+        Some(Family::Element) => "a measure of an element",
+        Some(Family::Node) => "a measure of a node",
+        None => "a measure",
+    };
+    let fault = Fault::UnknownWord { family: family.to_owned(), word: word.to_owned(), known };
+    reading.faults.error(place, fault);
+    None
+}
+
+fn read_wish(
+    reading: &Reading<'_>,
+    entry: &Entry,
+    item: &Item,
+    family: Option<Family>,
+) -> Option<MeasureWish> {
+    let reader = KindReader { other_keys: &["kind"], ..KindReader::new(reading.quantities()) };
+    let measure = match &item.value {
+        Content::Text(word) => {
+            let measure = measure_of(reading, word, family, item.place)?;
+            reader.defaults(&measure.kind, item.place)?
+        }
+        Content::Table(entries) => {
+            let Some(kind) = entries.iter().find(|own| own.key == "kind") else {
+                let (key, owner) = ("kind".to_owned(), format!("this measure of `{}`", entry.key));
+                let example = "kind = \"severity-index\"".to_owned();
+                reading.faults.error(item.place, Fault::MissingKey { key, owner, example });
+                return None;
+            };
+            let word = text_of(&kind.item, "`kind`", reading.faults)?;
+            let measure = measure_of(reading, word, family, kind.item.place)?;
+            reader.read(&measure.kind, item, kind.item.place)?
+        }
+        _ => {
+            let expected = "a word, or a table such as { kind = \"severity-index\" }";
+            wrong_type(item, "a measure", expected, reading.faults);
+            return None;
+        }
+    };
+    family.map(|_| MeasureWish { target: entry.key.clone(), measure })
+}

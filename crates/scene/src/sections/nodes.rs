@@ -1,0 +1,76 @@
+//! `[nodes]`: points with one displacement.
+
+use dashpot_network::{
+    Network, Node, Start, Support,
+    parameters::{Dimension, non_negative},
+};
+
+use super::Reading;
+use crate::{
+    document::{Content, Entry},
+    fault::Fault,
+    table::{check_name, wrong_type},
+};
+
+/// Reads the nodes into `network`.
+pub(crate) fn read_nodes(reading: &mut Reading<'_>, network: &mut Network) {
+    reading.nodes.insert("ground", network.ground());
+    for entry in reading.section("nodes") {
+        if entry.key == "ground" {
+            let reason = "`ground` is the fixed node that every scene has";
+            let fault = Fault::BadName { name: entry.key.clone(), reason };
+            reading.faults.error(entry.key_place, fault);
+            continue;
+        }
+        check_name(&entry.key, entry.key_place, reading.faults);
+        // A faulty node is known by its name all the same, so that its fault is told once.
+        let node = read_node(reading, entry).unwrap_or_else(|| Node::massless(&*entry.key));
+        reading.nodes.insert(&entry.key, network.add_node(node));
+    }
+}
+
+fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
+    let table = reading.table(entry, "node")?;
+    let quantities = reading.quantities();
+    let mass = table.take("mass").map(|own| {
+        quantities.read_checked(&own.item, Dimension::MASS, |mass| non_negative("mass", mass))
+    });
+    let velocity = table.take("velocity");
+    let drop = table.take("drop");
+    if let (Some(_), Some(drop)) = (velocity, drop) {
+        let fault = Fault::Exclusive { first: "velocity", second: "drop" };
+        reading.faults.error(drop.key_place, fault);
+    }
+    let velocity =
+        velocity.map(|own| quantities.read(&own.item, Dimension::VELOCITY).map(Start::Velocity));
+    let drop = drop.map(|own| {
+        let check = |height| non_negative("drop", height);
+        quantities.read_checked(&own.item, Dimension::LENGTH, check).map(Start::Drop)
+    });
+    let fixed = table.take("fixed");
+    let motion = table.take("motion");
+    if let (Some(_), Some(motion)) = (fixed, motion) {
+        let fault = Fault::Exclusive { first: "fixed", second: "motion" };
+        reading.faults.error(motion.key_place, fault);
+    }
+    let is_fixed = fixed.map(|own| {
+        let on = matches!(own.item.value, Content::Switch(true));
+        if !on {
+            wrong_type(&own.item, "`fixed`", "`true`, or left out", reading.faults);
+        }
+        on
+    });
+    let motion = motion.map(|own| reading.waveform(own, Dimension::LENGTH));
+    table.finish();
+    let support = match (is_fixed, motion) {
+        (Some(_), _) => Support::Fixed,
+        (None, Some(motion)) => Support::Prescribed(motion?),
+        (None, None) => Support::Free,
+    };
+    Some(Node {
+        name: entry.key.clone(),
+        mass: mass.unwrap_or(Some(0.0))?,
+        support,
+        start: velocity.or(drop).unwrap_or(Some(Start::Rest))?,
+    })
+}

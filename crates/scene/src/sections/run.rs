@@ -1,0 +1,176 @@
+//! `[run]`: how long, by which methods, and when to stop.
+
+use dashpot_analysis::Stop;
+use dashpot_dae::Direction;
+use dashpot_network::{
+    Assembly,
+    parameters::{Dimension, InvalidParameter, non_negative},
+};
+
+use super::Reading;
+use crate::{
+    document::{Content, Entry, Item},
+    fault::Fault,
+    kinds::registers,
+    table::{Table, list_of, one_or_many, text_of, wrong_type},
+    units::parse_dimension,
+};
+
+/// So many points of the output grid are written where the scene does not say.
+const SAMPLES: usize = 501;
+
+/// The output grid has at most so many points.
+const MAX_SAMPLES: usize = 10_000_000;
+
+/// How a scene is to be run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunSettings {
+    /// Length of the run \[s\], zero or positive.
+    pub duration: f64,
+    /// Points of the output grid, 1 … 10⁷; the solution does not depend on it.
+    pub samples: usize,
+    /// Names of the methods, one or more; `auto` chooses.
+    pub methods: Vec<String>,
+    /// The methods' own relative tolerance, 1e-13 … 1e-1, where it is given.
+    pub rtol: Option<f64>,
+    /// Conditions that end the run early.
+    pub stops: Vec<Stop>,
+}
+
+/// A condition whose output has not been looked up yet.
+pub(crate) struct StopText<'d> {
+    when: &'d Item,
+    level: &'d Item,
+    direction: Direction,
+}
+
+/// Reads the settings and the conditions to stop.
+pub(crate) fn read_run<'d>(reading: &Reading<'d>) -> (RunSettings, Vec<StopText<'d>>) {
+    let methods = vec!["auto".to_owned()];
+    let mut run =
+        RunSettings { duration: 0.0, samples: SAMPLES, methods, rtol: None, stops: Vec::new() };
+    let Some(entry) = reading.library.section("run") else {
+        if !reading.faults.damaged() {
+            reading.faults.error(None, Fault::MissingSection { section: "run" });
+        }
+        return (run, Vec::new());
+    };
+    let Some(table) = Table::new(&entry.item, "[run]", entry.key_place, reading.faults) else {
+        return (run, Vec::new());
+    };
+    let quantities = reading.quantities();
+    let duration = table.require("duration", "duration = \"20 ms\"").and_then(|own| {
+        quantities.read_checked(&own.item, Dimension::TIME, |time| non_negative("duration", time))
+    });
+    let samples = table.take("samples").and_then(|own| samples(reading, own));
+    let methods = table.take("methods").and_then(|own| methods_of(reading, own));
+    run.rtol = table.take("rtol").and_then(|own| {
+        quantities.read_checked(&own.item, Dimension::NUMBER, |rtol| {
+            let invalid = || InvalidParameter::new("rtol", "from 1e-13 to 1e-1", rtol);
+            if (1e-13..=1e-1).contains(&rtol) { Ok(()) } else { Err(invalid()) }
+        })
+    });
+    let stops = table.take("stop").and_then(|own| list_of(&own.item, "`stop`", reading.faults));
+    table.finish();
+    let stops = stops.unwrap_or(&[]).iter().filter_map(|item| stop(reading, item)).collect();
+    run.duration = duration.unwrap_or(run.duration);
+    run.samples = samples.unwrap_or(run.samples);
+    run.methods = methods.unwrap_or(run.methods);
+    (run, stops)
+}
+
+fn samples(reading: &Reading<'_>, entry: &Entry) -> Option<usize> {
+    let Content::Number(digits) = &entry.item.value else {
+        wrong_type(&entry.item, "`samples`", "a whole number without quotes", reading.faults);
+        return None;
+    };
+    let count = digits.parse::<usize>().ok().filter(|count| (1..=MAX_SAMPLES).contains(count));
+    if count.is_none() {
+        let range = "a whole number from 1 to 10 000 000";
+        let invalid = InvalidParameter::new("samples", range, digits);
+        reading.faults.error(entry.item.place, invalid.into());
+    }
+    count
+}
+
+fn methods_of(reading: &Reading<'_>, entry: &Entry) -> Option<Vec<String>> {
+    let known = &registers().methods;
+    let items = one_or_many(&entry.item);
+    if items.is_empty() {
+        let fault = Fault::EmptyList { key: entry.key.clone() };
+        reading.faults.error(entry.item.place, fault);
+    }
+    let mut methods = Vec::with_capacity(items.len());
+    for item in items {
+        let Some(word) = text_of(item, "a method", reading.faults) else { continue };
+        if !known.contains(&word) {
+            let (word, known) = (word.to_owned(), known.clone());
+            reading.faults.error(
+                item.place,
+                Fault::UnknownWord { family: "a method".to_owned(), word, known },
+            );
+        } else if methods.iter().any(|own| own == word) {
+            reading.faults.error(item.place, Fault::DuplicateKey { key: word.to_owned() });
+        } else {
+            methods.push(word.to_owned());
+        }
+    }
+    (!methods.is_empty()).then_some(methods)
+}
+
+fn stop<'d>(reading: &Reading<'d>, item: &'d Item) -> Option<StopText<'d>> {
+    let table = Table::new(item, "a condition in `stop`", item.place, reading.faults)?;
+    let when = table.require("when", "when = \"padding.force\"");
+    let falls = table.take("falls-below");
+    let rises = table.take("rises-above");
+    table.finish();
+    if let (Some(_), Some(rises)) = (falls, rises) {
+        let fault = Fault::Exclusive { first: "falls-below", second: "rises-above" };
+        reading.faults.error(rises.key_place, fault);
+    }
+    let Some(level) = falls.or(rises) else {
+        if !reading.faults.damaged() {
+            let fault = Fault::MissingKey {
+                key: "falls-below` or `rises-above".to_owned(),
+                owner: table.owner.clone(),
+                example: "falls-below = \"0 N\"".to_owned(),
+            };
+            reading.faults.error(table.place, fault);
+        }
+        return None;
+    };
+    let direction = if falls.is_some() { Direction::Falling } else { Direction::Rising };
+    let when = &when?.item;
+    let name = text_of(when, "`when`", reading.faults)?;
+    // A known owner with an unknown quantity is told once the outputs are known.
+    let owner = name.split('.').next().unwrap_or_default();
+    if !reading.elements.contains_key(owner) && !reading.nodes.contains_key(owner) {
+        let known = reading.elements.keys().chain(reading.nodes.keys()).copied();
+        reading.unknown("element or node", owner, when.place, known);
+        return None;
+    }
+    Some(StopText { when, level: &level.item, direction })
+}
+
+/// Looks up the outputs of the conditions to stop.
+pub(crate) fn check_stops(
+    reading: &Reading<'_>,
+    stops: &[StopText<'_>],
+    assembly: &Assembly,
+) -> Vec<Stop> {
+    let found = stops.iter().filter_map(|stop| {
+        let name = stop.when.text()?;
+        let outputs = &assembly.system.outputs;
+        let Some(output) = outputs.iter().find(|output| output.name == name) else {
+            let owner = name.split('.').next().unwrap_or_default();
+            let mut family: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
+            family.retain(|known| known.split('.').next() == Some(owner));
+            reading.unknown("output", name, stop.when.place, family.into_iter());
+            return None;
+        };
+        let dimension = parse_dimension(output.unit).unwrap_or(Dimension::NUMBER);
+        let level = reading.quantities().read(stop.level, dimension)?;
+        Some(Stop { output: name.to_owned(), level, direction: stop.direction })
+    });
+    found.collect()
+}

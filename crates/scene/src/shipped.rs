@@ -1,0 +1,85 @@
+//! Scenes that come with the crate.
+
+/// A scene that comes with the crate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shipped {
+    /// Its word, for instance `impact`.
+    pub name: &'static str,
+    /// One line on what it shows.
+    pub summary: &'static str,
+    /// The text.
+    pub text: &'static str,
+}
+
+const TEMPLATES: &[Shipped] = &[
+    Shipped {
+        name: "impact",
+        summary: "a moving mass, a pad and its support",
+        text: include_str!("../templates/impact.toml"),
+    },
+    Shipped {
+        name: "chain",
+        summary: "a chain of masses with one model between them",
+        text: include_str!("../templates/chain.toml"),
+    },
+    Shipped {
+        name: "force-table",
+        summary: "a force given by a table, and a base with a given motion",
+        text: include_str!("../templates/force-table.toml"),
+    },
+];
+
+const REFERENCES: &[Shipped] = &[
+    Shipped {
+        name: "reference",
+        summary: "the thesis' head against a padded car panel",
+        text: include_str!("../../../scenes/reference.toml"),
+    },
+    Shipped {
+        name: "reference-stiff",
+        summary: "the same with the support damping that the thesis prints",
+        text: include_str!("../../../scenes/reference-stiff.toml"),
+    },
+    Shipped {
+        name: "reference-gravity",
+        summary: "the same with gravity, starting in balance",
+        text: include_str!("../../../scenes/reference-gravity.toml"),
+    },
+];
+
+/// Commented scenes to start from.
+pub fn templates() -> &'static [Shipped] {
+    TEMPLATES
+}
+
+/// The text of the template of this name.
+pub fn template(name: &str) -> Option<&'static str> {
+    TEMPLATES.iter().find(|shipped| shipped.name == name).map(|shipped| shipped.text)
+}
+
+/// The reference scenes, the built-in one first.
+pub fn references() -> &'static [Shipped] {
+    REFERENCES
+}
+
+/// The text of the built-in reference scene.
+pub fn reference() -> &'static str {
+    REFERENCES[0].text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ReadOptions, read};
+
+    #[test]
+    fn every_shipped_scene_is_valid_and_without_warning() {
+        for shipped in TEMPLATES.iter().chain(REFERENCES) {
+            let options = ReadOptions { file: Some(shipped.name), ..ReadOptions::default() };
+            let checked = read(shipped.text, &options).unwrap_or_else(|errors| panic!("{errors}"));
+            assert!(checked.warnings.is_empty(), "{}", checked.warnings);
+            assert!(checked.value.title.is_some() && checked.value.run.duration > 0.0);
+        }
+        assert!(template("impact").is_some() && template("none").is_none());
+    }
+}

@@ -1,0 +1,71 @@
+//! Tests of the whole way from text to scene.
+
+mod equality;
+mod fuzz;
+mod limits;
+mod messages;
+mod models;
+mod round_trip;
+mod settings;
+
+use dashpot_network::{Model, Network};
+use dashpot_rheology::Tree;
+
+use crate::{Checked, Diagnostics, ReadOptions, Scene, read};
+
+/// Reads `text` as the file `scene.toml`.
+fn read_text(text: &str) -> Result<Checked<Scene>, Diagnostics> {
+    read(text, &ReadOptions { file: Some("scene.toml"), ..ReadOptions::default() })
+}
+
+/// The scene in `text`.
+fn scene(text: &str) -> Scene {
+    read_text(text).unwrap_or_else(|errors| panic!("{errors}")).value
+}
+
+/// The messages on `text`.
+fn messages(text: &str) -> String {
+    read_text(text).unwrap_err().render(false)
+}
+
+/// One line for each part and composition of a model: depth, name, kind and values.
+fn shape(model: &Model) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut open = vec![(0, "", model)];
+    while let Some((depth, name, tree)) = open.pop() {
+        let word = match tree {
+            Tree::Part(element) => format!("{} {:?}", element.kind(), element.values()),
+            Tree::Series(_) => "series".to_owned(),
+            Tree::Parallel(_) => "parallel".to_owned(),
+        };
+        lines.push(format!("{depth} {name} {word}"));
+        let branches = tree.branches().iter().rev();
+        open.extend(branches.map(|branch| (depth + 1, branch.name.as_str(), &branch.tree)));
+    }
+    lines
+}
+
+/// Everything in a network, as text.
+fn contents(network: &Network) -> Vec<String> {
+    let nodes = network.nodes().map(|(id, node)| format!("{id:?} {node:?}"));
+    let elements = network.connections().iter().map(|own| {
+        format!("{} {:?} {:?} {:?}", own.name, own.between, own.thickness, shape(&own.model))
+    });
+    let loads = network.loads().iter().map(|load| format!("{load:?}"));
+    let effects = network.effects().iter().map(|own| format!("{} {:?}", own.kind(), own.values()));
+    nodes.chain(elements).chain(loads).chain(effects).collect()
+}
+
+/// A scene with one mass on the model in `law`.
+fn on_model(law: &str) -> String {
+    format!(
+        "[nodes]\nhead = {{ mass = 1, velocity = 1 }}\n\
+         [elements]\npad = {{ between = [\"head\", \"ground\"], {law} }}\n\
+         [run]\nduration = 1\n"
+    )
+}
+
+/// The model in `law`.
+fn model(law: &str) -> Model {
+    scene(&on_model(law)).network.connections()[0].model.clone()
+}

@@ -1,0 +1,125 @@
+//! What is written is read back equal, for every kind of every register.
+
+use dashpot_analysis::{MeasureKind, MeasureVisitor, visit_measures};
+use dashpot_network::{
+    Model,
+    effects::{EffectKind, EffectVisitor, visit_effects},
+    elements::{ElementKind, ElementVisitor, visit_elements},
+    parameters::Dimension,
+    part,
+    waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
+};
+use dashpot_rheology::{Branch, Form, FormVisitor, Role, Tree, forms::build, visit_forms};
+
+use super::{on_model, scene, shape};
+use crate::{ReadOptions, read_model, write_kind, write_model};
+
+fn read_back(model: &Model) -> Model {
+    let text = format!("[models]\nm = {}\n", write_model(model));
+    read_model(&text, "m", &ReadOptions::default()).unwrap_or_else(|e| panic!("{text}\n{e}")).value
+}
+
+struct Kinds(usize);
+
+impl ElementVisitor for Kinds {
+    fn visit<E: ElementKind>(&mut self) {
+        let sample = part(E::sample());
+        assert_eq!(shape(&read_back(&sample)), shape(&sample), "{}", E::KIND);
+        let named = Tree::Series(vec![
+            Branch::new("odd \"name\"", part(E::sample())),
+            Branch::new("ä", Tree::parallel([part(E::sample()), part(E::sample())])),
+        ]);
+        assert_eq!(shape(&read_back(&named)), shape(&named), "{}", E::KIND);
+        self.0 += 1;
+    }
+}
+
+impl FormVisitor for Kinds {
+    fn visit<F: Form>(&mut self) {
+        let mut value = 0.1;
+        let mut leaf = |_: &[&'static str], role: Role| {
+            value *= 1.7;
+            let spring = dashpot_network::elements::Spring { stiffness: value };
+            let dashpot = dashpot_network::elements::Dashpot { damping: value };
+            let is_spring = matches!(role, Role::Spring);
+            Ok::<std::sync::Arc<dyn dashpot_network::Element>, ()>(if is_spring {
+                std::sync::Arc::new(spring)
+            } else {
+                std::sync::Arc::new(dashpot)
+            })
+        };
+        let form = build(F::PARTS, F::IN_SERIES, &mut leaf).unwrap();
+        assert_eq!(shape(&read_back(&form)), shape(&form), "{}", F::KIND);
+        self.0 += 1;
+    }
+}
+
+impl WaveformVisitor for Kinds {
+    fn visit<W: WaveformKind>(&mut self) {
+        let sample = W::sample();
+        let force = write_kind(W::KIND, W::PARAMETERS, &sample.values(), Dimension::FORCE);
+        let motion = write_kind(W::KIND, W::PARAMETERS, &sample.values(), Dimension::LENGTH);
+        let text = format!(
+            "{}[loads.push]\non = \"head\"\nforce = {{ {force} }}\n",
+            on_model("spring = 1").replace(
+                "[elements]",
+                &format!(
+                    "base = {{ motion = {{ {motion} }} }}\n[elements]\n\
+                     spare = {{ between = [\"head\", \"base\"], spring = 1 }}"
+                )
+            )
+        );
+        let read = scene(&text);
+        let expected = sample.waveform().unwrap();
+        assert_eq!(read.network.loads()[0].force, expected, "{}", W::KIND);
+        let base = read.network.node_named("base").unwrap();
+        let support = &read.network.node(base).support;
+        assert_eq!(*support, dashpot_network::Support::Prescribed(expected), "{}", W::KIND);
+        self.0 += 1;
+    }
+}
+
+impl EffectVisitor for Kinds {
+    fn visit<E: EffectKind>(&mut self) {
+        let sample = E::sample();
+        let written = write_kind(E::KIND, E::PARAMETERS, &sample.values(), Dimension::FORCE);
+        let read = scene(&format!("{}[effects]\n{written}\n", on_model("spring = 1")));
+        let effect = &read.network.effects()[0];
+        assert_eq!((effect.kind(), effect.values()), (E::KIND, sample.values()));
+        self.0 += 1;
+    }
+}
+
+impl MeasureVisitor for Kinds {
+    fn visit<M: MeasureKind>(&mut self) {
+        let sample = M::sample();
+        let target = match M::APPLIES_TO {
+            dashpot_analysis::Family::Element => "pad",
+            dashpot_analysis::Family::Node => "head",
+        };
+        let values = MeasureKind::values(&sample);
+        let written = write_kind(M::KIND, M::PARAMETERS, &values, Dimension::NUMBER);
+        let options = written.split_once(" = ").unwrap().1.trim_matches(['{', '}', ' ']);
+        let comma = if options.is_empty() { "" } else { "," };
+        let text = format!(
+            "{}[measures]\n{target} = {{ kind = \"{}\"{comma} {options} }}\n",
+            on_model("spring = 1"),
+            M::KIND
+        );
+        let read = scene(&text);
+        let measure = &read.measures[0].measure;
+        assert_eq!((measure.kind(), measure.values()), (M::KIND, values), "{text}");
+        self.0 += 1;
+    }
+}
+
+#[test]
+fn every_kind_is_read_back_equal() {
+    let mut kinds = Kinds(0);
+    visit_elements(&mut kinds);
+    visit_forms(&mut kinds);
+    visit_waveforms(&mut kinds);
+    visit_effects(&mut kinds);
+    visit_measures(&mut kinds);
+    assert!(kinds.0 > 20);
+}

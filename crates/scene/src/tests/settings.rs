@@ -1,0 +1,85 @@
+//! Run, accuracy, measures, values.
+
+use dashpot_dae::Direction;
+
+use super::{messages, on_model, read_text, scene};
+use crate::{ReadOptions, read};
+
+fn is_close(found: f64, expected: f64) -> bool {
+    (found - expected).abs() <= 1e-14 * expected.abs()
+}
+
+#[test]
+fn defaults_are_those_of_the_documentation() {
+    let read = scene(&on_model("spring = 1"));
+    assert_eq!((read.run.samples, read.run.methods.as_slice()), (501, &["auto".to_owned()][..]));
+    assert!(read.run.stops.is_empty() && read.run.rtol.is_none() && read.title.is_none());
+    assert!((read.accuracy.default - 1e-3).abs() < 1e-18 && read.measures.is_empty());
+}
+
+#[test]
+fn wishes_are_read_in_both_forms() {
+    let text = format!(
+        "title = \"t\"\n{}methods = [\"exact\", \"bdf\"]\nrtol = 1e-8\n\
+         stop = [{{ when = \"pad.force\", falls-below = \"2 kN\" }}, \
+         {{ when = \"head.position\", rises-above = \"3 mm\" }}]\n\
+         [accuracy]\ndefault = \"1 %\"\npad.peak-force = 0.02\n\"head.hic15\" = \"3 %\"\n\
+         [measures]\nhead = [\"hic15\", {{ kind = \"severity-index\", window = [0, \"5 ms\"] }}]\n\
+         pad = \"peak-rate\"\n",
+        on_model("spring = 1")
+    );
+    let read = scene(&text);
+    assert_eq!(read.run.methods, ["exact", "bdf"]);
+    assert_eq!(read.run.rtol, Some(1e-8));
+    let stops = &read.run.stops;
+    assert_eq!((stops[0].output.as_str(), stops[0].level), ("pad.force", 2e3));
+    assert_eq!((stops[1].level, stops[1].direction), (3e-3, Direction::Rising));
+    assert!(is_close(read.accuracy.of("pad.peak-force"), 0.02));
+    assert!(is_close(read.accuracy.of("head.hic15"), 0.03));
+    assert!(is_close(read.accuracy.of("head.peak-acceleration"), 0.01));
+    let kinds: Vec<_> =
+        read.measures.iter().map(|wish| (wish.target.as_str(), wish.measure.kind())).collect();
+    assert_eq!(kinds, [("head", "hic15"), ("head", "severity-index"), ("pad", "peak-rate")]);
+}
+
+#[test]
+fn named_values_are_overridden_from_outside() {
+    let text = format!("[values]\nK = \"20 MN/m\"\nL = \"K\"\n{}", on_model("spring = \"L\""));
+    let set = |name: &str, value: &str| {
+        let set = [(name.to_owned(), value.to_owned())];
+        read(&text, &ReadOptions { set: &set, ..ReadOptions::default() })
+    };
+    let stiffness = |read: &crate::Scene| super::shape(&read.network.connections()[0].model);
+    assert_eq!(stiffness(&scene(&text)), ["0  spring [Number(20000000.0)]"]);
+    let changed = set("K", "25 MN/m").unwrap().value;
+    assert_eq!(stiffness(&changed), ["0  spring [Number(25000000.0)]"]);
+    assert!(is_close(changed.values[0].value, 2.5e7));
+    assert_eq!(stiffness(&set("L", "7").unwrap().value), ["0  spring [Number(7.0)]"]);
+    let shown = set("KK", "1").unwrap_err().render(false);
+    assert!(shown.contains("there is no value named `KK`"), "{shown}");
+    assert!(shown.contains("known values: K, L"), "{shown}");
+    let shown = set("K", "25 MNm").unwrap_err().render(false);
+    assert!(shown.contains("--set:1:3") && shown.contains("did you mean `MN m`?"), "{shown}");
+}
+
+#[test]
+fn a_reversed_element_is_warned_of_at_its_name() {
+    let text = "[nodes]\nhead = { mass = 1, velocity = 1 }\npanel = { mass = 1 }\n[elements]\n\
+                pad = { between = [\"panel\", \"head\"], spring = 1 }\n\
+                mount = { between = [\"panel\", \"ground\"], spring = 1 }\n[run]\nduration = 1\n";
+    let shown = read_text(text).unwrap().warnings.render(false);
+    assert!(shown.starts_with("warning: `pad` looks reversed"), "{shown}");
+    assert!(shown.contains("scene.toml:5:1"), "{shown}");
+}
+
+#[test]
+fn what_a_stop_watches_must_exist() {
+    let with = |stop: &str| format!("{}stop = [{{ {stop} }}]\n", on_model("spring = 1"));
+    let shown = messages(&with("when = \"pad.forse\", falls-below = 0"));
+    assert!(shown.contains("did you mean `pad.force`?"), "{shown}");
+    let shown = messages(&with("when = \"pat.force\", falls-below = 0"));
+    assert!(shown.contains("did you mean `pad`?"), "{shown}");
+    let shown = messages(&with("when = \"pad.force\", falls-below = \"1 mm\""));
+    assert!(shown.contains("a force (N) is expected here"), "{shown}");
+    assert!(messages(&with("when = \"pad.force\"")).contains("`falls-below` or `rises-above`"));
+}

@@ -1,0 +1,121 @@
+//! Quantities as text, in engineering units.
+
+use dashpot_network::parameters::Dimension;
+
+/// Units to choose from, smallest first: symbol and power of ten over the SI unit.
+fn scales(dimension: Dimension) -> &'static [(&'static str, i32)] {
+    match dimension {
+        Dimension::MASS => &[("mg", -6), ("g", -3), ("kg", 0), ("t", 3)],
+        Dimension::LENGTH => &[("nm", -9), ("µm", -6), ("mm", -3), ("m", 0), ("km", 3)],
+        Dimension::TIME => &[("ns", -9), ("µs", -6), ("ms", -3), ("s", 0)],
+        Dimension::FREQUENCY => &[("mHz", -3), ("Hz", 0), ("kHz", 3), ("MHz", 6)],
+        Dimension::VELOCITY => &[("µm/s", -6), ("mm/s", -3), ("m/s", 0), ("km/s", 3)],
+        Dimension::ACCELERATION => &[("mm/s^2", -3), ("m/s^2", 0)],
+        Dimension::FORCE => &[("µN", -6), ("mN", -3), ("N", 0), ("kN", 3), ("MN", 6), ("GN", 9)],
+        Dimension::STIFFNESS => &[("mN/m", -3), ("N/m", 0), ("kN/m", 3), ("MN/m", 6), ("GN/m", 9)],
+        Dimension::DAMPING => {
+            &[("mN s/m", -3), ("N s/m", 0), ("kN s/m", 3), ("MN s/m", 6), ("GN s/m", 9)]
+        }
+        Dimension::IMPULSE => &[("mN s", -3), ("N s", 0), ("kN s", 3)],
+        Dimension::ENERGY => &[("µJ", -6), ("mJ", -3), ("J", 0), ("kJ", 3), ("MJ", 6)],
+        _ => &[],
+    }
+}
+
+/// A value in SI units as text in a handy unit, to `digits` significant digits (at least 1).
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::parameters::Dimension;
+/// use dashpot_scene::units::format_quantity;
+///
+/// assert_eq!(format_quantity(38_359.4, Dimension::FORCE, 4), "38.36 kN");
+/// assert_eq!(format_quantity(7.4256e-3, Dimension::TIME, 3), "7.43 ms");
+/// assert_eq!(format_quantity(999.96, Dimension::FORCE, 4), "1.000 kN");
+/// ```
+pub fn format_quantity(value: f64, dimension: Dimension, digits: usize) -> String {
+    written(value, &format!("{value:.*e}", digits.saturating_sub(1)), dimension)
+}
+
+/// Like [`format_quantity`], without zeros at the end: `20 MN/m`.
+pub fn format_short(value: f64, dimension: Dimension, digits: usize) -> String {
+    let rounded = format!("{value:.*e}", digits.saturating_sub(1));
+    let Some((mantissa, exponent)) = rounded.split_once('e') else {
+        return written(value, &rounded, dimension);
+    };
+    let mantissa = if mantissa.contains('.') {
+        mantissa.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        mantissa
+    };
+    written(value, &format!("{mantissa}e{exponent}"), dimension)
+}
+
+/// A value as text that is read back to the same bits.
+pub(crate) fn exact_quantity(value: f64, dimension: Dimension) -> String {
+    written(value, &format!("{value:e}"), dimension)
+}
+
+/// The SI unit of a dimension, with a name of its own or as a product of powers.
+pub(crate) fn si_unit(dimension: Dimension) -> String {
+    if let Some((_, unit)) = dimension.named() {
+        return unit.to_owned();
+    }
+    let powers = [("kg", dimension.mass), ("m", dimension.length), ("s", dimension.time)];
+    powers
+        .iter()
+        .filter(|(_, power)| *power != 0)
+        .map(
+            |(unit, power)| {
+                if *power == 1 { (*unit).to_owned() } else { format!("{unit}^{power}") }
+            },
+        )
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// `rounded` is the value in the form `d.ddde±x`.
+fn written(value: f64, rounded: &str, dimension: Dimension) -> String {
+    let si = if dimension == Dimension::NUMBER { String::new() } else { si_unit(dimension) };
+    let Some((mantissa, exponent)) = rounded.split_once('e') else {
+        return joined(&value.to_string(), &si);
+    };
+    let exponent = exponent.parse::<i32>().unwrap_or(0);
+    if value == 0.0 {
+        return joined("0", &si);
+    }
+    let scales = scales(dimension);
+    let (unit, power) = scales
+        .iter()
+        .rev()
+        .find(|(_, power)| *power <= exponent)
+        .or(scales.first())
+        .map_or((si.as_str(), 0), |(unit, power)| (*unit, *power));
+    joined(&positional(mantissa, exponent - power), unit)
+}
+
+fn joined(number: &str, unit: &str) -> String {
+    if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
+}
+
+/// The digits of `mantissa` with the point moved by `shift`; far shifts stay powers of ten.
+fn positional(mantissa: &str, shift: i32) -> String {
+    let (sign, digits) = mantissa.strip_prefix('-').map_or(("", mantissa), |digits| ("-", digits));
+    let digits = digits.replace('.', "");
+    match usize::try_from(shift) {
+        Ok(shift @ 0..=5) => {
+            let whole = shift + 1;
+            if digits.len() <= whole {
+                format!("{sign}{digits:0<whole$}")
+            } else {
+                format!("{sign}{}.{}", &digits[..whole], &digits[whole..])
+            }
+        }
+        Err(_) if shift >= -4 => {
+            let zeros = "0".repeat((-shift - 1).unsigned_abs() as usize);
+            format!("{sign}0.{zeros}{digits}")
+        }
+        _ => format!("{mantissa}e{shift}"),
+    }
+}

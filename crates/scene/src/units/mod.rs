@@ -1,0 +1,281 @@
+//! Quantities with units: `"20 MN/m"`, `"6 kN s/m"`, `"1 g0"`.
+//!
+//! A quantity is a number and a unit. A unit is a product of symbols, separated by spaces, `*` or
+//! `·`; `/` divides by the one symbol, or the parenthesis, that follows it; powers are written
+//! `^2`, `²` or `2`. A number alone is in SI units. Everything is SI once it has been read.
+
+mod format;
+mod symbols;
+
+use dashpot_network::parameters::Dimension;
+pub(crate) use format::{exact_quantity, si_unit};
+pub use format::{format_quantity, format_short};
+use symbols::Unit;
+use thiserror::Error;
+
+/// A quantity is not longer than this, in bytes.
+const LONGEST: usize = 200;
+
+/// A number with its dimension.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quantity {
+    /// The value in SI units, finite.
+    pub value: f64,
+    /// What it measures; `None` where no unit was given, which fits everywhere.
+    pub dimension: Option<Dimension>,
+    /// Exponent of the angle in its unit: 1 for `rad` and `rad/s`, 0 for `Hz`.
+    pub angle: i8,
+}
+
+/// Why a text is not a quantity.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum UnitError {
+    /// There is no number at the start.
+    #[error("`{text}` does not begin with a number")]
+    NoNumber {
+        /// What was given.
+        text: String,
+    },
+    /// NaN or infinity.
+    #[error("`{text}` is not finite: every quantity is a finite number")]
+    NotFinite {
+        /// What was given.
+        text: String,
+    },
+    /// Larger than the largest double.
+    #[error("`{text}` is too large: it does not fit into double precision")]
+    TooLarge {
+        /// What was given.
+        text: String,
+    },
+    /// Not zero, but smaller than the smallest double.
+    #[error("`{text}` is too small: it would be rounded to zero")]
+    TooSmall {
+        /// What was given.
+        text: String,
+    },
+    /// A comma in a number.
+    #[error("`{text}` has a comma: decimals are written with a point")]
+    DecimalComma {
+        /// What was given.
+        text: String,
+    },
+    /// A symbol that is no unit.
+    #[error("`{symbol}` is not a known unit")]
+    UnknownUnit {
+        /// The symbol.
+        symbol: String,
+        /// What was probably meant.
+        meant: Option<String>,
+    },
+    /// A unit that cannot be read.
+    #[error("`{text}` is not a unit that can be read")]
+    Malformed {
+        /// What was given.
+        text: String,
+    },
+}
+
+/// Reads a quantity such as `"20 MN/m"` or `"0.1 %"`.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::parameters::Dimension;
+/// use dashpot_scene::units::parse_quantity;
+///
+/// let stiffness = parse_quantity("20 MN/m")?;
+/// assert_eq!(stiffness.value, 2e7);
+/// assert_eq!(stiffness.dimension, Some(Dimension::STIFFNESS));
+/// assert_eq!(parse_quantity("0.25")?.dimension, None);
+/// # Ok::<(), dashpot_scene::units::UnitError>(())
+/// ```
+///
+/// # Errors
+///
+/// [`UnitError`] when the text is not a number with a known unit, or not finite.
+pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
+    let text = text.trim();
+    if text.len() > LONGEST {
+        let shown = text.chars().take(20).collect::<String>() + "…";
+        return Err(UnitError::Malformed { text: shown });
+    }
+    let (number, rest) = split_number(text)?;
+    let unit_text = rest.trim();
+    let unit = if unit_text.is_empty() { None } else { Some(parse_unit(unit_text)?) };
+    let (factor, exponent) = unit.map_or((1.0, 0), |unit| (unit.factor, unit.exponent));
+    let value = scaled(number, exponent).map_or(f64::NAN, |value| value * factor);
+    if !value.is_finite() {
+        return Err(UnitError::TooLarge { text: text.to_owned() });
+    }
+    if value == 0.0 && has_digit_above_zero(number) {
+        return Err(UnitError::TooSmall { text: text.to_owned() });
+    }
+    Ok(Quantity {
+        value,
+        dimension: unit.map(|unit| unit.dimension),
+        angle: unit.map_or(0, |unit| unit.angle),
+    })
+}
+
+/// The dimension of a unit such as `"N s/m"`.
+///
+/// # Errors
+///
+/// [`UnitError`] when the unit is not known.
+pub fn parse_dimension(unit: &str) -> Result<Dimension, UnitError> {
+    match unit.trim() {
+        "" | "1" => Ok(Dimension::NUMBER),
+        unit => parse_unit(unit).map(|unit| unit.dimension),
+    }
+}
+
+/// `number · 10^exponent`, rounded once.
+fn scaled(number: &str, exponent: i32) -> Option<f64> {
+    let (mantissa, own) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    // An exponent beyond i32 is beyond double precision as well.
+    let own = own.parse::<i32>().unwrap_or(if own.starts_with('-') { -9999 } else { 9999 });
+    format!("{mantissa}e{}", own.saturating_add(exponent)).parse().ok()
+}
+
+fn has_digit_above_zero(number: &str) -> bool {
+    let mantissa = number.split(['e', 'E']).next().unwrap_or_default();
+    mantissa.chars().any(|digit| ('1'..='9').contains(&digit))
+}
+
+/// The number at the start of `text`, and the rest.
+fn split_number(text: &str) -> Result<(&str, &str), UnitError> {
+    let bytes = text.as_bytes();
+    let digits = |mut at: usize| {
+        while bytes.get(at).is_some_and(u8::is_ascii_digit) {
+            at += 1;
+        }
+        at
+    };
+    let sign = |at: usize| at + usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
+    let start = sign(0);
+    let whole = digits(start);
+    let mut end = whole;
+    let mut count = whole - start;
+    if bytes.get(end) == Some(&b'.') {
+        end = digits(end + 1);
+        count += end - whole - 1;
+    }
+    if count == 0 {
+        let word = text[start..].split_whitespace().next().unwrap_or_default().to_lowercase();
+        let text = text.to_owned();
+        return Err(match word.as_str() {
+            "nan" | "inf" | "infinity" | "∞" => UnitError::NotFinite { text },
+            _ => UnitError::NoNumber { text },
+        });
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let exponent = sign(end + 1);
+        let stop = digits(exponent);
+        if stop > exponent {
+            end = stop;
+        }
+    }
+    if bytes.get(end) == Some(&b',') && bytes.get(end + 1).is_some_and(u8::is_ascii_digit) {
+        return Err(UnitError::DecimalComma { text: text.to_owned() });
+    }
+    Ok(text.split_at(end))
+}
+
+fn parse_unit(text: &str) -> Result<Unit, UnitError> {
+    let malformed = || UnitError::Malformed { text: text.to_owned() };
+    let mut product = Unit { factor: 1.0, exponent: 0, dimension: Dimension::NUMBER, angle: 0 };
+    // Sign of the power outside each open parenthesis, and that of the next symbol.
+    let mut outer = vec![1_i8];
+    let mut sign = 1_i8;
+    let mut rest = text;
+    let mut expects_factor = true;
+    while let Some(next) = rest.chars().next() {
+        let around = *outer.last().ok_or_else(malformed)?;
+        match next {
+            ' ' | '\u{a0}' | '\u{202f}' => rest = &rest[next.len_utf8()..],
+            '*' | '·' | '⋅' | '/' if !expects_factor => {
+                sign = if next == '/' { -1 } else { 1 };
+                rest = &rest[next.len_utf8()..];
+                expects_factor = true;
+            }
+            '(' => {
+                outer.push(around * sign);
+                sign = 1;
+                rest = &rest[1..];
+                expects_factor = true;
+            }
+            ')' if outer.len() > 1 && !expects_factor => {
+                outer.pop();
+                rest = &rest[1..];
+            }
+            '1' if expects_factor => {
+                sign = 1;
+                rest = &rest[1..];
+                expects_factor = false;
+            }
+            _ => {
+                let (word, after) = split_symbol(rest);
+                if word.is_empty() {
+                    return Err(malformed());
+                }
+                let factor = symbols::symbol(word).ok_or_else(|| UnitError::UnknownUnit {
+                    symbol: word.to_owned(),
+                    meant: symbols::meant(word),
+                })?;
+                let (power, after) = split_power(after).ok_or_else(malformed)?;
+                product = times(product, factor, power * sign * around).ok_or_else(malformed)?;
+                (sign, rest, expects_factor) = (1, after, false);
+            }
+        }
+    }
+    if outer.len() > 1 || expects_factor { Err(malformed()) } else { Ok(product) }
+}
+
+fn split_symbol(text: &str) -> (&str, &str) {
+    if let Some(rest) = text.strip_prefix("g0") {
+        return (&text[..2], rest);
+    }
+    let end = text
+        .find(|c: char| !(c.is_alphabetic() || matches!(c, '%' | '°' | 'µ')))
+        .unwrap_or(text.len());
+    text.split_at(end)
+}
+
+/// The power after a symbol, 1 where there is none; `None` where it cannot be read.
+fn split_power(text: &str) -> Option<(i8, &str)> {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let explicit = text.strip_prefix('^');
+    let body = explicit.unwrap_or(text);
+    let (sign, digits) =
+        body.strip_prefix(['-', '−', '⁻']).map_or((1, body), |digits| (-1, digits));
+    let digit = digits.chars().next().and_then(|c| {
+        let raised = RAISED.iter().position(|&raised| raised == c);
+        let value = raised.or_else(|| c.to_digit(10).map(|digit| digit as usize))?;
+        Some((i8::try_from(value).ok()?, c.len_utf8()))
+    });
+    match digit {
+        Some((value, length)) => Some((sign * value, &digits[length..])),
+        None if explicit.is_none() && sign == 1 => Some((1, text)),
+        None => None,
+    }
+}
+
+/// `unit · factor^power`, `None` where an exponent leaves its range.
+fn times(unit: Unit, factor: Unit, power: i8) -> Option<Unit> {
+    let add = |own: i8, other: i8| own.checked_add(other.checked_mul(power)?);
+    Some(Unit {
+        factor: unit.factor * factor.factor.powi(i32::from(power)),
+        exponent: unit.exponent + factor.exponent * i32::from(power),
+        dimension: Dimension::new(
+            add(unit.dimension.mass, factor.dimension.mass)?,
+            add(unit.dimension.length, factor.dimension.length)?,
+            add(unit.dimension.time, factor.dimension.time)?,
+        ),
+        angle: add(unit.angle, factor.angle)?,
+    })
+}
+
+#[cfg(test)]
+mod tests;

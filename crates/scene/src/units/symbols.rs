@@ -1,0 +1,169 @@
+//! The units that can be read.
+
+use std::f64::consts::PI;
+
+use dashpot_network::parameters::Dimension;
+
+use crate::nearest::nearest;
+
+/// A unit as a multiple of the SI unit of its dimension: `factor · 10^exponent`.
+///
+/// Powers of ten are kept apart so that `"0.1 mN"` is read as exactly as `1e-4`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Unit {
+    /// Part that is not a power of ten.
+    pub(crate) factor: f64,
+    /// Power of ten.
+    pub(crate) exponent: i32,
+    /// What is measured.
+    pub(crate) dimension: Dimension,
+    /// Exponent of the angle: 1 for `rad` and `rad/s`, 0 for `Hz`.
+    pub(crate) angle: i8,
+}
+
+struct Symbol {
+    word: &'static str,
+    unit: Unit,
+    takes_prefix: bool,
+}
+
+const fn unit(
+    word: &'static str,
+    factor: f64,
+    exponent: i32,
+    dimension: Dimension,
+    takes_prefix: bool,
+) -> Symbol {
+    Symbol { word, unit: Unit { factor, exponent, dimension, angle: 0 }, takes_prefix }
+}
+
+const fn angle(word: &'static str, factor: f64, takes_prefix: bool) -> Symbol {
+    let unit = Unit { factor, exponent: 0, dimension: Dimension::NUMBER, angle: 1 };
+    Symbol { word, unit, takes_prefix }
+}
+
+const SYMBOLS: &[Symbol] = &[
+    unit("g", 1.0, -3, Dimension::MASS, true),
+    unit("t", 1.0, 3, Dimension::MASS, true),
+    unit("m", 1.0, 0, Dimension::LENGTH, true),
+    unit("s", 1.0, 0, Dimension::TIME, true),
+    unit("min", 60.0, 0, Dimension::TIME, false),
+    unit("h", 3600.0, 0, Dimension::TIME, false),
+    unit("N", 1.0, 0, Dimension::FORCE, true),
+    unit("J", 1.0, 0, Dimension::ENERGY, true),
+    unit("W", 1.0, 0, Dimension::new(1, 2, -3), true),
+    unit("Pa", 1.0, 0, Dimension::new(1, -1, -2), true),
+    unit("Hz", 1.0, 0, Dimension::FREQUENCY, true),
+    unit("g0", 9.806_65, 0, Dimension::ACCELERATION, false),
+    unit("%", 1.0, -2, Dimension::NUMBER, false),
+    angle("rad", 1.0, true),
+    angle("deg", PI / 180.0, false),
+    angle("°", PI / 180.0, false),
+    unit("in", 254.0, -4, Dimension::LENGTH, false),
+    unit("ft", 3048.0, -4, Dimension::LENGTH, false),
+    unit("lb", 45_359_237.0, -8, Dimension::MASS, false),
+    unit("lbf", 4.448_221_615_260_5, 0, Dimension::FORCE, false),
+];
+
+/// Both signs for micro are read, and `u`.
+const PREFIXES: &[(char, i32)] = &[
+    ('T', 12),
+    ('G', 9),
+    ('M', 6),
+    ('k', 3),
+    ('d', -1),
+    ('c', -2),
+    ('m', -3),
+    ('u', -6),
+    ('µ', -6),
+    ('μ', -6),
+    ('n', -9),
+    ('p', -12),
+];
+
+/// What people write for a unit besides its symbol.
+const SPOKEN: &[(&str, &str)] = &[
+    ("sec", "s"),
+    ("second", "s"),
+    ("seconds", "s"),
+    ("msec", "ms"),
+    ("meter", "m"),
+    ("metre", "m"),
+    ("newton", "N"),
+    ("joule", "J"),
+    ("hertz", "Hz"),
+    ("kilogram", "kg"),
+    ("kilo", "kg"),
+    ("gram", "g"),
+    ("degree", "deg"),
+    ("degrees", "deg"),
+    ("percent", "%"),
+    ("lbs", "lb"),
+    ("inch", "in"),
+    ("gn", "g0"),
+    ("kph", "km/h"),
+    ("kmh", "km/h"),
+];
+
+/// Units with a prefix that are offered in place of an unknown one, the usual ones first.
+const USUAL: &[&str] = &[
+    "kN", "MN", "GN", "mN", "kg", "mm", "cm", "km", "µm", "ms", "µs", "ns", "kHz", "kJ", "mJ",
+    "MPa", "kPa", "GPa", "mrad",
+];
+
+/// The unit of a symbol such as `kN`.
+pub(crate) fn symbol(word: &str) -> Option<Unit> {
+    let exact = |word: &str| SYMBOLS.iter().find(|symbol| symbol.word == word);
+    if let Some(symbol) = exact(word) {
+        return Some(symbol.unit);
+    }
+    let prefix = word.chars().next()?;
+    let exponent = PREFIXES.iter().find(|entry| entry.0 == prefix)?.1;
+    let base = exact(&word[prefix.len_utf8()..]).filter(|symbol| symbol.takes_prefix)?.unit;
+    Some(Unit { exponent: base.exponent + exponent, ..base })
+}
+
+/// What was probably meant by a symbol that is not known.
+pub(crate) fn meant(word: &str) -> Option<String> {
+    if let Some((_, symbol)) = SPOKEN.iter().find(|entry| entry.0.eq_ignore_ascii_case(word)) {
+        return Some((*symbol).to_owned());
+    }
+    let known = || USUAL.iter().copied().chain(SYMBOLS.iter().map(|symbol| symbol.word));
+    let product = word
+        .char_indices()
+        .skip(1)
+        .map(|(at, _)| word.split_at(at))
+        .find(|(first, second)| symbol(first).is_some() && symbol(second).is_some())
+        .map(|(first, second)| format!("{first} {second}"));
+    if product.is_some() {
+        return product;
+    }
+    if let Some(same) = known().find(|known| known.eq_ignore_ascii_case(word)) {
+        return Some(same.to_owned());
+    }
+    nearest(word, known()).map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_symbols_come_before_prefixes() {
+        assert_eq!(symbol("min").unwrap().dimension, Dimension::TIME);
+        assert_eq!(symbol("ft").unwrap().dimension, Dimension::LENGTH);
+        assert_eq!(symbol("kg").unwrap().exponent, 0);
+        assert_eq!(symbol("Mg").unwrap().exponent, symbol("t").unwrap().exponent);
+        assert!(symbol("kmin").is_none() && symbol("KN").is_none() && symbol("").is_none());
+    }
+
+    #[test]
+    fn an_unknown_symbol_is_understood() {
+        assert_eq!(meant("KN").as_deref(), Some("kN"));
+        assert_eq!(meant("Ns").as_deref(), Some("N s"));
+        assert_eq!(meant("kNs").as_deref(), Some("kN s"));
+        assert_eq!(meant("sec").as_deref(), Some("s"));
+        assert_eq!(meant("Kg").as_deref(), Some("kg"));
+        assert_eq!(meant("furlong"), None);
+    }
+}

@@ -1,0 +1,145 @@
+//! The table of named values, and what overrides them.
+
+use std::{collections::HashMap, sync::Arc};
+
+use dashpot_network::parameters::Dimension;
+
+use crate::{
+    diagnostics::Faults,
+    document::{Content, Item},
+    fault::{Fault, example_text},
+    quantity::Values,
+    source::{Place, Source},
+    table::{entries_of, wrong_type},
+    units::{Quantity, parse_quantity},
+};
+
+/// A value that a scene gives a name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedValue {
+    /// Its name.
+    pub name: String,
+    /// The value in SI units.
+    pub value: f64,
+    /// What it measures, where a unit was given.
+    pub dimension: Option<Dimension>,
+}
+
+/// What stands for a name: a text or number, and its place.
+#[derive(Debug, Clone)]
+struct Definition {
+    text: String,
+    place: Place,
+}
+
+/// Values set from outside, by name.
+#[derive(Debug, Default)]
+pub(crate) struct Overrides {
+    definitions: HashMap<String, Definition>,
+}
+
+impl Overrides {
+    /// The values in `set`, pairs of name and quantity; the last one of a name counts.
+    pub(crate) fn new(set: &[(String, String)], faults: &Faults) -> Self {
+        let definition = |(name, text): &(String, String)| {
+            let source = Source::new("--set", format!("{name}={text}"));
+            let span = name.len() + 1..source.text.len();
+            let number = faults.add_source(Arc::new(source));
+            (name.clone(), Definition { text: text.clone(), place: Place::new(number, &span) })
+        };
+        Self { definitions: set.iter().map(definition).collect() }
+    }
+
+    /// Notes the names that none of `known` has.
+    pub(crate) fn check(&self, known: &[&Values], faults: &Faults) {
+        for (name, definition) in &self.definitions {
+            if !known.iter().any(|values| values.contains_key(name)) {
+                let mut names: Vec<String> =
+                    known.iter().flat_map(|values| values.keys().cloned()).collect();
+                names.sort();
+                let name = name.clone();
+                let fault = Fault::UnknownName { family: "value", name, known: names };
+                faults.error(Place { start: 0, ..definition.place }, fault);
+            }
+        }
+    }
+}
+
+/// The values of the table `item`, where the scene has one.
+pub(crate) fn read(item: Option<&Item>, overrides: &Overrides, faults: &Faults) -> Values {
+    let entries = item.and_then(|item| entries_of(item, "[values]", faults)).unwrap_or(&[]);
+    let mut definitions = HashMap::new();
+    let mut order = Vec::with_capacity(entries.len());
+    for entry in entries {
+        if entry.key.trim() != entry.key || parse_quantity(&entry.key).is_ok() {
+            let reason = "it reads like a number";
+            faults.error(entry.key_place, Fault::BadName { name: entry.key.clone(), reason });
+        }
+        let own = match &entry.item.value {
+            Content::Text(text) => Some(text.clone()),
+            Content::Number(digits) => Some(digits.clone()),
+            _ => {
+                wrong_type(&entry.item, "a value", "a number or a quantity in quotes", faults);
+                None
+            }
+        };
+        let own = own.map(|text| Definition { text, place: entry.item.place });
+        let set = overrides.definitions.get(&entry.key).cloned();
+        definitions.insert(entry.key.as_str(), set.or(own));
+        order.push(entry.key.as_str());
+    }
+    resolve(&order, &definitions, faults)
+}
+
+/// Follows every name to its quantity.
+fn resolve(
+    order: &[&str],
+    definitions: &HashMap<&str, Option<Definition>>,
+    faults: &Faults,
+) -> Values {
+    let mut values = Values::with_capacity(order.len());
+    for &start in order {
+        let mut path = Vec::new();
+        let mut name = start;
+        let found = loop {
+            if let Some(known) = values.get(name) {
+                break *known;
+            }
+            if let Some(at) = path.iter().position(|&(passed, _)| passed == name) {
+                let names = path[at..].iter().map(|&(name, _)| name).chain([name]);
+                let names = names.map(str::to_owned).collect();
+                faults.error(path.last().map(|entry| entry.1), Fault::SelfReference { names });
+                break None;
+            }
+            let Some(Some(definition)) = definitions.get(name) else { break None };
+            path.push((name, definition.place));
+            match definitions.get_key_value(definition.text.trim()) {
+                Some((next, _)) => name = *next,
+                None => break quantity(definition, order, faults),
+            }
+        };
+        values.insert(start.to_owned(), found);
+        for (name, _) in path {
+            values.insert(name.to_owned(), found);
+        }
+    }
+    values
+}
+
+fn quantity(definition: &Definition, names: &[&str], faults: &Faults) -> Option<Quantity> {
+    use crate::units::UnitError;
+    let error = match parse_quantity(&definition.text) {
+        Ok(quantity) => return Some(quantity),
+        Err(error) => error,
+    };
+    let word = definition.text.trim();
+    let is_name = matches!(error, UnitError::NoNumber { .. }) && !word.is_empty();
+    let fault = if is_name && names.len() > 1 {
+        let known = names.iter().map(|&name| name.to_owned()).collect();
+        Fault::UnknownName { family: "value", name: word.to_owned(), known }
+    } else {
+        Fault::BadValue { error, example: example_text(Dimension::STIFFNESS) }
+    };
+    faults.error(definition.place, fault);
+    None
+}
