@@ -36,7 +36,9 @@ pub fn sign_changes(coefficients: &[f64]) -> Vec<f64> {
         if part[0].abs() > spread + noise {
             continue;
         }
-        let flat = part[0].abs() + spread <= noise;
+        // Around a zero of higher order whole intervals are alike to within rounding: dividing them
+        // further would tell nothing, and have no end.
+        let flat = spread <= noise;
         if flat || is_monotone(&part) || b.0 - a.0 < NARROWEST {
             if (a.1 < 0.0) != (b.1 < 0.0) {
                 found.push(bracketed_root(coefficients, &slope, a, b).clamp(-1.0, 1.0));

@@ -153,6 +153,36 @@ fn sign_changes_leave_out_zeros_of_even_order() {
     assert_eq!(sign_changes(&[0.0, 0.0, 0.0, 1.0]).len(), 3);
 }
 
+/// Zeros in order, each with a `|p|` that is rounding.
+fn assert_zeros(p: &[f64]) {
+    let zeros = sign_changes(p);
+    assert!(zeros.windows(2).all(|pair| pair[0] < pair[1]));
+    for &zero in &zeros {
+        assert!(evaluate(p, zero).abs() < 1e-14 * bound(p), "{p:?}: {zero}");
+    }
+}
+
+/// Divided without end around a zero of higher order, a single one of these took many seconds.
+#[test]
+fn zeros_of_higher_order_are_found_without_endless_division() {
+    for degree in (6..=32).chain([64]) {
+        for step in 0..=16_u32 {
+            let touched = f64::from(step) / 8.0 - 1.0;
+            for power in 2..=8 {
+                let plain = |x: f64| (x - touched).powi(power);
+                let waved = |x: f64| plain(x) * (x + 0.2 * touched).cos();
+                let twice = |x: f64| (x - touched).powi(2) * (x + 0.1).powi(power);
+                assert_zeros(&interpolate(degree.max(8), plain));
+                assert_zeros(&interpolate(degree.max(16), waved));
+                assert_zeros(&interpolate(degree.max(10), twice));
+            }
+        }
+    }
+    let odd = interpolate(20, |x| (1.0 + x).powi(2) * x.cos() * (x - 0.25));
+    let zeros = sign_changes(&odd);
+    assert!((zeros[zeros.len() - 1] - 0.25).abs() < 1e-14, "{zeros:?}");
+}
+
 #[test]
 fn sign_changes_of_random_polynomials_agree_with_dense_samples() {
     let mut numbers = Numbers(5);

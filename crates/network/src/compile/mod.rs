@@ -65,19 +65,6 @@ struct Parts<'a> {
     drives: &'a [Drive],
 }
 
-impl Parts<'_> {
-    /// The forces of springs and dashpots on bodies: body, sign and force.
-    fn contact_forces(&self) -> impl Iterator<Item = (usize, f64, &Row)> {
-        let edges = self.structure.springs.iter().chain(&self.structure.dashpots);
-        edges.flat_map(|edge| {
-            let force = self.motion.force[edge.primitive].as_ref();
-            force
-                .into_iter()
-                .flat_map(move |force| [(edge.ends[0], -1.0, force), (edge.ends[1], 1.0, force)])
-        })
-    }
-}
-
 impl Network {
     /// Turns the network into a dimensionless, semi-explicit system of index 1 for a run of
     /// `duration` \[s\].

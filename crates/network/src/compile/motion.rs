@@ -108,11 +108,7 @@ fn known_velocities(bodies: &Bodies, places: &Places, inputs: &mut Inputs) -> Ve
 }
 
 /// Velocities of the bodies that dashpots tie to an anchor.
-fn cluster_velocities(
-    structure: &Structure,
-    dashpots: &DashpotBalance<'_>,
-    motion: &mut Motion,
-) {
+fn cluster_velocities(structure: &Structure, dashpots: &DashpotBalance<'_>, motion: &mut Motion) {
     for (at, cluster) in structure.clusters.iter().enumerate() {
         if structure.is_algebraic(at) {
             continue;

@@ -28,9 +28,10 @@ pub(super) struct Outputs {
 impl Outputs {
     pub(super) fn of(network: &Network, parts: &Parts<'_>) -> Self {
         let mut outputs = Self::default();
-        outputs.add_nodes(network, parts);
+        let contact = contact_forces(parts);
+        outputs.add_nodes(network, parts, &contact);
         outputs.add_connections(network, parts);
-        outputs.add_drives(network, parts);
+        outputs.add_drives(parts, &contact);
         outputs
     }
 
@@ -48,7 +49,7 @@ impl Outputs {
         self.list.len() - 1
     }
 
-    fn add_nodes(&mut self, network: &Network, parts: &Parts<'_>) {
+    fn add_nodes(&mut self, network: &Network, parts: &Parts<'_>, contact: &[RowSum]) {
         for (at, node) in network.nodes.iter().enumerate() {
             let body = parts.bodies.of_joint[at];
             let name = &node.name;
@@ -57,7 +58,7 @@ impl Outputs {
             let velocity = parts.motion.velocity[body]
                 .clone()
                 .map(|row| self.add(format!("{name}.velocity"), "m/s", row));
-            let acceleration = accelerometer(network, parts, at)
+            let acceleration = accelerometer(network, parts, at, &contact[body])
                 .map(|row| self.add(format!("{name}.acceleration"), "m/s^2", row));
             self.nodes.push(NodeOutputs {
                 name: name.clone(),
@@ -139,12 +140,12 @@ impl Outputs {
         self.primitives.push(outputs);
     }
 
-    fn add_drives(&mut self, network: &Network, parts: &Parts<'_>) {
+    fn add_drives(&mut self, parts: &Parts<'_>, contact: &[RowSum]) {
         for drive in parts.drives {
             let Some(velocity) = parts.motion.velocity[drive.body].clone() else { continue };
             let force = match &drive.force {
                 Some(force) => force.clone(),
-                None => held_force(parts, drive.body),
+                None => held_force(&contact[drive.body]),
             };
             if force.is_zero() {
                 continue;
@@ -158,28 +159,39 @@ impl Outputs {
             };
             self.drives.push(outputs);
         }
-        debug_assert_eq!(self.nodes.len(), network.nodes.len());
     }
+}
+
+/// Sum of the forces of springs and dashpots on each body, with the loads that an accelerometer
+/// feels.
+fn contact_forces(parts: &Parts<'_>) -> Vec<RowSum> {
+    let mut contact = vec![RowSum::default(); parts.bodies.all.len()];
+    for edge in parts.structure.springs.iter().chain(&parts.structure.dashpots) {
+        if let Some(force) = &parts.motion.force[edge.primitive] {
+            contact[edge.ends[0]].add(-1.0, force);
+            contact[edge.ends[1]].add(1.0, force);
+        }
+    }
+    for drive in parts.drives.iter().filter(|drive| !drive.is_body_force) {
+        if let Some(force) = &drive.force {
+            contact[drive.body].add(1.0, force);
+        }
+    }
+    contact
 }
 
 /// The force that holds a body on its prescribed way, beyond what its own mass asks for.
-fn held_force(parts: &Parts<'_>, body: usize) -> Row {
-    let mut sum = RowSum::default();
-    for (joint_body, factor, row) in parts.contact_forces() {
-        if joint_body == body {
-            sum.add(-factor, row);
-        }
-    }
-    for drive in parts.drives.iter().filter(|drive| drive.body == body) {
-        if let Some(force) = drive.force.as_ref().filter(|_| !drive.is_body_force) {
-            sum.add(-1.0, force);
-        }
-    }
-    sum.total()
+fn held_force(contact: &RowSum) -> Row {
+    contact.total().times(-1.0)
 }
 
 /// What an accelerometer on the node reads: its acceleration less the body force per mass.
-fn accelerometer(network: &Network, parts: &Parts<'_>, node: usize) -> Option<Row> {
+fn accelerometer(
+    network: &Network,
+    parts: &Parts<'_>,
+    node: usize,
+    contact: &RowSum,
+) -> Option<Row> {
     let mass = network.nodes[node].mass;
     if mass <= 0.0 || network.nodes[node].support != Support::Free {
         return None;
@@ -187,19 +199,15 @@ fn accelerometer(network: &Network, parts: &Parts<'_>, node: usize) -> Option<Ro
     let body = parts.bodies.of_joint[node];
     let Role::Mass(total) = parts.bodies.all[body].role else { return None };
     let mut sum = RowSum::default();
-    for (at, factor, row) in parts.contact_forces() {
-        if at == body {
-            sum.add(factor / total, row);
-        }
-    }
+    sum.add(1.0 / total, &contact.total());
     let is_alone = parts.bodies.all[body].joints.iter().all(|&joint| {
         joint == node || network.nodes.get(joint).is_none_or(|other| other.mass == 0.0)
     });
-    for drive in parts.drives.iter().filter(|drive| drive.body == body) {
-        let Some(force) = &drive.force else { continue };
-        if !drive.is_body_force {
-            sum.add(1.0 / total, force);
-        } else if !is_alone {
+    if is_alone {
+        return Some(sum.total());
+    }
+    for drive in parts.drives.iter().filter(|drive| drive.body == body && drive.is_body_force) {
+        if let Some(force) = &drive.force {
             sum.add(1.0 / total, force);
             if drive.node == node {
                 sum.add(-1.0 / mass, force);

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use dashpot_dae::Waveform;
 
 use super::{
-    bodies::{Bodies, Groups, Role, joint_name},
+    bodies::{Bodies, Body, Groups, Role, joint_name},
     expand::Expansion,
 };
 use crate::{Network, NetworkError, Support, elements::Law};
@@ -37,6 +37,8 @@ pub(super) struct Structure {
     pub(super) clusters: Vec<Cluster>,
     /// The cluster of each body that has one.
     pub(super) cluster_of: Vec<Option<usize>>,
+    /// For each body the first time at which its given displacement jumps \[s\], if it does.
+    pub(super) first_jump: Vec<Option<f64>>,
 }
 
 impl Structure {
@@ -63,9 +65,17 @@ impl Structure {
                 _ => {}
             }
         }
+        let first_jump = |body: &Body| match body.role {
+            Role::Prescribed(node) => match &network.nodes[node].support {
+                Support::Prescribed(motion) => jumps(motion, duration).first().copied(),
+                _ => None,
+            },
+            _ => None,
+        };
+        structure.first_jump = bodies.all.iter().map(first_jump).collect();
         structure.find_clusters(bodies, &held);
         let mut errors = structure.undetermined(network, expansion, bodies);
-        errors.extend(structure.steps_across_dashpots(network, expansion, bodies, duration));
+        errors.extend(structure.steps_across_dashpots(network, expansion, bodies));
         if errors.is_empty() { Ok(structure) } else { Err(errors) }
     }
 
@@ -140,13 +150,12 @@ impl Structure {
         network: &Network,
         expansion: &Expansion,
         bodies: &Bodies,
-        duration: f64,
     ) -> Vec<NetworkError> {
         let mut errors = Vec::new();
         for (at, body) in bodies.all.iter().enumerate() {
-            let Role::Prescribed(node) = body.role else { continue };
-            let Support::Prescribed(motion) = &network.nodes[node].support else { continue };
-            let Some(time) = first_jump(motion, duration) else { continue };
+            let (Role::Prescribed(node), Some(time)) = (body.role, self.first_jump[at]) else {
+                continue;
+            };
             let beyond = self.dashpots.iter().find_map(|edge| {
                 let other = match edge.ends {
                     [from, other] | [other, from] if from == at => other,
@@ -189,14 +198,10 @@ fn held_bodies(expansion: &Expansion, bodies: &Bodies) -> Vec<bool> {
     (0..bodies.all.len()).map(|body| held[groups.of(body)]).collect()
 }
 
-/// The first time in `[0, duration]` at which a displacement that was zero before 0 jumps \[s\].
-pub(super) fn first_jump(motion: &Waveform, duration: f64) -> Option<f64> {
-    jumps(motion, duration).first().copied()
-}
-
-/// All times in `[0, duration]` at which the displacement jumps \[s\].
+/// All times in `[0, duration]` at which a displacement that was zero before 0 jumps \[s\].
 pub(super) fn jumps(motion: &Waveform, duration: f64) -> Vec<f64> {
-    let at_start = (motion.value(0.0) != 0.0).then_some(0.0);
+    let rounding = 1e-12 * motion.bound(duration);
+    let at_start = (motion.value(0.0).abs() > rounding).then_some(0.0);
     let later = motion
         .breakpoints()
         .filter(|&time| time > 0.0 && time <= duration && motion.jump(time) != 0.0);

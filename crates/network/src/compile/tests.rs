@@ -242,3 +242,14 @@ fn amplitudes_too_small_to_be_squared_are_scaled() {
     let assembly = network.compile(1.0).unwrap();
     assert!((assembly.system.initial[1].abs() - 1.0).abs() < 1.0);
 }
+
+#[test]
+fn a_phase_of_half_a_turn_is_no_jump() {
+    use crate::waveforms::{Sine, WaveformKind};
+    let shake = Sine { amplitude: 1.0, frequency: 2.0, phase: std::f64::consts::PI };
+    let mut network = Network::new();
+    let base = network.add_node(Node::prescribed("base", shake.waveform().unwrap()));
+    let mass = network.add_node(Node::mass("mass", 1.0));
+    network.connect("pad", base, mass, Tree::parallel([spring(1.0), dashpot(1.0)]));
+    assert!(network.compile(1.0).is_ok());
+}

@@ -9,9 +9,9 @@ use super::{
     expand::Expansion,
     row::{Combination, Row},
     scales::Scales,
-    structure::{Structure, jumps},
+    structure::Structure,
 };
-use crate::{Network, Support};
+use crate::Network;
 
 /// An unknown in the making.
 #[derive(Debug, Clone)]
@@ -105,7 +105,7 @@ pub(super) fn choose(
     let mut places = Places {
         unknown: vec![None; count],
         velocity: vec![None; count],
-        parent: spring_parents(network, bodies, structure),
+        parent: spring_parents(bodies, structure),
         position: vec![Row::default(); count],
         drafts: Vec::new(),
     };
@@ -187,26 +187,16 @@ impl Places {
 /// A spanning tree of the stiffest springs; each body is counted from the one before it.
 ///
 /// Bodies whose place may jump are left out, and so is what dashpots let jump with them.
-fn spring_parents(
-    network: &Network,
-    bodies: &Bodies,
-    structure: &Structure,
-) -> Vec<Option<usize>> {
+fn spring_parents(bodies: &Bodies, structure: &Structure) -> Vec<Option<usize>> {
     let count = bodies.all.len();
     let mut parent = vec![None; count];
-    let jumps = |body: usize| match bodies.all[body].role {
-        Role::Prescribed(node) => match &network.nodes[node].support {
-            Support::Prescribed(motion) => !jumps(motion, f64::INFINITY).is_empty(),
-            _ => false,
-        },
-        _ => false,
-    };
     let joins = |body: usize| match structure.cluster_of[body] {
         Some(cluster) => {
             let anchors = &structure.clusters[cluster].anchors;
-            !anchors.is_empty() && !anchors.iter().any(|&anchor| jumps(anchor))
+            !anchors.is_empty()
+                && !anchors.iter().any(|&anchor| structure.first_jump[anchor].is_some())
         }
-        None => !jumps(body),
+        None => structure.first_jump[body].is_none(),
     };
     let joined: Vec<bool> = (0..count).map(joins).collect();
     if joined.iter().filter(|&&joins| joins).count() > MOST_RELATIVE {
