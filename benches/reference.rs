@@ -3,16 +3,23 @@
 //! `cargo bench --bench reference` prints criterion's times, and before them a table of what each
 //! contender reaches: true error of the padding's force, steps, and the ratios that matter.
 
-use std::{hint::black_box, time::{Duration, Instant}};
+use std::{
+    hint::black_box,
+    time::{Duration, Instant},
+};
 
 use criterion::Criterion;
 use dashpot::{
     analysis::{SolveSettings, solve},
     dae::{Method, Run, Silent, System, methods},
-    network::{Assembly, Network, Node, elements::{Dashpot, Spring}, part},
+    network::{
+        Assembly, Network, Node,
+        elements::{Dashpot, Spring},
+        part,
+    },
     rheology::Tree,
 };
-use diffsol::{Matrix, NalgebraLU, NalgebraMat, OdeBuilder, OdeSolverMethod};
+use diffsol::{DenseMatrix, NalgebraLU, NalgebraMat, OdeBuilder, OdeSolverMethod};
 use nalgebra::{SMatrix, SVector};
 
 /// Groups of the thesis: a, b, c, d, α, β, γ of the reference in SI.
@@ -42,10 +49,7 @@ fn hand_written_bdf(rtol: f64, times: &[f64]) -> Vec<f64> {
     let problem = OdeBuilder::<NalgebraMat<f64>>::new()
         .rtol(rtol)
         .atol([rtol])
-        .rhs_implicit(
-            |z, _p, _t, rate| rates(z, rate),
-            |_z, _p, _t, v, rate| rates(v, rate),
-        )
+        .rhs_implicit(|z, _p, _t, rate| rates(z, rate), |_z, _p, _t, v, rate| rates(v, rate))
         .init(|_p, _t, z| z.copy_from_slice(&start()), 6)
         .build()
         .expect("hand-written problem");
@@ -135,8 +139,7 @@ fn line(name: &str, [ours, theirs]: [Duration; 2], target: &str) {
 fn table(assembly: &Assembly) {
     let system = &assembly.system;
     let times: Vec<f64> = (0..SAMPLES).map(|at| END * at as f64 / (SAMPLES - 1) as f64).collect();
-    let own: Vec<f64> =
-        times.iter().map(|t| t / END * (0.02 / system.time_scale)).collect();
+    let own: Vec<f64> = times.iter().map(|t| t / END * (0.02 / system.time_scale)).collect();
     let exact = methods::by_name("exact").expect("exact");
     let bdf = methods::by_name("bdf").expect("bdf");
     let truth = hand_written_exponential();
@@ -161,9 +164,9 @@ fn table(assembly: &Assembly) {
     let reached = error(&force(assembly, &ours(&*exact, system, 1e-6, &own)), &truth);
     line(&format!("exact against a hand-written exponential ({reached:.1e})"), raced, "at most 2");
     for (wanted, target) in [(1e-4, "at most 0.2"), (1e-9, "at most 0.033")] {
-        let rtol = (4..=26)
-            .map(|half| 10f64.powf(-0.5 * f64::from(half)))
-            .find(|&rtol| error(&force(assembly, &ours(&*bdf, system, rtol, &own)), &truth) <= wanted);
+        let rtol = (4..=26).map(|half| 10f64.powf(-0.5 * f64::from(half))).find(|&rtol| {
+            error(&force(assembly, &ours(&*bdf, system, rtol, &own)), &truth) <= wanted
+        });
         let Some(rtol) = rtol else {
             println!("bdf does not reach a true error of {wanted:.0e}");
             continue;
@@ -188,12 +191,13 @@ fn main() {
         .configure_from_args();
     let times: Vec<f64> = (0..SAMPLES).map(|at| END * at as f64 / (SAMPLES - 1) as f64).collect();
     let system = &assembly.system;
-    let own: Vec<f64> =
-        times.iter().map(|t| t / END * (0.02 / system.time_scale)).collect();
+    let own: Vec<f64> = times.iter().map(|t| t / END * (0.02 / system.time_scale)).collect();
     criterion.bench_function("hand-written diffsol, 1e-6", |b| {
         b.iter(|| hand_written_bdf(1e-6, black_box(&times)));
     });
-    for (name, rtol) in [("exact", 1e-6), ("bdf", 1e-6), ("tr-bdf2", 1e-6), ("esdirk34", 1e-6), ("tsit45", 1e-6)] {
+    for (name, rtol) in
+        [("exact", 1e-6), ("bdf", 1e-6), ("tr-bdf2", 1e-6), ("esdirk34", 1e-6), ("tsit45", 1e-6)]
+    {
         let method = methods::by_name(name).expect("method");
         criterion.bench_function(&format!("ours by {name}, 1e-6, 501 samples"), |b| {
             b.iter(|| ours(&*method, black_box(system), rtol, &own));

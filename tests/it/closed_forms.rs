@@ -20,7 +20,14 @@ use crate::thesis::{Solved, burgers, dashpot, kelvin, solve, spring};
 
 /// Compares an output with a closed form at 400 times, by every method.
 fn check(name: &str, network: &Network, duration: f64, output: &str, closed: impl Fn(f64) -> f64) {
-    check_by(&["exact", "bdf", "tr-bdf2", "esdirk34", "tsit45"], name, network, duration, output, closed);
+    check_by(
+        &["exact", "bdf", "tr-bdf2", "esdirk34", "tsit45"],
+        name,
+        network,
+        duration,
+        output,
+        closed,
+    );
 }
 
 fn check_by(
@@ -187,7 +194,13 @@ fn gravity_from_unloaded_and_from_equilibrium() {
         m * g / k * (1.0 - (natural * t).cos())
     });
     check("equilibrium", &with(GravityStart::Equilibrium), 3.0, "cushion.force", |_| m * g);
-    check("weight on a scale", &with(GravityStart::Equilibrium), 3.0, "parcel.acceleration", |_| -g);
+    check(
+        "weight on a scale",
+        &with(GravityStart::Equilibrium),
+        3.0,
+        "parcel.acceleration",
+        |_| -g,
+    );
 }
 
 #[test]

@@ -138,7 +138,8 @@ impl Solution {
         let mut falls = Vec::new();
         for at in 0..self.series.len() - 1 {
             let (mut low, mut high) = (0.0, self.step);
-            let begins = self.value(at, low, of) > 0.0 || (at == 0 && self.value(at, 1e-9, of) > 0.0);
+            let begins =
+                self.value(at, low, of) > 0.0 || (at == 0 && self.value(at, 1e-9, of) > 0.0);
             if !begins || self.value(at, high, of) > 0.0 {
                 continue;
             }
@@ -164,8 +165,24 @@ pub(crate) fn has_digits(value: f64, printed: &str) -> bool {
 #[test]
 fn the_thesis_table_for_its_printed_groups_holds_to_all_digits() {
     for (alpha, phi, phi_at, xi, xi_at, tension, omega) in [
-        (0.2, "0.767833515", "0.488318669", "0.876753841", "3.426861744", "3.712820255", "0.479133623"),
-        (200.0, "0.782469363", "0.505911201", "0.847727298", "2.336375231", "2.914717554", "0.499715097"),
+        (
+            0.2,
+            "0.767833515",
+            "0.488318669",
+            "0.876753841",
+            "3.426861744",
+            "3.712820255",
+            "0.479133623",
+        ),
+        (
+            200.0,
+            "0.782469363",
+            "0.505911201",
+            "0.847727298",
+            "2.336375231",
+            "2.914717554",
+            "0.499715097",
+        ),
     ] {
         let solution = Groups::printed(alpha).solve(10.0);
         let digits = |value: f64, printed: &str| {

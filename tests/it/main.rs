@@ -8,6 +8,9 @@
 )]
 
 mod closed_forms;
+mod conformance;
+mod error_bars;
+mod examples;
 mod independent;
 mod order;
 mod random_networks;

@@ -35,9 +35,8 @@ impl Pencil {
         let masses: Vec<u128> = self.masses.iter().map(|_| residue()).collect();
         let constants: Vec<u128> = self.elements.iter().map(|_| residue()).collect();
         let points = 2 * self.size + 1;
-        let values: Vec<u128> = (0..points)
-            .map(|s| self.determinant(s as u128 + 2, &masses, &constants))
-            .collect();
+        let values: Vec<u128> =
+            (0..points).map(|s| self.determinant(s as u128 + 2, &masses, &constants)).collect();
         let divided = divided_differences(&values);
         (0..points).rev().find(|&order| divided[order] != 0)
     }

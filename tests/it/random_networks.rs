@@ -1,7 +1,7 @@
 //! Random networks: topology and eight decades of parameters, from fixed seeds.
 
 use dashpot::{
-    dae::{Method, Run, Silent, methods},
+    dae::{Run, Silent, methods},
     network::{Assembly, Network, NetworkError, Node, NodeId},
 };
 
@@ -81,11 +81,12 @@ impl Recipe {
             let node = Node::mass(format!("n{at}"), mass);
             ids[at] = network.add_node(if velocity == 0.0 { node } else { node.moving(velocity) });
         }
-        let mut connect = |(at, &(a, b, is_spring, constant)): (usize, &(usize, usize, bool, f64))| {
-            let model = if is_spring { spring(constant) } else { dashpot(constant) };
-            let ends: [NodeId; 2] = [ids[a], ids[b]];
-            network.connect(format!("e{at}"), ends[0], ends[1], model);
-        };
+        let mut connect =
+            |(at, &(a, b, is_spring, constant)): (usize, &(usize, usize, bool, f64))| {
+                let model = if is_spring { spring(constant) } else { dashpot(constant) };
+                let ends: [NodeId; 2] = [ids[a], ids[b]];
+                network.connect(format!("e{at}"), ends[0], ends[1], model);
+            };
         if backwards {
             self.elements.iter().enumerate().rev().for_each(&mut connect);
         } else {
@@ -192,7 +193,10 @@ fn forces_balance_at_massless_nodes_and_energy_closes() {
                     let products = output.scale * output.unknowns.magnitude_at(state);
                     doubt += force.error.unwrap() + 32.0 * f64::EPSILON * products;
                 }
-                assert!(sum.abs() <= doubt, "case {case}, n{node} at {t}: {sum:e} beyond {doubt:e}");
+                assert!(
+                    sum.abs() <= doubt,
+                    "case {case}, n{node} at {t}: {sum:e} beyond {doubt:e}"
+                );
             }
         }
         close_energy(case, &recipe, &assembly, duration, &signal);
@@ -239,7 +243,10 @@ fn close_energy(
     let closure = (kinetic + rest - start).abs();
     let allowed = doubt + 1e-12 * start;
     assert!(allowed < 1e-3 * start, "case {case}: {doubt:e} of {start:e} says nothing");
-    assert!(closure <= allowed, "case {case}: closure {closure:e} of {start:e}, allowed {allowed:e}, {recipe:?}");
+    assert!(
+        closure <= allowed,
+        "case {case}: closure {closure:e} of {start:e}, allowed {allowed:e}, {recipe:?}"
+    );
 }
 
 #[test]
@@ -267,9 +274,8 @@ fn the_order_of_nodes_and_elements_does_not_matter() {
         if exact.applies(&one.system, &run).is_err() {
             continue;
         }
-        let [first, second] = [one, other].map(|assembly| {
-            exact.integrate(&assembly.system, &run, &mut Silent).unwrap()
-        });
+        let [first, second] = [one, other]
+            .map(|assembly| exact.integrate(&assembly.system, &run, &mut Silent).unwrap());
         // Entries of the two systems differ by a few roundings, which move a solution by at most
         // as many times the norm of the matrix and the duration.
         let norm: f64 = one.system.jacobian.values().iter().map(|value| value.abs()).sum();

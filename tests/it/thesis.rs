@@ -83,8 +83,24 @@ fn digits(what: &str, value: f64, printed: &str) {
 #[test]
 fn both_columns_of_the_table_for_printed_groups_are_exact_to_all_digits() {
     for (alpha, phi, phi_at, xi, xi_at, tension, omega) in [
-        (0.2, "0.767833515", "0.488318669", "0.876753841", "3.426861744", "3.712820255", "0.479133623"),
-        (200.0, "0.782469363", "0.505911201", "0.847727298", "2.336375231", "2.914717554", "0.499715097"),
+        (
+            0.2,
+            "0.767833515",
+            "0.488318669",
+            "0.876753841",
+            "3.426861744",
+            "3.712820255",
+            "0.479133623",
+        ),
+        (
+            200.0,
+            "0.782469363",
+            "0.505911201",
+            "0.847727298",
+            "2.336375231",
+            "2.914717554",
+            "0.499715097",
+        ),
     ] {
         let solved = solve(&from_groups(&Groups::printed(alpha)), "exact", 10.0, 1e-6);
         let (force, way) = (solved.signal("padding.force"), solved.signal("padding.deformation"));
@@ -111,8 +127,32 @@ fn both_columns_of_the_table_for_printed_groups_are_exact_to_all_digits() {
 #[test]
 fn both_columns_of_the_table_in_si_are_exact_to_all_digits() {
     for (c3, expected) in [
-        (1e4, ["38359.411601", "0.978689266", "17.538566287", "6.852164736", "7.425568132", "-0.481681328", "479.124454", "5019.610794"]),
-        (1e7, ["39091.473661", "1.013937856", "16.961880656", "4.663139515", "5.822143300", "-0.113413391", "499.715175", "5362.343040"]),
+        (
+            1e4,
+            [
+                "38359.411601",
+                "0.978689266",
+                "17.538566287",
+                "6.852164736",
+                "7.425568132",
+                "-0.481681328",
+                "479.124454",
+                "5019.610794",
+            ],
+        ),
+        (
+            1e7,
+            [
+                "39091.473661",
+                "1.013937856",
+                "16.961880656",
+                "4.663139515",
+                "5.822143300",
+                "-0.113413391",
+                "499.715175",
+                "5362.343040",
+            ],
+        ),
     ] {
         let solved = solve(&reference(c3), "exact", 0.02, 1e-6);
         let (force, way) = (solved.signal("padding.force"), solved.signal("padding.deformation"));
@@ -120,7 +160,8 @@ fn both_columns_of_the_table_in_si_are_exact_to_all_digits() {
         let (peak, deepest) = (force.maximum((0.0, release)), way.maximum((0.0, release)));
         let work = force.integral_of_product(&solved.signal("padding.rate"), (0.0, 0.01));
         let reading = solved.signal("head.acceleration");
-        let severity = reading.integral_of((0.0, release), &[0.0], |a| (a.abs() / 9.806_65).powf(2.5));
+        let severity =
+            reading.integral_of((0.0, release), &[0.0], |a| (a.abs() / 9.806_65).powf(2.5));
         let found = [
             peak.value,
             1e3 * peak.time,
@@ -189,7 +230,10 @@ fn every_method_approaches_the_independent_equations() {
                 .fold(0.0, f64::max)
         };
         let [coarse, fine] = [1e-4, 1e-7].map(error);
-        assert!(coarse < 0.2 && fine < 2e-3 * 0.767 && fine < 0.2 * coarse, "{method}: {coarse:e} {fine:e}");
+        assert!(
+            coarse < 0.2 && fine < 2e-3 * 0.767 && fine < 0.2 * coarse,
+            "{method}: {coarse:e} {fine:e}"
+        );
     }
 }
 

@@ -5,7 +5,7 @@ mod series;
 use std::ops::Range;
 
 use dashpot_dae::Signal;
-use dashpot_network::elements::Law;
+use dashpot_network::{Assembly, elements::Law};
 pub use series::{EnergySeries, energy_series};
 
 use crate::Solution;
@@ -47,6 +47,25 @@ impl Ledger {
     /// All energy dissipated \[J\].
     pub fn total_dissipated(&self) -> f64 {
         total(&self.dissipated)
+    }
+
+    /// Energy stored and dissipated in each element \[J\]: its name and the sums over its parts, in
+    /// the order of `assembly`, to which the ledger belongs.
+    pub fn by_element<'a>(&self, assembly: &'a Assembly) -> Vec<(&'a str, f64, f64)> {
+        let mut stored = self.stored.iter().map(|entry| entry.1);
+        let mut dissipated = self.dissipated.iter().map(|entry| entry.1);
+        let sums = assembly.connections.iter().map(|connection| {
+            let mut sum = (connection.name.as_str(), 0.0, 0.0);
+            for primitive in assembly.primitives.get(connection.primitives.clone()).unwrap_or(&[]) {
+                match primitive.element.law() {
+                    Law::Spring(_) => sum.1 += stored.next().unwrap_or(0.0),
+                    Law::Dashpot(_) => sum.2 += dissipated.next().unwrap_or(0.0),
+                    Law::Rigid => {}
+                }
+            }
+            sum
+        });
+        sums.collect()
     }
 
     /// The energy that is missing \[J\]; negative if there is too much.

@@ -30,8 +30,8 @@ pub use measures::{Family, Measure, MeasureKind, MeasureVisitor, Reading, visit_
 pub use report::{
     ContactReport, EventReport, MeasureReport, RunReport, SolverReport, SystemReport,
 };
-pub use sample::{Column, Table, regular_times, table};
+pub use sample::{Column, Table, regular_times, table, table_at};
 pub use selection::MeasureWish;
 pub use settings::{SolveSettings, Stop};
 pub use solution::{Solution, is_impactor};
-pub use solve::{solve, solve_assembly};
+pub use solve::{reported_measures, solve, solve_assembly};

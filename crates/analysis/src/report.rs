@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Duration};
 use dashpot_dae::{Statistics, Trajectory};
 use dashpot_network::{Assembly, parameters::Value};
 
-use crate::{Impact, Ledger, Solution};
+use crate::{Impact, Ledger, Solution, solution::is_impactor};
 
 /// All that a run yields.
 #[derive(Debug)]
@@ -127,6 +127,12 @@ impl RunReport {
     /// The solution, for further measures, series and plots.
     pub fn solution(&self) -> Solution<'_> {
         Solution::new(&self.assembly, &self.trajectory)
+    }
+
+    /// Kinetic energy of the impactors at the start \[J\]; 0 without any.
+    pub fn impact_energy(&self) -> f64 {
+        let impactors = self.assembly.nodes.iter().filter(|node| is_impactor(node));
+        impactors.map(|node| 0.5 * node.mass * node.start_velocity.unwrap_or(0.0).powi(2)).sum()
     }
 
     /// The largest relative error of any measure, where errors are known.

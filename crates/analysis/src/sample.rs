@@ -35,6 +35,12 @@ pub fn regular_times(end: f64, count: usize) -> Vec<f64> {
 
 /// The outputs of all nodes and elements at `count` regular times, from the right where they jump.
 pub fn table(assembly: &Assembly, trajectory: &Trajectory, count: usize) -> Table {
+    table_at(assembly, trajectory, regular_times(trajectory.t_end, count))
+}
+
+/// The outputs of all nodes and elements at these times \[s\], which rise and lie within the run,
+/// from the right where they jump.
+pub fn table_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -> Table {
     let system = &assembly.system;
     let nodes = assembly.nodes.iter();
     let nodes = nodes.flat_map(|node| [Some(node.position), node.velocity, node.acceleration]);
@@ -44,11 +50,10 @@ pub fn table(assembly: &Assembly, trajectory: &Trajectory, count: usize) -> Tabl
         .flat_map(|connection| [Some(connection.deformation), connection.rate, connection.force]);
     let outputs: Vec<_> =
         nodes.chain(elements).flatten().filter_map(|at| system.outputs.get(at)).collect();
-    let times = regular_times(trajectory.t_end, count);
     let scaled: Vec<f64> = times.iter().map(|time| time / system.time_scale).collect();
     let states = trajectory.dense.sample(system, &scaled);
     let mut inputs = vec![0.0; system.inputs.len()];
-    let mut values = vec![Vec::with_capacity(count); outputs.len()];
+    let mut values = vec![Vec::with_capacity(times.len()); outputs.len()];
     for (row, &time) in scaled.iter().enumerate() {
         let state = &states[row * system.len()..(row + 1) * system.len()];
         system.inputs_at(time, time, &mut inputs);

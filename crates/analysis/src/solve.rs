@@ -6,7 +6,7 @@ use dashpot_dae::{Guard, Method, Observer, Run, Trajectory, methods};
 use dashpot_network::{Assembly, Network, parameters::ParameterKind};
 
 use crate::{
-    ContactReport, EventReport, MeasureReport, Reading, RunError, RunReport, Solution,
+    ContactReport, EventReport, Measure, MeasureReport, Reading, RunError, RunReport, Solution,
     SolveSettings, SolverReport, SystemReport,
     accuracy::excess,
     impact::Contact,
@@ -74,6 +74,22 @@ pub fn solve_assembly(
         }
     }
     report(assembly, effects, &task, &run, why, outcome)
+}
+
+/// The measures that [`solve_assembly`] would report, by key, without solving anything.
+///
+/// # Errors
+///
+/// What is wrong with the settings.
+pub fn reported_measures(
+    assembly: &Assembly,
+    settings: &SolveSettings,
+) -> Result<Vec<(String, Arc<dyn Measure>)>, RunError> {
+    settings.validate()?;
+    let selected = select(assembly, &settings.measures)?;
+    check_keys(settings, &selected)?;
+    guards(assembly, settings)?;
+    Ok(selected.into_iter().map(|entry| (entry.key, entry.measure)).collect())
 }
 
 fn choose(

@@ -14,7 +14,11 @@ impl LinearForm {
 
     /// The form `coefficient · z_variable`.
     pub fn term(variable: usize, coefficient: f64) -> Self {
-        if coefficient == 0.0 { Self::zero() } else { Self { terms: vec![(variable, coefficient)] } }
+        if coefficient == 0.0 {
+            Self::zero()
+        } else {
+            Self { terms: vec![(variable, coefficient)] }
+        }
     }
 
     /// The sum of `terms`, which may stand in any order and name a variable more than once.
@@ -43,9 +47,7 @@ impl LinearForm {
 
     /// The coefficient of `variable`, zero where it does not appear.
     pub fn coefficient(&self, variable: usize) -> f64 {
-        self.terms
-            .binary_search_by_key(&variable, |term| term.0)
-            .map_or(0.0, |at| self.terms[at].1)
+        self.terms.binary_search_by_key(&variable, |term| term.0).map_or(0.0, |at| self.terms[at].1)
     }
 
     /// `self + factor · other`; terms that cancel exactly disappear.

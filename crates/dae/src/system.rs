@@ -130,7 +130,8 @@ impl System {
     /// (at a jump, the piece to take is not decided by `t`).
     pub fn inputs_at(&self, piece_time: f64, t: f64, w: &mut [f64]) {
         for (value, input) in w.iter_mut().zip(&self.inputs) {
-            *value = self.waveforms[input.waveform].piece_at(piece_time).derivative(input.derivative, t);
+            *value =
+                self.waveforms[input.waveform].piece_at(piece_time).derivative(input.derivative, t);
         }
     }
 }

@@ -95,7 +95,8 @@ impl Waveform {
         let Some(at) = self.pieces.iter().skip(1).position(|piece| piece.start == t) else {
             return 0.0;
         };
-        let (before, after) = (self.pieces[at].derivative(0, t), self.pieces[at + 1].derivative(0, t));
+        let (before, after) =
+            (self.pieces[at].derivative(0, t), self.pieces[at + 1].derivative(0, t));
         let noise = 1e-12 * (self.pieces[at].scale_at(t) + self.pieces[at + 1].scale_at(t));
         if (after - before).abs() <= noise { 0.0 } else { after - before }
     }

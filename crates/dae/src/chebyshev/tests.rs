@@ -165,16 +165,16 @@ fn assert_zeros(p: &[f64]) {
 /// Divided without end around a zero of higher order, a single one of these took many seconds.
 #[test]
 fn zeros_of_higher_order_are_found_without_endless_division() {
-    for degree in (6..=32).chain([64]) {
+    for degree in [8, 12, 16, 24, 32, 64] {
         for step in 0..=16_u32 {
             let touched = f64::from(step) / 8.0 - 1.0;
             for power in 2..=8 {
                 let plain = |x: f64| (x - touched).powi(power);
                 let waved = |x: f64| plain(x) * (x + 0.2 * touched).cos();
                 let twice = |x: f64| (x - touched).powi(2) * (x + 0.1).powi(power);
-                assert_zeros(&interpolate(degree.max(8), plain));
-                assert_zeros(&interpolate(degree.max(16), waved));
-                assert_zeros(&interpolate(degree.max(10), twice));
+                assert_zeros(&interpolate(degree, plain));
+                assert_zeros(&interpolate(degree, waved));
+                assert_zeros(&interpolate(degree, twice));
             }
         }
     }

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::{
     Augmented, Complex, augmented::Span, bounds::coupling_error, double_double::Accumulator,
-    modes::Modes,
+    modes::Modes, refinement::enclose_matrix,
 };
 
 /// Unit roundoff, with the few operations that a modal coordinate goes through.
@@ -22,7 +22,7 @@ pub(super) struct SpanCoordinates {
 /// The coordinates of all spans, each continued from the one before: only what the generators jump
 /// by is added at a breakpoint, so nothing is lost in going to and fro between `c` and `z`.
 pub(super) fn follow(system: &Augmented, modes: &Modes) -> Vec<SpanCoordinates> {
-    let (mut start, mut inherited) = initial(system, modes);
+    let (mut start, mut inherited) = solve(modes, &system.initial);
     let kept =
         if system.spans.len() > 1 { kept_errors(system, modes) } else { DMatrix::zeros(0, 0) };
     let mut all = Vec::with_capacity(system.spans.len());
@@ -45,9 +45,11 @@ fn kept_errors(system: &Augmented, modes: &Modes) -> DMatrix<f64> {
     let generators = size - states;
     let dual = modes.dual.columns(states, generators);
     let lost = dual * modes.basis.rows(states, generators);
-    DMatrix::from_fn(size, size, |i, j| {
+    let missed = &modes.dual_defect * lost.map(Complex::norm);
+    let kept = DMatrix::from_fn(size, size, |i, j| {
         (Complex::new(if i == j { 1.0 } else { 0.0 }, 0.0) - lost[(i, j)]).norm()
-    })
+    });
+    kept + enclose_matrix(&modes.dual_defect, &missed)
 }
 
 fn forget(kept: &DMatrix<f64>, error: &[f64]) -> Vec<f64> {
@@ -55,26 +57,27 @@ fn forget(kept: &DMatrix<f64>, error: &[f64]) -> Vec<f64> {
     (0..error.len()).map(sum).collect()
 }
 
-/// `X⁻¹ z(0)`, improved until `X c = z(0)` to rounding, and the bound of its error.
-fn initial(system: &Augmented, modes: &Modes) -> (Vec<Complex>, Vec<f64>) {
+/// `X⁻¹ z`, improved until `X c = z` to rounding, and the bound of its error.
+fn solve(modes: &Modes, z: &[f64]) -> (Vec<Complex>, Vec<f64>) {
     let size = modes.len();
     let mut c = vec![Complex::default(); size];
-    let mut missing: Vec<Complex> = system.initial.iter().map(|&z| Complex::new(z, 0.0)).collect();
-    let mut error = vec![0.0; size];
+    let mut missing: Vec<Complex> = z.iter().map(|&z| Complex::new(z, 0.0)).collect();
     for _ in 0..4 {
         for (i, c) in c.iter_mut().enumerate() {
             let change: Complex = (0..size).map(|k| modes.dual[(i, k)] * missing[k]).sum();
             *c += change;
         }
         for (i, missing) in missing.iter_mut().enumerate() {
-            *missing = defect(modes, i, system.initial[i], &c);
+            *missing = defect(modes, i, z[i], &c);
         }
     }
-    for (i, error) in error.iter_mut().enumerate() {
-        let rest: f64 = (0..size).map(|k| modes.dual[(i, k)].norm() * missing[k].norm()).sum();
-        *error = ROUNDING * c[i].norm() + 2.0 * rest;
+    let rest = |i| (0..size).map(|k| modes.dual[(i, k)].norm() * missing[k].norm()).sum();
+    let rest: Vec<f64> = (0..size).map(rest).collect();
+    let mut error = enclose_matrix(&modes.dual_defect, &DMatrix::from_vec(size, 1, rest));
+    for (error, c) in error.iter_mut().zip(&c) {
+        *error += ROUNDING * c.norm();
     }
-    (c, error)
+    (c, error.as_slice().to_vec())
 }
 
 /// `z_i − (X c)_i`.
@@ -109,9 +112,10 @@ fn span_errors(
         let top = block.largest(length, &inherited[range.clone()]);
         let end = block.last(length, &inherited[range.clone()]);
         let size = block.largest(length, &sizes[range.clone()]);
+        let strain = block.strain(length, &sizes[range.clone()]);
         for (k, i) in range.enumerate() {
-            largest[i] += top[k] + ROUNDING * size[k];
-            last[i] += end[k] + ROUNDING * size[k];
+            largest[i] += top[k] + ROUNDING * (size[k] + strain[k]);
+            last[i] += end[k] + ROUNDING * (size[k] + strain[k]);
         }
     }
     (largest, last)
@@ -129,18 +133,12 @@ fn cross(
     for block in &modes.blocks {
         block.advance(span.length(), &mut c[block.range()]);
     }
-    let jumps: Vec<f64> = next
-        .generators
-        .iter()
-        .enumerate()
-        .map(|(k, &value)| defect(modes, system.states + k, value, c).re)
-        .collect();
+    let mut jump = vec![0.0; system.states];
+    let jumps = next.generators.iter().enumerate();
+    jump.extend(jumps.map(|(k, &value)| defect(modes, system.states + k, value, c).re));
+    let (change, missed) = solve(modes, &jump);
     for (i, (c, error)) in c.iter_mut().zip(error.iter_mut()).enumerate() {
-        for (k, &jump) in jumps.iter().enumerate() {
-            let change = modes.dual[(i, system.states + k)] * jump;
-            *c += change;
-            *error += ROUNDING * change.norm();
-        }
-        *error += ROUNDING * c.norm();
+        *c += change[i];
+        *error += missed[i] + ROUNDING * c.norm();
     }
 }

@@ -8,6 +8,8 @@ use super::{Complex, schur::ComplexSchur};
 const STRONG: f64 = 30.0;
 /// Couplings above this between eigenvalues that rounding cannot tell apart join them.
 const VERY_STRONG: f64 = 1e3;
+/// Distance, relative to the norm, of eigenvalues that are equal but for rounding.
+const EQUAL: f64 = 1e-14;
 /// How far, relative to the norm, rounding may move the eigenvalues of a defective matrix.
 const BLUR: f64 = 1e-7;
 /// Change of phase or decay over a lifetime below which two modes look alike.
@@ -29,21 +31,30 @@ pub(super) struct Decoupling {
 /// decoupling of one from the other is ill-conditioned *and* they stay alike over their lifetime
 /// within `horizon`, or lie within the blur that rounding gives a defective eigenvalue: then their
 /// modes nearly cancel, and only their common exponential is well-conditioned (rigid motion,
-/// critical damping, resonance).
-pub(super) fn decouple(schur: &mut ComplexSchur, horizon: f64) -> Decoupling {
+/// critical damping, resonance). Also those share one that are equal but for rounding and stay alike,
+/// as their modes are anything (displacements that rest wherever they are left).
+///
+/// Eigenvalues whose `labels` are equal share a cluster from the outset; on return the labels rise
+/// along the diagonal, one for each cluster.
+pub(super) fn decouple(
+    schur: &mut ComplexSchur,
+    labels: &mut Vec<usize>,
+    horizon: f64,
+) -> Decoupling {
     let size = schur.triangle.nrows();
     let norm = schur.triangle.iter().map(|z| z.norm()).fold(0.0, f64::max);
-    let mut labels: Vec<usize> = (0..size).collect();
+    schur.sort(labels);
     loop {
-        let (transform, mut joined) = solve(&schur.triangle, &labels);
+        let (transform, mut joined) = solve(&schur.triangle, labels);
         for b in 0..size {
             for a in 0..b {
                 let coupling = transform[(a, b)].norm();
-                if labels[a] == labels[b] || coupling <= STRONG {
-                    continue;
-                }
                 let (first, second) = (schur.eigenvalue(a), schur.eigenvalue(b));
                 let gap = (first - second).norm();
+                let equal = gap <= EQUAL * norm;
+                if labels[a] == labels[b] || !(equal || coupling > STRONG) {
+                    continue;
+                }
                 let slower = first.re.abs().min(second.re.abs());
                 let lifetime = if slower * horizon > 1.0 { slower.recip() } else { horizon };
                 let blurred = gap <= BLUR * norm && coupling > VERY_STRONG;
@@ -53,13 +64,20 @@ pub(super) fn decouple(schur: &mut ComplexSchur, horizon: f64) -> Decoupling {
             }
         }
         if joined.is_empty() {
-            return Decoupling { sizes: sizes(&labels), transform };
+            return Decoupling { sizes: sizes(labels), transform };
         }
-        for (a, b) in joined {
-            let (keep, drop) = (labels[a].min(labels[b]), labels[a].max(labels[b]));
+        join(labels, &joined);
+        schur.sort(labels);
+    }
+}
+
+/// Gives both of each pair the same label, and all that had it.
+pub(super) fn join(labels: &mut [usize], pairs: &[(usize, usize)]) {
+    for &(a, b) in pairs {
+        let (keep, drop) = (labels[a].min(labels[b]), labels[a].max(labels[b]));
+        if keep != drop {
             labels.iter_mut().filter(|label| **label == drop).for_each(|label| *label = keep);
         }
-        schur.sort(&mut labels);
     }
 }
 
@@ -119,7 +137,8 @@ mod tests {
     fn sizes_of(rows: &[f64], size: usize, horizon: f64) -> Vec<usize> {
         let a = DMatrix::from_row_slice(size, size, rows);
         let mut schur = ComplexSchur::new(&a).unwrap();
-        let mut sizes = decouple(&mut schur, horizon).sizes;
+        let mut labels = (0..size).collect();
+        let mut sizes = decouple(&mut schur, &mut labels, horizon).sizes;
         sizes.sort_unstable();
         sizes
     }
@@ -129,7 +148,7 @@ mod tests {
         assert_eq!(sizes_of(&[0.0, 1.0, -1.0, -2.0], 2, 10.0), [2], "critical damping");
         assert_eq!(sizes_of(&[0.0, 1.0, 0.0, 0.0], 2, 10.0), [2], "free mass");
         assert_eq!(sizes_of(&[0.0, 1.0, -1.0, -0.1], 2, 10.0), [1, 1], "oscillator");
-        assert_eq!(sizes_of(&[0.0, 0.0, 0.0, 0.0], 2, 10.0), [1, 1], "two resting states");
+        assert_eq!(sizes_of(&[0.0, 0.0, 0.0, 0.0], 2, 10.0), [2], "two resting states");
         assert_eq!(sizes_of(&[-1e-9, 0.0, 1.0, -1e3], 2, 1e6), [1, 1], "rates far apart");
     }
 
@@ -137,7 +156,7 @@ mod tests {
     fn the_decoupled_matrix_is_similar() {
         let a = DMatrix::from_fn(9, 9, |i, j| ((5 * i + 2 * j + i * j) as f64).sin());
         let mut schur = ComplexSchur::new(&a).unwrap();
-        let Decoupling { sizes, transform } = decouple(&mut schur, 3.0);
+        let Decoupling { sizes, transform } = decouple(&mut schur, &mut (0..9).collect(), 3.0);
         let d = invert_unit_triangle(&transform) * &schur.triangle * &transform;
         assert_eq!(sizes, [1; 9]);
         for i in 0..9 {

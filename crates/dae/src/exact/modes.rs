@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::{
     Augmented, Complex,
     block::Block,
-    decoupling::{Decoupling, decouple, invert_unit_triangle},
+    decoupling::{Decoupling, decouple, invert_unit_triangle, join},
     refinement,
     schur::ComplexSchur,
 };
@@ -26,20 +26,30 @@ pub(super) struct Modes {
     pairs: Vec<(usize, usize)>,
     /// Entry by entry a bound of `X⁻¹ Ā X − D`: by how much the modes are still coupled.
     pub(super) defect: DMatrix<f64>,
+    /// Entry by entry a bound of `1 − dual · X`: by how much the dual misses the inverse.
+    pub(super) dual_defect: DMatrix<f64>,
 }
 
 impl Modes {
     /// The modes of an augmented system over its run.
     ///
-    /// Where the eigenvalue iteration fails, the whole matrix is taken as one block: slower, and
-    /// without an error bound, but with the right values.
+    /// Eigenvalues that the refinement finds to be alike are joined, and the rest begun anew. Where
+    /// the eigenvalue iteration fails, the whole matrix is taken as one block: slower, and without
+    /// an error bound, but with the right values.
     pub(super) fn new(system: &Augmented) -> Self {
         let Some(mut schur) = augmented_schur(system) else { return Self::undivided(system) };
-        let decoupling = decouple(&mut schur, system.end());
-        let mut modes = Self::assemble(&schur, &decoupling, system.end());
-        modes.pair_conjugates();
-        refinement::refine(&system.matrix, &mut modes);
-        if modes.defect.iter().all(|d| d.is_finite()) { modes } else { Self::undivided(system) }
+        let mut labels: Vec<usize> = (0..system.size()).collect();
+        loop {
+            let decoupling = decouple(&mut schur, &mut labels, system.end());
+            let mut modes = Self::assemble(&schur, &decoupling, system.end());
+            modes.pair_conjugates();
+            let alike = refinement::refine(&system.matrix, &mut modes);
+            if alike.is_empty() {
+                let known = modes.defect.iter().all(|d| d.is_finite());
+                return if known { modes } else { Self::undivided(system) };
+            }
+            join(&mut labels, &alike);
+        }
     }
 
     pub(super) fn undivided(system: &Augmented) -> Self {
@@ -53,6 +63,7 @@ impl Modes {
             blocks: if size == 0 { Vec::new() } else { vec![Block::new(0, matrix)] },
             pairs: Vec::new(),
             defect,
+            dual_defect: DMatrix::zeros(size, size),
         }
     }
 
@@ -83,6 +94,7 @@ impl Modes {
             blocks,
             pairs: Vec::new(),
             defect: DMatrix::zeros(size, size),
+            dual_defect: DMatrix::zeros(size, size),
         }
     }
 

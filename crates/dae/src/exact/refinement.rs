@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 
 use super::{
     Complex,
+    bounds::enclose,
     double_double::{Accumulator, two_sum},
     modes::Modes,
     number,
@@ -17,36 +18,48 @@ const ENOUGH: f64 = 1e-26;
 /// Corrections of the basis above this are not trusted to be in the range of Newton's method.
 const TRUST: f64 = 1e-3;
 
-/// Improves `X` and `D` of `Ā X = X D` and sets the bound `modes.defect`.
+/// Corrections that are still above this in the end show that two blocks cannot be told apart.
+const SETTLED: f64 = 1e-8;
+
+/// Improves `X` and `D` of `Ā X = X D`, sets the bounds `modes.defect` and `modes.dual_defect`, and
+/// returns pairs of modes that should share a block: where the eigenvalues are as close as the
+/// couplings are large, there is no Newton's method (rates that are equal but for rounding).
 ///
 /// With `E = X⁻¹ (Ā X − X D)` the next basis is `X (1 + F)`, `D_i F_ij − F_ij D_j = −E_ij` off the
 /// blocks, and `D_i + E_ii` the next blocks.
-pub(super) fn refine(matrix: &DMatrix<f64>, modes: &mut Modes) {
-    let mut best: Option<(f64, Modes)> = None;
+pub(super) fn refine(matrix: &DMatrix<f64>, modes: &mut Modes) -> Vec<(usize, usize)> {
+    let mut best: Option<(f64, Modes, DMatrix<Complex>)> = None;
     for _ in 0..ITERATIONS {
         let coupling = &modes.dual * residual(matrix, modes);
         modes.defect = coupling.map(Complex::norm);
         let size = modes.defect.max();
-        let before = best.as_ref().map_or(f64::INFINITY, |(size, _)| *size);
+        let before = best.as_ref().map_or(f64::INFINITY, |(size, ..)| *size);
         if size.is_nan() || size >= 0.5 * before {
             break;
         }
-        best = Some((size, modes.clone()));
-        if size <= ENOUGH * matrix.amax() {
+        let enough = size <= ENOUGH * matrix.amax();
+        let turn = correction(modes, &coupling);
+        best = Some((size, modes.clone(), turn.clone()));
+        if enough {
             break;
         }
-        step(modes, &coupling);
+        step(modes, &coupling, turn);
     }
-    if let Some((_, kept)) = best {
-        *modes = kept;
-        modes.defect += rounding(matrix, modes);
-    } else {
+    let Some((_, kept, turn)) = best else {
         modes.defect.fill(f64::INFINITY);
-    }
+        return Vec::new();
+    };
+    *modes = kept;
+    modes.dual_defect = dual_defect(modes);
+    modes.defect += rounding(matrix, modes);
+    modes.defect = enclose_matrix(&modes.dual_defect, &modes.defect);
+    let size = modes.len();
+    let places = (0..size).flat_map(|j| (0..size).map(move |i| (i, j)));
+    places.filter(|&place| turn[place].norm() > SETTLED).collect()
 }
 
-/// One correction of basis, dual and blocks.
-fn step(modes: &mut Modes, coupling: &DMatrix<Complex>) {
+/// `F`; not finite where eigenvalues of two blocks that are coupled are equal.
+fn correction(modes: &Modes, coupling: &DMatrix<Complex>) -> DMatrix<Complex> {
     let size = modes.len();
     let mut turn = DMatrix::<Complex>::zeros(size, size);
     for j in &modes.blocks {
@@ -60,14 +73,20 @@ fn step(modes: &mut Modes, coupling: &DMatrix<Complex>) {
                     for k in 0..b {
                         rest += turn[(row, j.start + k)] * j.matrix[(k, b)];
                     }
-                    let value = rest / (i.matrix[(a, a)] - j.matrix[(b, b)]);
-                    if value.norm() < TRUST {
-                        turn[(row, column)] = value;
+                    if rest != Complex::default() {
+                        turn[(row, column)] = rest / (i.matrix[(a, a)] - j.matrix[(b, b)]);
                     }
                 }
             }
         }
     }
+    turn
+}
+
+/// One correction of basis, dual and blocks.
+fn step(modes: &mut Modes, coupling: &DMatrix<Complex>, mut turn: DMatrix<Complex>) {
+    // A comparison that also drops what is not a number.
+    turn.iter_mut().filter(|f| !(f.norm() < TRUST)).for_each(|f| *f = Complex::default());
     for block in &mut modes.blocks {
         for j in 0..block.len() {
             for i in 0..block.len() {
@@ -86,6 +105,23 @@ fn step(modes: &mut Modes, coupling: &DMatrix<Complex>) {
     }
     modes.dual -= turn * &modes.dual;
     modes.mirror();
+}
+
+/// A bound of `|1 − X̃ X|`, where `X̃` is the approximate inverse `modes.dual`.
+fn dual_defect(modes: &Modes) -> DMatrix<f64> {
+    let size = modes.len();
+    let rest = DMatrix::identity(size, size) - &modes.dual * &modes.basis;
+    let noise = modes.dual.map(Complex::norm) * modes.basis.map(Complex::norm);
+    rest.map(Complex::norm) + noise * ((number(size) + 8.0) * f64::EPSILON)
+}
+
+/// A bound of `|(1 − R)⁻¹ M|` for `|R| ≤ contraction` and `|M| ≤ first`.
+pub(super) fn enclose_matrix(contraction: &DMatrix<f64>, first: &DMatrix<f64>) -> DMatrix<f64> {
+    let (rows, columns) = first.shape();
+    let apply = |bound: &[f64]| {
+        (contraction * DMatrix::from_column_slice(rows, columns, bound)).as_slice().to_vec()
+    };
+    DMatrix::from_vec(rows, columns, enclose(first.as_slice(), apply))
 }
 
 /// `Ā X − X D` with each entry summed in twice the digits.

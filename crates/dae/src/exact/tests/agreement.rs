@@ -126,3 +126,31 @@ fn without_eigenvalues_the_values_are_still_right() {
     }
     assert!(!quality.error.is_finite(), "no bound is claimed");
 }
+#[test]
+fn zz_debug() {
+    let mut random = Sequence(18321057837172544420);
+    let (scene, end) = network(&mut random);
+    let system = scene.system();
+    let augmented = Augmented::new(&system, end);
+    let modes = Modes::new(&augmented);
+    println!(
+        "size {} states {} end {end} spans {:?}",
+        augmented.size(),
+        augmented.states,
+        augmented.spans.iter().map(|s| (s.start, s.end)).collect::<Vec<_>>()
+    );
+    for b in &modes.blocks {
+        println!("start {} len {} weight {} {:.3e}", b.start, b.len(), b.weight, b.matrix);
+    }
+    println!("defect {:e} dual {:e}", modes.defect.max(), modes.dual_defect.max());
+    for s in follow(&augmented, &modes) {
+        println!("{:?}\n{:?}", s.start, s.error);
+    }
+    println!("{:.3e}", augmented.matrix);
+    let solved = scene.solve(end);
+    for k in 0..20 {
+        let t = end * k as f64 / 19.0;
+        println!("{t} {} {}", solved.signal(0).value(t), solved.samples(&[t])[0]);
+    }
+    panic!();
+}

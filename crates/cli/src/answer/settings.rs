@@ -1,0 +1,54 @@
+//! The settings with which a scene was solved, as they were resolved.
+
+use dashpot_analysis::SolveSettings;
+use dashpot_plot::Table;
+
+use super::Answer;
+use crate::numbers::{constant, share};
+
+/// The settings, one a row.
+pub(super) fn settings_table(answer: &Answer) -> Table {
+    let Some(asked) = answer.asked.first() else { return Table::default() };
+    let run = &answer.scene.run;
+    let methods: Vec<&str> = answer.asked.iter().map(|own| own.method.as_str()).collect();
+    let mut rows = vec![
+        ("duration".to_owned(), constant(asked.duration, "s")),
+        ("samples".to_owned(), run.samples.to_string()),
+        ("methods".to_owned(), methods.join(", ")),
+        ("rtol".to_owned(), asked.rtol.map_or("found by accuracy".to_owned(), |own| format!("{own:e}"))),
+        ("errors".to_owned(), if asked.estimate { "estimated" } else { "not estimated" }.to_owned()),
+        ("accuracy".to_owned(), share(asked.accuracy.default)),
+    ];
+    rows.extend(
+        asked.accuracy.by_measure.iter().map(|(key, own)| (format!("accuracy of {key}"), share(*own))),
+    );
+    rows.extend(asked.stops.iter().map(|stop| (format!("stop at {}", stop.output), stop_text(stop))));
+    rows.extend(answer.scene.values.iter().map(|value| {
+        let unit = value.dimension.and_then(|own| own.named()).map_or("1", |(_, unit)| unit);
+        (format!("value {}", value.name), constant(value.value, unit))
+    }));
+    Table {
+        caption: "Settings".to_owned(),
+        header: Vec::new(),
+        rows: rows.into_iter().map(|(name, value)| vec![name, value]).collect(),
+    }
+}
+
+fn stop_text(stop: &dashpot_analysis::Stop) -> String {
+    format!("{} {}", super::settings::direction(stop), stop.level)
+}
+
+/// Which crossings of its level a condition counts.
+pub(super) fn direction(stop: &dashpot_analysis::Stop) -> &'static str {
+    use dashpot_dae::Direction;
+    match stop.direction {
+        Direction::Rising => "rises above",
+        Direction::Falling => "falls below",
+        Direction::Either => "crosses",
+    }
+}
+
+/// The settings of a method that is not the scene's.
+pub(super) fn first(answer: &Answer) -> Option<&SolveSettings> {
+    answer.asked.first()
+}

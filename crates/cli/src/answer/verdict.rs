@@ -1,0 +1,190 @@
+//! The answer in a few lines.
+
+use dashpot_analysis::{
+    Contact, MeasureKind, MeasureReport, RunReport, is_impactor,
+    measures::{
+        ContactTime, EndVelocity, Energy, PeakAcceleration, PeakDeformation, PeakForce,
+        STANDARD_GRAVITY, SeverityIndex,
+    },
+};
+
+use super::Answer;
+use crate::numbers::{self, Unit, bound, constant, quantity, share};
+
+/// Digits of a number that is read in passing.
+const DIGITS: usize = 4;
+/// Digits of a time.
+const TIME_DIGITS: usize = 3;
+
+/// One line of the verdict.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Line {
+    /// What it is about.
+    pub(crate) label: &'static str,
+    /// What it says.
+    pub(crate) text: String,
+}
+
+/// What a person wants to know first, from the most accurate run.
+pub(crate) fn verdict(answer: &Answer) -> Vec<Line> {
+    let Some(run) = answer.best() else { return Vec::new() };
+    let lines = [
+        ("peak force", peak_force(run)),
+        ("peak g", peak_g(run)),
+        ("deepest point", deepest(run)),
+        ("energy", energy(run)),
+        ("contact", contact(run)),
+        ("injury", injury(run)),
+        ("how wrong", how_wrong(answer, run)),
+    ];
+    lines
+        .into_iter()
+        .filter_map(|(label, text)| Some(Line { label, text: text? }))
+        .collect()
+}
+
+/// The measure of this kind with the largest value.
+fn largest<'r>(run: &'r RunReport, kind: &str) -> Option<(&'r MeasureReport, f64)> {
+    let of_kind = run.measures.iter().filter(|measure| measure.kind == kind);
+    let valued = of_kind.filter_map(|measure| measure.value.map(|value| (measure, value)));
+    valued.max_by(|one, other| one.1.total_cmp(&other.1))
+}
+
+fn shown(measure: &MeasureReport, value: f64) -> String {
+    quantity(value, measure.unit, numbers::digits(value, measure.error, DIGITS))
+}
+
+/// Where and when, and what else is to be said.
+fn whereabouts(measure: &MeasureReport) -> String {
+    let time = measure.time.map(|time| format!(" at {}", quantity(time, "s", TIME_DIGITS)));
+    let note = measure.note.as_ref().map(|note| format!(" ({note})"));
+    format!(" in {}{}{}", measure.target, time.unwrap_or_default(), note.unwrap_or_default())
+}
+
+fn peak_force(run: &RunReport) -> Option<String> {
+    let (measure, value) = largest(run, PeakForce::KIND)?;
+    Some(format!("{}{}", shown(measure, value), whereabouts(measure)))
+}
+
+fn peak_g(run: &RunReport) -> Option<String> {
+    let (measure, value) = largest(run, PeakAcceleration::KIND)?;
+    let digits = numbers::digits(value, measure.error, DIGITS);
+    let in_g = Unit::new("g", STANDARD_GRAVITY).text(value, digits);
+    let place = whereabouts(measure).replacen(" in ", " on ", 1);
+    Some(format!("{in_g} ({}){place}", shown(measure, value)))
+}
+
+/// The pad with the least left of its thickness, or else the deepest point.
+fn deepest(run: &RunReport) -> Option<String> {
+    let of_kind = run.measures.iter().filter(|measure| measure.kind == PeakDeformation::KIND);
+    let pads = of_kind.filter_map(|measure| {
+        let connection = run.assembly.connection(&measure.target)?;
+        let thickness = connection.thickness?;
+        let (from, to) = measure.window?;
+        let compressed = run.solution().signal(connection.deformation).maximum((from, to)).value;
+        Some((measure, compressed, thickness))
+    });
+    let share_left = |pad: &(&MeasureReport, f64, f64)| (pad.2 - pad.1) / pad.2;
+    let tightest = pads.min_by(|one, other| share_left(one).total_cmp(&share_left(other)));
+    let Some((measure, compressed, thickness)) = tightest else {
+        let (measure, value) = largest(run, PeakDeformation::KIND)?;
+        return Some(format!("{}{}", shown(measure, value), whereabouts(measure)));
+    };
+    let (left, limit) = (thickness - compressed, constant(thickness, "m"));
+    let digits = numbers::digits(left, measure.error, TIME_DIGITS);
+    let rest = quantity(left.abs(), "m", digits);
+    let margin = if left >= 0.0 {
+        format!("{rest} of {limit} left")
+    } else {
+        format!("{rest} MORE than its thickness of {limit}")
+    };
+    Some(format!("{}{}, {margin}", shown(measure, measure.value?), whereabouts(measure)))
+}
+
+fn energy(run: &RunReport) -> Option<String> {
+    let (measure, value) = largest(run, Energy::KIND)?;
+    let impact = run.impact_energy();
+    let amount = shown(measure, value);
+    let name = &measure.target;
+    if impact > 0.0 {
+        let whole = constant(impact, "J");
+        Some(format!("{name} takes up {amount} of {whole} ({})", share(value / impact)))
+    } else {
+        Some(format!("{name} takes up {amount}"))
+    }
+}
+
+fn contact(run: &RunReport) -> Option<String> {
+    if run.contacts.is_empty() {
+        return None;
+    }
+    if let Some(contact) =
+        run.contacts.iter().find(|contact| contact.impact.contact == Contact::Lasting)
+    {
+        let end = quantity(contact.impact.end, "s", TIME_DIGITS);
+        return Some(format!("{} still pushes at the end of the run ({end})", contact.element));
+    }
+    let (measure, value) = largest(run, ContactTime::KIND)?;
+    let rebound = rebound(run).map_or(String::new(), |text| format!("; {text}"));
+    Some(format!("{} in {}{rebound}", shown(measure, value), measure.target))
+}
+
+/// How the fastest impactor leaves.
+fn rebound(run: &RunReport) -> Option<String> {
+    let solution = run.solution();
+    let nodes = run.assembly.nodes.iter().enumerate().filter(|(_, node)| is_impactor(node));
+    let speeds = nodes.filter_map(|(at, node)| {
+        let reading = MeasureKind::read(&EndVelocity::default(), &solution, at);
+        Some((node, reading.value?))
+    });
+    let (node, speed) = speeds.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
+    let digits = numbers::digits(1.0, run.worst_relative_error(), TIME_DIGITS);
+    let text = quantity(speed.abs(), "m/s", digits);
+    let start = node.start_velocity.unwrap_or(0.0);
+    Some(if speed * start < 0.0 {
+        format!("{} rebounds at {text}", node.name)
+    } else {
+        format!("{} goes on at {text}", node.name)
+    })
+}
+
+/// Whether a measure of this kind is an index that has seconds as its unit but is no time.
+pub(super) fn is_index(kind: &str) -> bool {
+    kind == SeverityIndex::KIND || kind.starts_with("hic")
+}
+
+fn injury(run: &RunReport) -> Option<String> {
+    let indices = run.measures.iter().filter(|measure| is_index(measure.kind));
+    let texts = indices.filter_map(|measure| {
+        let value = measure.value?;
+        let digits = numbers::digits(value, measure.error, DIGITS);
+        let number = Unit::plain(measure.unit).text(value, digits);
+        Some(format!("{} of {} {number}", measure.kind.replace('-', " "), measure.target))
+    });
+    let texts: Vec<String> = texts.take(3).collect();
+    (!texts.is_empty()).then(|| texts.join(", "))
+}
+
+fn how_wrong(answer: &Answer, run: &RunReport) -> Option<String> {
+    let apart = answer.differences().iter().map(|entry| entry.relative).reduce(f64::max);
+    let names: Vec<&str> = answer.runs.iter().map(|run| run.solver.method).collect();
+    let apart = apart.map(|apart| {
+        format!("; {} agree to {}", names.join(" and ").replace(" and ", ", "), bound(apart))
+    });
+    let apart = apart.map(|text| match names.as_slice() {
+        [one, other] => text.replace(&format!("{one}, {other}"), &format!("{one} and {other}")),
+        _ => text,
+    });
+    let own = match run.worst_relative_error() {
+        None if run.measures.is_empty() => return None,
+        None => "errors were not estimated".to_owned(),
+        Some(worst) if !worst.is_finite() => {
+            "some figures come and go with the tolerance; see the table".to_owned()
+        }
+        Some(worst) => {
+            let kind = if run.solver.rtol.is_none() { "bound" } else { "estimate" };
+            format!("every figure is good to {} ({}, {kind})", bound(worst), run.solver.method)
+        }
+    };
+    Some(own + &apart.unwrap_or_default())
+}

@@ -1,0 +1,233 @@
+//! The arguments of the command: types only.
+
+use std::path::PathBuf;
+
+use clap::{
+    Args, Parser, Subcommand, ValueEnum,
+    builder::{PossibleValue, PossibleValuesParser},
+};
+use clap_complete::Shell;
+use dashpot_dae::methods;
+use dashpot_scene::{templates, units::parse_quantity};
+
+/// Impacts on viscoelastic padding: spring-dashpot-mass networks, solved with stated errors.
+#[derive(Debug, Parser)]
+#[command(
+    name = "dashpot",
+    version,
+    arg_required_else_help = true,
+    after_help = "Begin with:\n  \
+        dashpot run                     the built-in reference impact, by two methods\n  \
+        dashpot new --out pad.toml      a commented scene to start from\n  \
+        dashpot run pad.toml            solve it: forces, g, depth, and how wrong they may be\n\n\
+        Exit codes: 0 done (warnings included), 1 a run failed, 2 the input is wrong."
+)]
+pub(crate) struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+    /// Colours in the output; `auto` is for terminals and honours NO_COLOR.
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    pub(crate) color: When,
+}
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Solves a scene and reports peaks, energies and their errors.
+    Run(RunArguments),
+    /// Says whether scenes are valid, without solving them.
+    Check(CheckArguments),
+    /// Shows what was built from a scene: drawing, parts, unknowns, effects, method.
+    Explain(ExplainArguments),
+    /// Lists every kind that a scene may contain, with its parameters.
+    List(ListArguments),
+    /// Writes a commented scene to start from.
+    New(NewArguments),
+    /// Prints the JSON schema of scenes, for completion and checks in editors.
+    Schema,
+    /// Prints the completions for a shell.
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+}
+
+/// Which scene.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    /// File of the scene, `-` for standard input, or a built-in scene (reference,
+    /// reference-stiff, reference-gravity) [default: reference].
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) values: ValueArguments,
+}
+
+/// Which named values.
+#[derive(Debug, Args)]
+pub(crate) struct ValueArguments {
+    /// Sets a value of the scene's table [values]: `--set "K=25 MN/m"`; repeatable.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+}
+
+/// `run`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot run                                      the built-in reference impact\n  \
+    dashpot run pad.toml --set \"K=25 MN/m\"           with another stiffness\n  \
+    dashpot run pad.toml --method exact,bdf          two methods side by side\n  \
+    dashpot run pad.toml --accuracy 0.01%            more digits\n  \
+    dashpot run pad.toml --out results               CSV, JSON, SVG and one HTML page\n  \
+    dashpot run pad.toml --json | jq .runs[0].measures\n\n\
+    Units: --accuracy is relative (0.1%, 1e-3), --rtol a number; all values of --json are SI.")]
+pub(crate) struct RunArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Methods in place of the scene's, side by side; `dashpot list methods` tells of each.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = method_names())]
+    pub(crate) method: Vec<String>,
+    /// Accuracy of every measure, relative, such as 0.1% [default: the scene's, else 0.1 %].
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub(crate) accuracy: Option<f64>,
+    /// The method's own relative tolerance, 1e-13 to 1e-3, in place of the search for one.
+    #[arg(long, value_name = "NUMBER", conflicts_with = "accuracy")]
+    pub(crate) rtol: Option<f64>,
+    /// Whether errors are estimated by further solutions; `off` is for bulk work.
+    #[arg(long, value_name = "SWITCH", default_value = "on")]
+    pub(crate) estimate: Switch,
+    /// Folder for CSV, JSON, SVG and HTML; it is made if need be.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// A plot of the forces in the text; `auto` draws it on terminals.
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    pub(crate) plot: When,
+}
+
+/// `check`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot check pad.toml\n  \
+    dashpot check scenes/*.toml\n\n\
+    Exit codes: 0 all are valid (warnings included), 2 one is not.")]
+pub(crate) struct CheckArguments {
+    /// Files of scenes; `-` for standard input.
+    #[arg(value_name = "SCENE", required = true)]
+    pub(crate) scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) values: ValueArguments,
+}
+
+/// `explain`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot explain                                  the built-in reference impact\n  \
+    dashpot explain pad.toml --out pad.svg           the drawing as a file, too")]
+pub(crate) struct ExplainArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Where the drawing goes as SVG: a file, or a folder for `network.svg`.
+    #[arg(long, value_name = "FILE|DIR")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+/// `list`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  dashpot list\n  dashpot list measures")]
+pub(crate) struct ListArguments {
+    /// One family alone.
+    pub(crate) family: Option<Family>,
+}
+
+/// `new`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot new > pad.toml\n  \
+    dashpot new chain --out chain.toml")]
+pub(crate) struct NewArguments {
+    /// What to start from.
+    #[arg(default_value = "impact", value_parser = template_names())]
+    pub(crate) template: String,
+    /// File to write; without it the text is printed.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Overwrites the file if there is one.
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
+
+/// When something is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum When {
+    /// On terminals.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+/// On or off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Switch {
+    /// On.
+    On,
+    /// Off.
+    Off,
+}
+
+/// Families of kinds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Family {
+    /// Primitive laws of elements.
+    Elements,
+    /// Named models composed of them.
+    Forms,
+    /// Functions of time for loads and motions.
+    Waveforms,
+    /// What acts on a network besides its elements.
+    Effects,
+    /// Numbers read off a run.
+    Measures,
+    /// Ways to solve.
+    Methods,
+    /// Scenes to start from.
+    Templates,
+    /// Scenes that are built in.
+    Scenes,
+}
+
+fn method_names() -> PossibleValuesParser {
+    let methods = methods::all();
+    PossibleValuesParser::new(methods.iter().map(|method| PossibleValue::new(method.name())))
+}
+
+fn template_names() -> PossibleValuesParser {
+    let value = |shipped: &dashpot_scene::Shipped| {
+        PossibleValue::new(shipped.name).help(shipped.summary)
+    };
+    PossibleValuesParser::new(templates().iter().map(value))
+}
+
+fn assignment(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').unwrap_or((text, ""));
+    if name.trim().is_empty() || value.trim().is_empty() {
+        return Err("write a name, `=` and a value, such as \"K=25 MN/m\"".to_owned());
+    }
+    Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    use dashpot_network::parameters::Dimension;
+    let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
+    let is_number = quantity.dimension.is_none_or(|own| own == Dimension::NUMBER);
+    if is_number && quantity.value > 0.0 && quantity.value <= 1.0 {
+        Ok(quantity.value)
+    } else {
+        Err("it must be more than 0 and at most 1 (100%), such as 0.1% or 1e-3".to_owned())
+    }
+}

@@ -1,0 +1,110 @@
+//! What can go wrong in the command, and the exit code of each.
+
+use std::{io, path::PathBuf, process::ExitCode};
+
+use dashpot_analysis::RunError;
+use dashpot_dae::SolveError;
+use dashpot_plot::PlotError;
+use dashpot_scene::Diagnostics;
+use thiserror::Error;
+
+/// How a command ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Status {
+    /// Done, warnings included.
+    Done = 0,
+    /// A run, or the writing of its results, failed.
+    RunFailed = 1,
+    /// The input is wrong.
+    InputWrong = 2,
+}
+
+impl From<Status> for ExitCode {
+    fn from(status: Status) -> Self {
+        Self::from(status as u8)
+    }
+}
+
+/// Why a command did not do what it was asked for.
+#[derive(Debug, Error)]
+pub(crate) enum CliError {
+    /// A scene that is not valid.
+    #[error("{0}")]
+    Scene(Diagnostics),
+    /// A scene that cannot be read.
+    #[error("`{name}` cannot be read: {reason}")]
+    Unreadable {
+        /// The file as it was named.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+    /// A file that is there already.
+    #[error("`{}` exists already and was not written by this command", .path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What to do.
+        help: &'static str,
+    },
+    /// A file or folder that cannot be written.
+    #[error("`{}` cannot be written: {source}", .path.display())]
+    Unwritable {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// Standard output that cannot be written.
+    #[error("the output cannot be written: {0}")]
+    Output(io::Error),
+    /// A run that cannot be done.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A figure that cannot be drawn.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    /// Results that cannot be written as JSON.
+    #[error("the results cannot be written as JSON: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+impl CliError {
+    /// The one table of exit codes.
+    pub(crate) fn status(&self) -> Status {
+        match self {
+            Self::Scene(_) | Self::Unreadable { .. } | Self::Foreign { .. } => Status::InputWrong,
+            Self::Run(error) => match error {
+                RunError::Network(_)
+                | RunError::UnknownMethod { .. }
+                | RunError::UnknownTarget { .. }
+                | RunError::UnknownMeasure { .. }
+                | RunError::UnknownOutput { .. }
+                | RunError::InvalidSetting { .. }
+                | RunError::Solve(
+                    SolveError::NotApplicable { .. } | SolveError::InvalidSetting { .. },
+                ) => Status::InputWrong,
+                _ => Status::RunFailed,
+            },
+            Self::Unwritable { .. } | Self::Output(_) | Self::Plot(_) | Self::Json(_) => {
+                Status::RunFailed
+            }
+        }
+    }
+
+    /// What to do, where that can be said.
+    pub(crate) fn help(&self) -> Option<String> {
+        match self {
+            Self::Unreadable { .. } => Some(
+                "`dashpot new --out pad.toml` writes a scene to start from, \
+                 `dashpot run` alone solves the built-in one"
+                    .to_owned(),
+            ),
+            Self::Foreign { help, .. } => Some((*help).to_owned()),
+            Self::Run(RunError::Solve(SolveError::NotApplicable { .. })) => {
+                Some("`--method auto` chooses one that can".to_owned())
+            }
+            _ => None,
+        }
+    }
+}

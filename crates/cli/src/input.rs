@@ -1,0 +1,76 @@
+//! Scenes and models from files.
+
+use std::{
+    fs::File,
+    io::{self, Read},
+    path::Path,
+};
+
+use dashpot_scene::{Checked, ReadOptions, Scene, read, read_bytes, references, text_of_bytes};
+
+use crate::error::CliError;
+
+/// Texts are at most so long, in bytes; a reader takes one more, so that the limit is noticed.
+const MAX_BYTES: u64 = 64 << 20;
+/// Name of the built-in scene.
+const BUILT_IN: &str = "reference";
+
+/// Reads a scene with the values `set` in place of its own: the built-in one, a file, or standard
+/// input for `-`.
+pub(crate) fn read_scene(
+    path: Option<&Path>,
+    set: &[(String, String)],
+) -> Result<Checked<Scene>, CliError> {
+    let path = path.unwrap_or(Path::new(BUILT_IN));
+    let name = path.to_string_lossy();
+    let options = |file| ReadOptions { file: Some(file), set, loader: Some(&load) };
+    if !path.exists()
+        && let Some(shipped) = references().iter().find(|shipped| shipped.name == name)
+    {
+        let file = format!("{}.toml", shipped.name);
+        return read(shipped.text, &options(&file)).map_err(CliError::Scene);
+    }
+    let (file, bytes) = if name == "-" {
+        ("standard input", limited(io::stdin().lock()))
+    } else {
+        (&*name, bytes_of(path))
+    };
+    let bytes = bytes.map_err(|error| CliError::Unreadable {
+        name: file.to_owned(),
+        reason: reason(&error),
+    })?;
+    read_bytes(&bytes, &options(file)).map_err(CliError::Scene)
+}
+
+/// The text of a file of models.
+fn load(path: &str) -> Result<String, String> {
+    let bytes = bytes_of(Path::new(path)).map_err(|error| reason(&error))?;
+    let text = text_of_bytes(&bytes, None).map_err(|faults| {
+        let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
+        messages.collect::<Vec<_>>().join("; ")
+    })?;
+    Ok(text.to_owned())
+}
+
+fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
+    if path.is_dir() {
+        return Err(io::Error::from(io::ErrorKind::IsADirectory));
+    }
+    limited(File::open(path)?)
+}
+
+fn limited(reader: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    reader.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// An error of the system in plain words.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        _ => error.to_string(),
+    }
+}

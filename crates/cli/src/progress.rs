@@ -1,0 +1,71 @@
+//! A bar for long runs.
+
+use std::{
+    ops::ControlFlow,
+    time::{Duration, Instant},
+};
+
+use dashpot_dae::{Observer, Progress};
+use dashpot_scene::units::format_quantity;
+use dashpot_network::parameters::Dimension;
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Shorter runs have no bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+/// Steps of the bar.
+const PARTS: u64 = 1000;
+
+/// Shows on standard error, where that is a terminal, how far a run has come.
+pub(crate) struct Bar {
+    method: String,
+    end: f64,
+    started: Instant,
+    bar: Option<ProgressBar>,
+    wanted: bool,
+}
+
+impl Bar {
+    /// A bar for a run by `method` until `end` \[s\]; none if nobody sees it.
+    pub(crate) fn new(method: &str, end: f64, wanted: bool) -> Self {
+        Self { method: method.to_owned(), end, started: Instant::now(), bar: None, wanted }
+    }
+
+    fn make(&self) -> ProgressBar {
+        let bar = ProgressBar::new(PARTS);
+        if let Ok(style) = ProgressStyle::with_template("{prefix} {wide_bar} {msg}") {
+            bar.set_style(style);
+        }
+        bar.set_prefix(self.method.clone());
+        bar
+    }
+}
+
+impl Observer for Bar {
+    fn progress(&mut self, progress: Progress) -> ControlFlow<()> {
+        if self.wanted && (self.bar.is_some() || self.started.elapsed() > PATIENCE) {
+            if self.bar.is_none() {
+                self.bar = Some(self.make());
+            }
+            if let Some(bar) = &self.bar {
+                let share = (progress.time / self.end).clamp(0.0, 1.0);
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "a share of 0 … 1000"
+                )]
+                bar.set_position((share * PARTS as f64) as u64);
+                let time = format_quantity(progress.time, Dimension::TIME, 3);
+                bar.set_message(format!("{time}, {} steps", progress.steps));
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

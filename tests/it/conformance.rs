@@ -1,0 +1,346 @@
+//! Every kind of every register keeps its contract. The registers are the only lists.
+
+use dashpot::{
+    analysis::{
+        SolveSettings,
+        measures::{Family, MeasureKind, MeasureVisitor, visit_measures},
+        solve,
+    },
+    dae::{
+        Run, Silent,
+        methods::{MethodKind, MethodVisitor, visit_methods},
+        problems,
+    },
+    network::{
+        Network, Node,
+        effects::{EffectKind, EffectVisitor, visit_effects},
+        elements::{ElementKind, ElementVisitor, Law, visit_elements},
+        parameters::{Dimension, Parameter, Value},
+        waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
+    },
+    rheology::{Branch, Form, FormVisitor, Role, Tree, visit_forms},
+    scene::{ReadOptions, Scene, read, write_kind, write_model},
+};
+
+use crate::thesis::{dashpot, impact, kelvin, reference, spring};
+
+fn scene(text: &str) -> Scene {
+    read(text, &ReadOptions::default()).unwrap_or_else(|faults| panic!("{faults}")).value
+}
+
+fn describes(kind: &str, summary: &str, parameters: &[Parameter]) {
+    let is_word =
+        |word: &str| word.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
+    assert!(is_word(kind) && !kind.is_empty(), "`{kind}` is not kebab-case");
+    assert!(!summary.is_empty() && summary.len() <= 100, "{kind}: summary of {}", summary.len());
+    for parameter in parameters {
+        assert!(is_word(parameter.name), "{kind}: `{}`", parameter.name);
+        assert!(!parameter.help.is_empty(), "{kind}.{} has no help", parameter.name);
+    }
+}
+
+#[derive(Default)]
+struct Elements(usize);
+
+impl ElementVisitor for Elements {
+    fn visit<E: ElementKind>(&mut self) {
+        self.0 += 1;
+        describes(E::KIND, E::SUMMARY, E::PARAMETERS);
+        let element = E::sample();
+        assert_eq!(element.kind(), E::KIND);
+        assert!(element.validate().is_ok());
+        let again = E::from_values(&element.values()).unwrap();
+        assert_eq!(again.values(), element.values());
+        for (y, v) in [(0.0, 0.0), (0.3, -2.0), (-1.5, 0.7)] {
+            let step = 1e-6;
+            let tangent = element.tangent(y, v);
+            let by_way = (element.force(y + step, v) - element.force(y - step, v)) / (2.0 * step);
+            let by_rate = (element.force(y, v + step) - element.force(y, v - step)) / (2.0 * step);
+            let scale = 1.0 + tangent.stiffness.abs() + tangent.damping.abs();
+            assert!((tangent.stiffness - by_way).abs() < 1e-7 * scale, "{} at {y}, {v}", E::KIND);
+            assert!((tangent.damping - by_rate).abs() < 1e-7 * scale, "{} at {y}, {v}", E::KIND);
+        }
+        // Work taken up along a path that is not closed: never less than the rise of the store.
+        let (steps, end) = (200_000, 7.0);
+        let path = |t: f64| {
+            (
+                (3.0 * t).sin() + 0.5 * (1.7 * t).cos(),
+                3.0 * (3.0 * t).cos() - 0.85 * (1.7 * t).sin(),
+            )
+        };
+        let dt = end / f64::from(steps);
+        let work: f64 = (0..steps)
+            .map(|at| {
+                let (y, v) = path((f64::from(at) + 0.5) * dt);
+                element.force(y, v) * v * dt
+            })
+            .sum();
+        let stored = element.stored(path(end).0) - element.stored(path(0.0).0);
+        let size = 1.0 + element.stored(2.0) + work.abs();
+        assert!(work - stored >= -1e-8 * size, "{} creates {}", E::KIND, stored - work);
+        if matches!(element.law(), Law::Spring(_)) {
+            assert!((work - stored).abs() < 1e-8 * size, "{} loses energy", E::KIND);
+        }
+        let text = write_kind(E::KIND, E::PARAMETERS, &element.values(), Dimension::FORCE);
+        let text = format!(
+            "nodes.m = {{ mass = 1, velocity = 1 }}\nnodes.n = {{ mass = 1, velocity = 1 }}\n\
+             [elements.e]\nbetween = [\"m\", \"n\"]\n{text}\n[run]\nduration = 1\n"
+        );
+        let scene = scene(&text);
+        let Some(Tree::Part(found)) = scene.network.connections().first().map(|c| &c.model) else {
+            panic!("{} does not come back as one part", E::KIND);
+        };
+        assert_eq!((found.kind(), found.values()), (E::KIND, element.values()));
+    }
+}
+
+#[test]
+fn elements_have_true_tangents_and_create_no_energy() {
+    let mut visitor = Elements::default();
+    visit_elements(&mut visitor);
+    assert!(visitor.0 >= 3);
+}
+
+#[derive(Default)]
+struct Waveforms(usize);
+
+impl WaveformVisitor for Waveforms {
+    fn visit<W: WaveformKind>(&mut self) {
+        self.0 += 1;
+        describes(W::KIND, W::SUMMARY, W::PARAMETERS);
+        let sample = W::sample();
+        let waveform = sample.waveform().unwrap();
+        assert_eq!(W::from_values(&sample.values()).unwrap().waveform().unwrap(), waveform);
+        for at in 0..40 {
+            let (t, step) = (0.013 + 0.037 * f64::from(at), 1e-5);
+            if waveform.piece_at(t - step) == waveform.piece_at(t + step) {
+                let slope = (waveform.value(t + step) - waveform.value(t - step)) / (2.0 * step);
+                let exact = waveform.piece_at(t).derivative(1, t);
+                assert!((slope - exact).abs() < 1e-6 * (1.0 + exact.abs()), "{} at {t}", W::KIND);
+            }
+        }
+        for (driven, place) in [
+            (Dimension::FORCE, "nodes.m = { mass = 1 }\n[loads.f]\non = \"m\"\nforce = { KIND }\n"),
+            (Dimension::LENGTH, "nodes.m = { motion = { KIND } }\n"),
+        ] {
+            let text = write_kind(W::KIND, W::PARAMETERS, &sample.values(), driven);
+            let text = format!(
+                "{}\n[elements]\nk = {{ between = [\"m\", \"ground\"], spring = 1 }}\n\
+                 [run]\nduration = 1\n",
+                place.replace("KIND", &text)
+            );
+            let scene = scene(&text);
+            let found = match scene.network.loads().first() {
+                Some(load) => load.force.clone(),
+                None => match &scene.network.nodes().nth(1).unwrap().1.support {
+                    dashpot::network::Support::Prescribed(motion) => motion.clone(),
+                    other => panic!("{other:?}"),
+                },
+            };
+            assert_eq!(found, waveform, "{}", W::KIND);
+        }
+    }
+}
+
+#[test]
+fn driving_functions_have_true_rates_and_come_back_from_toml() {
+    let mut visitor = Waveforms::default();
+    visit_waveforms(&mut visitor);
+    assert!(visitor.0 >= 5);
+}
+
+#[derive(Default)]
+struct Effects(usize);
+
+impl EffectVisitor for Effects {
+    fn visit<E: EffectKind>(&mut self) {
+        self.0 += 1;
+        describes(E::KIND, E::SUMMARY, E::PARAMETERS);
+        let sample = E::sample();
+        assert!(sample.validate().is_ok());
+        assert_eq!(E::from_values(&sample.values()).unwrap().values(), sample.values());
+        let text = write_kind(E::KIND, E::PARAMETERS, &sample.values(), Dimension::FORCE);
+        let text = format!(
+            "nodes.m = {{ mass = 1 }}\n[elements]\nk = {{ between = [\"m\", \"ground\"], spring = 1 }}\n\
+             [effects]\n{text}\n[run]\nduration = 1\n"
+        );
+        let scene = scene(&text);
+        assert_eq!(scene.network.effects()[0].values(), sample.values());
+    }
+}
+
+#[test]
+fn effects_come_back_from_toml() {
+    let mut visitor = Effects::default();
+    visit_effects(&mut visitor);
+    assert!(visitor.0 >= 1);
+}
+
+#[derive(Default)]
+struct Forms(usize);
+
+impl FormVisitor for Forms {
+    fn visit<F: Form>(&mut self) {
+        self.0 += 1;
+        describes(F::KIND, F::SUMMARY, &[]);
+        let mut constant = 0.0;
+        let tree = dashpot::rheology::forms::build(F::PARTS, F::IN_SERIES, &mut |_, role| {
+            constant += 3.0;
+            Ok::<_, ()>(match role {
+                Role::Dashpot => {
+                    std::sync::Arc::new(dashpot::network::elements::Dashpot { damping: constant })
+                        as std::sync::Arc<dyn dashpot::network::Element>
+                }
+                _ => {
+                    std::sync::Arc::new(dashpot::network::elements::Spring { stiffness: constant })
+                }
+            })
+        })
+        .unwrap();
+        let build = |model: dashpot::network::Model| {
+            let mut network = Network::new();
+            let head = network.add_node(Node::mass("head", 2.0).moving(1.0));
+            network.connect("pad", head, network.ground(), model);
+            network
+        };
+        let mut constant = 0.0;
+        let keys = written(F::PARTS, &mut constant);
+        for word in std::iter::once(&F::KIND).chain(F::ALIASES) {
+            let text = format!(
+                "nodes.head = {{ mass = 2, velocity = 1 }}\n[elements]\n\
+                 pad = {{ between = [\"head\", \"ground\"], {word} = {{ {keys} }} }}\n[run]\nduration = 1\n"
+            );
+            let found = scene(&text).network.compile(1.0).unwrap();
+            let expected = build(tree.clone()).compile(1.0).unwrap();
+            assert_eq!(found.system.jacobian, expected.system.jacobian, "{word}");
+            assert_eq!(found.system.initial, expected.system.initial, "{word}");
+        }
+        let text = format!(
+            "nodes.head = {{ mass = 2, velocity = 1 }}\n[models]\npad = {}\n[elements]\n\
+             pad = {{ between = [\"head\", \"ground\"], model = \"pad\" }}\n[run]\nduration = 1\n",
+            write_model(&tree)
+        );
+        let found = scene(&text).network.compile(1.0).unwrap();
+        assert_eq!(found.system.jacobian, build(tree).compile(1.0).unwrap().system.jacobian);
+    }
+}
+
+fn written(parts: &[dashpot::rheology::Part], constant: &mut f64) -> String {
+    let keys = parts.iter().map(|part| match part.role {
+        Role::Form { parts, .. } => format!("{} = {{ {} }}", part.name, written(parts, constant)),
+        _ => {
+            *constant += 3.0;
+            format!("{} = {constant}", part.name)
+        }
+    });
+    keys.collect::<Vec<_>>().join(", ")
+}
+
+#[test]
+fn forms_are_what_their_parts_say() {
+    let mut visitor = Forms::default();
+    visit_forms(&mut visitor);
+    assert_eq!(visitor.0, 4);
+}
+
+struct Measures(dashpot::analysis::RunReport, usize);
+
+impl MeasureVisitor for Measures {
+    fn visit<M: MeasureKind>(&mut self) {
+        self.1 += 1;
+        describes(M::KIND, M::SUMMARY, M::PARAMETERS);
+        let sample = M::sample();
+        assert_eq!(M::from_values(&sample.values()).unwrap().values(), sample.values());
+        let solution = self.0.solution();
+        let target = match M::APPLIES_TO {
+            Family::Element => 0,
+            Family::Node => 1,
+        };
+        let reading = sample.read(&solution, target);
+        assert!(reading.value.is_some_and(f64::is_finite), "{}: {reading:?}", M::KIND);
+        assert!(
+            reading.error.is_some_and(|error| error >= 0.0 && error.is_finite()),
+            "{}",
+            M::KIND
+        );
+        if let Some((from, to)) = reading.window {
+            assert!(0.0 <= from && from <= to && to <= 0.02, "{}", M::KIND);
+        }
+        if let Value::Window(_) = sample.values().first().cloned().unwrap_or(Value::Flag) {
+            assert!(M::PARAMETERS.iter().any(|parameter| parameter.name == "window"));
+        }
+    }
+}
+
+#[test]
+fn measures_read_the_reference_impact() {
+    let report =
+        solve(&reference(1e4), &SolveSettings::lasting(0.02).by("exact"), &mut Silent).unwrap();
+    let mut visitor = Measures(report, 0);
+    visit_measures(&mut visitor);
+    assert!(visitor.1 >= 15);
+}
+
+#[derive(Default)]
+struct Methods(usize);
+
+impl MethodVisitor for Methods {
+    fn visit<M: MethodKind>(&mut self) {
+        self.0 += 1;
+        let method = M::default();
+        assert_eq!(method.name(), M::KIND);
+        describes(M::KIND, method.summary(), &[]);
+        let mut solved = 0;
+        for problem in problems::all() {
+            let run = Run::to(problem.t_end);
+            if method.applies(&problem.system, &run).is_err() {
+                assert!(method.integrate(&problem.system, &run, &mut Silent).is_err());
+                continue;
+            }
+            if problem.stiff && M::KIND == "tsit45" {
+                continue;
+            }
+            let end = problem.t_end / problem.system.time_scale;
+            let error = |rtol: f64| {
+                let trajectory = method
+                    .integrate(&problem.system, &run.clone().with_rtol(rtol), &mut Silent)
+                    .unwrap();
+                let found = trajectory.dense.sample(&problem.system, &[end]);
+                let truth = problem.exact(problem.t_end);
+                found.iter().zip(&truth).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+            };
+            let [coarse, fine] = [1e-4, 1e-8].map(error);
+            // Every method converges: four decades of tolerance gain two of error at least, down to
+            // the rounding of the problem.
+            assert!(
+                fine <= (1e-2 * coarse).max(1e-9),
+                "{} on {}: {coarse:e}, {fine:e}",
+                M::KIND,
+                problem.name
+            );
+            solved += 1;
+        }
+        assert!(solved >= 5, "{} solves only {solved} problems", M::KIND);
+    }
+}
+
+#[test]
+fn methods_converge_on_every_problem_that_they_claim() {
+    let mut visitor = Methods::default();
+    visit_methods(&mut visitor);
+    assert!(visitor.0 >= 6);
+}
+
+#[test]
+fn the_builder_and_a_scene_give_the_same_network() {
+    let text = include_str!("../../scenes/reference.toml");
+    let from_text = scene(text);
+    let pad = Tree::Series(vec![
+        Branch::new("maxwell", Tree::series([spring(2e7), dashpot(6e3)])),
+        Branch::new("kelvin", kelvin(2e7, 4e3)),
+    ]);
+    let built = impact(10.0, 10.0, pad, [100.0, 5e7, 1e4]);
+    let (one, other) = (built.compile(0.02).unwrap(), from_text.network.compile(0.02).unwrap());
+    assert_eq!(one.system.jacobian, other.system.jacobian);
+    assert_eq!(one.system.initial, other.system.initial);
+}

@@ -1,0 +1,37 @@
+//! The examples run to their end, with the assertions in them.
+
+#[path = "../../examples/custom_padding.rs"]
+mod custom_padding;
+#[path = "../../examples/force_table.rs"]
+mod force_table;
+#[path = "../../examples/reference_impact.rs"]
+mod reference_impact;
+#[path = "../../examples/scene_from_toml.rs"]
+mod scene_from_toml;
+#[path = "../../examples/two_mass_chain.rs"]
+mod two_mass_chain;
+
+#[test]
+fn the_reference_impact_runs() {
+    reference_impact::main().unwrap();
+}
+
+#[test]
+fn the_custom_padding_runs() {
+    custom_padding::main().unwrap();
+}
+
+#[test]
+fn the_two_mass_chain_runs() {
+    two_mass_chain::main().unwrap();
+}
+
+#[test]
+fn the_scene_from_toml_runs() {
+    scene_from_toml::main().unwrap();
+}
+
+#[test]
+fn the_force_table_runs() {
+    force_table::main().unwrap();
+}
