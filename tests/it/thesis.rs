@@ -8,6 +8,7 @@ use dashpot::{
         part,
     },
     rheology::{Branch, Tree},
+    scene::{ReadOptions, read},
 };
 
 use crate::independent::{Groups, has_digits};
@@ -239,7 +240,8 @@ fn every_method_approaches_the_independent_equations() {
 
 #[test]
 fn three_routes_through_the_compiler_give_one_answer() {
-    let named = reference(1e4);
+    let text = include_str!("../../scenes/reference.toml");
+    let named = read(text, &ReadOptions::default()).unwrap().value.network;
     let part_by_part = impact(
         10.0,
         10.0,

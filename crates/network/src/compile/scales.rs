@@ -19,7 +19,8 @@ pub(super) struct Drives {
 ///
 /// They rest on the energy `E` that the drives can bring in: a spring cannot be compressed by more
 /// than √(2E/k), a mass not be faster than √(2E/m). The square root of the energy is added up, so
-/// that no amplitude is too small or too large to be squared.
+/// that no amplitude is too small or too large to be squared. All scales are powers of two, so that
+/// scaling rounds nothing: rows that cancel exactly in SI still do.
 #[derive(Debug, Clone)]
 pub(super) struct Scales {
     /// Time \[s\].
@@ -93,8 +94,13 @@ impl Scales {
         let unit = unit.unwrap_or(0.1 * time).min(time);
         let velocity = (0..count)
             .map(|body| if mass(body) > 0.0 { of_mass(body) } else { length[body] / unit })
+            .map(power_of_two)
             .collect();
-        let scales = Self { time: unit, length, velocity };
+        let scales = Self {
+            time: power_of_two(unit),
+            length: length.into_iter().map(power_of_two).collect(),
+            velocity,
+        };
         scales.check()?;
         Ok(scales)
     }
@@ -113,6 +119,12 @@ impl Scales {
         }
         Ok(())
     }
+}
+
+/// The power of two nearest to a positive number on a logarithmic scale; what is not positive and
+/// finite stays as it is.
+pub(super) fn power_of_two(value: f64) -> f64 {
+    if value.is_finite() && value > 0.0 { value.log2().round().exp2() } else { value }
 }
 
 fn sums(count: usize, edges: &[super::structure::Edge]) -> Vec<f64> {

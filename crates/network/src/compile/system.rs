@@ -6,6 +6,7 @@ use nalgebra_sparse::{CooMatrix, CsrMatrix};
 use super::{
     outputs::Outputs,
     row::Row,
+    scales::power_of_two,
     unknowns::{Inputs, Places},
 };
 use crate::NetworkError;
@@ -22,7 +23,9 @@ pub(super) fn dimensionless(
     let heights: Vec<f64> = inputs
         .waveforms
         .iter()
-        .map(|waveform| Some(waveform.bound(duration)).filter(|&h| h > 0.0).unwrap_or(1.0))
+        .map(|waveform| {
+            power_of_two(Some(waveform.bound(duration)).filter(|&h| h > 0.0).unwrap_or(1.0))
+        })
         .collect();
     let scale_of =
         |input: &Input| heights[input.waveform] / time.powi(input.derivative.cast_signed());
@@ -35,7 +38,7 @@ pub(super) fn dimensionless(
         let (own, given) = scaled(&draft.row, &columns, &input_columns);
         let factor = match draft.kind {
             UnknownKind::Differential => time / draft.scale,
-            UnknownKind::Algebraic => 1.0 / largest(&own).max(f64::MIN_POSITIVE),
+            UnknownKind::Algebraic => 1.0 / power_of_two(largest(&own).max(f64::MIN_POSITIVE)),
         };
         for &(column, value) in own.terms() {
             jacobian.push(at, column, finite(factor * value)?);
@@ -47,7 +50,7 @@ pub(super) fn dimensionless(
     let report = |(output, row): &(Output, Row)| {
         let (own, given) = scaled(row, &columns, &input_columns);
         let scale = largest(&own).max(largest(&given));
-        let scale = if scale > 0.0 { scale } else { 1.0 };
+        let scale = power_of_two(if scale > 0.0 { scale } else { 1.0 });
         finite(scale)?;
         Ok(Output {
             name: output.name.clone(),

@@ -186,7 +186,9 @@ impl Places {
 
 /// A spanning tree of the stiffest springs; each body is counted from the one before it.
 ///
-/// Bodies whose place may jump are left out, and so is what dashpots let jump with them.
+/// Masses are counted from masses and fixed bodies only, because the velocity of a massless body
+/// may be the small difference of large terms. Bodies whose place may jump are left out, and so is
+/// what dashpots let jump with them.
 fn spring_parents(bodies: &Bodies, structure: &Structure) -> Vec<Option<usize>> {
     let count = bodies.all.len();
     let mut parent = vec![None; count];
@@ -202,20 +204,34 @@ fn spring_parents(bodies: &Bodies, structure: &Structure) -> Vec<Option<usize>> 
     if joined.iter().filter(|&&joins| joins).count() > MOST_RELATIVE {
         return parent;
     }
+    let is_massless = |body: usize| bodies.all[body].is_massless();
     let mut springs: Vec<_> =
         structure.springs.iter().filter(|edge| edge.ends.iter().all(|&end| joined[end])).collect();
     springs.sort_by(|a, b| b.constant.total_cmp(&a.constant));
-    let mut groups = Groups::new(count);
+    let (loose, firm): (Vec<_>, Vec<_>) = springs
+        .into_iter()
+        .map(|edge| edge.ends)
+        .partition(|ends| ends.iter().any(|&end| is_massless(end)));
     let mut tree: Vec<Vec<usize>> = vec![Vec::new(); count];
-    for [a, b] in springs.into_iter().map(|edge| edge.ends) {
-        if groups.join(a, b) {
-            tree[a].push(b);
-            tree[b].push(a);
+    let mut grow = |groups: &mut Groups, springs: Vec<[usize; 2]>| {
+        for [a, b] in springs {
+            if groups.join(a, b) {
+                tree[a].push(b);
+                tree[b].push(a);
+            }
         }
+    };
+    let mut groups = Groups::new(count);
+    grow(&mut groups, firm);
+    if let Some(first) = (0..count).find(|&body| !is_massless(body)) {
+        (0..count).filter(|&body| !is_massless(body)).for_each(|body| {
+            groups.join(first, body);
+        });
     }
+    grow(&mut groups, loose);
     let is_given = |body: usize| matches!(bodies.all[body].role, Role::Fixed | Role::Prescribed(_));
     let mut roots: Vec<usize> = (0..count).filter(|&body| joined[body]).collect();
-    roots.sort_by_key(|&body| (!is_given(body), bodies.all[body].is_massless(), body));
+    roots.sort_by_key(|&body| (is_massless(body), !is_given(body), body));
     let mut is_done = vec![false; count];
     for root in roots {
         let mut stack = vec![root];
@@ -223,11 +239,11 @@ fn spring_parents(bodies: &Bodies, structure: &Structure) -> Vec<Option<usize>> 
             if std::mem::replace(&mut is_done[body], true) {
                 continue;
             }
-            for &next in tree[body].iter().filter(|&&next| !is_done[next]) {
-                if !is_given(next) {
+            for &next in &tree[body] {
+                if !is_done[next] && !is_given(next) && parent[next].is_none() {
                     parent[next] = Some(body);
+                    stack.push(next);
                 }
-                stack.push(next);
             }
         }
     }
