@@ -5,8 +5,7 @@ use diffsol::{
     ode_solver::state::StateCommon,
 };
 
-use super::stepping::{self, Algebra, Polynomial, Problem, Scheme, Stop, Walk};
-use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
+use super::stepping::{Algebra, Polynomial, Problem, Scheme, Stop, Walk};
 
 /// Backward differentiation of order 1 to 5 with variable steps, on the system as it stands:
 /// algebraic unknowns need no elimination, stiffness no small steps.
@@ -21,35 +20,10 @@ use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Bdf;
 
-impl Method for Bdf {
-    fn name(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn summary(&self) -> &'static str {
-        "backward differentiation of variable order: for every system, large and stiff ones too"
-    }
-
-    fn applies(&self, _system: &System, _run: &Run) -> Result<String, SolveError> {
-        Ok("it solves every system".to_owned())
-    }
-
-    fn integrate(
-        &self,
-        system: &System,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Trajectory, SolveError> {
-        stepping::integrate::<Self>(system, run, observer)
-    }
-}
-
-impl MethodKind for Bdf {
-    const KIND: &'static str = "bdf";
-}
-
 impl Scheme for Bdf {
-    const NAME: &'static str = Self::KIND;
+    const KIND: &'static str = "bdf";
+    const SUMMARY: &'static str =
+        "backward differentiation of variable order: for every system, large and stiff ones too";
     const ORDER: usize = 1;
 
     fn span<M>(

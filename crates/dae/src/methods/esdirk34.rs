@@ -5,8 +5,7 @@ use diffsol::{
     ode_solver::state::StateCommon,
 };
 
-use super::stepping::{self, Algebra, Polynomial, Problem, Scheme, Stop, Walk};
-use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
+use super::stepping::{Algebra, Polynomial, Problem, Scheme, Stop, Walk};
 
 /// Degree of the dense output in a step.
 const DEGREE: usize = 3;
@@ -22,35 +21,10 @@ const DEGREE: usize = 3;
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Esdirk34;
 
-impl Method for Esdirk34 {
-    fn name(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn summary(&self) -> &'static str {
-        "order 3, one step at a time: for frequent switching with strong damping"
-    }
-
-    fn applies(&self, _system: &System, _run: &Run) -> Result<String, SolveError> {
-        Ok("it solves every system".to_owned())
-    }
-
-    fn integrate(
-        &self,
-        system: &System,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Trajectory, SolveError> {
-        stepping::integrate::<Self>(system, run, observer)
-    }
-}
-
-impl MethodKind for Esdirk34 {
-    const KIND: &'static str = "esdirk34";
-}
-
 impl Scheme for Esdirk34 {
-    const NAME: &'static str = Self::KIND;
+    const KIND: &'static str = "esdirk34";
+    const SUMMARY: &'static str =
+        "order 3, one step at a time: for frequent switching with strong damping";
     const ORDER: usize = 3;
 
     fn span<M>(

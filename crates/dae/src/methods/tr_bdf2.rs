@@ -5,8 +5,7 @@ use diffsol::{
     ode_solver::state::StateCommon,
 };
 
-use super::stepping::{self, Algebra, Polynomial, Problem, Scheme, Stop, Walk};
-use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
+use super::stepping::{Algebra, Polynomial, Problem, Scheme, Stop, Walk};
 
 /// Degree of the dense output in a step.
 const DEGREE: usize = 2;
@@ -21,35 +20,10 @@ const DEGREE: usize = 2;
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TrBdf2;
 
-impl Method for TrBdf2 {
-    fn name(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn summary(&self) -> &'static str {
-        "order 2, one step at a time: for lightly damped oscillation and frequent switching"
-    }
-
-    fn applies(&self, _system: &System, _run: &Run) -> Result<String, SolveError> {
-        Ok("it solves every system".to_owned())
-    }
-
-    fn integrate(
-        &self,
-        system: &System,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Trajectory, SolveError> {
-        stepping::integrate::<Self>(system, run, observer)
-    }
-}
-
-impl MethodKind for TrBdf2 {
-    const KIND: &'static str = "tr-bdf2";
-}
-
 impl Scheme for TrBdf2 {
-    const NAME: &'static str = Self::KIND;
+    const KIND: &'static str = "tr-bdf2";
+    const SUMMARY: &'static str =
+        "order 2, one step at a time: for lightly damped oscillation and frequent switching";
     const ORDER: usize = 2;
 
     fn span<M>(

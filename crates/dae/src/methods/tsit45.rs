@@ -5,8 +5,8 @@ use diffsol::{
     ode_solver::state::StateCommon,
 };
 
-use super::stepping::{self, Algebra, Polynomial, Problem, Scheme, Stop, Walk};
-use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
+use super::stepping::{Algebra, Polynomial, Problem, Scheme, Stop, Walk};
+use crate::System;
 
 /// Degree of the dense output in a step.
 const DEGREE: usize = 4;
@@ -21,44 +21,19 @@ const DEGREE: usize = 4;
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Tsit45;
 
-impl Method for Tsit45 {
-    fn name(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn summary(&self) -> &'static str {
-        "explicit, order 5: an independent check where nothing is stiff"
-    }
-
-    fn applies(&self, system: &System, _run: &Run) -> Result<String, SolveError> {
-        let algebraic = system.algebraic();
-        if algebraic == 0 {
-            return Ok("every unknown has a rate of its own".to_owned());
-        }
-        let reason = format!(
-            "it is explicit, and {algebraic} of the unknowns follow from balances; `bdf` can"
-        );
-        Err(SolveError::NotApplicable { method: Self::KIND, reason })
-    }
-
-    fn integrate(
-        &self,
-        system: &System,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Trajectory, SolveError> {
-        self.applies(system, run)?;
-        stepping::integrate::<Self>(system, run, observer)
-    }
-}
-
-impl MethodKind for Tsit45 {
-    const KIND: &'static str = "tsit45";
-}
-
 impl Scheme for Tsit45 {
-    const NAME: &'static str = Self::KIND;
+    const KIND: &'static str = "tsit45";
+    const SUMMARY: &'static str = "explicit, order 5: an independent check where nothing is stiff";
     const ORDER: usize = 4;
+
+    fn suits(system: &System) -> Result<&'static str, String> {
+        match system.algebraic() {
+            0 => Ok("every unknown has a rate of its own"),
+            algebraic => Err(format!(
+                "it is explicit, and {algebraic} of the unknowns follow from balances; `bdf` can"
+            )),
+        }
+    }
 
     fn span<M>(
         problem: &Problem<'_, M>,

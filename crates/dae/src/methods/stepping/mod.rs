@@ -21,22 +21,31 @@ mod start;
 mod walk;
 
 pub(super) use algebra::Algebra;
-pub(super) use spans::integrate;
 pub(super) use start::Problem;
 pub(super) use walk::{Polynomial, Walk};
 
+use std::fmt::Debug;
+
+use self::spans::integrate;
 use diffsol::{
     DefaultDenseMatrix, DiffsolError, VectorRef, matrix::MatrixRef, ode_solver::state::StateCommon,
 };
 
-use crate::SolveError;
+use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
 
-/// What tells one step-by-step method from another.
-pub(super) trait Scheme {
-    /// Name of the method.
-    const NAME: &'static str;
+/// What tells one step-by-step method from another; all else of [`Method`] is the same for all.
+pub(super) trait Scheme: Debug + Default + Send + Sync + 'static {
+    /// Name of the method on the command line.
+    const KIND: &'static str;
+    /// What it is good for, in one line.
+    const SUMMARY: &'static str;
     /// Its order, from which the first step is estimated.
     const ORDER: usize;
+
+    /// Why it is a fit for `system`, or why it cannot solve it.
+    fn suits(_system: &System) -> Result<&'static str, String> {
+        Ok("it solves every system")
+    }
 
     /// Integrates one span of `problem` from `state`, handing every step to `walk`.
     fn span<M>(
@@ -49,6 +58,37 @@ pub(super) trait Scheme {
         M::V: DefaultDenseMatrix<T = f64, C = M::C>,
         for<'v> &'v M::V: VectorRef<M::V>,
         for<'m> &'m M: MatrixRef<M>;
+}
+
+impl<S: Scheme> Method for S {
+    fn name(&self) -> &'static str {
+        S::KIND
+    }
+
+    fn summary(&self) -> &'static str {
+        S::SUMMARY
+    }
+
+    fn applies(&self, system: &System, _run: &Run) -> Result<String, SolveError> {
+        match S::suits(system) {
+            Ok(why) => Ok(why.to_owned()),
+            Err(reason) => Err(SolveError::NotApplicable { method: S::KIND, reason }),
+        }
+    }
+
+    fn integrate(
+        &self,
+        system: &System,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Trajectory, SolveError> {
+        self.applies(system, run)?;
+        integrate::<S>(system, run, observer)
+    }
+}
+
+impl<S: Scheme> MethodKind for S {
+    const KIND: &'static str = S::KIND;
 }
 
 /// Why a span ended early.

@@ -49,9 +49,9 @@ fn integrate_in<S: Scheme>(
 ) -> Result<Trajectory, SolveError> {
     let begin = Instant::now();
     admit::<S>(system, run)?;
-    let site = Site { method: S::NAME, time: 0.0, system };
+    let site = Site { method: S::KIND, time: 0.0, system };
     let mut walk = Walk {
-        method: S::NAME,
+        method: S::KIND,
         system,
         run,
         observer,
@@ -90,7 +90,7 @@ fn integrate_in<S: Scheme>(
     walk.pieces.finish(system.time_scale, t_end);
     walk.statistics.wall = begin.elapsed();
     Ok(Trajectory {
-        method: S::NAME,
+        method: S::KIND,
         outcome,
         t_end,
         events: walk.watch.into_events(),
@@ -109,14 +109,14 @@ fn admit<S: Scheme>(system: &System, run: &Run) -> Result<(), SolveError> {
     for matrix in [&system.jacobian, &system.input_matrix] {
         if let Some((row, ..)) = matrix.triplet_iter().find(|entry| !entry.2.is_finite()) {
             let unknown = system.unknowns[row].name.clone();
-            return Err(SolveError::NotFinite { method: S::NAME, time: 0.0, unknown });
+            return Err(SolveError::NotFinite { method: S::KIND, time: 0.0, unknown });
         }
     }
-    Site { method: S::NAME, time: 0.0, system }.finite(&system.initial)?;
+    Site { method: S::KIND, time: 0.0, system }.finite(&system.initial)?;
     if let Some(unknown) = undetermined(system) {
         let name = &system.unknowns[unknown].name;
         let reason = format!("no balance determines `{name}`");
-        return Err(SolveError::NotApplicable { method: S::NAME, reason });
+        return Err(SolveError::NotApplicable { method: S::KIND, reason });
     }
     Ok(())
 }
@@ -163,7 +163,7 @@ impl Walk<'_> {
             self.span = (span[0], span[1]);
             let length = span[1] - span[0];
             let time = span[0] * self.system.time_scale;
-            let site = Site { method: S::NAME, time, system: self.system };
+            let site = Site { method: S::KIND, time, system: self.system };
             let balance = balance.as_ref();
             let within = (span[0], length);
             let state = start::enter(&mut problem, balance, within, S::ORDER, &mut self.state)
