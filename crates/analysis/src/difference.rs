@@ -7,7 +7,8 @@ use crate::RunReport;
 pub struct Difference {
     /// Key of the measure.
     pub key: String,
-    /// `|a − b|` over the larger magnitude of both; 0 where both are zero.
+    /// `|a − b|` over the larger of both measures' sizes, to which their errors refer as well; 0 where
+    /// both are zero.
     pub relative: f64,
 }
 
@@ -17,8 +18,9 @@ pub fn differences(one: &RunReport, other: &RunReport) -> Vec<Difference> {
         .iter()
         .filter_map(|measure| {
             let a = measure.value?;
-            let b = other.measure(&measure.key)?.value?;
-            let size = a.abs().max(b.abs());
+            let opposite = other.measure(&measure.key)?;
+            let b = opposite.value?;
+            let size = measure.size.max(opposite.size);
             let relative = if size > 0.0 { (a - b).abs() / size } else { 0.0 };
             Some(Difference { key: measure.key.clone(), relative })
         })

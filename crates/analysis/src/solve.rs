@@ -6,7 +6,7 @@ use dashpot_dae::{Guard, Method, Observer, Run, Trajectory, methods};
 use dashpot_network::{Assembly, Network, parameters::ParameterKind};
 
 use crate::{
-    ContactReport, EventReport, Measure, MeasureReport, Reading, RunError, RunReport, Solution,
+    ContactReport, EventReport, MeasureReport, Reading, RunError, RunReport, Solution,
     SolveSettings, SolverReport, SystemReport,
     accuracy::excess,
     impact::Contact,
@@ -76,7 +76,7 @@ pub fn solve_assembly(
     report(assembly, effects, &task, &run, why, outcome)
 }
 
-/// The measures that [`solve_assembly`] would report, by key, without solving anything.
+/// The keys of the measures that [`solve_assembly`] would report, without solving anything.
 ///
 /// # Errors
 ///
@@ -84,12 +84,12 @@ pub fn solve_assembly(
 pub fn reported_measures(
     assembly: &Assembly,
     settings: &SolveSettings,
-) -> Result<Vec<(String, Arc<dyn Measure>)>, RunError> {
+) -> Result<Vec<String>, RunError> {
     settings.validate()?;
     let selected = select(assembly, &settings.measures)?;
     check_keys(settings, &selected)?;
     guards(assembly, settings)?;
-    Ok(selected.into_iter().map(|entry| (entry.key, entry.measure)).collect())
+    Ok(selected.into_iter().map(|entry| entry.key).collect())
 }
 
 fn choose(

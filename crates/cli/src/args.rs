@@ -16,6 +16,7 @@ use dashpot_scene::{templates, units::parse_quantity};
     name = "dashpot",
     version,
     arg_required_else_help = true,
+    max_term_width = 80,
     after_help = "Begin with:\n  \
         dashpot run                     the built-in reference impact, by two methods\n  \
         dashpot new --out pad.toml      a commented scene to start from\n  \
@@ -26,7 +27,7 @@ pub(crate) struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub(crate) command: Command,
-    /// Colours in the output; `auto` is for terminals and honours NO_COLOR.
+    /// Colours in the output; `auto` is for terminals and honours `NO_COLOR`.
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     pub(crate) color: When,
 }
@@ -79,7 +80,7 @@ pub(crate) struct ValueArguments {
     dashpot run pad.toml --set \"K=25 MN/m\"           with another stiffness\n  \
     dashpot run pad.toml --method exact,bdf          two methods side by side\n  \
     dashpot run pad.toml --accuracy 0.01%            more digits\n  \
-    dashpot run pad.toml --out results               CSV, JSON, SVG and one HTML page\n  \
+    dashpot run pad.toml --out results               CSV, JSON, SVG and HTML\n  \
     dashpot run pad.toml --json | jq .runs[0].measures\n\n\
     Units: --accuracy is relative (0.1%, 1e-3), --rtol a number; all values of --json are SI.")]
 pub(crate) struct RunArguments {
@@ -207,9 +208,8 @@ fn method_names() -> PossibleValuesParser {
 }
 
 fn template_names() -> PossibleValuesParser {
-    let value = |shipped: &dashpot_scene::Shipped| {
-        PossibleValue::new(shipped.name).help(shipped.summary)
-    };
+    let value =
+        |shipped: &dashpot_scene::Shipped| PossibleValue::new(shipped.name).help(shipped.summary);
     PossibleValuesParser::new(templates().iter().map(value))
 }
 

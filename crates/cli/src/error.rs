@@ -101,9 +101,18 @@ impl CliError {
                     .to_owned(),
             ),
             Self::Foreign { help, .. } => Some((*help).to_owned()),
-            Self::Run(RunError::Solve(SolveError::NotApplicable { .. })) => {
-                Some("`--method auto` chooses one that can".to_owned())
-            }
+            Self::Run(RunError::Solve(error)) => match error {
+                SolveError::NotApplicable { .. } => {
+                    Some("`--method auto` chooses one that can".to_owned())
+                }
+                SolveError::TooManySteps { .. }
+                | SolveError::StepTooSmall { .. }
+                | SolveError::NewtonFailed { .. } => Some(
+                    "`--method auto` chooses a method that suits; `--accuracy 1%` asks for less"
+                        .to_owned(),
+                ),
+                _ => None,
+            },
             _ => None,
         }
     }

@@ -35,10 +35,8 @@ pub(crate) fn read_scene(
     } else {
         (&*name, bytes_of(path))
     };
-    let bytes = bytes.map_err(|error| CliError::Unreadable {
-        name: file.to_owned(),
-        reason: reason(&error),
-    })?;
+    let bytes = bytes
+        .map_err(|error| CliError::Unreadable { name: file.to_owned(), reason: reason(&error) })?;
     read_bytes(&bytes, &options(file)).map_err(CliError::Scene)
 }
 

@@ -1,5 +1,54 @@
-//! cli
-/// Entry point.
-pub fn main() -> std::process::ExitCode {
-    std::process::ExitCode::SUCCESS
+//! The command `dashpot`: arguments, files and the terminal. It reads, calls the other crates, and
+//! shows what they return; it computes nothing itself.
+//!
+//! Results go to standard output, progress and warnings to standard error.
+
+mod answer;
+mod args;
+mod commands;
+mod error;
+mod folder;
+mod input;
+mod numbers;
+mod progress;
+mod registers;
+mod series;
+mod sketch;
+mod terminal;
+mod text;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use error::Status;
+use terminal::Terminal;
+
+/// Does what the command line says. The exit code is 0 when it is done (warnings included), 1 when
+/// a run failed, and 2 when the input is wrong.
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(message) => {
+            // Help is asked for, all else is wrong input; a reader that is gone is no matter.
+            let _ = message.print();
+            return if message.use_stderr() { Status::InputWrong } else { Status::Done }.into();
+        }
+    };
+    let terminal = Terminal::new(arguments.color);
+    let result = match arguments.command {
+        Command::Run(arguments) => commands::run(&arguments, terminal),
+        Command::Check(arguments) => commands::check(&arguments, terminal),
+        Command::Explain(arguments) => commands::explain(&arguments, terminal),
+        Command::List(arguments) => commands::list(&arguments, terminal),
+        Command::New(arguments) => commands::new(&arguments),
+        Command::Schema => commands::schema(),
+        Command::Completions { shell } => commands::completions(shell),
+    };
+    let status = result.unwrap_or_else(|error| {
+        terminal.error(&error);
+        error.status()
+    });
+    status.into()
 }

@@ -1,6 +1,9 @@
 //! Numbers as people read them: in handy units, with no more digits than their errors justify.
 
-use dashpot_scene::units::{format_short, parse_dimension, parse_quantity};
+use std::{ops::Range, time::Duration};
+
+use dashpot_network::parameters::Dimension;
+use dashpot_scene::units::{format_quantity, format_short, parse_dimension, parse_quantity};
 
 /// More significant digits are never shown.
 pub(crate) const MOST_DIGITS: usize = 7;
@@ -8,6 +11,11 @@ pub(crate) const MOST_DIGITS: usize = 7;
 const UNKNOWN: usize = 4;
 /// Fewer digits are never shown.
 const FEWEST: usize = 2;
+
+/// Units in which impacts are read where others would suit as well: SI unit, range of the value,
+/// symbol and factor.
+const USUAL: [(&str, Range<f64>, &str, f64); 3] =
+    [("s", 1e-5..1.0, "ms", 1e-3), ("m", 1e-5..1.0, "mm", 1e-3), ("m/s", 1e-2..1e3, "m/s", 1.0)];
 
 /// A unit in which a quantity is shown.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +28,11 @@ pub(crate) struct Unit {
 impl Unit {
     /// The SI unit `si` with the prefix that suits `value`, which is in SI units.
     pub(crate) fn suiting(value: f64, si: &str) -> Self {
+        if let Some((_, _, symbol, factor)) =
+            USUAL.iter().find(|usual| usual.0 == si && usual.1.contains(&value.abs()))
+        {
+            return Self::new(symbol, *factor);
+        }
         let Ok(dimension) = parse_dimension(si) else { return Self::plain(si) };
         let text = format_short(value, dimension, MOST_DIGITS);
         let Some((_, symbol)) = text.split_once(' ') else { return Self::plain("") };
@@ -55,6 +68,12 @@ impl Unit {
         }
     }
 
+    /// How many decimals an absolute error justifies, at most `most`.
+    pub(crate) fn decimals(&self, error: f64, most: usize) -> usize {
+        let units = error / self.factor;
+        (0..most).find(|&decimals| units > 0.1_f64.powf(decimals as f64 + 1.0)).unwrap_or(most)
+    }
+
     /// Number and symbol.
     pub(crate) fn text(&self, value: f64, digits: usize) -> String {
         let number = self.number(value, digits);
@@ -69,25 +88,40 @@ pub(crate) fn quantity(value: f64, si: &str, digits: usize) -> String {
 
 /// A constant of a scene: without zeros at its end.
 pub(crate) fn constant(value: f64, si: &str) -> String {
-    match parse_dimension(si) {
-        Ok(dimension) => pretty(&format_short(value, dimension, MOST_DIGITS)),
-        Err(_) => format!("{value} {si}"),
-    }
+    rounded(value, si, MOST_DIGITS)
 }
 
-/// How many significant digits of `value` its absolute error justifies, at most `most`.
+/// The same to so many significant digits.
+pub(crate) fn rounded(value: f64, si: &str, digits: usize) -> String {
+    let unit = Unit::suiting(value, si);
+    let number = unit.number(value, digits);
+    let (mantissa, power) = number.find('e').map_or((&*number, ""), |at| number.split_at(at));
+    let short = match mantissa.split_once('.') {
+        Some(_) => mantissa.trim_end_matches('0').trim_end_matches('.'),
+        None => mantissa,
+    };
+    format!("{short}{power} {}", unit.symbol).trim_end().to_owned()
+}
+
+/// A time that a computer took.
+pub(crate) fn duration(time: Duration) -> String {
+    format_quantity(time.as_secs_f64(), Dimension::TIME, 2)
+}
+
+/// How many significant digits of `value` its absolute error justifies, at most `most`: the unit of
+/// the last digit is not smaller than the error.
 pub(crate) fn digits(value: f64, error: Option<f64>, most: usize) -> usize {
     let Some(error) = error else { return UNKNOWN.min(most) };
-    let ratio = (value / error).abs();
-    if ratio.is_nan() || ratio <= 1.0 {
+    let justified = value.abs().log10().floor() + 1.0 - error.log10();
+    if justified.is_nan() {
         return if error == 0.0 { most } else { FEWEST };
     }
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a logarithm between 0 and 700; infinity saturates"
+        reason = "a difference of logarithms; negative ones and infinities saturate"
     )]
-    let justified = ratio.log10() as usize;
+    let justified = justified as usize;
     justified.clamp(FEWEST, most)
 }
 
@@ -111,9 +145,8 @@ pub(crate) fn share(relative: f64) -> String {
 }
 
 fn shown_percent(percent: f64, digits: usize) -> String {
-    let small = percent != 0.0 && percent.abs() < 0.9e-4;
+    let small = percent != 0.0 && percent.abs() < 0.995e-3;
     if small {
-        // Powers of ten need no leading digits beyond one.
         return format!("{percent:.0e} %");
     }
     format!("{} %", significant(percent, digits))
@@ -151,6 +184,8 @@ mod tests {
     fn numbers_have_the_digits_that_their_errors_justify() {
         assert_eq!(digits(38_359.0, Some(3.8), 7), 4);
         assert_eq!(digits(38_359.0, Some(1e-7), 7), 7);
+        assert_eq!(digits(104.8, Some(0.017), 7), 4);
+        assert_eq!(digits(0.0, Some(1.0), 7), 2);
         assert_eq!(digits(1.0, Some(5.0), 7), 2);
         assert_eq!(digits(1.0, None, 7), 4);
         assert_eq!(digits(0.0, Some(0.0), 7), 7);
@@ -165,6 +200,10 @@ mod tests {
         assert_eq!(quantity(0.25, "1", 3), "0.250");
         assert_eq!(Unit::plain("s").text(5019.61, 3), "5020 s");
         assert_eq!(constant(2e7, "N/m"), "20 MN/m");
+        assert_eq!(constant(2e-4, "m"), "0.2 mm");
+        assert_eq!(constant(0.0, "N"), "0 N");
+        assert_eq!(constant(1e300, "N"), "1e291 GN");
+        assert_eq!(rounded(82.549_88, "J", 4), "82.55 J");
     }
 
     #[test]

@@ -6,8 +6,8 @@ use std::{
 };
 
 use dashpot_dae::{Observer, Progress};
-use dashpot_scene::units::format_quantity;
 use dashpot_network::parameters::Dimension;
+use dashpot_scene::units::format_quantity;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Shorter runs have no bar.
@@ -20,14 +20,14 @@ pub(crate) struct Bar {
     method: String,
     end: f64,
     started: Instant,
-    bar: Option<ProgressBar>,
+    shown: Option<ProgressBar>,
     wanted: bool,
 }
 
 impl Bar {
     /// A bar for a run by `method` until `end` \[s\]; none if nobody sees it.
     pub(crate) fn new(method: &str, end: f64, wanted: bool) -> Self {
-        Self { method: method.to_owned(), end, started: Instant::now(), bar: None, wanted }
+        Self { method: method.to_owned(), end, started: Instant::now(), shown: None, wanted }
     }
 
     fn make(&self) -> ProgressBar {
@@ -42,11 +42,11 @@ impl Bar {
 
 impl Observer for Bar {
     fn progress(&mut self, progress: Progress) -> ControlFlow<()> {
-        if self.wanted && (self.bar.is_some() || self.started.elapsed() > PATIENCE) {
-            if self.bar.is_none() {
-                self.bar = Some(self.make());
+        if self.wanted && (self.shown.is_some() || self.started.elapsed() > PATIENCE) {
+            if self.shown.is_none() {
+                self.shown = Some(self.make());
             }
-            if let Some(bar) = &self.bar {
+            if let Some(bar) = &self.shown {
                 let share = (progress.time / self.end).clamp(0.0, 1.0);
                 #[expect(
                     clippy::cast_possible_truncation,
@@ -64,7 +64,7 @@ impl Observer for Bar {
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        if let Some(bar) = &self.bar {
+        if let Some(bar) = &self.shown {
             bar.finish_and_clear();
         }
     }

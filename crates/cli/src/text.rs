@@ -1,6 +1,7 @@
 //! Tables and paragraphs as text.
 
 use dashpot_plot::Table;
+use std::fmt::Write as _;
 
 /// Blanks between columns.
 const GAP: usize = 2;
@@ -13,16 +14,18 @@ pub(crate) fn table(table: &Table) -> (String, Vec<String>) {
         let rows = table.rows.iter().filter_map(move |row| row.get(column));
         rows.chain(table.header.get(column))
     };
-    let widths: Vec<usize> =
-        (0..count).map(|column| cells(column).map(|cell| columns(cell)).max().unwrap_or(0)).collect();
+    let widths: Vec<usize> = (0..count)
+        .map(|column| cells(column).map(|cell| columns(cell)).max().unwrap_or(0))
+        .collect();
     let right: Vec<bool> = (0..count).map(|column| is_numeric(table, column)).collect();
     let line = |row: &Vec<String>| {
         let mut text = String::new();
         for (column, cell) in row.iter().enumerate() {
             let blanks = " ".repeat(widths[column] - columns(cell));
             let gap = " ".repeat(if column == 0 { 0 } else { GAP });
-            let (left, after) = if right[column] { (blanks.as_str(), "") } else { ("", blanks.as_str()) };
-            text += &format!("{gap}{left}{cell}{after}");
+            let (left, after) =
+                if right[column] { (blanks.as_str(), "") } else { ("", blanks.as_str()) };
+            let _ = write!(text, "{gap}{left}{cell}{after}");
         }
         text.trim_end().to_owned()
     };
@@ -41,7 +44,7 @@ pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
     for word in text.split_whitespace() {
         let last = lines.len() - 1;
         if lines[last].is_empty() {
-            lines[last] = word.to_owned();
+            lines[last].push_str(word);
         } else if columns(&lines[last]) + 1 + columns(word) <= width {
             lines[last] += " ";
             lines[last] += word;

@@ -8,9 +8,9 @@ use crate::numbers::{Unit, quantity, share};
 /// Elements that take up less than this part of the energy share one line.
 const SMALL: f64 = 1e-4;
 /// More elements than this share one line.
-const MOST: usize = 12;
-/// Decimals of an energy, in a unit that leaves it three digits or fewer before the point.
-const DECIMALS: usize = 2;
+const MOST: usize = 6;
+/// More decimals are never shown.
+const MOST_DECIMALS: usize = 2;
 
 /// Where the energy came from and where it is, at the end of the impact and of the run.
 pub(crate) fn energy_table(run: &RunReport) -> Table {
@@ -21,13 +21,15 @@ pub(crate) fn energy_table(run: &RunReport) -> Table {
     ledgers.push(("end of run", &run.energy));
     let turned_over = run.energy.turned_over;
     let unit = Unit::suiting(turned_over, "J");
-    let heading = |(when, ledger): &(&str, &Ledger)| {
-        format!("{when}, {}", quantity(ledger.time, "s", 3))
-    };
+    let of_energy = run.measures.iter().filter(|measure| measure.unit == "J");
+    let error = of_energy.filter_map(|measure| measure.error).reduce(f64::max);
+    let decimals = unit.decimals(error.unwrap_or(0.0), MOST_DECIMALS);
+    let heading =
+        |(when, ledger): &(&str, &Ledger)| format!("{when}, {}", quantity(ledger.time, "s", 3));
     let mut header = vec![format!("energy in {}", unit.symbol)];
     header.extend(ledgers.iter().map(heading));
     let row = |label: &str, amount: &dyn Fn(&Ledger) -> f64| {
-        let amounts = ledgers.iter().map(|(_, ledger)| unit.decimal(amount(ledger), DECIMALS));
+        let amounts = ledgers.iter().map(|(_, ledger)| unit.decimal(amount(ledger), decimals));
         [label.to_owned()].into_iter().chain(amounts).collect::<Vec<_>>()
     };
     let mut rows = vec![row("there at the start", &|ledger| ledger.start)];
@@ -41,7 +43,9 @@ pub(crate) fn energy_table(run: &RunReport) -> Table {
     let dissipated = |ledger: usize, element: usize| sums[ledger][element].2;
     let sizes: Vec<f64> = (0..run.assembly.connections.len())
         .map(|element| {
-            (0..sums.len()).map(|at| stored(at, element).max(dissipated(at, element))).fold(0.0, f64::max)
+            (0..sums.len())
+                .map(|at| stored(at, element).max(dissipated(at, element)))
+                .fold(0.0, f64::max)
         })
         .collect();
     let mut order: Vec<usize> = (0..sizes.len()).collect();
@@ -52,7 +56,7 @@ pub(crate) fn energy_table(run: &RunReport) -> Table {
     let mut line = |label: String, amount: &dyn Fn(usize) -> f64| {
         let amounts: Vec<f64> = (0..ledgers.len()).map(amount).collect();
         if amounts.iter().any(|amount| amount.abs() > SMALL * turned_over) {
-            let texts = amounts.iter().map(|&amount| unit.decimal(amount, DECIMALS));
+            let texts = amounts.iter().map(|&amount| unit.decimal(amount, decimals));
             rows.push([label].into_iter().chain(texts).collect());
         }
     };

@@ -9,6 +9,9 @@ use crate::{
     text,
 };
 
+/// Decimals of what cannot be told from zero.
+const ZERO_DECIMALS: usize = 3;
+
 /// The columns besides names and values.
 #[derive(Debug, Clone, Copy)]
 struct Columns {
@@ -20,7 +23,8 @@ struct Columns {
 /// matters less is left out to keep it.
 pub(crate) fn measures_table(answer: &Answer, limit: Option<usize>) -> Table {
     let choices = [(true, true), (true, false), (false, false)];
-    let mut tables = choices.map(|(errors, times)| build(answer, Columns { errors, times })).into_iter();
+    let mut tables =
+        choices.map(|(errors, times)| build(answer, Columns { errors, times })).into_iter();
     let full = tables.next().unwrap_or_default();
     let Some(limit) = limit.filter(|&limit| text::width(&full) > limit) else { return full };
     let mut last = full;
@@ -90,8 +94,12 @@ fn build(answer: &Answer, columns: Columns) -> Table {
 
 /// The units in which a measure is shown, one below the other.
 fn units(readings: &[Option<&MeasureReport>], first: &MeasureReport) -> Vec<Unit> {
-    let largest = readings.iter().flatten().filter_map(|reading| reading.value);
-    let largest = largest.map(f64::abs).fold(0.0, f64::max);
+    let values = readings.iter().flatten().filter_map(|reading| Some((reading.value?, *reading)));
+    // What cannot be told from zero is shown in the unit of its error.
+    let size = |(value, reading): (f64, &MeasureReport)| {
+        value.abs().max(reading.error.filter(|error| error.is_finite()).unwrap_or(0.0))
+    };
+    let largest = values.map(size).fold(0.0, f64::max);
     match first.unit {
         "m/s^2" => vec![Unit::new("g", STANDARD_GRAVITY), Unit::plain(first.unit)],
         "s" if is_index(first.kind) => vec![Unit::plain("s")],
@@ -100,9 +108,13 @@ fn units(readings: &[Option<&MeasureReport>], first: &MeasureReport) -> Vec<Unit
 }
 
 fn value(measure: &MeasureReport, unit: &Unit) -> String {
-    measure.value.map_or("–".to_owned(), |value| {
-        unit.number(value, numbers::digits(value, measure.error, MOST_DIGITS))
-    })
+    let Some(value) = measure.value else { return "–".to_owned() };
+    match measure.error {
+        Some(error) if error >= value.abs() => {
+            unit.decimal(value, unit.decimals(error, ZERO_DECIMALS))
+        }
+        error => unit.number(value, numbers::digits(value, error, MOST_DIGITS)),
+    }
 }
 
 fn error(measure: &MeasureReport) -> String {

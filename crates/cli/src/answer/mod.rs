@@ -8,6 +8,8 @@ mod settings;
 mod solving;
 mod verdict;
 
+use std::time::Duration;
+
 use dashpot_analysis::{Difference, RunReport, differences};
 use dashpot_scene::Scene;
 
@@ -15,10 +17,10 @@ use crate::error::CliError;
 
 pub(crate) use energy::energy_table;
 pub(crate) use json::document;
-pub(crate) use measures::measures_table;
+pub(crate) use measures::{measures_table, notes};
 pub(crate) use page::page;
 pub(crate) use solving::{reasons, solving_table};
-pub(crate) use verdict::{Line, verdict};
+pub(crate) use verdict::verdict;
 
 /// A scene and its runs.
 pub(crate) struct Answer {
@@ -28,6 +30,8 @@ pub(crate) struct Answer {
     pub(crate) asked: Vec<dashpot_analysis::SolveSettings>,
     /// The runs that went well, in the order of the methods; at least one.
     pub(crate) runs: Vec<RunReport>,
+    /// What each of them took in all: solutions, measures and errors.
+    pub(crate) elapsed: Vec<Duration>,
     /// The methods that failed, and why.
     pub(crate) failed: Vec<(String, CliError)>,
 }

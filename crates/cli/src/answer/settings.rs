@@ -1,6 +1,8 @@
 //! The settings with which a scene was solved, as they were resolved.
 
-use dashpot_analysis::SolveSettings;
+use dashpot_analysis::Stop;
+use dashpot_dae::Direction;
+use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
 
 use super::Answer;
@@ -15,16 +17,28 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
         ("duration".to_owned(), constant(asked.duration, "s")),
         ("samples".to_owned(), run.samples.to_string()),
         ("methods".to_owned(), methods.join(", ")),
-        ("rtol".to_owned(), asked.rtol.map_or("found by accuracy".to_owned(), |own| format!("{own:e}"))),
-        ("errors".to_owned(), if asked.estimate { "estimated" } else { "not estimated" }.to_owned()),
+        (
+            "rtol".to_owned(),
+            asked.rtol.map_or("found by accuracy".to_owned(), |own| format!("{own:e}")),
+        ),
+        (
+            "errors".to_owned(),
+            if asked.estimate { "estimated" } else { "not estimated" }.to_owned(),
+        ),
         ("accuracy".to_owned(), share(asked.accuracy.default)),
     ];
     rows.extend(
-        asked.accuracy.by_measure.iter().map(|(key, own)| (format!("accuracy of {key}"), share(*own))),
+        asked
+            .accuracy
+            .by_measure
+            .iter()
+            .map(|(key, own)| (format!("accuracy of {key}"), share(*own))),
     );
-    rows.extend(asked.stops.iter().map(|stop| (format!("stop at {}", stop.output), stop_text(stop))));
+    rows.extend(
+        asked.stops.iter().map(|stop| (format!("stop at {}", stop.output), stop_text(stop))),
+    );
     rows.extend(answer.scene.values.iter().map(|value| {
-        let unit = value.dimension.and_then(|own| own.named()).map_or("1", |(_, unit)| unit);
+        let unit = value.dimension.and_then(Dimension::named).map_or("1", |(_, unit)| unit);
         (format!("value {}", value.name), constant(value.value, unit))
     }));
     Table {
@@ -34,21 +48,15 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
     }
 }
 
-fn stop_text(stop: &dashpot_analysis::Stop) -> String {
-    format!("{} {}", super::settings::direction(stop), stop.level)
+fn stop_text(stop: &Stop) -> String {
+    format!("{} {}", direction(stop), stop.level)
 }
 
 /// Which crossings of its level a condition counts.
-pub(super) fn direction(stop: &dashpot_analysis::Stop) -> &'static str {
-    use dashpot_dae::Direction;
+pub(super) fn direction(stop: &Stop) -> &'static str {
     match stop.direction {
         Direction::Rising => "rises above",
         Direction::Falling => "falls below",
         Direction::Either => "crosses",
     }
-}
-
-/// The settings of a method that is not the scene's.
-pub(super) fn first(answer: &Answer) -> Option<&SolveSettings> {
-    answer.asked.first()
 }

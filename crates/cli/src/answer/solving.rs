@@ -1,25 +1,25 @@
 //! How the runs were solved.
 
+use std::time::Duration;
+
 use dashpot_analysis::RunReport;
 use dashpot_plot::Table;
 
 use super::Answer;
-use crate::numbers::quantity;
+use crate::numbers::duration;
 
 /// Work and time of each run.
 pub(crate) fn solving_table(answer: &Answer) -> Table {
-    let header = [
-        "method", "rtol", "steps", "rejected", "Jacobians", "factorised", "time", "for the errors",
-    ];
-    let row = |run: &RunReport| {
+    let header =
+        ["method", "rtol", "steps", "redone", "Jacobians", "LU", "time", "for errors", "in all"];
+    let row = |(run, elapsed): (&RunReport, &Duration)| {
         let (solver, work) = (&run.solver, &run.solver.statistics);
         let stepwise = solver.rtol.is_some();
         let count = |count: usize| if stepwise { count.to_string() } else { "–".to_owned() };
         let further = match solver.solves_for_error {
             0 => "–".to_owned(),
             solves => {
-                let time = quantity(solver.wall_for_error.as_secs_f64(), "s", 2);
-                format!("{solves} solves, {time}")
+                format!("{solves} in {}", duration(solver.wall_for_error))
             }
         };
         vec![
@@ -29,31 +29,40 @@ pub(crate) fn solving_table(answer: &Answer) -> Table {
             count(work.rejected),
             count(work.jacobian_calls),
             count(work.factorizations),
-            quantity(work.wall.as_secs_f64(), "s", 2),
+            duration(work.wall),
             further,
+            duration(*elapsed),
         ]
     };
+    let rows: Vec<Vec<String>> = answer.runs.iter().zip(&answer.elapsed).map(row).collect();
+    let says_something = |column: usize| rows.iter().any(|row| row[column] != "–");
+    let shown: Vec<usize> = (0..header.len()).filter(|&column| says_something(column)).collect();
     Table {
         caption: "Solved".to_owned(),
-        header: header.map(str::to_owned).to_vec(),
-        rows: answer.runs.iter().map(row).collect(),
+        header: shown.iter().map(|&column| header[column].to_owned()).collect(),
+        rows: rows
+            .iter()
+            .map(|row| shown.iter().map(|&column| row[column].clone()).collect())
+            .collect(),
     }
 }
 
-/// Why each method was used, and what it solved.
+/// What was solved, and why each method was used.
 pub(crate) fn reasons(answer: &Answer) -> Vec<(String, String)> {
-    let reason = |run: &RunReport| {
-        let system = &run.system;
-        let algebraic = match system.algebraic {
-            0 => String::new(),
-            count => format!(" and {count} algebraic unknowns"),
-        };
-        let effects = match system.effects.as_slice() {
-            [] => "no effects".to_owned(),
-            effects => format!("with {}", effects.join(", ")),
-        };
-        let size = format!("{} states{algebraic}, {effects}", system.states);
-        (run.solver.method.to_owned(), format!("{} ({size})", run.solver.why))
+    let system = answer.runs.first().map(|run| ("system".to_owned(), size(run)));
+    let why = answer.runs.iter().map(|run| (run.solver.method.to_owned(), run.solver.why.clone()));
+    system.into_iter().chain(why).collect()
+}
+
+fn size(run: &RunReport) -> String {
+    let system = &run.system;
+    let algebraic = match system.algebraic {
+        0 => String::new(),
+        count => format!(", {count} algebraic unknowns"),
     };
-    answer.runs.iter().map(reason).collect()
+    let effects = match system.effects.as_slice() {
+        [] => "every effect is off".to_owned(),
+        effects => format!("with {}", effects.join(", ")),
+    };
+    format!("{} states{algebraic}, {effects}", system.states)
 }

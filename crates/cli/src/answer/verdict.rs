@@ -9,10 +9,12 @@ use dashpot_analysis::{
 };
 
 use super::Answer;
-use crate::numbers::{self, Unit, bound, constant, quantity, share};
+use crate::numbers::{self, Unit, bound, constant, quantity, rounded, share};
 
 /// Digits of a number that is read in passing.
 const DIGITS: usize = 4;
+/// Accuracies beyond this are not to be had with double precision.
+const FINEST: f64 = 1e-10;
 /// Digits of a time.
 const TIME_DIGITS: usize = 3;
 
@@ -36,11 +38,9 @@ pub(crate) fn verdict(answer: &Answer) -> Vec<Line> {
         ("contact", contact(run)),
         ("injury", injury(run)),
         ("how wrong", how_wrong(answer, run)),
+        ("next digit", next_digit(answer, run)),
     ];
-    lines
-        .into_iter()
-        .filter_map(|(label, text)| Some(Line { label, text: text? }))
-        .collect()
+    lines.into_iter().filter_map(|(label, text)| Some(Line { label, text: text? })).collect()
 }
 
 /// The measure of this kind with the largest value.
@@ -57,7 +57,9 @@ fn shown(measure: &MeasureReport, value: f64) -> String {
 /// Where and when, and what else is to be said.
 fn whereabouts(measure: &MeasureReport) -> String {
     let time = measure.time.map(|time| format!(" at {}", quantity(time, "s", TIME_DIGITS)));
-    let note = measure.note.as_ref().map(|note| format!(" ({note})"));
+    // Which way it points, as in `in tension`; other notes stand below the table.
+    let note = measure.note.as_ref().filter(|note| note.starts_with("in "));
+    let note = note.map(|note| format!(" ({note})"));
     format!(" in {}{}{}", measure.target, time.unwrap_or_default(), note.unwrap_or_default())
 }
 
@@ -96,7 +98,7 @@ fn deepest(run: &RunReport) -> Option<String> {
     let margin = if left >= 0.0 {
         format!("{rest} of {limit} left")
     } else {
-        format!("{rest} MORE than its thickness of {limit}")
+        format!("{rest} MORE than its {limit}")
     };
     Some(format!("{}{}, {margin}", shown(measure, measure.value?), whereabouts(measure)))
 }
@@ -107,7 +109,7 @@ fn energy(run: &RunReport) -> Option<String> {
     let amount = shown(measure, value);
     let name = &measure.target;
     if impact > 0.0 {
-        let whole = constant(impact, "J");
+        let whole = rounded(impact, "J", DIGITS);
         Some(format!("{name} takes up {amount} of {whole} ({})", share(value / impact)))
     } else {
         Some(format!("{name} takes up {amount}"))
@@ -115,8 +117,8 @@ fn energy(run: &RunReport) -> Option<String> {
 }
 
 fn contact(run: &RunReport) -> Option<String> {
-    if run.contacts.is_empty() {
-        return None;
+    if !run.assembly.nodes.iter().any(is_impactor) {
+        return Some("no impactor: the measures are those of the whole run".to_owned());
     }
     if let Some(contact) =
         run.contacts.iter().find(|contact| contact.impact.contact == Contact::Lasting)
@@ -166,25 +168,42 @@ fn injury(run: &RunReport) -> Option<String> {
 }
 
 fn how_wrong(answer: &Answer, run: &RunReport) -> Option<String> {
-    let apart = answer.differences().iter().map(|entry| entry.relative).reduce(f64::max);
-    let names: Vec<&str> = answer.runs.iter().map(|run| run.solver.method).collect();
-    let apart = apart.map(|apart| {
-        format!("; {} agree to {}", names.join(" and ").replace(" and ", ", "), bound(apart))
-    });
-    let apart = apart.map(|text| match names.as_slice() {
-        [one, other] => text.replace(&format!("{one}, {other}"), &format!("{one} and {other}")),
-        _ => text,
-    });
+    let method = run.solver.method;
     let own = match run.worst_relative_error() {
         None if run.measures.is_empty() => return None,
+        None if answer.asked.iter().any(|asked| asked.estimate) => {
+            "no figure has a size to be wrong by".to_owned()
+        }
         None => "errors were not estimated".to_owned(),
         Some(worst) if !worst.is_finite() => {
             "some figures come and go with the tolerance; see the table".to_owned()
         }
+        Some(worst) if run.solver.rtol.is_none() => {
+            format!("every figure is good to {}: a bound of `{method}`", bound(worst))
+        }
         Some(worst) => {
-            let kind = if run.solver.rtol.is_none() { "bound" } else { "estimate" };
-            format!("every figure is good to {} ({}, {kind})", bound(worst), run.solver.method)
+            let solves = run.solver.solves_for_error + 1;
+            format!("every figure is good to {}, by {solves} solutions of `{method}`", bound(worst))
         }
     };
+    let apart = answer.differences().iter().map(|entry| entry.relative).reduce(f64::max);
+    let apart = apart.map(|apart| match answer.runs.as_slice() {
+        [one, other] => {
+            let names = format!("`{}` and `{}`", one.solver.method, other.solver.method);
+            format!("; {names} are {} apart", bound(apart))
+        }
+        _ => format!("; all methods are within {}", bound(apart)),
+    });
     Some(own + &apart.unwrap_or_default())
+}
+
+/// What to ask for to get a digit more, where that is not to be had for nothing.
+fn next_digit(answer: &Answer, run: &RunReport) -> Option<String> {
+    let worst = run.worst_relative_error().filter(|worst| worst.is_finite() && *worst > 0.0)?;
+    // The exact method has no tolerance, and no digit to gain.
+    run.solver.rtol?;
+    let wished = answer.asked.first().map_or(worst, |asked| asked.accuracy.default);
+    let next = 0.1 * wished.min(worst);
+    let text = bound(next).replace(' ', "");
+    (next > FINEST).then(|| format!("`--accuracy {text}`, one or two further solutions"))
 }

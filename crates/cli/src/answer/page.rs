@@ -1,0 +1,36 @@
+//! The answer as one HTML page.
+
+use dashpot_plot::{Report, ReportFigure, Table};
+
+use super::{
+    Answer, energy_table, measures::notes, measures_table, reasons, settings::settings_table,
+    solving_table, verdict,
+};
+
+/// The page with these drawings.
+pub(crate) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
+    let mut tables = vec![measures_table(answer, None)];
+    let notes: Vec<Vec<String>> = notes(answer).into_iter().map(|note| vec![note]).collect();
+    if !notes.is_empty() {
+        tables.push(Table { caption: "Remarks".to_owned(), header: Vec::new(), rows: notes });
+    }
+    tables.extend(answer.best().map(energy_table));
+    let why = reasons(answer).into_iter().map(|(method, why)| vec![method, why]).collect();
+    let failed = answer.failed.iter().map(|(method, error)| format!("{method} failed: {error}"));
+    Report {
+        title: answer.title().to_owned(),
+        warnings: failed.chain(answer.warnings()).collect(),
+        verdict: verdict(answer)
+            .into_iter()
+            .map(|line| format!("{}: {}", line.label, line.text))
+            .collect(),
+        tables,
+        figures,
+        details: vec![
+            solving_table(answer),
+            Table { caption: "Why these methods".to_owned(), header: Vec::new(), rows: why },
+            settings_table(answer),
+        ],
+        scene_text: answer.scene.text.to_string(),
+    }
+}

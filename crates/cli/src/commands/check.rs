@@ -1,0 +1,71 @@
+//! `dashpot check`.
+
+use std::path::Path;
+
+use dashpot_analysis::{RunError, reported_measures};
+use dashpot_dae::{Run, methods};
+use dashpot_scene::Scene;
+
+use crate::{
+    args::CheckArguments,
+    error::{CliError, Status},
+    input::read_scene,
+    terminal::{Terminal, print},
+};
+
+/// Says of each scene whether it is valid.
+pub(crate) fn check(arguments: &CheckArguments, terminal: Terminal) -> Result<Status, CliError> {
+    let several = arguments.scenes.len() > 1;
+    let mut status = Status::Done;
+    for path in &arguments.scenes {
+        let prefix = if several { format!("{}: ", path.display()) } else { String::new() };
+        match checked(path, &arguments.values.set, terminal) {
+            Ok(text) => print(&format!("{prefix}ok: {text}\n"))?,
+            Err(error) => {
+                terminal.error(&error);
+                if several {
+                    print(&format!("{prefix}not valid\n"))?;
+                }
+                status = status.max(error.status());
+            }
+        }
+    }
+    Ok(status)
+}
+
+fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<String, CliError> {
+    let checked = read_scene(Some(path), set)?;
+    terminal.diagnose(&checked.warnings);
+    let scene = checked.value;
+    can_run(&scene)?;
+    let system = &scene.assembly.system;
+    let nodes = scene.network.nodes().count() - 1;
+    let structure = if system.linear().is_some() {
+        "linear".to_owned()
+    } else {
+        format!("linear with {} algebraic", system.algebraic())
+    };
+    Ok(format!(
+        "{}, {}, {}, {structure}",
+        counted(nodes, "node"),
+        counted(scene.network.connections().len(), "element"),
+        counted(system.len(), "unknown"),
+    ))
+}
+
+/// Whether what the scene asks of a run can be done by all of its methods.
+fn can_run(scene: &Scene) -> Result<(), CliError> {
+    for name in &scene.run.methods {
+        let settings = scene.settings(name);
+        reported_measures(&scene.assembly, &settings)?;
+        if let Some(method) = methods::by_name(name) {
+            let run = Run::to(settings.duration);
+            method.applies(&scene.assembly.system, &run).map_err(RunError::from)?;
+        }
+    }
+    Ok(())
+}
+
+fn counted(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
+}

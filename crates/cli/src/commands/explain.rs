@@ -1,0 +1,180 @@
+//! `dashpot explain`.
+
+use std::fmt::Write as _;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use dashpot_analysis::reported_measures;
+use dashpot_dae::{Run, UnknownKind, methods::Auto};
+use dashpot_network::{Node, Start, Support, elements::Law};
+use dashpot_plot::Table;
+use dashpot_scene::Scene;
+
+use crate::{
+    answer::title,
+    args::{ExplainArguments, Family},
+    error::{CliError, Status},
+    folder::unwritable,
+    input::read_scene,
+    numbers::{constant, quantity},
+    registers::{entries, written},
+    sketch::{element, sketch, waveform},
+    terminal::{Terminal, Tone, WIDTH, print},
+    text::{indented, labelled, table, wrapped},
+};
+
+/// More rows of one table are only counted.
+const MOST: usize = 20;
+
+/// Shows what was built from a scene.
+pub(crate) fn explain(
+    arguments: &ExplainArguments,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
+    terminal.diagnose(&checked.warnings);
+    let scene = checked.value;
+    let drawing = sketch(&scene.network, scene.run.duration);
+    let mut text = String::new();
+    for line in wrapped(title(&scene), WIDTH) {
+        let _ = writeln!(text, "{}", terminal.toned(Tone::Heading, &line));
+    }
+    let _ = write!(text, "\n{}", indented(&drawing.text(WIDTH - 4)));
+    let tables = [nodes(&scene), elements(&scene), parts(&scene), loads(&scene), unknowns(&scene)];
+    for content in tables.iter().filter(|content| !content.rows.is_empty()) {
+        text += &section(content, terminal);
+    }
+    text += &section(&effects(&scene), terminal);
+    let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, "Solving"));
+    for (label, words) in solving(&scene)? {
+        text += &labelled(label, 10, &words, WIDTH);
+    }
+    if let Some(path) = &arguments.out {
+        let file = svg_path(path);
+        fs::write(&file, drawing.svg()).map_err(unwritable(&file))?;
+        let _ = writeln!(text, "\nwrote {}", file.display());
+    }
+    print(&text)?;
+    Ok(Status::Done)
+}
+
+/// The file for the drawing: a folder gets `network.svg`.
+fn svg_path(path: &Path) -> PathBuf {
+    if path.is_dir() { path.join("network.svg") } else { path.to_owned() }
+}
+
+fn rows(caption: &str, rows: Vec<Vec<String>>) -> Table {
+    Table { caption: caption.to_owned(), header: Vec::new(), rows }
+}
+
+fn nodes(scene: &Scene) -> Table {
+    let described = |node: &Node| {
+        let kind = match &node.support {
+            Support::Fixed => "fixed".to_owned(),
+            Support::Prescribed(motion) => {
+                format!("motion given, {}", waveform(motion, "m", scene.run.duration))
+            }
+            Support::Free if node.mass > 0.0 => constant(node.mass, "kg"),
+            Support::Free => "massless".to_owned(),
+        };
+        let start = match node.start {
+            Start::Rest => String::new(),
+            Start::Velocity(own) => format!("impactor, starts at {}", constant(own, "m/s")),
+            Start::Drop(own) => format!("impactor, dropped from {}", constant(own, "m")),
+        };
+        vec![node.name.clone(), kind, start]
+    };
+    let network = &scene.network;
+    let is_used = network.connections().iter().any(|own| own.between.contains(&network.ground()));
+    let ground = is_used.then(|| described(network.node(network.ground())));
+    let others = network.nodes().filter(|(id, _)| *id != network.ground());
+    rows("Nodes", others.map(|(_, node)| described(node)).chain(ground).collect())
+}
+
+fn elements(scene: &Scene) -> Table {
+    let described = scene.network.connections().iter().map(|connection| {
+        let [from, to] = connection.between.map(|id| scene.network.node(id).name.as_str());
+        let thickness = connection.thickness.map(|own| format!("{} thick", constant(own, "m")));
+        vec![connection.name.clone(), format!("{from} → {to}"), thickness.unwrap_or_default()]
+    });
+    rows("Elements", described.collect())
+}
+
+fn parts(scene: &Scene) -> Table {
+    let described = scene.assembly.primitives.iter().map(|primitive| {
+        let own = match primitive.element.law() {
+            Law::Rigid => "rigid".to_owned(),
+            _ => element(primitive.element.as_ref()),
+        };
+        vec![own, primitive.name.clone()]
+    });
+    rows("Parts that take part", described.collect())
+}
+
+fn loads(scene: &Scene) -> Table {
+    let described = scene.network.loads().iter().map(|load| {
+        let node = &scene.network.node(load.node).name;
+        vec![
+            load.name.clone(),
+            format!("on {node}"),
+            waveform(&load.force, "N", scene.run.duration),
+        ]
+    });
+    rows("Loads", described.collect())
+}
+
+fn unknowns(scene: &Scene) -> Table {
+    let system = &scene.assembly.system;
+    let described = system.unknowns.iter().map(|unknown| {
+        let kind = match unknown.kind {
+            UnknownKind::Differential => "state",
+            UnknownKind::Algebraic => "algebraic",
+        };
+        let scale = quantity(unknown.scale, unknown.unit, 4);
+        vec![kind.to_owned(), scale, unknown.name.clone()]
+    });
+    let scale = quantity(system.time_scale, "s", 4);
+    rows(&format!("Unknowns with their units (that of time is {scale})"), described.collect())
+}
+
+fn effects(scene: &Scene) -> Table {
+    let on = |name: &str| scene.network.effects().iter().find(|effect| effect.kind() == name);
+    let described = entries(Family::Effects).into_iter().map(|entry| match on(&entry.name) {
+        Some(effect) => vec![entry.name, "on".to_owned(), written(effect.as_ref())],
+        None => vec![entry.name, "off".to_owned(), entry.summary],
+    });
+    rows("Effects", described.collect())
+}
+
+fn solving(scene: &Scene) -> Result<Vec<(&'static str, String)>, CliError> {
+    let system = &scene.assembly.system;
+    let (method, why) = Auto::choose(system, &Run::to(scene.run.duration));
+    let first = scene.run.methods.first().map_or("auto", String::as_str);
+    let measures = reported_measures(&scene.assembly, &scene.settings(first))?;
+    let algebraic = match system.algebraic() {
+        0 => "no algebraic unknown is left".to_owned(),
+        count => format!("{count} algebraic unknowns stay"),
+    };
+    Ok(vec![
+        ("system", format!("{} states; {algebraic}", system.states())),
+        ("duration", constant(scene.run.duration, "s")),
+        ("methods", scene.run.methods.join(", ")),
+        ("auto", format!("would choose `{}`: {why}", method.name())),
+        ("measures", measures.join(", ")),
+    ])
+}
+
+fn section(content: &Table, terminal: Terminal) -> String {
+    let mut text = format!("\n{}\n", terminal.toned(Tone::Heading, &content.caption));
+    let rows: Vec<Vec<String>> = content.rows.iter().take(MOST).cloned().collect();
+    let (_, lines) = table(&Table { rows, ..Table::default() });
+    for line in lines {
+        let _ = writeln!(text, "  {line}");
+    }
+    if content.rows.len() > MOST {
+        let _ = writeln!(text, "  and {} more", content.rows.len() - MOST);
+    }
+    text
+}

@@ -1,0 +1,110 @@
+//! Files that results are written to.
+
+use std::{
+    fs::{self, File},
+    io::{BufWriter, Read, Write},
+    path::{Path, PathBuf},
+};
+
+use dashpot_analysis::{RunReport, regular_times, table_at};
+use dashpot_plot::{ReportFigure, RunSeries, figures::FIGURES};
+
+use crate::{
+    answer::{Answer, document, page},
+    error::CliError,
+    series::curves_and_energies,
+    sketch::sketch,
+};
+
+/// The file that also marks a folder as one of results.
+const RESULT: &str = "result.json";
+/// The beginning of that file.
+const MARK: &str = "{\n  \"dashpot\"";
+/// The scene as it was read.
+const SCENE: &str = "scene-as-run.toml";
+/// Figures show at least so many points, and at most so many.
+const POINTS: (usize, usize) = (4001, 20_001);
+/// Rows of a table that are in memory at once.
+const CHUNK: usize = 4096;
+
+/// Writes everything that an answer holds into the folder `path`, and returns the names of the
+/// files.
+pub(crate) fn write(answer: &Answer, path: &Path) -> Result<Vec<String>, CliError> {
+    let mut texts = vec![(SCENE.to_owned(), answer.scene.text.to_string())];
+    let network = sketch(&answer.scene.network, answer.scene.run.duration).svg();
+    let (low, high) = POINTS;
+    let count = answer.scene.run.samples.clamp(low, high);
+    let series: Vec<RunSeries> =
+        answer.runs.iter().map(|run| curves_and_energies(run, count)).collect();
+    let mut figures =
+        vec![ReportFigure { caption: "The network".to_owned(), svg: network.clone() }];
+    texts.push(("network.svg".to_owned(), network));
+    for figure in FIGURES {
+        let svg = figure.chart(&series).svg()?;
+        figures.push(ReportFigure { caption: String::new(), svg: svg.clone() });
+        texts.push((format!("{}.svg", figure.name()), svg));
+    }
+    texts.push(("report.html".to_owned(), page(answer, figures).html()));
+    let tables: Vec<(String, &RunReport)> =
+        answer.runs.iter().map(|run| (format!("{}.csv", run.solver.method), run)).collect();
+    fs::create_dir_all(path).map_err(unwritable(path))?;
+    if !is_folder_of_results(path) {
+        let names = texts.iter().map(|(name, _)| name).chain(tables.iter().map(|(name, _)| name));
+        let mut foreign = names.map(String::as_str).chain([RESULT]).map(|name| path.join(name));
+        if let Some(path) = foreign.find(|file| file.exists()) {
+            return Err(CliError::Foreign {
+                path,
+                help: "choose another folder for `--out`, or move the file away",
+            });
+        }
+    }
+    // The mark comes first, so that a second attempt may complete what a first one began.
+    let json = serde_json::to_string_pretty(&document(answer))? + "\n";
+    texts.insert(0, (RESULT.to_owned(), json));
+    let mut written = Vec::new();
+    for (name, text) in texts {
+        let file = path.join(&name);
+        fs::write(&file, text).map_err(unwritable(&file))?;
+        written.push(name);
+    }
+    for (name, run) in tables {
+        let file = path.join(&name);
+        write_table(run, answer.scene.run.samples, &file).map_err(unwritable(&file))?;
+        written.push(name);
+    }
+    Ok(written)
+}
+
+/// An error of the system at this path.
+pub(crate) fn unwritable(path: &Path) -> impl Fn(std::io::Error) -> CliError + use<> {
+    let path = PathBuf::from(path);
+    move |source| CliError::Unwritable { path: path.clone(), source }
+}
+
+fn is_folder_of_results(path: &Path) -> bool {
+    let mut start = [0; MARK.len()];
+    let read = File::open(path.join(RESULT)).and_then(|mut file| file.read_exact(&mut start));
+    read.is_ok() && start == *MARK.as_bytes()
+}
+
+/// Writes all outputs at `samples` regular times as CSV.
+fn write_table(run: &RunReport, samples: usize, file: &Path) -> std::io::Result<()> {
+    let mut writer = csv::Writer::from_writer(BufWriter::new(File::create(file)?));
+    let times = regular_times(run.trajectory.t_end, samples);
+    let mut header = Some("time [s]".to_owned());
+    for chunk in times.chunks(CHUNK) {
+        let table = table_at(&run.assembly, &run.trajectory, chunk.to_vec());
+        if let Some(time) = header.take() {
+            let names = table.columns.iter().map(|own| format!("{} [{}]", own.name, own.unit));
+            writer.write_record([time].into_iter().chain(names))?;
+        }
+        for (row, time) in table.times.iter().enumerate() {
+            let values = table.columns.iter().map(|column| column.values[row]);
+            // A zero has no sign.
+            let record: Vec<f64> = [*time].into_iter().chain(values).map(|own| own + 0.0).collect();
+            writer.serialize(record)?;
+        }
+    }
+    let mut inner = writer.into_inner().map_err(csv::IntoInnerError::into_error)?;
+    inner.flush()
+}

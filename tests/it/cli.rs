@@ -1,0 +1,416 @@
+//! The command as its users meet it: exit codes, both streams, and files.
+
+use std::{
+    fs,
+    io::Write,
+    path::{Path, PathBuf},
+    process::{Command, Output, Stdio},
+};
+
+use dashpot::{
+    analysis::measures::{MeasureKind, MeasureVisitor, visit_measures},
+    dae::methods,
+    network::{
+        effects::{EffectKind, EffectVisitor, visit_effects},
+        elements::{ElementKind, ElementVisitor, visit_elements},
+        waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
+    },
+    rheology::{Form, FormVisitor, visit_forms},
+    scene::templates,
+};
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A pad that is far too soft.
+const SOFT: &str = r#"
+[values]
+K = "50 kN/m"
+[nodes]
+head = { mass = "5 kg", velocity = "6 m/s" }
+[elements]
+pad = { between = ["head", "ground"], kelvin-voigt = { spring = "K", dashpot = "80 N s/m" }, thickness = "3 cm" }
+[run]
+duration = "40 ms"
+"#;
+
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dashpot"));
+    command.args(arguments).env_remove("NO_COLOR");
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    command(arguments).output().unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = run(arguments);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn file(folder: &TempDir, name: &str, text: &str) -> PathBuf {
+    let path = folder.path().join(name);
+    fs::write(&path, text).unwrap();
+    path
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[test]
+fn run_without_a_scene_gives_the_verdict_on_the_reference_impact() {
+    let output = run(&["run"]);
+    let verdict = out(&output);
+    assert_eq!(code(&output), 0);
+    assert!(verdict.starts_with("! from 7.43 ms the padding pulls: separation is off\n"));
+    for fact in ["38.36 kN", "391.2 g (3836 m/s²)", "2.46 mm of 20 mm left", "477.2 J of 500 J"] {
+        assert!(verdict.contains(fact), "{fact}:\n{verdict}");
+    }
+    assert_eq!(err(&output), "warning: from 7.43 ms the padding pulls: separation is off\n");
+    assert!(verdict.lines().all(|line| line.chars().count() <= 80), "{verdict}");
+    assert!(!verdict.contains('\u{1b}'));
+}
+
+#[test]
+fn json_has_one_shape_and_si_values() {
+    let answer = json(&["run", "--json"]);
+    for key in ["scene", "runs", "difference", "settings", "failed"] {
+        assert!(answer.get(key).is_some(), "{key}");
+    }
+    assert_eq!(answer["scene"]["file"], "reference.toml");
+    let runs = answer["runs"].as_array().unwrap();
+    let names: Vec<&str> =
+        runs.iter().map(|run| run["solver"]["method"].as_str().unwrap()).collect();
+    assert_eq!(names, ["exact", "bdf"]);
+    for run in runs {
+        for key in [
+            "method",
+            "why",
+            "rtol",
+            "accepted",
+            "rejected",
+            "rhs_calls",
+            "jacobian_calls",
+            "factorizations",
+            "solves_for_error",
+            "wall_s",
+        ] {
+            assert!(run["solver"].get(key).is_some(), "{key}");
+        }
+        assert_eq!(keys(&run["system"]), ["algebraic", "effects", "modes", "states"]);
+        for key in ["work-in", "kinetic", "stored", "dissipated", "closure"] {
+            assert!(run["energy"].get(key).is_some(), "{key}");
+        }
+        assert_eq!(keys(&run["events"][0]), ["time", "what"]);
+        assert!(run["warnings"][0].as_str().unwrap().contains("pulls"));
+        let peak = &run["measures"]["padding.peak-force"];
+        assert_eq!(keys(peak), ["error", "time", "unit", "value", "window"]);
+        let off = (peak["value"].as_f64().unwrap() - 38_359.411_601_331).abs();
+        assert!(off <= peak["error"].as_f64().unwrap() + 1e-8, "{peak}");
+        assert_eq!(run["measures"]["head.severity-index"]["exponent"], 2.5);
+        assert!(run["measures"]["padding.contact-time"]["window"].is_null());
+    }
+    assert!(answer["difference"]["padding.peak-force"].as_f64().unwrap() < 1e-3);
+}
+
+#[test]
+fn one_method_leaves_no_difference_and_off_means_no_errors() {
+    let answer = json(&["run", "--json", "--method", "bdf", "--estimate", "off", "--rtol", "1e-5"]);
+    assert!(keys(&answer["difference"]).is_empty());
+    let run = &answer["runs"][0];
+    assert_eq!(run["solver"]["solves_for_error"], 0);
+    assert!(run["measures"]["padding.peak-force"]["error"].is_null());
+    assert_eq!(answer["settings"]["rtol"], 1e-5);
+}
+
+#[test]
+fn accuracy_is_taken_in_percent_and_reached() {
+    let answer = json(&["run", "--json", "--method", "bdf", "--accuracy", "0.001%"]);
+    for (key, measure) in answer["runs"][0]["measures"].as_object().unwrap() {
+        let (value, error) = (measure["value"].as_f64(), measure["error"].as_f64());
+        assert!(error.unwrap() <= 1.01e-5 * value.unwrap().abs(), "{key}: {measure}");
+    }
+}
+
+#[test]
+fn values_are_set_from_outside() {
+    let folder = TempDir::new().unwrap();
+    let scene = file(&folder, "soft.toml", SOFT);
+    let peak = |arguments: &[&str]| {
+        let answer = json(&[&["run", text(&scene), "--json"], arguments].concat());
+        answer["runs"][0]["measures"]["pad.peak-deformation"]["value"].as_f64().unwrap()
+    };
+    assert!(peak(&["--set", "K=200 kN/m"]) < 0.6 * peak(&[]));
+    let output = run(&["run", text(&scene), "--set", "Q=1 N/m"]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("there is no value named `Q`"));
+}
+
+#[test]
+fn pad_that_bottoms_out_says_so_first() {
+    let folder = TempDir::new().unwrap();
+    let output = run(&["run", text(&file(&folder, "soft.toml", SOFT))]);
+    assert_eq!(code(&output), 0);
+    let verdict = out(&output);
+    assert!(verdict.lines().take(3).any(|line| line.contains("23.2 mm more than its")));
+    assert!(verdict.contains("23.2 mm MORE than its 30 mm"), "{verdict}");
+}
+
+#[test]
+fn folder_of_results_holds_every_form_and_is_never_foreign() {
+    let folder = TempDir::new().unwrap();
+    let results = folder.path().join("results");
+    for _ in 0..2 {
+        let output = run(&["run", "--out", text(&results)]);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        assert!(out(&output).contains("report.html"));
+    }
+    let read = |name: &str| fs::read_to_string(results.join(name)).unwrap();
+    for figure in ["force-time", "deformation-time", "force-deformation", "energy-time", "network"]
+    {
+        assert!(read(&format!("{figure}.svg")).starts_with("<svg"), "{figure}");
+    }
+    assert!(read("report.html").contains("38.36 kN"));
+    assert_eq!(read("scene-as-run.toml"), dashpot::scene::reference());
+    let answer: Value = serde_json::from_str(&read("result.json")).unwrap();
+    assert_eq!(answer["runs"].as_array().unwrap().len(), 2);
+    let table = read("exact.csv");
+    let mut lines = table.lines();
+    let header = lines.next().unwrap();
+    assert!(header.starts_with("time [s],") && header.contains("padding.force [N]"), "{header}");
+    assert_eq!(lines.count(), 501);
+    assert!(results.join("bdf.csv").exists());
+
+    let foreign = folder.path().join("foreign");
+    fs::create_dir(&foreign).unwrap();
+    fs::write(foreign.join("exact.csv"), "mine").unwrap();
+    let output = run(&["run", "--out", text(&foreign)]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("exact.csv` exists already"));
+    assert_eq!(fs::read_to_string(foreign.join("exact.csv")).unwrap(), "mine");
+}
+
+#[test]
+fn check_counts_what_is_valid_and_points_at_what_is_not() {
+    let output = run(&["check", "scenes/reference.toml"]);
+    assert_eq!(
+        (code(&output), out(&output).as_str()),
+        (0, "ok: 2 nodes, 2 elements, 6 unknowns, linear\n")
+    );
+
+    let folder = TempDir::new().unwrap();
+    let wrong = SOFT.replace("80 N s/m", "80 N").replace("thickness", "thicknes");
+    let wrong = file(&folder, "wrong.toml", &wrong);
+    let output = run(&["check", "scenes/reference-stiff.toml", text(&wrong)]);
+    assert_eq!(code(&output), 2);
+    assert!(
+        out(&output).contains("reference-stiff.toml: ok") && out(&output).contains("not valid")
+    );
+    let errors = err(&output);
+    for part in ["wrong.toml:7:", "a damping (N s/m) is expected here", "did you mean `thickness`?"]
+    {
+        assert!(errors.contains(part), "{part}:\n{errors}");
+    }
+}
+
+#[test]
+fn check_finds_what_no_method_could_do() {
+    let folder = TempDir::new().unwrap();
+    let scene = SOFT.to_owned() + "[accuracy]\npad.hic15 = 0.1\n";
+    assert_eq!(code(&run(&["check", text(&file(&folder, "a.toml", &scene))])), 2);
+    let scene = SOFT.to_owned() + "[accuracy]\npad.peak-rate = 0.1\n";
+    let output = run(&["check", text(&file(&folder, "b.toml", &scene))]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("`pad.peak-rate`, which is not reported"), "{}", err(&output));
+}
+
+#[test]
+fn explain_draws_and_names_all_that_was_built() {
+    let folder = TempDir::new().unwrap();
+    let drawing = folder.path().join("network.svg");
+    let output = run(&["explain", "reference-gravity", "--out", text(folder.path())]);
+    assert_eq!(code(&output), 0);
+    let shown = out(&output);
+    for part in [
+        "head",
+        "20 MN/m",
+        "padding.maxwell.dashpot",
+        "velocity of panel",
+        "gravity  on",
+        "would choose `exact`",
+        "head.severity-index",
+    ] {
+        assert!(shown.contains(part), "{part}:\n{shown}");
+    }
+    assert!(fs::read_to_string(drawing).unwrap().starts_with("<svg"));
+}
+
+#[test]
+fn list_has_every_registered_kind() {
+    struct Words(Vec<&'static str>);
+    impl ElementVisitor for Words {
+        fn visit<E: ElementKind>(&mut self) {
+            self.0.push(E::KIND);
+        }
+    }
+    impl FormVisitor for Words {
+        fn visit<F: Form>(&mut self) {
+            self.0.push(F::KIND);
+        }
+    }
+    impl WaveformVisitor for Words {
+        fn visit<W: WaveformKind>(&mut self) {
+            self.0.push(W::KIND);
+        }
+    }
+    impl EffectVisitor for Words {
+        fn visit<E: EffectKind>(&mut self) {
+            self.0.push(E::KIND);
+        }
+    }
+    impl MeasureVisitor for Words {
+        fn visit<M: MeasureKind>(&mut self) {
+            self.0.push(M::KIND);
+        }
+    }
+    let mut words = Words(Vec::new());
+    visit_elements(&mut words);
+    visit_forms(&mut words);
+    visit_waveforms(&mut words);
+    visit_effects(&mut words);
+    visit_measures(&mut words);
+    words.0.extend(methods::all().iter().map(|method| method.name()));
+    words.0.extend(templates().iter().map(|shipped| shipped.name));
+    let list = out(&run(&["list"]));
+    for word in words.0 {
+        let begins = |line: &str| {
+            let first = line.strip_prefix("  ").and_then(|line| line.split(' ').next());
+            first.is_some_and(|first| first.trim_end_matches('*') == word)
+        };
+        assert!(list.lines().any(begins), "{word}");
+    }
+    assert!(!out(&run(&["list", "methods"])).contains("spring"));
+}
+
+#[test]
+fn new_scenes_run_and_are_not_overwritten() {
+    let folder = TempDir::new().unwrap();
+    for shipped in templates() {
+        let path = folder.path().join(format!("{}.toml", shipped.name));
+        let arguments = ["new", shipped.name, "--out", text(&path)];
+        assert_eq!(code(&run(&arguments)), 0);
+        let again = run(&arguments);
+        assert_eq!(code(&again), 2);
+        assert!(err(&again).contains("--force"));
+        assert_eq!(code(&run(&[&arguments[..], &["--force"]].concat())), 0);
+        let output = run(&["run", text(&path)]);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+    }
+    assert_eq!(out(&run(&["new", "chain"])), dashpot::scene::template("chain").unwrap());
+}
+
+#[test]
+fn schema_and_completions_are_printed() {
+    let schema: Value = serde_json::from_slice(&run(&["schema"]).stdout).unwrap();
+    assert!(schema["properties"]["elements"].is_object());
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        assert!(out(&run(&["completions", shell])).contains("explain"), "{shell}");
+    }
+}
+
+#[test]
+fn scenes_come_from_standard_input_and_models_from_files_beside_the_scene() {
+    let mut child =
+        command(&["check", "-"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(SOFT.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(out(&output), "ok: 1 node, 1 element, 2 unknowns, linear\n");
+
+    let folder = TempDir::new().unwrap();
+    file(
+        &folder,
+        "pads.toml",
+        "[models.foam]\nmaxwell = { spring = \"1 MN/m\", dashpot = \"1 kN s/m\" }\n",
+    );
+    let law = "kelvin-voigt = { spring = \"K\", dashpot = \"80 N s/m\" }";
+    let scene =
+        SOFT.replace(law, "model = \"pads.toml:foam\"").replace("[values]\nK = \"50 kN/m\"\n", "");
+    let scene = file(&folder, "scene.toml", &scene);
+    let output = run(&["check", text(&scene)]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    fs::remove_file(folder.path().join("pads.toml")).unwrap();
+    let output = run(&["check", text(&scene)]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("pads.toml` cannot be read: there is no such file"));
+}
+
+#[test]
+fn wrong_input_ends_with_two_and_says_what_to_do() {
+    let cases: [(&[&str], &str); 7] = [
+        (&["run", "none.toml"], "`none.toml` cannot be read: there is no such file"),
+        (&["run", "src"], "it is a folder"),
+        (&["run", "--method", "euler"], "possible values"),
+        (&["run", "--accuracy", "5 mm"], "0.1%"),
+        (&["run", "--rtol", "1"], "`rtol` must be from 1e-13"),
+        (&["run", "--set", "K"], "K=25 MN/m"),
+        (&["fly"], "unrecognized subcommand"),
+    ];
+    for (arguments, part) in cases {
+        let output = run(arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}");
+        assert!(err(&output).contains(part), "{arguments:?}: {}", err(&output));
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+    }
+    assert_eq!(code(&run(&["--version"])), 0);
+    assert_eq!(code(&run(&["run", "--help"])), 0);
+}
+
+#[test]
+fn results_that_cannot_be_written_end_with_one() {
+    let folder = TempDir::new().unwrap();
+    let blocked = file(&folder, "blocked", "a file, not a folder");
+    let output = run(&["run", "--out", text(&blocked.join("below"))]);
+    assert_eq!(code(&output), 1);
+    assert!(err(&output).contains("blocked"), "{}", err(&output));
+}
+
+#[test]
+fn colours_come_when_they_are_asked_for() {
+    assert!(out(&run(&["run", "--color", "always"])).contains('\u{1b}'));
+    assert!(!out(&run(&["run", "--color", "never"])).contains('\u{1b}'));
+}
+
+#[test]
+fn plot_is_drawn_when_it_is_asked_for() {
+    let plotted = out(&run(&["run", "--plot", "always"]));
+    assert!(plotted.contains("force (kN)"));
+    assert!(plotted.lines().all(|line| line.chars().count() <= 80), "{plotted}");
+    assert!(!out(&run(&["run"])).contains("force (kN)"));
+}
+
+#[test]
+fn reader_that_goes_away_is_no_error() {
+    let mut child =
+        command(&["schema"]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((code(&output), err(&output).as_str()), (0, ""));
+}
