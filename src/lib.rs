@@ -45,3 +45,8 @@ pub use dashpot_network as network;
 pub use dashpot_plot as plot;
 pub use dashpot_rheology as rheology;
 pub use dashpot_scene as scene;
+
+/// The examples of the README, which are tested with the others.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -7,8 +7,10 @@
     reason = "tests say what they expect"
 )]
 
+mod cli;
 mod closed_forms;
 mod conformance;
+mod docs;
 mod error_bars;
 mod examples;
 mod independent;

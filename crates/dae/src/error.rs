@@ -25,7 +25,7 @@ pub enum SolveError {
         value: f64,
     },
     /// The step became too small to go on.
-    #[error("the step of `{method}` became too small at {time:e} s (worst unknown: `{unknown}`)")]
+    #[error("the step of `{method}` became too small at {time:.3e} s (worst unknown: `{unknown}`)")]
     StepTooSmall {
         /// The method's name.
         method: &'static str,
@@ -35,7 +35,7 @@ pub enum SolveError {
         unknown: String,
     },
     /// The Newton iteration failed too often.
-    #[error("the equations of a step of `{method}` could not be solved at {time:e} s")]
+    #[error("the equations of a step of `{method}` could not be solved at {time:.3e} s")]
     NewtonFailed {
         /// The method's name.
         method: &'static str,
@@ -43,7 +43,7 @@ pub enum SolveError {
         time: f64,
     },
     /// The result contains a number that is not finite.
-    #[error("`{method}` lost `{unknown}` at {time:e} s: its value is not finite")]
+    #[error("`{method}` lost `{unknown}` at {time:.3e} s: its value is not finite")]
     NotFinite {
         /// The method's name.
         method: &'static str,
@@ -53,7 +53,7 @@ pub enum SolveError {
         unknown: String,
     },
     /// More steps than the limit were needed.
-    #[error("`{method}` took {steps} steps and reached only {time:e} s")]
+    #[error("`{method}` took {steps} steps and reached only {time:.3e} s")]
     TooManySteps {
         /// The method's name.
         method: &'static str,
@@ -63,13 +63,13 @@ pub enum SolveError {
         steps: usize,
     },
     /// An observer ended the run.
-    #[error("the run was cancelled at {time:e} s")]
+    #[error("the run was cancelled at {time:.3e} s")]
     Cancelled {
         /// Time reached \[s\].
         time: f64,
     },
     /// The integrator gave up for another reason, which it states.
-    #[error("`{method}` failed at {time:e} s: {reason}")]
+    #[error("`{method}` failed at {time:.3e} s: {reason}")]
     Integrator {
         /// The method's name.
         method: &'static str,

@@ -8,14 +8,16 @@ const SWEEPS: usize = 40;
 /// Replaces the leading `n × n` block `A` by `D⁻¹ A D` and returns the diagonal `D` of powers of
 /// two, so that nothing is rounded (Parlett & Reinsch, Numer. Math. 13 (1969) 293).
 ///
-/// States that nothing depends on, or that depend on nothing, have no balance of their own; they
-/// are scaled only so far that they do not raise the norm.
+/// Only states that act on each other, directly or through others, have a balance; where the action
+/// goes one way, scaling would go on and on to make it vanish. States that nothing depends on, or
+/// that depend on nothing, are scaled only so far that they do not raise the norm.
 pub(super) fn balance(a: &mut DMatrix<f64>, n: usize) -> Vec<f64> {
     let mut units = vec![1.0; n];
+    let components = Components::of(a, n);
     for _ in 0..SWEEPS {
         let mut settled = true;
         for i in 0..n {
-            let (mut column, row) = sums(a, n, i);
+            let (mut column, row) = sums(a, n, i, |j| components.together(i, j));
             if column == 0.0 || row == 0.0 {
                 continue;
             }
@@ -39,13 +41,13 @@ pub(super) fn balance(a: &mut DMatrix<f64>, n: usize) -> Vec<f64> {
             break;
         }
     }
-    let norm = (0..n).map(|i| sums(a, n, i)).filter(|s| s.0 != 0.0 && s.1 != 0.0);
+    let norm = (0..n).map(|i| sums(a, n, i, |_| true)).filter(|s| s.0 != 0.0 && s.1 != 0.0);
     let norm = norm.fold(0.0_f64, |norm, (column, _)| norm.max(column));
     if norm == 0.0 {
         return units;
     }
     for (i, unit) in units.iter_mut().enumerate() {
-        let (column, row) = sums(a, n, i);
+        let (column, row) = sums(a, n, i, |_| true);
         let factor = match (column > 0.0, row > 0.0) {
             (false, true) if row > norm => power_of_two(row / norm),
             (true, false) if column > norm => power_of_two(norm / column),
@@ -62,12 +64,51 @@ pub(super) fn power_of_two(x: f64) -> f64 {
     x.log2().round().clamp(-900.0, 900.0).exp2()
 }
 
-/// Sums of the sizes of column and row `i` of the leading block without the diagonal.
-fn sums(a: &DMatrix<f64>, n: usize, i: usize) -> (f64, f64) {
+/// Which states act on which, directly or through others: one row of bits for each state.
+struct Components {
+    words: usize,
+    bits: Vec<u64>,
+}
+
+impl Components {
+    fn of(a: &DMatrix<f64>, n: usize) -> Self {
+        let words = n.div_ceil(64);
+        let mut bits = vec![0; n * words];
+        for (j, column) in a.column_iter().take(n).enumerate() {
+            for (i, _) in column.iter().take(n).enumerate().filter(|(_, entry)| **entry != 0.0) {
+                bits[i * words + j / 64] |= 1 << (j % 64);
+            }
+        }
+        let mut components = Self { words, bits };
+        for via in 0..n {
+            for i in 0..n {
+                if components.reaches(i, via) {
+                    for word in 0..words {
+                        components.bits[i * words + word] |= components.bits[via * words + word];
+                    }
+                }
+            }
+        }
+        components
+    }
+
+    fn reaches(&self, i: usize, j: usize) -> bool {
+        self.bits[i * self.words + j / 64] >> (j % 64) & 1 == 1
+    }
+
+    /// Whether both states act on each other.
+    fn together(&self, i: usize, j: usize) -> bool {
+        self.reaches(i, j) && self.reaches(j, i)
+    }
+}
+
+/// Sums of the sizes of column and row `i` of the leading block without the diagonal, over the
+/// states that count.
+fn sums(a: &DMatrix<f64>, n: usize, i: usize, counts: impl Fn(usize) -> bool) -> (f64, f64) {
     let mut column = 0.0;
     let mut row = 0.0;
     for (j, entry) in a.as_slice()[i * a.nrows()..][..n].iter().enumerate() {
-        if j != i {
+        if j != i && counts(j) {
             column += entry.abs();
             row += a[(i, j)].abs();
         }
@@ -94,6 +135,16 @@ mod tests {
         assert!((a[(0, 1)] / a[(1, 0)]).abs().log2().abs() <= 2.0);
         let back = a[(1, 0)] * units[1] / units[0];
         assert!((back + 1e12).abs() < 1e-3, "scaling by powers of two is exact");
+    }
+
+    #[test]
+    fn action_in_one_direction_is_left_alone() {
+        // An oscillator that pulls another one along.
+        let mut a = DMatrix::zeros(4, 4);
+        for (i, j, value) in [(0, 1, 1.0), (1, 0, -1.0), (2, 3, 1.0), (3, 2, -1.0), (3, 0, 0.5)] {
+            a[(i, j)] = value;
+        }
+        assert_eq!(balance(&mut a, 4), [1.0; 4]);
     }
 
     #[test]

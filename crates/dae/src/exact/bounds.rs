@@ -81,6 +81,6 @@ mod tests {
         assert!((8.0 / 7.0..2.0).contains(&bound[0]) && (2.0 / 7.0..0.6).contains(&bound[1]));
         assert_eq!(enclose(&[0.0], |e| vec![9.0 * e[0]]), [0.0]);
         assert_eq!(enclose(&[1.0], |e| vec![1.5 * e[0]]), [f64::INFINITY]);
-        assert_eq!(enclose(&[f64::NAN], |e| e.to_vec()), [f64::INFINITY]);
+        assert_eq!(enclose(&[f64::NAN], <[f64]>::to_vec), [f64::INFINITY]);
     }
 }

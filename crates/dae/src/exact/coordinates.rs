@@ -77,6 +77,10 @@ fn solve(modes: &Modes, z: &[f64]) -> (Vec<Complex>, Vec<f64>) {
     for (error, c) in error.iter_mut().zip(&c) {
         *error += ROUNDING * c.norm();
     }
+    // Only one mode of a pair is evaluated.
+    for (i, j) in modes.pairs.iter().map(|&(i, j)| (modes.blocks[i].start, modes.blocks[j].start)) {
+        error[i] += (c[i] - c[j].conj()).norm();
+    }
     (c, error.as_slice().to_vec())
 }
 
@@ -114,8 +118,8 @@ fn span_errors(
         let size = block.largest(length, &sizes[range.clone()]);
         let strain = block.strain(length, &sizes[range.clone()]);
         for (k, i) in range.enumerate() {
-            largest[i] += top[k] + ROUNDING * (size[k] + strain[k]);
-            last[i] += end[k] + ROUNDING * (size[k] + strain[k]);
+            largest[i] += top[k] + ROUNDING * size[k] + 0.5 * ROUNDING * strain[k];
+            last[i] += end[k] + ROUNDING * size[k] + 0.5 * ROUNDING * strain[k];
         }
     }
     (largest, last)

@@ -2,18 +2,32 @@
 
 use nalgebra::DMatrix;
 
-use super::{Complex, schur::ComplexSchur};
+use super::{Complex, clusters::Clusters, schur::ComplexSchur};
 
-/// Couplings above this between eigenvalues that the run cannot tell apart join them.
-const STRONG: f64 = 30.0;
 /// Couplings above this between eigenvalues that rounding cannot tell apart join them.
 const VERY_STRONG: f64 = 1e3;
 /// Distance, relative to the norm, of eigenvalues that are equal but for rounding.
 const EQUAL: f64 = 1e-14;
 /// How far, relative to the norm, rounding may move the eigenvalues of a defective matrix.
 const BLUR: f64 = 1e-7;
-/// Change of phase or decay over a lifetime below which two modes look alike.
-const ALIKE: f64 = 0.5;
+
+/// When two eigenvalues share a cluster.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Caution {
+    /// Couplings above this between eigenvalues that look alike join them.
+    strong: f64,
+    /// Change of phase or decay over a lifetime below which two modes look alike.
+    alike: f64,
+}
+
+/// From separate modes to ever larger clusters. What is gained by fewer cancellations is lost in
+/// exponentials of blocks with different rates, so the first that is good enough is the best.
+pub(super) const CAUTIONS: [Caution; 4] = [
+    Caution { strong: 30.0, alike: 0.5 },
+    Caution { strong: 2.0, alike: 2.0 },
+    Caution { strong: 0.2, alike: 8.0 },
+    Caution { strong: 0.01, alike: 30.0 },
+];
 
 /// `T Y = Y D` with block-diagonal `D`: the blocks' sizes and the unit upper triangular `Y`.
 #[derive(Debug, Clone)]
@@ -33,18 +47,17 @@ pub(super) struct Decoupling {
 /// modes nearly cancel, and only their common exponential is well-conditioned (rigid motion,
 /// critical damping, resonance). Also those share one that are equal but for rounding and stay alike,
 /// as their modes are anything (displacements that rest wherever they are left).
-///
-/// Eigenvalues whose `labels` are equal share a cluster from the outset; on return the labels rise
-/// along the diagonal, one for each cluster.
 pub(super) fn decouple(
     schur: &mut ComplexSchur,
-    labels: &mut Vec<usize>,
+    clusters: &mut Clusters,
     horizon: f64,
+    caution: Caution,
 ) -> Decoupling {
     let size = schur.triangle.nrows();
     let norm = schur.triangle.iter().map(|z| z.norm()).fold(0.0, f64::max);
-    schur.sort(labels);
     loop {
+        schur.sort(&mut clusters.labels);
+        let labels = &clusters.labels;
         let (transform, mut joined) = solve(&schur.triangle, labels);
         for b in 0..size {
             for a in 0..b {
@@ -52,13 +65,13 @@ pub(super) fn decouple(
                 let (first, second) = (schur.eigenvalue(a), schur.eigenvalue(b));
                 let gap = (first - second).norm();
                 let equal = gap <= EQUAL * norm;
-                if labels[a] == labels[b] || !(equal || coupling > STRONG) {
+                if labels[a] == labels[b] || !(equal || coupling > caution.strong) {
                     continue;
                 }
                 let slower = first.re.abs().min(second.re.abs());
                 let lifetime = if slower * horizon > 1.0 { slower.recip() } else { horizon };
                 let blurred = gap <= BLUR * norm && coupling > VERY_STRONG;
-                if gap * lifetime <= ALIKE || blurred {
+                if gap * lifetime <= caution.alike || blurred {
                     joined.push((a, b));
                 }
             }
@@ -66,18 +79,7 @@ pub(super) fn decouple(
         if joined.is_empty() {
             return Decoupling { sizes: sizes(labels), transform };
         }
-        join(labels, &joined);
-        schur.sort(labels);
-    }
-}
-
-/// Gives both of each pair the same label, and all that had it.
-pub(super) fn join(labels: &mut [usize], pairs: &[(usize, usize)]) {
-    for &(a, b) in pairs {
-        let (keep, drop) = (labels[a].min(labels[b]), labels[a].max(labels[b]));
-        if keep != drop {
-            labels.iter_mut().filter(|label| **label == drop).for_each(|label| *label = keep);
-        }
+        clusters.join(&joined);
     }
 }
 
@@ -137,8 +139,8 @@ mod tests {
     fn sizes_of(rows: &[f64], size: usize, horizon: f64) -> Vec<usize> {
         let a = DMatrix::from_row_slice(size, size, rows);
         let mut schur = ComplexSchur::new(&a).unwrap();
-        let mut labels = (0..size).collect();
-        let mut sizes = decouple(&mut schur, &mut labels, horizon).sizes;
+        let mut clusters = Clusters::single(&schur);
+        let mut sizes = decouple(&mut schur, &mut clusters, horizon, CAUTIONS[0]).sizes;
         sizes.sort_unstable();
         sizes
     }
@@ -156,7 +158,8 @@ mod tests {
     fn the_decoupled_matrix_is_similar() {
         let a = DMatrix::from_fn(9, 9, |i, j| ((5 * i + 2 * j + i * j) as f64).sin());
         let mut schur = ComplexSchur::new(&a).unwrap();
-        let Decoupling { sizes, transform } = decouple(&mut schur, &mut (0..9).collect(), 3.0);
+        let mut clusters = Clusters::single(&schur);
+        let Decoupling { sizes, transform } = decouple(&mut schur, &mut clusters, 3.0, CAUTIONS[0]);
         let d = invert_unit_triangle(&transform) * &schur.triangle * &transform;
         assert_eq!(sizes, [1; 9]);
         for i in 0..9 {

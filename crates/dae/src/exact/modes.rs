@@ -5,7 +5,8 @@ use nalgebra::DMatrix;
 use super::{
     Augmented, Complex,
     block::Block,
-    decoupling::{Decoupling, decouple, invert_unit_triangle, join},
+    clusters::Clusters,
+    decoupling::{Caution, Decoupling, decouple, invert_unit_triangle},
     refinement,
     schur::ComplexSchur,
 };
@@ -23,7 +24,7 @@ pub(super) struct Modes {
     /// The blocks of `D`.
     pub(super) blocks: Vec<Block>,
     /// Pairs of blocks that are conjugate modes; the first one is evaluated, the second mirrors it.
-    pairs: Vec<(usize, usize)>,
+    pub(super) pairs: Vec<(usize, usize)>,
     /// Entry by entry a bound of `X⁻¹ Ā X − D`: by how much the modes are still coupled.
     pub(super) defect: DMatrix<f64>,
     /// Entry by entry a bound of `1 − dual · X`: by how much the dual misses the inverse.
@@ -36,22 +37,23 @@ impl Modes {
     /// Eigenvalues that the refinement finds to be alike are joined, and the rest begun anew. Where
     /// the eigenvalue iteration fails, the whole matrix is taken as one block: slower, and without
     /// an error bound, but with the right values.
-    pub(super) fn new(system: &Augmented) -> Self {
+    pub(super) fn new(system: &Augmented, caution: Caution) -> Self {
         let Some(mut schur) = augmented_schur(system) else { return Self::undivided(system) };
-        let mut labels: Vec<usize> = (0..system.size()).collect();
+        let mut clusters = Clusters::single(&schur);
         loop {
-            let decoupling = decouple(&mut schur, &mut labels, system.end());
+            let decoupling = decouple(&mut schur, &mut clusters, system.end(), caution);
             let mut modes = Self::assemble(&schur, &decoupling, system.end());
-            modes.pair_conjugates();
+            modes.pair_conjugates(&clusters);
             let alike = refinement::refine(&system.matrix, &mut modes);
             if alike.is_empty() {
                 let known = modes.defect.iter().all(|d| d.is_finite());
                 return if known { modes } else { Self::undivided(system) };
             }
-            join(&mut labels, &alike);
+            clusters.join(&alike);
         }
     }
 
+    /// The whole matrix as one block.
     pub(super) fn undivided(system: &Augmented) -> Self {
         let size = system.size();
         let matrix = system.matrix.map(|x| Complex::new(x, 0.0));
@@ -75,14 +77,11 @@ impl Modes {
         let mut start = 0;
         for &len in &decoupling.sizes {
             let mut matrix = schur.triangle.view((start, start), (len, len)).into_owned();
-            let ratio = graded(&matrix, horizon);
-            let mut unit = 1.0;
-            for i in 0..len {
+            for (i, unit) in graded(&matrix, horizon).into_iter().enumerate() {
                 basis.column_mut(start + i).apply(|z| *z *= unit);
                 dual.row_mut(start + i).apply(|z| *z /= unit);
                 matrix.column_mut(i).apply(|z| *z *= unit);
                 matrix.row_mut(i).apply(|z| *z /= unit);
-                unit *= ratio;
             }
             blocks.push(Block::new(start, matrix));
             start += len;
@@ -104,19 +103,16 @@ impl Modes {
     }
 
     /// Pairs single complex modes with their conjugates.
-    fn pair_conjugates(&mut self) {
-        let rates: Vec<Option<Complex>> =
-            self.blocks.iter().map(|b| (b.len() == 1).then(|| b.matrix[(0, 0)])).collect();
-        let mut taken = vec![false; rates.len()];
-        for (i, rate) in rates.iter().enumerate() {
-            let Some(rate) = rate.filter(|rate| rate.im > 0.0) else { continue };
-            let distance = |j: usize| match rates[j] {
-                Some(other) if other.im < 0.0 && !taken[j] => (other - rate.conj()).norm(),
-                _ => f64::INFINITY,
-            };
-            let partner = (0..rates.len()).min_by(|&j, &k| distance(j).total_cmp(&distance(k)));
-            if let Some(j) = partner.filter(|&j| distance(j) < 1e-6 * rate.im) {
-                taken[j] = true;
+    fn pair_conjugates(&mut self, clusters: &Clusters) {
+        let label = |block: &Block| clusters.labels[block.start];
+        for i in 0..self.blocks.len() {
+            let block = &self.blocks[i];
+            if block.len() > 1 || block.matrix[(0, 0)].im <= 0.0 {
+                continue;
+            }
+            let conjugate = clusters.conjugate(label(block));
+            let is_partner = |j: &usize| *j != i && label(&self.blocks[*j]) == conjugate;
+            if let Some(j) = (0..self.blocks.len()).find(is_partner) {
                 self.blocks[i].weight = 2.0;
                 self.blocks[j].weight = 0.0;
                 self.pairs.push((i, j));
@@ -141,19 +137,17 @@ impl Modes {
     }
 }
 
-/// The ratio of a geometric scaling of a triangular block's basis, a power of two, after which its
-/// couplings act on the time scale of the run: `|T_ij| ratio^{j−i} horizon ≤ 1`.
-fn graded(triangle: &DMatrix<Complex>, horizon: f64) -> f64 {
-    let mut exponent = 0.0_f64;
+/// Factors for a triangular block's basis, powers of two and as few as needed, after which its
+/// couplings act on the time scale of the run: `|T_ij| u_j/u_i · horizon ≤ 1`.
+fn graded(triangle: &DMatrix<Complex>, horizon: f64) -> Vec<f64> {
+    let mut exponents: Vec<f64> = Vec::with_capacity(triangle.nrows());
     for j in 0..triangle.nrows() {
-        for i in 0..j {
-            let size = triangle[(i, j)].norm() * horizon;
-            if size > 1.0 {
-                exponent = exponent.max(size.log2() / super::number(j - i));
-            }
-        }
+        let wanted = |(i, exponent): (usize, &f64)| {
+            exponent - (triangle[(i, j)].norm() * horizon).log2().ceil()
+        };
+        exponents.push(exponents.iter().enumerate().map(wanted).fold(0.0, f64::min).max(-600.0));
     }
-    (-exponent.ceil().min(60.0)).exp2()
+    exponents.into_iter().map(f64::exp2).collect()
 }
 
 /// The Schur form of `[A B; 0 G]`: that of `A` by iteration, that of the generators by hand, so

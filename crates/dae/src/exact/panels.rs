@@ -25,6 +25,9 @@ const MOST: usize = 4_000_000;
 /// Narrowest panel, relative to its span.
 const NARROWEST: f64 = 1e-18;
 
+/// Rounding of a panel's borders and of a place within it, relative to the time.
+const TIMING: f64 = f64::EPSILON;
+
 /// One polynomial of an output on `[start, end]`, dimensionless.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Piece {
@@ -83,6 +86,19 @@ impl ModalRow {
         self.sizes.iter().zip(c).map(|(r, c)| r * c.norm()).sum()
     }
 
+    /// A bound of the output's rate where the modal coordinates are `c`.
+    fn rate_at(&self, modes: &Modes, c: &[Complex]) -> f64 {
+        let part = |block: &Block| {
+            let entry = |(b, j): (usize, usize)| {
+                let column = block.matrix.column(b);
+                let pushed = column.iter().zip(&self.sizes[block.range()]);
+                pushed.map(|(d, r)| d.norm() * r).sum::<f64>() * c[j].norm()
+            };
+            block.range().enumerate().map(entry).sum::<f64>()
+        };
+        modes.blocks.iter().filter(|block| block.weight > 0.0).map(part).sum()
+    }
+
     /// An upper bound of the sum of all terms' sizes over a span.
     pub(super) fn size(&self, modes: &Modes, span: &SpanCoordinates, length: f64) -> f64 {
         let part = |block: &Block| {
@@ -90,6 +106,13 @@ impl ModalRow {
             let largest = block.largest(length, &sizes);
             block.range().zip(largest).map(|(i, c)| self.sizes[i] * c).sum::<f64>()
         };
+        modes.blocks.iter().filter(|block| block.weight > 0.0).map(part).sum()
+    }
+
+    /// The error bound over a span that the coordinates cause.
+    pub(super) fn error(&self, modes: &Modes, span: &SpanCoordinates) -> f64 {
+        let part =
+            |block: &Block| block.range().map(|i| self.sizes[i] * span.error[i]).sum::<f64>();
         modes.blocks.iter().filter(|block| block.weight > 0.0).map(part).sum()
     }
 
@@ -108,10 +131,7 @@ impl ModalRow {
         quality: &mut Quality,
         pieces: &mut Vec<Piece>,
     ) {
-        let spread =
-            |block: &Block| block.range().map(|i| self.sizes[i] * span.error[i]).sum::<f64>();
-        let inherited: f64 =
-            modes.blocks.iter().filter(|block| block.weight > 0.0).map(spread).sum();
+        let inherited = self.error(modes, span);
         let mut worst = 0.0_f64;
         let mut table = Table::default();
         let (mut at, mut width) = (0.0, length);
@@ -129,6 +149,8 @@ impl ModalRow {
             };
             width = (4.0 * width).min(remaining).max(least);
             let missed = self.narrow(modes, &coordinates, tolerance, least, &mut width);
+            let shifted = TIMING * (start + at + width) * self.rate_at(modes, &coordinates);
+            let missed = missed + shifted;
             worst = if missed.is_finite() { worst.max(missed) } else { f64::INFINITY };
             let end = if width >= remaining { length } else { at + width };
             table.prepare(modes, end - at);
@@ -141,7 +163,9 @@ impl ModalRow {
             }
         }
         // The sizes at the starts of all panels are known, and here that at the very end.
-        quality.size = quality.size.max(self.size_at(&coordinates_at(modes, &span.start, length)));
+        let last = coordinates_at(modes, &span.start, length);
+        quality.size = quality.size.max(self.size_at(&last));
+        worst = worst.max(TIMING * (start + length) * self.rate_at(modes, &last));
         let error = inherited + worst;
         // Also where it is not a number: then nothing is known.
         quality.error = if error.is_finite() { quality.error.max(error) } else { f64::INFINITY };

@@ -32,7 +32,7 @@ pub(super) fn refine(matrix: &DMatrix<f64>, modes: &mut Modes) -> Vec<(usize, us
     for _ in 0..ITERATIONS {
         let coupling = &modes.dual * residual(matrix, modes);
         modes.defect = coupling.map(Complex::norm);
-        let size = modes.defect.max();
+        let size = relative(modes, &coupling).max();
         let before = best.as_ref().map_or(f64::INFINITY, |(size, ..)| *size);
         if size.is_nan() || size >= 0.5 * before {
             break;
@@ -53,9 +53,17 @@ pub(super) fn refine(matrix: &DMatrix<f64>, modes: &mut Modes) -> Vec<(usize, us
     modes.dual_defect = dual_defect(modes);
     modes.defect += rounding(matrix, modes);
     modes.defect = enclose_matrix(&modes.dual_defect, &modes.defect);
+    let turn = relative(modes, &turn);
     let size = modes.len();
     let places = (0..size).flat_map(|j| (0..size).map(move |i| (i, j)));
-    places.filter(|&place| turn[place].norm() > SETTLED).collect()
+    places.filter(|&place| turn[place].is_nan() || turn[place] > SETTLED).collect()
+}
+
+/// Sizes of the entries of a matrix between modes, as if all modes were of unit length.
+fn relative(modes: &Modes, matrix: &DMatrix<Complex>) -> DMatrix<f64> {
+    let lengths: Vec<f64> = modes.basis.column_iter().map(|column| column.norm()).collect();
+    let size = modes.len();
+    DMatrix::from_fn(size, size, |i, j| matrix[(i, j)].norm() * (lengths[i] / lengths[j]))
 }
 
 /// `F`; not finite where eigenvalues of two blocks that are coupled are equal.
@@ -85,8 +93,12 @@ fn correction(modes: &Modes, coupling: &DMatrix<Complex>) -> DMatrix<Complex> {
 
 /// One correction of basis, dual and blocks.
 fn step(modes: &mut Modes, coupling: &DMatrix<Complex>, mut turn: DMatrix<Complex>) {
-    // A comparison that also drops what is not a number.
-    turn.iter_mut().filter(|f| !(f.norm() < TRUST)).for_each(|f| *f = Complex::default());
+    let sizes = relative(modes, &turn);
+    for (turn, &size) in turn.iter_mut().zip(sizes.iter()) {
+        if size.is_nan() || size >= TRUST {
+            *turn = Complex::default();
+        }
+    }
     for block in &mut modes.blocks {
         for j in 0..block.len() {
             for i in 0..block.len() {

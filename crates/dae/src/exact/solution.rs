@@ -5,6 +5,8 @@ use std::sync::OnceLock;
 use super::{
     Augmented,
     coordinates::{SpanCoordinates, follow},
+    decoupling::CAUTIONS,
+    drift::drifts,
     modes::Modes,
     number,
     panels::{ModalRow, Piece, Quality, coordinates_at},
@@ -19,6 +21,10 @@ const NOISE: f64 = 16.0;
 const FEW_SPANS: usize = 8;
 /// `‖Ā‖ T` up to which the propagator is used for samples; beyond it the modes are more accurate.
 const GENTLE: f64 = 1e4;
+/// `‖Ā‖ T` up to which even free motion may be marched.
+const BRIEF: f64 = 20.0;
+/// Relative error bound below which no other clustering of the modes is tried.
+const GOOD: f64 = 1e-11;
 /// Deviation from a uniform grid that is rounding, relative to the last time.
 const UNIFORM: f64 = 1e-14;
 
@@ -36,6 +42,31 @@ pub(crate) struct Solution {
 struct Modal {
     modes: Modes,
     spans: Vec<SpanCoordinates>,
+}
+
+impl Modal {
+    fn of(system: &Augmented, modes: Modes) -> Self {
+        let spans = follow(system, &modes);
+        Self { modes, spans }
+    }
+
+    /// The largest error bound of any state relative to the largest state at any breakpoint, in the
+    /// units of `z`. Not finite where nothing is known.
+    fn loss(&self, system: &Augmented) -> f64 {
+        let modes = &self.modes;
+        let rows: Vec<ModalRow> =
+            (0..modes.len()).map(|k| ModalRow::new(modes, &[(k, 1.0)])).collect();
+        let (mut size, mut error) = (0.0_f64, 0.0_f64);
+        for (span, coordinates) in system.spans.iter().zip(&self.spans) {
+            let last = coordinates_at(modes, &coordinates.start, span.length());
+            for row in &rows {
+                size = size.max(row.value(&coordinates.start).abs()).max(row.value(&last).abs());
+                let bound = row.error(modes, coordinates);
+                error = if bound.is_finite() { error.max(bound) } else { f64::INFINITY };
+            }
+        }
+        if error == 0.0 { 0.0 } else { error / size }
+    }
 }
 
 impl Solution {
@@ -57,9 +88,21 @@ impl Solution {
 
     fn modal(&self) -> &Modal {
         self.modal.get_or_init(|| {
-            let modes = Modes::new(&self.system);
-            let spans = follow(&self.system, &modes);
-            Modal { modes, spans }
+            let mut best: Option<(f64, Modal)> = None;
+            for caution in CAUTIONS {
+                let modal = Modal::of(&self.system, Modes::new(&self.system, caution));
+                let loss = modal.loss(&self.system);
+                if best.as_ref().is_none_or(|(least, _)| loss < *least) {
+                    best = Some((loss, modal));
+                }
+                if loss <= GOOD {
+                    break;
+                }
+            }
+            match best {
+                Some((loss, modal)) if loss.is_finite() => modal,
+                _ => Modal::of(&self.system, Modes::undivided(&self.system)),
+            }
         })
     }
 
@@ -98,6 +141,18 @@ impl Solution {
             values.extend(rows.iter().map(|row| row.value(&coordinates)));
         }
         values
+    }
+
+    /// Whether marching is quick and accurate enough.
+    ///
+    /// Each step adds an error of its own; one of a velocity moves all positions after it, so that in
+    /// free motion the errors add up twice.
+    fn can_march(&self) -> bool {
+        let system = &self.system;
+        let reach = system.norm() * system.end();
+        system.spans.len() <= FEW_SPANS
+            && reach <= GENTLE
+            && (reach <= BRIEF || !drifts(&system.matrix, system.states))
     }
 
     /// All unknowns on a uniform grid from the propagator.
@@ -164,11 +219,8 @@ impl Dense for Solution {
     }
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {
-        let few = self.system.spans.len() <= FEW_SPANS;
         match uniform(times) {
-            Some(grid) if few && self.system.norm() * self.system.end() <= GENTLE => {
-                self.by_propagator(grid)
-            }
+            Some(grid) if self.can_march() => self.by_propagator(grid),
             _ => self.by_modes(times),
         }
     }

@@ -39,10 +39,13 @@ const LIFETIMES: f64 = 45.0;
 /// - The modal form is refined in twice the digits of a double, so the error of a signal is that of
 ///   its evaluation: about `16 ε` of the largest sum of its modes' sizes, which is more than that of
 ///   the signal itself where modes cancel. The stated bound says how much.
-/// - Samples on a uniform grid come from the propagator where `‖A‖T ≤ 1e4`; their error is about
-///   `ε ‖A‖ T`, of rigid motion its square. All other samples come from the modal form.
-/// - A bound of a signal covers the largest error over its spans. Where the eigenvalue iteration
-///   does not converge the values are still right, but no bound is stated.
+/// - Samples on a uniform grid come from the propagator where `‖A‖T ≤ 1e4` and nothing moves freely;
+///   their error is about `ε ‖A‖ T`. All other samples come from the modal form.
+/// - Rates that are equal, or so nearly equal that rounding decides, share one block of the modal
+///   form. Chains of many such rates cost digits; the bound says how many.
+/// - A bound of a signal covers the largest error over its spans, the rounding of times included.
+///   Where no modal form is found that a bound can be given for, the values are those of the matrix
+///   exponential, and no bound is stated.
 /// - The work of a signal grows with the number of oscillations; beyond six million radians of all
 ///   undamped modes together the scene is declined.
 ///

@@ -9,8 +9,8 @@ fn oscillator(omega2: f64, damping: f64) -> Scene {
 #[test]
 fn critical_damping_exactly() {
     let solved = oscillator(1.0, 2.0).solve(40.0);
-    solved.judge(0, 1e-14, |t| t * (-t).exp());
-    solved.judge(1, 1e-14, |t| (1.0 - t) * (-t).exp());
+    solved.judge(0, 2e-14, |t| t * (-t).exp());
+    solved.judge(1, 2e-14, |t| (1.0 - t) * (-t).exp());
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn two_coupled_masses_that_fly_away() {
     ];
     let solved = Scene::new(&rows, &[0.0, 0.0, 1.0, 0.0]).solve(1e3);
     let w = 2_f64.sqrt();
-    solved.judge(0, 1e-8, |t| 0.5 * t + 0.5 * (w * t).sin() / w);
+    solved.judge(0, 2e-11, |t| 0.5 * t + 0.5 * (w * t).sin() / w);
 }
 
 #[test]
@@ -63,7 +63,8 @@ fn an_undamped_oscillator_over_a_thousand_periods() {
     let end = 1000.0 * std::f64::consts::TAU;
     let solved = oscillator(1.0, 0.0).solve(end);
     let signal = solved.signal(0);
-    assert!(signal.error.unwrap() < 1e-12, "{:e}", signal.error.unwrap());
+    // A time is rounded to ε t, and so is the phase.
+    assert!(signal.error.unwrap() < 2e-12, "{:e}", signal.error.unwrap());
     for k in 0..1000 {
         let t = end * f64::from(k) / 997.0;
         if t <= end {

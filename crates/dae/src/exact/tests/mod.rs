@@ -14,6 +14,7 @@ mod agreement;
 mod closed_forms;
 mod drives;
 mod hard;
+mod repeated;
 mod thesis;
 
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
@@ -108,6 +109,26 @@ impl Scene {
         let system = self.system();
         let trajectory = Exact.integrate(&system, &Run::to(t_end), &mut Silent).unwrap();
         Solved { system, trajectory }
+    }
+}
+
+/// Numbers that repeat: a linear congruential sequence (Knuth's constants).
+pub(super) struct Sequence(pub(super) u64);
+
+impl Sequence {
+    pub(super) fn next(&mut self) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A number between 1 and `10^decades`, evenly in its logarithm.
+    pub(super) fn decades(&mut self, decades: f64) -> f64 {
+        10_f64.powf(decades * self.next())
+    }
+
+    pub(super) fn index(&mut self, count: usize) -> usize {
+        (self.next() * count as f64) as usize
     }
 }
 
