@@ -235,3 +235,21 @@ fn a_massless_node_between_two_dashpots_and_a_spring() {
         -c1 * speed / k * (-k * t / (c1 + c2)).exp_m1()
     });
 }
+
+#[test]
+fn a_series_of_springs_and_dashpots_in_any_order_is_one_maxwell_element() {
+    let springs = [1154.7, 7011.0];
+    let dashpots = [284.2, 42.6, 3.79, 6347.0, 1888.0, 4875.0, 23.7];
+    let sum = |constants: &[f64]| 1.0 / constants.iter().map(|c| 1.0 / c).sum::<f64>();
+    let (m, v, k, c) = (2.565, 22.98, sum(&springs), sum(&dashpots));
+    let half = 0.5 * k / c;
+    let root = f64::sqrt(half * half - k / m);
+    let force = |t: f64| k * v / root * (-half * t).exp() * (root * t).sinh();
+    let mut parts: Vec<_> =
+        springs.iter().map(|&k| spring(k)).chain(dashpots.iter().map(|&c| dashpot(c))).collect();
+    for turn in 0..4 {
+        parts.rotate_left(2 + turn);
+        let network = one_mass(m, v, Tree::series(parts.clone()));
+        check(&format!("nine in series, turn {turn}"), &network, 0.135, "pad.force", force);
+    }
+}
