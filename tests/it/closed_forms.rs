@@ -79,9 +79,9 @@ fn kelvin_voigt_oscillator_in_three_regimes() {
     let (m, k, v) = (2.0, 50.0, 3.0);
     let natural = 5.0;
     for zeta in [0.2, 1.0, 3.0] {
-        let network = one_mass(m, v, kelvin(k, 2.0 * zeta * (k * m as f64).sqrt()));
+        let network = one_mass(m, v, kelvin(k, 2.0 * zeta * f64::sqrt(k * m)));
         let way = |t: f64| {
-            let (decay, root) = (zeta * natural, natural * (1.0 - zeta * zeta as f64).abs().sqrt());
+            let (decay, root) = (zeta * natural, natural * f64::abs(1.0 - zeta * zeta).sqrt());
             let shape = if zeta < 1.0 {
                 (root * t).sin() / root
             } else if zeta > 1.0 {
@@ -126,8 +126,8 @@ fn two_masses_move_in_their_two_modes() {
     network.connect("coupling", left, right, spring(coupling));
     network.connect("wall-left", left, network.ground(), spring(k));
     network.connect("wall-right", right, network.ground(), spring(k));
-    let slow = (k / m as f64).sqrt();
-    let fast = ((k + 2.0 * coupling) / m as f64).sqrt();
+    let slow = f64::sqrt(k / m);
+    let fast = f64::sqrt((k + 2.0 * coupling) / m);
     check("two modes", &network, 2.0, "right.position", |t| {
         0.5 * v * ((slow * t).sin() / slow - (fast * t).sin() / fast)
     });
@@ -154,7 +154,7 @@ fn burgers_relaxes_under_a_constant_deformation() {
     // Equation 2.12 with y' = 0: F'' + p F' + q F = q2 with F(0) = K2 y, F'(0) = -K2 (1/C1 + 1/C2) F(0).
     let p = k1 / c1 + k2 / c1 + k2 / c2;
     let q = k1 * k2 / (c1 * c2);
-    let root = (0.25 * p * p - q as f64).sqrt();
+    let root = f64::sqrt(0.25 * p * p - q);
     let (slow, fast) = (q / (0.5 * p + root), 0.5 * p + root);
     let (f0, f1) = (k2 * step, -k2 * step * k2 * (1.0 / c1 + 1.0 / c2));
     let slow_part = (f1 + fast * f0) / (fast - slow);

@@ -226,9 +226,10 @@ impl FormVisitor for Forms {
 }
 
 fn written(parts: &[dashpot::rheology::Part], constant: &mut f64) -> String {
-    let keys = parts.iter().map(|part| match part.role {
-        Role::Form { parts, .. } => format!("{} = {{ {} }}", part.name, written(parts, constant)),
-        _ => {
+    let keys = parts.iter().map(|part| {
+        if let Role::Form { parts, .. } = part.role {
+            format!("{} = {{ {} }}", part.name, written(parts, constant))
+        } else {
             *constant += 3.0;
             format!("{} = {constant}", part.name)
         }

@@ -53,7 +53,7 @@ fn parted(text: &str) -> (Vec<&str>, Vec<(&str, String)>) {
         match (line.trim_start().strip_prefix("```"), &mut open) {
             (Some(words), None) => open = Some((words, String::new())),
             (Some(_), Some(_)) => blocks.extend(open.take()),
-            (None, Some((_, block))) => *block += &format!("{line}\n"),
+            (None, Some((_, block))) => block.extend([line, "\n"]),
             (None, None) => prose.push(line),
         }
     }
@@ -95,7 +95,7 @@ fn the_generated_tables_are_those_of_the_registers() {
         let (_, after) = after.split_once("<!-- end -->").unwrap();
         let at = sections.iter().position(|section| section.0 == name);
         let (_, table) = sections.remove(at.unwrap_or_else(|| panic!("no register `{name}`")));
-        new += &format!("{before}<!-- generated: {name} -->\n{table}<!-- end -->");
+        new.extend([before, "<!-- generated: ", name, " -->\n", table.as_str(), "<!-- end -->"]);
         rest = after;
     }
     new += rest;

@@ -10,7 +10,7 @@ use crate::{
     thesis::{dashpot, spring},
 };
 
-/// SplitMix64 (Steele, Lea, Flood 2014): small, fixed, good enough to draw networks.
+/// `SplitMix64` (Steele, Lea, Flood 2014): small, fixed, good enough to draw networks.
 pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
