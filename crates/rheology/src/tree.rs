@@ -5,6 +5,17 @@
 /// In a [`Series`](Self::Series) one force passes through all branches and their deformations add
 /// up, in order from the impactor's side; in a [`Parallel`](Self::Parallel) all branches have one
 /// deformation and their forces add up. Nesting has no limit but memory.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_rheology::Tree;
+///
+/// let pad = Tree::series([Tree::from("spring"), Tree::parallel(["spring".into(), "dashpot".into()])]);
+/// let names: Vec<&str> = pad.branches().iter().map(|branch| branch.name.as_str()).collect();
+/// assert_eq!(names, ["1", "2"]);
+/// assert_eq!(pad.branches()[1].tree.branches()[1].tree, Tree::Part("dashpot"));
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub enum Tree<P> {
     /// A part that is not composed of others.

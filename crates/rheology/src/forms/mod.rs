@@ -71,6 +71,18 @@ pub fn visit_forms(visitor: &mut impl FormVisitor) {
 /// The tree of a form; `leaf` makes the primitive for the part at a path such as
 /// `["maxwell", "spring"]`.
 ///
+/// # Examples
+///
+/// ```
+/// use dashpot_rheology::{Form, forms::{Burgers, build}};
+///
+/// let tree = build(Burgers::PARTS, Burgers::IN_SERIES, &mut |path, _| Ok::<_, ()>(path.join(".")))?;
+/// let maxwell = &tree.branches()[0];
+/// assert_eq!(maxwell.name, "maxwell");
+/// assert_eq!(maxwell.tree.branches()[1].tree, dashpot_rheology::Tree::Part("maxwell.dashpot".to_owned()));
+/// # Ok::<(), ()>(())
+/// ```
+///
 /// # Errors
 ///
 /// The first error that `leaf` returns.
