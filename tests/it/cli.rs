@@ -159,9 +159,119 @@ fn values_are_set_from_outside() {
         answer["runs"][0]["measures"]["pad.peak-deformation"]["value"].as_f64().unwrap()
     };
     assert!(peak(&["--set", "K=200 kN/m"]) < 0.6 * peak(&[]));
+    let output = run(&["run", text(&scene), "--set", "K=200 kN/m"]);
+    assert!(out(&output).contains("\nwith K = 200 kN/m\n"), "{}", out(&output));
     let output = run(&["run", text(&scene), "--set", "Q=1 N/m"]);
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains("there is no value named `Q`"));
+}
+
+#[test]
+fn saved_scene_repeats_the_run() {
+    let folder = TempDir::new().unwrap();
+    let scene = file(&folder, "soft.toml", SOFT);
+    let results = folder.path().join("results");
+    let asked = ["--set", "K=200 kN/m", "--method", "exact, bdf", "--accuracy", "0.01%"];
+    let first =
+        json(&[&["run", text(&scene), "--json", "--out", text(&results)], &asked[..]].concat());
+    let saved = results.join("scene-as-run.toml");
+    let again = json(&["run", text(&saved), "--json"]);
+    for (first, again) in
+        first["runs"].as_array().unwrap().iter().zip(again["runs"].as_array().unwrap())
+    {
+        assert_eq!(first["solver"]["method"], again["solver"]["method"]);
+        assert_eq!(first["measures"], again["measures"]);
+    }
+    assert_eq!(again["runs"].as_array().unwrap().len(), 2);
+    let page = fs::read_to_string(results.join("report.html")).unwrap();
+    assert!(page.contains("with K = 200 kN/m") && page.contains("# as run with"));
+    assert!(!page.contains('`'));
+}
+
+#[test]
+fn pad_that_never_meets_an_impactor_is_warned_of_when_it_pulls() {
+    let folder = TempDir::new().unwrap();
+    let scene = "[nodes]\ngoods = { mass = \"12 kg\" }\nbed = { motion = { sine = { amplitude = \"3 mm\", \
+        frequency = \"8 Hz\" } } }\n[elements]\ncushion = { between = [\"goods\", \"bed\"], kelvin-voigt = \
+        { spring = \"30 kN/m\", dashpot = \"150 N s/m\" }, thickness = \"50 mm\" }\n[effects]\n\
+        gravity = true\n[run]\nduration = \"2 s\"\n";
+    let scene = file(&folder, "truck.toml", scene);
+    let output = run(&["run", text(&scene)]);
+    let verdict = out(&output);
+    assert!(
+        verdict.starts_with("! from 105 ms the cushion pulls: separation is off\n"),
+        "{verdict}"
+    );
+    assert!(verdict.contains("goods.peak-acceleration") && !verdict.contains("contact-time"));
+    assert!(
+        verdict
+            .lines()
+            .any(|line| line.starts_with("  peak g ") && line.ends_with("on goods at 1.93 s"))
+    );
+    let shown = out(&run(&["explain", text(&scene)]));
+    assert!(shown.contains("sine of 3 mm at 8 Hz"), "{shown}");
+}
+
+#[test]
+fn run_that_stops_says_so() {
+    let folder = TempDir::new().unwrap();
+    let scene = SOFT.to_owned() + "stop = [{ when = \"pad.force\", falls-below = \"0 N\" }]\n";
+    let scene = file(&folder, "stop.toml", &scene);
+    let answer = json(&["run", text(&scene), "--json"]);
+    let events = answer["runs"][0]["events"].as_array().unwrap();
+    assert!(events.iter().any(|event| event["what"] == "pad.force fell below 0 N"), "{events:?}");
+    let verdict = out(&run(&["run", text(&scene)]));
+    assert!(verdict.contains("  stopped        at "), "{verdict}");
+    assert!(!verdict.contains("as if glued"), "{verdict}");
+}
+
+#[test]
+fn pad_that_is_never_pressed_says_why_there_is_nothing_to_report() {
+    let folder = TempDir::new().unwrap();
+    let scene = SOFT.replace("[\"head\", \"ground\"]", "[\"ground\", \"head\"]");
+    let verdict = out(&run(&["run", text(&file(&folder, "away.toml", &scene))]));
+    assert!(verdict.contains("the pad is never pressed: it pulls from the start"), "{verdict}");
+}
+
+#[test]
+fn many_methods_stand_below_each_other_with_their_errors() {
+    let methods = "exact,bdf,tr-bdf2,esdirk34,tsit45";
+    let shown = out(&run(&["run", "--method", methods]));
+    assert!(shown.lines().all(|line| line.chars().count() <= 80), "{shown}");
+    let of_peak = shown.lines().filter(|line| line.starts_with("  padding.peak-force "));
+    assert_eq!(of_peak.map(|line| line.matches('±').count()).sum::<usize>(), 5);
+    let measures =
+        "[measures]\npad = [{ kind = \"peak-force\", window = \"run\" }, \"peak-force\"]\n";
+    let folder = TempDir::new().unwrap();
+    let scene = file(&folder, "two.toml", &(SOFT.to_owned() + measures));
+    let shown = out(&run(&["run", text(&scene)]));
+    assert!(shown.contains("pad.peak-force (run)"), "{shown}");
+    assert!(shown.contains("pad.peak-force-2 (impact)"), "{shown}");
+}
+
+#[test]
+fn what_vanishes_is_a_plain_zero() {
+    let folder = TempDir::new().unwrap();
+    let law = "kelvin-voigt = { spring = \"K\", dashpot = \"80 N s/m\" }";
+    let scene = SOFT.replace(law, "spring = \"K\"");
+    let shown = out(&run(&["run", text(&file(&folder, "spring.toml", &scene))]));
+    assert!(shown.contains("pad takes up 0 J of 90 J\n"), "{shown}");
+    let row = shown.lines().find(|line| line.starts_with("  pad.energy ")).unwrap();
+    let words: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!((words[1], words[3], words[4]), ("0", "J", "J"), "{row}");
+}
+
+#[test]
+fn larger_force_elsewhere_is_told() {
+    let verdict = out(&run(&["run"]));
+    assert!(verdict.contains("  elsewhere      47.9 kN in mount at 3.51 ms\n"), "{verdict}");
+}
+
+#[test]
+fn work_put_in_is_told_beside_the_energy_of_the_impact() {
+    let verdict = out(&run(&["run", "reference-gravity"]));
+    let line = verdict.lines().find(|line| line.starts_with("  energy ")).unwrap();
+    assert!(line.contains("of 500 J and ") && line.contains(" put in ("), "{line}");
 }
 
 #[test]
@@ -308,6 +418,10 @@ fn list_has_every_registered_kind() {
         assert!(list.lines().any(begins), "{word}");
     }
     assert!(!out(&run(&["list", "methods"])).contains("spring"));
+    let one = out(&run(&["list", "kelvin"]));
+    assert!(one.contains("also called kelvin") && !one.contains("maxwell"), "{one}");
+    assert!(out(&run(&["list", "contact-time"])).contains("contact-time*"));
+    assert_eq!(code(&run(&["list", "nothing"])), 2);
 }
 
 #[test]
@@ -384,12 +498,29 @@ fn wrong_input_ends_with_two_and_says_what_to_do() {
 }
 
 #[test]
-fn results_that_cannot_be_written_end_with_one() {
+fn place_that_cannot_be_written_ends_with_two_before_anything_is_solved() {
     let folder = TempDir::new().unwrap();
     let blocked = file(&folder, "blocked", "a file, not a folder");
-    let output = run(&["run", "--out", text(&blocked.join("below"))]);
-    assert_eq!(code(&output), 1);
-    assert!(err(&output).contains("blocked"), "{}", err(&output));
+    for (place, part) in [
+        (blocked.clone(), "blocked` is a file; `--out` wants a folder"),
+        (blocked.join("below"), "a file stands in the way of a folder"),
+    ] {
+        let output = run(&["run", "--out", text(&place)]);
+        assert_eq!(code(&output), 2);
+        assert!(output.stdout.is_empty());
+        assert!(err(&output).contains(part) && !err(&output).contains("os error"));
+    }
+}
+
+#[test]
+fn name_that_is_nearly_right_is_offered() {
+    let folder = TempDir::new().unwrap();
+    file(&folder, "soft.toml", SOFT);
+    for (name, meant) in [("soft", "soft.toml"), ("reference.toml", "reference")] {
+        let output = command(&["run", name]).current_dir(folder.path()).output().unwrap();
+        assert_eq!(code(&output), 2);
+        assert!(err(&output).contains(&format!("did you mean `{meant}`?")), "{}", err(&output));
+    }
 }
 
 #[test]

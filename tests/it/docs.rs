@@ -1,7 +1,8 @@
 //! The documents say what is true: tables follow from the registers, links lead somewhere, and
 //! scenes in them can be read.
 //!
-//! `UPDATE_DOCS=1 cargo test docs` rewrites the generated parts.
+//! `UPDATE_DOCS=1 cargo test docs` rewrites the generated parts: the tables of the scene format, and
+//! the verdict, the JSON and the pictures of the README.
 
 use std::{
     collections::BTreeSet,
@@ -16,6 +17,14 @@ use dashpot::{
 
 mod readme;
 mod registers;
+
+/// Said of what the program has left behind.
+const OUTDATED: &str = "out of date; run UPDATE_DOCS=1 cargo test docs, and look at the changes";
+
+/// Whether documents are to be brought up to date.
+fn is_update() -> bool {
+    std::env::var_os("UPDATE_DOCS").is_some()
+}
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -100,14 +109,11 @@ fn the_generated_tables_are_those_of_the_registers() {
     }
     new += rest;
     assert!(sections.is_empty(), "`{}` is missing in {path}", sections[0].0);
-    if std::env::var_os("UPDATE_DOCS").is_some() {
+    if is_update() {
         fs::write(root().join(path), &new).unwrap();
     } else {
         let differs = old.lines().zip(new.lines()).find(|(old, new)| old != new);
-        assert!(
-            old == new,
-            "{path} is out of date, run UPDATE_DOCS=1 cargo test docs: {differs:?}"
-        );
+        assert!(old == new, "{path} is {OUTDATED}: {differs:?}");
     }
 }
 

@@ -2,10 +2,16 @@
 
 use std::{sync::Arc, time::Duration};
 
-use dashpot_dae::{Statistics, Trajectory};
-use dashpot_network::{Assembly, parameters::Value};
+use dashpot_dae::{Extremum, Statistics, Trajectory};
+use dashpot_network::{
+    Assembly,
+    parameters::{Value, WindowWish},
+};
 
 use crate::{Impact, Ledger, Solution, solution::is_impactor};
+
+/// In networks of more elements than this nobody looks for the largest force of all.
+const MOST_ELEMENTS: usize = 200;
 
 /// All that a run yields.
 #[derive(Debug)]
@@ -84,6 +90,8 @@ pub struct MeasureReport {
     pub error: Option<f64>,
     /// What is to be said about it.
     pub note: Option<String>,
+    /// The part of the run that it was asked for; `None` for a measure without that parameter.
+    pub window_wish: Option<WindowWish>,
     /// Its parameters but the window, by name.
     pub parameters: Vec<(&'static str, Value)>,
     /// The size to which a relative accuracy refers.
@@ -116,6 +124,8 @@ pub struct EventReport {
     pub time: f64,
     /// What, in words.
     pub what: String,
+    /// Whether it ended the run.
+    pub stops: bool,
 }
 
 impl RunReport {
@@ -133,6 +143,27 @@ impl RunReport {
     pub fn impact_energy(&self) -> f64 {
         let impactors = self.assembly.nodes.iter().filter(|node| is_impactor(node));
         impactors.map(|node| 0.5 * node.mass * node.start_velocity.unwrap_or(0.0).powi(2)).sum()
+    }
+
+    /// The condition that ended the run early, if one did.
+    pub fn stopped_by(&self) -> Option<&EventReport> {
+        self.events.iter().find(|event| event.stops)
+    }
+
+    /// The element with the largest magnitude of the force in the whole run, and that extremum in
+    /// newtons and seconds. `None` where there is no force, or where there are too many elements to
+    /// look at each.
+    pub fn largest_force(&self) -> Option<(&str, Extremum)> {
+        if self.assembly.connections.len() > MOST_ELEMENTS {
+            return None;
+        }
+        let solution = self.solution();
+        let window = (0.0, solution.end());
+        let forces = self.assembly.connections.iter().filter_map(|connection| {
+            let force = solution.signal(connection.force?);
+            Some((connection.name.as_str(), force.absolute_maximum(window)))
+        });
+        forces.max_by(|one, other| one.1.value.total_cmp(&other.1.value))
     }
 
     /// The largest relative error of any measure, where errors are known.

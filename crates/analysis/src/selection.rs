@@ -45,11 +45,14 @@ pub(crate) fn select(
     wishes: &[MeasureWish],
 ) -> Result<Vec<Selected>, RunError> {
     let mut selected = Vec::new();
+    let has_impactor = assembly.nodes.iter().any(is_impactor);
+    let of_elements = by_default(Family::Element, has_impactor);
     for at in reported_elements(assembly) {
-        add_defaults(&mut selected, Family::Element, &assembly.connections[at].name, at);
+        add_defaults(&mut selected, &of_elements, &assembly.connections[at].name, at);
     }
-    for (at, node) in assembly.nodes.iter().enumerate().filter(|(_, node)| is_impactor(node)) {
-        add_defaults(&mut selected, Family::Node, &node.name, at);
+    let of_nodes = by_default(Family::Node, has_impactor);
+    for at in reported_nodes(assembly) {
+        add_defaults(&mut selected, &of_nodes, &assembly.nodes[at].name, at);
     }
     let defaults = selected.len();
     let mut taken = vec![false; defaults];
@@ -78,9 +81,14 @@ pub(crate) fn select(
     Ok(selected)
 }
 
-fn add_defaults(selected: &mut Vec<Selected>, family: Family, name: &str, target: usize) {
-    for measure in by_default(family) {
-        let key = key(name, measure.as_ref());
+fn add_defaults(
+    selected: &mut Vec<Selected>,
+    measures: &[Arc<dyn Measure>],
+    name: &str,
+    target: usize,
+) {
+    for measure in measures {
+        let (key, measure) = (key(name, measure.as_ref()), Arc::clone(measure));
         selected.push(Selected { key, name: name.to_owned(), target, measure });
     }
 }
@@ -104,6 +112,24 @@ fn reported_elements(assembly: &Assembly) -> Vec<usize> {
     }
     let masses = touching(&|node| assembly.nodes[node].mass > 0.0);
     if masses.is_empty() { touching(&|_| true) } else { masses }
+}
+
+/// The impactors; without one the free masses that an element touches.
+fn reported_nodes(assembly: &Assembly) -> Vec<usize> {
+    let nodes = || assembly.nodes.iter().enumerate();
+    let impactors: Vec<usize> =
+        nodes().filter(|(_, node)| is_impactor(node)).map(|(at, _)| at).collect();
+    if !impactors.is_empty() {
+        return impactors;
+    }
+    let mut touched = vec![false; assembly.nodes.len()];
+    for end in assembly.connections.iter().flat_map(|connection| connection.between) {
+        touched[end.index()] = true;
+    }
+    nodes()
+        .filter(|(at, node)| node.free && node.mass > 0.0 && touched[*at])
+        .map(|(at, _)| at)
+        .collect()
 }
 
 fn find(assembly: &Assembly, wish: &MeasureWish) -> Result<usize, RunError> {

@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
-use dashpot_dae::{Guard, Method, Observer, Run, Trajectory, methods};
-use dashpot_network::{Assembly, Network, parameters::ParameterKind};
+use dashpot_dae::{Direction, Guard, Method, Observer, Run, Trajectory, methods};
+use dashpot_network::{
+    Assembly, Network,
+    parameters::{ParameterKind, Value, WindowWish},
+};
 
 use crate::{
     ContactReport, EventReport, MeasureReport, Reading, RunError, RunReport, Solution,
@@ -14,6 +17,7 @@ use crate::{
     refinement::{MOST_LOST, Outcome, Solved, Task},
     selection::{Selected, select},
     warnings,
+    wording::quantity,
 };
 
 /// Tolerance of a single solution whose error is not estimated, when none is given.
@@ -126,7 +130,7 @@ fn guards(assembly: &Assembly, settings: &SolveSettings) -> Result<Vec<Guard>, R
             known: assembly.system.outputs.iter().map(|output| output.name.clone()).collect(),
         })?;
         Ok(Guard {
-            name: format!("{} reaches {}", stop.output, stop.level),
+            name: condition(stop, assembly.system.outputs[output].unit),
             output,
             level: stop.level,
             direction: stop.direction,
@@ -134,6 +138,17 @@ fn guards(assembly: &Assembly, settings: &SolveSettings) -> Result<Vec<Guard>, R
         })
     };
     settings.stops.iter().map(guard).collect()
+}
+
+/// What has happened when a run stops, in words; the level is in the SI unit `unit`.
+fn condition(stop: &crate::Stop, unit: &str) -> String {
+    let way = match stop.direction {
+        Direction::Rising => "rose above",
+        Direction::Falling => "fell below",
+        Direction::Either => "reached",
+    };
+    let level = if stop.level == 0.0 { format!("0 {unit}") } else { quantity(stop.level, unit) };
+    format!("{} {way} {level}", stop.output)
 }
 
 fn report(
@@ -226,10 +241,18 @@ fn measure_report(
         window: reading.window,
         error,
         note: reading.note,
+        window_wish: window_wish(entry),
         parameters: parameters.map(|(parameter, value)| (parameter.name, value)).collect(),
         size: reading.size,
         excess,
     }
+}
+
+fn window_wish(entry: &Selected) -> Option<WindowWish> {
+    entry.measure.values().iter().find_map(|value| match value {
+        Value::Window(wish) => Some(*wish),
+        _ => None,
+    })
 }
 
 fn contacts(solution: &Solution<'_>) -> Vec<ContactReport> {
@@ -248,12 +271,13 @@ fn contacts(solution: &Solution<'_>) -> Vec<ContactReport> {
 fn events(run: &Run, trajectory: &Trajectory, contacts: &[ContactReport]) -> Vec<EventReport> {
     let guards = trajectory.events.iter().filter_map(|event| {
         let guard = run.guards.get(event.guard)?;
-        Some(EventReport { time: event.time, what: guard.name.clone() })
+        Some(EventReport { time: event.time, what: guard.name.clone(), stops: guard.stops })
     });
     let releases = contacts.iter().filter(|contact| contact.impact.contact == Contact::Released);
     let releases = releases.map(|contact| EventReport {
         time: contact.impact.end,
         what: format!("{} force turns to tension", contact.element),
+        stops: false,
     });
     let mut events: Vec<EventReport> = releases.chain(guards).collect();
     events.sort_by(|one, other| one.time.total_cmp(&other.time));

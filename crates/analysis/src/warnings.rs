@@ -4,7 +4,7 @@ use dashpot_dae::SolveError;
 
 use crate::{
     Accuracy, ContactReport, Ledger, MeasureReport, Solution,
-    impact::Contact,
+    impact::{Contact, Impact},
     wording::{percent, quantity},
 };
 
@@ -35,18 +35,30 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
 }
 
 fn pulling(findings: &Findings<'_>) -> Vec<String> {
-    let since = |contact: &ContactReport| match contact.impact.contact {
-        Contact::Released if contact.impact.end < findings.solution.end() => {
-            Some(format!("from {}", quantity(contact.impact.end, "s")))
+    let end = findings.solution.end();
+    let since = |impact: &Impact| match impact.contact {
+        Contact::Released if impact.end < end => {
+            Some(format!("from {}", quantity(impact.end, "s")))
         }
         Contact::Pulling => Some("from the start".to_owned()),
         _ => None,
     };
-    let warning = |contact: &ContactReport| {
-        since(contact)
-            .map(|since| format!("{since} the {} pulls: separation is off", contact.element))
+    let contacts = findings.contacts.iter().map(|own| (own.element.as_str(), own.impact));
+    let warning = |(element, impact): (&str, Impact)| {
+        since(&impact).map(|since| format!("{since} the {element} pulls: separation is off"))
     };
-    findings.contacts.iter().filter_map(warning).collect()
+    contacts.chain(pads(findings.solution)).filter_map(warning).collect()
+}
+
+/// How the pads between parts that are no impactors are pressed: what has a thickness lies between
+/// its ends and cannot pull at them, while mounts may.
+fn pads<'a>(solution: &'a Solution<'a>) -> impl Iterator<Item = (&'a str, Impact)> {
+    let connections = solution.assembly().connections.iter();
+    connections.filter_map(|connection| {
+        connection.thickness?;
+        let force = connection.force.filter(|_| !solution.touches_impactor(connection))?;
+        Some((connection.name.as_str(), Impact::of_force(solution.signal(force), solution.end())))
+    })
 }
 
 fn beyond_thickness(solution: &Solution<'_>) -> Vec<String> {

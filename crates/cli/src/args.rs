@@ -1,10 +1,10 @@
 //! The arguments of the command: types only.
 
-use std::path::PathBuf;
+use std::{ffi::OsStr, path::PathBuf};
 
 use clap::{
     Args, Parser, Subcommand, ValueEnum,
-    builder::{PossibleValue, PossibleValuesParser},
+    builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
 };
 use clap_complete::Shell;
 use dashpot_dae::methods;
@@ -87,7 +87,7 @@ pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// Methods in place of the scene's, side by side; `dashpot list methods` tells of each.
-    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = method_names())]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = MethodNames(method_names()))]
     pub(crate) method: Vec<String>,
     /// Accuracy of every measure, relative, such as 0.1% [default: the scene's, else 0.1 %].
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -138,10 +138,12 @@ pub(crate) struct ExplainArguments {
 
 /// `list`.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  dashpot list\n  dashpot list measures")]
+#[command(after_help = "Examples:\n  dashpot list\n  dashpot list measures\n  dashpot list zener")]
 pub(crate) struct ListArguments {
-    /// One family alone.
-    pub(crate) family: Option<Family>,
+    /// One family alone (elements, forms, waveforms, effects, measures, methods, templates,
+    /// scenes), or one kind, by any of its names.
+    #[arg(value_name = "FAMILY|KIND")]
+    pub(crate) what: Option<String>,
 }
 
 /// `new`.
@@ -200,6 +202,28 @@ pub(crate) enum Family {
     Templates,
     /// Scenes that are built in.
     Scenes,
+}
+
+/// The names of methods, blanks around them allowed.
+#[derive(Debug, Clone)]
+struct MethodNames(PossibleValuesParser);
+
+impl TypedValueParser for MethodNames {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        let trimmed = value.to_str().map_or(value, |text| OsStr::new(text.trim()));
+        self.0.parse_ref(command, argument, trimmed)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        self.0.possible_values()
+    }
 }
 
 fn method_names() -> PossibleValuesParser {

@@ -8,6 +8,8 @@ use dashpot_plot::PlotError;
 use dashpot_scene::Diagnostics;
 use thiserror::Error;
 
+use crate::input::reason;
+
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Status {
@@ -38,6 +40,8 @@ pub(crate) enum CliError {
         name: String,
         /// Why.
         reason: String,
+        /// What may be meant instead.
+        similar: Option<String>,
     },
     /// A file that is there already.
     #[error("`{}` exists already and was not written by this command", .path.display())]
@@ -48,12 +52,24 @@ pub(crate) enum CliError {
         help: &'static str,
     },
     /// A file or folder that cannot be written.
-    #[error("`{}` cannot be written: {source}", .path.display())]
+    #[error("`{}` cannot be written: {}", .path.display(), reason(.source))]
     Unwritable {
         /// The file or folder.
         path: PathBuf,
         /// Why.
         source: io::Error,
+    },
+    /// A file where a folder is wanted.
+    #[error("`{}` is a file; `--out` wants a folder", .path.display())]
+    NotAFolder {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A word that no register has.
+    #[error("there is no kind `{word}`")]
+    UnknownKind {
+        /// The word.
+        word: String,
     },
     /// Standard output that cannot be written.
     #[error("the output cannot be written: {0}")]
@@ -73,7 +89,13 @@ impl CliError {
     /// The one table of exit codes.
     pub(crate) fn status(&self) -> Status {
         match self {
-            Self::Scene(_) | Self::Unreadable { .. } | Self::Foreign { .. } => Status::InputWrong,
+            Self::Scene(_)
+            | Self::Unreadable { .. }
+            | Self::Foreign { .. }
+            | Self::NotAFolder { .. }
+            | Self::UnknownKind { .. } => Status::InputWrong,
+            // The place is wrong; all else, such as a full disk, is a failure.
+            Self::Unwritable { source, .. } if is_wrong_place(source) => Status::InputWrong,
             Self::Run(error) => match error {
                 RunError::Network(_)
                 | RunError::UnknownMethod { .. }
@@ -95,6 +117,10 @@ impl CliError {
     /// What to do, where that can be said.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
+            Self::Unreadable { similar: Some(similar), .. } => {
+                Some(format!("did you mean `{similar}`?"))
+            }
+            Self::UnknownKind { .. } => Some("`dashpot list` names every kind".to_owned()),
             Self::Unreadable { .. } => Some(
                 "`dashpot new --out pad.toml` writes a scene to start from, \
                  `dashpot run` alone solves the built-in one"
@@ -116,4 +142,20 @@ impl CliError {
             _ => None,
         }
     }
+}
+
+/// Whether a place that cannot be written is one that was badly chosen.
+fn is_wrong_place(error: &io::Error) -> bool {
+    use io::ErrorKind::{
+        AlreadyExists, IsADirectory, NotADirectory, NotFound, PermissionDenied, ReadOnlyFilesystem,
+    };
+    matches!(
+        error.kind(),
+        AlreadyExists
+            | IsADirectory
+            | NotADirectory
+            | NotFound
+            | PermissionDenied
+            | ReadOnlyFilesystem
+    )
 }

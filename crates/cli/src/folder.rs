@@ -11,6 +11,7 @@ use dashpot_plot::{ReportFigure, RunSeries, figures::FIGURES};
 
 use crate::{
     answer::{Answer, document, page},
+    as_run,
     error::CliError,
     series::curves_and_energies,
     sketch::sketch,
@@ -20,17 +21,53 @@ use crate::{
 const RESULT: &str = "result.json";
 /// The beginning of that file.
 const MARK: &str = "{\n  \"dashpot\"";
-/// The scene as it was read.
+/// The scene with what the command line changed.
 const SCENE: &str = "scene-as-run.toml";
+/// The drawing of the network.
+const DRAWING: &str = "network.svg";
+/// Everything on one page.
+const PAGE: &str = "report.html";
+/// A file that is made and removed at once.
+const PROBE: &str = ".dashpot-probe";
 /// Figures show at least so many points, and at most so many.
 const POINTS: (usize, usize) = (4001, 20_001);
 /// Rows of a table that are in memory at once.
 const CHUNK: usize = 4096;
 
+/// Makes the folder `path` if need be, and finds out whether files can be written there, so that
+/// no run is done in vain. Returns whether it was made.
+pub(crate) fn prepare(path: &Path) -> Result<bool, CliError> {
+    if path.is_file() {
+        return Err(CliError::NotAFolder { path: path.to_owned() });
+    }
+    let is_there = path.is_dir();
+    fs::create_dir_all(path).map_err(unwritable(path))?;
+    let figures = FIGURES.iter().map(|figure| format!("{}.svg", figure.name()));
+    refuse_foreign(path, figures.chain([SCENE, DRAWING, PAGE].map(str::to_owned)))?;
+    let probe = path.join(PROBE);
+    File::create(&probe).and_then(|_| fs::remove_file(&probe)).map_err(unwritable(path))?;
+    Ok(!is_there)
+}
+
+/// Refuses to write over files of these names that no run has written.
+fn refuse_foreign(path: &Path, names: impl Iterator<Item = String>) -> Result<(), CliError> {
+    if is_folder_of_results(path) {
+        return Ok(());
+    }
+    let mut files = names.chain([RESULT.to_owned()]).map(|name| path.join(name));
+    match files.find(|file| file.exists()) {
+        Some(path) => Err(CliError::Foreign {
+            path,
+            help: "choose another folder for `--out`, or move the file away",
+        }),
+        None => Ok(()),
+    }
+}
+
 /// Writes everything that an answer holds into the folder `path`, and returns the names of the
 /// files.
 pub(crate) fn write(answer: &Answer, path: &Path) -> Result<Vec<String>, CliError> {
-    let mut texts = vec![(SCENE.to_owned(), answer.scene.text.to_string())];
+    let mut texts = vec![(SCENE.to_owned(), as_run::text(&answer.scene, &answer.changes))];
     let network = sketch(&answer.scene.network, answer.scene.run.duration).svg();
     let (low, high) = POINTS;
     let count = answer.scene.run.samples.clamp(low, high);
@@ -38,26 +75,17 @@ pub(crate) fn write(answer: &Answer, path: &Path) -> Result<Vec<String>, CliErro
         answer.runs.iter().map(|run| curves_and_energies(run, count)).collect();
     let mut figures =
         vec![ReportFigure { caption: "The network".to_owned(), svg: network.clone() }];
-    texts.push(("network.svg".to_owned(), network));
+    texts.push((DRAWING.to_owned(), network));
     for figure in FIGURES {
         let svg = figure.chart(&series).svg()?;
         figures.push(ReportFigure { caption: String::new(), svg: svg.clone() });
         texts.push((format!("{}.svg", figure.name()), svg));
     }
-    texts.push(("report.html".to_owned(), page(answer, figures).html()));
+    texts.push((PAGE.to_owned(), page(answer, figures).html()));
     let tables: Vec<(String, &RunReport)> =
         answer.runs.iter().map(|run| (format!("{}.csv", run.solver.method), run)).collect();
-    fs::create_dir_all(path).map_err(unwritable(path))?;
-    if !is_folder_of_results(path) {
-        let names = texts.iter().map(|(name, _)| name).chain(tables.iter().map(|(name, _)| name));
-        let mut foreign = names.map(String::as_str).chain([RESULT]).map(|name| path.join(name));
-        if let Some(path) = foreign.find(|file| file.exists()) {
-            return Err(CliError::Foreign {
-                path,
-                help: "choose another folder for `--out`, or move the file away",
-            });
-        }
-    }
+    let names = texts.iter().map(|(name, _)| name).chain(tables.iter().map(|(name, _)| name));
+    refuse_foreign(path, names.cloned())?;
     // The mark comes first, so that a second attempt may complete what a first one began.
     let json = serde_json::to_string_pretty(&document(answer))? + "\n";
     texts.insert(0, (RESULT.to_owned(), json));

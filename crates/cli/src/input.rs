@@ -35,13 +35,26 @@ pub(crate) fn read_scene(
     } else {
         (&*name, bytes_of(path))
     };
-    let bytes = bytes
-        .map_err(|error| CliError::Unreadable { name: file.to_owned(), reason: reason(&error) })?;
+    let bytes = bytes.map_err(|error| CliError::Unreadable {
+        name: file.to_owned(),
+        reason: reason(&error),
+        similar: similar(path),
+    })?;
     read_bytes(&bytes, &options(file)).map_err(CliError::Scene)
 }
 
+/// What may be meant by a name that no file has: the same with or without the ending of a scene.
+fn similar(path: &Path) -> Option<String> {
+    let with_ending = path.with_extension("toml");
+    if path.extension().is_none() && with_ending.is_file() {
+        return Some(with_ending.display().to_string());
+    }
+    let stem = path.file_stem()?.to_string_lossy();
+    references().iter().find(|shipped| shipped.name == stem).map(|shipped| shipped.name.to_owned())
+}
+
 /// The text of a file of models.
-fn load(path: &str) -> Result<String, String> {
+pub(crate) fn load(path: &str) -> Result<String, String> {
     let bytes = bytes_of(Path::new(path)).map_err(|error| reason(&error))?;
     let text = text_of_bytes(&bytes, None).map_err(|faults| {
         let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
@@ -64,11 +77,19 @@ fn limited(reader: impl Read) -> io::Result<Vec<u8>> {
 }
 
 /// An error of the system in plain words.
-fn reason(error: &io::Error) -> String {
+pub(crate) fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
         io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
-        _ => error.to_string(),
+        io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
+            "a file stands in the way of a folder".to_owned()
+        }
+        io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
+        _ => {
+            let text = error.to_string();
+            // The number is of no use to people.
+            text.split_once(" (os error").map_or(text.clone(), |(words, _)| words.to_owned())
+        }
     }
 }

@@ -5,6 +5,7 @@
 
 mod answer;
 mod args;
+mod as_run;
 mod commands;
 mod error;
 mod folder;

@@ -25,13 +25,15 @@ pub(crate) struct Entry {
     pub(crate) example: Option<String>,
     /// Its parameters, one line each.
     pub(crate) details: Vec<String>,
+    /// Other words for it.
+    pub(crate) aliases: &'static [&'static str],
 }
 
 impl Entry {
     /// An entry without example and parameters.
     pub(crate) fn plain(name: &str, summary: &str) -> Self {
         let (name, summary) = (name.to_owned(), summary.to_owned());
-        Self { name, summary, example: None, details: Vec::new() }
+        Self { name, summary, example: None, details: Vec::new(), aliases: &[] }
     }
 }
 
@@ -102,7 +104,8 @@ impl FormVisitor for Collect {
         let example = Some(format!("{} = {}", F::KIND, parts(F::PARTS)));
         let also = format!("also called {}", F::ALIASES.join(", "));
         let details = if F::ALIASES.is_empty() { Vec::new() } else { vec![also] };
-        self.0.push(Entry { example, details, ..Entry::plain(F::KIND, F::SUMMARY) });
+        let aliases = F::ALIASES;
+        self.0.push(Entry { example, details, aliases, ..Entry::plain(F::KIND, F::SUMMARY) });
     }
 }
 

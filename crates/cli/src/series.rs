@@ -10,6 +10,8 @@ use dashpot_plot::{ElementSeries, EnergySeries, RunMarker, RunMarkerKind, RunSer
 
 use crate::numbers::{digits, quantity};
 
+/// Points that are closer than this part of the run are one.
+const SAME: f64 = 1e-4;
 /// Digits in a marker's text.
 const DIGITS: usize = 3;
 
@@ -50,7 +52,7 @@ pub(crate) fn curves_and_energies(report: &RunReport, count: usize) -> RunSeries
         part("dissipated", energies.dissipated),
     ];
     if !report.energy.work_in.is_empty() {
-        energy.push(part("work in", energies.work_in));
+        energy.push(part("put in from outside", energies.work_in));
     }
     RunSeries { energy, ..series }
 }
@@ -68,6 +70,17 @@ fn markers(report: &RunReport) -> Vec<RunMarker> {
     };
     let mut markers = peak(PeakForce::KIND, RunMarkerKind::PeakForce, "peak");
     markers.extend(peak(PeakDeformation::KIND, RunMarkerKind::DeepestPoint, "deepest"));
+    // Two measures of one kind may have found the same point.
+    let mut known: Vec<RunMarker> = Vec::new();
+    markers.retain(|marker| {
+        let is_known = known.iter().any(|other| {
+            other.element == marker.element
+                && other.kind == marker.kind
+                && (other.time - marker.time).abs() <= SAME * report.trajectory.t_end
+        });
+        known.push(marker.clone());
+        !is_known
+    });
     let end = report.trajectory.t_end;
     let released = report.contacts.iter().filter(|contact| {
         contact.impact.contact == dashpot_analysis::Contact::Released && contact.impact.end < end

@@ -1,14 +1,16 @@
 //! Networks as drawings.
 
-use std::sync::Arc;
+use std::{f64::consts::TAU, sync::Arc};
 
-use dashpot_dae::Waveform;
+use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{Element, Network, Node, NodeId, Start, Support, elements::Law};
 use dashpot_plot::{Sketch, SketchKind, SketchLink, SketchNode, SketchTree};
 use dashpot_rheology::Tree;
 
-use crate::numbers::constant;
+use crate::numbers::{constant, rounded};
 
+/// Digits of what is computed from a driving function.
+const DIGITS: usize = 4;
 /// Deeper nesting is drawn as one box: no drawing shows it, and the way down is a recursion.
 const DEEPEST: usize = 500;
 
@@ -59,11 +61,38 @@ fn node(network: &Network, id: NodeId, node: &Node, duration: f64) -> SketchNode
 
 /// A driving function in words, over a run of `duration` \[s\].
 pub(crate) fn waveform(waveform: &Waveform, si: &str, duration: f64) -> String {
-    match waveform.pieces() {
-        [one] if one.slope == 0.0 && one.sine == 0.0 && one.cosine == 0.0 => {
+    let pieces = waveform.pieces();
+    let most = || constant(waveform.bound(duration), si);
+    let is_straight = |piece: &Piece| piece.sine == 0.0 && piece.cosine == 0.0;
+    let is_zero = |piece: &Piece| is_straight(piece) && piece.slope == 0.0 && piece.value == 0.0;
+    match pieces {
+        [one] if is_straight(one) && one.slope == 0.0 => {
             format!("constant {}", constant(one.value, si))
         }
-        _ => format!("up to {}", constant(waveform.bound(duration), si)),
+        [one] if one.slope == 0.0 && one.value == 0.0 => {
+            let frequency = rounded(one.omega / TAU, "Hz", DIGITS);
+            format!("sine of {} at {frequency}", rounded(one.sine.hypot(one.cosine), si, DIGITS))
+        }
+        [before, arch, after]
+            if is_zero(before) && is_zero(after) && arch.sine != 0.0 && arch.cosine == 0.0 =>
+        {
+            let length = rounded(after.start - arch.start, "s", DIGITS);
+            format!("arch of {} in {length}", constant(arch.sine, si))
+        }
+        [before, rising, after]
+            if is_zero(before)
+                && is_straight(rising)
+                && is_straight(after)
+                && after.slope == 0.0 =>
+        {
+            let length = rounded(after.start - rising.start, "s", DIGITS);
+            format!("ramp to {} in {length}", constant(after.value, si))
+        }
+        [_, rest @ ..] if pieces.iter().all(is_straight) => {
+            let jumps = rest.iter().filter(|piece| waveform.jump(piece.start) != 0.0).count();
+            format!("table of {} points, up to {}", rest.len() + jumps, most())
+        }
+        _ => format!("up to {}", most()),
     }
 }
 

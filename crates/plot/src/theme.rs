@@ -32,6 +32,8 @@ pub(crate) const BROAD_WIDTH: f64 = 6.0;
 pub(crate) const LINE_WIDTH: f64 = 1.4;
 /// Width of grid lines \[px\].
 pub(crate) const HAIR_WIDTH: f64 = 0.8;
+/// Width of the border in the colour of the background around a text in a chart \[px\].
+pub(crate) const HALO_WIDTH: f64 = 6.0;
 /// Radius of a marker \[px\].
 pub(crate) const MARKER_RADIUS: f64 = 4.5;
 
@@ -85,6 +87,11 @@ pub(crate) const COLOURS: usize = PALETTE.len();
 /// The `index`-th curve colour; after the last one they begin again.
 pub(crate) fn curve_colour(index: usize) -> Colour {
     PALETTE[index % COLOURS]
+}
+
+/// Colour of a reference line that belongs to the curves of this colour number, if to any.
+pub(crate) fn limit_colour(index: Option<usize>) -> Colour {
+    index.map_or(FAINT, curve_colour)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::{cell::RefCell, collections::HashSet, fmt, ops::Range, sync::Arc};
 use crate::{
     fault::Fault,
     render,
-    source::{Place, Source},
+    source::{Place, SET, Source},
 };
 
 /// So many faults are kept; the others are counted.
@@ -37,6 +37,11 @@ impl Diagnostic {
     /// What is wrong, in one sentence.
     pub fn message(&self) -> String {
         self.fault.to_string()
+    }
+
+    /// What else there is to know.
+    pub fn note(&self) -> Option<String> {
+        self.fault.note()
     }
 
     /// How to put it right, where that can be said.
@@ -155,6 +160,19 @@ impl Faults {
         let source = state.sources.get(place.source as usize);
         source
             .map_or_else(String::new, |source| source.text[source.clamp(&place.span())].to_owned())
+    }
+
+    /// Where a value comes from, in words.
+    pub(crate) fn origin(&self, place: Place) -> String {
+        let state = self.state.borrow();
+        match state.sources.get(place.source as usize) {
+            Some(source) if source.name == SET => format!("set by `{SET}`"),
+            Some(source) => {
+                let (line, _) = source.line_and_column(place.start as usize);
+                format!("defined in line {line}")
+            }
+            None => String::new(),
+        }
     }
 
     /// All that was found, errors first, in the order of the text.

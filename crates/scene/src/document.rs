@@ -11,11 +11,12 @@ use crate::{
     diagnostics::Faults,
     fault::Fault,
     nesting,
+    repair::repaired,
     source::{Place, Source},
 };
 
 /// A text may have so many bytes.
-pub(crate) const MAX_BYTES: usize = 64 << 20;
+pub const MAX_BYTES: usize = 64 << 20;
 
 /// Arrays, tables and dotted keys may nest so deeply in a text.
 pub(crate) const MAX_LEVELS: usize = 1000;
@@ -107,14 +108,25 @@ pub(crate) fn parse(source: &Arc<Source>, faults: &Faults) -> Option<Item> {
         faults.error(place, Fault::TooDeep { levels });
         return None;
     }
-    let (root, errors) = if levels <= SHALLOW {
-        parse_text(text, number)
-    } else {
+    let parsed = |text: &str| {
+        if levels <= SHALLOW {
+            return parse_text(text, number);
+        }
         on_deep_stack(text, number).unwrap_or_else(|reason| {
             faults.error(whole, Fault::Unloadable { path: source.name.clone(), reason });
             (None, Vec::new())
         })
     };
+    let (mut root, mut errors) = parsed(text);
+    if !errors.is_empty() {
+        let (text, slips) = repaired(text);
+        if !slips.is_empty() {
+            (root, errors) = parsed(&text);
+        }
+        for (span, fault) in slips {
+            faults.error(Place::new(number, &span), fault);
+        }
+    }
     let mut last = None;
     for (place, fault) in errors {
         // The parser may say the same thing twice in other words.

@@ -7,8 +7,9 @@ use dashpot_network::{
 use thiserror::Error;
 
 use crate::{
+    fault_help::{bad_value_help, unknown_name_help, unreadable_help, wrong_dimension_help},
     nearest::{list, suggestion},
-    units::{UnitError, parse_dimension, si_unit},
+    units::{UnitError, si_unit},
 };
 
 /// One thing that is wrong, or odd, in a scene.
@@ -243,6 +244,18 @@ pub enum Fault {
     Odd {
         /// What.
         message: String,
+        /// What to do about it.
+        help: Option<String>,
+    },
+    /// A fault about which its surroundings tell more.
+    #[error("{fault}")]
+    Explained {
+        /// The fault.
+        fault: Box<Self>,
+        /// How to put it right; the fault's own help where there is none.
+        help: Option<String>,
+        /// What else there is to know.
+        note: Option<String>,
     },
 }
 
@@ -253,9 +266,36 @@ impl From<InvalidParameter> for Fault {
 }
 
 impl Fault {
+    /// The fault with other help.
+    #[must_use]
+    pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
+        Self::Explained { fault: Box::new(self), help: Some(help.into()), note: None }
+    }
+
+    /// The fault with a remark.
+    #[must_use]
+    pub(crate) fn with_note(self, note: impl Into<String>) -> Self {
+        Self::Explained { fault: Box::new(self), help: None, note: Some(note.into()) }
+    }
+
+    /// Something odd, and what to do about it.
+    pub(crate) fn odd(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Odd { message: message.into(), help: Some(help.into()) }
+    }
+
+    /// What else there is to know.
+    pub fn note(&self) -> Option<String> {
+        match self {
+            Self::Explained { fault, note, .. } => note.clone().or_else(|| fault.note()),
+            _ => None,
+        }
+    }
+
     /// How to put it right, where that can be said.
     pub fn help(&self) -> Option<String> {
         match self {
+            Self::Odd { help, .. } => help.clone(),
+            Self::Explained { fault, help, .. } => help.clone().or_else(|| fault.help()),
             Self::Empty => Some("`dashpot new` writes a commented scene to start from".to_owned()),
             Self::NotUtf8 { .. } => Some("save the file with the encoding UTF-8".to_owned()),
             Self::NotQuoted { text } if text.is_empty() => {
@@ -271,9 +311,10 @@ impl Fault {
             }
             Self::Unreadable { error, expected } => Some(unreadable_help(error, *expected)),
             Self::BadValue { error, example } => Some(bad_value_help(error, example)),
-            Self::WrongDimension { expected, .. } | Self::NoQuantity { expected, .. } => {
-                Some(example(*expected))
+            Self::WrongDimension { text, found, expected } => {
+                Some(wrong_dimension_help(text, *found, *expected))
             }
+            Self::NoQuantity { expected, .. } => Some(example(*expected)),
             Self::AngularFrequency { frequency, .. } => {
                 Some(format!("divide by 2 pi: \"{frequency:.6} Hz\""))
             }
@@ -302,6 +343,7 @@ impl Fault {
         match self {
             Self::DuplicateKey { .. } => Some("second one".to_owned()),
             Self::AngularFrequency { .. } => Some("in radians".to_owned()),
+            Self::Explained { fault, .. } => fault.label(),
             _ => None,
         }
     }
@@ -340,41 +382,7 @@ pub(crate) fn example_text(dimension: Dimension) -> &'static str {
     }
 }
 
-fn example(dimension: Dimension) -> String {
+/// The same in a sentence.
+pub(crate) fn example(dimension: Dimension) -> String {
     format!("for example \"{}\"", example_text(dimension))
-}
-
-fn unreadable_help(error: &UnitError, expected: Dimension) -> String {
-    let like = example(expected);
-    match error {
-        UnitError::UnknownUnit { meant: Some(meant), .. } if fits(meant, expected) => {
-            format!("did you mean `{meant}`? {} is expected, {like}", described(expected))
-        }
-        UnitError::UnknownUnit { meant: Some(meant), .. } => {
-            format!("did you mean `{meant}`? {like}")
-        }
-        UnitError::DecimalComma { text } => format!("write \"{}\"", text.replacen(',', ".", 1)),
-        _ => format!("{} is expected, {like}", described(expected)),
-    }
-}
-
-fn bad_value_help(error: &UnitError, example: &str) -> String {
-    match error {
-        UnitError::UnknownUnit { meant: Some(meant), .. } => format!("did you mean `{meant}`?"),
-        UnitError::DecimalComma { text } => format!("write \"{}\"", text.replacen(',', ".", 1)),
-        _ => format!("a value is a quantity, for example \"{example}\""),
-    }
-}
-
-fn fits(unit: &str, expected: Dimension) -> bool {
-    parse_dimension(unit).is_ok_and(|dimension| dimension == expected)
-}
-
-fn unknown_name_help(family: &str, name: &str, known: &[String]) -> Option<String> {
-    if known.is_empty() && family == "value" {
-        return Some(format!("name it in [values]: {name} = \"…\""));
-    }
-    let known = known.iter().map(String::as_str).collect::<Vec<_>>();
-    let families = format!("{}s", family.replace(" or ", "s and "));
-    suggestion(name, &families, &known).or_else(|| Some(format!("there are no {families}")))
 }

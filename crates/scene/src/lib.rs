@@ -14,6 +14,7 @@
 mod diagnostics;
 mod document;
 mod fault;
+mod fault_help;
 mod kinds;
 mod library;
 mod models;
@@ -21,8 +22,11 @@ mod nearest;
 mod nesting;
 mod network_faults;
 mod parameters;
+mod plausible;
 mod quantity;
 mod render;
+mod repair;
+mod review;
 mod scene;
 mod schema;
 mod sections;
@@ -34,6 +38,7 @@ mod values;
 mod write;
 
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
+pub use document::MAX_BYTES;
 pub use fault::Fault;
 pub use library::Loader;
 pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_model, text_of_bytes};

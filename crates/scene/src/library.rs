@@ -81,7 +81,7 @@ impl Library {
 
     /// Reads quantities of a document.
     pub(crate) fn quantities<'d>(&'d self, document: usize, faults: &'d Faults) -> Quantities<'d> {
-        Quantities { values: &self.documents[document].values, faults }
+        Quantities { values: &self.documents[document].values, faults, is_motion: false }
     }
 
     /// The values of the scene's own document.

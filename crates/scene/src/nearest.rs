@@ -3,7 +3,19 @@
 /// How many known words a message shows.
 const SHOWN: usize = 20;
 
-/// The word of `known` that is nearest to `word`, if one is near.
+/// What other programs and books call a word.
+const SYNONYMS: &[(&str, &str)] = &[
+    ("damper", "dashpot"),
+    ("damping", "dashpot"),
+    ("viscosity", "dashpot"),
+    ("c", "dashpot"),
+    ("stiffness", "spring"),
+    ("k", "spring"),
+    ("speed", "velocity"),
+    ("height", "drop"),
+];
+
+/// The word of `known` that is nearest to `word`, if one is near, or means the same.
 pub(crate) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let lower = word.to_lowercase();
     let limit = match lower.chars().count() {
@@ -11,6 +23,11 @@ pub(crate) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) 
         1..=3 => 1,
         count => (count / 3).max(2),
     };
+    let known = known.into_iter().collect::<Vec<_>>();
+    let same = SYNONYMS.iter().find(|entry| entry.0 == lower).map(|entry| entry.1);
+    if let Some(same) = known.iter().find(|known| same == Some(**known)) {
+        return Some(*same);
+    }
     known
         .into_iter()
         .map(|candidate| {

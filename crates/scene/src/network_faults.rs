@@ -4,7 +4,17 @@ use std::collections::HashMap;
 
 use dashpot_network::{NetworkError, NetworkErrors, Subject};
 
-use crate::{document::Entry, fault::Fault, sections::Reading, source::Place};
+use crate::{
+    document::{Content, Entry, Item},
+    fault::Fault,
+    sections::Reading,
+    source::Place,
+};
+
+/// The value of a key in an entry that is a table.
+pub(crate) fn value_of<'d>(entry: &'d Entry, key: &str) -> Option<&'d Item> {
+    entry.item.table()?.iter().find(|own| own.key == key).map(|own| &own.item)
+}
 
 /// The entries of a scene by what they describe.
 struct Entries<'d> {
@@ -31,10 +41,18 @@ pub(crate) fn note_errors(reading: &Reading<'_>, errors: NetworkErrors) {
 pub(crate) fn note_warnings(reading: &Reading<'_>, warnings: &[String]) {
     let entries = Entries::of(reading);
     for message in warnings {
-        let names = message.split('`').skip(1).step_by(2);
-        let place =
-            names.filter_map(|name| entries.named(name)).map(|entry| entry.key_place).next();
-        reading.faults.warning(place, Fault::Odd { message: message.clone() });
+        let entry = message.split('`').skip(1).step_by(2).find_map(|name| entries.named(name));
+        let between = entry.and_then(|entry| value_of(entry, "between"));
+        let (mut place, mut help) = (entry.map(|entry| entry.key_place), None);
+        if let Some(between) = between.filter(|_| message.contains("looks reversed")) {
+            place = Some(between.place);
+            if let Content::List(ends) = &between.value
+                && let [Some(from), Some(to)] = [0, 1].map(|at| ends.get(at).and_then(Item::text))
+            {
+                help = Some(format!("write [\"{to}\", \"{from}\"]"));
+            }
+        }
+        reading.faults.warning(place, Fault::Odd { message: message.clone(), help });
     }
 }
 

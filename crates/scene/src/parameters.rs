@@ -3,7 +3,7 @@
 use dashpot_network::parameters::{Dimension, Parameter, ParameterKind, Value, WindowWish};
 
 use crate::{
-    document::{Content, Item},
+    document::{Content, Entry, Item},
     fault::Fault,
     kinds::{Kind, example_value},
     quantity::{Quantities, Values},
@@ -11,6 +11,13 @@ use crate::{
     table::{Table, list_of, text_of, wrong_type},
     units::parse_quantity,
 };
+
+/// Where a parameter's value stands, and the value where it is given.
+type Given<'i> = (Place, Option<&'i Item>);
+
+fn given(entry: Option<&Entry>, place: Place) -> Given<'_> {
+    entry.map_or((place, None), |entry| (entry.item.place, Some(&entry.item)))
+}
 
 /// Reads things of the kinds in the registers.
 #[derive(Clone, Copy)]
@@ -38,8 +45,14 @@ impl<'d> KindReader<'d> {
             Ok(made) => Some(made),
             Err(invalid) => {
                 let at = kind.parameters.iter().position(|known| known.name == invalid.parameter);
-                let place = at.and_then(|at| places.get(at).copied()).unwrap_or(item.place);
-                self.quantities.faults.error(place, invalid.into());
+                let at = at.and_then(|at| places.get(at).copied());
+                let (place, item) = at.unwrap_or((item.place, Some(item)));
+                let fault = Fault::Invalid(invalid);
+                let fault = match item {
+                    Some(item) => self.quantities.traced(item, fault),
+                    None => fault,
+                };
+                self.quantities.faults.error(place, fault);
                 None
             }
         }
@@ -50,12 +63,15 @@ impl<'d> KindReader<'d> {
         self.read(kind, &Item { value: Content::Table(Vec::new()), place }, place)
     }
 
-    fn values<T>(
+    fn values<'i, T>(
         self,
         kind: &Kind<T>,
-        item: &Item,
+        item: &'i Item,
         place: Place,
-    ) -> Option<(Vec<Value>, Vec<Place>)> {
+    ) -> Option<(Vec<Value>, Vec<Given<'i>>)>
+    where
+        'd: 'i,
+    {
         let faults = self.quantities.faults;
         let required = kind.parameters.iter().filter(|known| known.default.is_none()).count();
         let is_table = item.table().is_some();
@@ -68,7 +84,7 @@ impl<'d> KindReader<'d> {
                 }
             };
             let values = kind.parameters.iter().map(read).collect::<Option<Vec<_>>>()?;
-            return Some((values, vec![item.place; kind.parameters.len()]));
+            return Some((values, vec![(item.place, Some(item)); kind.parameters.len()]));
         }
         if !is_table {
             let expected = format!("a table, for example `{}`", example_value(kind.parameters));
@@ -87,13 +103,13 @@ impl<'d> KindReader<'d> {
                     let value = example_value(std::slice::from_ref(parameter));
                     let entry =
                         table.require(parameter.name, &format!("{} = {value}", parameter.name));
-                    places.push(entry.map_or(place, |entry| entry.item.place));
+                    places.push(given(entry, place));
                     values.push(entry.and_then(|entry| self.value(parameter, &entry.item)));
                     continue;
                 }
                 Some(_) => table.take(parameter.name),
             };
-            places.push(entry.map_or(place, |entry| entry.item.place));
+            places.push(given(entry, place));
             values.push(match entry {
                 Some(entry) => self.value(parameter, &entry.item),
                 None => self.default(parameter),
@@ -110,7 +126,7 @@ impl<'d> KindReader<'d> {
             ParameterKind::Quantity(dimension) => {
                 self.quantities.read(item, dimension).map(Value::Number)
             }
-            ParameterKind::Amplitude => self.quantities.read(item, self.driven).map(Value::Number),
+            ParameterKind::Amplitude => self.amplitude(item).map(Value::Number),
             ParameterKind::TimeTable => self.time_table(item).map(Value::Table),
             ParameterKind::Choice(words) => {
                 let word = text_of(item, &what(), faults)?;
@@ -133,6 +149,11 @@ impl<'d> KindReader<'d> {
         }
     }
 
+    fn amplitude(self, item: &Item) -> Option<f64> {
+        let is_motion = self.driven == Dimension::LENGTH;
+        Quantities { is_motion, ..self.quantities }.read(item, self.driven)
+    }
+
     fn time_table(self, item: &Item) -> Option<Vec<(f64, f64)>> {
         let points = list_of(item, "a table of time", self.quantities.faults)?;
         // Every point is read, so that all faults are found.
@@ -144,7 +165,7 @@ impl<'d> KindReader<'d> {
         match &item.value {
             Content::List(pair) if pair.len() == 2 => {
                 let time = self.quantities.read(&pair[0], Dimension::TIME);
-                let value = self.quantities.read(&pair[1], self.driven);
+                let value = self.amplitude(&pair[1]);
                 time.zip(value)
             }
             _ => {
@@ -163,6 +184,16 @@ impl<'d> KindReader<'d> {
                 let to = self.quantities.read(&pair[1], Dimension::TIME);
                 from.zip(to).map(|(from, to)| WindowWish::Times(from, to))
             }
+            Content::Text(word) => {
+                let (family, word) = ("a window".to_owned(), word.clone());
+                let fault = Fault::UnknownWord { family, word, known: vec!["impact", "run"] };
+                let fault = fault.with_help(
+                    "write \"impact\", \"run\" for the whole run, or a pair of times such as \
+                     [\"0 ms\", \"15 ms\"]",
+                );
+                self.quantities.faults.error(item.place, fault);
+                None
+            }
             _ => {
                 let expected = "\"impact\", \"run\" or a pair of times";
                 wrong_type(item, "a window", expected, self.quantities.faults);
@@ -179,7 +210,7 @@ impl<'d> KindReader<'d> {
             _ => Content::Text(text.to_owned()),
         };
         let place = Place { source: u32::MAX, start: 0, end: 0 };
-        let without_names = Quantities { values: &Values::new(), faults: self.quantities.faults };
+        let without_names = Quantities { values: &Values::new(), ..self.quantities };
         let reader = KindReader { quantities: without_names, ..self };
         match parameter.kind {
             ParameterKind::Amplitude => parse_quantity(text).ok().map(|q| Value::Number(q.value)),

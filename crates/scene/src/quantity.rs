@@ -1,6 +1,6 @@
 //! Quantities where they stand: numbers, texts with units, and named values.
 
-use std::collections::HashMap;
+use std::{cell::Cell, collections::HashMap};
 
 use dashpot_network::parameters::Dimension;
 
@@ -12,8 +12,33 @@ use crate::{
     units::{Quantity, UnitError, parse_quantity},
 };
 
-/// The named values of one document, `None` for those that are faulty.
-pub(crate) type Values = HashMap<String, Option<Quantity>>;
+/// The named values of one document.
+pub(crate) type Values = HashMap<String, Known>;
+
+/// What a name stands for.
+#[derive(Debug)]
+pub(crate) struct Known {
+    /// The quantity, `None` where it is faulty.
+    pub(crate) quantity: Option<Quantity>,
+    /// Where it comes from in the end.
+    pub(crate) definition: Option<Definition>,
+    /// Whether something refers to it.
+    pub(crate) is_used: Cell<bool>,
+}
+
+/// What stands for a name: a text or number, and its place.
+#[derive(Debug, Clone)]
+pub(crate) struct Definition {
+    /// As written.
+    pub(crate) text: String,
+    /// Where it stands.
+    pub(crate) place: Place,
+}
+
+/// What to do where only an acceleration is known.
+const MOTION_HELP: &str = "a motion is a displacement; acceleration pulses are not read yet: \
+                           integrate twice, or load the mass with the force m a and take its \
+                           motion as seen from the base";
 
 /// Reads quantities with the names that hold in one document.
 #[derive(Clone, Copy)]
@@ -22,6 +47,8 @@ pub(crate) struct Quantities<'d> {
     pub(crate) values: &'d Values,
     /// Where errors go.
     pub(crate) faults: &'d Faults,
+    /// Whether they are displacements of a node over time.
+    pub(crate) is_motion: bool,
 }
 
 impl Quantities<'_> {
@@ -30,7 +57,10 @@ impl Quantities<'_> {
         let quantity = match &item.value {
             Content::Number(digits) => self.parsed(digits, item.place, expected)?,
             Content::Text(text) => match self.values.get(text.trim()) {
-                Some(known) => (*known)?,
+                Some(known) => {
+                    known.is_used.set(true);
+                    known.quantity?
+                }
                 None => self.parsed(text, item.place, expected)?,
             },
             _ => {
@@ -53,10 +83,31 @@ impl Quantities<'_> {
         match check(value) {
             Ok(()) => Some(value),
             Err(fault) => {
-                self.faults.error(item.place, fault.into());
+                self.faults.error(item.place, self.traced(item, fault.into()));
                 None
             }
         }
+    }
+
+    /// Whether `item` gives a number without a unit.
+    pub(crate) fn is_bare(self, item: &Item) -> bool {
+        match &item.value {
+            Content::Number(_) => true,
+            Content::Text(text) => match self.values.get(text.trim()) {
+                Some(known) => known.quantity.is_some_and(|known| known.dimension.is_none()),
+                None => parse_quantity(text).is_ok_and(|found| found.dimension.is_none()),
+            },
+            _ => false,
+        }
+    }
+
+    /// `fault`, which is about `item`, with the definition of the name that stands there.
+    pub(crate) fn traced(self, item: &Item, fault: Fault) -> Fault {
+        let name = item.text().map_or("", str::trim);
+        let known = self.values.get(name).and_then(|known| known.definition.as_ref());
+        let Some(Definition { text, place }) = known else { return fault };
+        let origin = self.faults.origin(*place);
+        fault.with_note(format!("`{name}` is \"{}\", {origin}", text.trim()))
     }
 
     fn parsed(self, text: &str, place: Place, expected: Dimension) -> Option<Quantity> {
@@ -87,12 +138,20 @@ impl Quantities<'_> {
         };
         if found != expected {
             let fault = Fault::WrongDimension { text: shown(), found, expected };
-            self.faults.error(item.place, fault);
+            let fault = match found {
+                Dimension::ACCELERATION if self.is_motion => fault.with_help(MOTION_HELP),
+                Dimension::VELOCITY if self.is_motion => {
+                    fault.with_help("a motion is a displacement: integrate the velocity")
+                }
+                _ => fault,
+            };
+            self.faults.error(item.place, self.traced(item, fault));
             return None;
         }
         if expected == Dimension::FREQUENCY && quantity.angle != 0 {
             let frequency = quantity.value / std::f64::consts::TAU;
-            self.faults.error(item.place, Fault::AngularFrequency { text: shown(), frequency });
+            let fault = Fault::AngularFrequency { text: shown(), frequency };
+            self.faults.error(item.place, self.traced(item, fault));
             return None;
         }
         Some(quantity.value)

@@ -39,6 +39,9 @@ fn one(renderer: &Renderer, diagnostic: &Diagnostic) -> String {
         }
         _ => Group::with_title(title),
     };
+    if let Some(note) = diagnostic.note() {
+        group = group.element(Level::NOTE.message(note));
+    }
     if let Some(help) = diagnostic.help() {
         group = group.element(Level::HELP.message(help));
     }

@@ -10,9 +10,11 @@ use crate::{
     diagnostics::{Checked, Diagnostics, Faults},
     document::{Entry, MAX_BYTES, parse},
     fault::Fault,
+    kinds::registers,
     library::{Library, Loader},
     models::ModelReader,
     network_faults::{note_errors, note_warnings},
+    review::review,
     sections::{
         Reading, check_stops, read_accuracy, read_effects, read_elements, read_loads,
         read_measures, read_nodes, read_run,
@@ -179,12 +181,36 @@ fn load(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<(Libra
     Some((Library::load(name, root, options.loader, &overrides, faults), source))
 }
 
+/// Where a key belongs that stands at the top of a scene.
+fn home_of(key: &str) -> Option<String> {
+    let registers = registers();
+    if registers.effects.iter().any(|kind| kind.word == key) {
+        return Some(format!("write it under [effects]: `{key} = {{}}`"));
+    }
+    if registers.element(key).is_some() || registers.form(key).is_some() {
+        return Some(format!("write [elements.name] with `between` and `{key}`"));
+    }
+    match key {
+        "force" | "forces" | "load" => Some("write [loads.name] with `on` and `force`".to_owned()),
+        "mass" | "velocity" | "drop" | "motion" => Some(format!("write [nodes.name] with `{key}`")),
+        "duration" | "samples" | "rtol" | "stop" | "method" => {
+            Some("write it under [run]".to_owned())
+        }
+        _ => None,
+    }
+}
+
 fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<Scene> {
     let (library, source) = load(text, options, faults)?;
     let is_stranger = |own: &&Entry| !SECTIONS.contains(&own.key.as_str()) && !faults.damaged();
     for entry in library.sections().iter().filter(is_stranger) {
         let (key, owner) = (entry.key.clone(), "the scene".to_owned());
-        faults.error(entry.key_place, Fault::UnknownKey { key, owner, known: SECTIONS.to_vec() });
+        let fault = Fault::UnknownKey { key, owner, known: SECTIONS.to_vec() };
+        let fault = match home_of(&entry.key) {
+            Some(help) => fault.with_help(help),
+            None => fault,
+        };
+        faults.error(entry.key_place, fault);
     }
     let title = library.section("title");
     let title = title.and_then(|entry| text_of(&entry.item, "`title`", faults)).map(str::to_owned);
@@ -210,12 +236,13 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         }
     };
     note_warnings(&reading, &assembly.warnings);
+    review(&reading, &network, run.duration);
     run.stops = check_stops(&reading, &stops, &assembly);
     let mut values: Vec<NamedValue> = library
         .values()
         .iter()
-        .filter_map(|(name, quantity)| {
-            let quantity = (*quantity)?;
+        .filter_map(|(name, known)| {
+            let quantity = known.quantity?;
             let (value, dimension) = (quantity.value, quantity.dimension);
             Some(NamedValue { name: name.clone(), value, dimension })
         })

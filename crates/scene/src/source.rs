@@ -2,6 +2,9 @@
 
 use std::{ops::Range, sync::Arc};
 
+/// Name of the texts that set values from outside.
+pub(crate) const SET: &str = "--set";
+
 /// A text and what to call it in messages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {

@@ -1,6 +1,10 @@
 //! The table of named values, and what overrides them.
 
-use std::{collections::HashMap, sync::Arc};
+use std::{
+    cell::Cell,
+    collections::{HashMap, HashSet},
+    sync::Arc,
+};
 
 use dashpot_network::parameters::Dimension;
 
@@ -8,8 +12,8 @@ use crate::{
     diagnostics::Faults,
     document::{Content, Item},
     fault::{Fault, example_text},
-    quantity::Values,
-    source::{Place, Source},
+    quantity::{Definition, Known, Values},
+    source::{Place, SET, Source},
     table::{entries_of, wrong_type},
     units::{Quantity, parse_quantity},
 };
@@ -25,13 +29,6 @@ pub struct NamedValue {
     pub dimension: Option<Dimension>,
 }
 
-/// What stands for a name: a text or number, and its place.
-#[derive(Debug, Clone)]
-struct Definition {
-    text: String,
-    place: Place,
-}
-
 /// Values set from outside, by name.
 #[derive(Debug, Default)]
 pub(crate) struct Overrides {
@@ -42,7 +39,7 @@ impl Overrides {
     /// The values in `set`, pairs of name and quantity; the last one of a name counts.
     pub(crate) fn new(set: &[(String, String)], faults: &Faults) -> Self {
         let definition = |(name, text): &(String, String)| {
-            let source = Source::new("--set", format!("{name}={text}"));
+            let source = Source::new(SET, format!("{name}={text}"));
             let span = name.len() + 1..source.text.len();
             let number = faults.add_source(Arc::new(source));
             (name.clone(), Definition { text: text.clone(), place: Place::new(number, &span) })
@@ -98,30 +95,39 @@ fn resolve(
     faults: &Faults,
 ) -> Values {
     let mut values = Values::with_capacity(order.len());
+    let mut referred = HashSet::new();
     for &start in order {
         let mut path = Vec::new();
         let mut name = start;
         let found = loop {
             if let Some(known) = values.get(name) {
-                break *known;
+                break (known.quantity, known.definition.clone());
             }
             if let Some(at) = path.iter().position(|&(passed, _)| passed == name) {
                 let names = path[at..].iter().map(|&(name, _)| name).chain([name]);
                 let names = names.map(str::to_owned).collect();
                 faults.error(path.last().map(|entry| entry.1), Fault::SelfReference { names });
-                break None;
+                break (None, None);
             }
-            let Some(Some(definition)) = definitions.get(name) else { break None };
+            let Some(Some(definition)) = definitions.get(name) else {
+                break (None, None);
+            };
             path.push((name, definition.place));
-            match definitions.get_key_value(definition.text.trim()) {
-                Some((next, _)) => name = *next,
-                None => break quantity(definition, order, faults),
-            }
+            let Some((next, _)) = definitions.get_key_value(definition.text.trim()) else {
+                let quantity = quantity(definition, order, faults);
+                break (quantity, Some(definition.clone()));
+            };
+            referred.insert(*next);
+            name = *next;
         };
-        values.insert(start.to_owned(), found);
-        for (name, _) in path {
-            values.insert(name.to_owned(), found);
+        let (quantity, definition) = found;
+        for name in path.into_iter().map(|entry| entry.0).chain([start]) {
+            let (definition, is_used) = (definition.clone(), Cell::new(false));
+            values.insert(name.to_owned(), Known { quantity, definition, is_used });
         }
+    }
+    for known in referred.into_iter().filter_map(|name| values.get(name)) {
+        known.is_used.set(true);
     }
     values
 }

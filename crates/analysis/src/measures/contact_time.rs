@@ -23,6 +23,7 @@ impl MeasureKind for ContactTime {
     const PARAMETERS: &'static [Parameter] = &[];
     const APPLIES_TO: Family = Family::Element;
     const BY_DEFAULT: bool = true;
+    const WITHOUT_IMPACTOR: bool = false;
 
     fn from_values(_values: &[Value]) -> Result<Self, InvalidParameter> {
         Ok(Self)

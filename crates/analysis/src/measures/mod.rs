@@ -97,8 +97,11 @@ pub trait MeasureKind: Debug + Default + Send + Sync + Sized + 'static {
     const PARAMETERS: &'static [Parameter] = WINDOW_ONLY;
     /// What it is a measure of.
     const APPLIES_TO: Family;
-    /// Whether every run reports it: for elements that touch an impactor, or for impactors.
+    /// Whether every run with an impactor reports it: for elements that touch one, or for impactors.
     const BY_DEFAULT: bool = false;
+    /// Whether every run without an impactor reports it: for elements that touch a mass, or for
+    /// free masses that an element touches. What needs an impact to be defined is left out.
+    const WITHOUT_IMPACTOR: bool = Self::BY_DEFAULT;
 
     /// The measure with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
     ///
@@ -173,19 +176,25 @@ pub fn visit_measures(visitor: &mut impl MeasureVisitor) {
     visitor.visit::<PeakDisplacement>();
 }
 
-/// The measures of a family that every run reports, in the order of the register.
-pub fn by_default(family: Family) -> Vec<Arc<dyn Measure>> {
-    struct Collect(Family, Vec<Arc<dyn Measure>>);
+/// The measures of a family that every run reports, with or without an impactor, in the order of
+/// the register.
+pub fn by_default(family: Family, has_impactor: bool) -> Vec<Arc<dyn Measure>> {
+    struct Collect {
+        family: Family,
+        has_impactor: bool,
+        found: Vec<Arc<dyn Measure>>,
+    }
     impl MeasureVisitor for Collect {
         fn visit<M: MeasureKind>(&mut self) {
-            if M::BY_DEFAULT && M::APPLIES_TO == self.0 {
-                self.1.push(Arc::new(M::default()));
+            let reported = if self.has_impactor { M::BY_DEFAULT } else { M::WITHOUT_IMPACTOR };
+            if reported && M::APPLIES_TO == self.family {
+                self.found.push(Arc::new(M::default()));
             }
         }
     }
-    let mut collect = Collect(family, Vec::new());
+    let mut collect = Collect { family, has_impactor, found: Vec::new() };
     visit_measures(&mut collect);
-    collect.1
+    collect.found
 }
 
 /// Note on a measure of the force of a rigid link in a loop of rigid links.

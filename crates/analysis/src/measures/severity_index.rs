@@ -44,6 +44,7 @@ impl MeasureKind for SeverityIndex {
     ];
     const APPLIES_TO: Family = Family::Node;
     const BY_DEFAULT: bool = true;
+    const WITHOUT_IMPACTOR: bool = false;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         let range = "positive and finite";

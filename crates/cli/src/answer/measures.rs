@@ -1,57 +1,81 @@
 //! All measures, one column for each method.
 
-use dashpot_analysis::{MeasureReport, measures::STANDARD_GRAVITY};
+use dashpot_analysis::{MeasureReport, RunReport, measures::STANDARD_GRAVITY};
+use dashpot_network::parameters::{Value, WindowWish};
 use dashpot_plot::Table;
 
-use super::{Answer, verdict::is_index};
+use super::{Answer, verdict::is_index, zero::Zeros};
 use crate::{
-    numbers::{self, MOST_DIGITS, Unit, bound, quantity, share},
+    numbers::{self, MOST_DIGITS, Unit, bound, constant, quantity, share},
     text,
 };
 
-/// Decimals of what cannot be told from zero.
-const ZERO_DECIMALS: usize = 3;
-
-/// The columns besides names and values.
+/// Runs that stand side by side, and the columns besides names and values.
 #[derive(Debug, Clone, Copy)]
-struct Columns {
+struct Block<'r> {
+    runs: &'r [RunReport],
     errors: bool,
     times: bool,
+    /// Whether the differences between all runs stand here.
+    apart: bool,
 }
 
-/// All measures with their errors, times and differences; with a limit in columns of text, what
-/// matters less is left out to keep it.
-pub(crate) fn measures_table(answer: &Answer, limit: Option<usize>) -> Table {
-    let choices = [(true, true), (true, false), (false, false)];
-    let mut tables =
-        choices.map(|(errors, times)| build(answer, Columns { errors, times })).into_iter();
-    let full = tables.next().unwrap_or_default();
-    let Some(limit) = limit.filter(|&limit| text::width(&full) > limit) else { return full };
-    let mut last = full;
-    for table in tables {
-        let fits = text::width(&table) <= limit;
-        last = table;
-        if fits {
-            break;
-        }
+/// All measures with their errors, times and differences.
+pub(crate) fn measures_table(answer: &Answer) -> Table {
+    build(answer, &whole(answer))
+}
+
+fn whole(answer: &Answer) -> Block<'_> {
+    let runs = &answer.runs;
+    let has_errors =
+        runs.iter().flat_map(|run| &run.measures).any(|measure| measure.error.is_some());
+    Block { runs, errors: has_errors, times: true, apart: runs.len() > 1 }
+}
+
+/// The same in tables of at most `limit` columns of text: where the methods do not fit side by
+/// side, they stand below each other; times are left out to keep the limit.
+pub(crate) fn measures_tables(answer: &Answer, limit: usize) -> Vec<Table> {
+    let fits = |block: &Block<'_>| {
+        let table = build(answer, block);
+        (text::width(&table) <= limit).then_some(table)
+    };
+    let whole = whole(answer);
+    let without_times = Block { times: false, ..whole };
+    if let Some(table) = fits(&whole).or_else(|| fits(&without_times)) {
+        return vec![table];
     }
-    last
+    let mut tables = Vec::new();
+    let mut rest = whole.runs;
+    while !rest.is_empty() {
+        let block = |count: usize| Block {
+            runs: &rest[..count],
+            apart: whole.apart && count == rest.len(),
+            ..without_times
+        };
+        let found = (1..=rest.len()).rev().find_map(|count| Some((count, fits(&block(count))?)));
+        let (count, table) = found.unwrap_or_else(|| {
+            let narrow = Block { errors: false, ..block(1) };
+            (1, build(answer, &narrow))
+        });
+        tables.push(table);
+        rest = &rest[count..];
+    }
+    tables
 }
 
-fn build(answer: &Answer, columns: Columns) -> Table {
+fn build(answer: &Answer, block: &Block<'_>) -> Table {
     let mut header = vec!["measure".to_owned()];
-    for run in &answer.runs {
+    for run in block.runs {
         header.push(run.solver.method.to_owned());
-        if columns.errors {
+        if block.errors {
             header.push("error".to_owned());
         }
     }
     header.push("unit".to_owned());
-    let several = answer.runs.len() > 1;
-    if columns.times {
+    if block.times {
         header.push("at".to_owned());
     }
-    if several {
+    if block.apart {
         header.push("apart".to_owned());
     }
     let differences = answer.differences();
@@ -61,28 +85,30 @@ fn build(answer: &Answer, columns: Columns) -> Table {
             keys.push(&measure.key);
         }
     }
+    let zeros = Zeros::of(&answer.runs);
     let mut rows = Vec::new();
     for key in keys {
+        let all = answer.runs.iter().filter_map(|run| run.measure(key));
+        let Some(first) = all.clone().next() else { continue };
         let readings: Vec<Option<&MeasureReport>> =
-            answer.runs.iter().map(|run| run.measure(key)).collect();
-        let Some(first) = readings.iter().flatten().next() else { continue };
+            block.runs.iter().map(|run| run.measure(key)).collect();
         let apart = differences.iter().find(|difference| difference.key == key);
-        let units = units(&readings, first);
-        for (at, unit) in units.iter().enumerate() {
+        for (at, unit) in units(all, first, &zeros).iter().enumerate() {
             let main = at == 0;
-            let mut row = vec![if main { key.to_owned() } else { String::new() }];
+            let mut row = vec![if main { name(answer, first) } else { String::new() }];
             for reading in &readings {
-                row.push(reading.map_or("–".to_owned(), |reading| value(reading, unit)));
-                if columns.errors {
-                    row.push(reading.filter(|_| main).map_or(String::new(), error));
+                row.push(reading.map_or("–".to_owned(), |own| value(own, unit, &zeros)));
+                if block.errors {
+                    let text = |own: &MeasureReport| error(own, unit, &zeros);
+                    row.push(reading.filter(|_| main).map_or(String::new(), text));
                 }
             }
             row.push(unit.symbol.clone());
-            if columns.times {
+            if block.times {
                 let time = first.time.filter(|_| main);
                 row.push(time.map_or(String::new(), |time| quantity(time, "s", 4)));
             }
-            if several {
+            if block.apart {
                 let apart = apart.filter(|_| main).map(|apart| share(apart.relative));
                 row.push(apart.unwrap_or_default());
             }
@@ -92,36 +118,74 @@ fn build(answer: &Answer, columns: Columns) -> Table {
     Table { caption: "Measures".to_owned(), header, rows }
 }
 
-/// The units in which a measure is shown, one below the other.
-fn units(readings: &[Option<&MeasureReport>], first: &MeasureReport) -> Vec<Unit> {
-    let values = readings.iter().flatten().filter_map(|reading| Some((reading.value?, *reading)));
-    // What cannot be told from zero is shown in the unit of its error.
-    let size = |(value, reading): (f64, &MeasureReport)| {
-        value.abs().max(reading.error.filter(|error| error.is_finite()).unwrap_or(0.0))
+/// The key; where the target has several measures of the kind, also what sets them apart.
+fn name(answer: &Answer, measure: &MeasureReport) -> String {
+    let is_other = |other: &&MeasureReport| {
+        other.kind == measure.kind && other.target == measure.target && other.key != measure.key
     };
-    let largest = values.map(size).fold(0.0, f64::max);
+    let others = answer.runs.iter().flat_map(|run| &run.measures);
+    if others.filter(is_other).count() == 0 {
+        return measure.key.clone();
+    }
+    let window = measure.window_wish.map(|wish| match wish {
+        WindowWish::Impact => "impact".to_owned(),
+        WindowWish::Run => "run".to_owned(),
+        WindowWish::Times(from, to) => format!("{}–{}", constant(from, "s"), constant(to, "s")),
+    });
+    let parameters = measure.parameters.iter().filter_map(|(name, value)| match value {
+        Value::Number(number) => Some(format!("{name} {number}")),
+        Value::Word(word) => Some(format!("{name} {word}")),
+        _ => None,
+    });
+    let marks: Vec<String> = parameters.chain(window).collect();
+    if marks.is_empty() {
+        return measure.key.clone();
+    }
+    format!("{} ({})", measure.key, marks.join(", "))
+}
+
+/// The units in which a measure is shown, one below the other.
+fn units<'r>(
+    readings: impl Iterator<Item = &'r MeasureReport>,
+    first: &MeasureReport,
+    zeros: &Zeros,
+) -> Vec<Unit> {
+    let largest = readings
+        .filter(|reading| !zeros.has(reading))
+        .filter_map(|reading| reading.value)
+        .map(f64::abs)
+        .fold(0.0, f64::max);
     match first.unit {
         "m/s^2" => vec![Unit::new("g", STANDARD_GRAVITY), Unit::plain(first.unit)],
         "s" if is_index(first.kind) => vec![Unit::plain("s")],
-        si => vec![Unit::suiting(largest, si)],
+        si if largest > 0.0 => vec![Unit::suiting(largest, si)],
+        _ => vec![zeros.unit(first)],
     }
 }
 
-fn value(measure: &MeasureReport, unit: &Unit) -> String {
-    let Some(value) = measure.value else { return "–".to_owned() };
-    match measure.error {
-        Some(error) if error >= value.abs() => {
-            unit.decimal(value, unit.decimals(error, ZERO_DECIMALS))
-        }
-        error => unit.number(value, numbers::digits(value, error, MOST_DIGITS)),
+fn value(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
+    match measure.value {
+        None => "–".to_owned(),
+        Some(_) if zeros.has(measure) => "0".to_owned(),
+        Some(value) => unit.number(value, numbers::digits(value, measure.error, MOST_DIGITS)),
     }
 }
 
-fn error(measure: &MeasureReport) -> String {
+/// The error relative to the measure's size; that of a zero in its unit.
+fn error(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
+    let Some(absolute) = measure.error.filter(|_| measure.value.is_some()) else {
+        return "–".to_owned();
+    };
+    if zeros.has(measure) {
+        return if absolute == 0.0 {
+            "±0".to_owned()
+        } else {
+            format!("±{} {}", unit.number(absolute, 1), unit.symbol).trim_end().to_owned()
+        };
+    }
     match measure.relative_error() {
         Some(error) => format!("±{}", bound(error)),
-        None if measure.error.is_some() && measure.value.is_some() => "±0 %".to_owned(),
-        None => "–".to_owned(),
+        None => "±0 %".to_owned(),
     }
 }
 

@@ -7,17 +7,18 @@ mod page;
 mod settings;
 mod solving;
 mod verdict;
+mod zero;
 
 use std::time::Duration;
 
 use dashpot_analysis::{Difference, RunReport, differences};
 use dashpot_scene::Scene;
 
-use crate::error::CliError;
+use crate::{as_run::Changes, error::CliError};
 
 pub(crate) use energy::energy_table;
 pub(crate) use json::document;
-pub(crate) use measures::{measures_table, notes};
+pub(crate) use measures::{measures_table, measures_tables, notes};
 pub(crate) use page::page;
 pub(crate) use solving::{reasons, solving_table};
 pub(crate) use verdict::verdict;
@@ -26,6 +27,8 @@ pub(crate) use verdict::verdict;
 pub(crate) struct Answer {
     /// What was solved.
     pub(crate) scene: Scene,
+    /// What the command line said in place of the scene.
+    pub(crate) changes: Changes,
     /// The accuracy and the other settings with which each method was asked, in their order.
     pub(crate) asked: Vec<dashpot_analysis::SolveSettings>,
     /// The runs that went well, in the order of the methods; at least one.

@@ -6,10 +6,11 @@ use super::{
     Answer, energy_table, measures::notes, measures_table, reasons, settings::settings_table,
     solving_table, verdict,
 };
+use crate::as_run;
 
 /// The page with these drawings.
 pub(crate) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
-    let mut tables = vec![measures_table(answer, None)];
+    let mut tables = vec![measures_table(answer)];
     let notes: Vec<Vec<String>> = notes(answer).into_iter().map(|note| vec![note]).collect();
     if !notes.is_empty() {
         tables.push(Table { caption: "Remarks".to_owned(), header: Vec::new(), rows: notes });
@@ -17,20 +18,21 @@ pub(crate) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
     tables.extend(answer.best().map(energy_table));
     let why = reasons(answer).into_iter().map(|(method, why)| vec![method, why]).collect();
     let failed = answer.failed.iter().map(|(method, error)| format!("{method} failed: {error}"));
+    let details = vec![
+        solving_table(answer),
+        Table { caption: "Why these methods".to_owned(), header: Vec::new(), rows: why },
+        settings_table(answer),
+    ];
+    let changes = answer.changes.told().into_iter();
+    let verdict = verdict(answer).into_iter();
+    let lines = verdict.map(|line| format!("{}: {}", line.label, line.text));
     Report {
         title: answer.title().to_owned(),
         warnings: failed.chain(answer.warnings()).collect(),
-        verdict: verdict(answer)
-            .into_iter()
-            .map(|line| format!("{}: {}", line.label, line.text))
-            .collect(),
+        verdict: changes.chain(lines).collect(),
         tables,
         figures,
-        details: vec![
-            solving_table(answer),
-            Table { caption: "Why these methods".to_owned(), header: Vec::new(), rows: why },
-            settings_table(answer),
-        ],
-        scene_text: answer.scene.text.to_string(),
+        details,
+        scene_text: as_run::text(&answer.scene, &answer.changes),
     }
 }

@@ -8,6 +8,9 @@ use dashpot_plot::Table;
 use super::Answer;
 use crate::numbers::duration;
 
+/// What the columns of times mean.
+const TIMES: &str = "`time`: integration alone (of `exact`: its set-up); `in all`: everything";
+
 /// Work and time of each run.
 pub(crate) fn solving_table(answer: &Answer) -> Table {
     let header =
@@ -51,7 +54,8 @@ pub(crate) fn solving_table(answer: &Answer) -> Table {
 pub(crate) fn reasons(answer: &Answer) -> Vec<(String, String)> {
     let system = answer.runs.first().map(|run| ("system".to_owned(), size(run)));
     let why = answer.runs.iter().map(|run| (run.solver.method.to_owned(), run.solver.why.clone()));
-    system.into_iter().chain(why).collect()
+    let times = ("times".to_owned(), TIMES.to_owned());
+    system.into_iter().chain(why).chain([times]).collect()
 }
 
 fn size(run: &RunReport) -> String {

@@ -1,14 +1,14 @@
 //! The answer in a few lines.
 
 use dashpot_analysis::{
-    Contact, MeasureKind, MeasureReport, RunReport, is_impactor,
+    Contact, ContactReport, MeasureKind, MeasureReport, RunReport, is_impactor, ledger,
     measures::{
         ContactTime, EndVelocity, Energy, PeakAcceleration, PeakDeformation, PeakForce,
         STANDARD_GRAVITY, SeverityIndex,
     },
 };
 
-use super::Answer;
+use super::{Answer, zero::Zeros};
 use crate::numbers::{self, Unit, bound, constant, quantity, rounded, share};
 
 /// Digits of a number that is read in passing.
@@ -17,6 +17,14 @@ const DIGITS: usize = 4;
 const FINEST: f64 = 1e-10;
 /// Digits of a time.
 const TIME_DIGITS: usize = 3;
+/// Work from outside is spoken of beyond this part of the impact's energy.
+const LITTLE: f64 = 5e-4;
+/// A smaller share is none.
+const ZERO: f64 = 1e-9;
+/// A force elsewhere is larger if it is so by this part.
+const MARGIN: f64 = 1e-3;
+/// What follows the release.
+const GLUED: &str = ", then it pulls as if glued (separation does not exist yet)";
 
 /// One line of the verdict.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,11 +39,13 @@ pub(crate) struct Line {
 pub(crate) fn verdict(answer: &Answer) -> Vec<Line> {
     let Some(run) = answer.best() else { return Vec::new() };
     let lines = [
-        ("peak force", peak_force(run)),
-        ("peak g", peak_g(run)),
-        ("deepest point", deepest(run)),
-        ("energy", energy(run)),
-        ("contact", contact(run)),
+        ("stopped", stopped(run)),
+        ("peak force", peak_force(answer, run)),
+        ("elsewhere", elsewhere(run)),
+        ("peak g", peak_g(answer, run)),
+        ("deepest point", deepest(answer, run)),
+        ("energy", energy(answer, run)),
+        ("contact", contact(answer, run)),
         ("injury", injury(run)),
         ("how wrong", how_wrong(answer, run)),
         ("next digit", next_digit(answer, run)),
@@ -50,34 +60,40 @@ fn largest<'r>(run: &'r RunReport, kind: &str) -> Option<(&'r MeasureReport, f64
     valued.max_by(|one, other| one.1.total_cmp(&other.1))
 }
 
-fn shown(measure: &MeasureReport, value: f64) -> String {
+fn shown(answer: &Answer, measure: &MeasureReport, value: f64) -> String {
+    let zeros = Zeros::of(&answer.runs);
+    if zeros.has(measure) {
+        return format!("0 {}", zeros.unit(measure).symbol);
+    }
     quantity(value, measure.unit, numbers::digits(value, measure.error, DIGITS))
 }
 
 /// Where and when, and what else is to be said.
-fn whereabouts(measure: &MeasureReport) -> String {
-    let time = measure.time.map(|time| format!(" at {}", quantity(time, "s", TIME_DIGITS)));
+fn whereabouts(answer: &Answer, measure: &MeasureReport) -> String {
+    // A zero is there at any time.
+    let time = measure.time.filter(|_| !Zeros::of(&answer.runs).has(measure));
+    let time = time.map(|time| format!(" at {}", quantity(time, "s", TIME_DIGITS)));
     // Which way it points, as in `in tension`; other notes stand below the table.
     let note = measure.note.as_ref().filter(|note| note.starts_with("in "));
     let note = note.map(|note| format!(" ({note})"));
     format!(" in {}{}{}", measure.target, time.unwrap_or_default(), note.unwrap_or_default())
 }
 
-fn peak_force(run: &RunReport) -> Option<String> {
+fn peak_force(answer: &Answer, run: &RunReport) -> Option<String> {
     let (measure, value) = largest(run, PeakForce::KIND)?;
-    Some(format!("{}{}", shown(measure, value), whereabouts(measure)))
+    Some(format!("{}{}", shown(answer, measure, value), whereabouts(answer, measure)))
 }
 
-fn peak_g(run: &RunReport) -> Option<String> {
+fn peak_g(answer: &Answer, run: &RunReport) -> Option<String> {
     let (measure, value) = largest(run, PeakAcceleration::KIND)?;
     let digits = numbers::digits(value, measure.error, DIGITS);
     let in_g = Unit::new("g", STANDARD_GRAVITY).text(value, digits);
-    let place = whereabouts(measure).replacen(" in ", " on ", 1);
-    Some(format!("{in_g} ({}){place}", shown(measure, value)))
+    let place = whereabouts(answer, measure).replacen(" in ", " on ", 1);
+    Some(format!("{in_g} ({}){place}", shown(answer, measure, value)))
 }
 
 /// The pad with the least left of its thickness, or else the deepest point.
-fn deepest(run: &RunReport) -> Option<String> {
+fn deepest(answer: &Answer, run: &RunReport) -> Option<String> {
     let of_kind = run.measures.iter().filter(|measure| measure.kind == PeakDeformation::KIND);
     let pads = of_kind.filter_map(|measure| {
         let connection = run.assembly.connection(&measure.target)?;
@@ -90,7 +106,7 @@ fn deepest(run: &RunReport) -> Option<String> {
     let tightest = pads.min_by(|one, other| share_left(one).total_cmp(&share_left(other)));
     let Some((measure, compressed, thickness)) = tightest else {
         let (measure, value) = largest(run, PeakDeformation::KIND)?;
-        return Some(format!("{}{}", shown(measure, value), whereabouts(measure)));
+        return Some(format!("{}{}", shown(answer, measure, value), whereabouts(answer, measure)));
     };
     let (left, limit) = (thickness - compressed, constant(thickness, "m"));
     let digits = numbers::digits(left, measure.error, TIME_DIGITS);
@@ -100,39 +116,104 @@ fn deepest(run: &RunReport) -> Option<String> {
     } else {
         format!("{rest} MORE than its {limit}")
     };
-    Some(format!("{}{}, {margin}", shown(measure, measure.value?), whereabouts(measure)))
+    Some(format!(
+        "{}{}, {margin}",
+        shown(answer, measure, measure.value?),
+        whereabouts(answer, measure)
+    ))
 }
 
-fn energy(run: &RunReport) -> Option<String> {
+fn energy(answer: &Answer, run: &RunReport) -> Option<String> {
     let (measure, value) = largest(run, Energy::KIND)?;
     let impact = run.impact_energy();
-    let amount = shown(measure, value);
+    let amount = shown(answer, measure, value);
     let name = &measure.target;
-    if impact > 0.0 {
-        let whole = rounded(impact, "J", DIGITS);
-        Some(format!("{name} takes up {amount} of {whole} ({})", share(value / impact)))
-    } else {
-        Some(format!("{name} takes up {amount}"))
+    if impact <= 0.0 {
+        return Some(format!("{name} takes up {amount}"));
     }
+    let until = measure.window.map_or(run.energy.time, |(_, end)| end);
+    let work = work_in(run, until);
+    let whole = rounded(impact, "J", DIGITS);
+    let added = if work > LITTLE * impact {
+        format!(" and {} put in", rounded(work, "J", TIME_DIGITS))
+    } else {
+        String::new()
+    };
+    let part = value / (impact + work.max(0.0));
+    // What rests on springs at the start may be given to the pad as well.
+    let part = if part <= 1.0 + LITTLE && part.abs() > ZERO {
+        format!(" ({})", share(part))
+    } else {
+        String::new()
+    };
+    Some(format!("{name} takes up {amount} of {whole}{added}{part}"))
 }
 
-fn contact(run: &RunReport) -> Option<String> {
+/// The work done from outside \[J\] from the start until a time \[s\].
+fn work_in(run: &RunReport, until: f64) -> f64 {
+    if run.energy.work_in.is_empty() {
+        return 0.0;
+    }
+    let ledgers = run.energy_after_impact.iter().chain([&run.energy]);
+    let known = ledgers.into_iter().find(|own| (own.time - until).abs() <= 1e-9 * own.time);
+    known.map_or_else(
+        || ledger::ledger(&run.solution(), until).total_work_in(),
+        dashpot_analysis::Ledger::total_work_in,
+    )
+}
+
+/// The element with the largest force, where that is none of those that are reported.
+fn elsewhere(run: &RunReport) -> Option<String> {
+    let (headline, most) = largest(run, PeakForce::KIND)?;
+    let (element, peak) = run.largest_force()?;
+    let margin = headline.error.filter(|error| error.is_finite()).unwrap_or(0.0);
+    let is_larger = peak.value > most + margin.max(MARGIN * most);
+    (element != headline.target && is_larger).then(|| {
+        let (force, time) =
+            (quantity(peak.value, "N", TIME_DIGITS), quantity(peak.time, "s", TIME_DIGITS));
+        format!("{force} in {element} at {time}")
+    })
+}
+
+fn stopped(run: &RunReport) -> Option<String> {
+    let event = run.stopped_by()?;
+    Some(format!("at {}: {}", quantity(event.time, "s", TIME_DIGITS), event.what))
+}
+
+fn contact(answer: &Answer, run: &RunReport) -> Option<String> {
     if !run.assembly.nodes.iter().any(is_impactor) {
         return Some("no impactor: the measures are those of the whole run".to_owned());
     }
-    if let Some(contact) =
-        run.contacts.iter().find(|contact| contact.impact.contact == Contact::Lasting)
-    {
+    let of = |contact: Contact| run.contacts.iter().find(|own| own.impact.contact == contact);
+    if let Some(contact) = of(Contact::Lasting) {
         let end = quantity(contact.impact.end, "s", TIME_DIGITS);
         return Some(format!("{} still pushes at the end of the run ({end})", contact.element));
     }
+    if of(Contact::Released).is_none() {
+        let pulling =
+            |own: &ContactReport| format!("{}: it pulls from the start", never(&own.element));
+        let unloaded =
+            |own: &ContactReport| format!("{}: it never has a force", never(&own.element));
+        let found = of(Contact::Pulling).map(pulling);
+        return found.or_else(|| of(Contact::Unloaded).map(unloaded));
+    }
     let (measure, value) = largest(run, ContactTime::KIND)?;
-    let rebound = rebound(run).map_or(String::new(), |text| format!("; {text}"));
-    Some(format!("{} in {}{rebound}", shown(measure, value), measure.target))
+    let pulls = run.contacts.iter().any(|own| {
+        own.element == measure.target
+            && own.impact.contact == Contact::Released
+            && own.impact.end < run.trajectory.t_end
+    });
+    let pulls = if pulls { GLUED } else { "" };
+    let leaving = leaving(run).map_or(String::new(), |text| format!("; {text}"));
+    Some(format!("{} in {}{pulls}{leaving}", shown(answer, measure, value), measure.target))
 }
 
-/// How the fastest impactor leaves.
-fn rebound(run: &RunReport) -> Option<String> {
+fn never(element: &str) -> String {
+    format!("the {element} is never pressed")
+}
+
+/// The speed of the fastest impactor when it is let go.
+fn leaving(run: &RunReport) -> Option<String> {
     let solution = run.solution();
     let nodes = run.assembly.nodes.iter().enumerate().filter(|(_, node)| is_impactor(node));
     let speeds = nodes.filter_map(|(at, node)| {
@@ -144,9 +225,9 @@ fn rebound(run: &RunReport) -> Option<String> {
     let text = quantity(speed.abs(), "m/s", digits);
     let start = node.start_velocity.unwrap_or(0.0);
     Some(if speed * start < 0.0 {
-        format!("{} rebounds at {text}", node.name)
+        format!("{} leaves at {text}", node.name)
     } else {
-        format!("{} goes on at {text}", node.name)
+        format!("{} then goes on at {text}", node.name)
     })
 }
 

@@ -25,6 +25,9 @@ use crate::{
     text::{indented, labelled, table, wrapped},
 };
 
+/// What stands below the unknowns.
+const UNKNOWNS: &str =
+    "\n  Each number is what the solver calls 1, so that its unknowns are near 1.\n";
 /// More rows of one table are only counted.
 const MOST: usize = 20;
 
@@ -42,7 +45,7 @@ pub(crate) fn explain(
         let _ = writeln!(text, "{}", terminal.toned(Tone::Heading, &line));
     }
     let _ = write!(text, "\n{}", indented(&drawing.text(WIDTH - 4)));
-    let tables = [nodes(&scene), elements(&scene), parts(&scene), loads(&scene), unknowns(&scene)];
+    let tables = [nodes(&scene), elements(&scene), parts(&scene), loads(&scene)];
     for content in tables.iter().filter(|content| !content.rows.is_empty()) {
         text += &section(content, terminal);
     }
@@ -50,6 +53,11 @@ pub(crate) fn explain(
     let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, "Solving"));
     for (label, words) in solving(&scene)? {
         text += &labelled(label, 10, &words, WIDTH);
+    }
+    let unknowns = unknowns(&scene);
+    if !unknowns.rows.is_empty() {
+        text += &section(&unknowns, terminal);
+        text += UNKNOWNS;
     }
     if let Some(path) = &arguments.out {
         let file = svg_path(path);

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use clap::ValueEnum;
 use dashpot_scene::{Shipped, references, templates};
 
 use crate::{
@@ -27,28 +28,44 @@ const FAMILIES: [(Family, &str); 8] = [
 /// What the parameter of that name is, which most measures have.
 const WINDOW: &str = "`impact` (default), `run`, or a pair of times";
 
-/// Prints every kind of one family, or of all.
+/// Prints every kind of one family, or of all, or one kind alone.
 pub(crate) fn list(arguments: &ListArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let wanted = |family: Family| arguments.family.is_none_or(|only| only == family);
+    let word = arguments.what.as_deref();
+    let only = word.and_then(|word| Family::from_str(word, true).ok());
+    let kind = word.filter(|_| only.is_none());
     let mut text = String::new();
-    for (family, title) in FAMILIES.into_iter().filter(|(family, _)| wanted(*family)) {
-        if !text.is_empty() {
-            text.push('\n');
-        }
-        let _ = writeln!(text, "{}", terminal.toned(Tone::Heading, title));
-        let entries = match family {
+    for (family, title) in FAMILIES.into_iter().filter(|own| only.is_none_or(|only| only == own.0))
+    {
+        let mut entries = match family {
             Family::Templates => templates().iter().map(shipped).collect(),
             Family::Scenes => references().iter().map(shipped).collect(),
             family => entries(family),
         };
+        if let Some(kind) = kind {
+            entries.retain(|entry| is_called(entry, kind));
+            if entries.is_empty() {
+                continue;
+            }
+        }
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        let _ = writeln!(text, "{}", terminal.toned(Tone::Heading, title));
         let widest = entries.iter().map(|entry| columns(&entry.name)).max().unwrap_or(0);
         entries.iter().for_each(|entry| text += &described(entry, widest));
         if family == Family::Measures {
             let _ = writeln!(text, "  A `window` is {WINDOW}.");
         }
     }
-    print(&text)?;
-    Ok(Status::Done)
+    match kind.filter(|_| text.is_empty()) {
+        Some(kind) => Err(CliError::UnknownKind { word: kind.to_owned() }),
+        None => print(&text).map(|()| Status::Done),
+    }
+}
+
+/// Whether this is a word for the entry; the mark of those that every run reports is none of it.
+fn is_called(entry: &Entry, word: &str) -> bool {
+    entry.name.trim_end_matches('*') == word || entry.aliases.contains(&word)
 }
 
 fn shipped(shipped: &Shipped) -> Entry {

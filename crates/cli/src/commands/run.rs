@@ -1,6 +1,6 @@
 //! `dashpot run`.
 
-use std::{fmt::Write as _, path::Path, sync::Arc, time::Instant};
+use std::{fmt::Write as _, fs, path::Path, sync::Arc, time::Instant};
 
 use dashpot_analysis::{RunReport, SolveSettings, solve_assembly};
 use dashpot_plot::{
@@ -11,9 +11,10 @@ use dashpot_scene::Scene;
 
 use crate::{
     answer::{
-        Answer, document, energy_table, measures_table, notes, reasons, solving_table, verdict,
+        Answer, document, energy_table, measures_tables, notes, reasons, solving_table, verdict,
     },
     args::{RunArguments, Switch, When},
+    as_run::Changes,
     error::{CliError, Status},
     folder,
     input::read_scene,
@@ -34,9 +35,17 @@ const LABELS: usize = 13;
 pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status, CliError> {
     let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
     terminal.diagnose(&checked.warnings);
+    let made = match &arguments.out {
+        Some(path) => folder::prepare(path)?.then_some(path),
+        None => None,
+    };
     let answer = solve_all(checked.value, arguments, terminal);
     tell_failures(&answer, terminal);
     let status = answer.failed.iter().map(|(_, error)| error.status()).max();
+    if let Some(path) = made.filter(|_| answer.runs.is_empty()) {
+        // It is empty, and if not, it stays.
+        let _ = fs::remove_dir(path);
+    }
     if arguments.json || !answer.runs.is_empty() {
         show(&answer, arguments, terminal)?;
     }
@@ -86,7 +95,7 @@ fn solve_all(scene: Scene, arguments: &RunArguments, terminal: Terminal) -> Answ
             Err(error) => failed.push((own.method.clone(), CliError::Run(error))),
         }
     }
-    Answer { scene, asked, runs, elapsed, failed }
+    Answer { scene, changes: Changes::of(arguments), asked, runs, elapsed, failed }
 }
 
 fn is_new(runs: &[RunReport], report: &RunReport) -> bool {
@@ -152,6 +161,10 @@ fn report(answer: &Answer, warnings: &[String], plot: bool, terminal: Terminal) 
         text += &terminal.toned(Tone::Heading, &line);
         text.push('\n');
     }
+    for line in answer.changes.told().iter().flat_map(|told| crate::text::wrapped(told, WIDTH)) {
+        text += &line;
+        text.push('\n');
+    }
     text.push('\n');
     for line in verdict(answer) {
         text += &labelled(line.label, LABELS, &line.text, WIDTH);
@@ -159,7 +172,9 @@ fn report(answer: &Answer, warnings: &[String], plot: bool, terminal: Terminal) 
     if let Some(best) = answer.best().filter(|_| plot) {
         let _ = write!(text, "\n{}", plotted(best));
     }
-    text += &section(&measures_table(answer, Some(WIDTH - 2)), terminal);
+    for table in measures_tables(answer, WIDTH - 2) {
+        text += &section(&table, terminal);
+    }
     for note in notes(answer) {
         text += &labelled("", 0, &note, WIDTH);
     }

@@ -125,15 +125,59 @@ impl Augmented {
         self.matrix.column_iter().map(|column| column.lp_norm(1)).fold(0.0, f64::max)
     }
 
-    /// Whether a logarithmic norm already shows that no state grows beyond the range of numbers.
+    /// Whether it can be shown without modes that no state grows beyond the range of numbers.
+    ///
+    /// With `M` the matrix whose off-diagonal entries are replaced by their sizes, `w > 0` and
+    /// `Mᵀ w < μ w` show that `Σ w |z|` grows by at most `e^{μ t}`. First `w = 1` is tried, which is a
+    /// logarithmic norm; then the solution of `(μ − Mᵀ) w = 1`, which is positive if any `w` is.
     pub(super) fn stays_finite(&self) -> bool {
+        /// Logarithm of the largest size that is allowed.
+        const RANGE: f64 = 600.0;
+        let size: f64 = self.initial.iter().map(|z| z.abs()).sum();
+        let room = RANGE - size.max(1.0).ln();
         let rate = |(j, column): (usize, nalgebra::DVectorView<'_, f64>)| {
             column.lp_norm(1) - column[j].abs() + column[j]
         };
         let growth = self.matrix.column_iter().enumerate().map(rate).fold(0.0, f64::max);
-        let size: f64 = self.initial.iter().map(|z| z.abs()).sum();
-        growth * self.end() + size.max(1.0).ln() < 600.0
+        if growth * self.end() < room {
+            return true;
+        }
+        weights(&self.matrix, 0.5 * room / self.end()).is_some_and(|weights| {
+            let least = weights.iter().copied().fold(f64::INFINITY, f64::min);
+            let largest = weights.iter().copied().fold(0.0, f64::max);
+            (largest / least).ln() < 0.5 * room
+        })
     }
+}
+
+/// The solution of `(most − Mᵀ) w = 1` for the matrix `M` with entries replaced by their sizes off
+/// the diagonal, by elimination without pivots; `None` unless all pivots are positive, and with them
+/// all of `w`.
+fn weights(matrix: &DMatrix<f64>, most: f64) -> Option<Vec<f64>> {
+    let n = matrix.nrows();
+    let mut rows: Vec<f64> = matrix.iter().map(|entry| -entry.abs()).collect();
+    for i in 0..n {
+        rows[i * n + i] = most - matrix[(i, i)];
+    }
+    let mut weights = vec![1.0; n];
+    for k in 0..n {
+        let (top, rest) = rows.split_at_mut((k + 1) * n);
+        let top = &top[k * n..];
+        if top[k].is_nan() || top[k] <= 0.0 {
+            return None;
+        }
+        for (i, row) in rest.chunks_exact_mut(n).enumerate() {
+            let factor = row[k] / top[k];
+            row[k + 1..].iter_mut().zip(&top[k + 1..]).for_each(|(x, t)| *x -= factor * t);
+            weights[k + 1 + i] -= factor * weights[k];
+        }
+    }
+    for k in (0..n).rev() {
+        let row = &rows[k * n..(k + 1) * n];
+        let known: f64 = row[k + 1..].iter().zip(&weights[k + 1..]).map(|(a, w)| a * w).sum();
+        weights[k] = (weights[k] - known) / row[k];
+    }
+    Some(weights)
 }
 
 /// Chooses the generators' units so that their columns are as large as `A` itself: then rounding

@@ -2,8 +2,10 @@
 
 use nalgebra::DMatrix;
 
-/// Pivots below this, relative to the largest entry, are zero.
+/// Pivots of the matrix below this, relative to its largest entry, are zero.
 const ZERO: f64 = 1e-10;
+/// Pivots of its square below this are: rates that are a decade apart are two decades apart there.
+const ZERO_OF_SQUARE: f64 = 1e-14;
 
 /// Whether the eigenvalue zero of the leading `n × n` block `A` has a Jordan chain, as that of free
 /// motion has: then `A²` has a lower rank than `A`.
@@ -15,7 +17,7 @@ pub(super) fn drifts(matrix: &DMatrix<f64>, n: usize) -> bool {
         to.copy_from_slice(&from.as_slice()[..n]);
     }
     let mut square = vec![0.0; n * n];
-    let rank = rank(&mut a.clone(), n);
+    let rank = rank(&mut a.clone(), n, ZERO);
     if rank == n {
         return false;
     }
@@ -24,12 +26,13 @@ pub(super) fn drifts(matrix: &DMatrix<f64>, n: usize) -> bool {
             to.iter_mut().zip(from).for_each(|(sum, x)| *sum += x * factor);
         }
     }
-    self::rank(&mut square, n) < rank
+    self::rank(&mut square, n, ZERO_OF_SQUARE) < rank
 }
 
-/// The rank of an `n × n` matrix, which is used up, by elimination; rows of `a` are contiguous.
-fn rank(a: &mut [f64], n: usize) -> usize {
-    let zero = ZERO * a.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+/// The rank of an `n × n` matrix, which is used up, by elimination; rows of `a` are contiguous, and
+/// pivots below `zero` times the largest entry do not count.
+fn rank(a: &mut [f64], n: usize, zero: f64) -> usize {
+    let zero = zero * a.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let mut rank = 0;
     for column in 0..n {
         let size = |row: usize| a[row * n + column].abs();

@@ -20,7 +20,7 @@ const NOISE: f64 = 16.0;
 /// Spans up to which the propagator is used for samples; each takes exponentials of its own.
 const FEW_SPANS: usize = 8;
 /// `‖Ā‖ T` up to which the propagator is used for samples; beyond it the modes are more accurate.
-const GENTLE: f64 = 1e4;
+const GENTLE: f64 = 1e6;
 /// `‖Ā‖ T` up to which even free motion may be marched.
 const BRIEF: f64 = 20.0;
 /// Relative error bound below which no other clustering of the modes is tried.

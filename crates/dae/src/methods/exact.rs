@@ -39,7 +39,7 @@ const LIFETIMES: f64 = 45.0;
 /// - The modal form is refined in twice the digits of a double, so the error of a signal is that of
 ///   its evaluation: about `16 ε` of the largest sum of its modes' sizes, which is more than that of
 ///   the signal itself where modes cancel. The stated bound says how much.
-/// - Samples on a uniform grid come from the propagator where `‖A‖T ≤ 1e4` and nothing moves freely;
+/// - Samples on a uniform grid come from the propagator where `‖A‖T ≤ 1e6` and nothing moves freely;
 ///   their error is about `ε ‖A‖ T`. All other samples come from the modal form.
 /// - Rates that are equal, or so nearly equal that rounding decides, share one block of the modal
 ///   form. Chains of many such rates cost digits; the bound says how many.

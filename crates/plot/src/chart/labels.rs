@@ -43,6 +43,36 @@ fn area(left: f64, middle: f64, width: f64, size: f64) -> Area {
     }
 }
 
+/// A straight line from a point to its text \[px\].
+pub(super) type Leader = [(f64, f64); 2];
+
+/// Distance of a text from its point from which on a line joins the two \[px\].
+const LEADER: f64 = 22.0;
+
+/// The line from a point to the text at a left middle, where the two are far from each other.
+fn leader(point: (f64, f64), anchor: (f64, f64), width: f64) -> Option<Leader> {
+    let (left, right) = (anchor.0 + 4.0, (anchor.0 + width - 4.0).max(anchor.0 + 4.0));
+    let touch = (point.0.clamp(left, right), anchor.1);
+    ((touch.0 - point.0).hypot(touch.1 - point.1) > LEADER).then_some([point, touch])
+}
+
+/// Whether a line runs through an area in which it neither begins nor ends.
+fn strikes(area: &Area, [from, to]: &Leader) -> bool {
+    let at = |i: i32| {
+        let part = f64::from(i) / 60.0;
+        (from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1))
+    };
+    !area.holds(from) && !area.holds(to) && (1..60).any(|i| area.holds(&at(i)))
+}
+
+/// Whether two lines cross each other.
+fn cross(a: &Leader, b: &Leader) -> bool {
+    let side = |[from, to]: &Leader, point: &(f64, f64)| {
+        (to.0 - from.0) * (point.1 - from.1) - (to.1 - from.1) * (point.0 - from.0)
+    };
+    side(a, &b[0]) * side(a, &b[1]) < 0.0 && side(b, &a[0]) * side(b, &a[1]) < 0.0
+}
+
 /// Finds the place of least cost for one text after the other.
 #[derive(Debug)]
 pub(super) struct Placer {
@@ -50,31 +80,41 @@ pub(super) struct Placer {
     curves: Path,
     taken: Vec<Area>,
     points: Path,
+    leaders: Vec<Leader>,
 }
 
 impl Placer {
     /// Longest stretch of a curve that a text may not notice \[px\].
     const STRIDE: f64 = 6.0;
 
+    /// Cost of a text and a leader that cross.
+    const STRUCK: f64 = 50.0;
+
     /// Starts with nothing but `curves` in `frame`.
     pub(super) fn new(frame: Area, curves: &[Vec<Path>]) -> Self {
-        let mut placer =
-            Self { frame, curves: Path::new(), taken: Vec::new(), points: Path::new() };
+        let mut placer = Self {
+            frame,
+            curves: Path::new(),
+            taken: Vec::new(),
+            points: Path::new(),
+            leaders: Vec::new(),
+        };
         curves.iter().flatten().for_each(|path| placer.avoid_path(path));
         placer
     }
 
     /// Lets texts rather not cover a path.
     pub(super) fn avoid_path(&mut self, path: &[(f64, f64)]) {
+        let mut gone = 0.0;
         for pair in path.windows(2) {
             let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
             let length = dx.hypot(dy);
-            let mut gone = 0.0;
             while gone < length {
                 let part = gone / length;
                 self.curves.push((pair[0].0 + dx * part, pair[0].1 + dy * part));
                 gone += Self::STRIDE;
             }
+            gone -= length;
         }
     }
 
@@ -89,12 +129,46 @@ impl Placer {
         });
     }
 
+    /// Left middles of texts beside their points. Each text is placed after the ones before it and once more among all
+    /// others, until none moves.
+    pub(super) fn beside_all(&mut self, texts: &[((f64, f64), String)], size: f64) -> Path {
+        const ROUNDS: usize = 4;
+        let fixed = self.taken.clone();
+        let mut anchors: Vec<Option<(f64, f64)>> = vec![None; texts.len()];
+        for _ in 0..ROUNDS {
+            let before = anchors.clone();
+            for (index, (point, text)) in texts.iter().enumerate() {
+                self.taken.clone_from(&fixed);
+                self.leaders.clear();
+                for (other, anchor) in anchors.iter().enumerate().filter(|(i, _)| *i != index) {
+                    let Some(anchor) = *anchor else { continue };
+                    let width = text_width(&texts[other].1, size);
+                    self.taken.push(area(anchor.0, anchor.1, width, size));
+                    self.leaders.extend(leader(texts[other].0, anchor, width));
+                }
+                anchors[index] = Some(self.beside(*point, text, size));
+            }
+            if anchors == before {
+                break;
+            }
+        }
+        anchors.into_iter().flatten().collect()
+    }
+
     /// Left middle of a text beside a point: the nearest place right, left, above or below that covers little.
-    pub(super) fn beside(&mut self, (x, y): (f64, f64), text: &str, size: f64) -> (f64, f64) {
+    fn beside(&mut self, (x, y): (f64, f64), text: &str, size: f64) -> (f64, f64) {
         let width = text_width(text, size);
         let mut spots = Vec::new();
         for far in (0..20).map(|i| 10.0 + 6.0 * f64::from(i)) {
-            let shifts = [10.0, far, -0.5 * width, -10.0 - width, -far - width];
+            let shifts = [
+                10.0,
+                far,
+                2.0 * far,
+                -0.5 * width,
+                -10.0 - width,
+                -far - width,
+                -2.0 * far - width,
+            ];
             let rises = [-1.0, 1.0].map(|side| side * (far + 0.3 * size));
             let above_and_below = shifts.iter().flat_map(|h| rises.map(|v| (x + h, y + v)));
             let right_and_left = [far, -far - width].map(|h| (x + h, y));
@@ -104,25 +178,41 @@ impl Placer {
             );
         }
         for (left, middle, cost) in &mut spots {
+            // Wholly inside the frame wherever the text is narrower than it.
+            *left = left.min(self.frame.right - width - 2.0).max(self.frame.left + 2.0);
             let place = area(*left, *middle, width, size);
             let own = place.distance(&(x, y));
             let others = self.points.iter().filter(|p| **p != (x, y));
+            if let Some(line) = leader((x, y), (*left, *middle), width) {
+                let struck = self.taken.iter().filter(|taken| strikes(taken, &line));
+                *cost += struck.fold(0.0, |sum, _| sum + Self::STRUCK);
+                let crossed = self.leaders.iter().filter(|other| cross(&line, other));
+                *cost += crossed.fold(0.0, |sum, _| sum + Self::STRUCK);
+            }
             *cost += others.filter(|p| place.distance(p) < own + 6.0).fold(0.0, |sum, _| sum + 3.0);
         }
-        self.settle(&spots, width, size)
+        let anchor = self.settle(&spots, width, size);
+        self.leaders.extend(leader((x, y), anchor, width));
+        anchor
+    }
+
+    /// The lines that join points with texts far from them.
+    pub(super) fn leaders(&self) -> &[Leader] {
+        &self.leaders
     }
 
     /// Left middle of a text along a line across the frame: horizontal at height `at`, or vertical at place `at`.
     pub(super) fn along(&mut self, at: f64, horizontal: bool, text: &str, size: f64) -> (f64, f64) {
         let width = text_width(text, size);
         let Area { left, right, top, bottom } = self.frame;
-        let spots = [0.0, 0.12, 0.25, 0.5, 0.75, 0.88, 1.0].into_iter().flat_map(|part: f64| {
+        let spots = (0..=20).map(|i| 0.05 * f64::from(i)).flat_map(|part| {
             [-1.0, 1.0].map(|side: f64| {
                 if horizontal {
                     let x = right - 8.0 - width - part * (right - left - width - 16.0);
                     (x, at + side * 0.85 * size, 0.1 * part)
                 } else {
                     let x = if side < 0.0 { at - 8.0 - width } else { at + 8.0 };
+                    let x = x.min(right - width - 2.0).max(left + 2.0);
                     (x, top + size + part * (bottom - top - 2.0 * size), 0.1 * part)
                 }
             })
@@ -135,15 +225,16 @@ impl Placer {
         let cost = |(x, y, own): &(f64, f64, f64)| {
             let place = area(*x, *y, width, size);
             let outside = 1.0 - place.overlap(&self.frame) / place.size();
-            let covered: f64 = self.taken.iter().map(|t| place.overlap(t) / place.size()).sum();
+            let covers = self.taken.iter().map(|t| place.overlap(t) / place.size());
+            let covered: f64 = covers.filter(|part| *part > 0.0).map(|part| 1.0 + part).sum();
             let crossed =
                 self.curves.iter().filter(|p| place.holds(p)).take(200).fold(0.0, |n, _| n + 1.0);
-            own + 100.0 * outside + 60.0 * covered + crossed
+            let struck = self.leaders.iter().filter(|line| strikes(&place, line));
+            let struck = struck.fold(0.0, |sum, _| sum + Self::STRUCK);
+            own + 1000.0 * outside + 400.0 * covered + struck + crossed
         };
         let best = spots.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
         let (x, y) = best.map_or((self.frame.left, self.frame.top), |spot| (spot.0, spot.1));
-        // Wholly inside the frame wherever the text is narrower than it.
-        let x = x.min(self.frame.right - width - 2.0).max(self.frame.left + 2.0);
         self.taken.push(area(x, y, width, size));
         (x, y)
     }
@@ -158,9 +249,9 @@ mod tests {
     #[test]
     fn texts_of_neighbouring_points_do_not_cover_each_other() {
         let mut placer = Placer::new(FRAME, &[]);
-        for i in 0..6 {
-            placer.beside((590.0, 10.0 + f64::from(i)), "peak 38.4 kN at 0.98 ms", 12.0);
-        }
+        let text = "peak 38.4 kN at 0.98 ms".to_owned();
+        let texts: Vec<_> = (0..6).map(|i| ((590.0, 10.0 + f64::from(i)), text.clone())).collect();
+        assert_eq!(placer.beside_all(&texts, 12.0).len(), 6);
         for (i, a) in placer.taken.iter().enumerate() {
             assert!(a.overlap(&FRAME) > 0.999 * a.size(), "{a:?}");
             assert!(placer.taken[..i].iter().all(|b| a.overlap(b) <= 0.0), "{:?}", placer.taken);
@@ -176,6 +267,20 @@ mod tests {
             placer.beside(*point, "deepest 17.5 mm", 12.0);
             let place = placer.taken[2 + i];
             assert!(place.distance(point) < place.distance(&points[1 - i]), "{place:?}");
+        }
+    }
+
+    #[test]
+    fn no_leader_strikes_through_a_text() {
+        let mut placer = Placer::new(FRAME, &[]);
+        let points: Vec<_> = (0..4).map(|i| (500.0 + 12.0 * f64::from(i), 60.0)).collect();
+        points.iter().for_each(|p| placer.avoid(*p, 4.5));
+        let text = "soft: peak 1.47 kN at 17.8 ms".to_owned();
+        let texts: Vec<_> = points.iter().map(|point| (*point, text.clone())).collect();
+        assert_eq!(placer.beside_all(&texts, 12.0).len(), 4);
+        assert!(!placer.leaders().is_empty());
+        for line in placer.leaders() {
+            assert!(placer.taken[4..].iter().all(|text| !strikes(text, line)), "{placer:?}");
         }
     }
 

@@ -9,8 +9,8 @@ use crate::theme;
 pub(super) enum Sample {
     /// A curve.
     Curve(Stroke),
-    /// A reference line.
-    Line,
+    /// A reference line of a curve's colour, if of any.
+    Line(Option<usize>),
 }
 
 /// One placed entry; places are from the legend's upper left corner \[px\].
@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn entries_stay_within_the_width_and_apart() {
-        let names = (0..20).map(|i| (Sample::Line, format!("element number {i}"))).collect();
+        let names = (0..20).map(|i| (Sample::Line(None), format!("element number {i}"))).collect();
         let legend = Legend::new(names, 500.0);
         for pair in legend.entries().windows(2) {
             let end =

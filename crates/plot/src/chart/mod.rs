@@ -6,6 +6,7 @@ mod legend;
 mod naming;
 mod svg;
 mod text;
+mod texts;
 
 /// A chart in the units of its labels.
 ///
@@ -107,6 +108,9 @@ pub struct ReferenceLine {
     pub at: f64,
     /// Text at the line.
     pub label: String,
+    /// Number of the theme's curve colour in which line and text are drawn, as in [`Stroke::colour`]; `None` for a
+    /// line that belongs to no single curve.
+    pub colour: Option<usize>,
 }
 
 /// Which way a [`ReferenceLine`] runs.
@@ -164,7 +168,12 @@ mod tests {
     use super::*;
 
     fn line(at: f64) -> ReferenceLine {
-        ReferenceLine { direction: Direction::Horizontal, at, label: "thickness".into() }
+        ReferenceLine {
+            direction: Direction::Horizontal,
+            at,
+            label: "thickness".into(),
+            colour: None,
+        }
     }
 
     #[test]

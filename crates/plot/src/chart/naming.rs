@@ -1,4 +1,5 @@
-//! Which curve is which on a terminal without colours: a letter on each curve that runs by itself.
+//! Which curve is which where one hides another, and on a terminal without colours: a letter on each curve that
+//! runs by itself.
 
 use std::collections::BTreeSet;
 
@@ -10,13 +11,36 @@ pub(super) type Place = (usize, usize);
 pub(super) enum Tag {
     /// It runs by itself, with a letter at this place if there is a free one.
     Letter(char, Option<Place>),
-    /// It lies on the curve of this index.
-    On(usize),
+    /// It runs as the curve of this index does.
+    Same(usize),
+    /// It lies on a part of the curve of this index.
+    Within(usize),
+}
+
+/// Legend text of a curve that runs as another one does.
+pub(super) fn same_name(name: &str, host: &str) -> String {
+    format!("{name} = {host}")
+}
+
+/// Per curve the first one before it that runs through the same places and is drawn `alike`.
+pub(super) fn same_curves(
+    curves: &[Vec<Place>],
+    alike: impl Fn(usize, usize) -> bool,
+) -> Vec<Option<usize>> {
+    let sets = sets(curves);
+    let same = |a: usize, b: usize| lies_on(&sets[a], &sets[b]) && lies_on(&sets[b], &sets[a]);
+    (0..curves.len())
+        .map(|index| (0..index).find(|host| alike(*host, index) && same(*host, index)))
+        .collect()
+}
+
+fn sets(curves: &[Vec<Place>]) -> Vec<BTreeSet<Place>> {
+    curves.iter().map(|curve| curve.iter().copied().collect()).collect()
 }
 
 /// Tags for curves that run through these places, in the order of the curves; after `z` the letters begin again.
 pub(super) fn tags(curves: &[Vec<Place>]) -> Vec<Tag> {
-    let sets: Vec<BTreeSet<Place>> = curves.iter().map(|c| c.iter().copied().collect()).collect();
+    let sets = sets(curves);
     let mut hosts: Vec<Option<usize>> = Vec::with_capacity(curves.len());
     for (index, set) in sets.iter().enumerate() {
         let host = (0..index).find(|i| hosts[*i].is_none() && lies_on(set, &sets[*i]));
@@ -27,7 +51,8 @@ pub(super) fn tags(curves: &[Vec<Place>]) -> Vec<Tag> {
     let mut turn = 0;
     let mut tag = |index: usize| {
         if let Some(host) = hosts[index] {
-            return Tag::On(host);
+            let is_whole = lies_on(&sets[host], &sets[index]);
+            return if is_whole { Tag::Same(host) } else { Tag::Within(host) };
         }
         let letter = letters.next().unwrap_or('a');
         turn += 1;
@@ -63,12 +88,21 @@ mod tests {
         let beside: Vec<Place> = line.iter().map(|(r, c)| (r + 1, *c)).collect();
         let far: Vec<Place> = line.iter().map(|(r, c)| (r + 5, *c)).collect();
         let tags = tags(&[line.clone(), beside, far.clone()]);
-        assert_eq!(tags[1], Tag::On(0));
+        assert_eq!(tags[1], Tag::Same(0));
         let (Tag::Letter('a', Some(a)), Tag::Letter('b', Some(b))) = (tags[0], tags[2]) else {
             panic!("{tags:?}");
         };
         assert!(line.contains(&a) && !far.contains(&a));
         assert!(far.contains(&b) && !line.contains(&b));
+    }
+
+    #[test]
+    fn a_part_of_a_curve_is_not_said_to_be_the_same() {
+        let line: Vec<Place> = (0..40).map(|c| (c / 4, c)).collect();
+        let curves = [line.clone(), line[..20].to_vec(), line];
+        assert_eq!(tags(&curves)[1..], [Tag::Within(0), Tag::Same(0)]);
+        assert_eq!(same_curves(&curves, |_, _| true), [None, None, Some(0)]);
+        assert_eq!(same_curves(&curves, |_, _| false), [None; 3]);
     }
 
     #[test]

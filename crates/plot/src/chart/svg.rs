@@ -8,32 +8,31 @@ use super::canvas::{
     Area, Fault, canvas, dashes, layer, line, opening, path, pen, pixels, text_style,
 };
 use super::legend::{Entry, Legend, Sample};
-use super::{Chart, Direction, ReferenceLine, Stroke, labels};
+use super::naming::{Place, same_curves, same_name};
+use super::texts::draw_texts;
+use super::{Chart, Direction, ReferenceLine, Stroke};
 use crate::PlotError;
 use crate::axis::Axis;
 use crate::lettering::{clip_width, escape, one_line, text_width};
 use crate::theme;
 use crate::thinning::{Path, stretches, thin};
 
-/// Distance of a text from its point from which on a line joins the two \[px\].
-const LEADER: f64 = 22.0;
-
 /// Both ends of a straight line \[px\].
-type Ends = [(f64, f64); 2];
+pub(super) type Ends = [(f64, f64); 2];
 type Drawn = Result<(), Fault>;
 
 /// The plotting frame and its axes \[px\].
-struct Frame {
-    left: f64,
-    right: f64,
-    top: f64,
-    bottom: f64,
-    x: Axis,
-    y: Axis,
+pub(super) struct Frame {
+    pub(super) left: f64,
+    pub(super) right: f64,
+    pub(super) top: f64,
+    pub(super) bottom: f64,
+    pub(super) x: Axis,
+    pub(super) y: Axis,
 }
 
 impl Frame {
-    fn at(&self, x: f64, y: f64) -> (f64, f64) {
+    pub(super) fn at(&self, x: f64, y: f64) -> (f64, f64) {
         (
             self.left + self.x.fraction(x) * (self.right - self.left),
             self.bottom - self.y.fraction(y) * (self.bottom - self.top),
@@ -63,11 +62,12 @@ impl Chart {
             .fold(0.0_f64, f64::max);
         let left = theme::MARGIN + 1.5 * theme::LABEL_SIZE + widest_tick + 12.0;
         let right = theme::CHART_WIDTH - theme::MARGIN - 8.0;
-        let legend = Legend::new(self.entries(&x, &y), right - left);
         let note_height = if self.note.is_empty() { 0.0 } else { 1.4 * theme::TICK_SIZE };
         let heading = theme::MARGIN + 1.5 * theme::TITLE_SIZE + note_height;
-        let top = heading + legend.height() + 10.0;
-        let frame = Frame { left, right, top, bottom: top + theme::FRAME_HEIGHT, x, y };
+        let mut frame = Frame { left, right, top: 0.0, bottom: theme::FRAME_HEIGHT, x, y };
+        let legend = Legend::new(self.entries(&frame), right - left);
+        frame.top = heading + legend.height() + 10.0;
+        frame.bottom = frame.top + theme::FRAME_HEIGHT;
         let size =
             (theme::CHART_WIDTH, frame.bottom + 2.6 * theme::LABEL_SIZE + theme::MARGIN + 8.0);
 
@@ -89,29 +89,54 @@ impl Chart {
         for entry in legend.entries() {
             let dashes = match entry.sample {
                 Sample::Curve(stroke) => dashes(stroke.pattern),
-                Sample::Line => " stroke-dasharray=\"70 50\"",
+                Sample::Line(_) => " stroke-dasharray=\"70 50\"",
             };
             let attributes = format!("class=\"sample\"{dashes}");
             svg += &layer(size, &attributes, |area| draw_sample(area, entry, (left, heading)))?;
         }
-        let halo = format!(
-            "class=\"labels\" stroke=\"{}\" stroke-width=\"35\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
-            theme::PAPER.hex()
-        );
-        svg += &layer(size, &halo, |area| self.draw_labels(area, &frame, &curves))?;
+        let halo = |class: &str| {
+            format!(
+                "class=\"{class}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" \
+                 paint-order=\"stroke\"",
+                theme::PAPER.hex(),
+                pixels(theme::HALO_WIDTH)
+            )
+        };
+        let texts = self.place_texts(&frame, &curves);
+        svg += &layer(size, "class=\"leaders\"", |area| {
+            let style = line(theme::FAINT, theme::HAIR_WIDTH);
+            texts.leaders.iter().try_for_each(|ends| area.draw(&path(ends, style)))
+        })?;
+        svg += &layer(size, &halo("limit-labels"), |area| draw_texts(area, &texts.limits))?;
+        svg += &layer(size, &halo("labels"), |area| {
+            let disc =
+                |at| Circle::new(at, pixels(theme::MARKER_RADIUS), theme::INK.rgb().filled());
+            texts.discs.iter().try_for_each(|at| area.draw(&disc(canvas(*at))))?;
+            draw_texts(area, &texts.markers)
+        })?;
         svg += "</svg>\n";
         Ok(svg)
     }
 
-    fn entries(&self, x: &Axis, y: &Axis) -> Vec<(Sample, String)> {
+    fn entries(&self, frame: &Frame) -> Vec<(Sample, String)> {
+        let (x, y) = (&frame.x, &frame.y);
+        let places: Vec<_> = self.series.iter().map(|s| places(frame, &s.points)).collect();
+        let same = same_curves(&places, |a, b| self.stroke(a).pattern == self.stroke(b).pattern);
+        let name = |index: usize| one_line(&self.series[index].name);
+        let text = |index: usize| match same[index] {
+            Some(host) => same_name(&name(index), &name(host)),
+            None => name(index),
+        };
         let curves = self.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty());
-        let curves = curves.map(|(i, s)| (Sample::Curve(self.stroke(i)), one_line(&s.name)));
+        let curves = curves.map(|(i, _)| (Sample::Curve(self.stroke(i)), text(i)));
         let far = self.lines.iter().filter(|line| match line.direction {
             Direction::Horizontal => !y.holds(line.at),
             Direction::Vertical => !x.holds(line.at),
         });
         curves
-            .chain(far.map(|l| (Sample::Line, format!("{} (off the axis)", one_line(&l.label)))))
+            .chain(far.map(|l| {
+                (Sample::Line(l.colour), format!("{} (off the axis)", one_line(&l.label)))
+            }))
             .collect()
     }
 
@@ -169,14 +194,15 @@ impl Chart {
     }
 
     fn draw_lines(&self, area: &Area<'_>, frame: &Frame) -> Drawn {
-        for (_, ends) in self.limits(frame) {
-            area.draw(&path(&ends, line(theme::FAINT, theme::LINE_WIDTH)))?;
+        for (limit, ends) in self.limits(frame) {
+            let colour = theme::limit_colour(limit.colour);
+            area.draw(&path(&ends, line(colour, theme::LINE_WIDTH)))?;
         }
         Ok(())
     }
 
     /// The reference lines on the axes, with their ends.
-    fn limits(&self, frame: &Frame) -> Vec<(&ReferenceLine, Ends)> {
+    pub(super) fn limits(&self, frame: &Frame) -> Vec<(&ReferenceLine, Ends)> {
         let placed = self.lines.iter().filter_map(|limit| {
             let (x, y) = frame.at(limit.at, limit.at);
             let ends = match limit.direction {
@@ -192,51 +218,37 @@ impl Chart {
         });
         placed.collect()
     }
+}
 
-    fn draw_labels(&self, area: &Area<'_>, frame: &Frame, curves: &[Vec<Path>]) -> Drawn {
-        let bounds = labels::Area {
-            left: frame.left,
-            right: frame.right,
-            top: frame.top,
-            bottom: frame.bottom,
-        };
-        let mut placer = labels::Placer::new(bounds, curves);
-        let limits = self.limits(frame);
-        limits.iter().for_each(|(_, ends)| placer.avoid_path(ends));
-        for (limit, [start, _]) in limits {
-            let label = one_line(&limit.label);
-            let is_horizontal = limit.direction == Direction::Horizontal;
-            let at = if is_horizontal { start.1 } else { start.0 };
-            let anchor = placer.along(at, is_horizontal, &label, theme::TICK_SIZE);
-            let style =
-                text_style(theme::TICK_SIZE, theme::FAINT, Pos::new(HPos::Left, VPos::Center));
-            area.draw(&Text::new(label, canvas(anchor), style))?;
-        }
-        let marked = self.markers.iter().filter(|m| m.x.is_finite() && m.y.is_finite());
-        let marked: Vec<_> = marked.map(|m| (frame.at(m.x, m.y), one_line(&m.label))).collect();
-        for (point, _) in &marked {
-            placer.avoid(*point, theme::MARKER_RADIUS);
-        }
-        let texts: Vec<_> = marked
-            .iter()
-            .map(|(point, label)| placer.beside(*point, label, theme::TICK_SIZE))
-            .collect();
-        for ((point, label), anchor) in marked.iter().zip(&texts) {
-            let end = anchor.0 + text_width(label, theme::TICK_SIZE);
-            let touch = (point.0.clamp(anchor.0 + 4.0, end - 4.0), anchor.1);
-            if (touch.0 - point.0).hypot(touch.1 - point.1) > LEADER {
-                area.draw(&path(&[*point, touch], line(theme::FAINT, theme::HAIR_WIDTH)))?;
+/// The pixels through which a curve runs.
+fn places(frame: &Frame, points: &[(f64, f64)]) -> Vec<Place> {
+    let mut places = Vec::new();
+    for stretch in curve(frame, points) {
+        for pair in stretch.windows(2) {
+            let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
+            let steps = pixel(dx.abs().max(dy.abs())) + 1;
+            for step in 0..steps {
+                let part = lossless(step) / lossless(steps);
+                places.push((pixel(pair[0].1 + part * dy), pixel(pair[0].0 + part * dx)));
             }
         }
-        for ((point, label), anchor) in marked.into_iter().zip(texts) {
-            let radius = pixels(theme::MARKER_RADIUS);
-            area.draw(&Circle::new(canvas(point), radius, theme::INK.rgb().filled()))?;
-            let style =
-                text_style(theme::TICK_SIZE, theme::INK, Pos::new(HPos::Left, VPos::Center));
-            area.draw(&Text::new(label, canvas(anchor), style))?;
-        }
-        Ok(())
     }
+    places.dedup();
+    places
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the value is kept within a few times the canvas"
+)]
+fn pixel(length: f64) -> usize {
+    length.clamp(0.0, 1e5).round() as usize
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a chart has far fewer than 2^52 pixels")]
+fn lossless(count: usize) -> f64 {
+    count as f64
 }
 
 /// The stretches of a curve on the display, thinned to what can be seen.
@@ -265,7 +277,7 @@ fn draw_curve(area: &Area<'_>, paths: &[Path], stroke: Stroke) -> Drawn {
 fn draw_sample(area: &Area<'_>, entry: &Entry, origin: (f64, f64)) -> Drawn {
     let pen = match entry.sample {
         Sample::Curve(stroke) => pen(stroke),
-        Sample::Line => line(theme::FAINT, theme::LINE_WIDTH),
+        Sample::Line(colour) => line(theme::limit_colour(colour), theme::LINE_WIDTH),
     };
     let (x, y) = (origin.0 + entry.x, origin.1 + entry.y);
     area.draw(&path(&[(x, y), (x + Legend::SAMPLE, y)], pen))?;
@@ -277,7 +289,7 @@ fn draw_sample(area: &Area<'_>, entry: &Entry, origin: (f64, f64)) -> Drawn {
 mod tests {
     use super::*;
     use crate::well_formed::assert_well_formed;
-    use crate::{Marker, Series};
+    use crate::{Marker, Pattern, Series};
 
     fn chart(points: Vec<(f64, f64)>) -> Chart {
         Chart {
@@ -363,8 +375,36 @@ mod tests {
                 direction: Direction::Vertical,
                 at: f64::INFINITY,
                 label: "never".into(),
+                colour: None,
             });
             assert_well_formed(&chart.svg().unwrap());
+        }
+    }
+
+    #[test]
+    fn the_legend_names_curves_hidden_under_an_equal_one() {
+        let mut chart = chart(vec![(0.0, 0.0), (1.0, 17.5), (2.0, 3.0)]);
+        let stroke = |colour, pattern| Some(Stroke { colour, pattern });
+        for (index, series) in chart.series.iter_mut().enumerate() {
+            series.stroke = stroke(index, Pattern::Solid);
+        }
+        assert!(chart.svg().unwrap().contains("bdf = exact"));
+        assert!(chart.text(80, 12).contains("bdf = exact"));
+        chart.series[0].stroke = stroke(0, Pattern::Broad);
+        assert!(!chart.svg().unwrap().contains("bdf = exact"), "both are seen");
+    }
+
+    #[test]
+    fn a_limit_and_its_text_have_the_colour_of_their_curve() {
+        let mut chart = chart(vec![(0.0, 0.0), (1.0, 17.5)]);
+        let direction = Direction::Horizontal;
+        let label = "thickness of hard: 10 mm".into();
+        chart.lines.push(ReferenceLine { direction, at: 10.0, label, colour: Some(1) });
+        let svg = chart.svg().unwrap();
+        let colour = theme::curve_colour(1).hex();
+        for class in ["limits", "limit-labels"] {
+            let group = svg.split("<g ").find(|g| g.contains(&format!("class=\"{class}\"")));
+            assert!(group.unwrap().contains(&colour), "{class}");
         }
     }
 
@@ -376,6 +416,7 @@ mod tests {
             direction: Direction::Horizontal,
             at,
             label: label.into(),
+            colour: None,
         };
         chart.lines.extend([limit(20.0, "thickness 20 mm"), limit(500.0, "ceiling")]);
         let svg = chart.svg().unwrap();

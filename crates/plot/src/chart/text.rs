@@ -1,6 +1,6 @@
 //! A chart as text for a terminal, with curves in braille dots.
 
-use super::naming::{Place, Tag, tags};
+use super::naming::{Place, Tag, same_name, tags};
 use super::{Chart, Direction};
 use crate::axis::Axis;
 use crate::lettering::{clip_columns, columns, one_line};
@@ -111,10 +111,6 @@ impl Chart {
 
     /// The curves' names with their letters, in lines.
     fn names(&self, tags: &[Tag], width: usize) -> Vec<String> {
-        let letter = |index: usize| match tags[index] {
-            Tag::Letter(letter, _) => letter,
-            Tag::On(_) => ' ',
-        };
         let is_single = !tags.iter().any(|tag| matches!(tag, Tag::Letter('b', _)));
         let mut lines: Vec<String> = Vec::new();
         for (index, series) in self.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty()) {
@@ -122,8 +118,12 @@ impl Chart {
             let entry = match tags[index] {
                 Tag::Letter(..) if is_single => format!("  {name}"),
                 Tag::Letter(letter, _) => format!("  {letter} {name}"),
-                Tag::On(_) if is_single => format!("  {name} (on it)"),
-                Tag::On(host) => format!("  {name} (on {})", letter(host)),
+                Tag::Same(host) => {
+                    format!("  {}", same_name(&name, &one_line(&self.series[host].name)))
+                }
+                Tag::Within(host) => {
+                    format!("  {name} (on a part of {})", one_line(&self.series[host].name))
+                }
             };
             match lines.last_mut() {
                 Some(line) if columns(line) + columns(&entry) <= width => *line += &entry,
@@ -232,6 +232,7 @@ mod tests {
                 direction: Direction::Horizontal,
                 at: 20.0,
                 label: "limit".into(),
+                colour: None,
             }],
             ..Chart::default()
         }

@@ -170,6 +170,36 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn a_text_names_its_elements_where_several_are_shown() {
+        let labels = |run: RunSeries| -> Vec<String> {
+            ForceTime.chart(&[run]).markers.into_iter().map(|marker| marker.label).collect()
+        };
+        let mut run = run("exact");
+        assert_eq!(labels(run.clone()), ["padding: peak 38.4 kN at 1.00 ms"]);
+        let second = RunMarker { element: "mount <&>".into(), ..run.markers[0].clone() };
+        run.markers.push(second);
+        assert_eq!(labels(run.clone()).len(), 2, "the same text at other points");
+        run.elements[1].force = run.elements[0].force.clone();
+        assert_eq!(labels(run.clone()), ["padding, mount <&>: peak 38.4 kN at 1.00 ms"]);
+        run.elements.truncate(1);
+        assert_eq!(labels(run), ["peak 38.4 kN at 1.00 ms"]);
+    }
+
+    #[test]
+    fn limits_have_the_colours_of_their_curves_and_equal_ones_are_one_line() {
+        let mut run = run("exact");
+        run.elements[1].thickness = Some(0.03);
+        let lines = DeformationTime.chart(&[run.clone()]).lines;
+        let colours: Vec<_> = lines.iter().map(|line| line.colour).collect();
+        assert_eq!(colours, [Some(0), Some(1)]);
+        run.elements[1].thickness = Some(0.02);
+        let lines = DeformationTime.chart(&[run]).lines;
+        assert_eq!(lines.len(), 1);
+        assert_eq!(lines[0].label, "thickness of padding, mount <&>: 20 mm");
+        assert_eq!(lines[0].colour, None);
+    }
+
+    #[test]
     fn crowded_figures_keep_the_largest_quantities_and_say_so() {
         let mut run = run("exact");
         run.elements = (0..30)

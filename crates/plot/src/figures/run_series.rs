@@ -101,7 +101,8 @@ pub(super) fn zip(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// The first run's markers of these `kinds` on elements that are shown, with the signals `x` and `y` interpolated
-/// between the samples.
+/// between the samples. Where several elements are shown, a text begins with the name of its own; one text serves all
+/// elements that have it at nearly one point.
 pub(super) fn markers(
     runs: &[RunSeries],
     shown: &[Quantity],
@@ -117,13 +118,58 @@ pub(super) fn markers(
             _ => interpolate(&run.time, run.signal(element, of), marker.time),
         };
         let (x, y) = (at(x.0)? / x.1.factor, at(y.0)? / y.1.factor);
-        Some(Marker { x, y, label: marker.label.clone() })
+        Some((x, y))
     };
-    run.markers
+    let placed = run
+        .markers
         .iter()
         .filter(|m| kinds.contains(&m.kind) && shown.iter().any(|q| q.name == m.element))
-        .filter_map(place)
-        .collect()
+        .filter_map(|marker| place(marker).map(|(x, y)| (marker, x, y)));
+    let points = || shown.iter().flat_map(|q| q.curves.iter().flatten());
+    let near = (
+        NEAR * extent(points().map(|p| p.0)) / x.1.factor,
+        NEAR * extent(points().map(|p| p.1)) / y.1.factor,
+    );
+    let mut merged: Vec<(Marker, Vec<&str>)> = Vec::new();
+    for (marker, x, y) in placed {
+        let is_same = |(other, names): &&mut (Marker, Vec<&str>)| {
+            other.label == marker.label
+                && !names.contains(&marker.element.as_str())
+                && (other.x - x).abs() <= near.0
+                && (other.y - y).abs() <= near.1
+        };
+        match merged.iter_mut().find(is_same) {
+            Some((_, names)) => names.push(&marker.element),
+            None => {
+                merged.push((Marker { x, y, label: marker.label.clone() }, vec![&marker.element]));
+            }
+        }
+    }
+    let named = |(marker, names): (Marker, Vec<&str>)| match shown.len() {
+        0 | 1 => marker,
+        _ => Marker { label: format!("{}: {}", listed(&names), marker.label), ..marker },
+    };
+    merged.into_iter().map(named).collect()
+}
+
+/// Points nearer than this part of the curves' extent carry one text together.
+const NEAR: f64 = 0.01;
+
+/// Distance of the smallest and the largest finite value.
+fn extent(values: impl Iterator<Item = f64>) -> f64 {
+    let (low, high) = values
+        .filter(|v| v.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    (high - low).max(0.0)
+}
+
+/// Names in one text; of many the first ones and how many more there are.
+fn listed(names: &[&str]) -> String {
+    const MOST: usize = 3;
+    match names.len() {
+        0..=MOST => names.join(", "),
+        count => format!("{} and {} more", names[..MOST - 1].join(", "), count - (MOST - 1)),
+    }
 }
 
 /// The value at `at`, on the straight line between its neighbours; `None` outside the samples.
@@ -137,7 +183,7 @@ fn interpolate(time: &[f64], values: &[f64], at: f64) -> Option<f64> {
     Some(values[before] + part * (end - values[before]))
 }
 
-/// The thicknesses of the elements that are shown.
+/// The thicknesses of the elements that are shown, in the colours of their curves; equal ones are one line.
 pub(super) fn thickness_lines(
     runs: &[RunSeries],
     shown: &[Quantity],
@@ -145,15 +191,25 @@ pub(super) fn thickness_lines(
     unit: Unit,
 ) -> Vec<ReferenceLine> {
     let elements = runs.first().map_or(&[][..], |run| &run.elements);
-    elements
-        .iter()
-        .filter(|e| shown.iter().any(|q| q.name == e.name))
-        .filter_map(|e| {
-            let thickness = e.thickness?;
-            let label = format!("thickness of {}: {}", e.name, unit.print(thickness));
-            Some(ReferenceLine { direction, at: thickness / unit.factor, label })
-        })
-        .collect()
+    let mut limits: Vec<(f64, Vec<&str>, Option<usize>)> = Vec::new();
+    for element in elements {
+        let colour = shown.iter().position(|q| q.name == element.name);
+        let (Some(thickness), Some(_)) = (element.thickness, colour) else { continue };
+        match limits.iter_mut().find(|limit| limit.0.total_cmp(&thickness).is_eq()) {
+            Some((_, names, shared)) => {
+                names.push(&element.name);
+                *shared = None;
+            }
+            None => limits.push((thickness, vec![&element.name], colour)),
+        }
+    }
+    let line = |(thickness, names, colour): (f64, Vec<&str>, Option<usize>)| ReferenceLine {
+        direction,
+        at: thickness / unit.factor,
+        label: format!("thickness of {}: {}", listed(&names), unit.print(thickness)),
+        colour,
+    };
+    limits.into_iter().map(line).collect()
 }
 
 #[cfg(test)]

@@ -39,7 +39,7 @@ pub struct Report {
     pub verdict: Vec<String>,
     /// Results, such as measures and the energy ledger.
     pub tables: Vec<Table>,
-    /// Drawings after the tables: the network first, then the figures.
+    /// Drawings: first the network, which stands above the tables, then the figures, which stand below them.
     pub figures: Vec<ReportFigure>,
     /// How the results came about: methods, steps, times, resolved settings.
     pub details: Vec<Table>,
@@ -61,7 +61,8 @@ pub struct Table {
 /// A drawing with its caption.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ReportFigure {
-    /// Text below the drawing; empty for none.
+    /// Text below the drawing; empty for none. The network's is not printed, it only names the drawing to readers
+    /// who do not see it.
     pub caption: String,
     /// SVG element as [`Chart::svg`](crate::Chart::svg) and [`Sketch::svg`](crate::Sketch::svg) write it. It is taken
     /// over as it stands.
@@ -69,7 +70,8 @@ pub struct ReportFigure {
 }
 
 impl Report {
-    /// The report as one page without script and without any outer resource. All texts are escaped.
+    /// The report as one page without script and without any outer resource. All texts are escaped; what stands
+    /// between two backticks in them is set as code.
     pub fn html(&self) -> String {
         let title = escape(&self.title);
         let mut page = format!(
@@ -80,11 +82,20 @@ impl Report {
         );
         page += &list("warnings", &self.warnings);
         page += &list("verdict", &self.verdict);
+        let mut figures = self.figures.iter();
+        if let Some(network) = figures.next() {
+            let _ = writeln!(
+                page,
+                "<figure class=\"network\" aria-label=\"{}\"><div class=\"drawing\">\n{}</div></figure>",
+                escape(&network.caption),
+                network.svg
+            );
+        }
         self.tables.iter().for_each(|table| page += &table.html());
-        for figure in &self.figures {
+        for figure in figures {
             let _ = write!(page, "<figure><div class=\"drawing\">\n{}</div>", figure.svg);
             if !figure.caption.is_empty() {
-                let _ = write!(page, "<figcaption>{}</figcaption>", escape(&figure.caption));
+                let _ = write!(page, "<figcaption>{}</figcaption>", phrase(&figure.caption));
             }
             page += "</figure>\n";
         }
@@ -110,13 +121,13 @@ impl Table {
         let row = |cells: &[String], tag: &str| {
             let mut html = String::from("<tr>");
             for (column, class) in classes.iter().enumerate() {
-                let text = escape(cells.get(column).map_or("", String::as_str));
+                let text = phrase(cells.get(column).map_or("", String::as_str));
                 let _ = write!(html, "<{tag}{class}>{text}</{tag}>");
             }
             html + "</tr>\n"
         };
         let mut html =
-            format!("<section><h2>{}</h2>\n<div class=\"table\"><table>\n", escape(&self.caption));
+            format!("<section><h2>{}</h2>\n<div class=\"table\"><table>\n", phrase(&self.caption));
         if !self.header.is_empty() {
             let _ = writeln!(html, "<thead>{}</thead>", row(&self.header, "th"));
         }
@@ -147,9 +158,27 @@ fn list(class: &str, lines: &[String]) -> String {
     }
     let mut html = format!("<ul class=\"{class}\">\n");
     for line in lines {
-        let _ = writeln!(html, "<li>{}</li>", escape(line));
+        let _ = writeln!(html, "<li>{}</li>", phrase(line));
     }
     html + "</ul>\n"
+}
+
+/// Escaped text with the parts between backticks as code; a backtick without a partner stays.
+fn phrase(text: &str) -> String {
+    let mut html = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('`') {
+        html += &escape(before);
+        rest = after;
+        match after.split_once('`') {
+            Some((code, after)) if !code.is_empty() => {
+                let _ = write!(html, "<code>{}</code>", escape(code));
+                rest = after;
+            }
+            _ => html.push('`'),
+        }
+    }
+    html + &escape(rest)
 }
 
 /// Escaped text that keeps its line breaks and tabs.
@@ -214,6 +243,24 @@ mod tests {
         assert!(page.find("padding pulls") < page.find("peak force"));
         assert!(page.contains("Head &lt;of 10 kg&gt; &amp; panel"));
         assert!(page.contains("\thead = { mass = &quot;10 kg&quot; } # &lt;b&gt;"));
+    }
+
+    #[test]
+    fn text_between_backticks_is_code() {
+        assert_eq!(phrase("a bound of `exact`"), "a bound of <code>exact</code>");
+        assert_eq!(phrase("`a<b>` or `c`."), "<code>a&lt;b&gt;</code> or <code>c</code>.");
+        assert_eq!(phrase("a ` alone & ``"), "a <code> alone &amp; </code>`");
+        assert_eq!(phrase("at ` last"), "at ` last");
+    }
+
+    #[test]
+    fn the_network_stands_above_the_tables_and_the_figures_below() {
+        let page = report().html();
+        let at = |text: &str| page.find(text).unwrap();
+        assert!(at("peak force 38.4") < at("class=\"network\""));
+        assert!(at("class=\"network\"") < at("padding.peak-force"));
+        assert!(at("padding.peak-force") < at("Force over time"));
+        assert!(!page.contains("<figcaption>Network"));
     }
 
     #[test]

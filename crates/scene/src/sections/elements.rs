@@ -10,6 +10,7 @@ use crate::{
     document::{Content, Entry},
     fault::Fault,
     models::ModelReader,
+    plausible,
     table::{Table, check_name, wrong_type},
 };
 
@@ -43,7 +44,10 @@ fn read_element<'d>(
     let between = table.require("between", example).and_then(|own| ends(reading, own));
     let thickness = table.take("thickness").map(|own| {
         let check = |thickness| positive("thickness", thickness);
-        reading.quantities().read_checked(&own.item, Dimension::LENGTH, check)
+        let quantities = reading.quantities();
+        let thickness = quantities.read_checked(&own.item, Dimension::LENGTH, check);
+        plausible::check(quantities, own, thickness);
+        thickness
     });
     // The model reader looks at the other keys.
     table.finish_missing();

@@ -7,6 +7,7 @@ use crate::{
     document::{Content, Entry, Item},
     fault::Fault,
     kinds::{MeasureEntry, registers},
+    nearest::list,
     parameters::KindReader,
     source::Place,
     table::{one_or_many, text_of, wrong_type},
@@ -51,14 +52,30 @@ pub(super) fn measure_of(
         return Some(found);
     }
     let known = measures.iter().filter(fits).map(|measure| measure.kind.word).collect();
+    let other = found.map(|found| other_family(reading, word, found.family));
     let family = match family {
         Some(Family::Element) => "a measure of an element",
         Some(Family::Node) => "a measure of a node",
         None => "a measure",
     };
     let fault = Fault::UnknownWord { family: family.to_owned(), word: word.to_owned(), known };
+    let fault = match other {
+        Some(help) => fault.with_help(help),
+        None => fault,
+    };
     reading.faults.error(place, fault);
     None
+}
+
+/// Says of what `word` is a measure, and names some.
+fn other_family(reading: &Reading<'_>, word: &str, family: Family) -> String {
+    let (what, mut names): (_, Vec<&str>) = match family {
+        Family::Element => ("elements", reading.elements.keys().copied().collect()),
+        Family::Node => ("nodes", reading.nodes.keys().copied().collect()),
+    };
+    names.retain(|name| *name != "ground");
+    names.sort_unstable();
+    format!("`{word}` is a measure of {what}: {}", list(&names))
 }
 
 fn read_wish(

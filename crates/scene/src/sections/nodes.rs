@@ -9,6 +9,7 @@ use super::Reading;
 use crate::{
     document::{Content, Entry},
     fault::Fault,
+    plausible,
     table::{check_name, wrong_type},
 };
 
@@ -33,7 +34,10 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
     let table = reading.table(entry, "node")?;
     let quantities = reading.quantities();
     let mass = table.take("mass").map(|own| {
-        quantities.read_checked(&own.item, Dimension::MASS, |mass| non_negative("mass", mass))
+        let check = |mass| non_negative("mass", mass);
+        let mass = quantities.read_checked(&own.item, Dimension::MASS, check);
+        plausible::check(quantities, own, mass);
+        mass
     });
     let velocity = table.take("velocity");
     let drop = table.take("drop");
@@ -45,7 +49,9 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         velocity.map(|own| quantities.read(&own.item, Dimension::VELOCITY).map(Start::Velocity));
     let drop = drop.map(|own| {
         let check = |height| non_negative("drop", height);
-        quantities.read_checked(&own.item, Dimension::LENGTH, check).map(Start::Drop)
+        let height = quantities.read_checked(&own.item, Dimension::LENGTH, check);
+        plausible::check(quantities, own, height);
+        height.map(Start::Drop)
     });
     let fixed = table.take("fixed");
     let motion = table.take("motion");

@@ -2,11 +2,13 @@
 
 mod equality;
 mod fuzz;
+mod hints;
 mod limits;
 mod messages;
 mod models;
 mod round_trip;
 mod settings;
+mod warnings;
 
 use dashpot_network::{Model, Network};
 use dashpot_rheology::Tree;

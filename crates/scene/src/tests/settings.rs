@@ -63,13 +63,13 @@ fn named_values_are_overridden_from_outside() {
 }
 
 #[test]
-fn a_reversed_element_is_warned_of_at_its_name() {
+fn a_reversed_element_is_warned_of_at_its_ends() {
     let text = "[nodes]\nhead = { mass = 1, velocity = 1 }\npanel = { mass = 1 }\n[elements]\n\
                 pad = { between = [\"panel\", \"head\"], spring = 1 }\n\
                 mount = { between = [\"panel\", \"ground\"], spring = 1 }\n[run]\nduration = 1\n";
     let shown = read_text(text).unwrap().warnings.render(false);
     assert!(shown.starts_with("warning: `pad` looks reversed"), "{shown}");
-    assert!(shown.contains("scene.toml:5:1"), "{shown}");
+    assert!(shown.contains("scene.toml:5:19"), "{shown}");
 }
 
 #[test]

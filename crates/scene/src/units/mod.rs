@@ -11,6 +11,7 @@ use dashpot_network::parameters::Dimension;
 pub(crate) use format::{exact_quantity, si_unit};
 pub use format::{format_quantity, format_short};
 use symbols::Unit;
+pub(crate) use symbols::meant_as;
 use thiserror::Error;
 
 /// A quantity is not longer than this, in bytes.
@@ -61,11 +62,21 @@ pub enum UnitError {
         /// What was given.
         text: String,
     },
+    /// A space or another mark between the digits of a number.
+    #[error("`{text}` has a space or a mark within the number, which is not read")]
+    Separated {
+        /// What was given.
+        text: String,
+        /// The same without them.
+        joined: String,
+    },
     /// A symbol that is no unit.
     #[error("`{symbol}` is not a known unit")]
     UnknownUnit {
         /// The symbol.
         symbol: String,
+        /// The whole unit, of which it is all or a part.
+        unit: String,
         /// What was probably meant.
         meant: Option<String>,
     },
@@ -103,7 +114,15 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
     }
     let (number, rest) = split_number(text)?;
     let unit_text = rest.trim();
-    let unit = if unit_text.is_empty() { None } else { Some(parse_unit(unit_text)?) };
+    let unit = match unit_text {
+        "" => None,
+        _ => match parse_unit(unit_text) {
+            Err(UnitError::Malformed { .. }) if begins_with_digits(rest) => {
+                return Err(UnitError::Separated { text: text.to_owned(), joined: joined(text) });
+            }
+            found => Some(found?),
+        },
+    };
     let (factor, exponent) = unit.map_or((1.0, 0), |unit| (unit.factor, unit.exponent));
     let value = scaled(number, exponent).map_or(f64::NAN, |value| value * factor);
     if !value.is_finite() {
@@ -137,6 +156,26 @@ fn scaled(number: &str, exponent: i32) -> Option<f64> {
     // An exponent beyond i32 is beyond double precision as well.
     let own = own.parse::<i32>().unwrap_or(if own.starts_with('-') { -9999 } else { 9999 });
     format!("{mantissa}e{}", own.saturating_add(exponent)).parse().ok()
+}
+
+/// Whether digits go on after a space or a mark, as in `60 000`.
+fn begins_with_digits(rest: &str) -> bool {
+    let digits = rest.trim_start_matches([' ', '\u{a0}', '\u{202f}', '\'', '’', '_']);
+    digits.len() < rest.len() && digits.starts_with(|first: char| first.is_ascii_digit())
+}
+
+/// `text` without what stands between two digits and is none itself, points excepted.
+fn joined(text: &str) -> String {
+    let all = text.chars().collect::<Vec<_>>();
+    let is_digit = |at: Option<usize>| {
+        at.and_then(|at| all.get(at)).is_some_and(|digit: &char| digit.is_ascii_digit())
+    };
+    let is_mark = |at: usize| {
+        matches!(all[at], ' ' | '\u{a0}' | '\u{202f}' | '\'' | '’' | '_')
+            && is_digit(at.checked_sub(1))
+            && is_digit(Some(at + 1))
+    };
+    (0..all.len()).filter(|&at| !is_mark(at)).map(|at| all[at]).collect()
 }
 
 fn has_digit_above_zero(number: &str) -> bool {
@@ -222,6 +261,7 @@ fn parse_unit(text: &str) -> Result<Unit, UnitError> {
                 }
                 let factor = symbols::symbol(word).ok_or_else(|| UnitError::UnknownUnit {
                     symbol: word.to_owned(),
+                    unit: text.trim().to_owned(),
                     meant: symbols::meant(word),
                 })?;
                 let (power, after) = split_power(after).ok_or_else(malformed)?;

@@ -63,6 +63,8 @@ const SYMBOLS: &[Symbol] = &[
     unit("ft", 3048.0, -4, Dimension::LENGTH, false),
     unit("lb", 45_359_237.0, -8, Dimension::MASS, false),
     unit("lbf", 4.448_221_615_260_5, 0, Dimension::FORCE, false),
+    unit("kgf", 9.806_65, 0, Dimension::FORCE, false),
+    unit("mph", 44_704.0, -5, Dimension::VELOCITY, false),
 ];
 
 /// Both signs for micro are read, and `u`.
@@ -100,6 +102,11 @@ const SPOKEN: &[(&str, &str)] = &[
     ("percent", "%"),
     ("lbs", "lb"),
     ("inch", "in"),
+    ("inches", "in"),
+    ("foot", "ft"),
+    ("feet", "ft"),
+    ("mi/h", "mph"),
+    ("kp", "kgf"),
     ("gn", "g0"),
     ("kph", "km/h"),
     ("kmh", "km/h"),
@@ -110,6 +117,10 @@ const USUAL: &[&str] = &[
     "kN", "MN", "GN", "mN", "kg", "mm", "cm", "km", "µm", "ms", "µs", "ns", "kHz", "kJ", "mJ",
     "MPa", "kPa", "GPa", "mrad",
 ];
+
+/// Units of more than one symbol that are offered where their dimension is expected.
+const COMPOUND: &[&str] =
+    &["m/s", "km/h", "mm/s", "m/s^2", "N/m", "kN/m", "MN/m", "N/mm", "N s/m", "kN s/m", "N s"];
 
 /// The unit of a symbol such as `kN`.
 pub(crate) fn symbol(word: &str) -> Option<Unit> {
@@ -142,6 +153,15 @@ pub(crate) fn meant(word: &str) -> Option<String> {
         return Some(same.to_owned());
     }
     nearest(word, known()).map(str::to_owned)
+}
+
+/// What was probably meant by a unit that is not known where `expected` is measured.
+pub(crate) fn meant_as(unit: &str, expected: Dimension) -> Option<&'static str> {
+    let known = COMPOUND.iter().chain(USUAL).copied();
+    let known = known.chain(SYMBOLS.iter().map(|symbol| symbol.word));
+    let fits =
+        |known: &&str| super::parse_dimension(known).is_ok_and(|dimension| dimension == expected);
+    nearest(unit, known.filter(fits))
 }
 
 #[cfg(test)]

@@ -1,0 +1,122 @@
+//! What is odd about a scene as a whole, but not wrong.
+
+use dashpot_network::{
+    Network, Node, Start, Support,
+    parameters::{Dimension, ParameterKind},
+};
+
+use crate::{
+    document::{Content, Entry, Item},
+    fault::Fault,
+    kinds::registers,
+    network_faults::value_of,
+    sections::Reading,
+    units::format_short,
+};
+
+/// Warns of what is odd in a scene that has been read without errors.
+pub(crate) fn review(reading: &Reading<'_>, network: &Network, duration: f64) {
+    unused_values(reading);
+    still(reading, network);
+    for (id, node) in network.nodes().filter(|(id, _)| *id != network.ground()) {
+        let Some(entry) = reading.section("nodes").iter().find(|own| own.key == node.name) else {
+            continue;
+        };
+        let ends = |end: usize| {
+            network.connections().iter().filter(move |own| own.between[end] == id).count()
+        };
+        let [starting, ending] = [ends(0), ends(1)];
+        if starting + ending == 0 {
+            let message = format!("no element touches `{}`", node.name);
+            let help = "name it in the `between` of an element, or remove it";
+            reading.faults.warning(entry.key_place, Fault::odd(message, help));
+        }
+        if ending == 0 && starting > 0 {
+            moving_away(reading, entry, node);
+        }
+    }
+    for (section, key) in [("loads", "force"), ("nodes", "motion")] {
+        for driven in reading.section(section).iter().filter_map(|own| value_of(own, key)) {
+            time_table(reading, driven, duration);
+        }
+    }
+}
+
+fn unused_values(reading: &Reading<'_>) {
+    let entries = reading.library.section("values").and_then(|entry| entry.item.table());
+    for entry in entries.unwrap_or(&[]) {
+        let known = reading.library.values().get(&entry.key);
+        if known.is_some_and(|known| !known.is_used.get()) {
+            let message = format!("nothing uses the value `{}`", entry.key);
+            let help = format!("write \"{}\" where it is meant, or remove it", entry.key);
+            reading.faults.warning(entry.key_place, Fault::odd(message, help));
+        }
+    }
+}
+
+/// Warns of a network in which all that begins at rest stays at rest.
+fn still(reading: &Reading<'_>, network: &Network) {
+    let starts = |node: &Node| match node.start {
+        Start::Rest => false,
+        Start::Velocity(speed) => speed != 0.0,
+        Start::Drop(height) => height > 0.0,
+    };
+    let is_driven = |node: &Node| matches!(node.support, Support::Prescribed(_));
+    let moves = !network.loads().is_empty()
+        || network.nodes().any(|(_, node)| starts(node) || is_driven(node))
+        || network.effects().iter().any(|effect| !effect.starts_in_balance());
+    if !moves {
+        let message =
+            "nothing moves: no node has `velocity` or `drop`, there is no load and no motion";
+        let place = reading.library.section("nodes").map(|entry| entry.key_place);
+        let help = "for example `velocity = \"10 m/s\"` at the node that strikes";
+        reading.faults.warning(place, Fault::odd(message, help));
+    }
+}
+
+/// Warns of an impactor that is at the outer end of all its elements and moves outward.
+fn moving_away(reading: &Reading<'_>, entry: &Entry, node: &Node) {
+    if let Start::Velocity(speed) = node.start
+        && speed < 0.0
+    {
+        let message =
+            format!("`{}` moves away from the support: positive is towards it", node.name);
+        let place = value_of(entry, "velocity").map_or(entry.key_place, |item| item.place);
+        reading.faults.warning(place, Fault::Odd { message, help: None });
+    }
+}
+
+/// Warns of points of a table of time that have no influence.
+fn time_table(reading: &Reading<'_>, driven: &Item, duration: f64) {
+    let kinds = &registers().waveforms;
+    for own in driven.table().unwrap_or(&[]) {
+        let kind = kinds.iter().find(|kind| kind.word == own.key);
+        let parameter = kind.and_then(|kind| {
+            kind.parameters.iter().find(|own| own.kind == ParameterKind::TimeTable)
+        });
+        let Some(parameter) = parameter else { continue };
+        let item = value_of(own, parameter.name).unwrap_or(&own.item);
+        let Content::List(points) = &item.value else { continue };
+        if points.len() == 1 {
+            let message = "a table with one point is a constant for ever";
+            let help = "give at least two points, or write `constant`";
+            reading.faults.warning(item.place, Fault::odd(message, help));
+        }
+        let is_late = |point: &&Item| {
+            let Content::List(pair) = &point.value else { return false };
+            let time = pair.first().map(|time| reading.quantities().read(time, Dimension::TIME));
+            time.flatten().is_some_and(|time| time > duration)
+        };
+        let late = points.iter().filter(is_late).count();
+        if late > 0 {
+            let end = format_short(duration, Dimension::TIME, 4);
+            let verb = if late == 1 { "lies" } else { "lie" };
+            let message = format!(
+                "{late} of {} points {verb} after the end of the run at {end}",
+                points.len()
+            );
+            let help = "give a longer `duration` in [run], or check the unit of the times";
+            reading.faults.warning(item.place, Fault::odd(message, help));
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! What errors say about slips of the pen and of the mind.
+
+use super::{messages, on_model, read_text};
+use crate::{ReadOptions, read, units::parse_quantity};
+
+/// A scene with these entries in its tables.
+fn with(nodes: &str, elements: &str, rest: &str) -> String {
+    format!("{rest}\n[nodes]\n{nodes}\n[elements]\n{elements}\n[run]\nduration = \"20 ms\"\n")
+}
+
+const HEAD: &str = "head = { mass = \"1 kg\", velocity = \"1 m/s\" }";
+const PAD: &str = "pad = { between = [\"head\", \"ground\"], spring = \"1 kN/m\" }";
+
+#[track_caller]
+fn has(shown: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(shown.contains(part), "no {part:?} in\n{shown}");
+    }
+}
+
+#[track_caller]
+fn is_single(shown: &str) {
+    assert_eq!(shown.matches("error: ").count(), 1, "{shown}");
+}
+
+#[test]
+fn a_comma_before_three_digits_is_read_in_both_ways() {
+    let shown = messages(&on_model("spring = \"60,000 N/m\""));
+    has(
+        &shown,
+        &["write \"60000 N/m\" (a comma between thousands is not read) or \"60.000 N/m\" \
+             (a decimal comma is written as a point)"],
+    );
+    let help = |value: &str| messages(&on_model(&format!("spring = \"{value}\"")));
+    has(&help("60,5 N/m"), &["help: write \"60.5 N/m\"\n"].map(str::trim_end));
+    has(&help("0,500 N/m"), &["help: write \"0.500 N/m\""]);
+    has(&help("1,234.5 N/m"), &["help: write \"1234.5 N/m\" (a comma between"]);
+    has(&help("1,000,000 N/m"), &["help: write \"1000000 N/m\" (a comma between"]);
+    let named = format!("[values]\nK = \"60,000 N/m\"\n{}", on_model("spring = \"K\""));
+    has(&messages(&named), &["write \"60000 N/m\"", "or \"60.000 N/m\""]);
+}
+
+#[test]
+fn spaces_within_a_number_are_not_read() {
+    for text in ["60 000 N/m", "60'000 N/m", "60_000 N/m", "60\u{202f}000 N/m"] {
+        let shown = messages(&on_model(&format!("spring = \"{text}\"")));
+        let said = format!("`{text}` has a space or a mark within the number, which is not read");
+        has(&shown, &[&said, "help: write \"60000 N/m\""]);
+    }
+    assert!(parse_quantity("50 1/s").is_ok());
+}
+
+#[test]
+fn an_unquoted_decimal_comma_is_one_error() {
+    for text in [
+        with("head = { mass = 5,5, velocity = 1 }", PAD, ""),
+        with("head = { mass = 5,5 }", PAD, ""),
+        with("[nodes.head]\nmass = 5,5 # kg\n", PAD, ""),
+    ] {
+        let text = text.replace("[nodes]\n[nodes", "[nodes");
+        let shown = messages(&text);
+        is_single(&shown);
+        has(&shown, &["`5,5` has a comma: decimals are written with a point", "help: write 5.5"]);
+        has(&shown, &["^^^"]);
+    }
+    let shown = messages(&with("head = { mass = 5,500, velocity = 1 }", PAD, ""));
+    is_single(&shown);
+    has(&shown, &["write 5500 (a comma between thousands is not read) or 5.500"]);
+}
+
+#[test]
+fn a_pair_without_brackets_is_one_error() {
+    for pad in [
+        "pad = { between = \"head\", \"ground\", spring = 1 }",
+        "pad = { spring = 1, between = \"head\", \"ground\" }",
+    ] {
+        let shown = messages(&with(HEAD, pad, ""));
+        is_single(&shown);
+        has(&shown, &["brackets are missing", "help: write [\"head\", \"ground\"]"]);
+    }
+}
+
+#[test]
+fn an_acceleration_is_no_motion() {
+    let motion = |value: &str| {
+        let base = format!("base = {{ motion = {{ {value} }} }}");
+        messages(&with(&format!("{HEAD}\n{base}"), PAD, ""))
+    };
+    let expected = "help: a motion is a displacement; acceleration pulses are not read yet: \
+                    integrate twice, or load the mass with the force m a and take its motion as \
+                    seen from the base";
+    has(&motion("constant = \"5 g0\""), &["a length (m) is expected here", expected]);
+    has(&motion("table = [[0, 0], [\"1 ms\", \"5 m/s^2\"]]"), &[expected]);
+    has(&motion("constant = \"3 m/s\""), &["a motion is a displacement: integrate the velocity"]);
+    let shown = messages(&with("head = { mass = 1, drop = \"1 g0\" }", PAD, ""));
+    has(&shown, &["help: for example \"2 cm\""]);
+}
+
+#[test]
+fn other_units_are_read_or_offered_by_dimension() {
+    let value = |text: &str| parse_quantity(text).unwrap().value;
+    assert!((value("20 mph") - 8.9408).abs() < 1e-14);
+    assert!((value("1 kgf") - 9.806_65).abs() < 1e-15);
+    assert!((value("1 lbf") - 4.448_221_615_260_5).abs() < 1e-15);
+    let velocity = |text: &str| {
+        messages(&with(&format!("head = {{ mass = 1, velocity = \"{text}\" }}"), PAD, ""))
+    };
+    has(&velocity("20 mhp"), &["did you mean `mph`? a velocity (m/s) is expected"]);
+    has(&messages(&on_model("dashpot = \"4 N.s/m\"")), &["did you mean `N s/m`?"]);
+    has(&velocity("20 kmh"), &["did you mean `km/h`?"]);
+    has(&velocity("20 KN"), &["did you mean `kN`?"]);
+    has(&velocity("20 kMs"), &["a velocity (m/s) is expected"]);
+    assert!(!velocity("20 mpp").contains("MPa"), "{}", velocity("20 mpp"));
+    has(
+        &messages(&with("head = { mass = 1, drop = \"3 inch\" }", PAD, "")),
+        &["did you mean `in`?"],
+    );
+}
+
+#[test]
+fn a_wrong_value_is_traced_to_its_definition() {
+    let text = |value: &str| format!("[values]\nK = \"{value}\"\n{}", on_model("spring = \"K\""));
+    let shown = messages(&text("60 kN"));
+    has(&shown, &["`K` is a force (N); a stiffness (N/m) is expected here"]);
+    has(&shown, &["note: `K` is \"60 kN\", defined in line 2", "help: for example \"20 MN/m\""]);
+    has(&messages(&text("-5 N/m")), &["note: `K` is \"-5 N/m\", defined in line 2"]);
+    let chain = format!("[values]\nK = \"60 kN\"\nL = \"K\"\n{}", on_model("spring = \"L\""));
+    has(&messages(&chain), &["note: `L` is \"60 kN\", defined in line 2"]);
+    let set = [("K".to_owned(), "80 kN".to_owned())];
+    let options = ReadOptions { set: &set, ..ReadOptions::default() };
+    let shown = read(&text("60 kN/m"), &options).unwrap_err().render(false);
+    has(&shown, &["note: `K` is \"80 kN\", set by `--set`"]);
+    let mass = "[values]\nM = \"-2 kg\"\n";
+    let shown = messages(&with("head = { mass = \"M\", velocity = 1 }", PAD, mass));
+    has(&shown, &["but it is -2", "note: `M` is \"-2 kg\", defined in line 2"]);
+}
+
+#[test]
+fn gravity_is_a_table_and_its_unit_is_g0() {
+    let shown = messages(&with(HEAD, PAD, "[effects]\ngravity = 9.81\n"));
+    has(&shown, &["`gravity` is a table, but this is a number"]);
+    has(
+        &shown,
+        &["help: write `gravity = { value = \"9.81 m/s^2\" }`, or `gravity = {}` for 1 g0"],
+    );
+    let shown = messages(&with(HEAD, PAD, "[effects]\ngravity = \"1 g\"\n"));
+    has(&shown, &["write `gravity = { value = \"1 g0\" }`"]);
+    let shown = messages(&with(HEAD, PAD, "[effects]\ngravity = { value = \"2 g\" }\n"));
+    has(&shown, &["help: `g` is the gram; the acceleration of gravity is `g0`: \"2 g0\""]);
+}
+
+#[test]
+fn a_table_in_a_wrong_place_is_sent_to_its_own() {
+    let shown = |rest: &str| messages(&with(HEAD, PAD, rest));
+    has(&shown("[gravity]\n"), &["help: write it under [effects]: `gravity = {}`"]);
+    for word in ["force", "load"] {
+        let shown = shown(&format!("[{word}]\n"));
+        has(&shown, &["help: write [loads.name] with `on` and `force`"]);
+    }
+    has(&shown("duration = 1\n"), &["help: write it under [run]"]);
+    has(&shown("[spring]\n"), &["help: write [elements.name] with `between` and `spring`"]);
+    has(&shown("mass = 1\n"), &["help: write [nodes.name] with `mass`"]);
+    let shown = shown("[loads]\nhead = \"5 N\"\n");
+    has(&shown, &["load `head` is a table, but this is a text"]);
+    has(&shown, &["write [loads.name] with `on = \"head\"` and `force = { constant = \"5 N\" }`"]);
+}
+
+#[test]
+fn measures_of_the_other_family_name_where_they_belong() {
+    let shown = messages(&with(HEAD, PAD, "[measures]\npad = [\"hic15\"]\n"));
+    has(&shown, &["`hic15` is not a measure of an element"]);
+    has(&shown, &["help: `hic15` is a measure of nodes: head"]);
+    let window = "[measures]\nhead = { kind = \"severity-index\", window = \"all\" }\n";
+    has(
+        &messages(&with(HEAD, PAD, window)),
+        &["`all` is not a window", "help: write \"impact\", \"run\" for the whole run, or a pair"],
+    );
+}
+
+#[test]
+fn words_of_other_books_are_understood() {
+    for (word, meant) in [
+        ("damper", "dashpot"),
+        ("damping", "dashpot"),
+        ("c", "dashpot"),
+        ("stiffness", "spring"),
+        ("k", "spring"),
+    ] {
+        let shown = messages(&on_model(&format!("{word} = 1")));
+        is_single(&shown);
+        has(&shown, &[&format!("did you mean `{meant}`?")]);
+        let form = format!("kelvin-voigt = {{ spring = 1, dashpot = 1, {word} = 1 }}");
+        let form =
+            form.replace(&format!(", {meant} = 1"), "").replace(&format!(" {meant} = 1,"), "");
+        let shown = messages(&on_model(&form));
+        is_single(&shown);
+        has(&shown, &[&format!("did you mean `{meant}`?")]);
+    }
+}
+
+#[test]
+fn the_slips_leave_sound_texts_alone() {
+    let text = with(HEAD, PAD, "title = \"a = 5,5 and = 'x', 'y'\" # b = 5,5\n");
+    assert!(read_text(&text).is_ok());
+    let shown = messages(&text.replace("duration", "duration = 1\nduration"));
+    is_single(&shown);
+    has(&shown, &["`duration` is given twice"]);
+}
