@@ -34,6 +34,8 @@ pub struct NodeOutputs {
     pub mass: f64,
     /// Its start velocity \[m/s\], where it is an impactor.
     pub start_velocity: Option<f64>,
+    /// Number of the body that it belongs to: nodes with one number are rigidly linked.
+    pub body: usize,
     /// Whether the forces on it rule its motion.
     pub free: bool,
     /// Displacement \[m\].
@@ -54,6 +56,8 @@ pub struct ConnectionOutputs {
     pub between: [NodeId; 2],
     /// Thickness \[m\], where it is a pad.
     pub thickness: Option<f64>,
+    /// Whether it can never deform: it is a rigid link, or rigid links join its ends.
+    pub is_rigid: bool,
     /// Force \[N\], positive in compression. `None` for a rigid link in a loop of rigid links,
     /// where it is undetermined.
     pub force: Option<usize>,

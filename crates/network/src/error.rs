@@ -102,6 +102,19 @@ pub enum NetworkError {
         /// When \[s\].
         time: f64,
     },
+    /// The prescribed motion of a mass asks for an infinite force.
+    #[error(
+        "the motion of `{node}` {fault} at {time} s, and {node} has mass: the force would be \
+         infinite; prescribe the motion of a node without mass, or one that is smooth"
+    )]
+    MotionOfMass {
+        /// The node.
+        node: String,
+        /// `jumps` or `has a kink`.
+        fault: &'static str,
+        /// When \[s\].
+        time: f64,
+    },
     /// A weight or load that nothing holds cannot start in balance.
     #[error(
         "{} cannot start in balance: no spring carries the load to a fixed or prescribed node; \
@@ -138,6 +151,7 @@ impl NetworkError {
             Self::IsolatedNode { node: name }
             | Self::StartSpeed { node: name, .. }
             | Self::ContradictingMotions { second: name, .. }
+            | Self::MotionOfMass { node: name, .. }
             | Self::StepAcrossDashpots { node: name, .. } => node(name),
             Self::Undetermined { nodes } | Self::NoBalance { nodes } => {
                 nodes.first().and_then(node)

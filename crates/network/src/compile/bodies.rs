@@ -150,6 +150,11 @@ impl Body {
         Self { joints, role, velocity, is_impactor: impactor.is_some() }
     }
 
+    /// Sum of the masses of its nodes \[kg\], whatever rules its motion.
+    pub(super) fn mass(&self, network: &Network) -> f64 {
+        self.joints.iter().filter_map(|&joint| network.nodes.get(joint)).map(|node| node.mass).sum()
+    }
+
     pub(super) fn is_massless(&self) -> bool {
         self.role == Role::Massless
     }

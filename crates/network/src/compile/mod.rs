@@ -49,6 +49,8 @@ struct Drive {
     body: usize,
     /// The force \[N\]; `None` where the motion is given.
     force: Option<Row>,
+    /// Mass times acceleration \[N\] of a body with given motion.
+    inertia: Row,
     /// Whether an accelerometer does not feel it.
     is_body_force: bool,
     /// When the given motion jumps \[s\].
@@ -86,7 +88,7 @@ impl Network {
         let mut inputs = Inputs::default();
         let mut sizes = Drives::default();
         let motions = self.motions(&bodies, duration, &mut inputs, &mut sizes);
-        let drives = self.drives(&bodies, duration, &mut inputs, &mut sizes);
+        let drives = self.drives(&bodies, &motions, duration, &mut inputs, &mut sizes);
         let scales = Scales::of(&bodies, &structure, &sizes, duration)?;
 
         let mut loads = vec![Row::default(); bodies.all.len()];
@@ -155,6 +157,7 @@ impl Network {
     fn drives(
         &self,
         bodies: &Bodies,
+        motions: &BTreeMap<usize, Row>,
         duration: f64,
         inputs: &mut Inputs,
         sizes: &mut Drives,
@@ -165,7 +168,15 @@ impl Network {
             sizes.forces.push((body, force.bound(duration)));
             let waveform = inputs.waveform(force);
             let force = Some(inputs.row(waveform, 0));
-            drives.push(Drive { name, node, body, force, is_body_force, jumps: Vec::new() });
+            drives.push(Drive {
+                name,
+                node,
+                body,
+                force,
+                inertia: Row::default(),
+                is_body_force,
+                jumps: Vec::new(),
+            });
         };
         for load in &self.loads {
             force(load.name.clone(), load.node.0, load.force.clone(), false);
@@ -181,13 +192,22 @@ impl Network {
         for (at, body) in bodies.all.iter().enumerate() {
             let Role::Prescribed(node) = body.role else { continue };
             if let Support::Prescribed(motion) = &self.nodes[node].support {
+                let mass = body.mass(self);
+                let inertia = match motions.get(&at) {
+                    Some(row) if mass > 0.0 => {
+                        let velocity = inputs.rate(row);
+                        inputs.rate(&velocity).times(mass)
+                    }
+                    _ => Row::default(),
+                };
                 drives.push(Drive {
+                    inertia,
                     name: format!("motion of {}", self.nodes[node].name),
                     node,
                     body: at,
                     force: None,
                     is_body_force: false,
-                    jumps: structure::jumps(motion, duration),
+                    jumps: structure::jumps(self, motion, duration),
                 });
             }
         }

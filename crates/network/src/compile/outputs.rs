@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dashpot_dae::Output;
 
 use super::{
-    Parts,
+    Drive, Parts,
     bodies::{Role, start_velocity},
     expand::Shape,
     reactions::rigid_forces,
@@ -64,6 +64,7 @@ impl Outputs {
                 name: name.clone(),
                 mass: node.mass,
                 start_velocity: node.is_impactor().then(|| start_velocity(network, node.start)),
+                body,
                 free: node.support == Support::Free,
                 position,
                 velocity,
@@ -110,6 +111,7 @@ impl Outputs {
                 name: name.clone(),
                 between: connection.between,
                 thickness: connection.thickness,
+                is_rigid: a == b,
                 force: whole.map(|row| self.add(format!("{name}.force"), "N", row)),
                 deformation: self.add(format!("{name}.deformation"), "m", position),
                 rate: velocity.map(|row| self.add(format!("{name}.rate"), "m/s", row)),
@@ -145,7 +147,7 @@ impl Outputs {
             let Some(velocity) = parts.motion.velocity[drive.body].clone() else { continue };
             let force = match &drive.force {
                 Some(force) => force.clone(),
-                None => held_force(&contact[drive.body]),
+                None => held_force(parts, drive, &contact[drive.body]),
             };
             if force.is_zero() {
                 continue;
@@ -180,9 +182,17 @@ fn contact_forces(parts: &Parts<'_>) -> Vec<RowSum> {
     contact
 }
 
-/// The force that holds a body on its prescribed way, beyond what its own mass asks for.
-fn held_force(contact: &RowSum) -> Row {
-    contact.total().times(-1.0)
+/// The force that keeps a body on its prescribed way: what accelerates it less what acts on it.
+fn held_force(parts: &Parts<'_>, drive: &Drive, contact: &RowSum) -> Row {
+    let mut sum = RowSum::from(&drive.inertia);
+    sum.add(-1.0, &contact.total());
+    for other in parts.drives.iter().filter(|other| other.body == drive.body && other.is_body_force)
+    {
+        if let Some(weight) = &other.force {
+            sum.add(-1.0, weight);
+        }
+    }
+    sum.total()
 }
 
 /// What an accelerometer on the node reads: its acceleration less the body force per mass.

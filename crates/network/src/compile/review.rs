@@ -2,32 +2,47 @@
 
 use std::collections::VecDeque;
 
-use super::Parts;
-use crate::Network;
+use super::{Parts, expand::Shape};
+use crate::{Network, elements::Law};
 
 /// All oddities, one sentence each.
 pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
     let distance = distances(network, parts);
+    let direction = direction(parts);
     let mut warnings = Vec::new();
-    for connection in &network.connections {
+    for (at, connection) in network.connections.iter().enumerate() {
         let [a, b] = connection.between.map(|id| parts.bodies.of_joint[id.0]);
         let name = &connection.name;
         if a == b {
-            warnings.push(format!(
-                "rigid links join both ends of `{name}`: it never deforms and carries no force"
-            ));
+            if !is_rigid(parts, at) {
+                warnings.push(format!(
+                    "rigid links join both ends of `{name}`: it never deforms and carries no force"
+                ));
+            }
         } else if let (Some(from), Some(to)) = (distance[a], distance[b])
-            && from > to
+            && direction.is_some_and(|forward| if forward { from > to } else { from < to })
         {
-            let [from, to] = connection.between.map(|id| &network.node(id).name);
             warnings.push(format!(
-                "`{name}` looks reversed: `between` runs from the impactor's side to the \
-                 support's, but `{to}` is nearer to the impactor than `{from}`; compression \
-                 counts negative here"
+                "`{name}` looks reversed: `between` runs along the impactor's way, so that \
+                 compression counts positive, but here it counts negative"
             ));
         }
     }
     warnings
+}
+
+/// Whether the impactors move towards the support; `None` where they do not agree.
+fn direction(parts: &Parts<'_>) -> Option<bool> {
+    let mut ways =
+        parts.bodies.all.iter().filter(|body| body.is_impactor).map(|b| b.velocity >= 0.0);
+    let first = ways.next()?;
+    ways.all(|way| way == first).then_some(first)
+}
+
+/// Whether a connection consists of rigid links only.
+fn is_rigid(parts: &Parts<'_>, connection: usize) -> bool {
+    let leaves = parts.expansion.shapes[connection].iter().filter_map(Shape::leaf);
+    leaves.map(|at| parts.expansion.primitives[at].law).all(|law| law == Law::Rigid)
 }
 
 /// Number of connections between each body and the nearest impactor, not passing through fixed

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use dashpot_dae::Waveform;
+use dashpot_dae::{Piece, Waveform};
 
 use super::{
     bodies::{Bodies, Body, Groups, Role, joint_name},
@@ -67,7 +67,7 @@ impl Structure {
         }
         let first_jump = |body: &Body| match body.role {
             Role::Prescribed(node) => match &network.nodes[node].support {
-                Support::Prescribed(motion) => jumps(motion, duration).first().copied(),
+                Support::Prescribed(motion) => jumps(network, motion, duration).first().copied(),
                 _ => None,
             },
             _ => None,
@@ -76,6 +76,7 @@ impl Structure {
         structure.find_clusters(bodies, &held);
         let mut errors = structure.undetermined(network, expansion, bodies);
         errors.extend(structure.steps_across_dashpots(network, expansion, bodies));
+        errors.extend(structure.motions_of_masses(network, bodies, duration));
         if errors.is_empty() { Ok(structure) } else { Err(errors) }
     }
 
@@ -145,6 +146,29 @@ impl Structure {
         loose.into_values().map(|nodes| NetworkError::Undetermined { nodes }).collect()
     }
 
+    fn motions_of_masses(
+        &self,
+        network: &Network,
+        bodies: &Bodies,
+        duration: f64,
+    ) -> Vec<NetworkError> {
+        let mut errors = Vec::new();
+        for (at, body) in bodies.all.iter().enumerate() {
+            let Role::Prescribed(node) = body.role else { continue };
+            let Support::Prescribed(motion) = &network.nodes[node].support else { continue };
+            if body.mass(network) == 0.0 {
+                continue;
+            }
+            let jump = self.first_jump[at].map(|time| ("jumps", time));
+            let kink = || first_kink(motion, duration).map(|time| ("has a kink", time));
+            if let Some((fault, time)) = jump.or_else(kink) {
+                let node = network.nodes[node].name.clone();
+                errors.push(NetworkError::MotionOfMass { node, fault, time });
+            }
+        }
+        errors
+    }
+
     fn steps_across_dashpots(
         &self,
         network: &Network,
@@ -198,12 +222,26 @@ fn held_bodies(expansion: &Expansion, bodies: &Bodies) -> Vec<bool> {
     (0..bodies.all.len()).map(|body| held[groups.of(body)]).collect()
 }
 
-/// All times in `[0, duration]` at which a displacement that was zero before 0 jumps \[s\].
-pub(super) fn jumps(motion: &Waveform, duration: f64) -> Vec<f64> {
+/// All times in `[0, duration]` at which a displacement jumps \[s\]; one that is not zero at the
+/// start jumps there, unless the network begins in balance around it.
+pub(super) fn jumps(network: &Network, motion: &Waveform, duration: f64) -> Vec<f64> {
     let rounding = 1e-12 * motion.bound(duration);
-    let at_start = (motion.value(0.0).abs() > rounding).then_some(0.0);
+    let is_balanced = network.effects.iter().any(|effect| effect.starts_in_balance());
+    let at_start = (!is_balanced && motion.value(0.0).abs() > rounding).then_some(0.0);
     let later = motion
         .breakpoints()
         .filter(|&time| time > 0.0 && time <= duration && motion.jump(time) != 0.0);
     at_start.into_iter().chain(later).collect()
+}
+
+/// The first time in `(0, duration]` at which the rate of a displacement jumps \[s\].
+fn first_kink(motion: &Waveform, duration: f64) -> Option<f64> {
+    let pairs = motion.pieces().windows(2);
+    let kinks = pairs.filter(|pair| {
+        let time = pair[1].start;
+        let (before, after) = (pair[0].derivative(1, time), pair[1].derivative(1, time));
+        let size = |piece: &Piece| piece.slope.abs() + piece.omega * piece.sine.hypot(piece.cosine);
+        (after - before).abs() > 1e-12 * (size(&pair[0]) + size(&pair[1]))
+    });
+    kinks.map(|pair| pair[1].start).find(|&time| time > 0.0 && time <= duration)
 }

@@ -253,3 +253,77 @@ fn a_phase_of_half_a_turn_is_no_jump() {
     network.connect("pad", base, mass, Tree::parallel([spring(1.0), dashpot(1.0)]));
     assert!(network.compile(1.0).is_ok());
 }
+
+#[test]
+fn the_drive_of_a_mass_with_given_motion_pays_for_its_inertia_and_weight() {
+    use crate::waveforms::{Sine, WaveformKind};
+    let (mass, way, hertz, g) = (4.0, 0.01, 2.0, 9.8);
+    let shake = Sine { amplitude: way, frequency: hertz, phase: 0.5 }.waveform().unwrap();
+    let mut network = Network::new();
+    let base = network.add_node(Node { mass, ..Node::prescribed("base", shake) });
+    network.connect("pad", base, network.ground(), spring(50.0));
+    network.add_effect(Gravity { acceleration: g, start: GravityStart::Equilibrium });
+    let assembly = network.compile(1.0).unwrap();
+    let omega = std::f64::consts::TAU * hertz;
+    let place = way * f64::sin(0.5);
+    let expected = -mass * omega * omega * place + 50.0 * place - mass * g;
+    let found = at_start(&assembly, "motion of base.force");
+    assert!((found - expected).abs() < 1e-12 * expected.abs(), "{found} is not {expected}");
+}
+
+#[test]
+fn jumps_and_kinks_in_the_motion_of_a_mass_are_refused() {
+    use crate::waveforms::{Ramp, WaveformKind};
+    for (motion, fault) in [
+        (Waveform::constant(0.1), "jumps"),
+        (Ramp { height: 1.0, rise: 0.2, start: 0.1 }.waveform().unwrap(), "has a kink"),
+    ] {
+        let mut network = Network::new();
+        let base = network.add_node(Node { mass: 2.0, ..Node::prescribed("base", motion.clone()) });
+        network.connect("pad", base, network.ground(), spring(50.0));
+        assert!(error(&network).to_string().contains(fault));
+        let mut network = Network::new();
+        let base = network.add_node(Node::prescribed("base", motion));
+        network.connect("pad", base, network.ground(), spring(50.0));
+        assert!(network.compile(1.0).is_ok());
+    }
+}
+
+#[test]
+fn a_shifted_base_is_no_jump_where_the_start_is_in_balance() {
+    let mut network = Network::new();
+    let base = network.add_node(Node::prescribed("base", Waveform::constant(0.01)));
+    let mass = network.add_node(Node::mass("mass", 1.0));
+    network.connect("pad", mass, base, Tree::parallel([spring(100.0), dashpot(1.0)]));
+    assert!(matches!(error(&network), NetworkError::StepAcrossDashpots { .. }));
+    network.add_effect(Gravity { acceleration: 10.0, start: GravityStart::Equilibrium });
+    let assembly = network.compile(1.0).unwrap();
+    assert!((at_start(&assembly, "mass.position") - 0.11).abs() < 1e-15);
+}
+
+#[test]
+fn an_impactor_that_moves_the_other_way_turns_the_order_around() {
+    for (velocity, ends, warned) in
+        [(-2.0, false, false), (-2.0, true, true), (2.0, false, true), (2.0, true, false)]
+    {
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", 1.0).moving(velocity));
+        let ground = network.ground();
+        let [a, b] = if ends { [head, ground] } else { [ground, head] };
+        network.connect("pad", a, b, spring(10.0));
+        assert_eq!(network.compile(1.0).unwrap().warnings.len(), usize::from(warned));
+    }
+}
+
+#[test]
+fn a_rigid_link_is_not_said_to_carry_no_force() {
+    let mut network = Network::new();
+    let head = network.add_node(Node::mass("head", 1.0).moving(2.0));
+    let plate = network.add_node(Node::massless("plate"));
+    network.connect("link", head, plate, part(Rigid));
+    network.connect("pad", plate, network.ground(), spring(10.0));
+    let assembly = network.compile(1.0).unwrap();
+    assert!(assembly.warnings.is_empty());
+    assert_eq!(assembly.nodes[1].body, assembly.nodes[2].body);
+    assert!(assembly.connections[0].is_rigid && !assembly.connections[1].is_rigid);
+}

@@ -45,7 +45,7 @@ impl WaveformKind for Constant {
             return Ok(Waveform::constant(self.value));
         }
         let on = Piece { start: self.start, value: self.value, ..Piece::default() };
-        pieces("start", vec![Piece::default(), on])
+        pieces("start", self.start, vec![Piece::default(), on])
     }
 
     fn sample() -> Self {

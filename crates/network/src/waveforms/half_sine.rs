@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use dashpot_dae::{Piece, Waveform};
 
-use super::{WaveformKind, pieces};
+use super::{WaveformKind, before, pieces};
 use crate::{
     elements::number,
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite, positive},
@@ -57,11 +57,10 @@ impl WaveformKind for HalfSine {
         finite("peak", self.peak)?;
         positive("duration", self.duration)?;
         finite("start", self.start)?;
-        let before = Piece { start: self.start.min(0.0) - 1.0, ..Piece::default() };
-        let arch =
-            Piece { start: self.start, sine: self.peak, omega: PI / self.duration, ..before };
-        let after = Piece { start: self.start + self.duration, ..before };
-        pieces("duration", vec![before, arch, after])
+        let quiet = Piece { start: before(self.start), ..Piece::default() };
+        let arch = Piece { start: self.start, sine: self.peak, omega: PI / self.duration, ..quiet };
+        let after = Piece { start: self.start + self.duration, ..quiet };
+        pieces("duration", self.duration, vec![quiet, arch, after])
     }
 
     fn sample() -> Self {

@@ -62,14 +62,20 @@ pub fn visit_waveforms(visitor: &mut impl WaveformVisitor) {
     visitor.visit::<Table>();
 }
 
-/// The waveform of `pieces`, or an error that blames `parameter`.
+/// A time before `start` and before 0, for the piece that holds until then.
+fn before(start: f64) -> f64 {
+    start.min(0.0) - 1.0 - start.abs()
+}
+
+/// The waveform of `pieces`; if their starts cannot be told apart in double precision, an error that
+/// blames `parameter`.
 fn pieces(
     parameter: &'static str,
+    found: f64,
     pieces: Vec<dashpot_dae::Piece>,
 ) -> Result<Waveform, InvalidParameter> {
-    Waveform::new(pieces).ok_or_else(|| {
-        InvalidParameter::new(parameter, "finite, with times in rising order", "not so")
-    })
+    const RANGE: &str = "finite, and long enough to tell its ends apart in double precision";
+    Waveform::new(pieces).ok_or_else(|| InvalidParameter::new(parameter, RANGE, found))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use dashpot_dae::{Piece, Waveform};
 
-use super::{WaveformKind, pieces};
+use super::{WaveformKind, before, pieces};
 use crate::{
     elements::number,
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite, positive},
@@ -54,10 +54,10 @@ impl WaveformKind for Ramp {
         finite("height", self.height)?;
         positive("rise", self.rise)?;
         finite("start", self.start)?;
-        let before = Piece { start: self.start.min(0.0) - 1.0, ..Piece::default() };
-        let rising = Piece { start: self.start, slope: self.height / self.rise, ..before };
-        let after = Piece { start: self.start + self.rise, value: self.height, ..before };
-        pieces("rise", vec![before, rising, after])
+        let quiet = Piece { start: before(self.start), ..Piece::default() };
+        let rising = Piece { start: self.start, slope: self.height / self.rise, ..quiet };
+        let after = Piece { start: self.start + self.rise, value: self.height, ..quiet };
+        pieces("rise", self.rise, vec![quiet, rising, after])
     }
 
     fn sample() -> Self {

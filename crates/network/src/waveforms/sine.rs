@@ -63,7 +63,7 @@ impl WaveformKind for Sine {
             omega: TAU * self.frequency,
             ..Piece::default()
         };
-        pieces("frequency", vec![wave])
+        pieces("frequency", self.frequency, vec![wave])
     }
 
     fn sample() -> Self {

@@ -2,7 +2,7 @@
 
 use dashpot_dae::{Piece, Waveform};
 
-use super::{WaveformKind, pieces};
+use super::{WaveformKind, before, pieces};
 use crate::parameters::{InvalidParameter, Parameter, ParameterKind, Value};
 
 /// Straight lines through given points; before the first and after the last point the function
@@ -36,6 +36,9 @@ impl WaveformKind for Table {
     }
 
     fn waveform(&self) -> Result<Waveform, InvalidParameter> {
+        if let Some(point) = self.points.iter().find(|p| !(p.0.is_finite() && p.1.is_finite())) {
+            return Err(InvalidParameter::new("table", "finite", format!("{point:?}")));
+        }
         let Some((&(first_time, first), &(last_time, last))) =
             self.points.first().zip(self.points.last())
         else {
@@ -45,14 +48,14 @@ impl WaveformKind for Table {
             let found = format!("{} s before {} s", pair[0].0, pair[1].0);
             return Err(InvalidParameter::new("table", "in order of time", found));
         }
-        let before = Piece { start: first_time.min(0.0) - 1.0, value: first, ..Piece::default() };
-        let mut parts = vec![before];
+        let quiet = Piece { start: before(first_time), value: first, ..Piece::default() };
+        let mut parts = vec![quiet];
         for pair in self.points.windows(2).filter(|pair| pair[0].0 < pair[1].0) {
             let slope = (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0);
             parts.push(Piece { start: pair[0].0, value: pair[0].1, slope, ..Piece::default() });
         }
         parts.push(Piece { start: last_time, value: last, ..Piece::default() });
-        pieces("table", parts)
+        pieces("table", last_time, parts)
     }
 
     fn sample() -> Self {
