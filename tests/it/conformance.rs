@@ -345,3 +345,38 @@ fn the_builder_and_a_scene_give_the_same_network() {
     assert_eq!(one.system.jacobian, other.system.jacobian);
     assert_eq!(one.system.initial, other.system.initial);
 }
+
+struct Orders(usize);
+
+impl MethodVisitor for Orders {
+    fn visit<M: MethodKind>(&mut self) {
+        let Some(order) = M::ORDER else { return };
+        self.0 += 1;
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", 1.0).moving(1.0));
+        network.connect("pad", head, network.ground(), kelvin(1.0, 0.2));
+        let (decay, end) = (0.1, 12.0);
+        let root = f64::sqrt(1.0 - decay * decay);
+        let truth = f64::exp(-decay * end) * f64::sin(root * end) / root;
+        let [(coarse, few), (fine, many)] = [1e-9, 1e-11].map(|rtol| {
+            let solved = crate::thesis::solve(&network, M::KIND, end, rtol);
+            let error = (solved.signal("head.position").value(end) - truth).abs();
+            (error, solved.trajectory.statistics.accepted as f64)
+        });
+        let slope = (coarse / fine).ln() / (many / few).ln();
+        let order = f64::from(order);
+        // Step control may gain up to an order on the smooth problem, never lose one.
+        assert!(
+            (order - 0.2..order + 1.2).contains(&slope),
+            "{}: {slope:.2}, not {order}",
+            M::KIND
+        );
+    }
+}
+
+#[test]
+fn methods_have_the_order_that_they_claim() {
+    let mut visitor = Orders(0);
+    visit_methods(&mut visitor);
+    assert!(visitor.0 >= 4);
+}

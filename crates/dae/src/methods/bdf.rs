@@ -24,6 +24,7 @@ impl Scheme for Bdf {
     const KIND: &'static str = "bdf";
     const SUMMARY: &'static str =
         "backward differentiation of variable order: for every system, large and stiff ones too";
+    const HIGHEST: u8 = 5;
     const ORDER: usize = 1;
 
     fn span<M>(

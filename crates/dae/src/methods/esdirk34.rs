@@ -25,6 +25,7 @@ impl Scheme for Esdirk34 {
     const KIND: &'static str = "esdirk34";
     const SUMMARY: &'static str =
         "order 3, one step at a time: for frequent switching with strong damping";
+    const HIGHEST: u8 = 3;
     const ORDER: usize = 3;
 
     fn span<M>(

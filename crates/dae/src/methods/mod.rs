@@ -57,6 +57,9 @@ pub trait Method: Debug + Send + Sync {
 pub trait MethodKind: Method + Default + 'static {
     /// Its name on the command line.
     const KIND: &'static str;
+    /// The power of the step with which its error falls, the highest one where it varies; `None` for
+    /// a method that takes no steps.
+    const ORDER: Option<u8> = None;
 }
 
 /// Looks at every kind of method.

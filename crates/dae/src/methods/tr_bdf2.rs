@@ -24,6 +24,7 @@ impl Scheme for TrBdf2 {
     const KIND: &'static str = "tr-bdf2";
     const SUMMARY: &'static str =
         "order 2, one step at a time: for lightly damped oscillation and frequent switching";
+    const HIGHEST: u8 = 2;
     const ORDER: usize = 2;
 
     fn span<M>(

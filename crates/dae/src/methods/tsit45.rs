@@ -24,6 +24,7 @@ pub struct Tsit45;
 impl Scheme for Tsit45 {
     const KIND: &'static str = "tsit45";
     const SUMMARY: &'static str = "explicit, order 5: an independent check where nothing is stiff";
+    const HIGHEST: u8 = 5;
     const ORDER: usize = 4;
 
     fn suits(system: &System) -> Result<&'static str, String> {

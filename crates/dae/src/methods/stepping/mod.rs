@@ -39,7 +39,9 @@ pub(super) trait Scheme: Debug + Default + Send + Sync + 'static {
     const KIND: &'static str;
     /// What it is good for, in one line.
     const SUMMARY: &'static str;
-    /// Its order, from which the first step is estimated.
+    /// Its highest order.
+    const HIGHEST: u8;
+    /// Its order at the start, from which the first step is estimated.
     const ORDER: usize;
 
     /// Why it is a fit for `system`, or why it cannot solve it.
@@ -89,6 +91,7 @@ impl<S: Scheme> Method for S {
 
 impl<S: Scheme> MethodKind for S {
     const KIND: &'static str = S::KIND;
+    const ORDER: Option<u8> = Some(S::HIGHEST);
 }
 
 /// Why a span ended early.

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Steps after which a run is given up.
-const MOST_STEPS: usize = 5_000_000;
+const MOST_STEPS: usize = 2_000_000;
 
 /// What a run has collected so far.
 pub(in crate::methods) struct Walk<'r> {
