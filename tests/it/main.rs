@@ -16,4 +16,5 @@ mod examples;
 mod independent;
 mod order;
 mod random_networks;
+mod signs;
 mod thesis;

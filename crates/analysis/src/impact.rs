@@ -1,6 +1,6 @@
 //! The time span of an impact.
 
-use dashpot_dae::Signal;
+use dashpot_dae::{Crossing, Signal};
 use dashpot_network::parameters::WindowWish;
 
 /// How the contact of an impact ends.
@@ -36,14 +36,17 @@ pub struct Impact {
 
 impl Impact {
     /// The impact of a contact force that exists from the start of a run of `run_end` \[s\].
-    pub(crate) fn of_force(force: &Signal, run_end: f64) -> Self {
+    ///
+    /// The force pulls where it goes below zero by more than its noise and the part `doubt` of its
+    /// largest magnitude; the release is where it passes zero on the way there.
+    pub(crate) fn of_force(force: &Signal, run_end: f64, doubt: f64) -> Self {
         let run =
             Self { start: 0.0, end: run_end, end_error: Some(0.0), contact: Contact::Lasting };
         match force.departure(0.0, 0.0) {
             None => Self { contact: Contact::Unloaded, ..run },
             Some(false) => Self { end: 0.0, contact: Contact::Pulling, ..run },
-            Some(true) => match force.first_crossing(0.0, (0.0, run_end), Some(false)) {
-                None if ends_at_zero(force, run_end) => {
+            Some(true) => match release(force, run_end, doubt) {
+                None if ends_at_zero(force, run_end, doubt) => {
                     Self { end_error: force.error.map(|_| 0.0), contact: Contact::Released, ..run }
                 }
                 None => run,
@@ -113,12 +116,40 @@ impl Impact {
     }
 }
 
+/// The last passage of zero before the force pulls for the first time.
+fn release(force: &Signal, run_end: f64, doubt: f64) -> Option<Crossing> {
+    let window = (0.0, run_end);
+    let floor = if doubt > 0.0 { doubt * force.bound() } else { 0.0 };
+    if floor <= force.noise {
+        return force.first_crossing(0.0, window, Some(false));
+    }
+    let pull = force.first_crossing(-floor, window, Some(false))?;
+    let latest = pull.time * (1.0 + 4.0 * f64::EPSILON);
+    let passages = force.crossings(0.0, window).into_iter();
+    let falls = passages.take_while(|passage| passage.time <= latest);
+    Some(falls.filter(|passage| passage.rising == Some(false)).last().unwrap_or(pull))
+}
+
+/// How deep a force that pushes at first goes below zero before it comes back, in parts of its
+/// largest magnitude; `None` if it does not.
+pub(crate) fn first_pull(force: &Signal, run_end: f64) -> Option<f64> {
+    if force.departure(0.0, 0.0) != Some(true) {
+        return None;
+    }
+    let fall = force.first_crossing(0.0, (0.0, run_end), Some(false))?.time;
+    let rise = force.first_crossing(0.0, (fall, run_end), Some(true));
+    let until = rise.map_or(run_end, |rise| rise.time);
+    let deepest = -force.minimum((fall, until)).value;
+    (deepest > 0.0).then(|| deepest / force.bound())
+}
+
 /// Whether the force is about to pass zero where the run ends, as it is when the run stops there; a
 /// force that decays towards zero would take longer.
-fn ends_at_zero(force: &Signal, run_end: f64) -> bool {
+fn ends_at_zero(force: &Signal, run_end: f64, doubt: f64) -> bool {
     const SOON: f64 = 1e-9;
     let slope = force.slope(run_end);
-    slope < 0.0 && force.left_value(run_end).abs() <= SOON * run_end * slope.abs()
+    let falls = slope < 0.0 && -slope * run_end > doubt * force.bound();
+    falls && force.left_value(run_end).abs() <= SOON * run_end * slope.abs()
 }
 
 /// Note on a measure whose impact has no end within the run.
@@ -166,7 +197,7 @@ mod tests {
 
     #[test]
     fn impact_ends_where_the_force_falls_through_zero() {
-        let impact = Impact::of_force(&line(3.0, -1.0), 2.0);
+        let impact = Impact::of_force(&line(3.0, -1.0), 2.0, 0.0);
         assert_eq!(impact.contact, Contact::Released);
         assert!((impact.end - 1.5).abs() < 1e-15);
         assert!((impact.end_error.unwrap() - 5e-7).abs() < 1e-14);
@@ -174,7 +205,7 @@ mod tests {
 
     #[test]
     fn force_that_starts_at_zero_and_pushes_is_a_contact() {
-        let impact = Impact::of_force(&line(0.0, 1.0), 2.0);
+        let impact = Impact::of_force(&line(0.0, 1.0), 2.0, 0.0);
         assert_eq!((impact.contact, impact.end), (Contact::Lasting, 2.0));
         let span = impact.span(WindowWish::Impact, 2.0).unwrap();
         assert_eq!(span.note, Some(STILL_IN_CONTACT));
@@ -182,16 +213,42 @@ mod tests {
 
     #[test]
     fn run_that_stops_at_release_has_its_impact() {
-        let impact = Impact::of_force(&line(1.0, 1e-17), 2.0);
+        let impact = Impact::of_force(&line(1.0, 1e-17), 2.0, 0.0);
         assert_eq!((impact.contact, impact.end), (Contact::Released, 2.0));
-        let decaying = Impact::of_force(&line(1.0, 1e-6), 2.0);
+        let decaying = Impact::of_force(&line(1.0, 1e-6), 2.0, 0.0);
         assert_eq!(decaying.contact, Contact::Lasting);
+    }
+
+    /// Adjoining lines through these values, one a second apart from the next.
+    fn polygon(values: &[f64]) -> Signal {
+        let mut start = 0.0;
+        let panels = values.windows(2).map(|pair| {
+            let panel = Panel {
+                start,
+                end: start + 1.0,
+                coefficients: vec![0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0])],
+            };
+            start = panel.end;
+            panel
+        });
+        Signal::new(panels.collect(), None, 1e-12)
+    }
+
+    #[test]
+    fn fall_below_zero_within_the_methods_error_is_no_release() {
+        let decaying = polygon(&[100.0, 0.05, -0.05, -0.02]);
+        assert_eq!(Impact::of_force(&decaying, 3.0, 1e-3).contact, Contact::Lasting);
+        assert_eq!(Impact::of_force(&decaying, 3.0, 1e-4).contact, Contact::Released);
+        let loaded_later = polygon(&[100.0, 0.05, -0.05, 50.0, -50.0]);
+        let impact = Impact::of_force(&loaded_later, 4.0, 1e-3);
+        assert_eq!(impact.contact, Contact::Released);
+        assert!((impact.end - 3.5).abs() < 1e-12, "{}", impact.end);
     }
 
     #[test]
     fn force_that_pulls_from_the_start_is_no_impact() {
         for force in [line(0.0, -1.0), line(-1.0, 1.0)] {
-            let impact = Impact::of_force(&force, 2.0);
+            let impact = Impact::of_force(&force, 2.0, 0.0);
             assert_eq!((impact.contact, impact.end), (Contact::Pulling, 0.0));
             assert!(impact.span(WindowWish::Impact, 2.0).is_err());
             assert!(impact.span(WindowWish::Run, 2.0).is_ok());
@@ -200,10 +257,10 @@ mod tests {
 
     #[test]
     fn two_impacts_join_to_the_longer_one() {
-        let short = Impact::of_force(&line(3.0, -1.0), 2.0);
-        let long = Impact::of_force(&line(1.0, 1.0), 2.0);
+        let short = Impact::of_force(&line(3.0, -1.0), 2.0, 0.0);
+        let long = Impact::of_force(&line(1.0, 1.0), 2.0, 0.0);
         assert_eq!(short.joined(long), long);
-        let pulling = Impact::of_force(&line(-1.0, 1.0), 2.0);
+        let pulling = Impact::of_force(&line(-1.0, 1.0), 2.0, 0.0);
         assert_eq!(pulling.joined(short), short);
     }
 

@@ -193,18 +193,22 @@ impl Balance {
 
     /// `∫ force · velocity dt`.
     fn work(&mut self, force: &Signal, velocity: &Signal, window: (f64, f64)) -> f64 {
-        let bound = |(force_error, velocity_error): (f64, f64)| {
-            (window.1 - window.0)
-                * (force_error * (velocity.bound() + velocity_error)
-                    + velocity_error * force.bound())
-        };
-        self.add_error(force.error.zip(velocity.error).map(bound));
+        self.add_error(work_error(force, velocity, window));
         force.integral_of_product(velocity, window)
     }
 
     fn error(&self) -> Option<f64> {
         (!self.unbounded).then_some(self.error)
     }
+}
+
+/// Bound of the error \[J\] of `∫ force · velocity dt`, where both signals have one:
+/// `∫ |F| dt · e(v) + ∫ |v| dt · e(F)` and the product of the errors.
+pub(crate) fn work_error(force: &Signal, velocity: &Signal, window: (f64, f64)) -> Option<f64> {
+    let (of_force, of_velocity) = force.error.zip(velocity.error)?;
+    let area = |signal: &Signal| signal.integral_of(window, &[0.0], f64::abs);
+    let both = (window.1 - window.0) * of_force * of_velocity;
+    Some(area(force) * of_velocity + area(velocity) * of_force + both)
 }
 
 /// The energy \[J\] that these primitives take up in no time where driving functions jump within

@@ -5,11 +5,13 @@
 //! [`RunReport`]. All measures are read off the continuous solution, never off samples.
 
 mod accuracy;
+mod bodies;
 mod difference;
 mod error;
 mod hic_search;
 mod impact;
 pub mod ledger;
+mod magnitude;
 pub mod measures;
 mod refinement;
 mod report;
@@ -33,5 +35,5 @@ pub use report::{
 pub use sample::{Column, Table, regular_times, table, table_at};
 pub use selection::MeasureWish;
 pub use settings::{SolveSettings, Stop};
-pub use solution::{Solution, is_impactor};
+pub use solution::{Solution, doubt_at, is_impactor};
 pub use solve::{reported_measures, solve, solve_assembly};

@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
-use dashpot_network::{Assembly, ConnectionOutputs};
+use dashpot_network::{
+    Assembly,
+    parameters::{Value, WindowWish},
+};
 
 use crate::{
-    RunError,
+    RunError, bodies,
     measures::{Family, Measure, by_default},
     solution::is_impactor,
 };
@@ -39,7 +42,8 @@ pub(crate) struct Selected {
 
 /// The measures that every run reports, and then those wanted.
 ///
-/// A measure that is wanted of a target for which its kind is reported anyway takes that place.
+/// A measure that is wanted of a target for which its kind is reported anyway takes that place, if it
+/// looks at the same part of the run.
 pub(crate) fn select(
     assembly: &Assembly,
     wishes: &[MeasureWish],
@@ -61,7 +65,7 @@ pub(crate) fn select(
         let key = key(&wish.target, wish.measure.as_ref());
         let place = selected[..defaults].iter().position(|entry| entry.key == key);
         match place {
-            Some(place) if !taken[place] => {
+            Some(place) if !taken[place] && is_of_impact(wish.measure.as_ref(), has_impactor) => {
                 taken[place] = true;
                 selected[place].measure = Arc::clone(&wish.measure);
             }
@@ -81,6 +85,15 @@ pub(crate) fn select(
     Ok(selected)
 }
 
+/// Whether a measure looks at the impact, which is the whole run where there is no impactor.
+fn is_of_impact(measure: &dyn Measure, has_impactor: bool) -> bool {
+    measure.values().iter().all(|value| match value {
+        Value::Window(WindowWish::Run) => !has_impactor,
+        Value::Window(WindowWish::Times(..)) => false,
+        _ => true,
+    })
+}
+
 fn add_defaults(
     selected: &mut Vec<Selected>,
     measures: &[Arc<dyn Measure>],
@@ -98,20 +111,24 @@ fn key(target: &str, measure: &dyn Measure) -> String {
 }
 
 /// The elements that touch an impactor; without an impactor those that touch a mass; without a mass
-/// all.
+/// all. Rigid links count as parts of what they join.
 fn reported_elements(assembly: &Assembly) -> Vec<usize> {
-    let touching = |wanted: &dyn Fn(usize) -> bool| -> Vec<usize> {
-        let touches = |connection: &ConnectionOutputs| {
-            connection.between.iter().any(|end| wanted(end.index()))
-        };
+    let touching = |wanted: &[bool]| -> Vec<usize> {
         let connections = assembly.connections.iter().enumerate();
-        connections.filter(|(_, connection)| touches(connection)).map(|(at, _)| at).collect()
+        let touching =
+            connections.filter(|(_, connection)| bodies::is_touching(assembly, connection, wanted));
+        touching.map(|(at, _)| at).collect()
     };
-    if assembly.nodes.iter().any(is_impactor) {
-        return touching(&|node| is_impactor(&assembly.nodes[node]));
+    let impactors = bodies::with_impactor(assembly);
+    if impactors.contains(&true) {
+        return touching(&impactors);
     }
-    let masses = touching(&|node| assembly.nodes[node].mass > 0.0);
-    if masses.is_empty() { touching(&|_| true) } else { masses }
+    let mut masses = vec![false; bodies::count(assembly)];
+    for node in assembly.nodes.iter().filter(|node| node.mass > 0.0) {
+        masses[node.body] = true;
+    }
+    let found = touching(&masses);
+    if found.is_empty() { touching(&vec![true; masses.len()]) } else { found }
 }
 
 /// The impactors; without one the free masses that an element touches.
@@ -122,12 +139,14 @@ fn reported_nodes(assembly: &Assembly) -> Vec<usize> {
     if !impactors.is_empty() {
         return impactors;
     }
-    let mut touched = vec![false; assembly.nodes.len()];
-    for end in assembly.connections.iter().flat_map(|connection| connection.between) {
-        touched[end.index()] = true;
+    let mut touched = vec![false; bodies::count(assembly)];
+    for connection in assembly.connections.iter().filter(|connection| !connection.is_rigid) {
+        for body in bodies::between(assembly, connection) {
+            touched[body] = true;
+        }
     }
     nodes()
-        .filter(|(at, node)| node.free && node.mass > 0.0 && touched[*at])
+        .filter(|(_, node)| node.free && node.mass > 0.0 && touched[node.body])
         .map(|(at, _)| at)
         .collect()
 }

@@ -5,7 +5,23 @@ use std::{borrow::Cow, cell::OnceCell};
 use dashpot_dae::{Signal, Trajectory};
 use dashpot_network::{Assembly, ConnectionOutputs, NodeOutputs};
 
-use crate::impact::Impact;
+use crate::{
+    bodies,
+    impact::{Impact, first_pull},
+};
+
+/// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
+/// are 100 to 700, of whatever method, at tolerances from 1e-4 to 1e-10.
+const ERRORS_PER_TOLERANCE: f64 = 1e3;
+/// Part of the largest force beyond which a pull is one at any tolerance; finer solutions tell
+/// where it was an error.
+const MOST_DOUBT: f64 = 1e-2;
+
+/// The part of the largest force below which a pull may be an error of a method of this relative
+/// tolerance; 0 for a method that has none.
+pub fn doubt_at(rtol: Option<f64>) -> f64 {
+    rtol.map_or(0.0, |rtol| (ERRORS_PER_TOLERANCE * rtol).min(MOST_DOUBT))
+}
 
 /// An assembly and a trajectory of it, with the signals that were asked for.
 #[derive(Debug)]
@@ -14,7 +30,9 @@ pub struct Solution<'a> {
     trajectory: &'a Trajectory,
     signals: Vec<OnceCell<Signal>>,
     element_impacts: Vec<OnceCell<Impact>>,
-    node_impacts: Vec<OnceCell<Impact>>,
+    body_impacts: Vec<OnceCell<Impact>>,
+    has_impactor: Vec<bool>,
+    doubt: f64,
     scene_impact: OnceCell<Impact>,
 }
 
@@ -27,9 +45,18 @@ impl<'a> Solution<'a> {
             trajectory,
             signals: (0..assembly.system.outputs.len()).map(|_| OnceCell::new()).collect(),
             element_impacts: cells(assembly.connections.len()),
-            node_impacts: cells(assembly.nodes.len()),
+            body_impacts: cells(bodies::count(assembly)),
+            has_impactor: bodies::with_impactor(assembly),
+            doubt: 0.0,
             scene_impact: OnceCell::new(),
         }
+    }
+
+    /// The same solution of whose contact forces pulls below the part `doubt` of the largest
+    /// magnitude count as errors of the method; see [`doubt_at`].
+    #[must_use]
+    pub fn doubting(self, doubt: f64) -> Self {
+        Self { doubt, ..self }
     }
 
     /// The network's equations.
@@ -70,46 +97,77 @@ impl<'a> Solution<'a> {
     }
 
     /// The impact as the element number `element` feels it: that of its own force if it touches an
-    /// impactor, else that of the scene.
+    /// impactor, that of the body if it is a rigid link within one, else that of the scene.
     pub fn element_impact(&self, element: usize) -> Impact {
         *self.element_impacts[element].get_or_init(|| {
             let connection = &self.assembly.connections[element];
             match connection.force {
                 Some(force) if self.touches_impactor(connection) => {
-                    Impact::of_force(self.signal(force), self.end())
+                    self.impact_of(self.signal(force))
                 }
+                _ if connection.is_rigid => self.node_impact(connection.between[0].index()),
                 _ => self.scene_impact(),
             }
         })
     }
 
-    /// The impact as the node number `node` feels it: that of the sum of the forces of the elements
-    /// that touch it if it is an impactor, else that of the scene.
+    /// The impact as the node number `node` feels it: that of its body, the nodes that rigid links
+    /// join to it, if an impactor belongs to it; else that of the scene.
+    ///
+    /// What counts is the sum of the forces that the elements put on the body. Whichever way it
+    /// first goes is the way it pushes: against the speed of a body that strikes, along with that
+    /// of a body that is struck from behind.
     pub fn node_impact(&self, node: usize) -> Impact {
-        *self.node_impacts[node].get_or_init(|| {
-            if !is_impactor(&self.assembly.nodes[node]) {
-                return self.scene_impact();
-            }
-            let touching = |connection: &&ConnectionOutputs| {
-                connection.between.iter().any(|end| end.index() == node)
-            };
-            let forces: Vec<&Signal> = self
-                .assembly
-                .connections
-                .iter()
-                .filter(touching)
-                .filter_map(|connection| connection.force)
-                .map(|force| self.signal(force))
-                .collect();
-            match forces.split_first() {
-                None => Impact::unloaded(self.end()),
-                Some((force, [])) => Impact::of_force(force, self.end()),
-                Some((&first, rest)) => {
-                    let sum = rest.iter().fold(first.clone(), |sum, force| sum.plus(force, 1.0));
-                    Impact::of_force(&sum, self.end())
-                }
-            }
+        let body = self.assembly.nodes[node].body;
+        if !self.has_impactor[body] {
+            return self.scene_impact();
+        }
+        *self.body_impacts[body].get_or_init(|| match self.push_on(body) {
+            Some(force) => self.impact_of(&force),
+            None => Impact::unloaded(self.end()),
         })
+    }
+
+    /// How deep each contact force first pulls, in parts of its largest magnitude: those of the
+    /// elements that touch an impactor and of the bodies with one. `None` where it never does.
+    pub(crate) fn first_pulls(&self) -> Vec<Option<f64>> {
+        let touching =
+            self.assembly.connections.iter().filter(|connection| self.touches_impactor(connection));
+        let own = touching.map(|connection| {
+            connection.force.and_then(|force| first_pull(self.signal(force), self.end()))
+        });
+        let bodies = (0..self.has_impactor.len()).filter(|&body| self.has_impactor[body]);
+        let sums = bodies.map(|body| first_pull(&self.push_on(body)?, self.end()));
+        own.chain(sums).collect()
+    }
+
+    /// The force on a body with the sign with which it begins; `None` if nothing touches it.
+    fn push_on(&self, body: usize) -> Option<Signal> {
+        let force = self.force_on(body)?;
+        let pushes = force.departure(0.0, 0.0) != Some(false);
+        Some(if pushes { force } else { force.scaled(-1.0) })
+    }
+
+    /// The sum of the forces \[N\] that the elements put on a body; `None` if nothing touches it.
+    fn force_on(&self, body: usize) -> Option<Signal> {
+        let deformable = self.assembly.connections.iter().filter(|connection| !connection.is_rigid);
+        let forces = deformable.filter_map(|connection| {
+            let [a, b] = bodies::between(self.assembly, connection);
+            let sign = match (a == body, b == body) {
+                (true, false) => -1.0,
+                (false, true) => 1.0,
+                _ => return None,
+            };
+            Some((self.signal(connection.force?), sign))
+        });
+        forces.fold(None, |sum: Option<Signal>, (force, sign)| {
+            Some(sum.map_or_else(|| force.scaled(sign), |sum| sum.plus(force, sign)))
+        })
+    }
+
+    /// The impact of a contact force of this trajectory.
+    pub(crate) fn impact_of(&self, force: &Signal) -> Impact {
+        Impact::of_force(force, self.end(), self.doubt)
     }
 
     /// The impact of the scene: from the first contact of any impactor until the last one is let
@@ -125,9 +183,10 @@ impl<'a> Solution<'a> {
         })
     }
 
-    /// Whether the connection has an impactor at one of its ends.
+    /// Whether the connection can deform and has an impactor, or what is rigidly linked to one, at
+    /// one of its ends.
     pub fn touches_impactor(&self, connection: &ConnectionOutputs) -> bool {
-        connection.between.iter().any(|end| is_impactor(&self.assembly.nodes[end.index()]))
+        bodies::is_touching(self.assembly, connection, &self.has_impactor)
     }
 }
 

@@ -160,12 +160,12 @@ fn report(
     outcome: Outcome,
 ) -> Result<RunReport, RunError> {
     let Outcome { solved, errors, solves_for_error, wall_for_error, obstacle } = outcome;
-    let Solved { rtol, trajectory, readings, energy } = solved;
+    let Solved { rtol, doubt, trajectory, readings, energy, .. } = solved;
     let closure = energy.closure();
     if closure.is_nan() || closure.abs() > MOST_LOST {
         return Err(RunError::EnergyLost { method: trajectory.method, closure });
     }
-    let solution = Solution::new(assembly, &trajectory);
+    let solution = Solution::new(assembly, &trajectory).doubting(doubt);
     let measures: Vec<MeasureReport> = task
         .selected
         .iter()
@@ -188,6 +188,7 @@ fn report(
         contacts: &contacts,
         energy: &energy,
         obstacle: obstacle.as_ref(),
+        guards: &run.guards,
     });
     drop(solution);
     Ok(RunReport {
@@ -195,6 +196,7 @@ fn report(
             method: trajectory.method,
             why,
             rtol: (!task.method.is_exact()).then_some(rtol),
+            doubt,
             statistics: trajectory.statistics,
             solves_for_error,
             wall_for_error,

@@ -1,6 +1,6 @@
 //! What the reader of a report must know.
 
-use dashpot_dae::SolveError;
+use dashpot_dae::{Direction, Guard, SolveError};
 
 use crate::{
     Accuracy, ContactReport, Ledger, MeasureReport, Solution,
@@ -16,6 +16,7 @@ pub(crate) struct Findings<'a> {
     pub(crate) contacts: &'a [ContactReport],
     pub(crate) energy: &'a Ledger,
     pub(crate) obstacle: Option<&'a SolveError>,
+    pub(crate) guards: &'a [Guard],
 }
 
 /// Closure in parts of the energy turned over that rounding may leave.
@@ -28,6 +29,7 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
     let mut warnings = pulling(findings);
     warnings.extend(beyond_thickness(findings.solution));
     warnings.extend(energy(findings));
+    warnings.extend(stops_that_hold(findings));
     warnings.extend(still_in_contact(findings.contacts));
     warnings.extend(accuracy(findings));
     warnings.extend(findings.solution.assembly().warnings.iter().cloned());
@@ -57,7 +59,7 @@ fn pads<'a>(solution: &'a Solution<'a>) -> impl Iterator<Item = (&'a str, Impact
     connections.filter_map(|connection| {
         connection.thickness?;
         let force = connection.force.filter(|_| !solution.touches_impactor(connection))?;
-        Some((connection.name.as_str(), Impact::of_force(solution.signal(force), solution.end())))
+        Some((connection.name.as_str(), solution.impact_of(solution.signal(force))))
     })
 }
 
@@ -95,6 +97,27 @@ fn energy(findings: &Findings<'_>) -> Option<String> {
             if closure > 0.0 { "is missing" } else { "is too much" },
         )
     })
+}
+
+/// A condition that holds from the start is not met then: only a passage of its level is.
+fn stops_that_hold(findings: &Findings<'_>) -> Vec<String> {
+    let holds = |guard: &&Guard| {
+        let signal = findings.solution.signal(guard.output);
+        let above = signal.value(0.0) - guard.level;
+        match guard.direction {
+            Direction::Rising => above > signal.noise,
+            Direction::Falling => above < -signal.noise,
+            Direction::Either => false,
+        }
+    };
+    let held = findings.guards.iter().filter(|guard| guard.stops).filter(holds);
+    held.map(|guard| {
+        format!(
+            "`stop` when {} holds already at the start: it fires at the next crossing only",
+            guard.name
+        )
+    })
+    .collect()
 }
 
 fn worst(measures: &[MeasureReport]) -> Option<f64> {

@@ -50,6 +50,10 @@ impl MeasureKind for AverageDeceleration {
         // A longer window adds to the integral, and divides it by more.
         let stretch = span.to_error.map(|shift| value * shift / length);
         let error = impulse.error.zip(stretch).map(|(error, stretch)| error / length + stretch);
-        Reading::over(&span, value, error).of_size(impulse.size / length)
+        let end_rate = (impulse.end_rate + value) / length;
+        Reading::over(&span, value, error)
+            .of_size(impulse.size / length)
+            .above(impulse.noise / length)
+            .changing(end_rate)
     }
 }

@@ -50,6 +50,7 @@ impl MeasureKind for CoefficientOfRestitution {
         let value = -parting.value.unwrap_or(f64::NAN) / meeting;
         let error = parting.error.zip(rate.error);
         let error = error.map(|(end, start)| (end + value.abs() * start) / meeting.abs());
-        Reading::over(&span, value, error).of_size(1.0).at(span.to)
+        let end_rate = parting.end_rate / meeting.abs();
+        Reading::over(&span, value, error).of_size(1.0).at(span.to).changing(end_rate)
     }
 }

@@ -42,6 +42,13 @@ impl MeasureKind for EndVelocity {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
-        end_value(solution.signal(velocity), &span)
+        let reading = end_value(solution.signal(velocity), &span);
+        // The velocity is what the acceleration has added up to, though it may have cancelled.
+        let summed = solution.assembly().nodes[target].acceleration.map_or(0.0, |acceleration| {
+            let window = (0.0, span.to);
+            solution.signal(acceleration).integral_of(window, &[0.0], f64::abs)
+        });
+        let noise = reading.noise.max(4.0 * f64::EPSILON * summed);
+        reading.above(noise)
     }
 }

@@ -74,11 +74,13 @@ impl MeasureKind for Hic {
         let found = optimum(&acceleration, span.window(), self.cap);
         let length = found.interval.1 - found.interval.0;
         let mean = if length > 0.0 { (found.value / length).powf(0.4) } else { 0.0 };
+        let growth = 2.5 * mean.powf(1.5);
+        let is_at_end = found.interval.1 >= span.to;
+        let last = if is_at_end { acceleration.left_value(span.to).abs() } else { 0.0 };
         let error = acceleration.error.zip(span.to_error).map(|(error, shift)| {
-            let end = if found.interval.1 >= span.to { shift } else { 0.0 };
-            let last = acceleration.left_value(span.to).abs();
-            2.5 * mean.powf(1.5) * (error * length + last * end) + found.doubt + 1e-13 * found.value
+            growth * (error * length + last * shift) + found.doubt + 1e-13 * found.value
         });
-        Reading { window: Some(found.interval), ..Reading::over(&span, found.value, error) }
+        let reading = Reading::over(&span, found.value, error).changing(growth * last);
+        Reading { window: Some(found.interval), ..reading }
     }
 }

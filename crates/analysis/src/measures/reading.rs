@@ -24,6 +24,8 @@ pub struct Reading {
     pub note: Option<String>,
     /// Values below this cannot be told from zero.
     pub noise: f64,
+    /// How fast the value changes at most with the end of its window \[unit/s\].
+    pub end_rate: f64,
 }
 
 impl Reading {
@@ -42,6 +44,7 @@ impl Reading {
             error,
             note: span.note.map(str::to_owned),
             noise: 0.0,
+            end_rate: 0.0,
         };
         if value.is_finite() {
             reading
@@ -61,6 +64,12 @@ impl Reading {
     #[must_use]
     pub(crate) fn above(self, noise: f64) -> Self {
         Self { noise, ..self }
+    }
+
+    /// The same reading with a rate of change with the window's end.
+    #[must_use]
+    pub(crate) fn changing(self, end_rate: f64) -> Self {
+        Self { end_rate: end_rate.abs(), ..self }
     }
 
     /// The same reading at a time.
@@ -84,9 +93,10 @@ impl Reading {
 pub(crate) fn peak(signal: &Signal, span: &Span) -> Reading {
     let peak = signal.absolute_maximum(span.window());
     // An end that is not known to the last digit moves a peak that lies at it.
-    let at_end = if peak.time >= span.to { end_shift(signal, span) } else { Some(0.0) };
-    let error = signal.error.zip(at_end).map(|(error, shift)| error + shift);
-    Reading::over(span, peak.value, error).at(peak.time).above(signal.noise)
+    let end_rate = if peak.time >= span.to { signal.slope(span.to).abs() } else { 0.0 };
+    let error = signal.error.zip(span.to_error);
+    let error = error.map(|(error, shift)| error + moved(end_rate, shift));
+    Reading::over(span, peak.value, error).at(peak.time).above(signal.noise).changing(end_rate)
 }
 
 /// Whether the largest magnitude of a signal over a span is that of a negative value.
@@ -96,12 +106,14 @@ pub(crate) fn peaks_below_zero(signal: &Signal, span: &Span) -> bool {
 
 /// The value of a signal at the end of a span.
 pub(crate) fn end_value(signal: &Signal, span: &Span) -> Reading {
-    let shift = end_shift(signal, span);
-    let error = signal.error.zip(shift).map(|(error, shift)| error + shift);
+    let end_rate = signal.slope(span.to).abs();
+    let error = signal.error.zip(span.to_error);
+    let error = error.map(|(error, shift)| error + moved(end_rate, shift));
     Reading::over(span, signal.left_value(span.to), error)
         .of_size(signal.absolute_maximum(span.window()).value)
         .at(span.to)
         .above(signal.noise)
+        .changing(end_rate)
 }
 
 /// The integral of a signal over a span.
@@ -111,12 +123,13 @@ pub(crate) fn integral(signal: &Signal, span: &Span) -> Reading {
     let error = signal.error.zip(span.to_error);
     let error = error.map(|(error, shift)| error * span.length() + last * shift);
     let noise = signal.noise * span.length();
-    Reading::over(span, signal.integral(span.window()), error).of_size(size).above(noise)
+    let value = signal.integral(span.window());
+    Reading::over(span, value, error).of_size(size).above(noise).changing(last)
 }
 
-/// How far the value at the end of a span may move because the end does.
-fn end_shift(signal: &Signal, span: &Span) -> Option<f64> {
-    span.to_error.map(|shift| if shift > 0.0 { signal.slope(span.to).abs() * shift } else { 0.0 })
+/// How far a value moves at this rate because the end of its span does.
+fn moved(rate: f64, shift: f64) -> f64 {
+    if shift > 0.0 { rate * shift } else { 0.0 }
 }
 
 /// The work that an element takes up over a span, `∫ F ẏ dt` and what jumps of its deformation
@@ -134,14 +147,16 @@ pub(crate) fn work(
     let value = force.integral_of_product(&rate, span.window())
         + ledger::steps(solution, primitives, span.window());
     let magnitude = |signal: &Signal| signal.absolute_maximum(span.window()).value;
-    let (most_force, most_rate) = (magnitude(force), magnitude(&rate));
-    let error =
-        force.error.zip(rate.error).zip(span.to_error).map(|((force_error, rate_error), shift)| {
-            let last = (force.left_value(span.to) * rate.left_value(span.to)).abs();
-            span.length() * (force_error * most_rate + rate_error * most_force) + last * shift
-        });
+    let most_force = magnitude(force);
+    let last = (force.left_value(span.to) * rate.left_value(span.to)).abs();
+    let error = ledger::work_error(force, &rate, span.window()).zip(span.to_error);
+    let error = error.map(|(error, shift)| error + moved(last, shift));
     // What a spring of this peak force and deformation takes up, and may give back.
     let deformation = magnitude(solution.signal(connection.deformation));
-    let noise = span.length() * (force.noise * most_rate + rate.noise * most_force);
-    Reading::over(span, value, error).of_size(0.5 * most_force * deformation).above(noise)
+    let area = |signal: &Signal| signal.integral_of(span.window(), &[0.0], f64::abs);
+    let noise = force.noise * area(&rate) + rate.noise * area(force);
+    Reading::over(span, value, error)
+        .of_size(0.5 * most_force * deformation)
+        .above(noise)
+        .changing(last)
 }

@@ -72,6 +72,7 @@ impl MeasureKind for SeverityIndex {
         let acceleration = solution.signal(acceleration);
         let severity = |a: f64| (a.abs() / STANDARD_GRAVITY).powf(self.exponent);
         let value = acceleration.integral_of(span.window(), &[0.0], severity);
+        let last = severity(acceleration.left_value(span.to));
         let error = acceleration.error.zip(span.to_error).map(|(error, shift)| {
             // How much the integrand grows at most when the acceleration does by its error.
             let n = self.exponent;
@@ -83,10 +84,8 @@ impl MeasureKind for SeverityIndex {
                     severity(error)
                 }
             };
-            acceleration.integral_of(span.window(), &[0.0], growth)
-                + severity(acceleration.left_value(span.to)) * shift
-                + 1e-13 * value
+            acceleration.integral_of(span.window(), &[0.0], growth) + last * shift + 1e-13 * value
         });
-        Reading::over(&span, value, error)
+        Reading::over(&span, value, error).changing(last)
     }
 }

@@ -9,7 +9,7 @@ use dashpot_network::{
 use super::*;
 use crate::{
     MeasureWish, differences,
-    measures::{EndVelocity, Energy, Hic15},
+    measures::{EndVelocity, Energy, Hic15, PeakForce},
 };
 
 fn spring(stiffness: f64) -> Model {
@@ -386,6 +386,111 @@ fn second_measure_of_a_kind_gets_a_number() {
     }
     let report = solve(&reference(10e3), &settings, &mut Silent).unwrap();
     // 2 ζ: ω(2) and ω(4) of the thesis' groups are near 0.2 and 0.4.
-    assert!(value(&report, "padding.energy") < value(&report, "padding.energy-2"));
+    assert!(value(&report, "padding.energy-2") < value(&report, "padding.energy-3"));
+    let plain = solve(&reference(10e3), &SolveSettings::lasting(0.01), &mut Silent).unwrap();
+    let energy = value(&report, "padding.energy").to_bits();
+    assert_eq!(energy, value(&plain, "padding.energy").to_bits(), "the default is still there");
     assert!(report.measure("mount.energy").is_some() && report.measure("mount.energy-2").is_some());
+}
+
+#[test]
+fn measure_over_another_window_leaves_the_default_alone() {
+    let network = oscillator(800.0, 8.0);
+    let wished = |window| {
+        let mut settings = SolveSettings::lasting(0.5);
+        settings.measures.push(MeasureWish::new("pad", PeakForce { window }));
+        solve(&network, &settings, &mut Silent).unwrap()
+    };
+    let early = wished(WindowWish::Times(0.0, 1e-3));
+    assert!(value(&early, "pad.peak-force") > 2.0 * value(&early, "pad.peak-force-2"));
+    assert!(wished(WindowWish::Impact).measure("pad.peak-force-2").is_none());
+}
+
+#[test]
+fn force_that_decays_to_zero_is_never_released() {
+    let mut network = Network::new();
+    let head = network.add_node(Node::mass("head", 2.0).moving(3.0));
+    let ground = network.ground();
+    network.connect("pad", head, ground, dashpot(2e3));
+    let mut loaded = network.clone();
+    let push = Piece { start: 0.06, value: 400.0, ..Piece::default() };
+    let pull = Piece { start: 0.2, value: -100.0, ..Piece::default() };
+    let load = Waveform::new(vec![Piece::default(), push, pull]).unwrap();
+    loaded.add_load("ram", head, load);
+    for method in ["bdf", "tr-bdf2", "esdirk34", "tsit45"] {
+        let report = solve(&network, &SolveSettings::lasting(1.0).by(method), &mut Silent).unwrap();
+        assert_eq!(report.contacts[0].impact.contact, Contact::Lasting, "{method}");
+        assert_eq!(report.measure("pad.contact-time").unwrap().value, None, "{method}");
+        let settings = SolveSettings::lasting(0.3);
+        let exact = solve(&loaded, &settings.clone().by("exact"), &mut Silent).unwrap();
+        let report = solve(&loaded, &settings.by(method), &mut Silent).unwrap();
+        for measure in &report.measures {
+            let gap = (measure.value.unwrap() - value(&exact, &measure.key)).abs();
+            let bar = measure.error.unwrap();
+            assert!(gap <= bar && bar.is_finite(), "{method} {}: {gap} > {bar}", measure.key);
+        }
+    }
+}
+
+#[test]
+fn slow_and_shallow_pull_is_a_release_or_the_bars_say_that_it_may_be_one() {
+    // The force turns to tension of 4e-4 and of 2e-7 of its peak, which lasts.
+    for (stiffness, duration, is_clear) in [(4e4, 0.3, true), (800.0, 8.0, false)] {
+        let network = oscillator(stiffness, 2e3);
+        let settings = SolveSettings::lasting(duration);
+        let exact = solve(&network, &settings.clone().by("exact"), &mut Silent).unwrap();
+        for method in ["bdf", "tr-bdf2", "esdirk34"] {
+            let report = solve(&network, &settings.clone().by(method), &mut Silent).unwrap();
+            for measure in &report.measures {
+                let Some(found) = measure.value else {
+                    assert!(!is_clear && measure.error == Some(f64::INFINITY), "{measure:?}");
+                    continue;
+                };
+                let gap = (found - value(&exact, &measure.key)).abs();
+                assert!(gap <= measure.error.unwrap(), "{method} {}: {gap}", measure.key);
+            }
+        }
+    }
+}
+
+#[test]
+fn quiet_corner_of_a_network_does_not_cost_the_exact_method() {
+    let mut network = oscillator(800.0, 8.0);
+    let ground = network.ground();
+    let quiet = network.add_node(Node::mass("quiet", 1.0));
+    let mount = Model::series([spring(3e4), Model::parallel([dashpot(5e3), spring(190.0)])]);
+    network.connect("mount", quiet, ground, mount);
+    let mut settings = SolveSettings::lasting(0.5);
+    let window = WindowWish::Run;
+    settings.measures.push(MeasureWish::new("mount", Energy { window }));
+    settings.measures.push(MeasureWish::new("mount", PeakForce { window }));
+    settings.measures.push(MeasureWish::new("quiet", EndVelocity { window }));
+    let report = solve(&network, &settings, &mut Silent).unwrap();
+    assert_eq!(report.solver.method, "exact");
+    assert!(report.measures.iter().all(|measure| measure.excess <= 1.0));
+    assert!(report.worst_relative_error().unwrap() < 1e-6);
+}
+
+#[test]
+fn bound_of_the_energy_does_not_grow_with_what_happens_after_it() {
+    let settings = SolveSettings::lasting(1e7).by("exact");
+    let report = solve(&oscillator(800.0, 8.0), &settings, &mut Silent).unwrap();
+    let energy = report.measure("pad.energy-at-end").unwrap();
+    assert!(energy.relative_error().unwrap() < 1e-8, "{energy:?}");
+}
+
+#[test]
+fn condition_that_holds_at_the_start_is_pointed_out() {
+    let stop = |level: f64, direction| crate::Stop {
+        output: "head.velocity".to_owned(),
+        level,
+        direction,
+    };
+    let warned = |stop| {
+        let settings = SolveSettings { stops: vec![stop], ..SolveSettings::lasting(0.1) };
+        let report = solve(&oscillator(800.0, 8.0), &settings, &mut Silent).unwrap();
+        report.warnings.iter().any(|warning| warning.contains("holds already at the start"))
+    };
+    assert!(warned(stop(4.0, Direction::Falling)) && warned(stop(2.0, Direction::Rising)));
+    assert!(!warned(stop(2.0, Direction::Falling)) && !warned(stop(2.0, Direction::Either)));
 }
