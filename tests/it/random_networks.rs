@@ -199,9 +199,44 @@ fn forces_balance_at_massless_nodes_and_energy_closes() {
                 );
             }
         }
+        positions_match(case, &recipe, &assembly, duration, &signal);
         close_energy(case, &recipe, &assembly, duration, &signal);
     }
     assert!(solved > 150, "only {solved} were solved");
+}
+
+/// Every deformation is the difference of the positions at its ends, and every rate that of the
+/// velocities.
+fn positions_match(
+    case: usize,
+    recipe: &Recipe,
+    assembly: &Assembly,
+    duration: f64,
+    signal: &dyn Fn(usize) -> dashpot::dae::Signal,
+) {
+    let ground = recipe.nodes.len();
+    let node = |at: usize| &assembly.nodes[if at == ground { 0 } else { at + 1 }];
+    for (element, found) in recipe.elements.iter().zip(&assembly.connections) {
+        let (a, b) = (node(element.0), node(element.1));
+        let pairs = [
+            (found.deformation, a.position, b.position),
+            (found.rate.unwrap(), a.velocity.unwrap(), b.velocity.unwrap()),
+        ];
+        for (whole, first, second) in pairs {
+            let [whole, first, second] = [whole, first, second].map(signal);
+            let errors: f64 = [&whole, &first, &second].iter().map(|s| s.error.unwrap()).sum();
+            let scale = first.bound().max(second.bound()).max(whole.bound());
+            for step in 0..=5 {
+                let t = duration * f64::from(step) / 5.0;
+                let gap = (first.value(t) - second.value(t) - whole.value(t)).abs();
+                let allowed = errors + 1e-12 * scale;
+                assert!(
+                    gap <= allowed,
+                    "case {case} at {t}: {gap:e} beyond {allowed:e}, {found:?}"
+                );
+            }
+        }
+    }
 }
 
 fn close_energy(

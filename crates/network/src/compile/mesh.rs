@@ -240,6 +240,10 @@ mod tests {
             mesh.load(place, 1.0, load);
         }
         let solution = mesh.eliminate(&[2, 3, 4], usize::MAX).solve(vec![0.7, -0.1, 0.0, 0.0, 0.0]);
+        for (p, q, _, _) in links {
+            let difference = solution.value(p) - solution.value(q);
+            assert!((difference - solution.difference(p, q)).abs() < 1e-14, "{p} and {q}");
+        }
         for place in 2..5 {
             let carried: f64 = links
                 .iter()
