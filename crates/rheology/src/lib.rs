@@ -1,8 +1,10 @@
-//! Two-terminal models as trees: primitives composed in series and in parallel, and the named
-//! forms of viscoelasticity as short words for such trees.
+//! Two-terminal models as trees: primitives composed in series and in parallel, the named forms of
+//! viscoelasticity as short words for such trees, and what a linear model is, seen from outside.
 
 pub mod forms;
+pub mod linear;
 mod tree;
 
 pub use forms::{Form, FormVisitor, Part, Role, visit_forms};
+pub use linear::{Canonical, KelvinForm, LinearModel, MaxwellForm, Primitive, Twofold};
 pub use tree::{Branch, Tree};

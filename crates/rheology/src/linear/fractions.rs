@@ -1,0 +1,131 @@
+//! Partial fractions with positive strengths, and their reciprocal.
+
+use twofloat::TwoFloat;
+
+use super::secular::Secular;
+
+/// Modes whose rates differ by less, relatively, become one when models are composed.
+///
+/// Apart by this much or less, two modes differ from one by 10⁻²⁵ in every response, because the
+/// one keeps the sum of the strengths and that of the strengths over the rates.
+pub const MERGED_BELOW: f64 = 1e-12;
+
+/// One mode: a pole at `-rate`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Line {
+    /// Rate \[1/s\], > 0 except for the pole at zero.
+    pub(crate) rate: TwoFloat,
+    /// Strength, > 0: a stiffness \[N/m\], or a compliance times its rate \[m/(N s)\].
+    pub(crate) strength: TwoFloat,
+}
+
+/// Several modes that became one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Merger {
+    pub(crate) rate: f64,
+    /// Largest relative distance of their rates.
+    pub(crate) gap: f64,
+    pub(crate) count: usize,
+}
+
+/// `F(x) = c − w₀/x − Σ w_j/(x − p_j)` with all constants ≥ 0, `0 < p₁ < p₂ < …`.
+///
+/// Both forms of a linear model are of this kind: its relaxance is `Q(−x) = −x F(x)` with a dashpot
+/// `c`, a spring `w₀` and Maxwell elements of stiffness `w_j` and rate `p_j` in parallel; its
+/// retardance is `1/Q(−x) = F(x)` with the compliance `c` of a spring, the fluidity `w₀` of a dashpot
+/// and Kelvin–Voigt elements of damping `1/w_j` and rate `p_j` in series.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Fractions {
+    pub(crate) constant: TwoFloat,
+    pub(crate) at_zero: TwoFloat,
+    /// In rising order of the rate.
+    pub(crate) lines: Vec<Line>,
+}
+
+impl Fractions {
+    /// The sum of `parts`; modes of different parts that coincide become one and are noted.
+    pub(crate) fn sum<'p>(
+        parts: impl IntoIterator<Item = &'p Self>,
+        mergers: &mut Vec<Merger>,
+    ) -> Self {
+        let mut sum = Self::default();
+        let mut tagged: Vec<(usize, Line)> = Vec::new();
+        for (part, own) in parts.into_iter().enumerate() {
+            sum.constant += own.constant;
+            sum.at_zero += own.at_zero;
+            tagged.extend(own.lines.iter().map(|&line| (part, line)));
+        }
+        tagged.sort_by(|a, b| a.1.rate.hi().total_cmp(&b.1.rate.hi()).then(order_low(&a.1, &b.1)));
+        let mut rest = tagged.as_slice();
+        while let [(part, first), ..] = rest {
+            let joins = |(other, line): &(usize, Line)| {
+                other != part && gap(first.rate, line.rate) <= MERGED_BELOW
+            };
+            let count = 1 + rest[1..].iter().take_while(|own| joins(own)).count();
+            sum.lines.push(if count == 1 { *first } else { merged(&rest[..count], mergers) });
+            rest = &rest[count..];
+        }
+        sum
+    }
+
+    /// Whether the function is zero everywhere.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.constant.hi() == 0.0 && self.at_zero.hi() == 0.0 && self.lines.is_empty()
+    }
+
+    /// The other form of the same model: from relaxance to retardance and back.
+    ///
+    /// The new rates are the zeros of `F`, one between any two poles, and one beyond the last where
+    /// `c > 0`; with `Q = −x F`, the strength at the zero `x` is `1/(x F'(x))`. What stands at zero
+    /// and at infinity follows from sums of positive terms.
+    pub(crate) fn reciprocal(&self) -> Self {
+        let mut poles = Vec::with_capacity(self.lines.len() + 1);
+        if self.at_zero.hi() > 0.0 {
+            poles.push(Line { rate: TwoFloat::from(0.0), strength: self.at_zero });
+        }
+        poles.extend(&self.lines);
+        let equation = Secular { constant: self.constant, poles: &poles };
+        let lines = equation
+            .zeros()
+            .map(|zero| Line { rate: zero.place, strength: (zero.place * zero.slope).recip() });
+        let total = |at: TwoFloat, line: &Line| at + line.strength;
+        let over_rates = |at: TwoFloat, line: &Line| at + line.strength / line.rate;
+        let only_if = |is_zero: bool, sum: TwoFloat| {
+            if is_zero { sum.recip() } else { TwoFloat::from(0.0) }
+        };
+        Self {
+            lines: lines.collect(),
+            constant: only_if(
+                self.constant.hi() == 0.0,
+                self.lines.iter().fold(self.at_zero, total),
+            ),
+            at_zero: only_if(
+                self.at_zero.hi() == 0.0,
+                self.lines.iter().fold(self.constant, over_rates),
+            ),
+        }
+    }
+}
+
+fn order_low(a: &Line, b: &Line) -> std::cmp::Ordering {
+    a.rate.lo().total_cmp(&b.rate.lo())
+}
+
+/// Relative distance of two rates, the larger one last.
+fn gap(low: TwoFloat, high: TwoFloat) -> f64 {
+    ((high - low) / high).hi()
+}
+
+/// One mode with the sum of the strengths and the sum of the strengths over the rates.
+fn merged(lines: &[(usize, Line)], mergers: &mut Vec<Merger>) -> Line {
+    let zero = TwoFloat::from(0.0);
+    let strength = lines.iter().fold(zero, |sum, (_, line)| sum + line.strength);
+    let (first, last) = (lines[0].1.rate, lines[lines.len() - 1].1.rate);
+    let rate = if first == last {
+        first
+    } else {
+        strength / lines.iter().fold(zero, |sum, (_, line)| sum + line.strength / line.rate)
+    };
+    mergers.push(Merger { rate: rate.hi(), gap: gap(first, last), count: lines.len() });
+    Line { rate, strength }
+}

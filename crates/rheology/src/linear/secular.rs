@@ -1,0 +1,190 @@
+//! The secular equation `c − Σ w_j/(x − p_j) = 0`.
+//!
+//! Between two poles the left side rises from −∞ to ∞, so there is one zero. It is sought as the
+//! distance from the nearer pole: near a pole the zero itself has no digits left for its distance,
+//! and everything that follows depends on distances. A safeguarded Newton iteration in doubles is
+//! polished in twice their digits.
+
+use twofloat::TwoFloat;
+
+use super::fractions::Line;
+
+/// Newton steps in doubles; about eight are usual, and bisection alone takes this many at worst.
+const MOST_STEPS: usize = 200;
+/// Newton steps in twice the digits; two are usual.
+const MOST_POLISHING: usize = 4;
+/// Relative change below which a zero is final.
+const FINAL: f64 = 1e-28;
+
+/// The function `F(x) = c − Σ w_j/(x − p_j)`, poles in rising order.
+pub(super) struct Secular<'l> {
+    pub(super) constant: TwoFloat,
+    pub(super) poles: &'l [Line],
+}
+
+/// A zero of the function.
+pub(super) struct Zero {
+    pub(super) place: TwoFloat,
+    /// Derivative of the function there, > 0.
+    pub(super) slope: TwoFloat,
+}
+
+/// The function as seen from one of its poles: `x = p + side · η`, `η > 0`.
+struct View {
+    side: f64,
+    /// `c`, and for each other pole its strength and its distance from this one.
+    constant: f64,
+    others: Vec<(f64, f64)>,
+    strength: f64,
+    /// The zero is not farther than this.
+    limit: f64,
+    /// Strength and distance of the pole at the other end of the interval.
+    opposite: Option<(f64, f64)>,
+}
+
+impl Secular<'_> {
+    /// All zeros, in rising order.
+    pub(super) fn zeros(&self) -> impl Iterator<Item = Zero> {
+        let intervals = self.poles.len().saturating_sub(usize::from(self.constant.hi() == 0.0));
+        (0..intervals).map(|at| self.zero_after(at))
+    }
+
+    /// The zero between the pole `at` and the next one, or beyond the last.
+    fn zero_after(&self, at: usize) -> Zero {
+        let base = if self.is_nearer_to_next(at) { at + 1 } else { at };
+        let side = if base == at { 1.0 } else { -1.0 };
+        let distance = self.view(at, base, side).zero();
+        self.polished(base, side, distance)
+    }
+
+    /// Whether the zero is in the upper half of the interval.
+    fn is_nearer_to_next(&self, at: usize) -> bool {
+        let Some(next) = self.poles.get(at + 1) else { return false };
+        let from = self.poles[at].rate;
+        let half = ((next.rate - from) * 0.5).hi();
+        let terms =
+            self.poles.iter().map(|own| own.strength.hi() / ((from - own.rate).hi() + half));
+        self.constant.hi() - terms.sum::<f64>() < 0.0
+    }
+
+    fn view(&self, at: usize, base: usize, side: f64) -> View {
+        let from = self.poles[base].rate;
+        let others = self.poles.iter().enumerate().filter(|&(own, _)| own != base);
+        let opposite = (at + 1 < self.poles.len()).then(|| {
+            let other = if base == at { at + 1 } else { at };
+            let gap = (self.poles[at + 1].rate - self.poles[at].rate).hi();
+            (self.poles[other].strength.hi(), gap)
+        });
+        // Beyond the last pole, F(p + η) ≥ c − Σw/η.
+        let limit = opposite.map_or_else(
+            || self.poles.iter().map(|own| own.strength.hi()).sum::<f64>() / self.constant.hi(),
+            |(_, gap)| 0.5 * gap,
+        );
+        View {
+            side,
+            constant: self.constant.hi(),
+            others: others.map(|(_, own)| (own.strength.hi(), (from - own.rate).hi())).collect(),
+            strength: self.poles[base].strength.hi(),
+            limit,
+            opposite,
+        }
+    }
+
+    /// Newton's steps in twice the digits from the distance `distance` on.
+    fn polished(&self, base: usize, side: f64, distance: f64) -> Zero {
+        let own = self.poles[base];
+        let mut distance = TwoFloat::from(distance);
+        for _ in 0..MOST_POLISHING {
+            let (rest, slope) = self.rest(base, side, distance);
+            let residual = distance * rest * side - own.strength;
+            let step = residual.hi() / (side * rest.hi() + distance.hi() * slope.hi());
+            // No step leads across the pole; one that would is lost in rounding.
+            if !step.is_finite() || step.abs() > 0.5 * distance.hi() {
+                break;
+            }
+            distance -= step;
+            if step.abs() <= FINAL * distance.hi() {
+                break;
+            }
+        }
+        let (_, slope) = self.rest(base, side, distance);
+        Zero {
+            place: own.rate + distance * side,
+            slope: slope + own.strength / distance / distance,
+        }
+    }
+
+    /// `c − Σ w/(x − p)` without the base, and its derivative.
+    fn rest(&self, base: usize, side: f64, distance: TwoFloat) -> (TwoFloat, TwoFloat) {
+        let from = self.poles[base].rate;
+        let offset = distance * side;
+        let mut rest = self.constant;
+        let mut slope = TwoFloat::from(0.0);
+        for (at, other) in self.poles.iter().enumerate() {
+            if at != base {
+                let apart = (from - other.rate) + offset;
+                let term = other.strength / apart;
+                rest -= term;
+                slope += term / apart;
+            }
+        }
+        (rest, slope)
+    }
+}
+
+impl View {
+    /// The distance `η` at which `φ(η) = side · η · R(η) − w` is zero, `R` being the function
+    /// without the pole itself. Unlike the function, `φ` is smooth down to `η = 0`.
+    fn zero(&self) -> f64 {
+        let (mut low, mut high) = (0.0, self.limit);
+        let mut at = self.first().clamp(f64::MIN_POSITIVE, high);
+        for _ in 0..MOST_STEPS {
+            let (rest, slope) = self.rest(at);
+            let value = at * self.side * rest - self.strength;
+            if value > 0.0 {
+                high = at
+            } else {
+                low = at
+            }
+            let next = at - value / (self.side * rest + at * slope);
+            let next = if next > low && next < high { next } else { between(low, high) };
+            let step = (next - at).abs();
+            at = next;
+            if step <= 4.0 * f64::EPSILON * at {
+                break;
+            }
+        }
+        at
+    }
+
+    /// A first distance: the poles at both ends as they are, all else as at the middle.
+    fn first(&self) -> f64 {
+        let Some((opposite, gap)) = self.opposite else { return self.limit };
+        let (rest, _) = self.rest(self.limit);
+        let constant = self.side * rest - opposite / (gap - self.limit);
+        let linear = constant * gap + opposite + self.strength;
+        let product = self.strength * gap;
+        let root = (linear * linear - 4.0 * constant * product).max(0.0).sqrt();
+        let first = 2.0 * product / (linear + root);
+        if first > 0.0 && first < self.limit { first } else { 0.5 * self.limit }
+    }
+
+    fn rest(&self, distance: f64) -> (f64, f64) {
+        let offset = self.side * distance;
+        self.others.iter().fold((self.constant, 0.0), |(rest, slope), &(strength, apart)| {
+            let term = strength / (apart + offset);
+            (rest - term, slope + term / (apart + offset))
+        })
+    }
+}
+
+/// Halves an interval of distances, in powers where it spans many.
+fn between(low: f64, high: f64) -> f64 {
+    if low == 0.0 {
+        0.01 * high
+    } else if high > 4.0 * low {
+        low.sqrt() * high.sqrt()
+    } else {
+        0.5 * (low + high)
+    }
+}
