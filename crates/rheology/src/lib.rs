@@ -2,6 +2,7 @@
 //! viscoelasticity as short words for such trees, and what a linear model is, seen from outside.
 
 pub mod forms;
+pub mod identifiability;
 pub mod linear;
 mod tree;
 

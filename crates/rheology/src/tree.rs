@@ -67,6 +67,74 @@ impl<P> Tree<P> {
             Self::Series(branches) | Self::Parallel(branches) => branches,
         }
     }
+
+    /// Whether the branches stand in a row.
+    pub fn is_series(&self) -> bool {
+        matches!(self, Self::Series(_))
+    }
+
+    /// Works the tree off from its parts upwards: `leaf` turns a part into a `T`, `compose` puts
+    /// those of the branches of a composition together, in order. The depth of the tree has no
+    /// limit.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use dashpot_rheology::Tree;
+    ///
+    /// let tree = Tree::series([Tree::from(2.0), Tree::parallel([1.0.into(), 3.0.into()])]);
+    /// let stiffness = tree.fold(|&own| own, |node, parts: Vec<f64>| match node.is_series() {
+    ///     true => 1.0 / parts.iter().map(|own| 1.0 / own).sum::<f64>(),
+    ///     false => parts.iter().sum(),
+    /// });
+    /// assert!((stiffness - 4.0 / 3.0_f64).abs() < 1e-15);
+    /// ```
+    pub fn fold<'t, T>(
+        &'t self,
+        mut leaf: impl FnMut(&'t P) -> T,
+        mut compose: impl FnMut(&'t Self, Vec<T>) -> T,
+    ) -> T {
+        enum Task<'t, P> {
+            Read(&'t Tree<P>),
+            Compose(&'t Tree<P>),
+        }
+        let mut done: Vec<T> = Vec::new();
+        let mut tasks = vec![Task::Read(self)];
+        while let Some(task) = tasks.pop() {
+            match task {
+                Task::Read(Self::Part(part)) => done.push(leaf(part)),
+                Task::Read(tree) => {
+                    tasks.push(Task::Compose(tree));
+                    tasks.extend(tree.branches().iter().rev().map(|own| Task::Read(&own.tree)));
+                }
+                Task::Compose(tree) => {
+                    let parts = done.split_off(done.len() - tree.branches().len());
+                    done.push(compose(tree, parts));
+                }
+            }
+        }
+        // One result is left, because every composition leaves one for all that it takes.
+        done.pop().unwrap_or_else(|| compose(self, Vec::new()))
+    }
+
+    /// All parts in the order in which [`fold`](Self::fold) meets them, with their paths such as
+    /// `kelvin.spring`; that of a tree of one part is empty.
+    pub fn parts(&self) -> Vec<(String, &P)> {
+        let mut parts = Vec::new();
+        let mut tasks = vec![(String::new(), self)];
+        while let Some((path, tree)) = tasks.pop() {
+            match tree {
+                Self::Part(part) => parts.push((path, part)),
+                Self::Series(branches) | Self::Parallel(branches) => {
+                    tasks.extend(branches.iter().rev().map(|own| {
+                        let separator = if path.is_empty() { "" } else { "." };
+                        (format!("{path}{separator}{}", own.name), &own.tree)
+                    }));
+                }
+            }
+        }
+        parts
+    }
 }
 
 fn numbered<P>(branches: impl IntoIterator<Item = Tree<P>>) -> Vec<Branch<P>> {

@@ -1,12 +1,9 @@
 //! One block of the block-diagonal form and its exponential.
 
+use dashpot_twofold::{two_product, two_sum};
 use nalgebra::DMatrix;
 
-use super::{
-    Complex,
-    double_double::{two_product, two_sum},
-    number,
-};
+use super::{Complex, number};
 
 /// Size of `M t` up to which the exponential's series is summed in one go.
 pub(super) const REACH: f64 = 2.0;

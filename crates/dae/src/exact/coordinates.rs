@@ -1,10 +1,11 @@
 //! The solution in modal coordinates, span by span.
 
+use dashpot_twofold::Accumulator;
 use nalgebra::DMatrix;
 
 use super::{
-    Augmented, Complex, augmented::Span, bounds::coupling_error, double_double::Accumulator,
-    modes::Modes, refinement::enclose_matrix,
+    Augmented, Complex, augmented::Span, bounds::coupling_error, modes::Modes,
+    refinement::enclose_matrix,
 };
 
 /// Unit roundoff, with the few operations that a modal coordinate goes through.

@@ -16,7 +16,6 @@ mod bounds;
 mod clusters;
 mod coordinates;
 mod decoupling;
-mod double_double;
 mod drift;
 mod exponential;
 mod generators;

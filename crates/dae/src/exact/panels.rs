@@ -1,10 +1,11 @@
 //! Outputs as piecewise polynomials, with a bound of the interpolation error that holds everywhere.
 
+use dashpot_twofold::Accumulator;
+
 use super::{
     Complex,
     block::{Block, exponential_of},
     coordinates::SpanCoordinates,
-    double_double::Accumulator,
     modes::Modes,
     number,
 };

@@ -1,15 +1,10 @@
 //! Newton's iteration for the modal form, with residuals in twice the digits of a double, and the
 //! bound of what is left.
 
+use dashpot_twofold::{Accumulator, two_sum};
 use nalgebra::DMatrix;
 
-use super::{
-    Complex,
-    bounds::enclose,
-    double_double::{Accumulator, two_sum},
-    modes::Modes,
-    number,
-};
+use super::{Complex, bounds::enclose, modes::Modes, number};
 
 /// Most iterations; convergence is quadratic until rounding stops it.
 const ITERATIONS: usize = 6;

@@ -1,6 +1,6 @@
 //! Models composed of models.
 
-use twofloat::TwoFloat;
+use dashpot_twofold::Twofold;
 
 use super::{Canonical, Fractions, LinearModel, Merged, Merger, Primitive};
 use crate::Tree;
@@ -19,8 +19,8 @@ use Half::{Kelvin, Maxwell};
 impl Half {
     fn primitive(primitive: Primitive) -> Self {
         let only = |at_zero: f64, constant: f64| Fractions {
-            at_zero: TwoFloat::from(at_zero),
-            constant: TwoFloat::from(constant),
+            at_zero: Twofold::from(at_zero),
+            constant: Twofold::from(constant),
             lines: Vec::new(),
         };
         match primitive {
@@ -101,28 +101,11 @@ impl LinearModel {
     /// assert!((model.maxwell().unwrap().elements()[0].relaxation_time - 2e-3).abs() < 1e-18);
     /// ```
     pub fn of<P>(tree: &Tree<P>, mut leaf: impl FnMut(&P) -> Primitive) -> Self {
-        enum Task<'t, P> {
-            Read(&'t Tree<P>),
-            Compose { count: usize, in_series: bool },
-        }
         let mut merged = Vec::new();
-        let mut done: Vec<Half> = Vec::new();
-        let mut tasks = vec![Task::Read(tree)];
-        while let Some(task) = tasks.pop() {
-            match task {
-                Task::Read(Tree::Part(part)) => done.push(Half::primitive(leaf(part))),
-                Task::Read(own @ (Tree::Series(branches) | Tree::Parallel(branches))) => {
-                    let in_series = matches!(own, Tree::Series(_));
-                    tasks.push(Task::Compose { count: branches.len(), in_series });
-                    tasks.extend(branches.iter().map(|branch| Task::Read(&branch.tree)));
-                }
-                Task::Compose { count, in_series } => {
-                    let parts = done.split_off(done.len() - count);
-                    done.push(Half::composed(parts, in_series, &mut merged));
-                }
-            }
-        }
-        let whole = done.pop().unwrap_or(Kelvin(Fractions::default()));
+        let whole = tree.fold(
+            |part| Half::primitive(leaf(part)),
+            |node, parts| Half::composed(parts, node.is_series(), &mut merged),
+        );
         Self::finished(whole, merged)
     }
 

@@ -1,8 +1,8 @@
 //! The two canonical forms of a linear model.
 
-use twofloat::TwoFloat;
+use dashpot_twofold::Twofold;
 
-use super::{Fractions, LinearModel, Primitive, Twofold};
+use super::{Fractions, LinearModel, Primitive};
 use crate::{Branch, Tree};
 
 /// A canonical form.
@@ -53,21 +53,21 @@ pub struct KelvinForm(pub(super) Fractions);
 impl MaxwellForm {
     /// Stiffness `K_e` of the single spring \[N/m\]; 0 where there is none.
     pub fn spring(&self) -> f64 {
-        self.0.at_zero.hi()
+        self.0.at_zero.high()
     }
 
     /// Damping `C` of the single dashpot \[N s/m\]; 0 where there is none.
     pub fn dashpot(&self) -> f64 {
-        self.0.constant.hi()
+        self.0.constant.high()
     }
 
     /// The Maxwell elements in rising order of the relaxation time.
     pub fn elements(&self) -> Vec<MaxwellElement> {
         let element = |line: &super::Line| MaxwellElement {
-            stiffness: line.strength.hi(),
-            damping: (line.strength / line.rate).hi(),
-            relaxation_time: line.rate.recip().hi(),
-            rate: Twofold(line.rate),
+            stiffness: line.strength.high(),
+            damping: (line.strength / line.rate).high(),
+            relaxation_time: line.rate.recip().high(),
+            rate: line.rate,
         };
         self.0.lines.iter().rev().map(element).collect()
     }
@@ -76,22 +76,22 @@ impl MaxwellForm {
 impl KelvinForm {
     /// Compliance `J_g` of the single spring \[m/N\]; 0 where there is none.
     pub fn spring_compliance(&self) -> f64 {
-        self.0.constant.hi()
+        self.0.constant.high()
     }
 
     /// Fluidity `φ₀` of the single dashpot, one over its damping \[m/(N s)\]; 0 where there is none.
     pub fn fluidity(&self) -> f64 {
-        self.0.at_zero.hi()
+        self.0.at_zero.high()
     }
 
     /// The Kelvin–Voigt elements in rising order of the retardation time.
     pub fn elements(&self) -> Vec<KelvinElement> {
         let element = |line: &super::Line| KelvinElement {
-            compliance: (line.strength / line.rate).hi(),
-            stiffness: (line.rate / line.strength).hi(),
-            damping: line.strength.recip().hi(),
-            retardation_time: line.rate.recip().hi(),
-            rate: Twofold(line.rate),
+            compliance: (line.strength / line.rate).high(),
+            stiffness: (line.rate / line.strength).high(),
+            damping: line.strength.recip().high(),
+            retardation_time: line.rate.recip().high(),
+            rate: line.rate,
         };
         self.0.lines.iter().rev().map(element).collect()
     }
@@ -124,7 +124,8 @@ impl LinearModel {
                 let form = self.kelvin()?;
                 let pairs: Vec<_> =
                     form.elements().iter().map(|own| (own.stiffness, own.damping)).collect();
-                let inverse = |own: TwoFloat| if own.hi() > 0.0 { own.recip().hi() } else { 0.0 };
+                let inverse =
+                    |own: Twofold| if own.high() > 0.0 { own.recip().high() } else { 0.0 };
                 ("kelvin", [inverse(form.0.constant), inverse(form.0.at_zero)], pairs, true)
             }
         };

@@ -1,6 +1,6 @@
 //! Partial fractions with positive strengths, and their reciprocal.
 
-use twofloat::TwoFloat;
+use dashpot_twofold::Twofold;
 
 use super::secular::Secular;
 
@@ -14,9 +14,9 @@ pub const MERGED_BELOW: f64 = 1e-12;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Line {
     /// Rate \[1/s\], > 0 except for the pole at zero.
-    pub(crate) rate: TwoFloat,
+    pub(crate) rate: Twofold,
     /// Strength, > 0: a stiffness \[N/m\], or a compliance times its rate \[m/(N s)\].
-    pub(crate) strength: TwoFloat,
+    pub(crate) strength: Twofold,
 }
 
 /// Several modes that became one.
@@ -36,8 +36,8 @@ pub(crate) struct Merger {
 /// and Kelvin–Voigt elements of damping `1/w_j` and rate `p_j` in series.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Fractions {
-    pub(crate) constant: TwoFloat,
-    pub(crate) at_zero: TwoFloat,
+    pub(crate) constant: Twofold,
+    pub(crate) at_zero: Twofold,
     /// In rising order of the rate.
     pub(crate) lines: Vec<Line>,
 }
@@ -55,7 +55,9 @@ impl Fractions {
             sum.at_zero += own.at_zero;
             tagged.extend(own.lines.iter().map(|&line| (part, line)));
         }
-        tagged.sort_by(|a, b| a.1.rate.hi().total_cmp(&b.1.rate.hi()).then(order_low(&a.1, &b.1)));
+        tagged.sort_by(|a, b| {
+            a.1.rate.high().total_cmp(&b.1.rate.high()).then(order_low(&a.1, &b.1))
+        });
         let mut rest = tagged.as_slice();
         while let [(part, first), ..] = rest {
             let joins = |(other, line): &(usize, Line)| {
@@ -70,7 +72,7 @@ impl Fractions {
 
     /// Whether the function is zero everywhere.
     pub(crate) fn is_zero(&self) -> bool {
-        self.constant.hi() == 0.0 && self.at_zero.hi() == 0.0 && self.lines.is_empty()
+        self.constant.high() == 0.0 && self.at_zero.high() == 0.0 && self.lines.is_empty()
     }
 
     /// The other form of the same model: from relaxance to retardance and back.
@@ -80,27 +82,27 @@ impl Fractions {
     /// and at infinity follows from sums of positive terms.
     pub(crate) fn reciprocal(&self) -> Self {
         let mut poles = Vec::with_capacity(self.lines.len() + 1);
-        if self.at_zero.hi() > 0.0 {
-            poles.push(Line { rate: TwoFloat::from(0.0), strength: self.at_zero });
+        if self.at_zero.high() > 0.0 {
+            poles.push(Line { rate: Twofold::ZERO, strength: self.at_zero });
         }
         poles.extend(&self.lines);
         let equation = Secular { constant: self.constant, poles: &poles };
         let lines = equation
             .zeros()
             .map(|zero| Line { rate: zero.place, strength: (zero.place * zero.slope).recip() });
-        let total = |at: TwoFloat, line: &Line| at + line.strength;
-        let over_rates = |at: TwoFloat, line: &Line| at + line.strength / line.rate;
-        let only_if = |is_zero: bool, sum: TwoFloat| {
-            if is_zero { sum.recip() } else { TwoFloat::from(0.0) }
+        let total = |at: Twofold, line: &Line| at + line.strength;
+        let over_rates = |at: Twofold, line: &Line| at + line.strength / line.rate;
+        let only_if = |is_zero: bool, sum: Twofold| {
+            if is_zero { sum.recip() } else { Twofold::ZERO }
         };
         Self {
             lines: lines.collect(),
             constant: only_if(
-                self.constant.hi() == 0.0,
+                self.constant.high() == 0.0,
                 self.lines.iter().fold(self.at_zero, total),
             ),
             at_zero: only_if(
-                self.at_zero.hi() == 0.0,
+                self.at_zero.high() == 0.0,
                 self.lines.iter().fold(self.constant, over_rates),
             ),
         }
@@ -108,17 +110,17 @@ impl Fractions {
 }
 
 fn order_low(a: &Line, b: &Line) -> std::cmp::Ordering {
-    a.rate.lo().total_cmp(&b.rate.lo())
+    a.rate.low().total_cmp(&b.rate.low())
 }
 
 /// Relative distance of two rates, the larger one last.
-fn gap(low: TwoFloat, high: TwoFloat) -> f64 {
-    ((high - low) / high).hi()
+fn gap(low: Twofold, high: Twofold) -> f64 {
+    ((high - low) / high).high()
 }
 
 /// One mode with the sum of the strengths and the sum of the strengths over the rates.
 fn merged(lines: &[(usize, Line)], mergers: &mut Vec<Merger>) -> Line {
-    let zero = TwoFloat::from(0.0);
+    let zero = Twofold::ZERO;
     let strength = lines.iter().fold(zero, |sum, (_, line)| sum + line.strength);
     let (first, last) = (lines[0].1.rate, lines[lines.len() - 1].1.rate);
     let rate = if first == last {
@@ -126,6 +128,6 @@ fn merged(lines: &[(usize, Line)], mergers: &mut Vec<Merger>) -> Line {
     } else {
         strength / lines.iter().fold(zero, |sum, (_, line)| sum + line.strength / line.rate)
     };
-    mergers.push(Merger { rate: rate.hi(), gap: gap(first, last), count: lines.len() });
+    mergers.push(Merger { rate: rate.high(), gap: gap(first, last), count: lines.len() });
     Line { rate, strength }
 }

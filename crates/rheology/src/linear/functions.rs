@@ -1,6 +1,6 @@
 //! Material functions.
 
-use twofloat::TwoFloat;
+use dashpot_twofold::Twofold;
 
 use super::{Fractions, LinearModel};
 
@@ -13,7 +13,7 @@ impl LinearModel {
 
     /// Equilibrium (rubbery) stiffness `G(∞)` \[N/m\]: 0 for liquids, infinite for a rigid link.
     pub fn equilibrium_stiffness(&self) -> f64 {
-        self.maxwell.as_ref().map_or(f64::INFINITY, |form| form.0.at_zero.hi())
+        self.maxwell.as_ref().map_or(f64::INFINITY, |form| form.0.at_zero.high())
     }
 
     /// Long-time viscosity \[N s/m\]: force over rate in steady flow. Infinite for solids.
@@ -31,8 +31,8 @@ impl LinearModel {
     /// is not part of it. Infinite for a rigid link.
     pub fn relaxation(&self, t: f64) -> f64 {
         let Some(form) = &self.maxwell else { return f64::INFINITY };
-        let terms = form.0.lines.iter().map(|line| line.strength.hi() * decay(line.rate, t));
-        form.0.at_zero.hi() + terms.sum::<f64>()
+        let terms = form.0.lines.iter().map(|line| line.strength.high() * decay(line.rate, t));
+        form.0.at_zero.high() + terms.sum::<f64>()
     }
 
     /// Creep compliance `J(t) = J_g + φ₀ t + Σ (φ_i/z_i)(1 − e^(−z_i t))` \[m/N\] at the time `t ≥ 0`
@@ -40,18 +40,18 @@ impl LinearModel {
     pub fn creep(&self, t: f64) -> f64 {
         let Some(form) = &self.kelvin else { return f64::INFINITY };
         let terms = form.0.lines.iter().map(|line| {
-            let compliance = (line.strength / line.rate).hi();
+            let compliance = (line.strength / line.rate).high();
             // Where nothing has decayed yet, rounding of the rate is the whole error.
-            compliance * -(-(line.rate * t).hi()).exp_m1()
+            compliance * -(-(line.rate * t).high()).exp_m1()
         });
-        form.0.constant.hi() + form.0.at_zero.hi() * t + terms.sum::<f64>()
+        form.0.constant.high() + form.0.at_zero.high() * t + terms.sum::<f64>()
     }
 
     /// Storage stiffness `k′ = Re Q(iω)` \[N/m\] at the angular frequency `ω > 0` \[rad/s\].
     pub fn storage(&self, omega: f64) -> f64 {
         let Some(form) = &self.maxwell else { return f64::INFINITY };
         let term = |rate: f64| 1.0 / (1.0 + (rate / omega).powi(2));
-        form.0.at_zero.hi() + form.0.weighted(term)
+        form.0.at_zero.high() + form.0.weighted(term)
     }
 
     /// Loss stiffness `k″ = Im Q(iω)` \[N/m\] at the angular frequency `ω > 0` \[rad/s\]; 0 for a
@@ -59,7 +59,7 @@ impl LinearModel {
     pub fn loss(&self, omega: f64) -> f64 {
         let Some(form) = &self.maxwell else { return 0.0 };
         let term = |rate: f64| 1.0 / (omega / rate + rate / omega);
-        form.0.constant.hi() * omega + form.0.weighted(term)
+        form.0.constant.high() * omega + form.0.weighted(term)
     }
 
     /// Loss factor `tan δ = k″/k′`; infinite for a single dashpot, 0 where nothing is lost.
@@ -72,20 +72,20 @@ impl LinearModel {
     pub fn relaxance(&self, s: f64) -> f64 {
         let Some(form) = &self.maxwell else { return f64::INFINITY };
         let term = |rate: f64| 1.0 / (1.0 + rate / s);
-        form.0.at_zero.hi() + form.0.constant.hi() * s + form.0.weighted(term)
+        form.0.at_zero.high() + form.0.constant.high() * s + form.0.weighted(term)
     }
 
     /// Retardance `1/Q(s)` \[m/N\] at a real `s > 0` \[1/s\], from the Kelvin form.
     pub fn retardance(&self, s: f64) -> f64 {
         let Some(form) = &self.kelvin else { return f64::INFINITY };
         let term = |rate: f64| 1.0 / (s + rate);
-        form.0.constant.hi() + form.0.at_zero.hi() / s + form.0.weighted(term)
+        form.0.constant.high() + form.0.at_zero.high() / s + form.0.weighted(term)
     }
 }
 
 impl Fractions {
     fn weighted(&self, term: impl Fn(f64) -> f64) -> f64 {
-        self.lines.iter().map(|line| line.strength.hi() * term(line.rate.hi())).sum()
+        self.lines.iter().map(|line| line.strength.high() * term(line.rate.high())).sum()
     }
 }
 
@@ -93,14 +93,14 @@ trait RecipOrInfinity {
     fn recip_or_infinity(self) -> f64;
 }
 
-impl RecipOrInfinity for TwoFloat {
+impl RecipOrInfinity for Twofold {
     fn recip_or_infinity(self) -> f64 {
-        if self.hi() > 0.0 { self.recip().hi() } else { f64::INFINITY }
+        if self.high() > 0.0 { self.recip().high() } else { f64::INFINITY }
     }
 }
 
 /// `e^(−r t)`, to rounding even where it is small: the exponent is taken in twice the digits.
-fn decay(rate: TwoFloat, t: f64) -> f64 {
+fn decay(rate: Twofold, t: f64) -> f64 {
     let exponent = rate * t;
-    (-exponent.hi()).exp() * (1.0 - exponent.lo())
+    (-exponent.high()).exp() * (1.0 - exponent.low())
 }

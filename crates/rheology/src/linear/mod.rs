@@ -18,11 +18,10 @@ mod forms;
 mod fractions;
 mod functions;
 mod secular;
-mod twofold;
 
+pub use dashpot_twofold::Twofold;
 pub use forms::{Canonical, KelvinElement, KelvinForm, MaxwellElement, MaxwellForm};
 pub use fractions::MERGED_BELOW;
-pub use twofold::Twofold;
 
 use fractions::{Fractions, Line, Merger};
 
@@ -103,11 +102,10 @@ impl LinearModel {
         fluidity: Twofold,
         modes: impl IntoIterator<Item = (Twofold, Twofold)>,
     ) -> Self {
-        let line =
-            |(rate, strength): (Twofold, Twofold)| Line { rate: rate.0, strength: strength.0 };
+        let line = |(rate, strength): (Twofold, Twofold)| Line { rate, strength };
         let mut lines: Vec<Line> = modes.into_iter().map(line).collect();
-        lines.sort_by(|a, b| a.rate.hi().total_cmp(&b.rate.hi()));
-        let kelvin = Fractions { constant: spring_compliance.0, at_zero: fluidity.0, lines };
+        lines.sort_by(|a, b| a.rate.high().total_cmp(&b.rate.high()));
+        let kelvin = Fractions { constant: spring_compliance, at_zero: fluidity, lines };
         Self::of_kelvin(kelvin, Vec::new())
     }
 
@@ -115,7 +113,7 @@ impl LinearModel {
     /// canonical form. A rigid link needs none.
     pub fn least_elements(&self) -> usize {
         let Some(MaxwellForm(form)) = &self.maxwell else { return 0 };
-        let single = [form.constant, form.at_zero].iter().filter(|own| own.hi() > 0.0).count();
+        let single = [form.constant, form.at_zero].iter().filter(|own| own.high() > 0.0).count();
         single + 2 * form.lines.len()
     }
 

@@ -5,7 +5,7 @@
 //! and everything that follows depends on distances. A safeguarded Newton iteration in doubles is
 //! polished in twice their digits.
 
-use twofloat::TwoFloat;
+use dashpot_twofold::Twofold;
 
 use super::fractions::Line;
 
@@ -18,15 +18,15 @@ const FINAL: f64 = 1e-28;
 
 /// The function `F(x) = c − Σ w_j/(x − p_j)`, poles in rising order.
 pub(super) struct Secular<'l> {
-    pub(super) constant: TwoFloat,
+    pub(super) constant: Twofold,
     pub(super) poles: &'l [Line],
 }
 
 /// A zero of the function.
 pub(super) struct Zero {
-    pub(super) place: TwoFloat,
+    pub(super) place: Twofold,
     /// Derivative of the function there, > 0.
-    pub(super) slope: TwoFloat,
+    pub(super) slope: Twofold,
 }
 
 /// The function as seen from one of its poles: `x = p + side · η`, `η > 0`.
@@ -45,7 +45,7 @@ struct View {
 impl Secular<'_> {
     /// All zeros, in rising order.
     pub(super) fn zeros(&self) -> impl Iterator<Item = Zero> {
-        let intervals = self.poles.len().saturating_sub(usize::from(self.constant.hi() == 0.0));
+        let intervals = self.poles.len().saturating_sub(usize::from(self.constant.high() == 0.0));
         (0..intervals).map(|at| self.zero_after(at))
     }
 
@@ -61,10 +61,10 @@ impl Secular<'_> {
     fn is_nearer_to_next(&self, at: usize) -> bool {
         let Some(next) = self.poles.get(at + 1) else { return false };
         let from = self.poles[at].rate;
-        let half = ((next.rate - from) * 0.5).hi();
+        let half = ((next.rate - from) * 0.5).high();
         let terms =
-            self.poles.iter().map(|own| own.strength.hi() / ((from - own.rate).hi() + half));
-        self.constant.hi() - terms.sum::<f64>() < 0.0
+            self.poles.iter().map(|own| own.strength.high() / ((from - own.rate).high() + half));
+        self.constant.high() - terms.sum::<f64>() < 0.0
     }
 
     fn view(&self, at: usize, base: usize, side: f64) -> View {
@@ -72,19 +72,21 @@ impl Secular<'_> {
         let others = self.poles.iter().enumerate().filter(|&(own, _)| own != base);
         let opposite = (at + 1 < self.poles.len()).then(|| {
             let other = if base == at { at + 1 } else { at };
-            let gap = (self.poles[at + 1].rate - self.poles[at].rate).hi();
-            (self.poles[other].strength.hi(), gap)
+            let gap = (self.poles[at + 1].rate - self.poles[at].rate).high();
+            (self.poles[other].strength.high(), gap)
         });
         // Beyond the last pole, F(p + η) ≥ c − Σw/η.
         let limit = opposite.map_or_else(
-            || self.poles.iter().map(|own| own.strength.hi()).sum::<f64>() / self.constant.hi(),
+            || self.poles.iter().map(|own| own.strength.high()).sum::<f64>() / self.constant.high(),
             |(_, gap)| 0.5 * gap,
         );
         View {
             side,
-            constant: self.constant.hi(),
-            others: others.map(|(_, own)| (own.strength.hi(), (from - own.rate).hi())).collect(),
-            strength: self.poles[base].strength.hi(),
+            constant: self.constant.high(),
+            others: others
+                .map(|(_, own)| (own.strength.high(), (from - own.rate).high()))
+                .collect(),
+            strength: self.poles[base].strength.high(),
             limit,
             opposite,
         }
@@ -93,17 +95,17 @@ impl Secular<'_> {
     /// Newton's steps in twice the digits from the distance `distance` on.
     fn polished(&self, base: usize, side: f64, distance: f64) -> Zero {
         let own = self.poles[base];
-        let mut distance = TwoFloat::from(distance);
+        let mut distance = Twofold::from(distance);
         for _ in 0..MOST_POLISHING {
             let (rest, slope) = self.rest(base, side, distance);
             let residual = distance * rest * side - own.strength;
-            let step = residual.hi() / (side * rest.hi() + distance.hi() * slope.hi());
+            let step = residual.high() / (side * rest.high() + distance.high() * slope.high());
             // No step leads across the pole; one that would is lost in rounding.
-            if !step.is_finite() || step.abs() > 0.5 * distance.hi() {
+            if !step.is_finite() || step.abs() > 0.5 * distance.high() {
                 break;
             }
-            distance -= step;
-            if step.abs() <= FINAL * distance.hi() {
+            distance = distance - step;
+            if step.abs() <= FINAL * distance.high() {
                 break;
             }
         }
@@ -115,11 +117,11 @@ impl Secular<'_> {
     }
 
     /// `c − Σ w/(x − p)` without the base, and its derivative.
-    fn rest(&self, base: usize, side: f64, distance: TwoFloat) -> (TwoFloat, TwoFloat) {
+    fn rest(&self, base: usize, side: f64, distance: Twofold) -> (Twofold, Twofold) {
         let from = self.poles[base].rate;
         let offset = distance * side;
         let mut rest = self.constant;
-        let mut slope = TwoFloat::from(0.0);
+        let mut slope = Twofold::ZERO;
         for (at, other) in self.poles.iter().enumerate() {
             if at != base {
                 let apart = (from - other.rate) + offset;

@@ -1,8 +1,10 @@
-//! Sums of products with twice the digits of a double.
+//! Sums of products.
+
+use crate::{two_product, two_sum};
 
 /// A sum `high + low` that is accumulated as if in 106 bits.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Accumulator {
+pub struct Accumulator {
     high: f64,
     low: f64,
 }
@@ -10,7 +12,7 @@ pub(super) struct Accumulator {
 impl Accumulator {
     /// Adds `x`.
     #[inline]
-    pub(super) fn add(&mut self, x: f64) {
+    pub fn add(&mut self, x: f64) {
         let (sum, rest) = two_sum(self.high, x);
         self.high = sum;
         self.low += rest;
@@ -18,7 +20,7 @@ impl Accumulator {
 
     /// Adds `a b` without rounding the product.
     #[inline]
-    pub(super) fn add_product(&mut self, a: f64, b: f64) {
+    pub fn add_product(&mut self, a: f64, b: f64) {
         let (product, rest) = two_product(a, b);
         self.add(product);
         self.low += rest;
@@ -26,39 +28,15 @@ impl Accumulator {
 
     /// Adds something so small that its own rounding does not matter.
     #[inline]
-    pub(super) fn add_small(&mut self, x: f64) {
+    pub fn add_small(&mut self, x: f64) {
         self.low += x;
     }
 
     /// The sum, rounded once.
     #[inline]
-    pub(super) fn value(self) -> f64 {
+    pub fn value(self) -> f64 {
         self.high + self.low
     }
-}
-
-/// `a + b = sum + rest` exactly (Knuth).
-#[inline]
-pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let other = sum - a;
-    (sum, (a - (sum - other)) + (b - other))
-}
-
-/// `a b = product + rest` exactly (Dekker), for factors below 1e290.
-#[inline]
-pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let product = a * b;
-    let ((a1, a2), (b1, b2)) = (split(a), split(b));
-    (product, a2 * b2 - (((product - a1 * b1) - a2 * b1) - a1 * b2))
-}
-
-/// Two halves of 26 bits.
-#[inline]
-fn split(a: f64) -> (f64, f64) {
-    let shifted = 134_217_729.0 * a;
-    let high = shifted - (shifted - a);
-    (high, a - high)
 }
 
 #[cfg(test)]
