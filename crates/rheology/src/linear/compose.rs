@@ -55,7 +55,7 @@ impl Half {
             return if in_series { Maxwell(nothing) } else { Kelvin(nothing) };
         };
         let mut mergers = Vec::new();
-        let sum = Fractions::sum(&parts, &mut mergers);
+        let sum = Fractions::sum(&parts.iter().collect::<Vec<_>>(), &mut mergers);
         merged.extend(mergers.into_iter().map(|Merger { rate, gap, count }| Merged {
             form,
             time: rate.recip(),

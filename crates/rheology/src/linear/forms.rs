@@ -44,11 +44,11 @@ pub struct KelvinElement {
 
 /// `Q(s) = K_e + C s + Σ K_j s/(s + r_j)`: a spring, a dashpot and Maxwell elements side by side.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MaxwellForm(pub(super) Fractions);
+pub struct MaxwellForm(pub(crate) Fractions);
 
 /// `1/Q(s) = J_g + φ₀/s + Σ φ_i/(s + z_i)`: a spring, a dashpot and Kelvin–Voigt elements in a row.
 #[derive(Debug, Clone, PartialEq)]
-pub struct KelvinForm(pub(super) Fractions);
+pub struct KelvinForm(pub(crate) Fractions);
 
 impl MaxwellForm {
     /// Stiffness `K_e` of the single spring \[N/m\]; 0 where there is none.

@@ -1,5 +1,7 @@
 //! Partial fractions with positive strengths, and their reciprocal.
 
+use std::cmp::Ordering;
+
 use dashpot_twofold::Twofold;
 
 use super::secular::Secular;
@@ -44,30 +46,40 @@ pub(crate) struct Fractions {
 
 impl Fractions {
     /// The sum of `parts`; modes of different parts that coincide become one and are noted.
-    pub(crate) fn sum<'p>(
-        parts: impl IntoIterator<Item = &'p Self>,
-        mergers: &mut Vec<Merger>,
-    ) -> Self {
-        let mut sum = Self::default();
-        let mut tagged: Vec<(usize, Line)> = Vec::new();
-        for (part, own) in parts.into_iter().enumerate() {
-            sum.constant += own.constant;
-            sum.at_zero += own.at_zero;
-            tagged.extend(own.lines.iter().map(|&line| (part, line)));
-        }
-        tagged.sort_by(|a, b| {
-            a.1.rate.high().total_cmp(&b.1.rate.high()).then(order_low(&a.1, &b.1))
+    pub(crate) fn sum(parts: &[&Self], mergers: &mut Vec<Merger>) -> Self {
+        let line = |&(part, at): &(usize, usize)| parts[part].lines[at];
+        let lines = Self::groups(parts).into_iter().map(|group| match &group[..] {
+            [only] => line(only),
+            several => merged(&several.iter().map(line).collect::<Vec<_>>(), mergers),
         });
-        let mut rest = tagged.as_slice();
-        while let [(part, first), ..] = rest {
-            let joins = |(other, line): &(usize, Line)| {
-                other != part && gap(first.rate, line.rate) <= MERGED_BELOW
-            };
-            let count = 1 + rest[1..].iter().take_while(|own| joins(own)).count();
-            sum.lines.push(if count == 1 { *first } else { merged(&rest[..count], mergers) });
-            rest = &rest[count..];
+        Self {
+            lines: lines.collect(),
+            constant: parts.iter().map(|own| own.constant).sum(),
+            at_zero: parts.iter().map(|own| own.at_zero).sum(),
         }
-        sum
+    }
+
+    /// The lines of all parts as pairs of part and number, in rising order of the rate; those that
+    /// coincide stand together.
+    pub(crate) fn groups(parts: &[&Self]) -> Vec<Vec<(usize, usize)>> {
+        let numbers = |(part, own): (usize, &&Self)| (0..own.lines.len()).map(move |at| (part, at));
+        let mut all: Vec<(usize, usize)> = parts.iter().enumerate().flat_map(numbers).collect();
+        let rate = |&(part, at): &(usize, usize)| parts[part].lines[at].rate;
+        all.sort_by(|a, b| rate(a).partial_cmp(&rate(b)).unwrap_or(Ordering::Equal));
+        let mut groups: Vec<Vec<(usize, usize)>> = Vec::with_capacity(all.len());
+        for next in all {
+            match groups.last_mut() {
+                // Modes of one part were told apart before, and are so still.
+                Some(group)
+                    if gap(rate(&group[0]), rate(&next)) <= MERGED_BELOW
+                        && group.iter().all(|own| own.0 != next.0) =>
+                {
+                    group.push(next);
+                }
+                _ => groups.push(vec![next]),
+            }
+        }
+        groups
     }
 
     /// Whether the function is zero everywhere.
@@ -90,27 +102,17 @@ impl Fractions {
         let lines = equation
             .zeros()
             .map(|zero| Line { rate: zero.place, strength: (zero.place * zero.slope).recip() });
-        let total = |at: Twofold, line: &Line| at + line.strength;
-        let over_rates = |at: Twofold, line: &Line| at + line.strength / line.rate;
+        let total: Twofold = self.lines.iter().map(|line| line.strength).sum();
+        let over_rates: Twofold = self.lines.iter().map(|line| line.strength / line.rate).sum();
         let only_if = |is_zero: bool, sum: Twofold| {
             if is_zero { sum.recip() } else { Twofold::ZERO }
         };
         Self {
             lines: lines.collect(),
-            constant: only_if(
-                self.constant.high() == 0.0,
-                self.lines.iter().fold(self.at_zero, total),
-            ),
-            at_zero: only_if(
-                self.at_zero.high() == 0.0,
-                self.lines.iter().fold(self.constant, over_rates),
-            ),
+            constant: only_if(self.constant.high() == 0.0, self.at_zero + total),
+            at_zero: only_if(self.at_zero.high() == 0.0, self.constant + over_rates),
         }
     }
-}
-
-fn order_low(a: &Line, b: &Line) -> std::cmp::Ordering {
-    a.rate.low().total_cmp(&b.rate.low())
 }
 
 /// Relative distance of two rates, the larger one last.
@@ -119,14 +121,13 @@ fn gap(low: Twofold, high: Twofold) -> f64 {
 }
 
 /// One mode with the sum of the strengths and the sum of the strengths over the rates.
-fn merged(lines: &[(usize, Line)], mergers: &mut Vec<Merger>) -> Line {
-    let zero = Twofold::ZERO;
-    let strength = lines.iter().fold(zero, |sum, (_, line)| sum + line.strength);
-    let (first, last) = (lines[0].1.rate, lines[lines.len() - 1].1.rate);
+fn merged(lines: &[Line], mergers: &mut Vec<Merger>) -> Line {
+    let strength = lines.iter().map(|line| line.strength).sum::<Twofold>();
+    let (first, last) = (lines[0].rate, lines[lines.len() - 1].rate);
     let rate = if first == last {
         first
     } else {
-        strength / lines.iter().fold(zero, |sum, (_, line)| sum + line.strength / line.rate)
+        strength / lines.iter().map(|line| line.strength / line.rate).sum()
     };
     mergers.push(Merger { rate: rate.high(), gap: gap(first, last), count: lines.len() });
     Line { rate, strength }

@@ -14,6 +14,7 @@
 //! other form and back, as often as nesting asks for, loses nothing that a double can show.
 
 mod compose;
+mod derivatives;
 mod forms;
 mod fractions;
 mod functions;
@@ -23,7 +24,9 @@ pub use dashpot_twofold::Twofold;
 pub use forms::{Canonical, KelvinElement, KelvinForm, MaxwellElement, MaxwellForm};
 pub use fractions::MERGED_BELOW;
 
-use fractions::{Fractions, Line, Merger};
+pub(crate) use derivatives::Derivatives;
+use fractions::Merger;
+pub(crate) use fractions::{Fractions, Line};
 
 /// A spring, a dashpot or a rigid link.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -143,11 +143,7 @@ impl View {
         for _ in 0..MOST_STEPS {
             let (rest, slope) = self.rest(at);
             let value = at * self.side * rest - self.strength;
-            if value > 0.0 {
-                high = at
-            } else {
-                low = at
-            }
+            *(if value > 0.0 { &mut high } else { &mut low }) = at;
             let next = at - value / (self.side * rest + at * slope);
             let next = if next > low && next < high { next } else { between(low, high) };
             let step = (next - at).abs();

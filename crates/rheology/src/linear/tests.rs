@@ -224,7 +224,7 @@ proptest! {
     fn poles_and_zeros_interlace_and_spectra_are_positive(tree in trees()) {
         let model = LinearModel::of(&tree, |&part| part);
         let (relaxance, retardance) = (&model.maxwell.as_ref().unwrap().0, &model.kelvin.as_ref().unwrap().0);
-        let zero = dashpot_twofold::Twofold::ZERO;
+        let zero = Twofold::ZERO;
         prop_assert!(relaxance.lines.iter().chain(&retardance.lines).all(|own| own.strength > zero));
         let mut all: Vec<_> = relaxance.lines.iter().map(|own| (own.rate, 'r')).collect();
         all.extend(retardance.lines.iter().map(|own| (own.rate, 'z')));

@@ -1,0 +1,150 @@
+//! Where two models differ most.
+
+use nalgebra::Complex;
+
+use super::alignment::aligned;
+use crate::{
+    LinearModel,
+    linear::{Fractions, Line},
+};
+
+/// Points per decade at which the disagreement is looked at before its maximum is refined. The
+/// responses of a mode change over about a decade.
+const PER_DECADE: f64 = 12.0;
+/// How far beyond the fastest and the slowest mode there are such points.
+const BEYOND: f64 = 1e3;
+/// How far beyond them there is one more, which stands for the limit.
+const LIMIT: f64 = 1e13;
+/// Steps of the golden section: to 10⁻⁶ of the distance of two points.
+const STEPS: usize = 30;
+
+/// The largest relative differences of the responses of two models.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Disagreement {
+    /// Angular frequency of the largest difference of the complex stiffnesses \[rad/s\].
+    pub omega: f64,
+    /// That difference, `|Q₁(iω) − Q₂(iω)|` over the larger of the two.
+    pub stiffness: f64,
+    /// Time of the largest difference of the creep compliances \[s\].
+    pub time: f64,
+    /// That difference, `|J₁(t) − J₂(t)|` over the larger of the two.
+    pub creep: f64,
+}
+
+impl Disagreement {
+    /// Of two models that have both forms.
+    pub(super) fn of(first: &LinearModel, second: &LinearModel) -> Option<Self> {
+        let (a, b) = first.maxwell().zip(second.maxwell()).map(|(a, b)| (&a.0, &b.0))?;
+        let (omega, stiffness) = largest(&places([a, b], |rate| rate), |omega| {
+            let difference = difference(a, b, omega).norm();
+            difference / stiffness_at(a, omega).norm().max(stiffness_at(b, omega).norm())
+        });
+        let (a, b) = first.kelvin().zip(second.kelvin()).map(|(a, b)| (&a.0, &b.0))?;
+        let (time, creep) = largest(&places([a, b], f64::recip), |time| {
+            creep_difference(a, b, time).abs() / first.creep(time).max(second.creep(time))
+        });
+        Some(Self { omega, stiffness, time, creep })
+    }
+}
+
+/// Places on a logarithmic scale, from far below to far beyond what `place` makes of all rates.
+fn places(forms: [&Fractions; 2], place: fn(f64) -> f64) -> Vec<f64> {
+    let rates = forms.into_iter().flat_map(|own| &own.lines).map(|line| place(line.rate.high()));
+    let mut all: Vec<f64> = rates.collect();
+    all.sort_by(f64::total_cmp);
+    let ends = all.first().zip(all.last()).map(|(low, high)| (low / BEYOND, high * BEYOND));
+    // Without modes, nothing depends on the place.
+    let Some((low, high)) = ends else { return vec![1.0] };
+    let decades = (high / low).log10();
+    let count = (decades * PER_DECADE).ceil();
+    let mut at = 0.0;
+    while at <= count {
+        all.push(low * (high / low).powf(at / count));
+        at += 1.0;
+    }
+    all.extend([low / LIMIT, high * LIMIT]);
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+/// The largest value and its place, refined between its neighbours on a logarithmic scale.
+fn largest(places: &[f64], value: impl Fn(f64) -> f64) -> (f64, f64) {
+    let all: Vec<f64> = places.iter().map(|&at| value(at)).collect();
+    let top = (0..all.len()).max_by(|&a, &b| all[a].total_cmp(&all[b])).unwrap_or(0);
+    let best = (places[top], all[top]);
+    let (mut low, mut high) =
+        (places[top.saturating_sub(1)].ln(), places[(top + 1).min(places.len() - 1)].ln());
+    let ratio = (5_f64.sqrt() - 1.0) / 2.0;
+    for _ in 0..STEPS {
+        let [left, right] = [high - ratio * (high - low), low + ratio * (high - low)];
+        if value(left.exp()) > value(right.exp()) { high = right } else { low = left }
+    }
+    let refined = f64::midpoint(low, high).exp();
+    let found = value(refined);
+    if found > best.1 { (refined, found) } else { best }
+}
+
+/// `iω/(iω + r)`.
+fn share(rate: f64, omega: f64) -> Complex<f64> {
+    let ratio = rate / omega;
+    if ratio > 1.0 {
+        // Both numerator and denominator over the square of the ratio, which may overflow.
+        let inverse = ratio.recip();
+        Complex::new(inverse * inverse, inverse) / inverse.mul_add(inverse, 1.0)
+    } else {
+        Complex::new(1.0, ratio) / ratio.mul_add(ratio, 1.0)
+    }
+}
+
+/// `Q(iω)` of a Maxwell form.
+fn stiffness_at(form: &Fractions, omega: f64) -> Complex<f64> {
+    let singles = Complex::new(form.at_zero.high(), form.constant.high() * omega);
+    form.lines
+        .iter()
+        .fold(singles, |sum, line| sum + share(line.rate.high(), omega) * line.strength.high())
+}
+
+/// `Q₁(iω) − Q₂(iω)`, mode by mode, so that what agrees does not hide what differs.
+fn difference(first: &Fractions, second: &Fractions, omega: f64) -> Complex<f64> {
+    let alone = |own: &Line| share(own.rate.high(), omega) * own.strength.high();
+    let singles = Complex::new(
+        (first.at_zero - second.at_zero).high(),
+        (first.constant - second.constant).high() * omega,
+    );
+    aligned(&first.lines, &second.lines).fold(singles, |sum, pair| {
+        sum + match pair {
+            (Some(a), Some(b)) => {
+                let [u, v] = [a, b].map(|own| share(own.rate.high(), omega));
+                // u − v = (r₂ − r₁)/(iω) u v.
+                let apart = (b.rate - a.rate).high() / omega;
+                u * (a.strength - b.strength).high()
+                    + Complex::new(0.0, -apart) * u * v * b.strength.high()
+            }
+            (Some(a), None) => alone(a),
+            (None, Some(b)) => -alone(b),
+            (None, None) => Complex::default(),
+        }
+    })
+}
+
+/// `J₁(t) − J₂(t)` of two Kelvin forms, mode by mode.
+fn creep_difference(first: &Fractions, second: &Fractions, t: f64) -> f64 {
+    let yielded = |own: &Line| -(-own.rate.high() * t).exp_m1();
+    let compliance = |own: &Line| own.strength / own.rate;
+    let singles =
+        (first.constant - second.constant).high() + (first.at_zero - second.at_zero).high() * t;
+    aligned(&first.lines, &second.lines).fold(singles, |sum, pair| {
+        sum + match pair {
+            (Some(a), Some(b)) => {
+                let apart = (a.rate - b.rate).high() * t;
+                let later = -(-b.rate.high() * t).exp() * (-apart).exp_m1();
+                // Where the exponents are large, both have yielded in full.
+                let later = if later.is_finite() { later } else { yielded(a) - yielded(b) };
+                (compliance(a) - compliance(b)).high() * yielded(a) + compliance(b).high() * later
+            }
+            (Some(a), None) => compliance(a).high() * yielded(a),
+            (None, Some(b)) => -compliance(b).high() * yielded(b),
+            (None, None) => 0.0,
+        }
+    })
+}

@@ -1,0 +1,122 @@
+//! Whether two linear models are the same, decided on their poles and strengths.
+//!
+//! All terms of the relaxance on the imaginary axis lie in one quadrant, so they cannot cancel: if
+//! all rates and strengths of two Maxwell forms agree within `ε`, relatively, their complex
+//! stiffnesses agree within `2√2 ε` at every frequency. The same goes for the Kelvin forms and the
+//! complex compliances, so agreement in one form is enough.
+
+mod alignment;
+mod disagreement;
+
+use dashpot_twofold::Twofold;
+
+use crate::{
+    LinearModel,
+    linear::{Fractions, Line},
+};
+use alignment::aligned;
+pub use disagreement::Disagreement;
+
+/// Two models are the same when all rates and strengths of one form agree within this, relatively.
+pub const SAME_WITHIN: f64 = 1e-11;
+
+/// Two constants that take the same place in two models.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// Constant of the first model; 0 where it has none.
+    pub first: f64,
+    /// Constant of the second model; 0 where it has none.
+    pub second: f64,
+    /// Their difference over the larger one.
+    pub difference: f64,
+}
+
+/// A mode of each of two models; one of them may be missing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModePair {
+    /// Relaxation or retardation times \[s\].
+    pub time: Pair,
+    /// Stiffnesses of Maxwell elements \[N/m\], or compliances of Kelvin–Voigt elements \[m/N\].
+    pub strength: Pair,
+}
+
+/// The constants of two models in one of the canonical forms.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FormComparison {
+    /// What stands alone and bears a load for good: stiffnesses \[N/m\] of the springs of the
+    /// Maxwell forms, or fluidities \[m/(N s)\] of the dashpots of the Kelvin forms.
+    pub at_long_times: Pair,
+    /// What stands alone and shows at once: dampings \[N s/m\] of the dashpots of the Maxwell forms,
+    /// or compliances \[m/N\] of the springs of the Kelvin forms.
+    pub at_short_times: Pair,
+    /// The modes in rising order of their times.
+    pub modes: Vec<ModePair>,
+    /// Largest relative difference of a rate or strength; 1 where one model lacks a constant.
+    pub largest: f64,
+}
+
+/// Two models, compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equivalence {
+    /// Whether they are the same from outside, within [`SAME_WITHIN`].
+    pub is_same: bool,
+    /// Their Maxwell forms; `None` where one of them is rigid.
+    pub maxwell: Option<FormComparison>,
+    /// Their Kelvin forms; `None` where one of them bears no force.
+    pub kelvin: Option<FormComparison>,
+    /// Where their responses differ most; `None` where one is rigid or bears no force.
+    pub worst: Option<Disagreement>,
+}
+
+/// Compares two models.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_rheology::{Canonical, LinearModel, Primitive::Spring, equivalence::compare};
+///
+/// let row = LinearModel::series(&[Spring(2e6).into(), Spring(6e6).into()]);
+/// assert!(compare(&row, &Spring(1.5e6).into()).is_same);
+/// let other = compare(&row, &Spring(1.5e6 * (1.0 + 1e-9)).into());
+/// assert!(!other.is_same && (other.worst.unwrap().stiffness - 1e-9).abs() < 1e-15);
+/// ```
+pub fn compare(first: &LinearModel, second: &LinearModel) -> Equivalence {
+    let maxwell = first.maxwell().zip(second.maxwell()).map(|(a, b)| forms(&a.0, &b.0));
+    let kelvin = first.kelvin().zip(second.kelvin()).map(|(a, b)| forms(&a.0, &b.0));
+    let is_close = |own: &FormComparison| own.largest <= SAME_WITHIN;
+    Equivalence {
+        is_same: maxwell.iter().chain(&kelvin).any(is_close),
+        maxwell,
+        kelvin,
+        worst: Disagreement::of(first, second),
+    }
+}
+
+fn forms(first: &Fractions, second: &Fractions) -> FormComparison {
+    let at_long_times = pair(first.at_zero, second.at_zero);
+    let at_short_times = pair(first.constant, second.constant);
+    let mut largest = at_long_times.difference.max(at_short_times.difference);
+    let time_and_strength = |line: &Line| (line.rate.recip(), line.strength);
+    let mut modes: Vec<ModePair> = aligned(&first.lines, &second.lines)
+        .map(|(a, b)| {
+            let none = (Twofold::ZERO, Twofold::ZERO);
+            let [a, b] = [a, b].map(|own| own.map_or(none, time_and_strength));
+            ModePair { time: pair(a.0, b.0), strength: pair(a.1, b.1) }
+        })
+        .collect();
+    modes.reverse();
+    for mode in &modes {
+        largest = largest.max(mode.time.difference).max(mode.strength.difference);
+    }
+    FormComparison { at_long_times, at_short_times, modes, largest }
+}
+
+fn pair(first: Twofold, second: Twofold) -> Pair {
+    let larger = if first > second { first } else { second };
+    let difference =
+        if larger.high() > 0.0 { ((first - second).abs() / larger).high() } else { 0.0 };
+    Pair { first: first.high(), second: second.high(), difference }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,125 @@
+//! Pairs that are the same, and pairs that differ by a known amount.
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::{
+    Canonical, Primitive,
+    Primitive::{Dashpot, Rigid, Spring},
+    Tree,
+};
+
+fn model(tree: &Tree<Primitive>) -> LinearModel {
+    LinearModel::of(tree, |&part| part)
+}
+
+fn prony(terms: &[(f64, f64)]) -> LinearModel {
+    let element = |&(time, stiffness): &(f64, f64)| {
+        Tree::series([Spring(stiffness).into(), Dashpot(stiffness * time).into()])
+    };
+    model(&Tree::parallel(terms.iter().map(element)))
+}
+
+fn terms(count: i32) -> Vec<(f64, f64)> {
+    (0..count)
+        .map(|at| (10_f64.powf(-6.0 + 0.5 * f64::from(at)), 1e6 * (1.2 + f64::from(at).sin())))
+        .collect()
+}
+
+#[test]
+fn canonical_networks_rounded_to_doubles_are_the_same() {
+    let original = prony(&terms(12));
+    for form in [Canonical::Maxwell, Canonical::Kelvin] {
+        let comparison = compare(&original, &model(&original.tree(form).unwrap()));
+        assert!(comparison.is_same, "{form:?}");
+        let worst = comparison.worst.unwrap();
+        assert!(worst.stiffness < 1e-14 && worst.creep < 1e-14, "{worst:?}");
+    }
+}
+
+#[test]
+fn a_billionth_in_one_mode_is_seen_and_placed() {
+    let original = terms(12);
+    for at in [0, 5, 11] {
+        let mut changed = original.clone();
+        changed[at].1 *= 1.0 + 1e-9;
+        let comparison = compare(&prony(&original), &prony(&changed));
+        assert!(!comparison.is_same);
+        let mode = comparison.maxwell.as_ref().unwrap().modes[at];
+        assert!((mode.strength.difference - 1e-9).abs() < 1e-15, "{mode:?}");
+        let worst = comparison.worst.unwrap();
+        // It is a share of the whole at any frequency or time, and some percent of it at one.
+        assert!(worst.stiffness > 1e-11 && worst.stiffness < 1e-9, "{worst:?}");
+        assert!(worst.creep > 1e-11 && worst.creep < 1e-9, "{worst:?}");
+    }
+}
+
+#[test]
+fn the_worst_disagreement_is_that_of_a_fine_scan() {
+    let (first, second) = (prony(&terms(4)), prony(&[(1e-6, 1e6), (1e-4, 3e6)]));
+    let worst = compare(&first, &second).worst.unwrap();
+    let (mut stiffness, mut creep) = (0.0_f64, 0.0_f64);
+    for at in 0..=24_000 {
+        let place = 10_f64.powf(-12.0 + f64::from(at) * 1e-3);
+        let apart = (first.storage(place.recip()) - second.storage(place.recip()))
+            .hypot(first.loss(place.recip()) - second.loss(place.recip()));
+        let size = |own: &LinearModel| own.storage(place.recip()).hypot(own.loss(place.recip()));
+        stiffness = stiffness.max(apart / size(&first).max(size(&second)));
+        let [a, b] = [&first, &second].map(|own| own.creep(place));
+        creep = creep.max((a - b).abs() / a.max(b));
+    }
+    // A scan misses a smooth maximum by the square of its step.
+    assert!((worst.stiffness / stiffness - 1.0).abs() < 1e-5, "{worst:?} {stiffness}");
+    assert!((worst.creep / creep - 1.0).abs() < 1e-5, "{worst:?} {creep}");
+}
+
+#[test]
+fn a_mode_that_cancels_does_not_count() {
+    // Both halves relax with the same time: one pole, and a zero upon the other.
+    let twins = prony(&[(1e-3, 1e6), (1e-3, 2e6)]);
+    assert!(compare(&twins, &prony(&[(1e-3, 3e6)])).is_same);
+    assert_eq!(twins.merged().len(), 1);
+}
+
+#[test]
+fn a_missing_mode_is_named() {
+    let comparison = compare(&prony(&[(1e-3, 1e6), (1.0, 2e6)]), &prony(&[(1.0, 2e6)]));
+    let modes = &comparison.maxwell.as_ref().unwrap().modes;
+    assert_eq!(modes.len(), 2);
+    assert_eq!(modes[0].strength.second.to_bits(), 0);
+    assert_eq!(modes[0].strength.difference.to_bits(), 1_f64.to_bits());
+    assert_eq!(modes[1].strength.difference.to_bits(), 0);
+    // At high frequencies a third of the stiffness is missing.
+    assert!((comparison.worst.unwrap().stiffness - 1.0 / 3.0).abs() < 1e-3);
+}
+
+#[test]
+fn extremes_are_the_same_as_themselves_only() {
+    let all = [Rigid, Spring(0.0), Spring(1.0), Dashpot(1.0)].map(LinearModel::primitive);
+    for (i, first) in all.iter().enumerate() {
+        for (j, second) in all.iter().enumerate() {
+            assert_eq!(compare(first, second).is_same, i == j, "{i} {j}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 256, ..ProptestConfig::default() })]
+
+    /// Differences are bounded by the largest one of a constant, as the module says.
+    #[test]
+    fn responses_differ_by_no_more_than_constants(
+        powers in prop::collection::vec((-6.0..6.0_f64, -6.0..6.0_f64, -1.0..1.0_f64, -1.0..1.0_f64), 1..8),
+        scale in -12.0..-3.0_f64,
+    ) {
+        let epsilon = 10_f64.powf(scale);
+        let of = |size: f64| powers.iter().map(move |own| {
+            (10_f64.powf(own.0) * (1.0 + size * own.2), 10_f64.powf(own.1) * (1.0 + size * own.3))
+        }).collect::<Vec<_>>();
+        let comparison = compare(&prony(&of(0.0)), &prony(&of(epsilon)));
+        let largest = comparison.maxwell.as_ref().unwrap().largest;
+        let worst = comparison.worst.unwrap();
+        prop_assert!(worst.stiffness <= 2.0 * 2_f64.sqrt() * largest * (1.0 + 1e-6) + 1e-15);
+        prop_assert_eq!(comparison.is_same, largest <= SAME_WITHIN || comparison.kelvin.unwrap().largest <= SAME_WITHIN);
+    }
+}
