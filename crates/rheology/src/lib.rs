@@ -1,6 +1,7 @@
 //! Two-terminal models as trees: primitives composed in series and in parallel, the named forms of
 //! viscoelasticity as short words for such trees, and what a linear model is, seen from outside.
 
+pub mod conversion;
 pub mod equivalence;
 pub mod forms;
 pub mod identifiability;

@@ -4,11 +4,13 @@
 //! `burgers = { maxwell = { spring, dashpot }, kelvin = { spring, dashpot } }`.
 
 mod burgers;
+mod jeffreys;
 mod kelvin_voigt;
 mod maxwell;
 mod zener;
 
 pub use burgers::Burgers;
+pub use jeffreys::Jeffreys;
 pub use kelvin_voigt::KelvinVoigt;
 pub use maxwell::Maxwell;
 pub use zener::Zener;
@@ -65,6 +67,7 @@ pub fn visit_forms(visitor: &mut impl FormVisitor) {
     visitor.visit::<KelvinVoigt>();
     visitor.visit::<Maxwell>();
     visitor.visit::<Zener>();
+    visitor.visit::<Jeffreys>();
     visitor.visit::<Burgers>();
 }
 
