@@ -140,15 +140,12 @@ impl Mul for Twofold {
 impl Div for Twofold {
     type Output = Self;
 
-    /// Long division by doubles: three digits of 53 bits.
+    /// Long division by doubles: two digits of 53 bits.
     #[inline]
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
         let rest = self - other * first;
-        let second = rest.high / other.high;
-        let rest = rest - other * second;
-        let third = rest.high / other.high;
-        Self::from_parts(first, second) + Self::from(third)
+        Self::from_parts(first, rest.high / other.high)
     }
 }
 

@@ -11,10 +11,10 @@ use super::fractions::Line;
 
 /// Newton steps in doubles; about eight are usual, and bisection alone takes this many at worst.
 const MOST_STEPS: usize = 200;
-/// Newton steps in twice the digits; two are usual.
+/// Newton steps in twice the digits; one or two are usual.
 const MOST_POLISHING: usize = 4;
-/// Relative change below which a zero is final.
-const FINAL: f64 = 1e-28;
+/// Relative change after which a zero is final: the next would be about its square.
+const FINAL: f64 = 1e-14;
 
 /// The function `F(x) = c − Σ w_j/(x − p_j)`, poles in rising order.
 pub(super) struct Secular<'l> {
@@ -95,11 +95,22 @@ impl Secular<'_> {
     /// Newton's steps in twice the digits from the distance `distance` on.
     fn polished(&self, base: usize, side: f64, distance: f64) -> Zero {
         let own = self.poles[base];
+        let others = self.poles.iter().enumerate().filter(|other| other.0 != base);
+        let others: Vec<(Twofold, Twofold)> =
+            others.map(|(_, other)| (other.strength, own.rate - other.rate)).collect();
         let mut distance = Twofold::from(distance);
         for _ in 0..MOST_POLISHING {
-            let (rest, slope) = self.rest(base, side, distance);
+            let offset = distance * side;
+            let mut rest = self.constant;
+            let mut slope = 0.0;
+            for &(strength, apart) in &others {
+                let apart = apart + offset;
+                let term = strength / apart;
+                rest -= term;
+                slope += term.high() / apart.high();
+            }
             let residual = distance * rest * side - own.strength;
-            let step = residual.high() / (side * rest.high() + distance.high() * slope.high());
+            let step = residual.high() / (side * rest.high() + distance.high() * slope);
             // No step leads across the pole; one that would is lost in rounding.
             if !step.is_finite() || step.abs() > 0.5 * distance.high() {
                 break;
@@ -109,28 +120,16 @@ impl Secular<'_> {
                 break;
             }
         }
-        let (_, slope) = self.rest(base, side, distance);
-        Zero {
-            place: own.rate + distance * side,
-            slope: slope + own.strength / distance / distance,
-        }
-    }
-
-    /// `c − Σ w/(x − p)` without the base, and its derivative.
-    fn rest(&self, base: usize, side: f64, distance: Twofold) -> (Twofold, Twofold) {
-        let from = self.poles[base].rate;
         let offset = distance * side;
-        let mut rest = self.constant;
-        let mut slope = Twofold::ZERO;
-        for (at, other) in self.poles.iter().enumerate() {
-            if at != base {
-                let apart = (from - other.rate) + offset;
-                let term = other.strength / apart;
-                rest -= term;
-                slope += term / apart;
-            }
+        let square = |strength: Twofold, apart: Twofold| {
+            let inverse = apart.recip();
+            strength * inverse * inverse
+        };
+        let slopes = others.iter().map(|&(strength, apart)| square(strength, apart + offset));
+        Zero {
+            place: own.rate + offset,
+            slope: slopes.sum::<Twofold>() + square(own.strength, distance),
         }
-        (rest, slope)
     }
 }
 
