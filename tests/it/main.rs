@@ -10,6 +10,7 @@
 mod cli;
 mod closed_forms;
 mod conformance;
+mod conversions;
 mod docs;
 mod error_bars;
 mod examples;

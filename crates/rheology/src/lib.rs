@@ -1,12 +1,14 @@
 //! Two-terminal models as trees: primitives composed in series and in parallel, the named forms of
 //! viscoelasticity as short words for such trees, and what a linear model is, seen from outside.
 
+pub mod appendix_a;
 pub mod conversion;
 pub mod equivalence;
 pub mod forms;
 pub mod identifiability;
 pub mod linear;
 pub mod sensitivity;
+pub mod spectra;
 mod tree;
 
 pub use forms::{Form, FormVisitor, Part, Role, visit_forms};

@@ -15,17 +15,21 @@ const PER_DECADE: f64 = 12.0;
 const BEYOND: f64 = 1e3;
 /// How far beyond them there is one more, which stands for the limit.
 const LIMIT: f64 = 1e13;
+/// A limit that is no more than this above what is found elsewhere, relatively, is none.
+const FLAT: f64 = 1e-6;
 /// Steps of the golden section: to 10⁻⁶ of the distance of two points.
 const STEPS: usize = 30;
 
 /// The largest relative differences of the responses of two models.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disagreement {
-    /// Angular frequency of the largest difference of the complex stiffnesses \[rad/s\].
+    /// Angular frequency of the largest difference of the complex stiffnesses \[rad/s\]; 0 and
+    /// infinity stand for the limits.
     pub omega: f64,
     /// That difference, `|Q₁(iω) − Q₂(iω)|` over the larger of the two.
     pub stiffness: f64,
-    /// Time of the largest difference of the creep compliances \[s\].
+    /// Time of the largest difference of the creep compliances \[s\]; 0 and infinity stand for the
+    /// limits.
     pub time: f64,
     /// That difference, `|J₁(t) − J₂(t)|` over the larger of the two.
     pub creep: f64,
@@ -71,7 +75,14 @@ fn places(forms: [&Fractions; 2], place: fn(f64) -> f64) -> Vec<f64> {
 fn largest(places: &[f64], value: impl Fn(f64) -> f64) -> (f64, f64) {
     let all: Vec<f64> = places.iter().map(|&at| value(at)).collect();
     let top = (0..all.len()).max_by(|&a, &b| all[a].total_cmp(&all[b])).unwrap_or(0);
+    // A limit counts only where it is approached from below.
+    let is_larger = |own: &usize| all[*own] >= all[top] * (1.0 - FLAT);
+    let inner = 1..all.len().saturating_sub(1);
+    let top = inner.filter(is_larger).max_by(|&a, &b| all[a].total_cmp(&all[b])).unwrap_or(top);
     let best = (places[top], all[top]);
+    if places.len() > 1 && (top == 0 || top == places.len() - 1) {
+        return (if top == 0 { 0.0 } else { f64::INFINITY }, best.1);
+    }
     let (mut low, mut high) =
         (places[top.saturating_sub(1)].ln(), places[(top + 1).min(places.len() - 1)].ln());
     let ratio = (5_f64.sqrt() - 1.0) / 2.0;
