@@ -8,15 +8,20 @@
 
 mod assembly;
 mod compile;
+pub mod composites;
+pub mod driving_point;
 pub mod effects;
 pub mod elements;
 mod error;
+mod linear_model;
 mod network;
 pub mod parameters;
+pub mod shifts;
 pub mod waveforms;
 
 pub use assembly::{Assembly, ConnectionOutputs, DriveOutputs, NodeOutputs, PrimitiveOutputs};
 pub use effects::Effect;
 pub use elements::Element;
 pub use error::{NetworkError, NetworkErrors, Subject};
+pub use linear_model::{linear_model, model_of, primitive};
 pub use network::{Connection, Load, Model, Network, Node, NodeId, Start, Support, part};

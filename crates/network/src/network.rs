@@ -197,6 +197,15 @@ impl Network {
         &mut self.connections[at]
     }
 
+    /// Puts another model in the place of that of a connection, by its position.
+    ///
+    /// # Panics
+    ///
+    /// When there are not so many connections.
+    pub fn set_model(&mut self, connection: usize, model: Model) {
+        self.connections[connection].model = model;
+    }
+
     /// Lets a force \[N\] act on a node.
     pub fn add_load(&mut self, name: impl Into<String>, node: NodeId, force: Waveform) {
         self.loads.push(Load { name: name.into(), node, force });

@@ -1,11 +1,11 @@
 //! What a kind says about its parameters, so that parser, help, schema and tests need no second
 //! list.
 
-use std::fmt;
+use std::{borrow::Cow, fmt};
 
 use thiserror::Error;
 
-/// Physical dimension as exponents of kilogram, metre and second.
+/// Physical dimension as exponents of kilogram, metre, second and kelvin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Dimension {
     /// Exponent of mass.
@@ -14,6 +14,8 @@ pub struct Dimension {
     pub length: i8,
     /// Exponent of time.
     pub time: i8,
+    /// Exponent of temperature.
+    pub temperature: i8,
 }
 
 impl Dimension {
@@ -41,8 +43,16 @@ impl Dimension {
     pub const IMPULSE: Self = Self::new(1, 1, -1);
     /// Energy \[J\].
     pub const ENERGY: Self = Self::new(1, 2, -2);
+    /// Pressure, stress or elastic modulus \[Pa\].
+    pub const PRESSURE: Self = Self::new(1, -1, -2);
+    /// Viscosity \[Pa s\].
+    pub const VISCOSITY: Self = Self::new(1, -1, -1);
+    /// Compliance of a pad, the inverse of a stiffness \[m/N\].
+    pub const COMPLIANCE: Self = Self::new(-1, 0, 2);
+    /// Temperature \[K\], above absolute zero or as a difference.
+    pub const TEMPERATURE: Self = Self { mass: 0, length: 0, time: 0, temperature: 1 };
 
-    const NAMED: [(Self, &'static str, &'static str); 12] = [
+    const NAMED: [(Self, &'static str, &'static str); 16] = [
         (Self::NUMBER, "number", "1"),
         (Self::MASS, "mass", "kg"),
         (Self::LENGTH, "length", "m"),
@@ -55,11 +65,20 @@ impl Dimension {
         (Self::DAMPING, "damping", "N s/m"),
         (Self::IMPULSE, "impulse", "N s"),
         (Self::ENERGY, "energy", "J"),
+        (Self::PRESSURE, "pressure", "Pa"),
+        (Self::VISCOSITY, "viscosity", "Pa s"),
+        (Self::COMPLIANCE, "compliance", "m/N"),
+        (Self::TEMPERATURE, "temperature", "K"),
     ];
 
-    /// The dimension kg^mass m^length s^time.
+    /// The dimension kg^mass m^length s^time, without temperature.
     pub const fn new(mass: i8, length: i8, time: i8) -> Self {
-        Self { mass, length, time }
+        Self { mass, length, time, temperature: 0 }
+    }
+
+    /// All dimensions that have a name.
+    pub fn all_named() -> impl Iterator<Item = Self> {
+        Self::NAMED.iter().map(|entry| entry.0)
     }
 
     /// The quantity's name and SI unit, for the dimensions that have one.
@@ -73,9 +92,12 @@ impl Dimension {
 pub enum ParameterKind {
     /// A number of the given dimension.
     Quantity(Dimension),
+    /// A difference of two temperatures \[K\]. Degrees Celsius count from a point of their own, so
+    /// they do not say one.
+    TemperatureDifference,
     /// A number with the dimension of what is driven: force for a load, length for a motion.
     Amplitude,
-    /// Pairs of time and amplitude, in rising order of time.
+    /// Pairs of time and amplitude; the kind says in which order.
     TimeTable,
     /// One of these words.
     Choice(&'static [&'static str]),
@@ -119,7 +141,8 @@ impl Parameter {
 /// A parameter's value, in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
-    /// For [`ParameterKind::Quantity`] and [`ParameterKind::Amplitude`].
+    /// For [`ParameterKind::Quantity`], [`ParameterKind::TemperatureDifference`] and
+    /// [`ParameterKind::Amplitude`].
     Number(f64),
     /// For [`ParameterKind::TimeTable`].
     Table(Vec<(f64, f64)>),
@@ -156,15 +179,19 @@ pub struct InvalidParameter {
     /// Key of the parameter.
     pub parameter: &'static str,
     /// Its range in words, with unit.
-    pub range: &'static str,
+    pub range: Cow<'static, str>,
     /// What was given.
     pub found: String,
 }
 
 impl InvalidParameter {
     /// Says that `parameter` must be in `range` but is `found`.
-    pub fn new(parameter: &'static str, range: &'static str, found: impl fmt::Display) -> Self {
-        Self { parameter, range, found: found.to_string() }
+    pub fn new(
+        parameter: &'static str,
+        range: impl Into<Cow<'static, str>>,
+        found: impl fmt::Display,
+    ) -> Self {
+        Self { parameter, range: range.into(), found: found.to_string() }
     }
 }
 
@@ -201,4 +228,23 @@ pub fn positive(parameter: &'static str, value: f64) -> Result<(), InvalidParame
 /// [`InvalidParameter`] for infinities and NaN.
 pub fn finite(parameter: &'static str, value: f64) -> Result<(), InvalidParameter> {
     if value.is_finite() { Ok(()) } else { Err(InvalidParameter::new(parameter, "finite", value)) }
+}
+
+/// Accepts temperatures above absolute zero \[K\].
+///
+/// # Errors
+///
+/// [`InvalidParameter`] for all others, NaN included.
+pub fn above_absolute_zero(parameter: &'static str, value: f64) -> Result<(), InvalidParameter> {
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(InvalidParameter::new(parameter, "above absolute zero, and finite", kelvins(value)))
+    }
+}
+
+/// A temperature \[K\] as text for a message, without the digits that come from rounding.
+pub(crate) fn kelvins(value: f64) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    format!("{} K", if rounded == 0.0 || !rounded.is_finite() { value } else { rounded })
 }

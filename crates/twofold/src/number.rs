@@ -1,6 +1,7 @@
 //! Numbers as sums of two doubles.
 
 use std::{
+    cmp::Ordering,
     iter::Sum,
     ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign},
 };
@@ -195,6 +196,43 @@ impl MulAssign for Twofold {
     #[inline]
     fn mul_assign(&mut self, other: Self) {
         *self = *self * other;
+    }
+}
+
+impl Div<f64> for Twofold {
+    type Output = Self;
+
+    #[inline]
+    fn div(self, other: f64) -> Self {
+        self / Self::from(other)
+    }
+}
+
+impl MulAssign<f64> for Twofold {
+    #[inline]
+    fn mul_assign(&mut self, other: f64) {
+        *self = *self * other;
+    }
+}
+
+impl SubAssign<f64> for Twofold {
+    #[inline]
+    fn sub_assign(&mut self, other: f64) {
+        *self = *self - other;
+    }
+}
+
+impl PartialEq<f64> for Twofold {
+    #[inline]
+    fn eq(&self, other: &f64) -> bool {
+        *self == Self::from(*other)
+    }
+}
+
+impl PartialOrd<f64> for Twofold {
+    #[inline]
+    fn partial_cmp(&self, other: &f64) -> Option<Ordering> {
+        self.partial_cmp(&Self::from(*other))
     }
 }
 

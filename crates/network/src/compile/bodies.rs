@@ -5,18 +5,18 @@ use crate::{Network, NetworkError, Start, Subject, Support, elements::Law};
 
 /// Joints that move as one.
 #[derive(Debug, Clone)]
-pub(super) struct Body {
+pub(crate) struct Body {
     /// Its joints in rising order.
-    pub(super) joints: Vec<usize>,
-    pub(super) role: Role,
+    pub(crate) joints: Vec<usize>,
+    pub(crate) role: Role,
     /// Start velocity \[m/s\].
-    pub(super) velocity: f64,
-    pub(super) is_impactor: bool,
+    pub(crate) velocity: f64,
+    pub(crate) is_impactor: bool,
 }
 
 /// What rules a body's motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Role {
+pub(crate) enum Role {
     Fixed,
     /// Index of the node whose motion is prescribed.
     Prescribed(usize),
@@ -27,23 +27,23 @@ pub(super) enum Role {
 
 /// The bodies and which of them each joint belongs to.
 #[derive(Debug, Clone)]
-pub(super) struct Bodies {
-    pub(super) all: Vec<Body>,
-    pub(super) of_joint: Vec<usize>,
+pub(crate) struct Bodies {
+    pub(crate) all: Vec<Body>,
+    pub(crate) of_joint: Vec<usize>,
 }
 
 /// Groups of numbers that are joined in pairs.
 #[derive(Debug, Clone)]
-pub(super) struct Groups {
+pub(crate) struct Groups {
     parent: Vec<usize>,
 }
 
 impl Groups {
-    pub(super) fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self { parent: (0..count).collect() }
     }
 
-    pub(super) fn of(&mut self, mut at: usize) -> usize {
+    pub(crate) fn of(&mut self, mut at: usize) -> usize {
         while self.parent[at] != at {
             self.parent[at] = self.parent[self.parent[at]];
             at = self.parent[at];
@@ -52,7 +52,7 @@ impl Groups {
     }
 
     /// Joins two groups; false if they were one already.
-    pub(super) fn join(&mut self, first: usize, second: usize) -> bool {
+    pub(crate) fn join(&mut self, first: usize, second: usize) -> bool {
         let (first, second) = (self.of(first), self.of(second));
         let (low, high) = (first.min(second), first.max(second));
         self.parent[high] = low;
@@ -61,7 +61,7 @@ impl Groups {
 }
 
 /// Start velocity \[m/s\] of a node under the network's gravity.
-pub(super) fn start_velocity(network: &Network, start: Start) -> f64 {
+pub(crate) fn start_velocity(network: &Network, start: Start) -> f64 {
     match start {
         Start::Rest => 0.0,
         Start::Velocity(velocity) => velocity,
@@ -77,7 +77,7 @@ const STANDARD_GRAVITY: f64 = 9.806_65;
 
 impl Bodies {
     /// Merges the joints at the ends of rigid links.
-    pub(super) fn of(network: &Network, expansion: &Expansion) -> Result<Self, Vec<NetworkError>> {
+    pub(crate) fn of(network: &Network, expansion: &Expansion) -> Result<Self, Vec<NetworkError>> {
         let mut groups = Groups::new(expansion.joints);
         for primitive in expansion.primitives.iter().filter(|p| p.law == Law::Rigid) {
             groups.join(primitive.ends[0], primitive.ends[1]);
@@ -151,11 +151,11 @@ impl Body {
     }
 
     /// Sum of the masses of its nodes \[kg\], whatever rules its motion.
-    pub(super) fn mass(&self, network: &Network) -> f64 {
+    pub(crate) fn mass(&self, network: &Network) -> f64 {
         self.joints.iter().filter_map(|&joint| network.nodes.get(joint)).map(|node| node.mass).sum()
     }
 
-    pub(super) fn is_massless(&self) -> bool {
+    pub(crate) fn is_massless(&self) -> bool {
         self.role == Role::Massless
     }
 }
@@ -171,7 +171,7 @@ fn contradiction(
 }
 
 /// The name by which an error speaks of a joint.
-pub(super) fn joint_name(network: &Network, expansion: &Expansion, joint: usize) -> String {
+pub(crate) fn joint_name(network: &Network, expansion: &Expansion, joint: usize) -> String {
     match &expansion.owners[joint] {
         Some(connection) => format!("a joint inside of {connection}"),
         None => network.nodes[joint].name.clone(),
@@ -179,6 +179,6 @@ pub(super) fn joint_name(network: &Network, expansion: &Expansion, joint: usize)
 }
 
 /// The subject of an error about a node.
-pub(super) fn node_subject(network: &Network, node: usize) -> Subject {
+pub(crate) fn node_subject(network: &Network, node: usize) -> Subject {
     Subject::Node(network.nodes[node].name.clone())
 }

@@ -12,18 +12,18 @@ use crate::{
 
 /// A spring, dashpot or rigid link between two joints.
 #[derive(Debug, Clone)]
-pub(super) struct Primitive {
+pub(crate) struct Primitive {
     /// Its path, for instance `padding.maxwell.spring`.
-    pub(super) name: String,
-    pub(super) element: Arc<dyn Element>,
-    pub(super) law: Law,
+    pub(crate) name: String,
+    pub(crate) element: Arc<dyn Element>,
+    pub(crate) law: Law,
     /// Its ends; joints below the number of nodes are the nodes themselves.
-    pub(super) ends: [usize; 2],
+    pub(crate) ends: [usize; 2],
 }
 
 /// How the primitives of a connection are composed; children stand after their parent.
 #[derive(Debug, Clone)]
-pub(super) enum Shape {
+pub(crate) enum Shape {
     Leaf(usize),
     Series(Vec<usize>),
     Parallel(Vec<usize>),
@@ -31,21 +31,21 @@ pub(super) enum Shape {
 
 impl Shape {
     /// The primitive, where the shape is one.
-    pub(super) fn leaf(&self) -> Option<usize> {
+    pub(crate) fn leaf(&self) -> Option<usize> {
         if let Self::Leaf(primitive) = self { Some(*primitive) } else { None }
     }
 }
 
 /// A network as joints and primitives.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Expansion {
+pub(crate) struct Expansion {
     /// Number of joints: the nodes, then those inside of models.
-    pub(super) joints: usize,
-    pub(super) primitives: Vec<Primitive>,
+    pub(crate) joints: usize,
+    pub(crate) primitives: Vec<Primitive>,
     /// For each connection its shape, the root first.
-    pub(super) shapes: Vec<Vec<Shape>>,
+    pub(crate) shapes: Vec<Vec<Shape>>,
     /// For each joint inside of a model the name of its connection; `None` for nodes.
-    pub(super) owners: Vec<Option<String>>,
+    pub(crate) owners: Vec<Option<String>>,
 }
 
 /// Longest path that is written out in full; deeper parts are named by their number.
@@ -59,7 +59,7 @@ struct Pending<'a> {
 }
 
 impl Expansion {
-    pub(super) fn of(network: &Network) -> Self {
+    pub(crate) fn of(network: &Network) -> Self {
         let nodes = network.nodes.len();
         let mut expansion = Self { joints: nodes, owners: vec![None; nodes], ..Self::default() };
         for connection in &network.connections {

@@ -6,9 +6,9 @@
 //! by subtracting from a diagonal. The rows so found are in SI; `system` makes them dimensionless.
 
 mod balance;
-mod bodies;
+pub(crate) mod bodies;
 mod dashpots;
-mod expand;
+pub(crate) mod expand;
 mod mesh;
 mod motion;
 mod outputs;
@@ -20,7 +20,7 @@ mod springs;
 mod structure;
 mod system;
 mod unknowns;
-mod validate;
+pub(crate) mod validate;
 
 #[cfg(test)]
 mod tests;

@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// All faults of names and numbers.
-pub(super) fn faults(network: &Network, expansion: &Expansion) -> Vec<NetworkError> {
+pub(crate) fn faults(network: &Network, expansion: &Expansion) -> Vec<NetworkError> {
     let mut errors = Vec::new();
     names(network, &mut errors);
     nodes(network, expansion, &mut errors);

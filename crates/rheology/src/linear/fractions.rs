@@ -127,7 +127,7 @@ fn merged(lines: &[Line], mergers: &mut Vec<Merger>) -> Line {
     let rate = if first == last {
         first
     } else {
-        strength / lines.iter().map(|line| line.strength / line.rate).sum()
+        strength / lines.iter().map(|line| line.strength / line.rate).sum::<Twofold>()
     };
     mergers.push(Merger { rate: rate.high(), gap: gap(first, last), count: lines.len() });
     Line { rate, strength }

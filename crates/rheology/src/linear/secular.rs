@@ -115,7 +115,7 @@ impl Secular<'_> {
             if !step.is_finite() || step.abs() > 0.5 * distance.high() {
                 break;
             }
-            distance = distance - step;
+            distance -= step;
             if step.abs() <= FINAL * distance.high() {
                 break;
             }

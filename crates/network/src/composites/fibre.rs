@@ -1,0 +1,269 @@
+//! Fibres: spectra of retardation times in the fewest Kelvin–Voigt elements.
+
+use dashpot_rheology::spectra::{
+    InvalidSpectrum, MOST_BRANCHES, Reduced, ReductionError, SMALLEST_ERROR, Spectrum, reduce,
+};
+
+use super::{
+    Composed,
+    spectrum::{Term, kelvin_chain},
+};
+use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, positive};
+
+/// Total compliance of a fibre.
+pub(super) const COMPLIANCE: Parameter = Parameter::required(
+    "compliance",
+    ParameterKind::Quantity(Dimension::COMPLIANCE),
+    "total compliance J, the creep after all time [m/N], positive",
+);
+/// Shortest retardation time of a spectrum with ends.
+pub(super) const SHORTEST: Parameter = Parameter::required(
+    "shortest",
+    ParameterKind::Quantity(Dimension::TIME),
+    "shortest retardation time [s], positive",
+);
+/// Longest retardation time of a spectrum with ends.
+pub(super) const LONGEST: Parameter = Parameter::required(
+    "longest",
+    ParameterKind::Quantity(Dimension::TIME),
+    "longest retardation time [s], longer than `shortest`",
+);
+/// Start of the range of time.
+pub(super) const FROM: Parameter = Parameter::required(
+    "from",
+    ParameterKind::Quantity(Dimension::TIME),
+    "time from which on the creep is kept [s], positive",
+);
+/// End of the range of time.
+pub(super) const TO: Parameter = Parameter::required(
+    "to",
+    ParameterKind::Quantity(Dimension::TIME),
+    "time up to which the creep is kept [s], later than `from`",
+);
+/// Greatest deviation of the creep.
+pub(super) const ERROR: Parameter = Parameter::optional(
+    "error",
+    ParameterKind::Quantity(Dimension::NUMBER),
+    "0.1 %",
+    "greatest relative error of the creep in that range, from 1e-6 % to below 100 %",
+);
+
+/// What of a fibre's creep is to be kept: the range of time \[s\] and the greatest relative error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Kept {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) error: f64,
+}
+
+impl Kept {
+    /// Accepts what a reduction can work with.
+    pub(super) fn validate(&self) -> Result<(), InvalidParameter> {
+        positive("from", self.from)?;
+        positive("to", self.to)?;
+        if self.to <= self.from {
+            return Err(InvalidParameter::new("to", "later than `from`", time(self.to)));
+        }
+        if !(SMALLEST_ERROR..1.0).contains(&self.error) {
+            return Err(error_out_of_range(self.error));
+        }
+        Ok(())
+    }
+
+    /// The series `kelvin-1`, `kelvin-2`, … that stands for `spectrum`, with the note that says how
+    /// well.
+    pub(super) fn composed(&self, spectrum: &dyn Spectrum) -> Result<Composed, InvalidParameter> {
+        self.validate()?;
+        let reduced = reduce(spectrum, [self.from, self.to], self.error).map_err(refused)?;
+        let terms: Vec<Term> =
+            reduced.branches.iter().map(|own| (own.time, own.compliance)).collect();
+        let model = kelvin_chain("compliance", &terms)?;
+        Ok(Composed { model, note: Some(self.note(&reduced)) })
+    }
+
+    fn note(&self, reduced: &Reduced) -> String {
+        let count = reduced.branches.len();
+        let keep = if count == 1 { "element keeps" } else { "elements keep" };
+        let range = format!("from {} to {}", time(self.from), time(self.to));
+        let error = percent(reduced.error, f64::ceil);
+        let proof = match (count, reduced.is_fewest) {
+            (1, _) => String::new(),
+            (_, true) => {
+                let less = percent(reduced.one_less, f64::floor);
+                format!(" ({} cannot do better than {less})", count - 1)
+            }
+            (_, false) => " (whether fewer could is not proved)".to_owned(),
+        };
+        format!("{count} Kelvin {keep} the creep within {error} {range}{proof}")
+    }
+}
+
+/// A spectrum's fault as that of the key of the same name.
+pub(super) fn invalid(fault: InvalidSpectrum) -> InvalidParameter {
+    InvalidParameter::new(fault.parameter, fault.range, fault.value)
+}
+
+fn refused(reason: ReductionError) -> InvalidParameter {
+    match reason {
+        ReductionError::Range { end, .. } => {
+            InvalidParameter::new("to", "later than `from` by a millionth or more", time(end))
+        }
+        ReductionError::Error { error } => error_out_of_range(error),
+        ReductionError::NotReached { reached, error, .. } => {
+            let reached = percent(reached, f64::ceil);
+            let range = format!("{reached} or more, what up to {MOST_BRANCHES} elements keep");
+            InvalidParameter::new("error", range, percent(error, f64::floor))
+        }
+        other => InvalidParameter::new("compliance", "such that the creep is a number", other),
+    }
+}
+
+fn error_out_of_range(error: f64) -> InvalidParameter {
+    InvalidParameter::new("error", "from 1e-6 % to below 100 %", format!("{} %", error * 100.0))
+}
+
+/// A positive number in percent with two significant digits, rounded as told.
+fn percent(number: f64, round: fn(f64) -> f64) -> String {
+    let percents = number * 100.0;
+    let power = percents.log10().floor() - 1.0;
+    // Numbers of two digits, like 0.1 %, must not move by rounding errors.
+    let digits = percents * 10.0_f64.powf(-power);
+    let nearest = digits.round();
+    let digits = if (digits - nearest).abs() < 1e-9 { nearest } else { round(digits) };
+    let rounded = format!("{:.1e}", digits * 10.0_f64.powf(power)).parse().unwrap_or(percents);
+    if power < -6.0 { format!("{rounded:e} %") } else { format!("{rounded} %") }
+}
+
+/// A time in a handy unit, with up to four significant digits.
+fn time(seconds: f64) -> String {
+    const UNITS: [(f64, &str); 4] = [(1.0, "s"), (1e3, "ms"), (1e6, "µs"), (1e9, "ns")];
+    let unit = UNITS.iter().find(|(scale, _)| seconds * scale >= 0.999_95).or(UNITS.last());
+    let (scale, symbol) = *unit.unwrap_or(&(1.0, "s"));
+    let scaled: f64 = format!("{:.3e}", seconds * scale).parse().unwrap_or(seconds);
+    format!("{scaled} {symbol}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use dashpot_rheology::spectra::{List, Retardation};
+
+    use crate::{
+        composites::{BoxFibre, CompositeKind, LogNormalFibre, PowerLawFibre},
+        elements::Law,
+        linear_model,
+    };
+
+    #[test]
+    fn errors_are_rounded_to_the_safe_side() {
+        assert_eq!(percent(8.321e-4, f64::ceil), "0.084 %");
+        assert_eq!(percent(3.19e-3, f64::floor), "0.31 %");
+        assert_eq!(percent(1e-3, f64::ceil), "0.1 %");
+        assert_eq!(percent(0.999, f64::ceil), "100 %");
+        assert_eq!(percent(0.1451, f64::ceil), "15 %");
+        assert_eq!(percent(7.39e-7, f64::ceil), "0.000074 %");
+        assert_eq!(percent(7.39e-9, f64::ceil), "7.4e-7 %");
+    }
+
+    #[test]
+    fn times_have_handy_units() {
+        let cases = [(1e-5, "10 µs"), (0.1, "100 ms"), (1.0, "1 s"), (86_400.0, "86400 s")];
+        for (seconds, text) in cases {
+            assert_eq!(time(seconds), text);
+        }
+        assert_eq!(time(1e-12), "0.001 ns");
+    }
+
+    #[test]
+    fn a_fibre_keeps_the_creep_of_its_spectrum() {
+        let fibre = LogNormalFibre::sample();
+        let composed = fibre.compose().unwrap();
+        let model = linear_model(&composed.model);
+        let spectrum =
+            dashpot_rheology::spectra::LogNormal::new(fibre.compliance, fibre.time, fibre.width)
+                .unwrap();
+        let worst = (0..=4000)
+            .map(|index| 1e-5 * 10.0_f64.powf(0.001 * f64::from(index)))
+            .map(|time| (model.creep(time) / spectrum.creep(time) - 1.0).abs())
+            .fold(0.0, f64::max);
+        assert!(worst <= fibre.error, "{worst}");
+        let note = composed.note.unwrap();
+        let range = "from 10 µs to 100 ms (6 cannot do better than ";
+        let kept = percent(worst, f64::ceil);
+        let start = format!("7 Kelvin elements keep the creep within {kept} {range}");
+        assert!(note.starts_with(&start), "{note}");
+    }
+
+    #[test]
+    fn narrow_fibres_are_the_single_kelvin_element_of_the_thesis() {
+        let time = 2e-4;
+        let longest = time * (1.0 + 1e-9);
+        let fibres = [
+            LogNormalFibre { time, width: 1e-9, ..LogNormalFibre::sample() }.compose(),
+            BoxFibre { shortest: time, longest, ..BoxFibre::sample() }.compose(),
+            PowerLawFibre { shortest: time, longest, ..PowerLawFibre::sample() }.compose(),
+        ];
+        for composed in fibres.map(Result::unwrap) {
+            assert!(composed.note.unwrap().starts_with("1 Kelvin element keeps the creep within"));
+            let [element] = composed.model.branches() else { panic!("more than one element") };
+            let laws: Vec<Law> = element.tree.branches().iter().map(leaf).collect();
+            let [Law::Spring(stiffness), Law::Dashpot(damping)] = laws[..] else {
+                panic!("{laws:?}")
+            };
+            assert!((stiffness * 5e-8 - 1.0).abs() < 1e-8, "{stiffness}");
+            assert!((damping / stiffness / time - 1.0).abs() < 1e-8, "{damping}");
+        }
+    }
+
+    fn leaf(branch: &dashpot_rheology::Branch<std::sync::Arc<dyn crate::Element>>) -> Law {
+        match &branch.tree {
+            dashpot_rheology::Tree::Part(element) => element.law(),
+            _ => panic!("`{}` is composed", branch.name),
+        }
+    }
+
+    #[test]
+    fn notes_say_what_is_not_proved() {
+        let kept = Kept { from: 1.0, to: 10.0, error: 0.1 };
+        let branches = vec![Retardation { time: 1.0, compliance: 1.0 }; 2];
+        let reduced = Reduced { branches, error: 0.05, one_less: 0.0, is_fewest: false };
+        assert_eq!(
+            kept.note(&reduced),
+            "2 Kelvin elements keep the creep within 5 % from 1 s to 10 s (whether fewer could is not \
+             proved)"
+        );
+    }
+
+    #[test]
+    fn impossible_fibres_are_refused_at_the_right_key() {
+        let refused = |fibre: PowerLawFibre| {
+            let early = PowerLawFibre::from_values(&fibre.values()).err();
+            let late = fibre.compose().err();
+            assert!(early.is_none() || early == late, "{early:?} {late:?}");
+            late.unwrap().to_string()
+        };
+        let sample = PowerLawFibre::sample;
+        let text = refused(PowerLawFibre { compliance: 0.0, ..sample() });
+        assert_eq!(text, "`compliance` must be positive and finite, but it is 0");
+        let text = refused(PowerLawFibre { longest: 1e-6, ..sample() });
+        assert!(text.starts_with("`longest` must be longer than `shortest`"), "{text}");
+        let text = refused(PowerLawFibre { to: 1e-6, ..sample() });
+        assert_eq!(text, "`to` must be later than `from`, but it is 1 µs");
+        let text = refused(PowerLawFibre { error: 1.0, ..sample() });
+        assert_eq!(text, "`error` must be from 1e-6 % to below 100 %, but it is 100 %");
+        let text = refused(PowerLawFibre { exponent: f64::NAN, ..sample() });
+        assert!(text.starts_with("`exponent` must be finite"), "{text}");
+        let wide = PowerLawFibre { shortest: 1e-12, longest: 1e8, error: 1e-8, ..sample() };
+        let text = refused(PowerLawFibre { from: 1e-12, to: 1e8, ..wide });
+        assert!(text.starts_with("`error` must be") && text.contains("or more"), "{text}");
+    }
+
+    #[test]
+    fn spectra_that_underflow_are_refused() {
+        let line = Retardation { time: 1e200, compliance: 1e-200 };
+        let kept = Kept { from: 1.0, to: 10.0, error: 0.1 };
+        let error = kept.composed(&List::new(vec![line]).unwrap()).unwrap_err();
+        assert!(error.to_string().contains("no relative error"), "{error}");
+    }
+}

@@ -1,0 +1,88 @@
+//! The register of composites: models that are made from a description of a few numbers.
+
+mod box_fibre;
+mod fibre;
+mod kelvin_chain;
+mod log_normal_fibre;
+mod power_law_fibre;
+mod prony;
+mod spectrum;
+
+use std::fmt::Debug;
+
+pub use box_fibre::BoxFibre;
+pub use kelvin_chain::KelvinChain;
+pub use log_normal_fibre::LogNormalFibre;
+pub use power_law_fibre::PowerLawFibre;
+pub use prony::Prony;
+
+use crate::{
+    Model,
+    parameters::{Dimension, InvalidParameter, Parameter, Value},
+};
+
+/// A model made from a description, with what is to be said about it.
+#[derive(Debug, Clone)]
+pub struct Composed {
+    /// The model.
+    pub model: Model,
+    /// What the reader of the description is told besides: an error that was reached, a range, an
+    /// order that was changed; `None` where the model is just what was described.
+    pub note: Option<String>,
+}
+
+/// A kind of model that a few parameters describe as a whole.
+///
+/// A composite may compute as much as it likes, but the same values always give the same model,
+/// its names included. It consists of springs, dashpots and rigid links with valid constants.
+/// Where it only comes near to what is described, its note says how near and in which range.
+pub trait CompositeKind: Debug + Sized + 'static {
+    /// Word for the kind in scenes.
+    const KIND: &'static str;
+    /// One line for a list: structure and use.
+    const SUMMARY: &'static str;
+    /// Its parameters; a kind with one required parameter takes the value alone.
+    const PARAMETERS: &'static [Parameter];
+    /// Dimension of amplitudes: what stands beside the times in
+    /// [`TimeTable`](crate::parameters::ParameterKind::TimeTable)s.
+    const AMPLITUDE: Dimension;
+
+    /// The description with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] when a value is out of range.
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter>;
+
+    /// The model that is described.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] when a field is out of range, or when a constant of the model does not
+    /// fit into double precision.
+    fn compose(&self) -> Result<Composed, InvalidParameter>;
+
+    /// The parameters' values in the order of [`PARAMETERS`](Self::PARAMETERS).
+    fn values(&self) -> Vec<Value>;
+
+    /// A valid example.
+    fn sample() -> Self;
+}
+
+/// Sees every kind of composite.
+pub trait CompositeVisitor {
+    /// Called once for each kind.
+    fn visit<C: CompositeKind>(&mut self);
+}
+
+/// Shows every kind of composite to `visitor`. **A new kind is registered here.**
+pub fn visit_composites(visitor: &mut impl CompositeVisitor) {
+    visitor.visit::<Prony>();
+    visitor.visit::<KelvinChain>();
+    visitor.visit::<LogNormalFibre>();
+    visitor.visit::<BoxFibre>();
+    visitor.visit::<PowerLawFibre>();
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,53 @@
+//! Models as linear models, and back.
+
+use std::sync::Arc;
+
+use dashpot_rheology::{Branch, LinearModel, Primitive, Tree};
+
+use crate::{
+    Element, Model,
+    elements::{Dashpot, Law, Rigid, Spring},
+};
+
+/// What a model is, seen from outside: all its material functions and canonical forms.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{elements::{Dashpot, Spring}, linear_model, part};
+/// use dashpot_rheology::Tree;
+///
+/// let maxwell = Tree::series([part(Spring { stiffness: 2e7 }), part(Dashpot { damping: 6e3 })]);
+/// let model = linear_model(&maxwell);
+/// assert!((model.relaxation(3e-4) / (2e7 * (-1_f64).exp()) - 1.0).abs() < 1e-14);
+/// ```
+pub fn linear_model(model: &Model) -> LinearModel {
+    LinearModel::of(model, |element| primitive(element.as_ref()))
+}
+
+/// An element as a part of a linear model.
+pub fn primitive(element: &dyn Element) -> Primitive {
+    match element.law() {
+        Law::Spring(stiffness) => Primitive::Spring(stiffness),
+        Law::Dashpot(damping) => Primitive::Dashpot(damping),
+        Law::Rigid => Primitive::Rigid,
+    }
+}
+
+/// The elements of a canonical network, which is three levels deep at most.
+pub fn model_of(tree: &Tree<Primitive>) -> Model {
+    let branches = |all: &[Branch<Primitive>]| {
+        all.iter().map(|own| Branch::new(own.name.as_str(), model_of(&own.tree))).collect()
+    };
+    match tree {
+        Tree::Part(Primitive::Spring(stiffness)) => {
+            Tree::Part(Arc::new(Spring { stiffness: *stiffness }))
+        }
+        Tree::Part(Primitive::Dashpot(damping)) => {
+            Tree::Part(Arc::new(Dashpot { damping: *damping }))
+        }
+        Tree::Part(Primitive::Rigid) => Tree::Part(Arc::new(Rigid)),
+        Tree::Series(all) => Tree::Series(branches(all)),
+        Tree::Parallel(all) => Tree::Parallel(branches(all)),
+    }
+}
