@@ -2,6 +2,8 @@
 //!
 //! - [`Chart`]: curves with markers and limits, as [SVG](Chart::svg) and as [text](Chart::text).
 //! - [`figures`]: the register of figures that are drawn from the [`RunSeries`] of one or several runs.
+//! - [`figures::model`]: the register of figures that are drawn from the [`ModelSeries`] of linear models, and what a
+//!   rheometer measures on them.
 //! - [`Sketch`]: a network of masses, springs, dashpots and supports, as [SVG](Sketch::svg) and as [text](Sketch::text).
 //! - [`Report`]: one self-contained HTML page.
 //!
@@ -19,8 +21,12 @@ mod thinning;
 #[cfg(test)]
 mod well_formed;
 
-pub use chart::{Chart, Direction, Marker, Pattern, ReferenceLine, Series, Stroke};
+pub use chart::{Chart, Direction, Marker, Pattern, ReferenceLine, Scale, Series, Stroke};
 pub use error::PlotError;
+pub use figures::model::{
+    Measured, ModelCurve, ModelFigure, ModelMarker, ModelSeries, ModelSubject, RheometerLine,
+    RheometerSeries,
+};
 pub use figures::{ElementSeries, EnergySeries, Figure, RunMarker, RunMarkerKind, RunSeries};
 pub use report::{Report, ReportFigure, Table};
 pub use sketch::{Sketch, SketchKind, SketchLink, SketchNode, SketchTree};

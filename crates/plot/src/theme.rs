@@ -32,6 +32,8 @@ pub(crate) const BROAD_WIDTH: f64 = 6.0;
 pub(crate) const LINE_WIDTH: f64 = 1.4;
 /// Width of grid lines \[px\].
 pub(crate) const HAIR_WIDTH: f64 = 0.8;
+/// Length of the marks between labelled ticks \[px\].
+pub(crate) const MINOR_LENGTH: f64 = 4.0;
 /// Width of the border in the colour of the background around a text in a chart \[px\].
 pub(crate) const HALO_WIDTH: f64 = 6.0;
 /// Radius of a marker \[px\].

@@ -51,9 +51,10 @@ pub(super) fn layer(
 
 pub(super) fn dashes(pattern: Pattern) -> &'static str {
     match pattern {
-        Pattern::Solid | Pattern::Broad => "",
+        Pattern::Solid | Pattern::Broad | Pattern::Stems => "",
         Pattern::Dashed => " stroke-dasharray=\"80 50\"",
         Pattern::Dotted => " stroke-dasharray=\"20 40\"",
+        Pattern::DashDotted => " stroke-dasharray=\"110 40 20 40\"",
     }
 }
 
@@ -61,6 +62,7 @@ pub(super) fn pen(stroke: Stroke) -> ShapeStyle {
     let colour = theme::curve_colour(stroke.colour);
     let width = match stroke.pattern {
         Pattern::Broad => theme::BROAD_WIDTH,
+        Pattern::Stems => theme::LINE_WIDTH,
         _ => theme::CURVE_WIDTH,
     };
     let alpha = if stroke.pattern == Pattern::Broad { 0.4 } else { 1.0 };

@@ -1,16 +1,23 @@
 //! Charts: curves over an axis, as SVG and as text.
 
 mod canvas;
+mod curves;
 mod labels;
 mod legend;
 mod naming;
+mod scale;
 mod svg;
 mod text;
 mod texts;
 
+use crate::axis::Axis;
+
+pub use scale::Scale;
+
 /// A chart in the units of its labels.
 ///
-/// Values that are not finite are gaps; any other data are drawn, however many, constant or far apart.
+/// Values that are not finite are gaps, and so are those of a logarithmic axis that are not positive; any other data
+/// are drawn, however many, constant or far apart.
 ///
 /// # Examples
 ///
@@ -38,6 +45,10 @@ pub struct Chart {
     pub x_label: String,
     /// Quantity and unit along the vertical axis, as in `force (kN)`.
     pub y_label: String,
+    /// Scale of the horizontal axis.
+    pub x_scale: Scale,
+    /// Scale of the vertical axis.
+    pub y_scale: Scale,
     /// Curves; later ones are drawn over earlier ones.
     pub series: Vec<Series>,
     /// Points that carry a text.
@@ -84,6 +95,10 @@ pub enum Pattern {
     Dashed,
     /// A dotted line.
     Dotted,
+    /// A line of dashes and dots.
+    DashDotted,
+    /// A vertical line to each point with a disc at its end, as of a spectrum of single lines.
+    Stems,
 }
 
 /// A point that carries a text, such as a peak.
@@ -134,31 +149,50 @@ impl Chart {
     }
 
     /// Horizontal and vertical axis with about so many ticks each.
-    fn axes(&self, x_ticks: usize, y_ticks: usize) -> (crate::axis::Axis, crate::axis::Axis) {
+    fn axes(&self, x_ticks: usize, y_ticks: usize) -> (Axis, Axis) {
         let points = || self.series.iter().flat_map(|s| s.points.iter().copied());
-        let drawn = || points().filter(|(x, y)| x.is_finite() && y.is_finite());
-        let marked = || self.markers.iter().filter(|m| m.x.is_finite() && m.y.is_finite());
-        let xs = || drawn().map(|p| p.0).chain(marked().map(|m| m.x));
-        let ys = || drawn().map(|p| p.1).chain(marked().map(|m| m.y));
+        let drawn = || points().filter(|(x, y)| self.takes(*x, *y));
+        let xs = || drawn().map(|p| p.0).chain(self.marked().map(|m| m.x));
+        let ys = || drawn().map(|p| p.1).chain(self.marked().map(|m| m.y));
         let x_lines = self.near_lines(Direction::Vertical, xs());
         let y_lines = self.near_lines(Direction::Horizontal, ys());
         let runs_on = self.series.iter().all(|s| s.points.is_sorted_by(|a, b| a.0 <= b.0));
         let padded = !runs_on || !x_lines.is_empty();
         (
-            crate::axis::Axis::over(xs().chain(x_lines.iter().copied()), padded, x_ticks),
-            crate::axis::Axis::over(ys().chain(y_lines.iter().copied()), true, y_ticks),
+            Axis::of(&self.x_scale, xs().chain(x_lines.iter().copied()), padded, x_ticks),
+            Axis::of(&self.y_scale, ys().chain(y_lines.iter().copied()), true, y_ticks),
         )
+    }
+
+    /// Whether both axes are linear.
+    fn is_linear(&self) -> bool {
+        [&self.x_scale, &self.y_scale].iter().all(|scale| **scale == Scale::Linear)
+    }
+
+    /// Whether a point has a place on or beyond the axes.
+    fn takes(&self, x: f64, y: f64) -> bool {
+        self.x_scale.takes(x) && self.y_scale.takes(y)
+    }
+
+    /// The markers that have a place.
+    fn marked(&self) -> impl Iterator<Item = &Marker> {
+        self.markers.iter().filter(|m| self.takes(m.x, m.y))
     }
 
     /// Places of the reference lines that do not blow the range of `values` up to more than twice its size.
     fn near_lines(&self, direction: Direction, values: impl Iterator<Item = f64>) -> Vec<f64> {
-        let (low, high) =
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-        let room = (high - low).max(low.abs()).max(high.abs());
-        let lines = self.lines.iter().filter(|l| l.direction == direction && l.at.is_finite());
+        let scale = match direction {
+            Direction::Horizontal => &self.y_scale,
+            Direction::Vertical => &self.x_scale,
+        };
+        let (low, high) = values
+            .map(|v| scale.coordinate(v))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        let room = scale.room(low, high);
+        let lines = self.lines.iter().filter(|l| l.direction == direction && scale.takes(l.at));
         lines
             .map(|l| l.at)
-            .filter(|at| low > high || (low - room..=high + room).contains(at))
+            .filter(|at| low > high || (low - room..=high + room).contains(&scale.coordinate(*at)))
             .collect()
     }
 }
@@ -183,6 +217,20 @@ mod tests {
         assert!(near.axes(5, 5).1.holds(20.0));
         let far = Chart { series, lines: vec![line(2000.0)], ..Chart::default() };
         assert!(!far.axes(5, 5).1.holds(2000.0));
+    }
+
+    #[test]
+    fn a_line_is_near_on_a_logarithmic_axis_by_its_ratio_to_the_data() {
+        let chart = |at| Chart {
+            series: vec![Series::new("pad", vec![(1.0, 1e3), (2.0, 1e6), (3.0, -1.0)])],
+            lines: vec![line(at)],
+            y_scale: Scale::logarithmic("N/m"),
+            ..Chart::default()
+        };
+        for (at, is_near) in [(2.0, true), (1e8, true), (1e-3, false), (0.0, false), (-1e4, false)]
+        {
+            assert_eq!(chart(at).axes(5, 5).1.holds(at), is_near, "{at}");
+        }
     }
 
     #[test]

@@ -17,9 +17,9 @@ pub(super) enum Tag {
     Within(usize),
 }
 
-/// Legend text of a curve that runs as another one does.
-pub(super) fn same_name(name: &str, host: &str) -> String {
-    format!("{name} = {host}")
+/// Legend text of a curve that runs as another one does. On logarithmic axes one cell or pixel may be many percent.
+pub(super) fn same_name(name: &str, host: &str, is_linear: bool) -> String {
+    format!("{name} {} {host}", if is_linear { '=' } else { '≈' })
 }
 
 /// Per curve the first one before it that runs through the same places and is drawn `alike`.

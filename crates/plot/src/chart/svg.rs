@@ -7,19 +7,21 @@ use plotters::style::{Color, FontTransform};
 use super::canvas::{
     Area, Fault, canvas, dashes, layer, line, opening, path, pen, pixels, text_style,
 };
+use super::curves::{draw_curve, draw_stem, places};
 use super::legend::{Entry, Legend, Sample};
-use super::naming::{Place, same_curves, same_name};
+use super::naming::{same_curves, same_name};
 use super::texts::draw_texts;
-use super::{Chart, Direction, ReferenceLine, Stroke};
+use super::{Chart, Direction, Pattern, ReferenceLine};
 use crate::PlotError;
 use crate::axis::Axis;
 use crate::lettering::{clip_width, escape, one_line, text_width};
 use crate::theme;
-use crate::thinning::{Path, stretches, thin};
+use crate::thinning::Path;
 
 /// Both ends of a straight line \[px\].
 pub(super) type Ends = [(f64, f64); 2];
-type Drawn = Result<(), Fault>;
+/// What drawing answers.
+pub(super) type Drawn = Result<(), Fault>;
 
 /// The plotting frame and its axes \[px\].
 pub(super) struct Frame {
@@ -71,7 +73,8 @@ impl Chart {
         let size =
             (theme::CHART_WIDTH, frame.bottom + 2.6 * theme::LABEL_SIZE + theme::MARGIN + 8.0);
 
-        let curves: Vec<Vec<Path>> = self.series.iter().map(|s| curve(&frame, &s.points)).collect();
+        let curves: Vec<Vec<Path>> =
+            (0..self.series.len()).map(|index| self.curve(&frame, index)).collect();
         let mut svg = opening(size, &self.title);
         svg += &layer(size, "class=\"axes\"", |area| self.draw_axes(area, &frame))?;
         svg += &layer(size, "class=\"limits\" stroke-dasharray=\"70 50\"", |area| {
@@ -120,11 +123,12 @@ impl Chart {
 
     fn entries(&self, frame: &Frame) -> Vec<(Sample, String)> {
         let (x, y) = (&frame.x, &frame.y);
-        let places: Vec<_> = self.series.iter().map(|s| places(frame, &s.points)).collect();
+        let places: Vec<_> =
+            (0..self.series.len()).map(|index| places(&self.curve(frame, index))).collect();
         let same = same_curves(&places, |a, b| self.stroke(a).pattern == self.stroke(b).pattern);
         let name = |index: usize| one_line(&self.series[index].name);
         let text = |index: usize| match same[index] {
-            Some(host) => same_name(&name(index), &name(host)),
+            Some(host) => same_name(&name(index), &name(host), self.is_linear()),
             None => name(index),
         };
         let curves = self.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty());
@@ -148,7 +152,10 @@ impl Chart {
             let (at, _) = frame.at(*value, 0.0);
             area.draw(&path(&[(at, top), (at, bottom)], grid))?;
             let style = tick(Pos::new(HPos::Center, VPos::Top));
-            area.draw(&Text::new(frame.x.tick_label(*value), canvas((at, bottom + 7.0)), style))?;
+            let label = frame.x.tick_label(*value);
+            let room = 0.5 * text_width(&label, theme::TICK_SIZE);
+            let at = at.min(theme::CHART_WIDTH - room - 1.0);
+            area.draw(&Text::new(label, canvas((at, bottom + 7.0)), style))?;
         }
         for value in frame.y.ticks() {
             let at = bottom - frame.y.fraction(*value) * (bottom - top);
@@ -156,6 +163,7 @@ impl Chart {
             let style = tick(Pos::new(HPos::Right, VPos::Center));
             area.draw(&Text::new(frame.y.tick_label(*value), canvas((left - 7.0, at)), style))?;
         }
+        draw_minor_ticks(area, frame)?;
         let (x_zero, y_zero) = frame.at(0.0, 0.0);
         if frame.x.holds(0.0) {
             let ends = [(x_zero, top), (x_zero, bottom)];
@@ -220,67 +228,34 @@ impl Chart {
     }
 }
 
-/// The pixels through which a curve runs.
-fn places(frame: &Frame, points: &[(f64, f64)]) -> Vec<Place> {
-    let mut places = Vec::new();
-    for stretch in curve(frame, points) {
-        for pair in stretch.windows(2) {
-            let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
-            let steps = pixel(dx.abs().max(dy.abs())) + 1;
-            for step in 0..steps {
-                let part = lossless(step) / lossless(steps);
-                places.push((pixel(pair[0].1 + part * dy), pixel(pair[0].0 + part * dx)));
-            }
-        }
+/// Short marks at the values between the labelled ones.
+fn draw_minor_ticks(area: &Area<'_>, frame: &Frame) -> Drawn {
+    let style = line(theme::FAINT, theme::HAIR_WIDTH);
+    for value in frame.x.minor() {
+        let at = frame.left + frame.x.fraction(*value) * (frame.right - frame.left);
+        area.draw(&path(&[(at, frame.bottom - theme::MINOR_LENGTH), (at, frame.bottom)], style))?;
     }
-    places.dedup();
-    places
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the value is kept within a few times the canvas"
-)]
-fn pixel(length: f64) -> usize {
-    length.clamp(0.0, 1e5).round() as usize
-}
-
-#[expect(clippy::cast_precision_loss, reason = "a chart has far fewer than 2^52 pixels")]
-fn lossless(count: usize) -> f64 {
-    count as f64
-}
-
-/// The stretches of a curve on the display, thinned to what can be seen.
-fn curve(frame: &Frame, points: &[(f64, f64)]) -> Vec<Path> {
-    let gap_or = |v: f64, place: f64| if v.is_finite() { place } else { f64::NAN };
-    let placed = points.iter().map(|&(x, y)| {
-        let at = frame.at(x, y);
-        (gap_or(x, at.0), gap_or(y, at.1))
-    });
-    stretches(placed).iter().map(|stretch| thin(stretch, 0.5)).collect()
-}
-
-fn draw_curve(area: &Area<'_>, paths: &[Path], stroke: Stroke) -> Drawn {
-    let colour = theme::curve_colour(stroke.colour);
-    for points in paths {
-        if let [point] = points[..] {
-            let radius = pixels(0.6 * theme::MARKER_RADIUS);
-            area.draw(&Circle::new(canvas(point), radius, colour.rgb().filled()))?;
-        } else {
-            area.draw(&path(points, pen(stroke)))?;
-        }
+    for value in frame.y.minor() {
+        let at = frame.bottom - frame.y.fraction(*value) * (frame.bottom - frame.top);
+        area.draw(&path(&[(frame.left, at), (frame.left + theme::MINOR_LENGTH, at)], style))?;
     }
     Ok(())
 }
 
 fn draw_sample(area: &Area<'_>, entry: &Entry, origin: (f64, f64)) -> Drawn {
-    let pen = match entry.sample {
-        Sample::Curve(stroke) => pen(stroke),
-        Sample::Line(colour) => line(theme::limit_colour(colour), theme::LINE_WIDTH),
-    };
     let (x, y) = (origin.0 + entry.x, origin.1 + entry.y);
-    area.draw(&path(&[(x, y), (x + Legend::SAMPLE, y)], pen))?;
+    let ends = [(x, y), (x + Legend::SAMPLE, y)];
+    match entry.sample {
+        Sample::Curve(stroke) if stroke.pattern == Pattern::Stems => {
+            let middle = x + 0.5 * Legend::SAMPLE;
+            let reach = 0.4 * theme::TICK_SIZE;
+            draw_stem(area, &[(middle, y + reach), (middle, y - reach)], stroke)?;
+        }
+        Sample::Curve(stroke) => area.draw(&path(&ends, pen(stroke)))?,
+        Sample::Line(colour) => {
+            area.draw(&path(&ends, line(theme::limit_colour(colour), theme::LINE_WIDTH)))?;
+        }
+    }
     let style = text_style(theme::TICK_SIZE, theme::INK, Pos::new(HPos::Left, VPos::Center));
     area.draw(&Text::new(entry.text.clone(), canvas((x + Legend::SAMPLE + 6.0, y)), style))
 }
@@ -289,7 +264,7 @@ fn draw_sample(area: &Area<'_>, entry: &Entry, origin: (f64, f64)) -> Drawn {
 mod tests {
     use super::*;
     use crate::well_formed::assert_well_formed;
-    use crate::{Marker, Pattern, Series};
+    use crate::{Marker, Scale, Series, Stroke};
 
     fn chart(points: Vec<(f64, f64)>) -> Chart {
         Chart {
@@ -379,6 +354,40 @@ mod tests {
             });
             assert_well_formed(&chart.svg().unwrap());
         }
+    }
+
+    #[test]
+    fn powers_are_straight_on_logarithmic_axes_and_values_without_logarithm_break_them() {
+        let powers = (-4..=4).map(|e| 10_f64.powi(e)).map(|x| (x, x * x));
+        let mut points: Vec<_> = powers.chain([(1e5, 0.0), (-1.0, 1.0), (0.0, 1e8)]).collect();
+        points.extend([(1e6, 1e12), (1e7, 1e14)]);
+        let mut chart = chart(points);
+        chart.x_scale = Scale::logarithmic("s");
+        chart.y_scale = Scale::logarithmic("");
+        let svg = chart.svg().unwrap();
+        assert_well_formed(&svg);
+        let curves = drawn(&svg, "exact");
+        assert_eq!(curves.iter().map(Vec::len).collect::<Vec<_>>(), [9, 2]);
+        let steps = curves[0].windows(2).map(|p| (p[1].0 - p[0].0, p[1].1 - p[0].1));
+        let (dx, dy) = (curves[1][1].0 - curves[1][0].0, curves[1][1].1 - curves[1][0].1);
+        // Places are rounded to whole numbers on the oversampled canvas.
+        assert!(steps.into_iter().all(|s| (s.0 - dx).abs() <= 1.0 && (s.1 - dy).abs() <= 1.0));
+        assert!(!svg.contains("NaN"));
+    }
+
+    #[test]
+    fn stems_are_lines_with_discs() {
+        let mut chart = chart(vec![(1e-3, 1e6), (1.0, 1e3), (10.0, 0.0)]);
+        chart.series.truncate(1);
+        chart.series[0].stroke = Some(Stroke { colour: 1, pattern: Pattern::Stems });
+        (chart.x_scale, chart.y_scale) = (Scale::logarithmic("s"), Scale::logarithmic("N/m"));
+        let svg = chart.svg().unwrap();
+        let stems = drawn(&svg, "exact");
+        assert_eq!(stems.len(), 2);
+        let near = |a: f64, b: f64| (a - b).abs() < 0.5;
+        let is_upright = |s: &Vec<(f64, f64)>| near(s[0].0, s[1].0) && near(s[0].1, stems[0][0].1);
+        assert!(stems.iter().all(is_upright), "{stems:?}");
+        assert_eq!(svg.matches("<circle").count(), 3, "one in the legend");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A chart as text for a terminal, with curves in braille dots.
 
 use super::naming::{Place, Tag, same_name, tags};
-use super::{Chart, Direction};
+use super::{Chart, Direction, Pattern};
 use crate::axis::Axis;
 use crate::lettering::{clip_columns, columns, one_line};
 
@@ -25,8 +25,9 @@ impl Chart {
             y.ticks().iter().map(|t| (row(&y, *t, height), y.tick_label(*t))).collect();
         let margin = ticks.iter().map(|(_, label)| columns(label)).max().unwrap_or(0);
         let wide = width - margin - 2;
+        let size = (2 * wide, 4 * height);
         let dots: Vec<_> =
-            self.series.iter().map(|s| dots(&s.points, &x, &y, 2 * wide, 4 * height)).collect();
+            (0..self.series.len()).map(|index| self.dots(index, &x, &y, size)).collect();
         let tags = tags(&dots.iter().map(|dots| places(dots)).collect::<Vec<_>>());
         let cells = self.plot(&x, &y, &dots, &tags, (wide, height));
 
@@ -48,6 +49,26 @@ impl Chart {
         lines.extend(self.names(&tags, width));
         lines.extend(self.remarks(&x, &y, width));
         lines.join("\n") + "\n"
+    }
+
+    /// All dots of a curve or of its stems, on a field of this width and height.
+    fn dots(&self, index: usize, x: &Axis, y: &Axis, size: (usize, usize)) -> Vec<(usize, usize)> {
+        let points = &self.series[index].points;
+        let at = |p: (f64, f64)| (x.fraction(p.0), 1.0 - y.fraction(p.1));
+        let takes = |p: &(f64, f64)| x.takes(p.0) && y.takes(p.1);
+        if self.stroke(index).pattern == Pattern::Stems {
+            let foot = 1.0 - y.foot();
+            let ends = points.iter().filter(|p| takes(p)).map(|p| at(*p));
+            return ends.flat_map(|end| line_dots((end.0, foot), end, size)).collect();
+        }
+        let mut dots: Vec<(usize, usize)> = Vec::new();
+        for (i, point) in points.iter().enumerate().filter(|(_, p)| takes(p)) {
+            let end = at(*point);
+            let start = i.checked_sub(1).map(|i| points[i]).filter(takes).map_or(end, at);
+            dots.extend(line_dots(start, end, size));
+        }
+        dots.dedup();
+        dots
     }
 
     fn plot(
@@ -76,16 +97,49 @@ impl Chart {
             let already = if let Cell::Dots(dots) = *cell { dots } else { 0 };
             *cell = Cell::Dots(already | DOTS[column % 2][row % 4]);
         }
+        self.number_lines(&mut cells, x, y);
         let is_single = !tags.iter().any(|tag| matches!(tag, Tag::Letter('b', _)));
         for tag in tags.iter().filter(|_| !is_single) {
             if let Tag::Letter(letter, Some((row, column))) = *tag {
                 cells[row][column] = Cell::Char(letter);
             }
         }
-        for marker in self.markers.iter().filter(|m| m.x.is_finite() && m.y.is_finite()) {
+        for marker in self.marked() {
             cells[row(y, marker.y, height)][place(x.fraction(marker.x), wide)] = Cell::Char('●');
         }
         cells
+    }
+
+    /// The number of a line, where several run in its direction.
+    fn line_number(&self, index: usize) -> Option<char> {
+        let direction = self.lines[index].direction;
+        let is_single = self.lines.iter().filter(|line| line.direction == direction).count() == 1;
+        ('1'..='9').nth(index).filter(|_| !is_single)
+    }
+
+    /// Puts the numbers of lines on them, right or on top, where nothing else stands.
+    fn number_lines(&self, cells: &mut [Vec<Cell>], x: &Axis, y: &Axis) {
+        let height = cells.len();
+        for (index, line) in self.lines.iter().enumerate() {
+            let Some(number) = self.line_number(index) else { continue };
+            match line.direction {
+                Direction::Horizontal if y.holds(line.at) => {
+                    let row = &mut cells[row(y, line.at, height)];
+                    let is_free = |c: &usize| row[c - 1..=*c] == [Cell::Char('┄'); 2];
+                    if let Some(at) = (1..row.len()).rev().step_by(2).find(is_free) {
+                        row[at] = Cell::Char(number);
+                    }
+                }
+                Direction::Vertical if x.holds(line.at) => {
+                    let at = place(x.fraction(line.at), cells[0].len());
+                    let free = cells.iter_mut().find(|row| row[at] == Cell::Char('┆'));
+                    if let Some(row) = free {
+                        row[at] = Cell::Char(number);
+                    }
+                }
+                _ => {}
+            }
+        }
     }
 
     /// The horizontal axis with its ticks and its label.
@@ -119,7 +173,8 @@ impl Chart {
                 Tag::Letter(..) if is_single => format!("  {name}"),
                 Tag::Letter(letter, _) => format!("  {letter} {name}"),
                 Tag::Same(host) => {
-                    format!("  {}", same_name(&name, &one_line(&self.series[host].name)))
+                    let host = one_line(&self.series[host].name);
+                    format!("  {}", same_name(&name, &host, self.is_linear()))
                 }
                 Tag::Within(host) => {
                     format!("  {name} (on a part of {})", one_line(&self.series[host].name))
@@ -136,13 +191,14 @@ impl Chart {
     /// Limits and markers, one a line.
     fn remarks(&self, x: &Axis, y: &Axis, width: usize) -> Vec<String> {
         let mut lines = Vec::new();
-        for line in &self.lines {
+        for (index, line) in self.lines.iter().enumerate() {
             let (on_axis, dash) = match line.direction {
                 Direction::Horizontal => (y.holds(line.at), '┄'),
                 Direction::Vertical => (x.holds(line.at), '┆'),
             };
             let remark = if on_axis { "" } else { " (off the axis)" };
-            lines.push(format!("  {dash} {}{remark}", one_line(&line.label)));
+            let number = self.line_number(index).map_or(String::new(), |n| format!("{n} "));
+            lines.push(format!("  {number}{dash} {}{remark}", one_line(&line.label)));
         }
         lines.extend(self.markers.iter().map(|marker| format!("  ● {}", one_line(&marker.label))));
         lines.iter().map(|line| clip_columns(line, width)).collect()
@@ -164,35 +220,23 @@ fn character(cell: Cell) -> char {
     }
 }
 
-/// All dots on the straight lines between neighbouring points; points that are not finite leave a gap.
-fn dots(
-    points: &[(f64, f64)],
-    x: &Axis,
-    y: &Axis,
-    wide: usize,
-    high: usize,
+/// All dots on the straight line between two places, given as parts of the field's width and height.
+fn line_dots(
+    start: (f64, f64),
+    end: (f64, f64),
+    (wide, high): (usize, usize),
 ) -> Vec<(usize, usize)> {
-    let at = |p: (f64, f64)| (x.fraction(p.0), 1.0 - y.fraction(p.1));
-    let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
-    let mut dots: Vec<(usize, usize)> = Vec::new();
-    for (i, point) in points.iter().enumerate().filter(|(_, p)| finite(p)) {
-        let end = at(*point);
-        let start = i.checked_sub(1).map(|i| points[i]).filter(finite).map_or(end, at);
-        let stride = lossless(wide).recip().min(lossless(high).recip());
-        let steps =
-            1.0_f64.max(((end.0 - start.0).abs().max((end.1 - start.1).abs()) / stride).ceil());
-        let mut step = 0.0;
-        while step <= steps {
-            let part = step / steps;
-            let dot = (
-                place(start.0 + part * (end.0 - start.0), wide),
-                place(start.1 + part * (end.1 - start.1), high),
-            );
-            if dots.last() != Some(&dot) {
-                dots.push(dot);
-            }
-            step += 1.0;
-        }
+    let stride = lossless(wide).recip().min(lossless(high).recip());
+    let steps = 1.0_f64.max(((end.0 - start.0).abs().max((end.1 - start.1).abs()) / stride).ceil());
+    let mut dots = Vec::new();
+    let mut step = 0.0;
+    while step <= steps {
+        let part = step / steps;
+        dots.push((
+            place(start.0 + part * (end.0 - start.0), wide),
+            place(start.1 + part * (end.1 - start.1), high),
+        ));
+        step += 1.0;
     }
     dots
 }
@@ -219,7 +263,7 @@ fn lossless(count: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Marker, ReferenceLine, Series};
+    use crate::{Marker, ReferenceLine, Scale, Series};
 
     fn chart(points: Vec<(f64, f64)>) -> Chart {
         Chart {
@@ -269,9 +313,49 @@ mod tests {
     }
 
     #[test]
+    fn lines_of_one_direction_are_numbered() {
+        let mut chart = chart(vec![(0.0, 0.0), (1.0, 40.0)]);
+        assert!(chart.text(80, 16).contains("  ┄ limit"));
+        let second = ReferenceLine { at: 10.0, label: "floor".into(), ..chart.lines[0].clone() };
+        chart.lines.push(second);
+        let text = chart.text(80, 16);
+        let at = |part: &str| text.find(part).unwrap_or_else(|| panic!("{part} in\n{text}"));
+        assert!(at("┄1") < at("┄2"), "{text}");
+        assert!(at("  1 ┄ limit") < at("  2 ┄ floor"));
+    }
+
+    #[test]
+    fn curves_that_look_alike_over_decades_are_not_called_the_same() {
+        let points = |size: f64| (0..9).map(|e| 10_f64.powi(e)).map(|x| (x, size * x)).collect();
+        let chart = Chart {
+            series: vec![Series::new("A", points(1.0)), Series::new("B", points(1.05))],
+            x_scale: Scale::logarithmic("rad/s"),
+            y_scale: Scale::logarithmic("N/m"),
+            ..Chart::default()
+        };
+        assert!(chart.text(80, 16).contains("B ≈ A"));
+    }
+
+    #[test]
+    fn stems_rise_from_the_foot_of_the_plot() {
+        let stroke = Some(crate::Stroke { colour: 0, pattern: Pattern::Stems });
+        let mut chart = Chart {
+            series: vec![Series { name: String::new(), points: vec![(10.0, 1e3)], stroke }],
+            markers: vec![Marker { x: 1.0, y: 1.0, label: "corner".into() }],
+            x_scale: Scale::logarithmic("s"),
+            y_scale: Scale::logarithmic("N/m"),
+            ..Chart::default()
+        };
+        chart.markers.push(Marker { x: 100.0, y: 1e4, label: "corner".into() });
+        let (x, y) = chart.axes(6, 6);
+        let dots = chart.dots(0, &x, &y, (40, 40));
+        assert!(dots.iter().all(|dot| dot.0 == 20), "{dots:?}");
+        assert_eq!(dots.iter().map(|dot| dot.1).max(), Some(39));
+    }
+
+    #[test]
     fn a_rising_line_goes_from_the_lower_left_to_the_upper_right() {
-        let x = Axis::over([0.0, 1.0].into_iter(), false, 4);
-        let dots = dots(&[(0.0, 0.0), (1.0, 1.0)], &x, &x, 20, 12);
+        let dots = line_dots((0.0, 1.0), (1.0, 0.0), (20, 12));
         assert_eq!((dots.first(), dots.last()), (Some(&(0, 11)), Some(&(19, 0))));
         assert!(
             dots.windows(2).all(|d| d[0].0.abs_diff(d[1].0) <= 1 && d[0].1.abs_diff(d[1].1) <= 1)

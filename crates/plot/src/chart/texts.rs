@@ -55,8 +55,8 @@ impl Chart {
         if frame.y.holds(0.0) {
             placer.avoid_path(&[(frame.left, y_zero), (frame.right, y_zero)]);
         }
-        let marked = self.markers.iter().filter(|m| m.x.is_finite() && m.y.is_finite());
-        let marked: Vec<_> = marked.map(|m| (frame.at(m.x, m.y), one_line(&m.label))).collect();
+        let marked: Vec<_> =
+            self.marked().map(|m| (frame.at(m.x, m.y), one_line(&m.label))).collect();
         for (point, _) in &marked {
             placer.avoid(*point, theme::MARKER_RADIUS);
         }

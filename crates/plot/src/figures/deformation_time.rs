@@ -32,6 +32,7 @@ impl Figure for DeformationTime {
             markers: markers(runs, &shown, &kinds, (Of::Time, x), (Of::Deformation, y)),
             lines: thickness_lines(runs, &shown, Direction::Horizontal, y),
             series: curves(runs, &shown, x.factor, y.factor),
+            ..Chart::default()
         }
     }
 }

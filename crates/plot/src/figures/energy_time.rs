@@ -31,6 +31,7 @@ impl Figure for EnergyTime {
             markers: Vec::new(),
             lines: Vec::new(),
             series: curves(runs, &shown, x.factor, y.factor),
+            ..Chart::default()
         }
     }
 }

@@ -33,6 +33,7 @@ impl Figure for ForceDeformation {
             markers: markers(runs, &shown, &kinds, (Of::Deformation, x), (Of::Force, y)),
             lines: thickness_lines(runs, &shown, Direction::Vertical, x),
             series: curves(runs, &shown, x.factor, y.factor),
+            ..Chart::default()
         }
     }
 }

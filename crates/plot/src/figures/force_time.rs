@@ -32,6 +32,7 @@ impl Figure for ForceTime {
             markers: markers(runs, &shown, &kinds, (Of::Time, x), (Of::Force, y)),
             lines: Vec::new(),
             series: curves(runs, &shown, x.factor, y.factor),
+            ..Chart::default()
         }
     }
 }

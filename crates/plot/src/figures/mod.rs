@@ -6,6 +6,7 @@ mod deformation_time;
 mod energy_time;
 mod force_deformation;
 mod force_time;
+pub mod model;
 mod run_series;
 mod unit;
 

@@ -1,4 +1,4 @@
-//! Units in which people read an impact.
+//! Units in which people read an impact or a test.
 
 /// A unit on an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +20,9 @@ const LENGTH: [Unit; 3] = [unit("m", 1.0, 2.0), unit("mm", 1e-3, 1e-4), unit("µ
 const FORCE: [Unit; 4] =
     [unit("MN", 1e6, 5e6), unit("kN", 1e3, 5e2), unit("N", 1.0, 0.5), unit("mN", 1e-3, 0.0)];
 const ENERGY: [Unit; 3] = [unit("kJ", 1e3, 1e4), unit("J", 1.0, 0.5), unit("mJ", 1e-3, 0.0)];
+const STRESS: [Unit; 4] =
+    [unit("GPa", 1e9, 5e9), unit("MPa", 1e6, 5e5), unit("kPa", 1e3, 5e2), unit("Pa", 1.0, 0.0)];
+const STRAIN: [Unit; 2] = [unit("1", 1.0, 2.0), unit("%", 1e-2, 0.0)];
 
 impl Unit {
     /// Unit for times \[s\].
@@ -40,6 +43,16 @@ impl Unit {
     /// Unit for energies \[J\].
     pub(super) fn energy(values: impl Iterator<Item = f64>) -> Self {
         fitting(&ENERGY, values)
+    }
+
+    /// Unit for stresses \[Pa\].
+    pub(super) fn stress(values: impl Iterator<Item = f64>) -> Self {
+        fitting(&STRESS, values)
+    }
+
+    /// Unit for strains.
+    pub(super) fn strain(values: impl Iterator<Item = f64>) -> Self {
+        fitting(&STRAIN, values)
     }
 
     /// `quantity (unit)`.

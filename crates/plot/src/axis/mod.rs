@@ -1,6 +1,8 @@
 //! Axes: a range that holds the data, round tick values, and short tick labels.
 
-use std::fmt::Write as _;
+mod logarithmic;
+
+use crate::chart::Scale;
 
 /// Values beyond this magnitude are drawn at it, so that a span never overflows.
 const LARGEST: f64 = 1e290;
@@ -12,27 +14,46 @@ const PADDING: f64 = 0.08;
 /// One axis of a chart, in the units of its label.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Axis {
+    // Ends as coordinates: values of a linear axis, decimal logarithms of a logarithmic one.
     low: f64,
     high: f64,
     ticks: Vec<f64>,
-    exponent: i32,
-    decimals: usize,
+    minor: Vec<f64>,
+    labels: Labels,
+}
+
+/// How ticks and title are written.
+#[derive(Debug, Clone, PartialEq)]
+enum Labels {
+    /// Multiples of a power of ten, with so many decimals.
+    Linear { exponent: i32, decimals: usize },
+    /// Each with its own power of ten.
+    Logarithmic(logarithmic::Labels),
 }
 
 impl Axis {
+    /// An axis of this `scale` over those of `values` that it can show, as [`Axis::over`] says.
+    pub(crate) fn of(
+        scale: &Scale,
+        values: impl Iterator<Item = f64>,
+        padded: bool,
+        wanted: usize,
+    ) -> Self {
+        match scale {
+            Scale::Linear => Self::over(values, padded, wanted),
+            Scale::Logarithmic { unit } => logarithmic::axis(values, padded, wanted.max(1), unit),
+        }
+    }
+
     /// An axis over the finite ones of `values`, with about `wanted` ticks; a `padded` one leaves room at its ends,
     /// except at a bound that is zero. Without any value it runs from 0 to 1.
     pub(crate) fn over(values: impl Iterator<Item = f64>, padded: bool, wanted: usize) -> Self {
         let (low, high) = range(values, padded);
-        let step = round_step((high - low) / lossless(wanted.max(1)));
-        let first = (low / step - 1e-9).ceil();
-        let ticks: Vec<f64> = (0..=4 * wanted.max(1))
-            .map(|i| (first + lossless(i)) * step)
-            .take_while(|tick| *tick <= high + 1e-9 * step)
-            .collect();
+        let (ticks, step) = round_ticks(low, high, wanted.max(1));
         let exponent = exponent_of(low.abs().max(high.abs()));
         let decimals = decimals_of(step / 10_f64.powi(exponent));
-        Self { low, high, ticks, exponent, decimals }
+        let labels = Labels::Linear { exponent, decimals };
+        Self { low, high, ticks, minor: Vec::new(), labels }
     }
 
     /// Tick values, ascending.
@@ -40,19 +61,49 @@ impl Axis {
         &self.ticks
     }
 
-    /// Place of `value` along the axis: 0 at its low end, 1 at its high end, beyond them outside.
+    /// Values between the ticks that deserve a mark without a label.
+    pub(crate) fn minor(&self) -> &[f64] {
+        &self.minor
+    }
+
+    /// Place of `value` along the axis: 0 at its low end, 1 at its high end, beyond them outside; NaN for a value
+    /// that has no place.
     pub(crate) fn fraction(&self, value: f64) -> f64 {
-        (value.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low)
+        (self.coordinate(value).clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low)
+    }
+
+    /// Place of the feet of stems: that of zero, or the end nearest to it.
+    pub(crate) fn foot(&self) -> f64 {
+        match self.labels {
+            Labels::Linear { .. } => self.fraction(0.0).clamp(0.0, 1.0),
+            Labels::Logarithmic(_) => 0.0,
+        }
     }
 
     /// Whether `value` lies on the axis.
     pub(crate) fn holds(&self, value: f64) -> bool {
-        (self.low..=self.high).contains(&value)
+        (self.low..=self.high).contains(&self.coordinate(value))
     }
 
-    /// Label of a tick, in units of the axis' power of ten.
+    /// Whether `value` has a place on the axis or beyond its ends.
+    pub(crate) fn takes(&self, value: f64) -> bool {
+        value.is_finite() && self.coordinate(value).is_finite()
+    }
+
+    fn coordinate(&self, value: f64) -> f64 {
+        match self.labels {
+            Labels::Linear { .. } => value,
+            Labels::Logarithmic(_) => logarithmic::coordinate(value),
+        }
+    }
+
+    /// Label of a tick: on a linear axis in units of the axis' power of ten.
     pub(crate) fn tick_label(&self, tick: f64) -> String {
-        let number = format!("{:.*}", self.decimals, tick / 10_f64.powi(self.exponent));
+        let (exponent, decimals) = match &self.labels {
+            Labels::Linear { exponent, decimals } => (*exponent, *decimals),
+            Labels::Logarithmic(labels) => return labels.tick(tick),
+        };
+        let number = format!("{:.*}", decimals, tick / 10_f64.powi(exponent));
         match number.strip_prefix('-') {
             Some(zero) if zero.chars().all(|c| c == '0' || c == '.') => zero.to_owned(),
             Some(magnitude) => format!("−{magnitude}"),
@@ -60,18 +111,24 @@ impl Axis {
         }
     }
 
-    /// `label` followed by the power of ten that the tick labels leave out.
+    /// `label` followed by what the tick labels leave out: the power of ten, or the unit.
     pub(crate) fn title(&self, label: &str) -> String {
-        if self.exponent == 0 {
-            return label.to_owned();
+        match &self.labels {
+            Labels::Linear { exponent: 0, .. } => label.to_owned(),
+            Labels::Linear { exponent, .. } => format!("{label} × {}", power_of_ten(*exponent)),
+            Labels::Logarithmic(labels) => labels.title(label),
         }
-        let mut title = format!("{label} × 10");
-        for digit in self.exponent.to_string().chars() {
-            let raised = digit.to_digit(10).and_then(|d| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(d as usize));
-            let _ = write!(title, "{}", raised.unwrap_or('⁻'));
-        }
-        title
     }
+}
+
+/// `10` with a raised exponent.
+fn power_of_ten(exponent: i32) -> String {
+    let digits = exponent.to_string();
+    let raised = digits.chars().map(|digit| {
+        let raised = digit.to_digit(10).and_then(|d| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(d as usize));
+        raised.unwrap_or('⁻')
+    });
+    ['1', '0'].into_iter().chain(raised).collect()
 }
 
 fn range(values: impl Iterator<Item = f64>, padded: bool) -> (f64, f64) {
@@ -95,6 +152,17 @@ fn range(values: impl Iterator<Item = f64>, padded: bool) -> (f64, f64) {
         low - if low.abs() > 0.0 { room } else { 0.0 },
         high + if high.abs() > 0.0 { room } else { 0.0 },
     )
+}
+
+/// About `wanted` multiples of a round step from `low` to `high`, and the step.
+fn round_ticks(low: f64, high: f64, wanted: usize) -> (Vec<f64>, f64) {
+    let step = round_step((high - low) / lossless(wanted));
+    let first = (low / step - 1e-9).ceil();
+    let ticks = (0..=4 * wanted)
+        .map(|i| (first + lossless(i)) * step)
+        .take_while(|tick| *tick <= high + 1e-9 * step)
+        .collect();
+    (ticks, step)
 }
 
 /// The smallest of 1, 2, 2.5, 5 times a power of ten that is at least `rough`.

@@ -1,0 +1,101 @@
+//! What figures of models share: strokes, names, remarks and markers.
+
+use super::{ModelCurve, ModelMarker, ModelSeries};
+use crate::{Marker, Pattern, Series, Stroke};
+
+/// Models beyond these in one figure cannot be told apart in black and white.
+const MOST_MODELS: usize = 4;
+/// Values this far below the largest one are not drawn, lest they flatten everything else.
+const SMALLEST_SHARE: f64 = 1e-24;
+
+/// A curve of every model, with what tells it from other curves of the same model.
+pub(super) struct Kind {
+    pub(super) curve: ModelCurve,
+    /// Name in the legend and in remarks, as in `storage`.
+    pub(super) name: &'static str,
+    /// Colour where a figure has several kinds; where it has one, models have colours of their own.
+    pub(super) colour: usize,
+}
+
+/// The curves of all models, the texts on them, and a remark on what is not shown.
+pub(super) struct Drawn {
+    pub(super) series: Vec<Series>,
+    pub(super) markers: Vec<Marker>,
+    pub(super) note: String,
+}
+
+/// Draws `kinds` of curves of `models`.
+pub(super) fn draw(models: &[ModelSeries], kinds: &[Kind]) -> Drawn {
+    let shown = &models[..models.len().min(MOST_MODELS)];
+    let is_single = kinds.len() == 1;
+    let mut drawn = Drawn { series: Vec::new(), markers: Vec::new(), note: String::new() };
+    if shown.len() < models.len() {
+        drawn.remark(&format!("the first {MOST_MODELS} of {} models", models.len()));
+    }
+    let mut is_cut = false;
+    let floor = SMALLEST_SHARE * largest(shown, kinds);
+    for (index, model) in shown.iter().enumerate() {
+        for kind in kinds {
+            let name = match (is_single, shown.len()) {
+                (true, _) => model.name.clone(),
+                (false, 1) => kind.name.to_owned(),
+                (false, _) => format!("{}, {}", model.name, kind.name),
+            };
+            let points = model.points(kind.curve);
+            let markers = model.markers.iter().filter(|marker| marker.curve == kind.curve);
+            drawn.markers.extend(markers.map(marker));
+            if points.is_empty() {
+                continue;
+            }
+            if !points.iter().any(|p| is_positive(p.1)) {
+                drawn.remark(&format!("{} of {} is zero", kind.name, model.name));
+                continue;
+            }
+            let colour = if is_single { index } else { kind.colour };
+            let pattern = if shown.len() == 1 { Pattern::Solid } else { pattern(index) };
+            let is_small = |value: f64| is_positive(value) && value < floor;
+            is_cut |= points.iter().any(|p| is_small(p.1));
+            let visible = |&(x, y): &(f64, f64)| (x, if is_small(y) { f64::NAN } else { y });
+            let points = points.iter().map(visible).collect();
+            drawn.series.push(Series { name, points, stroke: Some(Stroke { colour, pattern }) });
+        }
+    }
+    if is_cut {
+        drawn.remark("values below 10⁻²⁴ of the largest are not shown");
+    }
+    drawn
+}
+
+impl Drawn {
+    /// Adds to what stands below the heading.
+    pub(super) fn remark(&mut self, text: &str) {
+        if !self.note.is_empty() {
+            self.note += "; ";
+        }
+        self.note += text;
+    }
+}
+
+fn is_positive(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
+}
+
+fn largest(models: &[ModelSeries], kinds: &[Kind]) -> f64 {
+    let curves = models.iter().flat_map(|m| kinds.iter().map(|kind| m.points(kind.curve)));
+    let values = curves.flatten().map(|p| p.1).filter(|v| v.is_finite());
+    values.fold(0.0, f64::max)
+}
+
+/// Pattern of the `index`-th of several models.
+fn pattern(index: usize) -> Pattern {
+    match index {
+        0 => Pattern::Broad,
+        1 => Pattern::Dashed,
+        2 => Pattern::Dotted,
+        _ => Pattern::DashDotted,
+    }
+}
+
+fn marker(marker: &ModelMarker) -> Marker {
+    Marker { x: marker.at, y: marker.value, label: marker.label.clone() }
+}
