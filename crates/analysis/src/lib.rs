@@ -15,6 +15,7 @@ mod magnitude;
 pub mod measures;
 mod refinement;
 mod report;
+pub mod rheometer;
 mod sample;
 mod selection;
 mod settings;

@@ -1,0 +1,211 @@
+//! What is done to a model: a force or a deformation that is piecewise linear in time.
+
+use dashpot_dae::{Piece, Waveform};
+
+/// A point at which the history may jump or bend.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Corner {
+    /// When \[s\].
+    pub(super) time: f64,
+    /// The value \[N or m\] just before.
+    pub(super) before: f64,
+    /// The value \[N or m\] just after.
+    pub(super) after: f64,
+}
+
+/// The side of a time from which a value is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    /// Just before.
+    Before,
+    /// Just after.
+    After,
+}
+
+/// A time \[s\] and the side from which it is looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Instant {
+    pub(super) time: f64,
+    pub(super) side: Side,
+}
+
+impl Instant {
+    pub(super) fn before(time: f64) -> Self {
+        Self { time, side: Side::Before }
+    }
+
+    pub(super) fn after(time: f64) -> Self {
+        Self { time, side: Side::After }
+    }
+
+    /// Whether something that happens at `time` has happened.
+    fn is_past(self, time: f64) -> bool {
+        self.time > time || (self.time >= time && self.side == Side::After)
+    }
+}
+
+/// A straight part of a history, up to an instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Line {
+    /// Where it begins \[s\].
+    pub(super) start: f64,
+    /// How long it lasts \[s\], positive.
+    pub(super) length: f64,
+    /// Value at its beginning.
+    pub(super) from: f64,
+    /// Value at its end.
+    pub(super) to: f64,
+    /// Change per second.
+    pub(super) slope: f64,
+}
+
+/// A force \[N\] or deformation \[m\] over time, straight between corners; zero before the first,
+/// which is at the time 0, and over at the last.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct History {
+    corners: Vec<Corner>,
+}
+
+impl History {
+    /// A step to `height` at the time 0, or a straight rise to it within `rise`, held until `end`.
+    pub(super) fn step(height: f64, rise: f64, end: f64) -> Self {
+        let mut corners = Self::edge(0.0, rise, 0.0, height);
+        corners.push(Corner { time: end, before: height, after: height });
+        Self { corners }
+    }
+
+    /// A step or rise to `height`, held for `hold` once it is reached, a step or fall to zero, and
+    /// nothing until `end`.
+    pub(super) fn pulse(height: f64, rise: f64, hold: f64, end: f64) -> Self {
+        let mut corners = Self::edge(0.0, rise, 0.0, height);
+        corners.extend(Self::edge(rise + hold, rise, height, 0.0));
+        corners.push(Corner { time: end, before: 0.0, after: 0.0 });
+        Self { corners }
+    }
+
+    /// A straight rise with `rate` from the time 0 to `end`.
+    pub(super) fn ramp(rate: f64, end: f64) -> Self {
+        let start = Corner { time: 0.0, before: 0.0, after: 0.0 };
+        Self { corners: vec![start, Corner { time: end, before: rate * end, after: rate * end }] }
+    }
+
+    fn edge(time: f64, rise: f64, from: f64, to: f64) -> Vec<Corner> {
+        if rise > 0.0 {
+            let foot = Corner { time, before: from, after: from };
+            vec![foot, Corner { time: time + rise, before: to, after: to }]
+        } else {
+            vec![Corner { time, before: from, after: to }]
+        }
+    }
+
+    pub(super) fn corners(&self) -> &[Corner] {
+        &self.corners
+    }
+
+    /// When it is over \[s\].
+    pub(super) fn end(&self) -> f64 {
+        self.corners.last().map_or(0.0, |corner| corner.time)
+    }
+
+    /// The straight parts that lie before an instant, the last one cut off there.
+    pub(super) fn lines_until(&self, instant: Instant) -> impl Iterator<Item = Line> + '_ {
+        self.corners.windows(2).filter_map(move |pair| {
+            let (start, full) = (pair[0].time, pair[1].time - pair[0].time);
+            let slope = (pair[1].before - pair[0].after) / full;
+            let length = full.min(instant.time - start);
+            let to = if length < full { pair[0].after + slope * length } else { pair[1].before };
+            (length > 0.0).then_some(Line { start, length, from: pair[0].after, to, slope })
+        })
+    }
+
+    /// Times \[s\] and heights of the jumps that have happened at an instant.
+    pub(super) fn jumps_until(&self, instant: Instant) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.corners
+            .iter()
+            .filter(move |corner| instant.is_past(corner.time))
+            .map(|corner| (corner.time, corner.after - corner.before))
+            .filter(|jump| jump.1 != 0.0)
+    }
+
+    /// The straight part that an instant lies on, or is the end of.
+    fn line_at(&self, instant: Instant) -> Option<Line> {
+        let past = self.corners.iter().take_while(|corner| instant.is_past(corner.time)).count();
+        let pair = self.corners.get(past.checked_sub(1)?..=past)?;
+        let slope = (pair[1].before - pair[0].after) / (pair[1].time - pair[0].time);
+        let length = instant.time - pair[0].time;
+        let to = pair[0].after + slope * length;
+        Some(Line { start: pair[0].time, length, from: pair[0].after, to, slope })
+    }
+
+    /// The value at an instant; after the end that of the end.
+    pub(super) fn value(&self, instant: Instant) -> f64 {
+        let at_corner = self.corners.iter().find(|c| c.time.to_bits() == instant.time.to_bits());
+        match (at_corner, instant.side) {
+            (Some(corner), Side::Before) => corner.before,
+            (Some(corner), Side::After) => corner.after,
+            (None, _) => match self.line_at(instant) {
+                Some(line) => line.to,
+                None => self.corners.last().map_or(0.0, |corner| corner.after),
+            },
+        }
+    }
+
+    /// The slope at an instant \[unit/s\], zero before the start and after the end.
+    pub(super) fn slope(&self, instant: Instant) -> f64 {
+        self.line_at(instant).map_or(0.0, |line| line.slope)
+    }
+
+    /// The history as a driving function; `None` where its corners cannot be told apart.
+    pub(super) fn waveform(&self) -> Option<Waveform> {
+        let piece = |pair: &[Corner]| Piece {
+            start: pair[0].time,
+            value: pair[0].after,
+            slope: (pair[1].before - pair[0].after) / (pair[1].time - pair[0].time),
+            ..Piece::default()
+        };
+        Waveform::new(self.corners.windows(2).map(piece).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pulse_jumps_twice() {
+        let pulse = History::pulse(2.0, 0.0, 3.0, 10.0);
+        let jumps = |instant| pulse.jumps_until(instant).collect::<Vec<_>>();
+        assert!(jumps(Instant::before(0.0)).is_empty());
+        assert_eq!(jumps(Instant::before(3.0)), [(0.0, 2.0)]);
+        assert_eq!(jumps(Instant::after(3.0)), [(0.0, 2.0), (3.0, -2.0)]);
+        assert_eq!(pulse.end().to_bits(), 10.0_f64.to_bits());
+        let found: Vec<f64> =
+            [Instant::before(0.0), Instant::after(0.0), Instant::before(3.0), Instant::after(3.0)]
+                .into_iter()
+                .map(|instant| pulse.value(instant))
+                .collect();
+        assert_eq!(found, [0.0, 2.0, 2.0, 0.0]);
+    }
+
+    #[test]
+    fn lines_end_at_the_instant() {
+        let pulse = History::pulse(2.0, 1.0, 3.0, 10.0);
+        let lines: Vec<Line> = pulse.lines_until(Instant::after(4.5)).collect();
+        assert_eq!(lines.len(), 3);
+        let last = lines[2];
+        assert_eq!((last.start, last.length, last.from, last.to), (4.0, 0.5, 2.0, 1.0));
+        assert_eq!(pulse.value(Instant::after(4.5)).to_bits(), 1.0_f64.to_bits());
+        assert_eq!(pulse.slope(Instant::before(4.0)).to_bits(), 0.0_f64.to_bits());
+        assert_eq!(pulse.slope(Instant::after(4.0)).to_bits(), (-2.0_f64).to_bits());
+    }
+
+    #[test]
+    fn the_driving_function_has_the_same_values() {
+        let pulse = History::pulse(2.0, 1.0, 3.0, 10.0);
+        let waveform = pulse.waveform().unwrap();
+        for time in [0.0, 0.25, 1.0, 2.5, 4.0, 4.75, 5.0, 9.0] {
+            let same = waveform.value(time) - pulse.value(Instant::after(time));
+            assert!(same.abs() < 1e-15, "{time}");
+        }
+    }
+}

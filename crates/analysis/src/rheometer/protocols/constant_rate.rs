@@ -1,0 +1,79 @@
+//! Deformation at constant rate.
+
+use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
+
+use super::{LONG, deforms};
+use crate::rheometer::{
+    FROM_THE_MODEL, Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
+    given::{self, check_end, points_used, setting},
+    history::{History, Instant},
+    rig::Control,
+    trial::Trial,
+};
+
+/// A deformation that grows at a constant rate from the time 0 on: `F(t) = v (C + ∫ G dt)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ConstantRate {
+    /// The rate `v` \[m/s\], not zero; `None` for 1 mm in the whole test.
+    pub rate: Option<f64>,
+    /// End of the test \[s\], positive; `None` for 10 times the slowest time of the model.
+    pub end: Option<f64>,
+    /// About how many instants are looked at, 2 or more.
+    pub points: usize,
+}
+
+impl Default for ConstantRate {
+    fn default() -> Self {
+        Self { rate: None, end: None, points: given::USUAL_POINTS }
+    }
+}
+
+const RATE: Parameter = Parameter::optional(
+    "rate",
+    ParameterKind::Quantity(Dimension::VELOCITY),
+    FROM_THE_MODEL,
+    "deformation rate [m/s], positive in compression, not zero; else 1 mm in the whole test",
+);
+
+impl ProtocolKind for ConstantRate {
+    const KIND: &'static str = "constant-rate";
+    const SUMMARY: &'static str = "a deformation that grows at a constant rate; force over time";
+    const PARAMETERS: &'static [Parameter] = &[RATE, given::END, given::POINTS];
+
+    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
+        Ok(Self {
+            rate: given::amplitude(values, 0, "rate")?,
+            end: given::positive(values, 1, "end")?,
+            points: given::points(values, 2)?,
+        })
+    }
+
+    fn test(
+        &self,
+        specimen: &Specimen,
+        methods: &[&str],
+    ) -> Result<RheometerReport, RheometerError> {
+        deforms(Self::KIND, specimen)?;
+        let end = setting("end", "s", self.end, LONG * specimen.range_of_times().1);
+        check_end(end.value, 0.0)?;
+        let rate = setting("rate", "m/s", self.rate, given::USUAL_DEFORMATION / end.value);
+        let history = History::ramp(rate.value, end.value);
+        let trial = Trial::new(specimen, Control::Deformation, history, self.points, methods)?;
+        let mut report = trial.report(Self::KIND, vec![rate, end, points_used(self.points)]);
+        for (name, at) in [
+            ("force just after the start", Instant::after(0.0)),
+            ("force at the end", Instant::before(end.value)),
+        ] {
+            let figure = Figure::of(name, "N", trial.answer(at)).computed(trial.simulated(at));
+            report.figures.push(figure);
+        }
+        if specimen.linear().maxwell().is_some_and(|form| form.dashpot() > 0.0) {
+            let note = "a dashpot beside all else: the force jumps as the motion begins";
+            report.notes.push(note.to_owned());
+        }
+        if specimen.linear().kelvin().is_none() {
+            report.notes.push("the model bears no force".to_owned());
+        }
+        Ok(report)
+    }
+}

@@ -1,0 +1,68 @@
+//! Creep.
+
+use dashpot_network::parameters::{InvalidParameter, Parameter, Value};
+
+use super::{LONG, bears_force, notes_under_force};
+use crate::rheometer::{
+    Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
+    given::{self, check_end, points_used, setting},
+    history::{History, Instant},
+    rig::Control,
+    trial::Trial,
+};
+
+/// A force step that is held: `y(t) = F J(t)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Creep {
+    /// The force \[N\], not zero.
+    pub force: Option<f64>,
+    /// End of the test \[s\], positive; `None` for 10 times the slowest time of the model.
+    pub end: Option<f64>,
+    /// About how many instants are looked at, 2 or more.
+    pub points: usize,
+}
+
+impl Default for Creep {
+    fn default() -> Self {
+        Self { force: None, end: None, points: given::USUAL_POINTS }
+    }
+}
+
+impl ProtocolKind for Creep {
+    const KIND: &'static str = "creep";
+    const SUMMARY: &'static str = "a force step that is held; deformation over time";
+    const PARAMETERS: &'static [Parameter] = &[given::FORCE, given::END, given::POINTS];
+
+    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
+        Ok(Self {
+            force: given::amplitude(values, 0, "force")?,
+            end: given::positive(values, 1, "end")?,
+            points: given::points(values, 2)?,
+        })
+    }
+
+    fn test(
+        &self,
+        specimen: &Specimen,
+        methods: &[&str],
+    ) -> Result<RheometerReport, RheometerError> {
+        bears_force(Self::KIND, specimen)?;
+        let force = setting("force", "N", self.force, given::USUAL_FORCE);
+        let end = setting("end", "s", self.end, LONG * specimen.range_of_times().1);
+        check_end(end.value, 0.0)?;
+        let history = History::step(force.value, 0.0, end.value);
+        let trial = Trial::new(specimen, Control::Force, history, self.points, methods)?;
+        let mut report = trial.report(Self::KIND, vec![force, end, points_used(self.points)]);
+        for (name, at) in [
+            ("deformation at once", Instant::after(0.0)),
+            ("deformation at the end", Instant::before(end.value)),
+        ] {
+            let figure = Figure::of(name, "m", trial.answer(at)).computed(trial.simulated(at));
+            report.figures.push(figure);
+        }
+        let flow = specimen.linear().kelvin().map_or(0.0, |form| form.fluidity() * force.value);
+        report.figures.push(Figure::of("rate of flow", "m/s", flow));
+        report.notes = notes_under_force(specimen);
+        Ok(report)
+    }
+}

@@ -1,0 +1,76 @@
+//! Creep and recovery.
+
+use dashpot_network::parameters::{InvalidParameter, Parameter, Value};
+
+use super::{HELD, LONG, bears_force, notes_under_force};
+use crate::rheometer::{
+    Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
+    given::{self, check_end, points_used, setting},
+    history::{History, Instant},
+    rig::Control,
+    trial::Trial,
+};
+
+/// A force step that is held for a time and then taken away: `y(t) = F (J(t) − J(t − t_hold))`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CreepRecovery {
+    /// The force \[N\], not zero.
+    pub force: Option<f64>,
+    /// How long it is held \[s\], positive; `None` for 5 times the slowest retardation time.
+    pub hold: Option<f64>,
+    /// End of the test \[s\], after the hold; `None` for 10 times the slowest time of the model
+    /// after it.
+    pub end: Option<f64>,
+    /// About how many instants are looked at, 2 or more.
+    pub points: usize,
+}
+
+impl Default for CreepRecovery {
+    fn default() -> Self {
+        Self { force: None, hold: None, end: None, points: given::USUAL_POINTS }
+    }
+}
+
+impl ProtocolKind for CreepRecovery {
+    const KIND: &'static str = "creep-recovery";
+    const SUMMARY: &'static str =
+        "a force step that is held, then taken away; deformation over time";
+    const PARAMETERS: &'static [Parameter] =
+        &[given::FORCE, given::HOLD, given::END, given::POINTS];
+
+    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
+        Ok(Self {
+            force: given::amplitude(values, 0, "force")?,
+            hold: given::positive(values, 1, "hold")?,
+            end: given::positive(values, 2, "end")?,
+            points: given::points(values, 3)?,
+        })
+    }
+
+    fn test(
+        &self,
+        specimen: &Specimen,
+        methods: &[&str],
+    ) -> Result<RheometerReport, RheometerError> {
+        bears_force(Self::KIND, specimen)?;
+        let force = setting("force", "N", self.force, given::USUAL_FORCE);
+        let hold = setting("hold", "s", self.hold, HELD * specimen.slowest_retardation());
+        let chosen = hold.value + LONG * specimen.range_of_times().1;
+        let end = setting("end", "s", self.end, chosen);
+        check_end(end.value, hold.value)?;
+        let history = History::pulse(force.value, 0.0, hold.value, end.value);
+        let trial = Trial::new(specimen, Control::Force, history, self.points, methods)?;
+        let settings = vec![force, hold, end, points_used(self.points)];
+        let mut report = trial.report(Self::KIND, settings);
+        for (name, at) in [
+            ("deformation at the end of the hold", Instant::before(hold.value)),
+            ("deformation just after", Instant::after(hold.value)),
+            ("deformation at the end", Instant::before(end.value)),
+        ] {
+            let figure = Figure::of(name, "m", trial.answer(at)).computed(trial.simulated(at));
+            report.figures.push(figure);
+        }
+        report.notes = notes_under_force(specimen);
+        Ok(report)
+    }
+}

@@ -1,0 +1,135 @@
+//! Load, hold, unload: figure 2 of the thesis.
+
+use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
+
+use super::{HELD, LONG, bears_force, notes_under_force};
+use crate::rheometer::{
+    Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
+    given::{self, check_end, points_used, setting},
+    history::{History, Instant},
+    rig::Control,
+    trial::Trial,
+};
+
+/// A force that is put on, held and taken away, with the parts of the deformation apart (figure 2
+/// of the thesis).
+///
+/// The parts are those of the model's Kelvin form, whatever form it was given in:
+///
+/// | part            | thesis | law                              | after unloading     |
+/// |-----------------|--------|----------------------------------|---------------------|
+/// | `instantaneous` | `ε₂`   | `J_g F`                          | comes back at once  |
+/// | `delayed`       | `ε₁`   | `ε̇ + z ε = φ F` for each element | comes back late     |
+/// | `viscous`       | `ε₃`   | `ε̇ = φ₀ F`                       | stays               |
+///
+/// The deformation is simulated with the model as it was given, the parts with its Kelvin form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadHoldUnload {
+    /// The force \[N\], not zero.
+    pub force: Option<f64>,
+    /// How long putting it on and taking it away take \[s\], ≥ 0.
+    pub rise: f64,
+    /// How long it is held in between \[s\], positive; `None` for 5 times the slowest retardation
+    /// time.
+    pub hold: Option<f64>,
+    /// End of the test \[s\], after unloading; `None` for 10 times the slowest time of the model
+    /// after it.
+    pub end: Option<f64>,
+    /// About how many instants are looked at, 2 or more.
+    pub points: usize,
+}
+
+impl Default for LoadHoldUnload {
+    fn default() -> Self {
+        Self { force: None, rise: 0.0, hold: None, end: None, points: given::USUAL_POINTS }
+    }
+}
+
+const RISE: Parameter = Parameter::optional(
+    "rise",
+    ParameterKind::Quantity(Dimension::TIME),
+    "0 s",
+    "how long loading and unloading take [s], zero or positive",
+);
+
+impl ProtocolKind for LoadHoldUnload {
+    const KIND: &'static str = "load-hold-unload";
+    const SUMMARY: &'static str = "a force put on, held and taken away; what of the deformation \
+                                   comes back at once, late, and not at all";
+    const PARAMETERS: &'static [Parameter] =
+        &[given::FORCE, RISE, given::HOLD, given::END, given::POINTS];
+
+    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
+        Ok(Self {
+            force: given::amplitude(values, 0, "force")?,
+            rise: given::non_negative(values, 1, "rise")?.unwrap_or(0.0),
+            hold: given::positive(values, 2, "hold")?,
+            end: given::positive(values, 3, "end")?,
+            points: given::points(values, 4)?,
+        })
+    }
+
+    fn test(
+        &self,
+        specimen: &Specimen,
+        methods: &[&str],
+    ) -> Result<RheometerReport, RheometerError> {
+        bears_force(Self::KIND, specimen)?;
+        let force = setting("force", "N", self.force, given::USUAL_FORCE);
+        let rise = setting("rise", "s", Some(self.rise), 0.0);
+        let hold = setting("hold", "s", self.hold, HELD * specimen.slowest_retardation());
+        let held = rise.value + hold.value;
+        let unloaded = if rise.value > 0.0 { held + rise.value } else { held };
+        let end = setting("end", "s", self.end, unloaded + LONG * specimen.range_of_times().1);
+        check_end(end.value, unloaded)?;
+        let history = History::pulse(force.value, rise.value, hold.value, end.value);
+        let trial = Trial::new(specimen, Control::Force, history, self.points, methods)?;
+        let settings = vec![force, rise, hold, end, points_used(self.points)];
+        let mut report = trial.report(Self::KIND, settings);
+        report.series.extend(trial.series_of_parts()?);
+        let [held, unloaded, end] =
+            [Instant::before(held), Instant::after(unloaded), Instant::before(end.value)];
+        report.figures.extend(Self::figures(&trial, &report, [held, unloaded, end]));
+        report.notes = notes_under_force(specimen);
+        Ok(report)
+    }
+}
+
+impl LoadHoldUnload {
+    /// The parts at the end of the hold, and what becomes of them.
+    fn figures(
+        trial: &Trial<'_>,
+        report: &RheometerReport,
+        [held, unloaded, end]: [Instant; 3],
+    ) -> Vec<Figure> {
+        let (under, after, last) = (trial.parts(held), trial.parts(unloaded), trial.parts(end));
+        let part = |name: &'static str, series: &str, value: f64| {
+            let computed = trial.row(held).and_then(|row| {
+                report.series(series)?.computed.first()?.values.get(row).copied().flatten()
+            });
+            Figure::of(name, "m", value).computed(computed)
+        };
+        let less = |one: Instant, other: Instant| {
+            trial.simulated(one).zip(trial.simulated(other)).map(|(one, other)| one - other)
+        };
+        let back_at_once = (under.instantaneous - after.instantaneous)
+            + (under.delayed - after.delayed)
+            + (under.viscous - after.viscous);
+        let back_late = (after.instantaneous - last.instantaneous)
+            + (after.delayed - last.delayed)
+            + (after.viscous - last.viscous);
+        vec![
+            part("ε2, instantaneous part at the end of the hold", "instantaneous", under.instantaneous),
+            part("ε1, delayed part at the end of the hold", "delayed", under.delayed),
+            part("ε3, viscous part at the end of the hold", "viscous", under.viscous),
+            Figure::of("deformation at the end of the hold", "m", under.total())
+                .computed(trial.simulated(held)),
+            Figure::of("comes back while unloading", "m", back_at_once)
+                .computed(less(held, unloaded)),
+            Figure::of("comes back late, until the end", "m", back_late)
+                .computed(less(unloaded, end)),
+            Figure::of("left at the end", "m", last.total()).computed(trial.simulated(end)),
+            Figure::of("stays for good", "m", last.viscous),
+        ]
+    }
+}

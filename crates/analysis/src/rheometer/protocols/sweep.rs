@@ -1,0 +1,225 @@
+//! Frequency sweep.
+
+use std::f64::consts::TAU;
+
+use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
+use nalgebra::Complex;
+
+use super::deforms;
+use crate::{
+    Column,
+    rheometer::{
+        FROM_THE_MODEL, Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
+        frequency::Shaker,
+        given::{self, points_used, setting},
+        peak::highest_loss_factor,
+        report::{Computation, Computed, Disagreement, Series},
+        schedule::logarithmic,
+        shaking::{CAUTION, SEEDS, shaken},
+    },
+};
+
+/// Name of the independent computation.
+const METHOD: &str = "network at s = iω";
+/// How far beyond the frequencies of its slowest and fastest time a model is looked at.
+const BEYOND: f64 = 100.0;
+
+/// Steady oscillation over frequency: storage `k′`, loss `k″` and `tan δ = k″/k′` with
+/// `Q(iω) = k′ + i k″` and `ω = 2π f`.
+///
+/// The independent computation solves the equations of the network at `s = iω`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sweep {
+    /// The lowest frequency \[Hz\], positive; `None` for a hundredth of that of the slowest time.
+    pub from: Option<f64>,
+    /// The highest frequency \[Hz\], above the lowest; `None` for 100 times that of the fastest.
+    pub to: Option<f64>,
+    /// How many frequencies are looked at, 2 or more.
+    pub points: usize,
+}
+
+impl Default for Sweep {
+    fn default() -> Self {
+        Self { from: None, to: None, points: given::USUAL_POINTS }
+    }
+}
+
+const FROM: Parameter = Parameter::optional(
+    "from",
+    ParameterKind::Quantity(Dimension::FREQUENCY),
+    FROM_THE_MODEL,
+    "lowest frequency [Hz], positive; else 1/100 of 1/(2π × the slowest time)",
+);
+const TO: Parameter = Parameter::optional(
+    "to",
+    ParameterKind::Quantity(Dimension::FREQUENCY),
+    FROM_THE_MODEL,
+    "highest frequency [Hz], above the lowest; else 100 times 1/(2π × the fastest time)",
+);
+
+impl ProtocolKind for Sweep {
+    const KIND: &'static str = "sweep";
+    const SUMMARY: &'static str = "steady oscillation; storage, loss and tan δ over frequency";
+    const PARAMETERS: &'static [Parameter] = &[FROM, TO, given::POINTS];
+
+    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
+        Ok(Self {
+            from: given::positive(values, 0, "from")?,
+            to: given::positive(values, 1, "to")?,
+            points: given::points(values, 2)?,
+        })
+    }
+
+    fn test(
+        &self,
+        specimen: &Specimen,
+        methods: &[&str],
+    ) -> Result<RheometerReport, RheometerError> {
+        deforms(Self::KIND, specimen)?;
+        let (fastest, slowest) = specimen.range_of_times();
+        let from = setting("from", "Hz", self.from, 1.0 / (BEYOND * TAU * slowest));
+        let to = setting("to", "Hz", self.to, BEYOND / (TAU * fastest));
+        if !(to.value.is_finite() && to.value > from.value) {
+            let range = format!("finite and above the lowest, {} Hz", from.value);
+            return Err(InvalidParameter::new("to", range, to.value).into());
+        }
+        let frequencies = logarithmic(from.value, to.value, self.points);
+        let linear = specimen.linear();
+        let own = |frequency: &f64| {
+            let omega = TAU * frequency;
+            Complex::new(linear.storage(omega), linear.loss(omega))
+        };
+        let model: Vec<Complex<f64>> = frequencies.iter().map(own).collect();
+        let factors = frequencies.iter().map(|own| linear.loss_factor(TAU * own)).collect();
+        let mut report = RheometerReport {
+            protocol: Self::KIND,
+            settings: vec![from, to, points_used(self.points)],
+            series: vec![
+                series("storage stiffness", "N/m", model.iter().map(|own| own.re).collect()),
+                series("loss stiffness", "N/m", model.iter().map(|own| own.im).collect()),
+                series("loss factor", "1", factors),
+            ],
+            abscissa: Column { name: "frequency".to_owned(), unit: "Hz", values: frequencies },
+            drive: None,
+            figures: specimen.figures(),
+            computations: Vec::new(),
+            notes: Vec::new(),
+        };
+        if !methods.is_empty() {
+            compute(&mut report, specimen, &model);
+        }
+        add_peak(&mut report, specimen);
+        Ok(report)
+    }
+}
+
+fn series(name: &'static str, unit: &'static str, model: Vec<f64>) -> Series {
+    Series { name, unit, model, computed: Vec::new() }
+}
+
+/// Adds the independent computation.
+fn compute(report: &mut RheometerReport, specimen: &Specimen, model: &[Complex<f64>]) {
+    let (fastest, slowest) = specimen.range_of_times();
+    let frequencies = &report.abscissa.values;
+    let time = fastest.sqrt() * slowest.sqrt();
+    let sweep = |shaker: &Shaker| -> Vec<Option<Complex<f64>>> {
+        frequencies.iter().map(|own| shaker.stiffness(TAU * own)).collect()
+    };
+    let again = |seed: u64| {
+        let shaker = Shaker::new(&shaken(specimen.model(), seed), time).ok()?;
+        Some(sweep(&shaker.shaken(seed)))
+    };
+    let (found, obstacle) = match Shaker::new(specimen.model(), time).map(|own| sweep(&own)) {
+        Ok(found) => (found, None),
+        Err(reason) => (vec![None; frequencies.len()], Some(reason)),
+    };
+    let again: Vec<_> = SEEDS.iter().filter_map(|&seed| again(seed)).collect();
+    // Where nothing was found nothing is compared, whatever stands there.
+    let base: Vec<Complex<f64>> = found.iter().map(|own| own.unwrap_or_default()).collect();
+    for (series, quantity) in report.series.iter_mut().zip(&QUANTITIES) {
+        let moved = again.iter().filter_map(|own| quantity.largest(&base, own, frequencies));
+        let stated = moved.map(|own| CAUTION * own.relative).reduce(f64::max);
+        let difference = quantity.largest(model, &found, frequencies);
+        let difference = difference.map(|own| Disagreement { stated, ..own });
+        let values = found.iter().map(|value| value.map(quantity.read)).collect();
+        series.computed.push(Computed { values, difference });
+    }
+    let reach = frequencies.iter().zip(&found).filter(|(_, value)| value.is_some());
+    let reach = reach.map(|(&frequency, _)| frequency).reduce(f64::max);
+    report.computations.push(Computation { method: METHOD, reach, obstacle });
+}
+
+/// What a series of a sweep shows, and how far two values are apart.
+struct Quantity {
+    read: fn(Complex<f64>) -> f64,
+    distance: fn(Complex<f64>, Complex<f64>) -> f64,
+    /// What the distance is taken relative to.
+    scale: fn(Complex<f64>) -> f64,
+}
+
+/// In the order of the series.
+const QUANTITIES: [Quantity; 3] = [
+    Quantity {
+        read: |own| own.re,
+        distance: |own, other| (own.re - other.re).abs(),
+        scale: |own| own.norm(),
+    },
+    Quantity {
+        read: |own| own.im,
+        distance: |own, other| (own.im - other.im).abs(),
+        scale: |own| own.norm(),
+    },
+    Quantity {
+        read: loss_factor,
+        // The loss angle is finite where the loss factor is not.
+        distance: |own, other| (other * own.conj()).arg().abs(),
+        scale: |_| 1.0,
+    },
+];
+
+impl Quantity {
+    /// The largest relative difference.
+    fn largest(
+        &self,
+        own: &[Complex<f64>],
+        other: &[Option<Complex<f64>>],
+        frequencies: &[f64],
+    ) -> Option<Disagreement> {
+        let pairs = own.iter().zip(other).zip(frequencies);
+        let differences = pairs.filter_map(|((&own, &other), &at)| {
+            let size = (self.distance)(own, other?);
+            let relative = if size == 0.0 { 0.0 } else { size / (self.scale)(own) };
+            Some(Disagreement { largest: size, at, relative, stated: None })
+        });
+        differences.max_by(|one, other| one.relative.total_cmp(&other.relative))
+    }
+}
+
+fn loss_factor(stiffness: Complex<f64>) -> f64 {
+    if stiffness.im == 0.0 { 0.0 } else { stiffness.im / stiffness.re }
+}
+
+/// Adds the highest loss factor and its frequency.
+fn add_peak(report: &mut RheometerReport, specimen: &Specimen) {
+    let peak = highest_loss_factor(specimen);
+    let note = "the loss factor has no peak at a finite frequency";
+    let figure = |name, unit, value: Option<f64>| {
+        Figure::of(name, unit, value.unwrap_or(f64::NAN)).noting(note)
+    };
+    report.figures.push(figure("peak of the loss factor", "1", peak.map(|peak| peak.value)));
+    report.figures.push(figure("frequency of the peak", "Hz", peak.map(|peak| peak.omega / TAU)));
+    let linear = specimen.linear();
+    if linear.kelvin().is_none() {
+        report.notes.push("the model bears no force".to_owned());
+        return;
+    }
+    if linear.equilibrium_stiffness() == 0.0 {
+        let note = "a liquid: the loss factor grows without bound towards low frequencies";
+        report.notes.push(note.to_owned());
+    }
+    if linear.maxwell().is_some_and(|form| form.dashpot() > 0.0) {
+        let note = "a dashpot beside all else: the loss factor grows without bound towards high \
+                    frequencies";
+        report.notes.push(note.to_owned());
+    }
+}

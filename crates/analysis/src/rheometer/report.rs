@@ -1,0 +1,143 @@
+//! What a test found.
+
+use crate::Column;
+
+/// What a test of a model found: the same quantities from the model object in closed form, and
+/// from independent computations with the network of the model.
+///
+/// Values that are infinite (the loss factor of a dashpot) are infinite here as well.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RheometerReport {
+    /// Word of the protocol.
+    pub protocol: &'static str,
+    /// The parameters that were used.
+    pub settings: Vec<Setting>,
+    /// Time \[s\] or frequency \[Hz\]. Times rise from 0; where the drive may jump or bend, and
+    /// at 0, the same time stands twice, first for just before, then for just after.
+    pub abscissa: Column,
+    /// What was done to the model, where that is a function of time.
+    pub drive: Option<Column>,
+    /// What was found, each over the abscissa.
+    pub series: Vec<Series>,
+    /// Single numbers: those of the model, then those of the test.
+    pub figures: Vec<Figure>,
+    /// One for each independent computation, in the order in which they were asked for.
+    pub computations: Vec<Computation>,
+    /// What is special about this model under this test, in whole clauses.
+    pub notes: Vec<String>,
+}
+
+impl RheometerReport {
+    /// The series of the given name.
+    pub fn series(&self, name: &str) -> Option<&Series> {
+        self.series.iter().find(|series| series.name == name)
+    }
+
+    /// The figure of the given name.
+    pub fn figure(&self, name: &str) -> Option<&Figure> {
+        self.figures.iter().find(|figure| figure.name == name)
+    }
+
+    /// The largest relative difference between the model object and any computation, over all
+    /// series; `None` where nothing could be compared.
+    pub fn largest_difference(&self) -> Option<f64> {
+        let all = self.series.iter().flat_map(|series| &series.computed);
+        all.filter_map(|computed| computed.difference).map(|own| own.relative).reduce(f64::max)
+    }
+}
+
+/// A parameter that a test used.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setting {
+    /// Its name in the protocol's parameters.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Whether it follows from the model because it was left out.
+    pub is_chosen: bool,
+}
+
+/// A quantity over the abscissa.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// What it is, for instance `deformation`.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// From the model object, in closed form.
+    pub model: Vec<f64>,
+    /// From the independent computations, in the order of [`RheometerReport::computations`].
+    pub computed: Vec<Computed>,
+}
+
+/// A series as an independent computation found it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Computed {
+    /// The values; `None` where the computation does not reach.
+    pub values: Vec<Option<f64>>,
+    /// How far they are from those of the model object; `None` where nothing can be compared.
+    pub difference: Option<Disagreement>,
+}
+
+/// How far an independent computation is from the model object.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Disagreement {
+    /// The largest difference, in the unit of the series (rad for a loss factor, where the loss
+    /// angles are compared).
+    pub largest: f64,
+    /// Where that is: time \[s\] or frequency \[Hz\].
+    pub at: f64,
+    /// The largest difference relative to the largest value of the series, or in a frequency sweep
+    /// to the magnitude of the stiffness at the same frequency.
+    pub relative: f64,
+    /// About how large the error of the computation may be, relative like `relative`: for `exact` its
+    /// bound and what rounding of the equations' coefficients changes, for the network at `s = iω`
+    /// the latter alone, for other methods an estimate from three tolerances.
+    pub stated: Option<f64>,
+}
+
+/// An independent computation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Computation {
+    /// Name of the method.
+    pub method: &'static str,
+    /// The last time \[s\] or frequency \[Hz\] that it reaches; `None` where there is nothing.
+    pub reach: Option<f64>,
+    /// Why it does not reach further.
+    pub obstacle: Option<String>,
+}
+
+/// A number that characterises a model or a test.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figure {
+    /// What it is, for instance `instantaneous stiffness`.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// From the model object; `None` where it is infinite or does not exist.
+    pub model: Option<f64>,
+    /// From the first independent computation, where that gives it.
+    pub computed: Option<f64>,
+    /// Why there is no value.
+    pub note: Option<&'static str>,
+}
+
+impl Figure {
+    /// A figure of the model object; what is not finite is no value.
+    pub(super) fn of(name: &'static str, unit: &'static str, model: f64) -> Self {
+        let model = Some(model).filter(|value| value.is_finite());
+        Self { name, unit, model, computed: None, note: None }
+    }
+
+    /// The same figure, with the reason why there is no value, should there be none.
+    pub(super) fn noting(self, note: &'static str) -> Self {
+        Self { note: self.model.is_none().then_some(note), ..self }
+    }
+
+    /// The same figure with the value of the first computation.
+    pub(super) fn computed(self, computed: Option<f64>) -> Self {
+        Self { computed: computed.filter(|value| value.is_finite()), ..self }
+    }
+}

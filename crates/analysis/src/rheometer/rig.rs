@@ -1,0 +1,84 @@
+//! A model alone between a massless head and the ground.
+
+use dashpot_network::{Model, Network, Node};
+
+use super::{history::History, shaking::shaken};
+
+/// Name of the connection that a model becomes.
+const NAME: &str = "model";
+
+/// What is prescribed at the head of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Control {
+    /// Its force.
+    Force,
+    /// Its deformation.
+    Deformation,
+}
+
+/// Models in a row between a massless head and the ground, and what is read off them.
+#[derive(Debug)]
+pub(super) struct Rig<'a> {
+    chain: Vec<(&'static str, Model)>,
+    control: Control,
+    history: &'a History,
+    /// Names of the outputs that are read.
+    pub(super) outputs: Vec<String>,
+}
+
+impl<'a> Rig<'a> {
+    /// A rig for `model`; its one output is the deformation under a given force, or the force under
+    /// a given deformation.
+    pub(super) fn new(model: &Model, control: Control, history: &'a History) -> Self {
+        let output = match control {
+            Control::Force => format!("{NAME}.deformation"),
+            Control::Deformation => format!("{NAME}.force"),
+        };
+        Self { chain: vec![(NAME, model.clone())], control, history, outputs: vec![output] }
+    }
+
+    /// A rig for models in a row, from the head on; its outputs are their deformations.
+    pub(super) fn chain(
+        chain: Vec<(&'static str, Model)>,
+        control: Control,
+        history: &'a History,
+    ) -> Self {
+        let outputs = chain.iter().map(|(name, _)| format!("{name}.deformation")).collect();
+        Self { chain, control, history, outputs }
+    }
+
+    /// The same rig with the models [`shaken`].
+    pub(super) fn shaken(&self, seed: u64) -> Self {
+        let chain = self.chain.iter().map(|(name, model)| (*name, shaken(model, seed))).collect();
+        Self { chain, outputs: self.outputs.clone(), ..*self }
+    }
+
+    pub(super) fn history(&self) -> &History {
+        self.history
+    }
+
+    /// The network; `None` where the corners of the history cannot be told apart.
+    pub(super) fn network(&self) -> Option<Network> {
+        let waveform = self.history.waveform()?;
+        let mut network = Network::new();
+        let head = match self.control {
+            Control::Force => {
+                let head = network.add_node(Node::massless("head"));
+                network.add_load("force", head, waveform);
+                head
+            }
+            Control::Deformation => network.add_node(Node::prescribed("head", waveform)),
+        };
+        let mut from = head;
+        for (at, (name, model)) in self.chain.iter().enumerate() {
+            let to = if at + 1 < self.chain.len() {
+                network.add_node(Node::massless(format!("behind {name}")))
+            } else {
+                network.ground()
+            };
+            network.connect(*name, from, to, model.clone());
+            from = to;
+        }
+        Some(network)
+    }
+}

@@ -1,0 +1,175 @@
+//! A model on the rheometer.
+
+use dashpot_network::{
+    Model,
+    elements::{Dashpot, Spring},
+    linear_model,
+    parameters::InvalidParameter,
+    part,
+};
+use dashpot_rheology::{KelvinForm, LinearModel, MaxwellForm};
+
+use super::{Figure, RheometerError};
+
+/// The time that stands for those of a model that has none \[s\].
+const NO_TIME: f64 = 1.0;
+
+/// A two-terminal model, ready to be tested.
+#[derive(Debug, Clone)]
+pub struct Specimen {
+    model: Model,
+    linear: LinearModel,
+    relaxation_times: Vec<f64>,
+    retardation_times: Vec<f64>,
+}
+
+impl Specimen {
+    /// The specimen of a model.
+    ///
+    /// # Errors
+    ///
+    /// [`RheometerError::Invalid`] for a constant out of its range or a series or parallel without
+    /// parts, and [`RheometerError::OutOfScale`] where constants are so far apart that the model's
+    /// own leave the range of numbers.
+    pub fn new(model: &Model) -> Result<Self, RheometerError> {
+        check(model)?;
+        let linear = linear_model(model);
+        let times = |form: &MaxwellForm| -> Vec<f64> {
+            form.elements().iter().map(|element| element.relaxation_time).collect()
+        };
+        let delays = |form: &KelvinForm| -> Vec<f64> {
+            form.elements().iter().map(|element| element.retardation_time).collect()
+        };
+        let specimen = Self {
+            model: model.clone(),
+            relaxation_times: linear.maxwell().map(times).unwrap_or_default(),
+            retardation_times: linear.kelvin().map(delays).unwrap_or_default(),
+            linear,
+        };
+        if specimen.is_in_range() { Ok(specimen) } else { Err(RheometerError::OutOfScale) }
+    }
+
+    /// The model as it was given.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The model, seen from outside.
+    pub fn linear(&self) -> &LinearModel {
+        &self.linear
+    }
+
+    /// Its relaxation times \[s\], rising.
+    pub fn relaxation_times(&self) -> &[f64] {
+        &self.relaxation_times
+    }
+
+    /// Its retardation times \[s\], rising.
+    pub fn retardation_times(&self) -> &[f64] {
+        &self.retardation_times
+    }
+
+    /// The fastest and the slowest of all its times \[s\]; 1 s where it has none.
+    pub fn range_of_times(&self) -> (f64, f64) {
+        let all = || self.relaxation_times.iter().chain(&self.retardation_times).copied();
+        let fastest = all().reduce(f64::min).unwrap_or(NO_TIME);
+        (fastest, all().reduce(f64::max).unwrap_or(NO_TIME))
+    }
+
+    /// The slowest retardation time \[s\], or the slowest time of any kind where it has none.
+    pub(super) fn slowest_retardation(&self) -> f64 {
+        self.retardation_times.last().copied().unwrap_or_else(|| self.range_of_times().1)
+    }
+
+    /// The parts of the Kelvin form by the names of what they do, from the head on; those that the
+    /// model has not are left out.
+    pub(super) fn kelvin_chain(&self) -> Vec<(&'static str, Model)> {
+        let Some(form) = self.linear.kelvin() else { return Vec::new() };
+        let mut chain = Vec::new();
+        if form.spring_compliance() > 0.0 {
+            let stiffness = self.linear.instantaneous_stiffness();
+            chain.push(("instantaneous", part(Spring { stiffness })));
+        }
+        let delayed: Vec<Model> = form
+            .elements()
+            .iter()
+            .map(|own| {
+                let spring = part(Spring { stiffness: own.stiffness });
+                Model::parallel([spring, part(Dashpot { damping: own.damping })])
+            })
+            .collect();
+        if !delayed.is_empty() {
+            chain.push(("delayed", Model::series(delayed)));
+        }
+        if form.fluidity() > 0.0 {
+            chain.push(("viscous", part(Dashpot { damping: self.linear.viscosity() })));
+        }
+        chain
+    }
+
+    /// What characterises the model whatever the test.
+    pub(super) fn figures(&self) -> Vec<Figure> {
+        let linear = &self.linear;
+        let figure = |name, unit, value: f64, note| Figure::of(name, unit, value).noting(note);
+        vec![
+            figure(
+                "instantaneous stiffness",
+                "N/m",
+                linear.instantaneous_stiffness(),
+                "no elasticity at once: a sudden deformation would take an infinite force",
+            ),
+            figure(
+                "equilibrium stiffness",
+                "N/m",
+                linear.equilibrium_stiffness(),
+                "the model is rigid",
+            ),
+            figure(
+                "viscosity",
+                "N s/m",
+                linear.viscosity(),
+                "a solid: it comes to rest under a constant force",
+            ),
+        ]
+    }
+
+    fn is_in_range(&self) -> bool {
+        let is_good = |value: f64| value.is_finite() && value >= 0.0;
+        let is_positive = |value: f64| value.is_finite() && value > 0.0;
+        let maxwell = self.linear.maxwell().is_none_or(|form| {
+            let elements = form.elements();
+            let mut all = elements
+                .iter()
+                .flat_map(|own| [own.stiffness, own.damping, own.relaxation_time, own.rate.high()]);
+            is_good(form.spring()) && is_good(form.dashpot()) && all.all(is_positive)
+        });
+        maxwell
+            && self.linear.kelvin().is_none_or(|form| {
+                let elements = form.elements();
+                let mut all = elements.iter().flat_map(|own| {
+                    [own.compliance, own.damping, own.retardation_time, own.rate.high()]
+                });
+                is_good(form.spring_compliance())
+                    && is_good(form.fluidity())
+                    && all.all(is_positive)
+            })
+    }
+}
+
+/// Looks at every part of a model; its depth has no limit.
+fn check(model: &Model) -> Result<(), InvalidParameter> {
+    let mut left = vec![model];
+    while let Some(tree) = left.pop() {
+        match tree {
+            Model::Part(element) => element.validate()?,
+            Model::Series(branches) | Model::Parallel(branches) => {
+                if branches.is_empty() {
+                    let range = "one part or more";
+                    return Err(InvalidParameter::new("series or parallel", range, "empty"));
+                }
+                left.extend(branches.iter().map(|branch| &branch.tree));
+            }
+        }
+    }
+    Ok(())
+}

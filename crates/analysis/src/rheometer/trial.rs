@@ -1,0 +1,127 @@
+//! What tests over time have in common.
+
+use super::{
+    RheometerError, Specimen,
+    comparison::series,
+    history::{History, Instant},
+    report::{Computation, RheometerReport, Series, Setting},
+    response::{self, Parts},
+    rig::{Control, Rig},
+    schedule::instants,
+    simulation::Simulation,
+};
+use crate::Column;
+
+/// A model under a history, in closed form and simulated.
+pub(super) struct Trial<'a> {
+    specimen: &'a Specimen,
+    history: History,
+    control: Control,
+    instants: Vec<Instant>,
+    times: Vec<f64>,
+    methods: &'a [&'a str],
+    simulations: Vec<Simulation>,
+}
+
+impl<'a> Trial<'a> {
+    /// Simulates the specimen under `history`, looked at about `points` times.
+    pub(super) fn new(
+        specimen: &'a Specimen,
+        control: Control,
+        history: History,
+        points: usize,
+        methods: &'a [&'a str],
+    ) -> Result<Self, RheometerError> {
+        let instants = instants(&history, specimen.range_of_times().0, points);
+        let rig = Rig::new(specimen.model(), control, &history);
+        let simulate = |method: &&str| Simulation::new(&rig, method, &instants);
+        let simulations = methods.iter().map(simulate).collect::<Result<_, _>>()?;
+        let times = instants.iter().map(|instant| instant.time).collect();
+        Ok(Self { specimen, history, control, instants, times, methods, simulations })
+    }
+
+    /// The parts of the deformation at an instant, in closed form; zero for what bears no force.
+    pub(super) fn parts(&self, at: Instant) -> Parts {
+        let form = self.specimen.linear().kelvin();
+        form.map_or_else(Parts::default, |form| response::deformation(form, &self.history, at))
+    }
+
+    /// The answer of the model at an instant, in closed form: deformation \[m\] or force \[N\].
+    pub(super) fn answer(&self, at: Instant) -> f64 {
+        match (self.control, self.specimen.linear().maxwell()) {
+            (Control::Force, _) => self.parts(at).total(),
+            (Control::Deformation, Some(form)) => response::force(form, &self.history, at),
+            (Control::Deformation, None) => f64::INFINITY,
+        }
+    }
+
+    /// The row of an instant that was looked at.
+    pub(super) fn row(&self, at: Instant) -> Option<usize> {
+        self.instants.iter().position(|&instant| instant == at)
+    }
+
+    /// The answer that the first simulation found at an instant that it was looked at.
+    pub(super) fn simulated(&self, at: Instant) -> Option<f64> {
+        let row = self.row(at)?;
+        self.simulations.first()?.tracks.first()?.values.get(row).copied().flatten()
+    }
+
+    /// The answer over time.
+    pub(super) fn series(&self) -> Series {
+        let model = self.instants.iter().map(|&at| self.answer(at)).collect();
+        let tracks = self.simulations.iter().filter_map(|own| own.tracks.first());
+        let (name, unit) = match self.control {
+            Control::Force => ("deformation", "m"),
+            Control::Deformation => ("force", "N"),
+        };
+        series(name, unit, &self.times, model, tracks)
+    }
+
+    /// The parts of the deformation over time, simulated with the Kelvin form in place of the model.
+    pub(super) fn series_of_parts(&self) -> Result<Vec<Series>, RheometerError> {
+        let parts: Vec<Parts> = self.instants.iter().map(|&at| self.parts(at)).collect();
+        let chain = self.specimen.kelvin_chain();
+        let names: Vec<&str> = chain.iter().map(|(name, _)| *name).collect();
+        let mut simulations = Vec::new();
+        if !chain.is_empty() {
+            let rig = Rig::chain(chain, self.control, &self.history);
+            for method in self.methods {
+                simulations.push(Simulation::new(&rig, method, &self.instants)?);
+            }
+        }
+        let of = |name: &'static str, value: fn(&Parts) -> f64| {
+            let track = names.iter().position(|&known| known == name);
+            let tracks = simulations.iter().filter_map(|own| own.tracks.get(track?));
+            series(name, "m", &self.times, parts.iter().map(value).collect(), tracks)
+        };
+        Ok(vec![
+            of("instantaneous", |parts| parts.instantaneous),
+            of("delayed", |parts| parts.delayed),
+            of("viscous", |parts| parts.viscous),
+        ])
+    }
+
+    /// The report, without figures of the test and notes.
+    pub(super) fn report(&self, protocol: &'static str, settings: Vec<Setting>) -> RheometerReport {
+        let (name, unit) = match self.control {
+            Control::Force => ("force", "N"),
+            Control::Deformation => ("deformation", "m"),
+        };
+        let values = self.instants.iter().map(|&at| self.history.value(at)).collect();
+        let computation = |own: &Simulation| Computation {
+            method: own.method,
+            reach: own.reach,
+            obstacle: own.obstacle.clone(),
+        };
+        RheometerReport {
+            protocol,
+            settings,
+            abscissa: Column { name: "time".to_owned(), unit: "s", values: self.times.clone() },
+            drive: Some(Column { name: name.to_owned(), unit, values }),
+            series: vec![self.series()],
+            figures: self.specimen.figures(),
+            computations: self.simulations.iter().map(computation).collect(),
+            notes: Vec::new(),
+        }
+    }
+}
