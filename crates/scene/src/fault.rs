@@ -7,6 +7,7 @@ use dashpot_network::{
 use thiserror::Error;
 
 use crate::{
+    basis::{AREA, Basis},
     fault_help::{bad_value_help, unknown_name_help, unreadable_help, wrong_dimension_help},
     nearest::{list, suggestion},
     units::{UnitError, si_unit},
@@ -129,6 +130,12 @@ pub enum Fault {
         /// The same as a frequency \[Hz\].
         frequency: f64,
     },
+    /// A temperature in place of a difference of temperatures.
+    #[error("`{text}` is a temperature; a difference of temperatures (K) is expected here")]
+    CelsiusDifference {
+        /// What was given.
+        text: String,
+    },
     /// A name that stands for nothing.
     #[error("there is no {family} named `{name}`")]
     UnknownName {
@@ -164,8 +171,10 @@ pub enum Fault {
         names: Vec<String>,
     },
     /// A model that contains itself.
-    #[error("the model `{}` contains itself ({})", .names.first().map_or("", String::as_str), .names.join(" → "))]
+    #[error("the {family} `{}` contains itself ({})", .names.first().map_or("", String::as_str), .names.join(" → "))]
     ModelInItself {
+        /// What it is: a model or a material.
+        family: &'static str,
         /// The names in the circle.
         names: Vec<String>,
     },
@@ -184,6 +193,29 @@ pub enum Fault {
         owner: String,
         /// The laws.
         words: Vec<String>,
+    },
+    /// A model within a material.
+    #[error("`model` cannot stand in a material: models are in N/m, materials in Pa")]
+    ModelInMaterial,
+    /// The size of a pad where there is none.
+    #[error("`{key}` goes with `material`, which {owner} does not have")]
+    SizeWithoutMaterial {
+        /// `thickness` or `area`.
+        key: &'static str,
+        /// What it stands in.
+        owner: String,
+    },
+    /// The size of a pad within a material.
+    #[error("a material has no `{key}`; the pads that are made of it have one")]
+    SizeInMaterial {
+        /// `thickness` or `area`.
+        key: &'static str,
+    },
+    /// A text with several models, or none, and no word on which is meant.
+    #[error("{}", if .known.is_empty() { "there is no model here" } else { "there are several models here" })]
+    WhichModel {
+        /// The names that are known.
+        known: Vec<String>,
     },
     /// A driving function that is not given.
     #[error("{owner} names no function of time")]
@@ -318,6 +350,10 @@ impl Fault {
             Self::AngularFrequency { frequency, .. } => {
                 Some(format!("divide by 2 pi: \"{frequency:.6} Hz\""))
             }
+            Self::CelsiusDifference { .. } => Some(
+                "write the same number with `K`: a difference of 1 degree Celsius is 1 K"
+                    .to_owned(),
+            ),
             Self::UnknownName { family, name, known } => unknown_name_help(family, name, known),
             Self::UnknownWord { word, known, .. } => suggestion(word, "words", known),
             Self::NoLaw { known, .. } | Self::NoFunction { known, .. } => Some(format!("give one of: {}", known.join(", "))),
@@ -326,6 +362,21 @@ impl Fault {
                     words.iter().map(|word| format!("{{ {word} = … }}")).collect::<Vec<_>>();
                 Some(format!("for example `parallel = [{}]`", branches.join(", ")))
             }
+            Self::ModelInMaterial => Some(
+                "write `material = \"…\"` for another material; to join both, compose them in [models] \
+                 with `{ material = \"…\", thickness = \"2 cm\", area = \"100 cm^2\" }`"
+                    .to_owned(),
+            ),
+            Self::SizeWithoutMaterial { .. } => Some(
+                "leave it out, or name a material of [materials], in Pa: `material = \"…\"`".to_owned(),
+            ),
+            Self::SizeInMaterial { key } => Some(format!(
+                "leave `{key}` out here, and write it beside `material = \"…\"` in [models] or [elements]"
+            )),
+            Self::WhichModel { known } if known.is_empty() => {
+                Some("[models], [materials] and [elements] hold models".to_owned())
+            }
+            Self::WhichModel { known } => Some(format!("name one of: {}", list(known))),
             Self::MissingSection { section: "run" } => {
                 Some("for example:\n\n[run]\nduration = \"20 ms\"".to_owned())
             }
@@ -354,6 +405,10 @@ pub(crate) fn described(dimension: Dimension) -> String {
     match dimension.named() {
         _ if dimension == Dimension::NUMBER => "a pure number".to_owned(),
         Some((name, unit)) => format!("{} {name} ({unit})", article(name)),
+        None if dimension == Basis::MATERIAL.dimension(Dimension::COMPLIANCE) => {
+            "a compliance of a material (1/Pa)".to_owned()
+        }
+        None if dimension == AREA => "an area (m^2)".to_owned(),
         None => format!("a quantity in {}", si_unit(dimension)),
     }
 }
@@ -377,7 +432,13 @@ pub(crate) fn example_text(dimension: Dimension) -> &'static str {
         Dimension::STIFFNESS => "20 MN/m",
         Dimension::DAMPING => "6 kN s/m",
         Dimension::IMPULSE => "3 N s",
-        Dimension::ENERGY => "500 J",
+        Dimension::ENERGY => "80 kJ/mol",
+        Dimension::PRESSURE => "2 MPa",
+        Dimension::VISCOSITY => "5 kPa s",
+        Dimension::COMPLIANCE => "0.05 mm/kN",
+        Dimension::TEMPERATURE => "20 degC",
+        AREA => "100 cm^2",
+        _ if dimension == Basis::MATERIAL.dimension(Dimension::COMPLIANCE) => "0.5 1/MPa",
         _ => "1.5",
     }
 }

@@ -8,6 +8,9 @@ use crate::{
     units::{UnitError, meant_as, parse_dimension, parse_quantity},
 };
 
+/// What to write in place of degrees Celsius in a product.
+const KELVIN_HELP: &str = "within a unit write `K`: a difference of 1 degree Celsius is 1 K";
+
 /// Help for a text that cannot be read as a quantity.
 pub(crate) fn unreadable_help(error: &UnitError, expected: Dimension) -> String {
     let like = example(expected);
@@ -30,6 +33,7 @@ pub(crate) fn unreadable_help(error: &UnitError, expected: Dimension) -> String 
         }
         UnitError::DecimalComma { text } => comma_help(text, "\""),
         UnitError::Separated { joined, .. } => format!("write \"{joined}\""),
+        UnitError::CelsiusInProduct { .. } => KELVIN_HELP.to_owned(),
         UnitError::Malformed { text } if fits(&text.replace(['.', '-'], " "), expected) => {
             format!("did you mean `{}`? {like}", text.replace(['.', '-'], " "))
         }
@@ -43,6 +47,7 @@ pub(crate) fn bad_value_help(error: &UnitError, example: &str) -> String {
         UnitError::UnknownUnit { meant: Some(meant), .. } => format!("did you mean `{meant}`?"),
         UnitError::DecimalComma { text } => comma_help(text, "\""),
         UnitError::Separated { joined, .. } => format!("write \"{joined}\""),
+        UnitError::CelsiusInProduct { .. } => KELVIN_HELP.to_owned(),
         _ => format!("a value is a quantity, for example \"{example}\""),
     }
 }
@@ -89,7 +94,7 @@ pub(crate) fn unknown_name_help(family: &str, name: &str, known: &[String]) -> O
         return Some(format!("name it in [values]: {name} = \"…\""));
     }
     let known = known.iter().map(String::as_str).collect::<Vec<_>>();
-    let families = format!("{}s", family.replace(" or ", "s and "));
+    let families = format!("{}s", family.replace(", ", "s, ").replace(" or ", "s and "));
     suggestion(name, &families, &known).or_else(|| Some(format!("there are no {families}")))
 }
 

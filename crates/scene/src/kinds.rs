@@ -9,14 +9,16 @@ use dashpot_dae::{
 };
 use dashpot_network::{
     Effect, Element,
+    composites::{Composed, CompositeKind, CompositeVisitor, visit_composites},
     effects::{EffectKind, EffectVisitor, visit_effects},
     elements::{ElementKind, ElementVisitor, visit_elements},
-    parameters::{InvalidParameter, Parameter, ParameterKind, Value},
+    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value},
+    shifts::{ShiftKind, ShiftVisitor, visit_shifts},
     waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
 };
 use dashpot_rheology::{Form, FormVisitor, Part, Role, visit_forms};
 
-use crate::fault::example_text;
+use crate::{basis::Basis, fault::example_text};
 
 /// What a reader needs to know about a kind that becomes a `T`.
 pub(crate) struct Kind<T> {
@@ -44,6 +46,14 @@ pub(crate) struct FormKind {
     pub(crate) in_series: bool,
 }
 
+/// A composite kind.
+pub(crate) struct CompositeEntry {
+    /// How it is read.
+    pub(crate) kind: Kind<Composed>,
+    /// Dimension of what stands beside the times in its tables, in a model.
+    pub(crate) amplitude: Dimension,
+}
+
 /// A measure kind.
 pub(crate) struct MeasureEntry {
     /// How it is read.
@@ -58,6 +68,10 @@ pub(crate) struct Registers {
     pub(crate) elements: Vec<Kind<Arc<dyn Element>>>,
     /// Named forms.
     pub(crate) forms: Vec<FormKind>,
+    /// Models from a description.
+    pub(crate) composites: Vec<CompositeEntry>,
+    /// Time-temperature shifts, which become a factor of times.
+    pub(crate) shifts: Vec<Kind<f64>>,
     /// Driving functions.
     pub(crate) waveforms: Vec<Kind<Waveform>>,
     /// Effects.
@@ -79,6 +93,8 @@ impl Registers {
         let mut registers = Self {
             elements: Vec::new(),
             forms: Vec::new(),
+            composites: Vec::new(),
+            shifts: Vec::new(),
             waveforms: Vec::new(),
             effects: Vec::new(),
             measures: Vec::new(),
@@ -86,6 +102,8 @@ impl Registers {
         };
         visit_elements(&mut registers);
         visit_forms(&mut registers);
+        visit_composites(&mut registers);
+        visit_shifts(&mut registers);
         visit_waveforms(&mut registers);
         visit_effects(&mut registers);
         visit_measures(&mut registers);
@@ -103,12 +121,18 @@ impl Registers {
         self.elements.iter().find(|kind| kind.word == word)
     }
 
+    /// The composite of this word.
+    pub(crate) fn composite(&self, word: &str) -> Option<&CompositeEntry> {
+        self.composites.iter().find(|entry| entry.kind.word == word)
+    }
+
     /// The words with which a model begins.
     pub(crate) fn model_words(&self) -> Vec<&'static str> {
-        let composed = ["series", "parallel", "model"];
+        let composed = ["series", "parallel", "model", "material"];
         let elements = self.elements.iter().map(|kind| kind.word);
         let forms = self.forms.iter().flat_map(|form| [&[form.word], form.aliases].concat());
-        elements.chain(composed).chain(forms).collect()
+        let composites = self.composites.iter().map(|entry| entry.kind.word);
+        elements.chain(composed).chain(forms).chain(composites).collect()
     }
 }
 
@@ -131,6 +155,29 @@ impl FormVisitor for Registers {
             summary: F::SUMMARY,
             parts: F::PARTS,
             in_series: F::IN_SERIES,
+        });
+    }
+}
+
+impl CompositeVisitor for Registers {
+    fn visit<C: CompositeKind>(&mut self) {
+        let kind = Kind {
+            word: C::KIND,
+            summary: C::SUMMARY,
+            parameters: C::PARAMETERS,
+            make: |values| C::from_values(values).and_then(|kind| kind.compose()),
+        };
+        self.composites.push(CompositeEntry { kind, amplitude: C::AMPLITUDE });
+    }
+}
+
+impl ShiftVisitor for Registers {
+    fn visit<S: ShiftKind>(&mut self) {
+        self.shifts.push(Kind {
+            word: S::KIND,
+            summary: S::SUMMARY,
+            parameters: S::PARAMETERS,
+            make: |values| S::from_values(values).and_then(|shift| shift.factor()),
         });
     }
 }
@@ -175,40 +222,67 @@ impl MethodVisitor for Registers {
     }
 }
 
-/// How a kind with these parameters is written after its word and `=`.
-pub(crate) fn example_value(parameters: &[Parameter]) -> String {
-    let required = parameters.iter().filter(|parameter| parameter.default.is_none());
-    let required = required.collect::<Vec<_>>();
-    match required.as_slice() {
-        [] => "{}".to_owned(),
-        [only] => example_parameter(only.kind),
-        several => {
-            let pair = |parameter: &&Parameter| {
-                format!("{} = {}", parameter.name, example_parameter(parameter.kind))
-            };
-            format!("{{ {} }}", several.iter().map(pair).collect::<Vec<_>>().join(", "))
+/// How values are written in an example.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Example {
+    /// Whether they belong to a model or to a material.
+    pub(crate) basis: Basis,
+    /// Dimension of amplitudes in a model; `None` where it is not known.
+    pub(crate) driven: Option<Dimension>,
+}
+
+impl Example {
+    /// For kinds that have no amplitudes, or amplitudes of anything.
+    pub(crate) const PLAIN: Self = Self { basis: Basis::Model, driven: None };
+
+    /// How a kind with these parameters is written after its word and `=`.
+    pub(crate) fn value(self, parameters: &[Parameter]) -> String {
+        let required = parameters.iter().filter(|parameter| parameter.default.is_none());
+        let required = required.collect::<Vec<_>>();
+        match required.as_slice() {
+            [] => "{}".to_owned(),
+            [only] => self.parameter(only.kind),
+            several => {
+                let pair = |parameter: &&Parameter| {
+                    format!("{} = {}", parameter.name, self.parameter(parameter.kind))
+                };
+                format!("{{ {} }}", several.iter().map(pair).collect::<Vec<_>>().join(", "))
+            }
         }
     }
-}
 
-fn example_parameter(kind: ParameterKind) -> String {
-    match kind {
-        ParameterKind::Quantity(dimension) => format!("\"{}\"", example_text(dimension)),
-        ParameterKind::Amplitude => "\"…\"".to_owned(),
-        ParameterKind::TimeTable => "[[\"0 ms\", \"…\"], [\"5 ms\", \"…\"]]".to_owned(),
-        ParameterKind::Choice(words) => format!("\"{}\"", words.first().unwrap_or(&"")),
-        ParameterKind::Flag => "true".to_owned(),
-        ParameterKind::Window => "\"impact\"".to_owned(),
+    /// How one parameter is written.
+    pub(crate) fn parameter(self, kind: ParameterKind) -> String {
+        match kind {
+            ParameterKind::Quantity(dimension) => self.quantity(dimension),
+            ParameterKind::TemperatureDifference => "\"50 K\"".to_owned(),
+            ParameterKind::Amplitude => self.amplitude(),
+            ParameterKind::TimeTable => {
+                let value = self.amplitude();
+                format!("[[\"1 ms\", {value}], [\"5 ms\", {value}]]")
+            }
+            ParameterKind::Choice(words) => format!("\"{}\"", words.first().unwrap_or(&"")),
+            ParameterKind::Flag => "true".to_owned(),
+            ParameterKind::Window => "\"impact\"".to_owned(),
+        }
     }
-}
 
-/// How the parts of a form are written: `{ spring = "20 MN/m", dashpot = "6 kN s/m" }`.
-pub(crate) fn example_parts(parts: &[Part]) -> String {
-    let value = |part: &Part| match part.role {
-        Role::Spring => "\"20 MN/m\"".to_owned(),
-        Role::Dashpot => "\"6 kN s/m\"".to_owned(),
-        Role::Form { parts, .. } => example_parts(parts),
-    };
-    let pairs = parts.iter().map(|part| format!("{} = {}", part.name, value(part)));
-    format!("{{ {} }}", pairs.collect::<Vec<_>>().join(", "))
+    fn amplitude(self) -> String {
+        self.driven.map_or_else(|| "\"…\"".to_owned(), |driven| self.quantity(driven))
+    }
+
+    fn quantity(self, dimension: Dimension) -> String {
+        format!("\"{}\"", example_text(self.basis.dimension(dimension)))
+    }
+
+    /// How the parts of a form are written: `{ spring = "20 MN/m", dashpot = "6 kN s/m" }`.
+    pub(crate) fn parts(self, parts: &[Part]) -> String {
+        let value = |part: &Part| match part.role {
+            Role::Spring => self.quantity(Dimension::STIFFNESS),
+            Role::Dashpot => self.quantity(Dimension::DAMPING),
+            Role::Form { parts, .. } => self.parts(parts),
+        };
+        let pairs = parts.iter().map(|part| format!("{} = {}", part.name, value(part)));
+        format!("{{ {} }}", pairs.collect::<Vec<_>>().join(", "))
+    }
 }

@@ -11,6 +11,7 @@
 //!
 //! Quantities carry [`units`]; inside all values are SI.
 
+mod basis;
 mod diagnostics;
 mod document;
 mod fault;
@@ -18,15 +19,18 @@ mod fault_help;
 mod kinds;
 mod library;
 mod models;
+mod named;
 mod nearest;
 mod nesting;
 mod network_faults;
+mod notes;
 mod parameters;
 mod plausible;
 mod quantity;
 mod render;
 mod repair;
 mod review;
+mod rewrite;
 mod scene;
 mod schema;
 mod sections;
@@ -41,12 +45,15 @@ pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
 pub use document::MAX_BYTES;
 pub use fault::Fault;
 pub use library::Loader;
-pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_model, text_of_bytes};
+pub use named::{NamedModel, read_named_model};
+pub use notes::ModelNote;
+pub use rewrite::with_model;
+pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network, text_of_bytes};
 pub use schema::schema;
 pub use shipped::{Shipped, reference, references, template, templates};
 pub use source::Source;
 pub use values::NamedValue;
-pub use write::{write_kind, write_model};
+pub use write::{write_kind, write_material_table, write_model, write_model_table};
 
 #[cfg(test)]
 mod tests;

@@ -6,6 +6,7 @@ use std::{
 };
 
 use crate::{
+    basis::Basis,
     diagnostics::Faults,
     document::{Content, Entry, Item, parse},
     fault::Fault,
@@ -21,11 +22,54 @@ pub type Loader<'l> = &'l dyn Fn(&str) -> Result<String, String>;
 /// A scene may use models from so many files.
 const MAX_FILES: usize = 1000;
 
-/// A model of a document.
+/// Which of the two tables of models.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Shelf {
+    /// `[models]`, in N/m.
+    Models,
+    /// `[materials]`, in Pa.
+    Materials,
+}
+
+/// Both, in the order in which a name is looked up.
+pub(crate) const SHELVES: [Shelf; 2] = [Shelf::Models, Shelf::Materials];
+
+impl Shelf {
+    /// What a model of it is called; also the key that refers to one.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Models => "model",
+            Self::Materials => "material",
+        }
+    }
+
+    /// The other one.
+    pub(crate) fn other(self) -> Self {
+        match self {
+            Self::Models => Self::Materials,
+            Self::Materials => Self::Models,
+        }
+    }
+
+    pub(crate) fn section(self) -> &'static str {
+        match self {
+            Self::Models => "models",
+            Self::Materials => "materials",
+        }
+    }
+
+    fn entries(self, root: &Item) -> &[Entry] {
+        section(root, self.section()).and_then(|entry| entry.item.table()).unwrap_or(&[])
+    }
+}
+
+/// A model or a material of a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Reference {
     /// Index of the document.
     pub(crate) document: usize,
+    /// The table in which it is.
+    pub(crate) shelf: Shelf,
     index: usize,
 }
 
@@ -34,8 +78,8 @@ struct Document {
     path: String,
     root: Item,
     values: Values,
-    /// Index of each model in the table of models.
-    models: HashMap<String, usize>,
+    /// Index of each model in its table.
+    models: HashMap<(Shelf, String), usize>,
 }
 
 /// All documents of one reading, the scene's own first.
@@ -81,7 +125,8 @@ impl Library {
 
     /// Reads quantities of a document.
     pub(crate) fn quantities<'d>(&'d self, document: usize, faults: &'d Faults) -> Quantities<'d> {
-        Quantities { values: &self.documents[document].values, faults, is_motion: false }
+        let values = &self.documents[document].values;
+        Quantities { values, faults, is_motion: false, basis: Basis::Model }
     }
 
     /// The values of the scene's own document.
@@ -89,20 +134,39 @@ impl Library {
         &self.documents[0].values
     }
 
-    /// The models of a document.
-    pub(crate) fn models(&self, document: usize) -> impl Iterator<Item = Reference> {
-        let count = models_table(&self.documents[document].root).len();
-        (0..count).map(move |index| Reference { document, index })
+    /// The models of a table of a document.
+    pub(crate) fn models(&self, document: usize, shelf: Shelf) -> impl Iterator<Item = Reference> {
+        let count = shelf.entries(&self.documents[document].root).len();
+        (0..count).map(move |index| Reference { document, shelf, index })
     }
 
     /// The entry of a model.
     pub(crate) fn entry(&self, reference: Reference) -> &Entry {
-        &models_table(&self.documents[reference.document].root)[reference.index]
+        &reference.shelf.entries(&self.documents[reference.document].root)[reference.index]
     }
 
-    /// The model that a document means by `text`, a name or `file:name`; `None` where that has
-    /// been noted already.
-    pub(crate) fn find(&self, document: usize, text: &str) -> Result<Option<Reference>, Fault> {
+    /// The model of this name in a document, with no file before it.
+    pub(crate) fn own(&self, document: usize, shelf: Shelf, name: &str) -> Option<Reference> {
+        let index = *self.documents[document].models.get(&(shelf, name.to_owned()))?;
+        Some(Reference { document, shelf, index })
+    }
+
+    /// The names of a table of a document, sorted.
+    pub(crate) fn names(&self, document: usize, shelf: Shelf) -> Vec<String> {
+        let models = self.documents[document].models.keys().filter(|(own, _)| *own == shelf);
+        let mut names: Vec<String> = models.map(|(_, name)| name.clone()).collect();
+        names.sort();
+        names
+    }
+
+    /// The model of `shelf` that a document means by `text`, a name or `file:name`; `None` where a
+    /// fault has been noted already.
+    pub(crate) fn find(
+        &self,
+        document: usize,
+        shelf: Shelf,
+        text: &str,
+    ) -> Result<Option<Reference>, Fault> {
         let (document, name) = match text.rsplit_once(':') {
             None => (document, text),
             Some((path, name)) => {
@@ -113,27 +177,36 @@ impl Library {
                 }
             }
         };
-        let models = &self.documents[document].models;
-        if let Some(&index) = models.get(name) {
-            return Ok(Some(Reference { document, index }));
+        if let Some(found) = self.own(document, shelf, name) {
+            return Ok(Some(found));
         }
-        let mut known: Vec<String> = models.keys().cloned().collect();
-        known.sort();
-        Err(Fault::UnknownName { family: "model", name: name.to_owned(), known })
+        let (family, known) = (shelf.word(), self.names(document, shelf));
+        let fault = Fault::UnknownName { family, name: name.to_owned(), known };
+        Err(match (self.own(document, shelf.other(), name), shelf) {
+            (None, _) => fault,
+            (Some(_), Shelf::Materials) => {
+                fault.with_help(format!("`{name}` is a model: write `model = \"{text}\"`"))
+            }
+            (Some(_), Shelf::Models) => fault.with_help(format!(
+                "`{name}` is a material: write `material = \"{text}\"` with the `thickness` and \
+                 the `area` of the pad"
+            )),
+        })
     }
 
     fn add(&mut self, path: &str, root: Item, overrides: &Overrides, faults: &Faults) {
         let own = section(&root, "values").map(|entry| &entry.item);
         let values = values::read(own, overrides, faults);
-        if let Some(entry) = section(&root, "models") {
-            entries_of(&entry.item, "[models]", faults);
+        let mut models = HashMap::new();
+        for shelf in SHELVES {
+            if let Some(entry) = section(&root, shelf.section()) {
+                entries_of(&entry.item, &format!("[{}]", shelf.section()), faults);
+            }
+            for (index, entry) in shelf.entries(&root).iter().enumerate() {
+                check_name(&entry.key, entry.key_place, faults);
+                models.insert((shelf, entry.key.clone()), index);
+            }
         }
-        let entries = models_table(&root).iter().enumerate();
-        let models = entries.map(|(index, entry)| {
-            check_name(&entry.key, entry.key_place, faults);
-            (entry.key.clone(), index)
-        });
-        let models = models.collect();
         self.documents.push(Document { path: path.to_owned(), root, values, models });
     }
 
@@ -169,7 +242,8 @@ impl Library {
         }
     }
 
-    /// The paths in `model = "path:name"` anywhere in a document, with their places.
+    /// The paths in `model = "path:name"` and `material = "path:name"` anywhere in a document, with
+    /// their places.
     fn files_wanted(&self, document: usize) -> Vec<(String, Place)> {
         let own = &self.documents[document];
         let mut wanted = Vec::new();
@@ -179,7 +253,8 @@ impl Library {
                 Content::List(items) => queue.extend(items),
                 Content::Table(entries) => {
                     for entry in entries {
-                        let text = entry.item.text().filter(|_| entry.key == "model");
+                        let refers = SHELVES.iter().any(|shelf| shelf.word() == entry.key);
+                        let text = entry.item.text().filter(|_| refers);
                         match text.and_then(|text| text.rsplit_once(':')) {
                             Some((path, _)) => {
                                 wanted.push((beside(&own.path, path), entry.item.place));
@@ -197,10 +272,6 @@ impl Library {
 
 fn section<'r>(root: &'r Item, key: &str) -> Option<&'r Entry> {
     root.table()?.iter().find(|entry| entry.key == key)
-}
-
-fn models_table(root: &Item) -> &[Entry] {
-    section(root, "models").and_then(|entry| entry.item.table()).unwrap_or(&[])
 }
 
 /// A path as seen from the file `from`: beside it, unless it is absolute.

@@ -1,14 +1,17 @@
 //! Values of a kind's parameters, read as the kind declares them.
 
-use dashpot_network::parameters::{Dimension, Parameter, ParameterKind, Value, WindowWish};
+use dashpot_network::parameters::{
+    Dimension, InvalidParameter, Parameter, ParameterKind, Value, WindowWish,
+};
 
 use crate::{
+    basis::Basis,
     document::{Content, Entry, Item},
     fault::Fault,
-    kinds::{Kind, example_value},
+    kinds::{Example, Kind},
     quantity::{Quantities, Values},
     source::Place,
-    table::{Table, list_of, text_of, wrong_type},
+    table::{Table, text_of, wrong_type},
     units::parse_quantity,
 };
 
@@ -36,12 +39,16 @@ impl<'d> KindReader<'d> {
         Self { quantities, driven: Dimension::FORCE, other_keys: &[] }
     }
 
+    fn example(self) -> Example {
+        Example { basis: self.quantities.basis, driven: Some(self.driven) }
+    }
+
     /// Reads the thing of `kind` that `item` describes; its word stands at `place`.
     ///
     /// A kind with one required parameter takes the value alone; all others take a table.
     pub(crate) fn read<T>(self, kind: &Kind<T>, item: &Item, place: Place) -> Option<T> {
         let (values, places) = self.values(kind, item, place)?;
-        match (kind.make)(&values) {
+        match self.made(kind, &values) {
             Ok(made) => Some(made),
             Err(invalid) => {
                 let at = kind.parameters.iter().position(|known| known.name == invalid.parameter);
@@ -49,13 +56,39 @@ impl<'d> KindReader<'d> {
                 let (place, item) = at.unwrap_or((item.place, Some(item)));
                 let fault = Fault::Invalid(invalid);
                 let fault = match item {
-                    Some(item) => self.quantities.traced(item, fault),
+                    Some(item) => self.quantities.traced(item, self.helped(fault, item)),
                     None => fault,
                 };
                 self.quantities.faults.error(place, fault);
                 None
             }
         }
+    }
+
+    /// `fault`, which is about the value `item`, with the unit that was probably meant.
+    fn helped(self, fault: Fault, item: &Item) -> Fault {
+        let is_temperature = matches!(
+            &fault,
+            Fault::Invalid(invalid) if ["temperature", "reference"].contains(&invalid.parameter)
+        );
+        match self.quantities.peek(item) {
+            Some(value) if is_temperature && self.quantities.is_bare(item) => fault.with_help(
+                format!("a bare number is in K; write it with its unit: \"{value} degC\""),
+            ),
+            _ => fault,
+        }
+    }
+
+    /// The thing of `kind` with the written `values`, for the pad where they are those of a material.
+    fn made<T>(self, kind: &Kind<T>, values: &[Value]) -> Result<T, InvalidParameter> {
+        let basis = self.quantities.basis;
+        if !basis.is_material() {
+            return (kind.make)(values);
+        }
+        let of_pad = basis.of_pad_all(kind.parameters, values, self.driven);
+        let of_pad = of_pad.and_then(|of_pad| (kind.make)(&of_pad));
+        // A value that is out of range as it is written is told as it is written.
+        of_pad.or_else(|invalid| (kind.make)(values).and(Err(invalid)))
     }
 
     /// The thing of `kind` with all keys left out.
@@ -87,7 +120,8 @@ impl<'d> KindReader<'d> {
             return Some((values, vec![(item.place, Some(item)); kind.parameters.len()]));
         }
         if !is_table {
-            let expected = format!("a table, for example `{}`", example_value(kind.parameters));
+            let expected =
+                format!("a table, for example `{}`", self.example().value(kind.parameters));
             wrong_type(item, &format!("`{}`", kind.word), &expected, faults);
             return None;
         }
@@ -100,7 +134,7 @@ impl<'d> KindReader<'d> {
         for parameter in kind.parameters {
             let entry = match parameter.default {
                 None => {
-                    let value = example_value(std::slice::from_ref(parameter));
+                    let value = self.example().value(std::slice::from_ref(parameter));
                     let entry =
                         table.require(parameter.name, &format!("{} = {value}", parameter.name));
                     places.push(given(entry, place));
@@ -126,8 +160,11 @@ impl<'d> KindReader<'d> {
             ParameterKind::Quantity(dimension) => {
                 self.quantities.read(item, dimension).map(Value::Number)
             }
+            ParameterKind::TemperatureDifference => {
+                self.quantities.read_difference(item).map(Value::Number)
+            }
             ParameterKind::Amplitude => self.amplitude(item).map(Value::Number),
-            ParameterKind::TimeTable => self.time_table(item).map(Value::Table),
+            ParameterKind::TimeTable => self.time_table(item, &what()).map(Value::Table),
             ParameterKind::Choice(words) => {
                 let word = text_of(item, &what(), faults)?;
                 if words.contains(&word) {
@@ -154,8 +191,13 @@ impl<'d> KindReader<'d> {
         Quantities { is_motion, ..self.quantities }.read(item, self.driven)
     }
 
-    fn time_table(self, item: &Item) -> Option<Vec<(f64, f64)>> {
-        let points = list_of(item, "a table of time", self.quantities.faults)?;
+    fn time_table(self, item: &Item, what: &str) -> Option<Vec<(f64, f64)>> {
+        let Content::List(points) = &item.value else {
+            let example = self.example().parameter(ParameterKind::TimeTable);
+            let expected = format!("a list of pairs, for example `{example}`");
+            wrong_type(item, what, &expected, self.quantities.faults);
+            return None;
+        };
         // Every point is read, so that all faults are found.
         let points = points.iter().map(|point| self.point(point)).collect::<Vec<_>>();
         points.into_iter().collect()
@@ -210,7 +252,8 @@ impl<'d> KindReader<'d> {
             _ => Content::Text(text.to_owned()),
         };
         let place = Place { source: u32::MAX, start: 0, end: 0 };
-        let without_names = Quantities { values: &Values::new(), ..self.quantities };
+        let without_names =
+            Quantities { values: &Values::new(), basis: Basis::Model, ..self.quantities };
         let reader = KindReader { quantities: without_names, ..self };
         match parameter.kind {
             ParameterKind::Amplitude => parse_quantity(text).ok().map(|q| Value::Number(q.value)),

@@ -17,7 +17,10 @@ struct Usual {
 const USUAL: &[Usual] = &[
     Usual { key: "mass", unit: "kg", range: 1e-6..=1e5, meant: ["t", "g"] },
     Usual { key: "thickness", unit: "m", range: 1e-5..=1.0, meant: ["m", "mm"] },
+    Usual { key: "area", unit: "m^2", range: 1e-8..=10.0, meant: ["m^2", "cm^2"] },
     Usual { key: "drop", unit: "m", range: 1e-5..=100.0, meant: ["m", "mm"] },
+    Usual { key: "temperature", unit: "K", range: 100.0..=2000.0, meant: ["degC", "degC"] },
+    Usual { key: "reference", unit: "K", range: 100.0..=2000.0, meant: ["degC", "degC"] },
     Usual { key: "duration", unit: "s", range: 1e-7..=10.0, meant: ["s", "ms"] },
 ];
 

@@ -5,11 +5,12 @@ use std::{cell::Cell, collections::HashMap};
 use dashpot_network::parameters::Dimension;
 
 use crate::{
+    basis::Basis,
     diagnostics::Faults,
     document::{Content, Item},
     fault::Fault,
     source::Place,
-    units::{Quantity, UnitError, parse_quantity},
+    units::{Quantity, UnitError, parse_quantity, si_unit},
 };
 
 /// The named values of one document.
@@ -40,6 +41,21 @@ const MOTION_HELP: &str = "a motion is a displacement; acceleration pulses are n
                            integrate twice, or load the mass with the force m a and take its \
                            motion as seen from the base";
 
+/// What to do with moduli in a model.
+const MODULUS_IN_MODEL_HELP: &str = "values in Pa belong in [materials]; a pad is made of one by \
+                                     `material = \"…\", thickness = \"2 cm\", area = \"100 cm^2\"`";
+
+/// What to do with the values of a pad in a material.
+fn stiffness_in_material_help(in_model: Dimension) -> String {
+    let (one, other) =
+        if in_model.mass < 0 { ("area", "thickness") } else { ("thickness", "area") };
+    format!(
+        "values in {} belong in [models]; for a material, multiply them by {one} / {other} of the \
+         specimen",
+        si_unit(in_model)
+    )
+}
+
 /// Reads quantities with the names that hold in one document.
 #[derive(Clone, Copy)]
 pub(crate) struct Quantities<'d> {
@@ -49,11 +65,16 @@ pub(crate) struct Quantities<'d> {
     pub(crate) faults: &'d Faults,
     /// Whether they are displacements of a node over time.
     pub(crate) is_motion: bool,
+    /// Whether they belong to a model or to a material.
+    pub(crate) basis: Basis,
 }
 
 impl Quantities<'_> {
-    /// The quantity `item`, in SI units, with an error where it does not have this dimension.
+    /// The quantity `item` as written, in SI units, with an error where it does not have the
+    /// dimension that is `expected` in a model.
     pub(crate) fn read(self, item: &Item, expected: Dimension) -> Option<f64> {
+        let in_model = expected;
+        let expected = self.basis.dimension(in_model);
         let quantity = match &item.value {
             Content::Number(digits) => self.parsed(digits, item.place, expected)?,
             Content::Text(text) => match self.values.get(text.trim()) {
@@ -69,7 +90,7 @@ impl Quantities<'_> {
                 return None;
             }
         };
-        self.checked(quantity, item, expected)
+        self.checked(quantity, item, in_model)
     }
 
     /// The quantity that passes `check`, which says what is wrong with it.
@@ -89,15 +110,52 @@ impl Quantities<'_> {
         }
     }
 
+    /// The difference of temperatures `item` \[K\]. Degrees Celsius are an error: they say a
+    /// temperature.
+    pub(crate) fn read_difference(self, item: &Item) -> Option<f64> {
+        let value = self.read(item, Dimension::TEMPERATURE)?;
+        if self.is(item, |quantity| quantity.is_celsius) {
+            let fault = Fault::CelsiusDifference { text: self.shown(item) };
+            self.faults.error(item.place, self.traced(item, fault));
+            return None;
+        }
+        Some(value)
+    }
+
+    /// The quantity `item` as written, in SI units, where it is one of any dimension.
+    pub(crate) fn peek(self, item: &Item) -> Option<f64> {
+        match &item.value {
+            Content::Number(digits) => parse_quantity(digits).ok(),
+            Content::Text(text) => match self.values.get(text.trim()) {
+                Some(known) => known.quantity,
+                None => parse_quantity(text).ok(),
+            },
+            _ => None,
+        }
+        .map(|quantity| quantity.value)
+    }
+
     /// Whether `item` gives a number without a unit.
     pub(crate) fn is_bare(self, item: &Item) -> bool {
+        self.is(item, |quantity| quantity.dimension.is_none())
+    }
+
+    fn is(self, item: &Item, fits: impl Fn(Quantity) -> bool) -> bool {
         match &item.value {
-            Content::Number(_) => true,
+            Content::Number(digits) => parse_quantity(digits).is_ok_and(fits),
             Content::Text(text) => match self.values.get(text.trim()) {
-                Some(known) => known.quantity.is_some_and(|known| known.dimension.is_none()),
-                None => parse_quantity(text).is_ok_and(|found| found.dimension.is_none()),
+                Some(known) => known.quantity.is_some_and(fits),
+                None => parse_quantity(text).is_ok_and(fits),
             },
             _ => false,
+        }
+    }
+
+    /// `item` as it is written.
+    fn shown(self, item: &Item) -> String {
+        match &item.value {
+            Content::Text(text) => text.trim().to_owned(),
+            _ => self.faults.text(item.place),
         }
     }
 
@@ -130,18 +188,20 @@ impl Quantities<'_> {
         None
     }
 
-    fn checked(self, quantity: Quantity, item: &Item, expected: Dimension) -> Option<f64> {
+    fn checked(self, quantity: Quantity, item: &Item, in_model: Dimension) -> Option<f64> {
+        let expected = self.basis.dimension(in_model);
         let found = quantity.dimension.unwrap_or(expected);
-        let shown = || match &item.value {
-            Content::Text(text) => text.trim().to_owned(),
-            _ => self.faults.text(item.place),
-        };
+        let shown = || self.shown(item);
         if found != expected {
             let fault = Fault::WrongDimension { text: shown(), found, expected };
             let fault = match found {
                 Dimension::ACCELERATION if self.is_motion => fault.with_help(MOTION_HELP),
                 Dimension::VELOCITY if self.is_motion => {
                     fault.with_help("a motion is a displacement: integrate the velocity")
+                }
+                _ if found == in_model => fault.with_help(stiffness_in_material_help(in_model)),
+                _ if found == Basis::MATERIAL.dimension(in_model) => {
+                    fault.with_help(MODULUS_IN_MODEL_HELP)
                 }
                 _ => fault,
             };

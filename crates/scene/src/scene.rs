@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use dashpot_analysis::{Accuracy, MeasureWish, SolveSettings};
-use dashpot_network::{Assembly, Model, Network};
+use dashpot_network::{Assembly, Network};
 
 pub use crate::sections::RunSettings;
 use crate::{
@@ -14,6 +14,7 @@ use crate::{
     library::{Library, Loader},
     models::ModelReader,
     network_faults::{note_errors, note_warnings},
+    notes::ModelNote,
     review::review,
     sections::{
         Reading, check_stops, read_accuracy, read_effects, read_elements, read_loads,
@@ -25,8 +26,17 @@ use crate::{
 };
 
 /// The sections of a scene and of a file of models.
-const SECTIONS: [&str; 10] = [
-    "title", "values", "models", "nodes", "elements", "effects", "loads", "measures", "accuracy",
+const SECTIONS: [&str; 11] = [
+    "title",
+    "values",
+    "models",
+    "materials",
+    "nodes",
+    "elements",
+    "effects",
+    "loads",
+    "measures",
+    "accuracy",
     "run",
 ];
 
@@ -47,6 +57,8 @@ pub struct Scene {
     pub accuracy: Accuracy,
     /// What is to be reported besides what every run reports.
     pub measures: Vec<MeasureWish>,
+    /// What is to be said about its models, besides warnings.
+    pub notes: Vec<ModelNote>,
     /// Named values, those set from outside included, by name.
     pub values: Vec<NamedValue>,
     /// The text.
@@ -111,14 +123,7 @@ impl std::fmt::Debug for ReadOptions<'_> {
 ///
 /// All faults of the text, each with its place.
 pub fn read(text: &str, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
-    let faults = Faults::default();
-    let scene = read_scene(text, options, &faults);
-    let errors = faults.errors();
-    let found = faults.finish();
-    match scene {
-        Some(value) if errors == 0 => Ok(Checked { value, warnings: found }),
-        _ => Err(found),
-    }
+    checked(|faults| read_scene(text, options, faults))
 }
 
 /// Reads a scene from the bytes of a file.
@@ -147,33 +152,48 @@ pub fn text_of_bytes<'b>(bytes: &'b [u8], file: Option<&str>) -> Result<&'b str,
     })
 }
 
-/// Reads the model `name` of a text, a scene or a file of models.
+/// Reads the network of a text; `[run]` may be missing, and the network need not compile.
+///
+/// It is meant for networks that are looked at from outside, at one of their nodes. All that the
+/// text says besides is checked as in a scene.
 ///
 /// # Errors
 ///
-/// All faults of its models, each with its place; a name that the text does not have.
-pub fn read_model(
+/// All faults of the text, each with its place.
+pub fn read_network(
     text: &str,
-    name: &str,
     options: &ReadOptions<'_>,
-) -> Result<Checked<Model>, Diagnostics> {
-    let faults = Faults::default();
-    let model = load(text, options, &faults).and_then(|(library, _)| match library.find(0, name) {
-        Ok(reference) => ModelReader::new(&library, &faults).named(reference?),
-        Err(fault) => {
-            faults.error(None, fault);
-            None
+) -> Result<Checked<Network>, Diagnostics> {
+    checked(|faults| {
+        let (library, _) = load(text, options, faults)?;
+        let parts = Parts::read(&library, faults);
+        if library.section("run").is_some() {
+            read_run(&parts.reading);
         }
-    });
+        Some(parts.network)
+    })
+}
+
+/// What `read` returns, unless it notes an error.
+pub(crate) fn checked<T>(
+    read: impl FnOnce(&Faults) -> Option<T>,
+) -> Result<Checked<T>, Diagnostics> {
+    let faults = Faults::default();
+    let value = read(&faults);
     let errors = faults.errors();
     let found = faults.finish();
-    match model {
+    match value {
         Some(value) if errors == 0 => Ok(Checked { value, warnings: found }),
         _ => Err(found),
     }
 }
 
-fn load(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<(Library, Arc<Source>)> {
+/// The documents of a text.
+pub(crate) fn load(
+    text: &str,
+    options: &ReadOptions<'_>,
+    faults: &Faults,
+) -> Option<(Library, Arc<Source>)> {
     let name = options.file.unwrap_or("scene");
     let source = Arc::new(Source::new(name, text));
     let root = parse(&source, faults)?;
@@ -187,7 +207,7 @@ fn home_of(key: &str) -> Option<String> {
     if registers.effects.iter().any(|kind| kind.word == key) {
         return Some(format!("write it under [effects]: `{key} = {{}}`"));
     }
-    if registers.element(key).is_some() || registers.form(key).is_some() {
+    if registers.model_words().contains(&key) {
         return Some(format!("write [elements.name] with `between` and `{key}`"));
     }
     match key {
@@ -200,30 +220,49 @@ fn home_of(key: &str) -> Option<String> {
     }
 }
 
+/// What a scene and a network have in common.
+struct Parts<'d> {
+    reading: Reading<'d>,
+    network: Network,
+    title: Option<String>,
+    measures: Vec<MeasureWish>,
+    accuracy: Accuracy,
+    notes: Vec<ModelNote>,
+}
+
+impl<'d> Parts<'d> {
+    fn read(library: &'d Library, faults: &'d Faults) -> Self {
+        let is_stranger = |own: &&Entry| !SECTIONS.contains(&own.key.as_str()) && !faults.damaged();
+        for entry in library.sections().iter().filter(is_stranger) {
+            let (key, owner) = (entry.key.clone(), "the scene".to_owned());
+            let fault = Fault::UnknownKey { key, owner, known: SECTIONS.to_vec() };
+            let fault = match home_of(&entry.key) {
+                Some(help) => fault.with_help(help),
+                None => fault,
+            };
+            faults.error(entry.key_place, fault);
+        }
+        let title = library.section("title");
+        let title = title.and_then(|entry| text_of(&entry.item, "`title`", faults));
+        let title = title.map(str::to_owned);
+        let models = ModelReader::new(library, faults);
+        let mut reading = Reading::new(library, faults);
+        let mut network = Network::new();
+        read_nodes(&mut reading, &mut network);
+        read_elements(&mut reading, &models, &mut network);
+        models.check_unused();
+        read_effects(&reading, &mut network);
+        read_loads(&reading, &mut network);
+        let measures = read_measures(&reading);
+        let accuracy = read_accuracy(&reading);
+        Self { reading, network, title, measures, accuracy, notes: models.notes() }
+    }
+}
+
 fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<Scene> {
     let (library, source) = load(text, options, faults)?;
-    let is_stranger = |own: &&Entry| !SECTIONS.contains(&own.key.as_str()) && !faults.damaged();
-    for entry in library.sections().iter().filter(is_stranger) {
-        let (key, owner) = (entry.key.clone(), "the scene".to_owned());
-        let fault = Fault::UnknownKey { key, owner, known: SECTIONS.to_vec() };
-        let fault = match home_of(&entry.key) {
-            Some(help) => fault.with_help(help),
-            None => fault,
-        };
-        faults.error(entry.key_place, fault);
-    }
-    let title = library.section("title");
-    let title = title.and_then(|entry| text_of(&entry.item, "`title`", faults)).map(str::to_owned);
-    let models = ModelReader::new(&library, faults);
-    let mut reading = Reading::new(&library, faults);
-    let mut network = Network::new();
-    read_nodes(&mut reading, &mut network);
-    read_elements(&mut reading, &models, &mut network);
-    models.check_unused();
-    read_effects(&reading, &mut network);
-    read_loads(&reading, &mut network);
-    let measures = read_measures(&reading);
-    let accuracy = read_accuracy(&reading);
+    let Parts { reading, network, title, measures, accuracy, notes } =
+        Parts::read(&library, faults);
     let (mut run, stops) = read_run(&reading);
     if faults.errors() > 0 {
         return None;
@@ -256,6 +295,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         run,
         accuracy,
         measures,
+        notes,
         values,
         text: Arc::clone(&source.text),
     })

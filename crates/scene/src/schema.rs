@@ -1,15 +1,18 @@
 //! The JSON schema of scenes, made from the registers.
 
+mod values;
+
 use std::collections::BTreeMap;
 
 use dashpot_analysis::Family;
-use dashpot_network::parameters::{Dimension, Parameter, ParameterKind};
+use dashpot_network::parameters::Dimension;
 use dashpot_rheology::{Part, Role};
 use serde_json::{Map, Value, json};
 
+use self::values::{Values, named_quantity, quantity};
 use crate::{
-    fault::{described, example_text},
-    kinds::{Kind, registers},
+    basis::{AREA, Basis},
+    kinds::{CompositeEntry, Kind, registers},
 };
 
 /// The JSON schema (draft 2020-12) of scenes, for editors: `#:schema ./scene.schema.json`.
@@ -30,6 +33,11 @@ pub fn schema() -> Value {
                 "description": "two-terminal models, by name",
                 "type": "object",
                 "additionalProperties": reference("model"),
+            },
+            "materials": {
+                "description": "models in Pa and Pa s, which become pads by thickness and area",
+                "type": "object",
+                "additionalProperties": reference("material"),
             },
             "nodes": {
                 "description": "points with one displacement; `ground` is always there",
@@ -67,38 +75,25 @@ pub fn schema() -> Value {
 fn definitions() -> Value {
     let mut all = Map::new();
     let mut add = |name: &str, schema: Value| all.insert(name.to_owned(), schema);
-    for dimension in [
-        Dimension::NUMBER,
-        Dimension::MASS,
-        Dimension::LENGTH,
-        Dimension::TIME,
-        Dimension::FREQUENCY,
-        Dimension::VELOCITY,
-        Dimension::ACCELERATION,
-        Dimension::FORCE,
-        Dimension::STIFFNESS,
-        Dimension::DAMPING,
-        Dimension::IMPULSE,
-        Dimension::ENERGY,
-    ] {
+    for dimension in Dimension::all_named() {
         if let Some((name, _)) = dimension.named() {
             add(name, quantity(dimension));
         }
     }
-    add("model", composed("a two-terminal model", Map::new(), &[]));
-    let name = described_as(json!({ "type": "string" }), "name of the branch in paths");
-    add("branch", composed("a branch of a model", object([("name", name)]), &[]));
-    let own = object([
-        (
-            "between",
-            json!({
-                "description": "its ends, the impactor's side first",
-                "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2,
-            }),
-        ),
-        ("thickness", described_as(reference("length"), "thickness of the pad [m], positive")),
-    ]);
-    add("element", composed("a model between two nodes", own, &["between"]));
+    let name =
+        || ("name", described_as(json!({ "type": "string" }), "name of the branch in paths"));
+    add("shift", shift());
+    add("model", composed("a two-terminal model", [], &[], Basis::Model));
+    add("branch", composed("a branch of a model", [name()], &[], Basis::Model));
+    add("material", composed("a model in Pa", [], &[], Basis::MATERIAL));
+    let branch = composed("a branch of a material", [name()], &[], Basis::MATERIAL);
+    add("material-branch", branch);
+    let between = json!({
+        "description": "its ends, the impactor's side first",
+        "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2,
+    });
+    let own = [("between", between), ("thickness", thickness())];
+    add("element", composed("a model between two nodes", own, &["between"], Basis::Model));
     add("node", node());
     add("force-function", function(Dimension::FORCE));
     add("length-function", function(Dimension::LENGTH));
@@ -137,7 +132,7 @@ fn measure() -> Value {
             Family::Element => "of an element",
             Family::Node => "of a node",
         };
-        let mut properties = parameters(measure.kind.parameters, Dimension::NUMBER);
+        let mut properties = Values::driving(Dimension::NUMBER).parameters(measure.kind.parameters);
         properties.insert("kind".to_owned(), json!({ "const": measure.kind.word }));
         json!({
             "description": format!("{} ({of})", measure.kind.summary),
@@ -198,24 +193,49 @@ fn run() -> Value {
 }
 
 /// A table with one law and the keys `own`.
-fn composed(description: &str, own: Map<String, Value>, required: &[&str]) -> Value {
+fn composed<'k>(
+    description: &str,
+    own: impl IntoIterator<Item = (&'k str, Value)>,
+    required: &[&str],
+    basis: Basis,
+) -> Value {
+    let is_material = basis.is_material();
     let mut laws = BTreeMap::new();
     for kind in &registers().elements {
-        let schema = described_as(kind_value(kind.parameters, Dimension::FORCE), kind.summary);
-        laws.insert(kind.word, schema);
+        let values = Values { driven: Dimension::FORCE, basis };
+        laws.insert(kind.word, described_as(values.of_kind(kind.parameters), kind.summary));
     }
     for form in &registers().forms {
         for word in [&[form.word], form.aliases].concat() {
-            laws.insert(word, described_as(parts(form.parts), form.summary));
+            laws.insert(word, described_as(parts(form.parts, basis), form.summary));
         }
     }
-    let branches = json!({ "type": "array", "items": reference("branch"), "minItems": 1 });
+    for CompositeEntry { kind, amplitude } in &registers().composites {
+        let values = Values { driven: *amplitude, basis };
+        laws.insert(kind.word, described_as(values.of_kind(kind.parameters), kind.summary));
+    }
+    let branch = reference(if is_material { "material-branch" } else { "branch" });
+    let branches = json!({ "type": "array", "items": branch, "minItems": 1 });
     laws.insert("series", described_as(branches.clone(), "branches in a row"));
     laws.insert("parallel", described_as(branches, "branches side by side"));
-    let model = json!({ "type": "string" });
-    laws.insert("model", described_as(model, "a model by name, or `file.toml:name`"));
-    let one = laws.keys().map(|word| json!({ "required": [word] })).collect::<Vec<_>>();
-    let mut properties = own;
+    let by_name = |word: &str| {
+        let description = format!("a {word} by name, or `file.toml:name`");
+        json!({ "type": "string", "description": description })
+    };
+    laws.insert("material", by_name("material"));
+    let mut properties = object(own);
+    properties.insert("shift".to_owned(), reference("shift"));
+    if !is_material {
+        laws.insert("model", by_name("model"));
+        properties.insert("thickness".to_owned(), thickness());
+        let area = described_as(quantity(AREA), "area of a pad of a material [m^2], positive");
+        properties.insert("area".to_owned(), area);
+    }
+    let one = laws.keys().map(|&word| match word {
+        "material" if !is_material => json!({ "required": [word, "thickness", "area"] }),
+        word => json!({ "required": [word] }),
+    });
+    let one = one.collect::<Vec<_>>();
     properties.extend(laws.into_iter().map(|(word, schema)| (word.to_owned(), schema)));
     json!({
         "description": description,
@@ -227,11 +247,26 @@ fn composed(description: &str, own: Map<String, Value>, required: &[&str]) -> Va
     })
 }
 
-fn parts(parts_of_form: &[Part]) -> Value {
+fn thickness() -> Value {
+    described_as(reference("length"), "thickness of the pad [m], positive")
+}
+
+/// A table with one shift.
+fn shift() -> Value {
+    let kinds = registers().shifts.iter();
+    let values = Values::driving(Dimension::NUMBER);
+    let schema = |kind: &Kind<_>| described_as(values.of_kind(kind.parameters), kind.summary);
+    let description = "what multiplies all times of the model";
+    let mut table = closed(description, kinds.map(|kind| (kind.word, schema(kind))));
+    (table["minProperties"], table["maxProperties"]) = (json!(1), json!(1));
+    table
+}
+
+fn parts(parts_of_form: &[Part], basis: Basis) -> Value {
     let schema = |part: &Part| match part.role {
-        Role::Spring => reference("stiffness"),
-        Role::Dashpot => reference("damping"),
-        Role::Form { parts: inner, .. } => parts(inner),
+        Role::Spring => named_quantity(basis.dimension(Dimension::STIFFNESS)),
+        Role::Dashpot => named_quantity(basis.dimension(Dimension::DAMPING)),
+        Role::Form { parts: inner, .. } => parts(inner, basis),
     };
     let names = parts_of_form.iter().map(|part| part.name).collect::<Vec<_>>();
     let mut table = closed("", parts_of_form.iter().map(|part| (part.name, schema(part))));
@@ -242,71 +277,19 @@ fn parts(parts_of_form: &[Part]) -> Value {
 /// A table with one function of time.
 fn function(driven: Dimension) -> Value {
     let kinds = registers().waveforms.iter();
-    let schema = |kind: &Kind<_>| described_as(kind_value(kind.parameters, driven), kind.summary);
+    let schema = |kind: &Kind<_>| {
+        described_as(Values::driving(driven).of_kind(kind.parameters), kind.summary)
+    };
     let mut table = closed("a function of time", kinds.map(|kind| (kind.word, schema(kind))));
     (table["minProperties"], table["maxProperties"]) = (json!(1), json!(1));
     table
 }
 
 fn effect<T>(kind: &Kind<T>) -> Value {
-    let table = kind_value(kind.parameters, Dimension::FORCE);
+    let table = Values::driving(Dimension::FORCE).of_kind(kind.parameters);
     let plain = kind.parameters.iter().all(|parameter| parameter.default.is_some());
     let schema = if plain { json!({ "anyOf": [{ "const": true }, table] }) } else { table };
     described_as(schema, kind.summary)
-}
-
-/// What follows the word of a kind.
-fn kind_value(all: &[Parameter], driven: Dimension) -> Value {
-    let required = all.iter().filter(|parameter| parameter.default.is_none()).collect::<Vec<_>>();
-    let names = required.iter().map(|parameter| parameter.name).collect::<Vec<_>>();
-    let table = json!({
-        "type": "object",
-        "properties": parameters(all, driven),
-        "required": names,
-        "additionalProperties": false,
-    });
-    match required.as_slice() {
-        [only] if all.len() == 1 => parameter(only, driven),
-        [only] => json!({ "anyOf": [parameter(only, driven), table] }),
-        _ => table,
-    }
-}
-
-fn parameters(all: &[Parameter], driven: Dimension) -> Map<String, Value> {
-    all.iter().map(|own| (own.name.to_owned(), parameter(own, driven))).collect()
-}
-
-fn parameter(parameter: &Parameter, driven: Dimension) -> Value {
-    let time = reference("time");
-    let pair = |first: &Value, second: &Value| json!({ "type": "array", "prefixItems": [first, second], "minItems": 2, "maxItems": 2 });
-    let mut schema = match parameter.kind {
-        ParameterKind::Quantity(dimension) => named_quantity(dimension),
-        ParameterKind::Amplitude => named_quantity(driven),
-        ParameterKind::TimeTable => {
-            json!({ "type": "array", "items": pair(&time, &named_quantity(driven)) })
-        }
-        ParameterKind::Choice(words) => json!({ "enum": words }),
-        ParameterKind::Flag => json!({ "const": true }),
-        ParameterKind::Window => {
-            json!({ "anyOf": [{ "enum": ["impact", "run"] }, pair(&time, &time)] })
-        }
-    };
-    if let Some(default) = parameter.default {
-        schema["default"] = json!(default);
-    }
-    described_as(schema, parameter.help)
-}
-
-fn named_quantity(dimension: Dimension) -> Value {
-    dimension.named().map_or_else(|| quantity(dimension), |(name, _)| reference(name))
-}
-
-fn quantity(dimension: Dimension) -> Value {
-    json!({
-        "description": format!("{}, a bare number in SI units, or a named value", described(dimension)),
-        "type": ["number", "string"],
-        "examples": [example_text(dimension)],
-    })
 }
 
 fn one_or_many(schema: &Value) -> Value {

@@ -8,7 +8,7 @@ use dashpot_network::{
 };
 use dashpot_rheology::{Branch, Tree};
 
-use crate::{kinds::registers, units::exact_quantity};
+use crate::{basis::Basis, kinds::registers, units::exact_quantity};
 
 /// A model as an inline table, for instance `{ parallel = [{ spring = "20 MN/m" }, …] }`.
 ///
@@ -23,42 +23,105 @@ use crate::{kinds::registers, units::exact_quantity};
 /// assert!(write_model(&pad).starts_with("{ series = [{ spring = \"20 MN/m\", name = \"1\" }, "));
 /// ```
 pub fn write_model(model: &Model) -> String {
+    format!("{{ {} }}", law(model, Basis::Model, false))
+}
+
+/// A model as a table `[models.NAME]` with one branch on each line, below comment lines.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{elements::{Dashpot, Spring}, part};
+/// use dashpot_rheology::{Branch, Tree};
+/// use dashpot_scene::write_model_table;
+///
+/// let pad = Tree::Parallel(vec![
+///     Branch::new("spring", part(Spring { stiffness: 2e7 })),
+///     Branch::new("rest", part(Dashpot { damping: 6e3 })),
+/// ]);
+/// let text = write_model_table("pad", &pad, &["relaxes within 1 ms".to_owned()]);
+/// assert_eq!(
+///     text,
+///     r#"# relaxes within 1 ms
+/// [models.pad]
+/// parallel = [
+///   { spring = "20 MN/m", name = "spring" },
+///   { dashpot = "6 kN s/m", name = "rest" },
+/// ]
+/// "#
+/// );
+/// ```
+pub fn write_model_table(name: &str, model: &Model, comments: &[String]) -> String {
+    table("models", name, model, Basis::Model, comments)
+}
+
+/// A material as a table `[materials.NAME]` with one branch on each line, below comment lines.
+///
+/// `model` has the values of a pad of 1 m² that is 1 m thick, as in
+/// [`NamedModel`](crate::NamedModel): its stiffnesses in N/m are the moduli in Pa.
+pub fn write_material_table(name: &str, model: &Model, comments: &[String]) -> String {
+    table("materials", name, model, Basis::MATERIAL, comments)
+}
+
+fn table(section: &str, name: &str, model: &Model, basis: Basis, comments: &[String]) -> String {
+    let mut text = String::new();
+    for line in comments.iter().flat_map(|comment| comment.lines()) {
+        // Other control characters may not stand in a comment.
+        let line = line.replace(char::is_control, " ");
+        text.push_str(if line.is_empty() { "#" } else { "# " });
+        text.push_str(&line);
+        text.push('\n');
+    }
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
+    let key = match name {
+        _ if !name.is_empty() && name.chars().all(is_bare) => name.to_owned(),
+        _ => quoted(name),
+    };
+    text + &format!("[{section}.{key}]\n{}\n", law(model, basis, true))
+}
+
+/// A model by its law: `spring = "20 MN/m"`, `series = […]`; `in_lines` gives each of the outer
+/// branches a line of its own.
+fn law(model: &Model, basis: Basis, in_lines: bool) -> String {
     enum Step<'m> {
-        Table(&'m Model, Option<&'m str>),
+        Law(&'m Model),
         Text(&'static str),
-        Name(Option<&'m str>),
+        Name(&'m str),
     }
     let mut text = String::new();
     // Models nest without limit, so the way back is kept here and not on the stack.
-    let mut steps = vec![Step::Table(model, None)];
+    let mut steps = vec![Step::Law(model)];
     while let Some(step) = steps.pop() {
         match step {
             Step::Text(own) => text.push_str(own),
-            Step::Name(Some(name)) => {
+            Step::Name(name) => {
                 text.push_str(", name = ");
                 text.push_str(&quoted(name));
             }
-            Step::Name(None) => {}
-            Step::Table(tree, name) => {
-                text.push_str("{ ");
-                steps.extend([Step::Text(" }"), Step::Name(name)]);
+            Step::Law(tree) => {
                 let (word, branches) = match tree {
                     Tree::Part(element) => {
-                        text.push_str(&write_element(element.as_ref()));
+                        text.push_str(&write_element(element.as_ref(), basis));
                         continue;
                     }
                     Tree::Series(branches) => ("series = [", branches),
                     Tree::Parallel(branches) => ("parallel = [", branches),
                 };
+                let in_lines = in_lines && std::ptr::eq(tree, model);
                 text.push_str(word);
-                steps.push(Step::Text("]"));
+                steps.push(Step::Text(if in_lines { "\n]" } else { "]" }));
                 let named = !has_plain_names(branches);
                 for (at, branch) in branches.iter().enumerate().rev() {
-                    let name = named.then_some(branch.name.as_str());
-                    steps.push(Step::Table(&branch.tree, name));
-                    if at > 0 {
-                        steps.push(Step::Text(", "));
+                    steps.push(Step::Text(match (in_lines, at + 1 == branches.len()) {
+                        (true, _) => " },",
+                        (false, true) => " }",
+                        (false, false) => " }, ",
+                    }));
+                    if named {
+                        steps.push(Step::Name(&branch.name));
                     }
+                    steps.push(Step::Law(&branch.tree));
+                    steps.push(Step::Text(if in_lines { "\n  { " } else { "{ " }));
                 }
             }
         }
@@ -75,36 +138,52 @@ pub fn write_kind(
     values: &[Value],
     driven: Dimension,
 ) -> String {
+    write_kind_in(Basis::Model, (word, parameters, values), driven)
+}
+
+fn write_kind_in(
+    basis: Basis,
+    (word, parameters, values): (&str, &[Parameter], &[Value]),
+    driven: Dimension,
+) -> String {
+    let write_value = |kind: ParameterKind, value: &Value| {
+        let dimension = match kind {
+            ParameterKind::Quantity(dimension) => dimension,
+            ParameterKind::TemperatureDifference => Dimension::TEMPERATURE,
+            _ => driven,
+        };
+        write_value(value, basis.dimension(dimension))
+    };
     let pairs = parameters.iter().zip(values);
     if let ([parameter], [value]) = (parameters, values)
         && parameter.default.is_none()
     {
-        return format!("{word} = {}", write_value(parameter.kind, value, driven));
+        return format!("{word} = {}", write_value(parameter.kind, value));
     }
     let written = pairs.map(|(parameter, value)| {
-        format!("{} = {}", parameter.name, write_value(parameter.kind, value, driven))
+        format!("{} = {}", parameter.name, write_value(parameter.kind, value))
     });
     format!("{word} = {{ {} }}", written.collect::<Vec<_>>().join(", "))
 }
 
-fn write_element(element: &dyn Element) -> String {
+fn write_element(element: &dyn Element, basis: Basis) -> String {
     let parameters = registers().element(element.kind()).map_or(&[][..], |kind| kind.parameters);
-    write_kind(element.kind(), parameters, &element.values(), Dimension::FORCE)
+    write_kind_in(basis, (element.kind(), parameters, &element.values()), Dimension::FORCE)
 }
 
-fn write_value(kind: ParameterKind, value: &Value, driven: Dimension) -> String {
-    let quantity = |value: f64, dimension| quoted(&exact_quantity(value, dimension));
+/// A value; numbers, and what stands beside times, are of this dimension.
+fn write_value(value: &Value, dimension: Dimension) -> String {
+    let quantity = |value: f64, dimension| match dimension {
+        Dimension::NUMBER => format!("{value:?}"),
+        dimension => quoted(&exact_quantity(value, dimension)),
+    };
     let time = |time: f64| quantity(time, Dimension::TIME);
     match value {
-        Value::Number(number) => match kind {
-            ParameterKind::Quantity(Dimension::NUMBER) => format!("{number:?}"),
-            ParameterKind::Quantity(dimension) => quantity(*number, dimension),
-            _ => quantity(*number, driven),
-        },
+        Value::Number(number) => quantity(*number, dimension),
         Value::Table(points) => {
             let points = points
                 .iter()
-                .map(|&(at, value)| format!("[{}, {}]", time(at), quantity(value, driven)));
+                .map(|&(at, value)| format!("[{}, {}]", time(at), quantity(value, dimension)));
             format!("[{}]", points.collect::<Vec<_>>().join(", "))
         }
         Value::Word(word) => quoted(word),

@@ -92,3 +92,32 @@ fn faults_do_not_fit_the_schema() {
     assert!(!fits("{ between = [\"a\", \"ground\"], series = [] }"));
     assert!(!fits("{ between = [\"a\", \"ground\"], rigid = false }"));
 }
+
+#[test]
+fn materials_composites_and_shifts_have_a_schema() {
+    let schema = schema();
+    let scene = |rest: &str, element: &str| {
+        json(&format!(
+            "[elements]\np = {{ between = [\"a\", \"ground\"], {element} }}\n[run]\nduration = 1\n{rest}"
+        ))
+    };
+    let element = |own: &str| fits(&schema, &schema, &scene("", own));
+    let material = |own: &str| {
+        fits(&schema, &schema, &scene(&format!("[materials]\nm = {own}"), "spring = 1"))
+    };
+    assert!(element("material = \"m\", thickness = 1, area = \"1 cm^2\""));
+    assert!(!element("material = \"m\", thickness = 1"));
+    assert!(!element("material = \"m\", thickness = 1, area = 1, spring = 1"));
+    assert!(element("series = [{ material = \"m\", thickness = 1, area = 1, name = \"x\" }]"));
+    assert!(element("prony = { terms = [[\"1 ms\", 2]], equilibrium = 1 }"));
+    assert!(element("prony = [[\"1 ms\", 2]]") && element("kelvin-chain = [[1, 2]]"));
+    assert!(!element("prony = { terms = [[\"1 ms\", 2, 3]] }"));
+    let shift = "wlf = { temperature = \"0 degC\", reference = 293 }";
+    assert!(element(&format!("spring = 1, shift = {{ {shift} }}")));
+    assert!(!element("spring = 1, shift = {}"));
+    assert!(!element("spring = 1, shift = { wlf = {} }"));
+    assert!(material("{ zener = { spring = 1, maxwell = { spring = 1, dashpot = \"1 Pa s\" } } }"));
+    assert!(material(&format!("{{ series = [{{ material = \"x\" }}], shift = {{ {shift} }} }}")));
+    assert!(!material("{ model = \"x\" }"));
+    assert!(!material("{ spring = 1, area = 1 }"));
+}

@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// The keys of an element besides its law.
-const OWN_KEYS: &[&str] = &["between", "thickness"];
+pub(crate) const ELEMENT_KEYS: &[&str] = &["between", "shift", "thickness", "area"];
 
 /// Reads the elements into `network`.
 pub(crate) fn read_elements<'d>(
@@ -52,7 +52,7 @@ fn read_element<'d>(
     // The model reader looks at the other keys.
     table.finish_missing();
     let Table { owner, place, .. } = table;
-    let model = models.element(&entry.item, owner, place, OWN_KEYS);
+    let model = models.element(&entry.item, owner, place, ELEMENT_KEYS);
     let ([from, to], model) = between.zip(model)?;
     network.connect(&*entry.key, from, to, model).thickness = thickness.unwrap_or_default();
     Some(())

@@ -10,7 +10,7 @@ mod run;
 
 pub(crate) use accuracy::read_accuracy;
 pub(crate) use effects::read_effects;
-pub(crate) use elements::read_elements;
+pub(crate) use elements::{ELEMENT_KEYS, read_elements};
 pub(crate) use loads::read_loads;
 pub(crate) use measures::read_measures;
 pub(crate) use nodes::read_nodes;
@@ -25,7 +25,7 @@ use crate::{
     diagnostics::Faults,
     document::{Entry, Item},
     fault::Fault,
-    kinds::{Kind, example_value, registers},
+    kinds::{Example, Kind, registers},
     library::Library,
     parameters::KindReader,
     quantity::Quantities,
@@ -140,5 +140,5 @@ impl<'d> Reading<'d> {
 
 /// A kind with its word: `constant = "…"`.
 fn example_kind<T>(kind: &Kind<T>) -> String {
-    format!("{} = {}", kind.word, example_value(kind.parameters))
+    format!("{} = {}", kind.word, Example::PLAIN.value(kind.parameters))
 }

@@ -1,6 +1,6 @@
 //! Mutated scenes are read or refused, never a panic.
 
-use crate::{ReadOptions, read_bytes, references, templates};
+use crate::{ReadOptions, read_bytes, read_named_model, read_network, references, templates};
 
 /// Steele and Vigna's splitmix64.
 struct Random(u64);
@@ -56,7 +56,64 @@ const FRAGMENTS: &[&str] = &[
     "🦀",
     "\r",
     "1979-05-27",
+    "material = \"foam\"",
+    "thickness = 0, ",
+    "area = \"1e300 m^2\", ",
+    "shift = { wlf = {",
+    "prony = { terms = [[",
+    "\"-300 degC\"",
+    "\"2 MPa\"",
 ];
+
+/// Everything that a model may be.
+const PADS: &str = r#"
+[values]
+E = "2 MPa"
+cold = "-10 degC"
+
+[materials]
+foam = { series = [{ material = "core", name = "core" }, { spring = "E" }], shift = { wlf = { temperature = "cold", reference = "20 degC" } } }
+core = { prony = { equilibrium = "E", terms = [["1 ms", "3 MPa"], ["0.1 s", "1 MPa"]] } }
+wax = { kelvin-chain = [["2 ms", "0.5 1/MPa"], ["1 s", "0.1 1/MPa"]] }
+
+[models.pad]
+series = [
+  { material = "foam", thickness = "1 cm", area = "80 cm^2" },
+  { material = "wax", thickness = 0.01, area = 0.008, name = "wax", shift = { arrhenius = { temperature = 280, reference = 300, energy = "80 kJ/mol" } } },
+]
+
+[nodes]
+head = { mass = 1, velocity = 1 }
+
+[elements]
+pad = { between = ["head", "ground"], model = "pad" }
+other = { between = ["head", "ground"], material = "foam", thickness = "2 cm", area = "100 cm^2" }
+
+[run]
+duration = 1
+"#;
+
+#[test]
+fn mutated_models_never_panic() {
+    let mut random = Random(31);
+    let options = ReadOptions::default();
+    let mut read = 0;
+    let whole = read_bytes(PADS.as_bytes(), &options).unwrap_or_else(|errors| panic!("{errors}"));
+    assert!(whole.warnings.is_empty(), "{}", whole.warnings);
+    for _ in 0..1500 {
+        let bytes = mutate(PADS.as_bytes(), &mut random);
+        read += usize::from(read_bytes(&bytes, &options).is_ok());
+        let text = String::from_utf8_lossy(&bytes);
+        for name in ["", "foam", "pad", "other"] {
+            match read_named_model(&text, name, &options) {
+                Ok(checked) => drop(crate::write_model_table(name, &checked.value.model, &[])),
+                Err(errors) => assert!(!errors.render(false).is_empty()),
+            }
+        }
+        drop(read_network(&text, &options));
+    }
+    assert!(read > 0);
+}
 
 fn mutate(text: &[u8], random: &mut Random) -> Vec<u8> {
     let mut bytes = text.to_vec();

@@ -1,6 +1,7 @@
 //! The words of the main errors, in full.
 
-use super::{messages, read_text};
+use super::{messages, on_model, read_text};
+use crate::{kinds::registers, nearest::list};
 
 const FAULTS_OF_THE_TEXT: &str = r#"titel = "Head on a pad"
 
@@ -44,7 +45,7 @@ error: unknown key `titel` in the scene
 1 | titel = "Head on a pad"
   | ^^^^^
   |
-  = help: did you mean `title`? known keys: title, values, models, nodes, elements, effects, loads, measures, accuracy, run
+  = help: did you mean `title`? known keys: title, values, models, materials, nodes, elements, effects, loads, measures, accuracy, run
 
 error: `NM` is not a known unit
  --> scene.toml:4:5
@@ -76,7 +77,7 @@ error: unknown key `sprnig` in this branch
 10 |   { sprnig = "K2" },
    |     ^^^^^^
    |
-   = help: did you mean `spring`? known keys: name, spring, dashpot, rigid, series, parallel, model, kelvin-voigt, kelvin, voigt, maxwell, zener, standard-linear-solid, sls, burgers, four-parameter
+   = help: did you mean `spring`? known keys: LAWS
 
 error: `kelvin` has no `dashpot`
   --> scene.toml:11:5
@@ -211,7 +212,180 @@ error: `exat` is not a method
 
 #[test]
 fn faults_of_the_text_come_all_at_once() {
-    assert_eq!(messages(FAULTS_OF_THE_TEXT), FAULTS_OF_THE_TEXT_SHOWN.trim_matches('\n'));
+    // The registers grow.
+    let laws = [&["name", "shift", "thickness", "area"], &*registers().model_words()].concat();
+    let shown = FAULTS_OF_THE_TEXT_SHOWN.replace("LAWS", &list(&laws));
+    assert_eq!(messages(FAULTS_OF_THE_TEXT), shown.trim_matches('\n'));
+}
+
+const FAULTS_OF_MATERIALS: &str = r#"[materials.foam]
+parallel = [{ spring = "20 kN/m" }, { model = "pad" }, { dashpot = "-3 Pa s" }, { material = "foma" }]
+
+[materials.wax]
+material = "foam"
+thickness = "2 cm"
+
+[models.pad]
+series = [{ spring = "2 MPa" }, { kelvin-chain = [["1 ms", "2 1/MPa"]] }]
+shift = { wfl = { temperature = "0 degC", reference = "20 degC" } }
+
+[elements]
+one = { between = ["head", "ground"], material = "foam", thickness = "2 cm" }
+two = { between = ["head", "ground"], material = "pad", thickness = "0 cm", area = "1 cm" }
+three = { between = ["head", "ground"], model = "foam", area = "1 cm^2" }
+four = { between = ["head", "ground"], spring = 1, shift = { wlf = { temperature = -10, reference = "20 degC", c2 = "50 degC" } } }
+five = { between = ["head", "ground"], dashpot = 1, shift = "wlf" }
+
+[nodes]
+head = { mass = 1, velocity = 1 }
+
+[run]
+duration = 1
+"#;
+
+const FAULTS_OF_MATERIALS_SHOWN: &str = r#"
+error: `20 kN/m` is a stiffness (N/m); a pressure (Pa) is expected here
+ --> scene.toml:2:24
+  |
+2 | parallel = [{ spring = "20 kN/m" }, { model = "pad" }, { dashpot = "-3 Pa s" }, { material = "foma" }]
+  |                        ^^^^^^^^^
+  |
+  = help: values in N/m belong in [models]; for a material, multiply them by thickness / area of the specimen
+
+error: `model` cannot stand in a material: models are in N/m, materials in Pa
+ --> scene.toml:2:39
+  |
+2 | parallel = [{ spring = "20 kN/m" }, { model = "pad" }, { dashpot = "-3 Pa s" }, { material = "foma" }]
+  |                                       ^^^^^
+  |
+  = help: write `material = "…"` for another material; to join both, compose them in [models] with `{ material = "…", thickness = "2 cm", area = "100 cm^2" }`
+
+error: `dashpot` must be zero or positive, and finite, but it is -3
+ --> scene.toml:2:68
+  |
+2 | parallel = [{ spring = "20 kN/m" }, { model = "pad" }, { dashpot = "-3 Pa s" }, { material = "foma" }]
+  |                                                                    ^^^^^^^^^
+
+error: there is no material named `foma`
+ --> scene.toml:2:94
+  |
+2 | parallel = [{ spring = "20 kN/m" }, { model = "pad" }, { dashpot = "-3 Pa s" }, { material = "foma" }]
+  |                                                                                              ^^^^^^
+  |
+  = help: did you mean `foam`? known materials: foam, wax
+
+error: a material has no `thickness`; the pads that are made of it have one
+ --> scene.toml:6:1
+  |
+6 | thickness = "2 cm"
+  | ^^^^^^^^^
+  |
+  = help: leave `thickness` out here, and write it beside `material = "…"` in [models] or [elements]
+
+error: `2 MPa` is a pressure (Pa); a stiffness (N/m) is expected here
+ --> scene.toml:9:22
+  |
+9 | series = [{ spring = "2 MPa" }, { kelvin-chain = [["1 ms", "2 1/MPa"]] }]
+  |                      ^^^^^^^
+  |
+  = help: values in Pa belong in [materials]; a pad is made of one by `material = "…", thickness = "2 cm", area = "100 cm^2"`
+
+error: `2 1/MPa` is a compliance of a material (1/Pa); a compliance (m/N) is expected here
+ --> scene.toml:9:60
+  |
+9 | series = [{ spring = "2 MPa" }, { kelvin-chain = [["1 ms", "2 1/MPa"]] }]
+  |                                                            ^^^^^^^^^
+  |
+  = help: values in Pa belong in [materials]; a pad is made of one by `material = "…", thickness = "2 cm", area = "100 cm^2"`
+
+error: unknown key `wfl` in `shift`
+  --> scene.toml:10:11
+   |
+10 | shift = { wfl = { temperature = "0 degC", reference = "20 degC" } }
+   |           ^^^
+   |
+   = help: did you mean `wlf`? known keys: wlf, arrhenius
+
+error: element `one` has no `area`
+  --> scene.toml:13:1
+   |
+13 | one = { between = ["head", "ground"], material = "foam", thickness = "2 cm" }
+   | ^^^
+   |
+   = help: a material becomes a pad by its thickness and area, for example `area = "100 cm^2"`
+
+error: there is no material named `pad`
+  --> scene.toml:14:50
+   |
+14 | two = { between = ["head", "ground"], material = "pad", thickness = "0 cm", area = "1 cm" }
+   |                                                  ^^^^^
+   |
+   = help: `pad` is a model: write `model = "pad"`
+
+error: `thickness` must be positive and finite, but it is 0
+  --> scene.toml:14:69
+   |
+14 | two = { between = ["head", "ground"], material = "pad", thickness = "0 cm", area = "1 cm" }
+   |                                                                     ^^^^^^
+
+error: `1 cm` is a length (m); an area (m^2) is expected here
+  --> scene.toml:14:84
+   |
+14 | two = { between = ["head", "ground"], material = "pad", thickness = "0 cm", area = "1 cm" }
+   |                                                                                    ^^^^^^
+   |
+   = help: for example "100 cm^2"
+
+error: there is no model named `foam`
+  --> scene.toml:15:49
+   |
+15 | three = { between = ["head", "ground"], model = "foam", area = "1 cm^2" }
+   |                                                 ^^^^^^
+   |
+   = help: `foam` is a material: write `material = "foam"` with the `thickness` and the `area` of the pad
+
+error: `area` goes with `material`, which element `three` does not have
+  --> scene.toml:15:57
+   |
+15 | three = { between = ["head", "ground"], model = "foam", area = "1 cm^2" }
+   |                                                         ^^^^
+   |
+   = help: leave it out, or name a material of [materials], in Pa: `material = "…"`
+
+error: `50 degC` is a temperature; a difference of temperatures (K) is expected here
+  --> scene.toml:16:117
+   |
+16 | four = { between = ["head", "ground"], spring = 1, shift = { wlf = { temperature = -10, reference = "20 degC", c2 = "50 degC" } } }
+   |                                                                                                                     ^^^^^^^^^
+   |
+   = help: write the same number with `K`: a difference of 1 degree Celsius is 1 K
+
+error: `shift` is a table with one kind of shift, for example `{ wlf = { temperature = "20 degC", reference = "20 degC" } }`, but this is a text
+  --> scene.toml:17:61
+   |
+17 | five = { between = ["head", "ground"], dashpot = 1, shift = "wlf" }
+   |                                                             ^^^^^
+"#;
+
+#[test]
+fn faults_of_materials_name_both_units_and_the_way_out() {
+    assert_eq!(messages(FAULTS_OF_MATERIALS), FAULTS_OF_MATERIALS_SHOWN.trim_matches('\n'));
+}
+
+#[test]
+fn a_pad_beyond_double_precision_is_refused() {
+    let text = |size: &str| {
+        format!(
+            "[materials.foam]\nmaxwell = {{ spring = 2e6, dashpot = 1e3 }}\n{}",
+            on_model(&format!("material = \"foam\", {size}"))
+        )
+    };
+    let told = "fits into double precision for a pad of this size, but it is 2000000";
+    for size in ["thickness = \"1e-200 m\", area = 1e200", "thickness = 1e160, area = 1e-160"] {
+        let shown = messages(&text(size));
+        assert!(shown.contains(told) && shown.contains("spring = 2e6"), "{shown}");
+    }
+    assert!(read_text(&text("thickness = 1, area = 1")).is_ok());
 }
 
 const FAULTS_OF_THE_NETWORK: &str = r#"[nodes]

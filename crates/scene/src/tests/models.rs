@@ -1,7 +1,7 @@
 //! Models: nesting, names, other files.
 
 use super::{messages, model, on_model, read_text, shape};
-use crate::{ReadOptions, read, read_model};
+use crate::{ReadOptions, read, read_named_model};
 
 #[test]
 fn branches_are_named_by_their_words_and_numbered() {
@@ -40,9 +40,9 @@ fn models_come_from_other_files_with_their_own_values() {
     let text = on_model("model = \"pads.toml:foam\"");
     let read = read(&text, &options).unwrap_or_else(|errors| panic!("{errors}")).value;
     assert_eq!(shape(&read.network.connections()[0].model).len(), 3);
-    let alone = read_model(deeper, "core", &ReadOptions::default()).unwrap().value;
-    assert_eq!(shape(&alone).len(), 3);
-    assert!(read_model(deeper, "cor", &ReadOptions::default()).is_err());
+    let alone = read_named_model(deeper, "core", &ReadOptions::default()).unwrap().value;
+    assert_eq!(shape(&alone.model).len(), 3);
+    assert!(read_named_model(deeper, "cor", &ReadOptions::default()).is_err());
 }
 
 #[test]
@@ -86,8 +86,8 @@ fn models_nest_ten_thousand_levels_through_names() {
         );
     }
     let _ = writeln!(text, "m{LEVELS} = {{ spring = 1 }}");
-    let deep = read_model(&text, "m0", &ReadOptions::default()).unwrap().value;
-    assert_eq!(shape(&deep).len(), 4 * LEVELS + 1);
+    let deep = read_named_model(&text, "m0", &ReadOptions::default()).unwrap().value;
+    assert_eq!(shape(&deep.model).len(), 4 * LEVELS + 1);
 }
 
 #[test]
@@ -102,7 +102,7 @@ fn models_that_explode_are_refused() {
         );
     }
     text += "m60 = { spring = 1 }\n";
-    let errors = read_model(&text, "m0", &ReadOptions::default()).unwrap_err();
+    let errors = read_named_model(&text, "m0", &ReadOptions::default()).unwrap_err();
     assert!(errors.render(false).contains("more than 4000000 parts"));
 }
 

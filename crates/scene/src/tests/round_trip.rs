@@ -3,20 +3,68 @@
 use dashpot_analysis::{MeasureKind, MeasureVisitor, visit_measures};
 use dashpot_network::{
     Model,
+    composites::{CompositeKind, CompositeVisitor, visit_composites},
     effects::{EffectKind, EffectVisitor, visit_effects},
     elements::{ElementKind, ElementVisitor, visit_elements},
     parameters::Dimension,
     part,
+    shifts::{ShiftKind, ShiftVisitor, shifted, visit_shifts},
     waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
 };
 use dashpot_rheology::{Branch, Form, FormVisitor, Role, Tree, forms::build, visit_forms};
 
 use super::{on_model, scene, shape};
-use crate::{ReadOptions, read_model, write_kind, write_model};
+use crate::{
+    NamedModel, ReadOptions, read_named_model, write_kind, write_material_table, write_model,
+    write_model_table,
+};
 
 fn read_back(model: &Model) -> Model {
     let text = format!("[models]\nm = {}\n", write_model(model));
-    read_model(&text, "m", &ReadOptions::default()).unwrap_or_else(|e| panic!("{text}\n{e}")).value
+    let inline = read_table(&text).model;
+    let comments = ["first\nsecond".to_owned(), "= [\u{7}".to_owned()];
+    let table = read_table(&write_model_table("m", model, &comments));
+    assert_eq!((shape(&table.model), table.is_material), (shape(&inline), false));
+    let material = read_table(&write_material_table("m", model, &comments));
+    assert_eq!((shape(&material.model), material.is_material), (shape(&inline), true));
+    inline
+}
+
+fn read_table(text: &str) -> NamedModel {
+    let read = read_named_model(text, "m", &ReadOptions::default());
+    read.unwrap_or_else(|e| panic!("{text}\n{e}")).value
+}
+
+/// Numbers that need all their digits, over the whole range of what may be met.
+#[test]
+fn tables_of_models_are_read_back_to_the_last_bit() {
+    use dashpot_network::elements::{Dashpot, Spring};
+    let mut constant = 1.0 / 3.0;
+    let mut next = || {
+        constant = (constant * 1.618_033_988_749_895 * 1e7) % 1e12 * 1.000_000_1 + 1e-9;
+        constant
+    };
+    let branches = (0..60).map(|_| {
+        let (stiffness, damping) = (next(), 1.0 / next());
+        Tree::series([part(Spring { stiffness }), part(Dashpot { damping })])
+    });
+    let model = Tree::parallel(branches);
+    assert_eq!(shape(&read_back(&model)), shape(&model));
+    let text = write_material_table("foam", &model, &["by hand".to_owned()]);
+    let lines: Vec<&str> = text.lines().take(3).collect();
+    assert_eq!(lines, ["# by hand", "[materials.foam]", "parallel = ["]);
+    assert_eq!(text.lines().count(), 64);
+    assert!(text.contains(" mPa s\"") && !text.contains("N/m"), "{text}");
+}
+
+#[test]
+fn a_table_of_one_part_and_of_an_odd_name() {
+    use dashpot_network::elements::Spring;
+    let model = part(Spring { stiffness: 2e6 });
+    let text = write_material_table("soft foam", &model, &[]);
+    assert_eq!(text, "[materials.\"soft foam\"]\nspring = \"2 MPa\"\n");
+    let read = read_named_model(&text, "soft foam", &ReadOptions::default()).unwrap().value;
+    assert_eq!(shape(&read.model), shape(&model));
 }
 
 struct Kinds(usize);
@@ -50,6 +98,30 @@ impl FormVisitor for Kinds {
         };
         let form = build(F::PARTS, F::IN_SERIES, &mut leaf).unwrap();
         assert_eq!(shape(&read_back(&form)), shape(&form), "{}", F::KIND);
+        self.0 += 1;
+    }
+}
+
+impl CompositeVisitor for Kinds {
+    fn visit<C: CompositeKind>(&mut self) {
+        let sample = C::sample();
+        let written = write_kind(C::KIND, C::PARAMETERS, &sample.values(), C::AMPLITUDE);
+        let composed = sample.compose().unwrap().model;
+        let read = super::model(&written);
+        assert_eq!(shape(&read), shape(&composed), "{written}");
+        assert_eq!(shape(&read_back(&read)), shape(&composed), "{written}");
+        self.0 += 1;
+    }
+}
+
+impl ShiftVisitor for Kinds {
+    fn visit<S: ShiftKind>(&mut self) {
+        let sample = S::sample();
+        let written = write_kind(S::KIND, S::PARAMETERS, &sample.values(), Dimension::NUMBER);
+        let law = "kelvin-voigt = { spring = 3, dashpot = 5 }";
+        let read = super::model(&format!("{law}, shift = {{ {written} }}"));
+        let expected = shifted(&super::model(law), sample.factor().unwrap()).unwrap();
+        assert_eq!(shape(&read), shape(&expected), "{written}");
         self.0 += 1;
     }
 }
@@ -118,6 +190,8 @@ fn every_kind_is_read_back_equal() {
     let mut kinds = Kinds(0);
     visit_elements(&mut kinds);
     visit_forms(&mut kinds);
+    visit_composites(&mut kinds);
+    visit_shifts(&mut kinds);
     visit_waveforms(&mut kinds);
     visit_effects(&mut kinds);
     visit_measures(&mut kinds);

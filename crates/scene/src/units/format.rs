@@ -2,6 +2,8 @@
 
 use dashpot_network::parameters::Dimension;
 
+use super::{parse_quantity, symbols::MOLE};
+
 /// Units to choose from, smallest first: symbol and power of ten over the SI unit.
 fn scales(dimension: Dimension) -> &'static [(&'static str, i32)] {
     match dimension {
@@ -18,6 +20,11 @@ fn scales(dimension: Dimension) -> &'static [(&'static str, i32)] {
         }
         Dimension::IMPULSE => &[("mN s", -3), ("N s", 0), ("kN s", 3)],
         Dimension::ENERGY => &[("µJ", -6), ("mJ", -3), ("J", 0), ("kJ", 3), ("MJ", 6)],
+        Dimension::PRESSURE => &[("Pa", 0), ("kPa", 3), ("MPa", 6), ("GPa", 9)],
+        Dimension::VISCOSITY => {
+            &[("mPa s", -3), ("Pa s", 0), ("kPa s", 3), ("MPa s", 6), ("GPa s", 9)]
+        }
+        Dimension::COMPLIANCE => &[("nm/N", -9), ("µm/N", -6), ("mm/N", -3), ("m/N", 0)],
         _ => &[],
     }
 }
@@ -54,7 +61,23 @@ pub fn format_short(value: f64, dimension: Dimension, digits: usize) -> String {
 
 /// A value as text that is read back to the same bits.
 pub(crate) fn exact_quantity(value: f64, dimension: Dimension) -> String {
-    written(value, &format!("{value:e}"), dimension)
+    let molar = if dimension == Dimension::ENERGY { exact_molar(value) } else { None };
+    molar.unwrap_or_else(|| written(value, &format!("{value:e}"), dimension))
+}
+
+/// The energy \[J\] of one molecule as that of a mole, where its shortest text is short and comes
+/// back to the same bits.
+fn exact_molar(value: f64) -> Option<String> {
+    const LARGEST: f64 = 1e-16;
+    if value.abs() >= LARGEST || !value.is_normal() {
+        return None;
+    }
+    let molar = value * MOLE * 1e20;
+    // One digit less than a double may have, so that no digits come from rounding.
+    let digits = format!("{molar:.14e}").parse::<f64>().ok()?;
+    let text = format!("{digits} kJ/mol");
+    let is_same = parse_quantity(&text).is_ok_and(|own| own.value.to_bits() == value.to_bits());
+    is_same.then_some(text)
 }
 
 /// The SI unit of a dimension, with a name of its own or as a product of powers.
@@ -62,7 +85,12 @@ pub(crate) fn si_unit(dimension: Dimension) -> String {
     if let Some((_, unit)) = dimension.named() {
         return unit.to_owned();
     }
-    let powers = [("kg", dimension.mass), ("m", dimension.length), ("s", dimension.time)];
+    let powers = [
+        ("kg", dimension.mass),
+        ("m", dimension.length),
+        ("s", dimension.time),
+        ("K", dimension.temperature),
+    ];
     powers
         .iter()
         .filter(|(_, power)| *power != 0)

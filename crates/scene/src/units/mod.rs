@@ -3,6 +3,9 @@
 //! A quantity is a number and a unit. A unit is a product of symbols, separated by spaces, `*` or
 //! `·`; `/` divides by the one symbol, or the parenthesis, that follows it; powers are written
 //! `^2`, `²` or `2`. A number alone is in SI units. Everything is SI once it has been read.
+//!
+//! Degrees Celsius (`"20 degC"`, `"20 °C"`) count from a point of their own. So they are read only
+//! where they are the whole unit, and what is read is a temperature and never a difference.
 
 mod format;
 mod symbols;
@@ -26,6 +29,8 @@ pub struct Quantity {
     pub dimension: Option<Dimension>,
     /// Exponent of the angle in its unit: 1 for `rad` and `rad/s`, 0 for `Hz`.
     pub angle: i8,
+    /// Whether it was given in degrees Celsius, so that it is no difference of temperatures.
+    pub is_celsius: bool,
 }
 
 /// Why a text is not a quantity.
@@ -80,6 +85,12 @@ pub enum UnitError {
         /// What was probably meant.
         meant: Option<String>,
     },
+    /// Degrees Celsius as a part of a unit.
+    #[error("`{unit}` has degrees Celsius in it, which count from a point of their own")]
+    CelsiusInProduct {
+        /// The whole unit.
+        unit: String,
+    },
     /// A unit that cannot be read.
     #[error("`{text}` is not a unit that can be read")]
     Malformed {
@@ -114,6 +125,9 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
     }
     let (number, rest) = split_number(text)?;
     let unit_text = rest.trim();
+    if symbols::is_celsius(unit_text) {
+        return celsius(text, number);
+    }
     let unit = match unit_text {
         "" => None,
         _ => match parse_unit(unit_text) {
@@ -135,7 +149,17 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
         value,
         dimension: unit.map(|unit| unit.dimension),
         angle: unit.map_or(0, |unit| unit.angle),
+        is_celsius: false,
     })
+}
+
+/// The temperature of `number` degrees Celsius.
+fn celsius(text: &str, number: &str) -> Result<Quantity, UnitError> {
+    let value = scaled(number, 0).map_or(f64::NAN, |number| number + symbols::CELSIUS_ZERO);
+    if !value.is_finite() {
+        return Err(UnitError::TooLarge { text: text.to_owned() });
+    }
+    Ok(Quantity { value, dimension: Some(Dimension::TEMPERATURE), angle: 0, is_celsius: true })
 }
 
 /// The dimension of a unit such as `"N s/m"`.
@@ -146,6 +170,7 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
 pub fn parse_dimension(unit: &str) -> Result<Dimension, UnitError> {
     match unit.trim() {
         "" | "1" => Ok(Dimension::NUMBER),
+        unit if symbols::is_celsius(unit) => Ok(Dimension::TEMPERATURE),
         unit => parse_unit(unit).map(|unit| unit.dimension),
     }
 }
@@ -259,6 +284,9 @@ fn parse_unit(text: &str) -> Result<Unit, UnitError> {
                 if word.is_empty() {
                     return Err(malformed());
                 }
+                if symbols::is_celsius(word) {
+                    return Err(UnitError::CelsiusInProduct { unit: text.trim().to_owned() });
+                }
                 let factor = symbols::symbol(word).ok_or_else(|| UnitError::UnknownUnit {
                     symbol: word.to_owned(),
                     unit: text.trim().to_owned(),
@@ -308,11 +336,12 @@ fn times(unit: Unit, factor: Unit, power: i8) -> Option<Unit> {
     Some(Unit {
         factor: unit.factor * factor.factor.powi(i32::from(power)),
         exponent: unit.exponent + factor.exponent * i32::from(power),
-        dimension: Dimension::new(
-            add(unit.dimension.mass, factor.dimension.mass)?,
-            add(unit.dimension.length, factor.dimension.length)?,
-            add(unit.dimension.time, factor.dimension.time)?,
-        ),
+        dimension: Dimension {
+            mass: add(unit.dimension.mass, factor.dimension.mass)?,
+            length: add(unit.dimension.length, factor.dimension.length)?,
+            time: add(unit.dimension.time, factor.dimension.time)?,
+            temperature: add(unit.dimension.temperature, factor.dimension.temperature)?,
+        },
         angle: add(unit.angle, factor.angle)?,
     })
 }

@@ -52,9 +52,11 @@ const SYMBOLS: &[Symbol] = &[
     unit("N", 1.0, 0, Dimension::FORCE, true),
     unit("J", 1.0, 0, Dimension::ENERGY, true),
     unit("W", 1.0, 0, Dimension::new(1, 2, -3), true),
-    unit("Pa", 1.0, 0, Dimension::new(1, -1, -2), true),
+    unit("Pa", 1.0, 0, Dimension::PRESSURE, true),
     unit("Hz", 1.0, 0, Dimension::FREQUENCY, true),
     unit("g0", 9.806_65, 0, Dimension::ACCELERATION, false),
+    unit("K", 1.0, 0, Dimension::TEMPERATURE, true),
+    unit("mol", MOLE, 23, Dimension::NUMBER, true),
     unit("%", 1.0, -2, Dimension::NUMBER, false),
     angle("rad", 1.0, true),
     angle("deg", PI / 180.0, false),
@@ -66,6 +68,15 @@ const SYMBOLS: &[Symbol] = &[
     unit("kgf", 9.806_65, 0, Dimension::FORCE, false),
     unit("mph", 44_704.0, -5, Dimension::VELOCITY, false),
 ];
+
+/// Degrees Celsius; not among the others, because they count from a point of their own.
+const CELSIUS: &[&str] = &["degC", "°C"];
+
+/// 0 °C \[K\].
+pub(super) const CELSIUS_ZERO: f64 = 273.15;
+
+/// Molecules in a mole over 10²³, exact by the definition of the mole (SI brochure, 2019).
+pub(super) const MOLE: f64 = 6.022_140_76;
 
 /// Both signs for micro are read, and `u`.
 const PREFIXES: &[(char, i32)] = &[
@@ -100,6 +111,12 @@ const SPOKEN: &[(&str, &str)] = &[
     ("degree", "deg"),
     ("degrees", "deg"),
     ("percent", "%"),
+    ("kelvin", "K"),
+    ("degK", "K"),
+    ("°K", "K"),
+    ("C", "degC"),
+    ("celsius", "degC"),
+    ("mole", "mol"),
     ("lbs", "lb"),
     ("inch", "in"),
     ("inches", "in"),
@@ -122,6 +139,11 @@ const USUAL: &[&str] = &[
 const COMPOUND: &[&str] =
     &["m/s", "km/h", "mm/s", "m/s^2", "N/m", "kN/m", "MN/m", "N/mm", "N s/m", "kN s/m", "N s"];
 
+/// Whether a unit is degrees Celsius.
+pub(super) fn is_celsius(unit: &str) -> bool {
+    CELSIUS.contains(&unit)
+}
+
 /// The unit of a symbol such as `kN`.
 pub(crate) fn symbol(word: &str) -> Option<Unit> {
     let exact = |word: &str| SYMBOLS.iter().find(|symbol| symbol.word == word);
@@ -139,12 +161,18 @@ pub(crate) fn meant(word: &str) -> Option<String> {
     if let Some((_, symbol)) = SPOKEN.iter().find(|entry| entry.0.eq_ignore_ascii_case(word)) {
         return Some((*symbol).to_owned());
     }
-    let known = || USUAL.iter().copied().chain(SYMBOLS.iter().map(|symbol| symbol.word));
+    let known = || {
+        let symbols = SYMBOLS.iter().map(|symbol| symbol.word);
+        USUAL.iter().copied().chain(symbols).chain(CELSIUS.iter().copied())
+    };
+    // `KN` and `Kg` are meant as `kN` and `kg`, and not as products with the kelvin.
+    let is_factor =
+        |word: &str| symbol(word).is_some_and(|unit| unit.dimension != Dimension::TEMPERATURE);
     let product = word
         .char_indices()
         .skip(1)
         .map(|(at, _)| word.split_at(at))
-        .find(|(first, second)| symbol(first).is_some() && symbol(second).is_some())
+        .find(|(first, second)| is_factor(first) && is_factor(second))
         .map(|(first, second)| format!("{first} {second}"));
     if product.is_some() {
         return product;
@@ -159,6 +187,7 @@ pub(crate) fn meant(word: &str) -> Option<String> {
 pub(crate) fn meant_as(unit: &str, expected: Dimension) -> Option<&'static str> {
     let known = COMPOUND.iter().chain(USUAL).copied();
     let known = known.chain(SYMBOLS.iter().map(|symbol| symbol.word));
+    let known = known.chain(CELSIUS.iter().copied());
     let fits =
         |known: &&str| super::parse_dimension(known).is_ok_and(|dimension| dimension == expected);
     nearest(unit, known.filter(fits))
@@ -184,6 +213,8 @@ mod tests {
         assert_eq!(meant("kNs").as_deref(), Some("kN s"));
         assert_eq!(meant("sec").as_deref(), Some("s"));
         assert_eq!(meant("Kg").as_deref(), Some("kg"));
+        assert_eq!(meant("degc").as_deref(), Some("degC"));
+        assert_eq!(meant("kelvin").as_deref(), Some("K"));
         assert_eq!(meant("furlong"), None);
     }
 }

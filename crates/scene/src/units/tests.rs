@@ -43,6 +43,15 @@ fn quantities_are_read_to_the_last_bit() {
         (".5 t", 500.0, Dimension::MASS),
         ("1e3 g", 1.0, Dimension::MASS),
         ("3 N s", 3.0, Dimension::IMPULSE),
+        ("2 MPa", 2e6, Dimension::PRESSURE),
+        ("5 kPa s", 5e3, Dimension::VISCOSITY),
+        ("0.05 mm/kN", 5e-8, Dimension::COMPLIANCE),
+        ("300 K", 300.0, Dimension::TEMPERATURE),
+        ("20 degC", 293.15, Dimension::TEMPERATURE),
+        ("20°C", 293.15, Dimension::TEMPERATURE),
+        ("-40 °C", 233.15, Dimension::TEMPERATURE),
+        ("80 kJ/mol", 80e3 / 6.022_140_76e23, Dimension::ENERGY),
+        ("1 mmol", 6.022_140_76e20, Dimension::NUMBER),
     ];
     for &(text, expected, dimension) in table {
         let quantity = parse_quantity(text).unwrap();
@@ -91,6 +100,30 @@ fn angular_frequency_is_told_from_frequency() {
 }
 
 #[test]
+fn degrees_celsius_stand_alone_and_are_no_difference() {
+    assert!(parse_quantity("20 degC").unwrap().is_celsius);
+    assert!(!parse_quantity("293.15 K").unwrap().is_celsius);
+    assert_eq!(parse_quantity("-273.15 degC").unwrap().value.to_bits(), 0);
+    for text in ["5 degC/min", "5 W/(m °C)", "5 N degC", "5 degC^2", "5 degC degC"] {
+        let found = parse_quantity(text);
+        assert!(matches!(found, Err(UnitError::CelsiusInProduct { .. })), "{text}: {found:?}");
+    }
+    assert!(matches!(parse_quantity("1e400 degC"), Err(UnitError::TooLarge { .. })));
+    assert!(matches!(parse_quantity("20 mdegC"), Err(UnitError::UnknownUnit { .. })));
+    assert_eq!(parse_dimension("degC"), Ok(Dimension::TEMPERATURE));
+}
+
+#[test]
+fn energies_of_molecules_are_written_for_a_mole() {
+    let exact = |text: &str| exact_quantity(value(text), Dimension::ENERGY);
+    for text in ["80 kJ/mol", "52.9 kJ/mol", "7.5 kJ/mol", "0.001 kJ/mol"] {
+        assert_eq!(exact(text), text);
+    }
+    assert_eq!(exact("500 J"), "500 J");
+    assert_eq!(exact("0 J"), "0 J");
+}
+
+#[test]
 fn values_are_written_in_handy_units() {
     let table: &[(f64, Dimension, usize, &str)] = &[
         (38_359.41, Dimension::FORCE, 4, "38.36 kN"),
@@ -106,7 +139,11 @@ fn values_are_written_in_handy_units() {
         (1e-20, Dimension::LENGTH, 2, "1.0e-11 nm"),
         (1e12, Dimension::ENERGY, 2, "1.0e6 MJ"),
         (0.1234, Dimension::NUMBER, 2, "0.12"),
-        (5.0, Dimension::new(1, -1, -2), 1, "5 kg m^-1 s^-2"),
+        (2.5e6, Dimension::PRESSURE, 2, "2.5 MPa"),
+        (5e3, Dimension::VISCOSITY, 1, "5 kPa s"),
+        (5e-8, Dimension::COMPLIANCE, 2, "50 nm/N"),
+        (293.15, Dimension::TEMPERATURE, 5, "293.15 K"),
+        (5.0, Dimension { temperature: -1, ..Dimension::new(1, -1, 0) }, 1, "5 kg m^-1 K^-1"),
         (383.0, Dimension::FORCE, 2, "380 N"),
         (f64::INFINITY, Dimension::FORCE, 4, "inf N"),
         (f64::NAN, Dimension::NUMBER, 4, "NaN"),
@@ -122,7 +159,7 @@ fn values_are_written_in_handy_units() {
 
 #[test]
 fn exact_text_comes_back_to_the_same_bits() {
-    let named = [Dimension::FORCE, Dimension::STIFFNESS, Dimension::TIME, Dimension::NUMBER];
+    let named = Dimension::all_named().collect::<Vec<_>>();
     let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
     for at in 0..20_000_usize {
         bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

@@ -1,0 +1,277 @@
+//! Two-terminal models, composed as deeply as wanted.
+//!
+//! Models may nest 1000 levels in one text and deeper through names, so they are read with a stack
+//! of tasks and not by recursion.
+
+mod context;
+mod forms;
+mod laws;
+mod naming;
+mod tables;
+
+use std::{
+    borrow::Cow,
+    cell::{Cell, RefCell},
+    collections::HashSet,
+};
+
+use dashpot_network::Model;
+use dashpot_rheology::Tree;
+
+use self::{context::Context, laws::LawReader};
+use crate::{
+    diagnostics::Faults,
+    document::Item,
+    fault::Fault,
+    kinds::registers,
+    library::{Library, Reference, SHELVES, Shelf},
+    notes::{ModelNote, Notes},
+    source::Place,
+};
+
+/// The models of one scene may expand to so many parts and compositions.
+const MAX_PARTS: usize = 4_000_000;
+
+/// The keys of a model or material besides its law.
+const MODEL_KEYS: &[&str] = &["shift", "thickness", "area"];
+
+/// The keys of a branch besides its law.
+const BRANCH_KEYS: &[&str] = &["name", "shift", "thickness", "area"];
+
+/// Reads models from the documents of a library.
+pub(crate) struct ModelReader<'d> {
+    library: &'d Library,
+    faults: &'d Faults,
+    /// Words with which a model begins.
+    words: Vec<&'static str>,
+    laws: LawReader<'d>,
+    notes: Notes,
+    visited: RefCell<HashSet<Reference>>,
+    parts: Cell<usize>,
+}
+
+/// A table with a model.
+struct Spot<'d> {
+    item: &'d Item,
+    /// What the table is, for messages.
+    owner: Cow<'static, str>,
+    /// Where its name stands.
+    place: Place,
+    document: usize,
+    /// What becomes of its values.
+    context: Context,
+    /// Keys that it may have besides its law.
+    other_keys: &'static [&'static str],
+}
+
+/// The name that a branch is given, and its place.
+type Given<'d> = Option<(&'d str, Place)>;
+
+/// A model by name.
+#[derive(Clone, Copy)]
+struct Entrance<'d> {
+    reference: Reference,
+    context: Context,
+    given: Given<'d>,
+}
+
+enum Task<'d> {
+    Read(Spot<'d>),
+    /// Begins a model by name.
+    Enter(Entrance<'d>),
+    /// Puts the last branches together.
+    Compose {
+        series: bool,
+        count: usize,
+        given: Given<'d>,
+    },
+    /// Ends a model that was entered by name.
+    Leave(Entrance<'d>),
+}
+
+/// What follows from a table.
+enum Step<'d> {
+    Done(Done<'d>),
+    Compose { series: bool, branches: &'d [Item], context: Context, given: Given<'d> },
+    Enter(Entrance<'d>),
+}
+
+/// A model that has been read, or could not be, with the name of its branch.
+struct Done<'d> {
+    word: &'d str,
+    given: Given<'d>,
+    model: Option<Model>,
+}
+
+/// Models that have been entered and not left yet.
+struct Open {
+    order: Vec<Reference>,
+    set: HashSet<Reference>,
+    /// What notes on none of them are about; `None` where no notes are wanted.
+    outer: Option<String>,
+}
+
+impl<'d> ModelReader<'d> {
+    /// A reader of the models in `library`.
+    pub(crate) fn new(library: &'d Library, faults: &'d Faults) -> Self {
+        Self {
+            library,
+            faults,
+            words: registers().model_words(),
+            laws: LawReader::new(library, faults),
+            notes: Notes::default(),
+            visited: RefCell::default(),
+            parts: Cell::new(0),
+        }
+    }
+
+    /// The model in the table of an element of the scene; `other_keys` are read by the caller.
+    pub(crate) fn element(
+        &self,
+        item: &'d Item,
+        owner: String,
+        place: Place,
+        other_keys: &'static [&'static str],
+    ) -> Option<Model> {
+        let outer = Some(owner.clone());
+        let (owner, context) = (owner.into(), Context::of(Shelf::Models));
+        self.run(Task::Read(Spot { item, owner, place, document: 0, context, other_keys }), outer)
+    }
+
+    /// The model or material `reference`.
+    pub(crate) fn named(&self, reference: Reference) -> Option<Model> {
+        self.visited.borrow_mut().insert(reference);
+        self.run(Task::Enter(Entrance::plain(reference)), Some(String::new()))
+    }
+
+    /// Looks for faults in those models and materials of the scene that no element uses.
+    pub(crate) fn check_unused(&self) {
+        for reference in SHELVES.into_iter().flat_map(|shelf| self.library.models(0, shelf)) {
+            if self.visited.borrow_mut().insert(reference) {
+                self.run(Task::Enter(Entrance::plain(reference)), None);
+            }
+        }
+    }
+
+    /// What is to be said about the models that have been read.
+    pub(crate) fn notes(&self) -> Vec<ModelNote> {
+        self.notes.all()
+    }
+
+    fn spot(&self, entrance: &Entrance<'d>) -> Spot<'d> {
+        let Entrance { reference, context, .. } = *entrance;
+        let entry = self.library.entry(reference);
+        Spot {
+            item: &entry.item,
+            owner: self.called(reference).into(),
+            place: entry.key_place,
+            document: reference.document,
+            context,
+            other_keys: MODEL_KEYS,
+        }
+    }
+
+    /// "model `felt`".
+    fn called(&self, reference: Reference) -> String {
+        format!("{} `{}`", reference.shelf.word(), self.library.entry(reference).key)
+    }
+
+    /// Works off `first` and all that follows from it; notes on tables without a name are about
+    /// `outer`. Without it, models that have been visited before are not looked at again, nothing
+    /// is noted, and the result is of no use.
+    fn run(&self, first: Task<'d>, outer: Option<String>) -> Option<Model> {
+        let mut tasks = vec![first];
+        let mut done: Vec<Done<'d>> = Vec::new();
+        let mut open = Open { order: Vec::new(), set: HashSet::new(), outer };
+        while let Some(task) = tasks.pop() {
+            match task {
+                Task::Compose { series, count, given } => {
+                    let branches = done.split_off(done.len() - count);
+                    done.push(self.composed(series, branches, given));
+                }
+                Task::Enter(entrance) => {
+                    open.order.push(entrance.reference);
+                    open.set.insert(entrance.reference);
+                    tasks.push(Task::Leave(entrance));
+                    tasks.push(Task::Read(self.spot(&entrance)));
+                }
+                Task::Leave(Entrance { reference, given, .. }) => {
+                    open.order.pop();
+                    open.set.remove(&reference);
+                    if let Some(last) = done.last_mut() {
+                        (last.word, last.given) = (&self.library.entry(reference).key, given);
+                    }
+                }
+                Task::Read(spot) => {
+                    self.count(1, spot.place)?;
+                    let failed = Step::Done(Done { word: "model", given: None, model: None });
+                    match self.read(&spot, &open).unwrap_or(failed) {
+                        Step::Done(model) => {
+                            // The first part has been counted with its table.
+                            let inner = model.model.as_ref().map_or(0, |model| parts(model) - 1);
+                            self.count(inner, spot.place)?;
+                            done.push(model);
+                        }
+                        Step::Compose { series, branches, context, given } => {
+                            tasks.push(Task::Compose { series, count: branches.len(), given });
+                            let branch = |item| Task::Read(Spot::branch(item, context, &spot));
+                            tasks.extend(branches.iter().rev().map(branch));
+                        }
+                        Step::Enter(entrance) => {
+                            let Entrance { reference, given, .. } = entrance;
+                            let seen = !self.visited.borrow_mut().insert(reference);
+                            if seen && open.outer.is_none() {
+                                let word = &self.library.entry(reference).key;
+                                done.push(Done { word, given, model: None });
+                                continue;
+                            }
+                            tasks.push(Task::Enter(entrance));
+                        }
+                    }
+                }
+            }
+        }
+        done.pop()?.model
+    }
+
+    /// Counts parts; `None` where there are too many by now.
+    fn count(&self, parts: usize, place: Place) -> Option<()> {
+        self.parts.set(self.parts.get() + parts);
+        if self.parts.get() > MAX_PARTS {
+            self.faults.error(place, Fault::TooManyParts { limit: MAX_PARTS });
+            return None;
+        }
+        Some(())
+    }
+
+    fn composed(&self, series: bool, branches: Vec<Done<'d>>, given: Given<'d>) -> Done<'d> {
+        let word = if series { "series" } else { "parallel" };
+        let compose = if series { Tree::Series } else { Tree::Parallel };
+        Done { word, given, model: naming::named(branches, self.faults).map(compose) }
+    }
+}
+
+impl<'d> Spot<'d> {
+    fn branch(item: &'d Item, context: Context, outer: &Self) -> Self {
+        let (owner, document) = (Cow::Borrowed("this branch"), outer.document);
+        Self { item, owner, place: item.place, document, context, other_keys: BRANCH_KEYS }
+    }
+}
+
+impl Entrance<'_> {
+    /// A model for its own sake.
+    fn plain(reference: Reference) -> Self {
+        Self { reference, context: Context::of(reference.shelf), given: None }
+    }
+}
+
+/// Parts and compositions of a model.
+fn parts(model: &Model) -> usize {
+    let mut open = vec![model];
+    let mut count = 0;
+    while let Some(tree) = open.pop() {
+        count += 1;
+        open.extend(tree.branches().iter().map(|branch| &branch.tree));
+    }
+    count
+}

@@ -1,0 +1,146 @@
+//! Models by their names, as in `pads.toml:felt`.
+
+use std::ops::Range;
+
+use dashpot_network::Model;
+
+use crate::{
+    diagnostics::{Checked, Diagnostics},
+    document::{Content, Entry, Item},
+    fault::Fault,
+    library::{Library, SHELVES, Shelf},
+    models::ModelReader,
+    notes::ModelNote,
+    scene::{ReadOptions, checked, load},
+    sections::ELEMENT_KEYS,
+    source::Source,
+};
+
+/// A two-terminal model that a text gives a name.
+#[derive(Debug, Clone)]
+pub struct NamedModel {
+    /// Its name.
+    pub name: String,
+    /// The model. That of a material has the values of a pad of 1 m² that is 1 m thick: its
+    /// stiffnesses in N/m are the moduli in Pa.
+    pub model: Model,
+    /// Whether it is a material.
+    pub is_material: bool,
+    /// What is to be said about it.
+    pub notes: Vec<ModelNote>,
+    /// The bytes of the whole lines of the text on which it stands, from its header or key to its
+    /// last value.
+    pub span: Range<usize>,
+}
+
+/// Where a name leads.
+enum Found<'d> {
+    OnShelf(crate::library::Reference),
+    Element(&'d Entry),
+}
+
+/// Reads the model that `name` means in a text: one of `[models]`, else of `[materials]`, else that
+/// of one of `[elements]`.
+///
+/// Without a name it is the only model or material, else the model of the only element. What the
+/// text says besides is not looked at: it may be a scene, or a file of models alone.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_scene::{ReadOptions, read_named_model};
+///
+/// let text = "[materials]\nfoam = { kelvin = { spring = \"2 MPa\", dashpot = \"5 kPa s\" } }\n";
+/// let foam = read_named_model(text, "foam", &ReadOptions::default())?.value;
+/// assert!(foam.is_material);
+/// assert_eq!(read_named_model(text, "", &ReadOptions::default())?.value.name, "foam");
+///
+/// let faults = read_named_model(text, "faom", &ReadOptions::default()).unwrap_err();
+/// assert!(faults.render(false).contains("did you mean `foam`?"));
+/// # Ok::<(), dashpot_scene::Diagnostics>(())
+/// ```
+///
+/// # Errors
+///
+/// All faults of the model, each with its place; a name that the text does not have; no name where
+/// there are several models.
+pub fn read_named_model(
+    text: &str,
+    name: &str,
+    options: &ReadOptions<'_>,
+) -> Result<Checked<NamedModel>, Diagnostics> {
+    checked(|faults| {
+        let (library, source) = load(text, options, faults)?;
+        let models = ModelReader::new(&library, faults);
+        let found = match find(&library, name) {
+            Ok(found) => found,
+            Err(fault) => {
+                if !faults.damaged() {
+                    faults.error(None, fault);
+                }
+                return None;
+            }
+        };
+        let (entry, model) = match found {
+            Found::OnShelf(reference) => (library.entry(reference), models.named(reference)?),
+            Found::Element(entry) => {
+                let owner = format!("element `{}`", entry.key);
+                let keys = ELEMENT_KEYS;
+                (entry, models.element(&entry.item, owner, entry.key_place, keys)?)
+            }
+        };
+        let is_material =
+            matches!(found, Found::OnShelf(reference) if reference.shelf == Shelf::Materials);
+        let (name, notes, span) = (entry.key.clone(), models.notes(), lines_of(&source, entry));
+        Some(NamedModel { name, model, is_material, notes, span })
+    })
+}
+
+fn find<'d>(library: &'d Library, name: &str) -> Result<Found<'d>, Fault> {
+    let elements = library.section("elements").and_then(|entry| entry.item.table()).unwrap_or(&[]);
+    let shelves = || SHELVES.into_iter().flat_map(|shelf| library.models(0, shelf));
+    if name.is_empty() {
+        let found: Vec<Found<'_>> = if shelves().next().is_some() {
+            shelves().map(Found::OnShelf).collect()
+        } else {
+            elements.iter().map(Found::Element).collect()
+        };
+        let mut found = found.into_iter();
+        return match (found.next(), found.next()) {
+            (Some(only), None) => Ok(only),
+            _ => Err(Fault::WhichModel { known: known(library, elements) }),
+        };
+    }
+    let on_shelf = SHELVES.into_iter().find_map(|shelf| library.own(0, shelf, name));
+    let element = || elements.iter().find(|entry| entry.key == name).map(Found::Element);
+    on_shelf.map(Found::OnShelf).or_else(element).ok_or_else(|| {
+        let (family, known) = ("model, material or element", known(library, elements));
+        Fault::UnknownName { family, name: name.to_owned(), known }
+    })
+}
+
+/// All names that lead to a model.
+fn known(library: &Library, elements: &[Entry]) -> Vec<String> {
+    let shelves = SHELVES.into_iter().flat_map(|shelf| library.names(0, shelf));
+    let mut known: Vec<String> =
+        shelves.chain(elements.iter().map(|entry| entry.key.clone())).collect();
+    known.sort();
+    known.dedup();
+    known
+}
+
+/// The whole lines that an entry takes.
+fn lines_of(source: &Source, entry: &Entry) -> Range<usize> {
+    let mut span = entry.key_place.span();
+    let mut open: Vec<&Item> = vec![&entry.item];
+    while let Some(item) = open.pop() {
+        let own = item.place.span();
+        span = span.start.min(own.start)..span.end.max(own.end);
+        match &item.value {
+            Content::List(items) => open.extend(items),
+            Content::Table(entries) => open.extend(entries.iter().map(|entry| &entry.item)),
+            _ => {}
+        }
+    }
+    source.lines(&span, usize::MAX)
+}

@@ -1,0 +1,180 @@
+//! Texts with another model in the place of one of theirs.
+
+use dashpot_network::Model;
+use toml_edit::{DocumentMut, Item, Table, TableLike};
+
+use crate::{
+    NamedModel,
+    library::SHELVES,
+    write::{write_material_table, write_model_table},
+};
+
+/// What an element keeps when its model is replaced.
+const KEPT: [&str; 2] = ["between", "thickness"];
+
+/// `text` with `model` in the place of `named`, which was read from it. All else stays as it is,
+/// and comments within the old model stand, together with `comments`, before the new one.
+///
+/// `None` where the text does not have this model.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{elements::Spring, part};
+/// use dashpot_scene::{ReadOptions, read_named_model, with_model};
+///
+/// let text = "[models]\n# of the lining\npad = { spring = \"2 kN/m\" }\nother = { spring = 1 }\n";
+/// let pad = read_named_model(text, "pad", &ReadOptions::default())?.value;
+/// let other = with_model(text, &pad, &part(Spring { stiffness: 3e3 }), &["stiffer".to_owned()]);
+/// assert_eq!(
+///     other.unwrap(),
+///     "[models]\n# of the lining\n# stiffer\npad = { spring = \"3 kN/m\" }\nother = { spring = 1 }\n"
+/// );
+/// # Ok::<(), dashpot_scene::Diagnostics>(())
+/// ```
+pub fn with_model(
+    text: &str,
+    named: &NamedModel,
+    model: &Model,
+    comments: &[String],
+) -> Option<String> {
+    let mut document: DocumentMut = text.parse().ok()?;
+    let (law, value) = law(named, model)?;
+    let sections = SHELVES.map(|shelf| (shelf.section(), &[][..]));
+    let mut sections = sections.into_iter().chain([("elements", &KEPT[..])]);
+    let (section, kept) = sections.find(|(section, _)| {
+        let table = document.get(section).and_then(Item::as_table_like);
+        table.is_some_and(|own| own.contains_key(&named.name))
+    })?;
+    let owner = document.get_mut(section)?.as_table_like_mut()?;
+    let (mut key, item) = owner.get_key_value_mut(&named.name)?;
+    let is_section = item.is_table();
+    let table = item.as_table_like_mut()?;
+    let mut lines = replaced(table, kept);
+    lines.extend(comments.iter().cloned());
+    let lines: String = lines.iter().map(|line| format!("# {line}\n")).collect();
+    table.insert(&law, value);
+    if is_section {
+        // Within the table, which has its own lines.
+        table.key_mut(&law)?.leaf_decor_mut().set_prefix(lines);
+    } else {
+        if let Some(inline) = item.as_inline_table_mut() {
+            inline.fmt();
+        }
+        let decor = key.leaf_decor_mut();
+        let before = decor.prefix().and_then(|own| own.as_str()).unwrap_or_default().to_owned();
+        decor.set_prefix(before + &lines);
+    }
+    Some(document.to_string())
+}
+
+/// The key and value of the law of `model`.
+fn law(named: &NamedModel, model: &Model) -> Option<(String, Item)> {
+    let write = if named.is_material { write_material_table } else { write_model_table };
+    let text = write("model", model, &[]);
+    let (_, law) = text.split_once('\n')?;
+    let table: Table = law.parse::<DocumentMut>().ok()?.as_table().clone();
+    let (key, item) = table.iter().next()?;
+    Some((key.to_owned(), item.clone()))
+}
+
+/// Takes everything but `kept` out of `table`, and returns its comments.
+fn replaced(table: &mut dyn TableLike, kept: &[&str]) -> Vec<String> {
+    let keys: Vec<String> = table.iter().map(|(key, _)| key.to_owned()).collect();
+    let mut comments = Vec::new();
+    for key in keys.iter().filter(|key| !kept.contains(&key.as_str())) {
+        let decor = table.key(key).map(|own| own.leaf_decor().clone());
+        let prefix = decor.as_ref().and_then(|own| own.prefix()).and_then(|own| own.as_str());
+        comments.extend(comments_in(prefix.unwrap_or_default()));
+        if let Some(item) = table.remove(key) {
+            comments.extend(comments_in(&item.to_string()));
+        }
+    }
+    comments
+}
+
+/// The comments in a piece of TOML, without their marks.
+fn comments_in(text: &str) -> Vec<String> {
+    let mut comments = Vec::new();
+    for line in text.lines() {
+        let mut quote = None;
+        for (at, mark) in line.char_indices() {
+            match (mark, quote) {
+                ('#', None) => {
+                    comments.push(line[at + 1..].trim().to_owned());
+                    break;
+                }
+                ('"' | '\'', None) => quote = Some(mark),
+                (_, Some(open)) if open == mark => quote = None,
+                _ => {}
+            }
+        }
+    }
+    comments
+}
+
+#[cfg(test)]
+mod tests {
+    use dashpot_network::{elements::Spring, part};
+
+    use super::*;
+    use crate::{ReadOptions, read_named_model};
+
+    const TEXT: &str = r##"title = "a # is no comment here"   # but this is one
+
+[models.pad]        # from the sample of May
+# two layers
+series = [
+  { spring = "2 kN/m", name = "#1" },  # the skin
+  { spring = "2 kN/m" },
+]
+
+[materials]
+foam = { spring = "2 MPa" }
+
+[nodes]
+head = { mass = "5 kg", velocity = "2 m/s" }
+
+[elements]
+padding = { between = ["head", "ground"], model = "pad", thickness = "2 cm" }
+"##;
+
+    fn with(name: &str) -> String {
+        let named = read_named_model(TEXT, name, &ReadOptions::default()).unwrap().value;
+        let text = with_model(TEXT, &named, &part(Spring { stiffness: 1e3 }), &["half".to_owned()]);
+        let text = text.unwrap();
+        let again = read_named_model(&text, name, &ReadOptions::default()).unwrap().value;
+        assert_eq!(again.is_material, named.is_material);
+        text
+    }
+
+    #[test]
+    fn a_model_keeps_its_place_and_its_comments() {
+        let expected = TEXT.replace(
+            r##"# two layers
+series = [
+  { spring = "2 kN/m", name = "#1" },  # the skin
+  { spring = "2 kN/m" },
+]
+"##,
+            "# two layers\n# the skin\n# half\nspring = \"1 kN/m\"\n",
+        );
+        assert_eq!(with("pad"), expected);
+    }
+
+    #[test]
+    fn a_material_stays_one() {
+        let expected =
+            TEXT.replace("foam = { spring = \"2 MPa\" }", "# half\nfoam = { spring = \"1 kPa\" }");
+        assert_eq!(with("foam"), expected);
+    }
+
+    #[test]
+    fn an_element_keeps_its_ends() {
+        let expected = TEXT.replace(
+            "padding = { between = [\"head\", \"ground\"], model = \"pad\", thickness = \"2 cm\" }",
+            "# half\npadding = { between = [\"head\", \"ground\"], thickness = \"2 cm\", spring = \"1 kN/m\" }",
+        );
+        assert_eq!(with("padding"), expected);
+    }
+}

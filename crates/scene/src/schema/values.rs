@@ -1,0 +1,99 @@
+//! Schemas of quantities and parameters.
+
+use dashpot_network::parameters::{Dimension, Parameter, ParameterKind};
+use serde_json::{Map, Value, json};
+
+use super::{described_as, reference};
+use crate::{
+    basis::Basis,
+    fault::{described, example_text},
+};
+
+/// What the values of a kind measure.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Values {
+    /// Dimension of amplitudes in a model.
+    pub(super) driven: Dimension,
+    /// Whether they belong to a model or to a material.
+    pub(super) basis: Basis,
+}
+
+impl Values {
+    /// Values of a model, or of what is none.
+    pub(super) fn driving(driven: Dimension) -> Self {
+        Self { driven, basis: Basis::Model }
+    }
+
+    /// What follows the word of a kind.
+    pub(super) fn of_kind(self, all: &[Parameter]) -> Value {
+        let required =
+            all.iter().filter(|parameter| parameter.default.is_none()).collect::<Vec<_>>();
+        let names = required.iter().map(|parameter| parameter.name).collect::<Vec<_>>();
+        let table = json!({
+            "type": "object",
+            "properties": self.parameters(all),
+            "required": names,
+            "additionalProperties": false,
+        });
+        match required.as_slice() {
+            [only] if all.len() == 1 => self.parameter(only),
+            [only] => json!({ "anyOf": [self.parameter(only), table] }),
+            _ => table,
+        }
+    }
+
+    /// The parameters by their names.
+    pub(super) fn parameters(self, all: &[Parameter]) -> Map<String, Value> {
+        all.iter().map(|own| (own.name.to_owned(), self.parameter(own))).collect()
+    }
+
+    fn parameter(self, parameter: &Parameter) -> Value {
+        let time = reference("time");
+        let of = |dimension| named_quantity(self.basis.dimension(dimension));
+        let mut schema = match parameter.kind {
+            ParameterKind::Quantity(dimension) => of(dimension),
+            ParameterKind::TemperatureDifference => temperature_difference(),
+            ParameterKind::Amplitude => of(self.driven),
+            ParameterKind::TimeTable => {
+                json!({ "type": "array", "items": pair(&time, &of(self.driven)) })
+            }
+            ParameterKind::Choice(words) => json!({ "enum": words }),
+            ParameterKind::Flag => json!({ "const": true }),
+            ParameterKind::Window => {
+                json!({ "anyOf": [{ "enum": ["impact", "run"] }, pair(&time, &time)] })
+            }
+        };
+        if let Some(default) = parameter.default {
+            // What counts in N/m by default is zero, and zero is so in Pa.
+            let stays = match parameter.kind {
+                ParameterKind::Quantity(dimension) => self.basis.dimension(dimension) == dimension,
+                _ => true,
+            };
+            schema["default"] = if stays { json!(default) } else { json!(0) };
+        }
+        described_as(schema, parameter.help)
+    }
+}
+
+fn pair(first: &Value, second: &Value) -> Value {
+    json!({ "type": "array", "prefixItems": [first, second], "minItems": 2, "maxItems": 2 })
+}
+
+/// The quantity of a dimension, by reference where there is a definition of it.
+pub(super) fn named_quantity(dimension: Dimension) -> Value {
+    dimension.named().map_or_else(|| quantity(dimension), |(name, _)| reference(name))
+}
+
+/// The quantity of a dimension.
+pub(super) fn quantity(dimension: Dimension) -> Value {
+    json!({
+        "description": format!("{}, a bare number in SI units, or a named value", described(dimension)),
+        "type": ["number", "string"],
+        "examples": [example_text(dimension)],
+    })
+}
+
+fn temperature_difference() -> Value {
+    let description = "a difference of temperatures (K), a bare number in K, or a named value";
+    json!({ "description": description, "type": ["number", "string"], "examples": ["50 K"] })
+}
