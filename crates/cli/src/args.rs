@@ -7,7 +7,9 @@ use clap::{
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
 };
 use clap_complete::Shell;
+use dashpot_analysis::rheometer::{ProtocolKind, ProtocolVisitor, visit_protocols};
 use dashpot_dae::methods;
+use dashpot_rheology::conversion::Target;
 use dashpot_scene::{templates, units::parse_quantity};
 
 /// Impacts on viscoelastic padding: spring-dashpot-mass networks, solved with stated errors.
@@ -21,7 +23,8 @@ use dashpot_scene::{templates, units::parse_quantity};
         dashpot run                     the built-in reference impact, by two methods\n  \
         dashpot new --out pad.toml      a commented scene to start from\n  \
         dashpot run pad.toml            solve it: forces, g, depth, and how wrong they may be\n\n\
-        Exit codes: 0 done (warnings included), 1 a run failed, 2 the input is wrong."
+        Exit codes: 0 done (warnings included), 1 a run failed, 2 the input is wrong,\n\
+        3 `compare` says that two models are not the same."
 )]
 pub(crate) struct Arguments {
     /// What to do.
@@ -41,6 +44,12 @@ pub(crate) enum Command {
     Check(CheckArguments),
     /// Shows what was built from a scene: drawing, parts, unknowns, effects, method.
     Explain(ExplainArguments),
+    /// Writes a model in another form that does the same, and says how nearly.
+    Convert(ConvertArguments),
+    /// Says whether two models or networks are the same from outside, by their poles.
+    Compare(CompareArguments),
+    /// Tests a model alone: creep, relaxation, oscillation, in closed form and by simulation.
+    Rheometer(RheometerArguments),
     /// Lists every kind that a scene may contain, with its parameters.
     List(ListArguments),
     /// Writes a commented scene to start from.
@@ -136,12 +145,104 @@ pub(crate) struct ExplainArguments {
     pub(crate) out: Option<PathBuf>,
 }
 
+/// `convert`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot convert reference:padding --to generalized-maxwell\n  \
+    dashpot convert pads.toml:felt --to prony --out pads-prony.toml\n  \
+    dashpot convert bridge.toml:head,ground --to generalized-kelvin\n\n\
+    The text is that of FILE with the model replaced, its comments kept, so that \
+    `dashpot run` takes it as it took FILE. The response at nodes becomes a table \
+    [models.NAME] of its own.")]
+pub(crate) struct ConvertArguments {
+    /// FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it
+    /// has one model; FILE:NODE,NODE for the response of a network without moving masses.
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: String,
+    /// The form.
+    #[arg(long, value_name = "FORM", value_parser = forms())]
+    pub(crate) to: String,
+    #[command(flatten)]
+    pub(crate) values: ValueArguments,
+    /// File to write; without it the text is printed.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Overwrites the file if there is one.
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
+
+/// `compare`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot compare pads.toml:burgers pads.toml:two-maxwell\n  \
+    dashpot compare pads.toml:felt fibre.toml:felt --impact reference:padding\n  \
+    dashpot compare bridge.toml:face,ground pads.toml:felt\n  \
+    dashpot compare old.toml:head,ground new.toml:head,ground\n\n\
+    `Same` means that all poles and strengths agree within 1e-11, relatively.\n\n\
+    Exit codes: 0 they are the same, 3 they are not, 2 the input is wrong.")]
+pub(crate) struct CompareArguments {
+    /// FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it
+    /// has one model; FILE:NODE,NODE for the response of a whole network at two of its nodes.
+    #[arg(value_name = "FIRST")]
+    pub(crate) first: String,
+    /// The other one.
+    #[arg(value_name = "SECOND")]
+    pub(crate) second: String,
+    /// SCENE:ELEMENT: solves this impact with each of the models in the element's place, and
+    /// compares what is measured.
+    #[arg(long, value_name = "SCENE:ELEMENT")]
+    pub(crate) impact: Option<String>,
+    #[command(flatten)]
+    pub(crate) values: ValueArguments,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `rheometer`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot rheometer reference:padding\n  \
+    dashpot rheometer pads.toml:felt --test load-hold-unload --with \"hold=5 ms\"\n  \
+    dashpot rheometer pads.toml:felt --test sweep --out felt\n  \
+    dashpot rheometer pads.toml:felt --method exact,bdf\n\n\
+    Each test is computed from the model's poles and strengths in closed form, and \
+    independently from the equations of its network; both are shown. `dashpot list tests` \
+    tells of each test and its parameters.")]
+pub(crate) struct RheometerArguments {
+    /// FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it
+    /// has one model; FILE:NODE,NODE for the response of a network without moving masses.
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: String,
+    /// Tests [default: all].
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = test_names())]
+    pub(crate) test: Vec<String>,
+    /// Sets a parameter of the tests that have it: `--with "hold=5 ms"`; repeatable.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) with: Vec<(String, String)>,
+    /// Methods that simulate the network.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', default_value = "exact", value_parser = MethodNames(method_names()))]
+    pub(crate) method: Vec<String>,
+    #[command(flatten)]
+    pub(crate) values: ValueArguments,
+    /// Folder for CSV, JSON and SVG; it is made if need be.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Plots in the text; `auto` draws them on terminals.
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    pub(crate) plot: When,
+}
+
 /// `list`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  dashpot list\n  dashpot list measures\n  dashpot list zener")]
 pub(crate) struct ListArguments {
-    /// One family alone (elements, forms, waveforms, effects, measures, methods, templates,
-    /// scenes), or one kind, by any of its names.
+    /// One family alone (elements, forms, composites, shifts, waveforms, effects, measures,
+    /// methods, templates, scenes), or one kind, by any of its names.
     #[arg(value_name = "FAMILY|KIND")]
     pub(crate) what: Option<String>,
 }
@@ -190,6 +291,10 @@ pub(crate) enum Family {
     Elements,
     /// Named models composed of them.
     Forms,
+    /// Models that a few numbers describe as a whole.
+    Composites,
+    /// Shifts of the times of a model.
+    Shifts,
     /// Functions of time for loads and motions.
     Waveforms,
     /// What acts on a network besides its elements.
@@ -198,6 +303,8 @@ pub(crate) enum Family {
     Measures,
     /// Ways to solve.
     Methods,
+    /// Tests of a model alone.
+    Tests,
     /// Scenes to start from.
     Templates,
     /// Scenes that are built in.
@@ -235,6 +342,26 @@ fn template_names() -> PossibleValuesParser {
     let value =
         |shipped: &dashpot_scene::Shipped| PossibleValue::new(shipped.name).help(shipped.summary);
     PossibleValuesParser::new(templates().iter().map(value))
+}
+
+fn forms() -> PossibleValuesParser {
+    PossibleValuesParser::new(
+        Target::all()
+            .into_iter()
+            .map(|form| PossibleValue::new(form.word).aliases(form.aliases).help(form.summary)),
+    )
+}
+
+fn test_names() -> PossibleValuesParser {
+    struct Collect(Vec<PossibleValue>);
+    impl ProtocolVisitor for Collect {
+        fn visit<P: ProtocolKind>(&mut self) {
+            self.0.push(PossibleValue::new(P::KIND).help(P::SUMMARY));
+        }
+    }
+    let mut collect = Collect(Vec::new());
+    visit_protocols(&mut collect);
+    PossibleValuesParser::new(collect.0)
 }
 
 fn assignment(text: &str) -> Result<(String, String), String> {

@@ -2,9 +2,11 @@
 
 use std::{io, path::PathBuf, process::ExitCode};
 
-use dashpot_analysis::RunError;
+use dashpot_analysis::{RunError, rheometer::RheometerError};
 use dashpot_dae::SolveError;
+use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
+use dashpot_rheology::conversion::Unfit;
 use dashpot_scene::Diagnostics;
 use thiserror::Error;
 
@@ -19,6 +21,8 @@ pub(crate) enum Status {
     RunFailed = 1,
     /// The input is wrong.
     InputWrong = 2,
+    /// Two models are not the same.
+    NotSame = 3,
 }
 
 impl From<Status> for ExitCode {
@@ -71,6 +75,81 @@ pub(crate) enum CliError {
         /// The word.
         word: String,
     },
+    /// A node that a network does not have.
+    #[error("there is no node `{name}`; the nodes are {}", .known.join(", "))]
+    UnknownNode {
+        /// The name.
+        name: String,
+        /// The nodes that there are.
+        known: Vec<String>,
+    },
+    /// A response that cannot be given.
+    #[error(transparent)]
+    Response(#[from] DrivingPointError),
+    /// A network with moving masses where a model of springs and dashpots is wanted.
+    #[error("`{word}` has masses that move: no springs and dashpots alone respond like it")]
+    MovingMasses {
+        /// The network as it was named.
+        word: String,
+    },
+    /// A model that cannot be brought into a form.
+    #[error("`{word}` cannot be written as `{form}`: {reason}")]
+    Unfit {
+        /// The model as it was named.
+        word: String,
+        /// The form.
+        form: &'static str,
+        /// Why.
+        reason: Unfit,
+    },
+    /// A test that cannot be made.
+    #[error(transparent)]
+    Rheometer(#[from] RheometerError),
+    /// A parameter that no test has.
+    #[error("no test has a `{name}`; there are {}", .known.join(", "))]
+    UnknownSetting {
+        /// The name.
+        name: String,
+        /// What there is.
+        known: Vec<&'static str>,
+    },
+    /// A parameter of a test with a value that cannot be used.
+    #[error("`{name}`: {reason}")]
+    WrongSetting {
+        /// The name.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+    /// An element that a scene does not have.
+    #[error("there is no element `{name}`; the elements are {}", .known.join(", "))]
+    UnknownElement {
+        /// The name.
+        name: String,
+        /// The elements that there are.
+        known: Vec<String>,
+    },
+    /// A material and a pad.
+    #[error("one of them is a material, in Pa, the other a model of a pad, in N/m")]
+    MaterialAndPad,
+    /// A material where a pad is wanted.
+    #[error("`{word}` is a material; the impact needs a pad with thickness and area")]
+    MaterialInImpact {
+        /// The material as it was named.
+        word: String,
+    },
+    /// Two networks whose responses are not known well enough.
+    #[error("the responses are known only within {error:.0e}, too little to tell")]
+    Undecided {
+        /// Their relative errors together.
+        error: f64,
+    },
+    /// A text in which a model cannot be replaced.
+    #[error("the text of `{word}` cannot be rewritten with another model")]
+    NotReplaced {
+        /// The model as it was named.
+        word: String,
+    },
     /// Standard output that cannot be written.
     #[error("the output cannot be written: {0}")]
     Output(io::Error),
@@ -93,7 +172,18 @@ impl CliError {
             | Self::Unreadable { .. }
             | Self::Foreign { .. }
             | Self::NotAFolder { .. }
-            | Self::UnknownKind { .. } => Status::InputWrong,
+            | Self::UnknownKind { .. }
+            | Self::UnknownNode { .. }
+            | Self::Response(_)
+            | Self::MovingMasses { .. }
+            | Self::Unfit { .. }
+            | Self::UnknownElement { .. }
+            | Self::Rheometer(_)
+            | Self::UnknownSetting { .. }
+            | Self::WrongSetting { .. }
+            | Self::MaterialAndPad
+            | Self::MaterialInImpact { .. }
+            | Self::NotReplaced { .. } => Status::InputWrong,
             // The place is wrong; all else, such as a full disk, is a failure.
             Self::Unwritable { source, .. } if is_wrong_place(source) => Status::InputWrong,
             Self::Run(error) => match error {
@@ -108,9 +198,11 @@ impl CliError {
                 ) => Status::InputWrong,
                 _ => Status::RunFailed,
             },
-            Self::Unwritable { .. } | Self::Output(_) | Self::Plot(_) | Self::Json(_) => {
-                Status::RunFailed
-            }
+            Self::Undecided { .. }
+            | Self::Unwritable { .. }
+            | Self::Output(_)
+            | Self::Plot(_)
+            | Self::Json(_) => Status::RunFailed,
         }
     }
 
@@ -127,6 +219,19 @@ impl CliError {
                     .to_owned(),
             ),
             Self::Foreign { help, .. } => Some((*help).to_owned()),
+            Self::Unfit { .. } => Some(
+                "`--to generalized-maxwell` and `--to generalized-kelvin` take every model"
+                    .to_owned(),
+            ),
+            Self::MovingMasses { .. } => {
+                Some("`dashpot compare` compares such networks".to_owned())
+            }
+            Self::MaterialAndPad | Self::MaterialInImpact { .. } => Some(
+                "an element with `material`, `thickness` and `area` is a pad; name that".to_owned(),
+            ),
+            Self::NotReplaced { .. } => Some(
+                "give the model a table of its own, [models.NAME], and convert that".to_owned(),
+            ),
             Self::Run(RunError::Solve(error)) => match error {
                 SolveError::NotApplicable { .. } => {
                     Some("`--method auto` chooses one that can".to_owned())

@@ -1,8 +1,8 @@
 //! Files that results are written to.
 
 use std::{
-    fs::{self, File},
-    io::{BufWriter, Read, Write},
+    fs::{self, File, OpenOptions},
+    io::{BufWriter, ErrorKind, Read, Write},
     path::{Path, PathBuf},
 };
 
@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// The file that also marks a folder as one of results.
-const RESULT: &str = "result.json";
+pub(crate) const RESULT: &str = "result.json";
 /// The beginning of that file.
 const MARK: &str = "{\n  \"dashpot\"";
 /// The scene with what the command line changed.
@@ -37,13 +37,21 @@ const CHUNK: usize = 4096;
 /// Makes the folder `path` if need be, and finds out whether files can be written there, so that
 /// no run is done in vain. Returns whether it was made.
 pub(crate) fn prepare(path: &Path) -> Result<bool, CliError> {
+    let figures = FIGURES.iter().map(|figure| format!("{}.svg", figure.name()));
+    prepare_for(path, figures.chain([SCENE, DRAWING, PAGE].map(str::to_owned)))
+}
+
+/// The same for files of these names, and that of the result.
+pub(crate) fn prepare_for(
+    path: &Path,
+    names: impl IntoIterator<Item = String>,
+) -> Result<bool, CliError> {
     if path.is_file() {
         return Err(CliError::NotAFolder { path: path.to_owned() });
     }
     let is_there = path.is_dir();
     fs::create_dir_all(path).map_err(unwritable(path))?;
-    let figures = FIGURES.iter().map(|figure| format!("{}.svg", figure.name()));
-    refuse_foreign(path, figures.chain([SCENE, DRAWING, PAGE].map(str::to_owned)))?;
+    refuse_foreign(path, names.into_iter())?;
     let probe = path.join(PROBE);
     File::create(&probe).and_then(|_| fs::remove_file(&probe)).map_err(unwritable(path))?;
     Ok(!is_there)
@@ -101,6 +109,23 @@ pub(crate) fn write(answer: &Answer, path: &Path) -> Result<Vec<String>, CliErro
         written.push(name);
     }
     Ok(written)
+}
+
+/// Writes `text` to a file that is not there yet, or in place of one with `force`.
+pub(crate) fn write_new(path: &Path, text: &str, force: bool) -> Result<(), CliError> {
+    let mut options = OpenOptions::new();
+    if force {
+        options.create(true).truncate(true);
+    } else {
+        options.create_new(true);
+    }
+    match options.write(true).open(path).and_then(|mut file| file.write_all(text.as_bytes())) {
+        Ok(()) => Ok(()),
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+            Err(CliError::Foreign { path: path.to_owned(), help: "`--force` overwrites it" })
+        }
+        Err(error) => Err(unwritable(path)(error)),
+    }
 }
 
 /// An error of the system at this path.

@@ -6,7 +6,7 @@ use std::{
     path::Path,
 };
 
-use dashpot_scene::{Checked, ReadOptions, Scene, read, read_bytes, references, text_of_bytes};
+use dashpot_scene::{Checked, ReadOptions, Scene, read, references, text_of_bytes};
 
 use crate::error::CliError;
 
@@ -15,32 +15,54 @@ const MAX_BYTES: u64 = 64 << 20;
 /// Name of the built-in scene.
 const BUILT_IN: &str = "reference";
 
+/// A text and the file that it is from, as far as messages are concerned.
+pub(crate) struct Input {
+    pub(crate) file: String,
+    bytes: Vec<u8>,
+}
+
+impl Input {
+    /// The built-in scene of this name, a file, or standard input for `-`.
+    pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
+        let name = path.to_string_lossy();
+        if !path.exists()
+            && let Some(shipped) = references().iter().find(|shipped| shipped.name == name)
+        {
+            let file = format!("{}.toml", shipped.name);
+            return Ok(Self { file, bytes: shipped.text.as_bytes().to_vec() });
+        }
+        let (file, bytes) = if name == "-" {
+            ("standard input", limited(io::stdin().lock()))
+        } else {
+            (&*name, bytes_of(path))
+        };
+        let bytes = bytes.map_err(|error| CliError::Unreadable {
+            name: file.to_owned(),
+            reason: reason(&error),
+            similar: similar(path),
+        })?;
+        Ok(Self { file: file.to_owned(), bytes })
+    }
+
+    /// The text.
+    pub(crate) fn text(&self) -> Result<&str, CliError> {
+        text_of_bytes(&self.bytes, Some(&self.file)).map_err(CliError::Scene)
+    }
+
+    /// How it is read with the values `set` in place of its own.
+    pub(crate) fn options<'o>(&'o self, set: &'o [(String, String)]) -> ReadOptions<'o> {
+        ReadOptions { file: Some(&self.file), set, loader: Some(&load) }
+    }
+}
+
 /// Reads a scene with the values `set` in place of its own: the built-in one, a file, or standard
 /// input for `-`.
 pub(crate) fn read_scene(
     path: Option<&Path>,
     set: &[(String, String)],
 ) -> Result<Checked<Scene>, CliError> {
-    let path = path.unwrap_or(Path::new(BUILT_IN));
-    let name = path.to_string_lossy();
-    let options = |file| ReadOptions { file: Some(file), set, loader: Some(&load) };
-    if !path.exists()
-        && let Some(shipped) = references().iter().find(|shipped| shipped.name == name)
-    {
-        let file = format!("{}.toml", shipped.name);
-        return read(shipped.text, &options(&file)).map_err(CliError::Scene);
-    }
-    let (file, bytes) = if name == "-" {
-        ("standard input", limited(io::stdin().lock()))
-    } else {
-        (&*name, bytes_of(path))
-    };
-    let bytes = bytes.map_err(|error| CliError::Unreadable {
-        name: file.to_owned(),
-        reason: reason(&error),
-        similar: similar(path),
-    })?;
-    read_bytes(&bytes, &options(file)).map_err(CliError::Scene)
+    let input = Input::read(path.unwrap_or(Path::new(BUILT_IN)))?;
+    read(input.text()?, &input.options(set)).map_err(CliError::Scene)
 }
 
 /// What may be meant by a name that no file has: the same with or without the ending of a scene.

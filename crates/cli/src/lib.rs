@@ -7,10 +7,12 @@ mod answer;
 mod args;
 mod as_run;
 mod commands;
+mod entanglement;
 mod error;
 mod folder;
 mod input;
 mod numbers;
+mod operand;
 mod progress;
 mod registers;
 mod series;
@@ -27,7 +29,7 @@ use error::Status;
 use terminal::Terminal;
 
 /// Does what the command line says. The exit code is 0 when it is done (warnings included), 1 when
-/// a run failed, and 2 when the input is wrong.
+/// a run failed, 2 when the input is wrong, and 3 when two models are not the same.
 pub fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -42,6 +44,9 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => commands::run(&arguments, terminal),
         Command::Check(arguments) => commands::check(&arguments, terminal),
         Command::Explain(arguments) => commands::explain(&arguments, terminal),
+        Command::Convert(arguments) => commands::convert(&arguments, terminal),
+        Command::Compare(arguments) => commands::compare(&arguments, terminal),
+        Command::Rheometer(arguments) => commands::rheometer(&arguments, terminal),
         Command::List(arguments) => commands::list(&arguments, terminal),
         Command::New(arguments) => commands::new(&arguments),
         Command::Schema => commands::schema(),

@@ -1,12 +1,15 @@
 //! The registers as entries of a list.
 
 use dashpot_analysis::measures::{self, MeasureKind, MeasureVisitor, visit_measures};
+use dashpot_analysis::rheometer::{FROM_THE_MODEL, ProtocolKind, ProtocolVisitor, visit_protocols};
 use dashpot_dae::methods;
 use dashpot_network::{
     Effect,
+    composites::{CompositeKind, CompositeVisitor, visit_composites},
     effects::{EffectKind, EffectVisitor, visit_effects},
     elements::{ElementKind, ElementVisitor, visit_elements},
-    parameters::{Dimension, Parameter, ParameterKind, Value},
+    parameters::{Dimension, Parameter, ParameterKind},
+    shifts::{ShiftKind, ShiftVisitor, visit_shifts},
     waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
 };
 use dashpot_rheology::{Form, FormVisitor, Part, Role, visit_forms};
@@ -43,12 +46,15 @@ pub(crate) fn entries(family: Family) -> Vec<Entry> {
     match family {
         Family::Elements => visit_elements(&mut collect),
         Family::Forms => visit_forms(&mut collect),
+        Family::Composites => visit_composites(&mut collect),
+        Family::Shifts => visit_shifts(&mut collect),
         Family::Waveforms => visit_waveforms(&mut collect),
         Family::Effects => visit_effects(&mut collect),
         Family::Measures => visit_measures(&mut collect),
         Family::Methods => collect.0.extend(
             methods::all().iter().map(|method| Entry::plain(method.name(), method.summary())),
         ),
+        Family::Tests => visit_protocols(&mut collect),
         Family::Templates | Family::Scenes => {}
     }
     collect.0
@@ -73,9 +79,8 @@ pub(crate) fn written(effect: &dyn Effect) -> String {
 struct Collect(Vec<Entry>);
 
 impl Collect {
-    /// A kind that is written as `word = values`.
-    fn add_kind(&mut self, word: &str, summary: &str, parameters: &[Parameter], sample: &[Value]) {
-        let example = write_kind(word, parameters, sample, Dimension::FORCE);
+    /// A kind that is written as `example`.
+    fn add_kind(&mut self, word: &str, summary: &str, parameters: &[Parameter], example: String) {
         let details = parameters.iter().map(described).collect();
         self.0.push(Entry { example: Some(example), details, ..Entry::plain(word, summary) });
     }
@@ -83,19 +88,47 @@ impl Collect {
 
 impl ElementVisitor for Collect {
     fn visit<E: ElementKind>(&mut self) {
-        self.add_kind(E::KIND, E::SUMMARY, E::PARAMETERS, &E::sample().values());
+        let sample = E::sample().values();
+        let example = write_kind(E::KIND, E::PARAMETERS, &sample, Dimension::FORCE);
+        self.add_kind(E::KIND, E::SUMMARY, E::PARAMETERS, example);
+    }
+}
+
+impl CompositeVisitor for Collect {
+    fn visit<C: CompositeKind>(&mut self) {
+        let example = write_kind(C::KIND, C::PARAMETERS, &C::sample().values(), C::AMPLITUDE);
+        self.add_kind(C::KIND, C::SUMMARY, C::PARAMETERS, example);
+    }
+}
+
+impl ShiftVisitor for Collect {
+    fn visit<S: ShiftKind>(&mut self) {
+        let sample = S::sample().values();
+        let example = write_kind(S::KIND, S::PARAMETERS, &sample, Dimension::NUMBER);
+        self.add_kind(S::KIND, S::SUMMARY, S::PARAMETERS, format!("shift = {{ {example} }}"));
+    }
+}
+
+impl ProtocolVisitor for Collect {
+    fn visit<P: ProtocolKind>(&mut self) {
+        let details = P::PARAMETERS.iter().map(described).collect();
+        self.0.push(Entry { details, ..Entry::plain(P::KIND, P::SUMMARY) });
     }
 }
 
 impl WaveformVisitor for Collect {
     fn visit<W: WaveformKind>(&mut self) {
-        self.add_kind(W::KIND, W::SUMMARY, W::PARAMETERS, &W::sample().values());
+        let sample = W::sample().values();
+        let example = write_kind(W::KIND, W::PARAMETERS, &sample, Dimension::FORCE);
+        self.add_kind(W::KIND, W::SUMMARY, W::PARAMETERS, example);
     }
 }
 
 impl EffectVisitor for Collect {
     fn visit<E: EffectKind>(&mut self) {
-        self.add_kind(E::KIND, E::SUMMARY, E::PARAMETERS, &E::sample().values());
+        let sample = E::sample().values();
+        let example = write_kind(E::KIND, E::PARAMETERS, &sample, Dimension::FORCE);
+        self.add_kind(E::KIND, E::SUMMARY, E::PARAMETERS, example);
     }
 }
 
@@ -131,7 +164,9 @@ fn described(parameter: &Parameter) -> String {
         ParameterKind::Choice(words) => format!(": {}", words.join(" or ")),
         _ => String::new(),
     };
-    let default = parameter.default.map(|own| format!(" (default {own})")).unwrap_or_default();
+    // The help of what follows from the model says how.
+    let default = parameter.default.filter(|own| *own != FROM_THE_MODEL);
+    let default = default.map(|own| format!(" (default {own})")).unwrap_or_default();
     format!("{}: {}{choice}{default}", parameter.name, parameter.help)
 }
 

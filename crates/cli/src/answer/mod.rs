@@ -1,9 +1,11 @@
 //! What a run of a scene has to say, before it becomes text, JSON, or a page.
 
+pub(crate) mod comparison;
 mod energy;
 mod json;
 mod measures;
 mod page;
+pub(crate) mod rheometer;
 mod settings;
 mod solving;
 mod verdict;

@@ -8,9 +8,10 @@ use dashpot_scene::Scene;
 
 use crate::{
     args::CheckArguments,
+    entanglement::notes,
     error::{CliError, Status},
     input::read_scene,
-    terminal::{Terminal, print},
+    terminal::{Terminal, note, print},
 };
 
 /// Says of each scene whether it is valid.
@@ -38,6 +39,7 @@ fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
     can_run(&scene)?;
+    notes(&scene).iter().for_each(|text| note(&format!("note: {text}")));
     let system = &scene.assembly.system;
     let nodes = scene.network.nodes().count() - 1;
     let structure = if system.linear().is_some() {

@@ -15,6 +15,7 @@ use dashpot_scene::Scene;
 use crate::{
     answer::title,
     args::{ExplainArguments, Family},
+    entanglement::notes,
     error::{CliError, Status},
     folder::unwritable,
     input::read_scene,
@@ -48,6 +49,13 @@ pub(crate) fn explain(
     let tables = [nodes(&scene), elements(&scene), parts(&scene), loads(&scene)];
     for content in tables.iter().filter(|content| !content.rows.is_empty()) {
         text += &section(content, terminal);
+    }
+    let remarks = notes(&scene);
+    if !remarks.is_empty() {
+        let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, "Models"));
+        for line in remarks.iter().flat_map(|own| wrapped(own, WIDTH - 2)) {
+            let _ = writeln!(text, "  {line}");
+        }
     }
     text += &section(&effects(&scene), terminal);
     let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, "Solving"));

@@ -14,13 +14,16 @@ use crate::{
 };
 
 /// All families, in the order in which they are listed.
-const FAMILIES: [(Family, &str); 8] = [
+const FAMILIES: [(Family, &str); 11] = [
     (Family::Elements, "Elements: laws between two nodes, composed by `series` and `parallel`"),
     (Family::Forms, "Forms: models by name, composed of springs and dashpots"),
+    (Family::Composites, "Composites: models that a few numbers describe as a whole"),
+    (Family::Shifts, "Shifts: for `shift` beside the law of a model; they multiply all its times"),
     (Family::Waveforms, "Waveforms: functions of time for `force` and `motion`"),
     (Family::Effects, "Effects: off unless they are named in [effects]"),
     (Family::Measures, "Measures: numbers read off a run; * marks those that every run reports"),
     (Family::Methods, "Methods: ways to solve, for `--method` and `methods` in [run]"),
+    (Family::Tests, "Tests: of a model alone, by `dashpot rheometer --test NAME`"),
     (Family::Templates, "Templates: scenes to start from, by `dashpot new NAME`"),
     (Family::Scenes, "Scenes: built in, for `dashpot run NAME`"),
 ];

@@ -1,17 +1,23 @@
 //! The verbs, one file each.
 
 mod check;
+mod compare;
 mod completions;
+mod convert;
 mod explain;
 mod list;
 mod new;
+mod rheometer;
 mod run;
 mod schema;
 
 pub(crate) use check::check;
+pub(crate) use compare::compare;
 pub(crate) use completions::completions;
+pub(crate) use convert::convert;
 pub(crate) use explain::explain;
 pub(crate) use list::list;
 pub(crate) use new::new;
+pub(crate) use rheometer::rheometer;
 pub(crate) use run::run;
 pub(crate) use schema::schema;

@@ -18,6 +18,7 @@ use crate::{
     error::{CliError, Status},
     folder,
     input::read_scene,
+    operand::tell,
     progress::Bar,
     series::curves,
     terminal::{Terminal, Tone, WIDTH, note, print},
@@ -35,6 +36,7 @@ const LABELS: usize = 13;
 pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status, CliError> {
     let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
     terminal.diagnose(&checked.warnings);
+    tell(&checked.value.notes);
     let made = match &arguments.out {
         Some(path) => folder::prepare(path)?.then_some(path),
         None => None,

@@ -1,0 +1,273 @@
+//! What a comparison of two models has to say, as one JSON object and as tables.
+
+use dashpot_plot::Table;
+use dashpot_rheology::{
+    Canonical,
+    equivalence::{Equivalence, FormComparison, ModePair, Pair, SAME_WITHIN},
+    sensitivity::ParameterMap,
+};
+use serde::Serialize;
+
+use crate::numbers::{bound, quantity};
+
+/// Digits of constants.
+const DIGITS: usize = 6;
+
+/// The object that `compare --json` prints, in SI units. What is infinite or missing is null.
+#[derive(Serialize)]
+pub(crate) struct Comparison {
+    /// Version of the program.
+    pub(crate) dashpot: &'static str,
+    /// The two, as they were named.
+    pub(crate) compared: [String; 2],
+    /// Whether they are the same.
+    pub(crate) same: bool,
+    /// The relative difference of a rate or strength up to which they are.
+    pub(crate) within: f64,
+    /// The largest relative difference, in the form in which it is smaller.
+    pub(crate) largest_difference: Option<f64>,
+    /// What a constant is measured in: `N/m`, or `Pa` for materials.
+    pub(crate) unit: &'static str,
+    /// Constants of the forms, where both have them.
+    pub(crate) forms: Vec<Form>,
+    /// Where the responses differ most.
+    pub(crate) worst: Option<Worst>,
+    /// About each of the two.
+    pub(crate) models: Vec<About>,
+    /// How the parameters of the second follow from those of the first.
+    pub(crate) map: Option<Map>,
+    /// The same impact with both.
+    pub(crate) impact: Option<Impact>,
+}
+
+/// A canonical form of both.
+#[derive(Serialize)]
+pub(crate) struct Form {
+    pub(crate) form: &'static str,
+    pub(crate) largest_difference: f64,
+    pub(crate) constants: Vec<Constant>,
+}
+
+/// A constant of a form: a stiffness or a damping.
+#[derive(Serialize)]
+pub(crate) struct Constant {
+    part: String,
+    time: Option<[f64; 2]>,
+    value: [Option<f64>; 2],
+    unit: &'static str,
+    difference: f64,
+}
+
+/// The worst disagreement.
+#[derive(Serialize)]
+pub(crate) struct Worst {
+    pub(crate) frequency: Option<f64>,
+    pub(crate) response: f64,
+    pub(crate) time: Option<f64>,
+    pub(crate) creep: Option<f64>,
+}
+
+/// What is known of one of the two.
+#[derive(Serialize)]
+pub(crate) struct About {
+    pub(crate) elements: Option<usize>,
+    pub(crate) least_elements: Option<usize>,
+    pub(crate) maxwell_form: bool,
+    pub(crate) kelvin_form: bool,
+    pub(crate) cancelled: Vec<Cancelled>,
+    pub(crate) entangled: Vec<Together>,
+}
+
+/// Poles that zeros cancel.
+#[derive(Serialize)]
+pub(crate) struct Cancelled {
+    pub(crate) pole: [f64; 2],
+    pub(crate) count: usize,
+}
+
+/// Parameters that cannot all be told apart.
+#[derive(Serialize)]
+pub(crate) struct Together {
+    pub(crate) parameters: Vec<String>,
+    pub(crate) combinations: Vec<String>,
+}
+
+/// A map between parameters.
+#[derive(Serialize)]
+pub(crate) struct Map {
+    from: Vec<String>,
+    to: Vec<String>,
+    relative: Vec<Vec<f64>>,
+    pub(crate) condition: f64,
+}
+
+/// Measures of the same impact.
+#[derive(Serialize)]
+pub(crate) struct Impact {
+    pub(crate) scene: String,
+    pub(crate) element: String,
+    pub(crate) method: [&'static str; 2],
+    pub(crate) measures: Vec<Measured>,
+}
+
+/// A measure with each of the two.
+#[derive(Serialize)]
+pub(crate) struct Measured {
+    pub(crate) measure: String,
+    pub(crate) unit: &'static str,
+    pub(crate) value: [Option<f64>; 2],
+    pub(crate) error: [Option<f64>; 2],
+    pub(crate) difference: Option<f64>,
+}
+
+impl Comparison {
+    /// What is known when two linear models have been compared.
+    pub(crate) fn of(compared: [String; 2], is_material: bool, found: &Equivalence) -> Self {
+        let units = if is_material { ["Pa", "Pa s"] } else { ["N/m", "N s/m"] };
+        let forms = [(Canonical::Maxwell, &found.maxwell), (Canonical::Kelvin, &found.kelvin)];
+        let forms = forms.into_iter().filter_map(|(form, own)| {
+            own.as_ref().map(|own| Form {
+                form: word(form),
+                largest_difference: own.largest,
+                constants: constants(form, own, units),
+            })
+        });
+        let forms: Vec<Form> = forms.collect();
+        Self {
+            dashpot: env!("CARGO_PKG_VERSION"),
+            compared,
+            same: found.is_same,
+            within: SAME_WITHIN,
+            largest_difference: forms.iter().map(|own| own.largest_difference).reduce(f64::min),
+            unit: units[0],
+            forms,
+            worst: found.worst.map(|own| Worst {
+                frequency: Some(own.omega / std::f64::consts::TAU),
+                response: own.stiffness,
+                time: Some(own.time),
+                creep: Some(own.creep),
+            }),
+            models: Vec::new(),
+            map: None,
+            impact: None,
+        }
+    }
+}
+
+impl Map {
+    /// From the map itself.
+    pub(crate) fn of(map: &ParameterMap) -> Self {
+        let paths = |own: &[dashpot_rheology::sensitivity::Parameter]| {
+            own.iter().map(|own| own.path.clone()).collect()
+        };
+        Self {
+            from: paths(&map.from),
+            to: paths(&map.to),
+            relative: map.relative.clone(),
+            condition: map.condition(),
+        }
+    }
+
+    /// Whether it has no more parameters than that.
+    pub(crate) fn is_at_most(&self, most: usize) -> bool {
+        self.from.len() <= most && self.to.len() <= most
+    }
+
+    /// As a table: percent of the second's parameters for one percent of the first's.
+    pub(crate) fn table(&self) -> Table {
+        let cell =
+            |value: &f64| if value.abs() < 5e-5 { "0".to_owned() } else { format!("{value:.4}") };
+        let rows = self.to.iter().zip(&self.relative);
+        Table {
+            caption: "Percent of a parameter of the second for one percent of one of the first"
+                .to_owned(),
+            header: [String::new()].into_iter().chain(self.from.iter().cloned()).collect(),
+            rows: rows
+                .map(|(path, row)| [path.clone()].into_iter().chain(row.iter().map(cell)).collect())
+                .collect(),
+        }
+    }
+}
+
+fn word(form: Canonical) -> &'static str {
+    match form {
+        Canonical::Maxwell => "maxwell",
+        Canonical::Kelvin => "kelvin",
+    }
+}
+
+/// The constants of a form as stiffnesses and dampings, those that both lack left out.
+fn constants(form: Canonical, own: &FormComparison, units: [&'static str; 2]) -> Vec<Constant> {
+    let is_kelvin = form == Canonical::Kelvin;
+    let value = |own: f64| (own > 0.0).then(|| if is_kelvin { own.recip() } else { own });
+    let values = |pair: &Pair| [pair.first, pair.second].map(value);
+    let (spring, dashpot) = if is_kelvin {
+        (&own.at_short_times, &own.at_long_times)
+    } else {
+        (&own.at_long_times, &own.at_short_times)
+    };
+    let single = |part: &str, pair: &Pair, unit| Constant {
+        part: part.to_owned(),
+        time: None,
+        value: values(pair),
+        unit,
+        difference: pair.difference,
+    };
+    let singles = [single("spring", spring, units[0]), single("dashpot", dashpot, units[1])];
+    let modes = own.modes.iter().enumerate().map(|(at, ModePair { time, strength })| Constant {
+        part: format!("{}-{}", word(form), at + 1),
+        time: Some([time.first, time.second]),
+        value: values(strength),
+        unit: units[0],
+        difference: time.difference.max(strength.difference),
+    });
+    let is_there = |own: &Constant| own.value.iter().any(Option::is_some);
+    singles.into_iter().filter(is_there).chain(modes).collect()
+}
+
+impl Form {
+    /// As a table.
+    pub(crate) fn table(&self) -> Table {
+        let caption = if self.form == "kelvin" {
+            "Kelvin form: in a row"
+        } else {
+            "Maxwell form: side by side"
+        };
+        let rows = self.constants.iter().map(|own| {
+            let time = own.time.map_or_else(String::new, |[first, second]| {
+                quantity(if first > 0.0 { first } else { second }, "s", DIGITS)
+            });
+            let value = |value: Option<f64>| {
+                value.map_or_else(|| "none".to_owned(), |it| quantity(it, own.unit, DIGITS))
+            };
+            let [first, second] = own.value.map(value);
+            vec![own.part.clone(), time, first, second, bound(own.difference)]
+        });
+        Table {
+            caption: caption.to_owned(),
+            header: ["", "time", "first", "second", "apart by"].map(str::to_owned).to_vec(),
+            rows: rows.collect(),
+        }
+    }
+}
+
+impl Impact {
+    /// As a table.
+    pub(crate) fn table(&self) -> Table {
+        let rows = self.measures.iter().map(|own| {
+            let value = |at: usize| {
+                own.value[at].map_or_else(|| "–".to_owned(), |it| quantity(it, own.unit, DIGITS))
+            };
+            let error = own.error.iter().flatten().copied().fold(0.0, f64::max);
+            let size = own.value.iter().flatten().fold(0.0_f64, |size, own| size.max(own.abs()));
+            let error = if size > 0.0 { bound(error / size) } else { String::new() };
+            let difference = own.difference.map_or_else(|| "–".to_owned(), bound);
+            vec![own.measure.clone(), value(0), value(1), difference, error]
+        });
+        Table {
+            caption: format!("The impact {} with each as its `{}`", self.scene, self.element),
+            header: ["", "first", "second", "apart by", "known to"].map(str::to_owned).to_vec(),
+            rows: rows.collect(),
+        }
+    }
+}

@@ -1,0 +1,291 @@
+//! `dashpot compare`.
+
+use std::fmt::Write as _;
+
+use dashpot_analysis::{RunReport, SolveSettings, differences, solve};
+use dashpot_dae::Silent;
+use dashpot_network::{
+    Model,
+    driving_point::{Agreement, Hidden, Receptance, Response},
+    primitive,
+};
+use dashpot_rheology::{equivalence, identifiability::Entangled, sensitivity::sensitivity};
+
+use crate::{
+    answer::comparison::{About, Cancelled, Comparison, Impact, Map, Measured, Together, Worst},
+    args::CompareArguments,
+    entanglement::{combinations, groups, sentence},
+    error::{CliError, Status},
+    input::read_scene,
+    numbers::{bound, quantity, share},
+    operand::{Operand, Subject, canonical_model, parted},
+    terminal::{Terminal, Tone, WIDTH, print},
+    text::{columns, table, width, wrapped},
+};
+
+/// Maps of more parameters than this are in the JSON only.
+const MOST_SHOWN: usize = 8;
+/// Models of more parts than this have no map: it would take longer than all else.
+const MOST_MAPPED: usize = 400;
+
+/// Says whether two models are the same.
+pub(crate) fn compare(
+    arguments: &CompareArguments,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let set = &arguments.values.set;
+    let operands =
+        [&arguments.first, &arguments.second].map(|word| Operand::read(word, set, terminal));
+    let [first, second] = operands;
+    let operands = [first?, second?];
+    if operands[0].is_material() != operands[1].is_material() {
+        return Err(CliError::MaterialAndPad);
+    }
+    let mut found = compared(&operands)?;
+    found.models = operands.iter().map(about).collect();
+    if let (true, [Some(first), Some(second)]) =
+        (found.same, [&operands[0], &operands[1]].map(Operand::model))
+    {
+        found.map = map(first, second);
+    }
+    if let Some(impact) = &arguments.impact {
+        found.impact = Some(same_impact(impact, &operands, set, terminal)?);
+    }
+    let status = if found.same { Status::Done } else { Status::NotSame };
+    if arguments.json {
+        print(&(serde_json::to_string_pretty(&found)? + "\n"))?;
+    } else {
+        print(&text(&found, terminal))?;
+    }
+    Ok(status)
+}
+
+fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
+    let words = [&operands[0], &operands[1]].map(|own| own.word.clone());
+    let is_material = operands[0].is_material();
+    if let [Some(first), Some(second)] = [&operands[0], &operands[1]].map(Operand::linear) {
+        let found = equivalence::compare(&first, &second);
+        return Ok(Comparison::of(words, is_material, &found));
+    }
+    let receptance = |own: &Operand| match &own.subject {
+        Subject::Response(Response::Massive(receptance)) => Some(receptance.clone()),
+        _ => None,
+    };
+    let none =
+        equivalence::Equivalence { is_same: false, maxwell: None, kelvin: None, worst: None };
+    let mut comparison = Comparison::of(words, is_material, &none);
+    let [Some(first), Some(second)] = [&operands[0], &operands[1]].map(receptance) else {
+        return Ok(comparison);
+    };
+    match first.agreement(&second) {
+        Agreement::Same { difference } => {
+            comparison.same = true;
+            comparison.largest_difference = Some(difference);
+        }
+        Agreement::Different { omega, size } => {
+            comparison.worst = Some(Worst {
+                frequency: Some(omega / std::f64::consts::TAU),
+                response: size,
+                time: None,
+                creep: None,
+            });
+        }
+        Agreement::Undecided { error } => return Err(CliError::Undecided { error }),
+    }
+    Ok(comparison)
+}
+
+/// What is known of one operand by itself.
+fn about(operand: &Operand) -> About {
+    let linear = operand.linear();
+    let hidden = |own: &Hidden| Cancelled { pole: own.rate, count: own.count };
+    let mut cancelled: Vec<Cancelled> = match &operand.subject {
+        Subject::Model(_) => Vec::new(),
+        Subject::Response(Response::Massless(own)) => own.hidden.iter().map(hidden).collect(),
+        Subject::Response(Response::Massive(own)) => {
+            Receptance::hidden(own).iter().map(hidden).collect()
+        }
+    };
+    let merged = linear.iter().flat_map(|own| own.merged().to_vec());
+    cancelled.extend(
+        merged.map(|own| Cancelled { pole: [-own.time.recip(), 0.0], count: own.count - 1 }),
+    );
+    let tree = operand.model();
+    About {
+        elements: tree.map(|tree| tree.parts().len()),
+        least_elements: linear.as_ref().map(dashpot_rheology::LinearModel::least_elements),
+        maxwell_form: linear.as_ref().is_some_and(|own| own.maxwell().is_some()),
+        kelvin_form: linear.as_ref().is_some_and(|own| own.kelvin().is_some()),
+        cancelled,
+        entangled: tree.map(together).unwrap_or_default(),
+    }
+}
+
+fn together(model: &Model) -> Vec<Together> {
+    let of = |group: &Entangled| Together {
+        parameters: group.parameters.clone(),
+        combinations: combinations(group),
+    };
+    groups(model).iter().map(of).collect()
+}
+
+fn map(first: &Model, second: &Model) -> Option<Map> {
+    let is_small = |own: &&Model| own.parts().len() <= MOST_MAPPED;
+    let of = |own: &Model| sensitivity(own, |element| primitive(element.as_ref()));
+    let [first, second] = [first, second].map(|own| Some(own).filter(is_small).and_then(of));
+    Some(Map::of(&first?.map_to(&second?)?))
+}
+
+/// Solves the impact with each model in the place of the element's own.
+fn same_impact(
+    word: &str,
+    operands: &[Operand; 2],
+    set: &[(String, String)],
+    terminal: Terminal,
+) -> Result<Impact, CliError> {
+    let (path, element) = parted(word);
+    let checked = read_scene(Some(std::path::Path::new(path)), set)?;
+    terminal.diagnose(&checked.warnings);
+    let scene = checked.value;
+    let names = || scene.network.connections().iter().map(|own| own.name.clone());
+    let element =
+        if element.is_empty() { names().next().unwrap_or_default() } else { element.to_owned() };
+    let at = names().position(|name| name == element).ok_or_else(|| CliError::UnknownElement {
+        name: element.clone(),
+        known: names().collect(),
+    })?;
+    let settings = SolveSettings { measures: Vec::new(), ..scene.settings("auto") };
+    let run = |operand: &Operand| -> Result<RunReport, CliError> {
+        if operand.is_material() {
+            return Err(CliError::MaterialInImpact { word: operand.word.clone() });
+        }
+        let mut network = scene.network.clone();
+        network.set_model(at, canonical_model(operand)?);
+        Ok(solve(&network, &settings, &mut Silent)?)
+    };
+    let [first, second] = [run(&operands[0])?, run(&operands[1])?];
+    let apart = differences(&first, &second);
+    let measures = first.measures.iter().filter_map(|own| {
+        let other = second.measures.iter().find(|other| other.key == own.key)?;
+        Some(Measured {
+            measure: own.key.clone(),
+            unit: own.unit,
+            value: [own.value, other.value],
+            error: [own.error, other.error],
+            difference: apart.iter().find(|known| known.key == own.key).map(|own| own.relative),
+        })
+    });
+    Ok(Impact {
+        scene: path.to_owned(),
+        element,
+        method: [first.solver.method, second.solver.method],
+        measures: measures.collect(),
+    })
+}
+
+fn text(found: &Comparison, terminal: Terminal) -> String {
+    let [first, second] = &found.compared;
+    let mut text = String::new();
+    let verdict = if found.same { "The same" } else { "Not the same" };
+    let tone = if found.same { Tone::Heading } else { Tone::Warning };
+    let _ = writeln!(text, "{}: {first} and {second}", terminal.toned(tone, verdict));
+    for line in sentences(found).iter().flat_map(|own| wrapped(own, WIDTH - 2)) {
+        let _ = writeln!(text, "  {line}");
+    }
+    let small = found.map.as_ref().filter(|map| map.is_at_most(MOST_SHOWN)).map(Map::table);
+    let impact = found.impact.as_ref().map(Impact::table);
+    let forms = found.forms.iter().map(super::super::answer::comparison::Form::table);
+    for own in forms.chain(small.filter(|own| width(own) <= WIDTH)).chain(impact) {
+        let (header, rows) = table(&own);
+        let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, &own.caption));
+        for line in [header].iter().chain(&rows).filter(|line| columns(line) > 0) {
+            let _ = writeln!(text, "  {line}");
+        }
+    }
+    text
+}
+
+/// The verdict in words.
+fn sentences(found: &Comparison) -> Vec<String> {
+    let mut all = Vec::new();
+    if let Some(largest) = found.largest_difference {
+        let limit = bound(found.within);
+        let text = if found.same {
+            "All poles and strengths agree within"
+        } else {
+            "A pole or strength differs by"
+        };
+        all.push(format!("{text} {} (the limit is {limit}).", bound(largest)));
+    }
+    if found.forms.is_empty() && found.worst.is_none() && !found.same {
+        all.push("One of them has masses that move, the other has none.".to_owned());
+    }
+    all.extend(found.worst.as_ref().map(|worst| disagreement(worst, found.same)));
+    for (word, about) in ["first", "second"].into_iter().zip(&found.models) {
+        all.extend(described(word, about));
+    }
+    if let Some(map) = &found.map {
+        all.push(format!(
+            "Condition number {:.3}: 1 % in the parameters of the first is up to that many \
+             percent in one of the second.",
+            map.condition
+        ));
+    }
+    all
+}
+
+/// How far the responses are apart; where, only if they are.
+fn disagreement(worst: &Worst, is_same: bool) -> String {
+    if is_same {
+        let largest = worst.creep.map_or(worst.response, |creep| creep.max(worst.response));
+        return format!(
+            "No response to a force or deformation differs by more than {}.",
+            bound(largest)
+        );
+    }
+    let at = |place: Option<f64>, unit: &str, limits: [&str; 2]| match place {
+        Some(0.0) => limits[0].to_owned(),
+        Some(own) if own.is_finite() => format!("at {}", quantity(own, unit, 3)),
+        _ => limits[1].to_owned(),
+    };
+    let frequency =
+        at(worst.frequency, "Hz", ["at ever lower frequencies", "at ever higher frequencies"]);
+    let mut line = format!("The responses differ most {frequency}, by {}", share(worst.response));
+    if let Some(creep) = worst.creep {
+        let time = at(worst.time, "s", ["at once", "after ever longer times"]);
+        let _ = write!(line, "; in creep most {time}, by {}", share(creep));
+    }
+    line + "."
+}
+
+fn described(word: &str, about: &About) -> Vec<String> {
+    let mut all = Vec::new();
+    if let Some(least) = about.least_elements {
+        let has = about.elements.map_or_else(String::new, |own| format!(" has {own} elements and"));
+        let forms = match (about.maxwell_form, about.kelvin_form) {
+            (true, true) => "in both forms, which are passive",
+            (true, false) => "it bears no force, so it has no Kelvin form",
+            _ => "it is rigid, so it has no Maxwell form",
+        };
+        all.push(format!("The {word}{has} needs {least}, {forms}."));
+    }
+    for own in &about.cancelled {
+        let [real, imaginary] = own.pole;
+        let place = if imaginary == 0.0 {
+            format!("at a time of {}", quantity(real.abs().recip(), "s", 4))
+        } else {
+            format!("at {real:.4e} ± {:.4e}i 1/s", imaginary.abs())
+        };
+        all.push(match own.count {
+            1 => format!("In the {word}, a zero cancels a pole {place}."),
+            count => format!("In the {word}, zeros cancel {count} poles {place}."),
+        });
+    }
+    all.extend(
+        about
+            .entangled
+            .iter()
+            .map(|own| format!("In the {word}, {}.", sentence(&own.parameters, &own.combinations))),
+    );
+    all
+}

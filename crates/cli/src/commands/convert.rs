@@ -1,0 +1,86 @@
+//! `dashpot convert`.
+
+use dashpot_network::{Model, linear_model, model_of};
+use dashpot_rheology::{
+    conversion::{Target, converted},
+    equivalence::{Equivalence, compare},
+};
+use dashpot_scene::{read_named_model, with_model, write_model_table};
+
+use crate::{
+    args::ConvertArguments,
+    error::{CliError, Status},
+    folder::write_new,
+    numbers::bound,
+    operand::{Operand, Subject},
+    terminal::{Terminal, note, print},
+};
+
+/// Name of the table for a response, which has none of its own.
+const RESPONSE: &str = "response";
+
+/// Writes a model in another form.
+pub(crate) fn convert(
+    arguments: &ConvertArguments,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let operand = Operand::read(&arguments.model, &arguments.values.set, terminal)?;
+    let word = || operand.word.clone();
+    let linear = operand.linear().ok_or_else(|| CliError::MovingMasses { word: word() })?;
+    let target = Target::named(&arguments.to)
+        .ok_or_else(|| CliError::UnknownKind { word: arguments.to.clone() })?;
+    let tree = converted(&linear, &target).map_err(|reason| CliError::Unfit {
+        word: word(),
+        form: target.word,
+        reason,
+    })?;
+    let model = model_of(&tree);
+    let error = round_trip(&compare(&linear, &linear_model(&model)));
+    let comments = [format!("{} of {}", target.word, operand.word), said(error)];
+    let (text, name) = match &operand.subject {
+        Subject::Model(named) => {
+            let text = with_model(operand.input.text()?, named, &model, &comments);
+            (text.ok_or_else(|| CliError::NotReplaced { word: word() })?, named.name.as_str())
+        }
+        Subject::Response(_) => (write_model_table(RESPONSE, &model, &comments), RESPONSE),
+    };
+    confirm(&operand, &text, name, &model, &arguments.values.set)?;
+    match &arguments.out {
+        Some(path) => {
+            write_new(path, &text, arguments.force)?;
+            let path = path.display();
+            print(&format!("wrote {path}; its model is `{path}:{name}`\n"))?;
+        }
+        None => print(&text)?,
+    }
+    note(&format!("note: {}", said(error)));
+    Ok(Status::Done)
+}
+
+/// The largest relative difference of a constant that rounding to doubles left.
+fn round_trip(comparison: &Equivalence) -> f64 {
+    let forms = comparison.maxwell.iter().chain(&comparison.kelvin);
+    forms.map(|own| own.largest).fold(0.0, f64::max)
+}
+
+fn said(error: f64) -> String {
+    if error == 0.0 {
+        "round trip: the same in every rate and strength, to the last digit".to_owned()
+    } else {
+        format!("round trip: the same within {} in every rate and strength", bound(error))
+    }
+}
+
+/// Reads the text as `run` would, and makes sure that it says what was meant.
+fn confirm(
+    operand: &Operand,
+    text: &str,
+    name: &str,
+    model: &Model,
+    set: &[(String, String)],
+) -> Result<(), CliError> {
+    let again = read_named_model(text, name, &operand.input.options(set));
+    let again = again.map_err(CliError::Scene)?.value.model;
+    let is_same = compare(&linear_model(&again), &linear_model(model)).is_same;
+    if is_same { Ok(()) } else { Err(CliError::NotReplaced { word: operand.word.clone() }) }
+}

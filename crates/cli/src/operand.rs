@@ -1,0 +1,116 @@
+//! Models and responses that the command line names: `FILE:NAME`, `FILE:NODE,NODE`.
+
+use std::path::Path;
+
+use dashpot_network::{Model, Network, NodeId, driving_point::Response, linear_model, model_of};
+use dashpot_rheology::{Canonical, LinearModel};
+use dashpot_scene::{ModelNote, NamedModel, read_named_model, read_network, references};
+
+use crate::{
+    error::CliError,
+    input::Input,
+    terminal::{Terminal, note},
+};
+
+/// What a word on the command line stands for.
+pub(crate) struct Operand {
+    /// The word.
+    pub(crate) word: String,
+    /// The text in which it was found.
+    pub(crate) input: Input,
+    /// What it is.
+    pub(crate) subject: Subject,
+}
+
+/// A model, or the response of a network.
+pub(crate) enum Subject {
+    /// A series-parallel model.
+    Model(NamedModel),
+    /// The response of a network at two of its nodes.
+    Response(Response),
+}
+
+impl Operand {
+    /// Reads what `word` stands for, with the values `set`; warnings and notes are told.
+    pub(crate) fn read(
+        word: &str,
+        set: &[(String, String)],
+        terminal: Terminal,
+    ) -> Result<Self, CliError> {
+        let (path, name) = parted(word);
+        let input = Input::read(Path::new(path))?;
+        let options = input.options(set);
+        let subject = if let Some((from, to)) = name.split_once(',') {
+            let checked = read_network(input.text()?, &options).map_err(CliError::Scene)?;
+            terminal.diagnose(&checked.warnings);
+            let network = checked.value;
+            let [a, b] = [node(&network, from)?, node(&network, to)?];
+            Subject::Response(network.driving_point(a, b)?)
+        } else {
+            let checked =
+                read_named_model(input.text()?, name, &options).map_err(CliError::Scene)?;
+            terminal.diagnose(&checked.warnings);
+            tell(&checked.value.notes);
+            Subject::Model(checked.value)
+        };
+        Ok(Self { word: word.to_owned(), input, subject })
+    }
+
+    /// The linear model, where it is one.
+    pub(crate) fn linear(&self) -> Option<LinearModel> {
+        match &self.subject {
+            Subject::Model(named) => Some(linear_model(&named.model)),
+            Subject::Response(Response::Massless(own)) => Some(own.model.clone()),
+            Subject::Response(Response::Massive(_)) => None,
+        }
+    }
+
+    /// The tree of elements, where it is one.
+    pub(crate) fn model(&self) -> Option<&Model> {
+        match &self.subject {
+            Subject::Model(named) => Some(&named.model),
+            Subject::Response(_) => None,
+        }
+    }
+
+    /// Whether its values are those of a material: moduli in Pa.
+    pub(crate) fn is_material(&self) -> bool {
+        matches!(&self.subject, Subject::Model(named) if named.is_material)
+    }
+}
+
+/// The model of an operand; the response of a network becomes one of its canonical forms.
+pub(crate) fn canonical_model(operand: &Operand) -> Result<Model, CliError> {
+    if let Some(model) = operand.model() {
+        return Ok(model.clone());
+    }
+    let masses = || CliError::MovingMasses { word: operand.word.clone() };
+    let linear = operand.linear().ok_or_else(masses)?;
+    let forms = [Canonical::Maxwell, Canonical::Kelvin];
+    let tree = forms.into_iter().find_map(|form| linear.tree(form));
+    tree.map(|tree| model_of(&tree)).ok_or_else(masses)
+}
+
+/// Says what there is to say about models.
+pub(crate) fn tell(notes: &[ModelNote]) {
+    for ModelNote { subject, text } in notes {
+        note(&format!("note: {subject}: {text}"));
+    }
+}
+
+/// File and name; a word that is a file, or a built-in scene, has no name.
+pub(crate) fn parted(word: &str) -> (&str, &str) {
+    let is_whole = word == "-"
+        || Path::new(word).exists()
+        || references().iter().any(|shipped| shipped.name == word);
+    if is_whole { (word, "") } else { word.rsplit_once(':').unwrap_or((word, "")) }
+}
+
+/// The node of this name.
+fn node(network: &Network, name: &str) -> Result<NodeId, CliError> {
+    let name = name.trim();
+    network.node_named(name).ok_or_else(|| CliError::UnknownNode {
+        name: name.to_owned(),
+        known: network.nodes().map(|(_, node)| node.name.clone()).collect(),
+    })
+}
