@@ -72,6 +72,8 @@ pub(crate) struct Worst {
 pub(crate) struct About {
     pub(crate) elements: Option<usize>,
     pub(crate) least_elements: Option<usize>,
+    /// Of a network with moving masses.
+    pub(crate) poles: Option<usize>,
     pub(crate) maxwell_form: bool,
     pub(crate) kelvin_form: bool,
     pub(crate) cancelled: Vec<Cancelled>,

@@ -111,7 +111,14 @@ fn about(operand: &Operand) -> About {
         merged.map(|own| Cancelled { pole: [-own.time.recip(), 0.0], count: own.count - 1 }),
     );
     let tree = operand.model();
+    let poles = match &operand.subject {
+        Subject::Response(Response::Massive(own)) => {
+            Some(own.poles().iter().map(|pole| pole.order).sum())
+        }
+        _ => None,
+    };
     About {
+        poles,
         elements: tree.map(|tree| tree.parts().len()),
         least_elements: linear.as_ref().map(dashpot_rheology::LinearModel::least_elements),
         maxwell_form: linear.as_ref().is_some_and(|own| own.maxwell().is_some()),
@@ -260,6 +267,12 @@ fn disagreement(worst: &Worst, is_same: bool) -> String {
 
 fn described(word: &str, about: &About) -> Vec<String> {
     let mut all = Vec::new();
+    if let Some(poles) = about.poles {
+        all.push(format!(
+            "The {word} has masses that move, and {poles} poles: no springs and dashpots alone \
+             respond like it."
+        ));
+    }
     if let Some(least) = about.least_elements {
         let has = about.elements.map_or_else(String::new, |own| format!(" has {own} elements and"));
         let forms = match (about.maxwell_form, about.kelvin_form) {

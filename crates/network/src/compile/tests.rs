@@ -1,3 +1,5 @@
+mod chains;
+
 use dashpot_dae::Waveform;
 use dashpot_rheology::{Branch, Tree};
 

@@ -81,8 +81,10 @@ pub struct Equivalence {
 /// assert!(!other.is_same && (other.worst.unwrap().stiffness - 1e-9).abs() < 1e-15);
 /// ```
 pub fn compare(first: &LinearModel, second: &LinearModel) -> Equivalence {
-    let maxwell = first.maxwell().zip(second.maxwell()).map(|(a, b)| forms(&a.0, &b.0));
-    let kelvin = first.kelvin().zip(second.kelvin()).map(|(a, b)| forms(&a.0, &b.0));
+    let maxwell = first.maxwell().zip(second.maxwell());
+    let maxwell = maxwell.map(|(a, b)| forms(&a.0, &b.0, |line| line.strength));
+    let kelvin = first.kelvin().zip(second.kelvin());
+    let kelvin = kelvin.map(|(a, b)| forms(&a.0, &b.0, |line| line.strength / line.rate));
     let is_close = |own: &FormComparison| own.largest <= SAME_WITHIN;
     Equivalence {
         is_same: maxwell.iter().chain(&kelvin).any(is_close),
@@ -92,11 +94,15 @@ pub fn compare(first: &LinearModel, second: &LinearModel) -> Equivalence {
     }
 }
 
-fn forms(first: &Fractions, second: &Fractions) -> FormComparison {
+fn forms(
+    first: &Fractions,
+    second: &Fractions,
+    strength: fn(&Line) -> Twofold,
+) -> FormComparison {
     let at_long_times = pair(first.at_zero, second.at_zero);
     let at_short_times = pair(first.constant, second.constant);
     let mut largest = at_long_times.difference.max(at_short_times.difference);
-    let time_and_strength = |line: &Line| (line.rate.recip(), line.strength);
+    let time_and_strength = |line: &Line| (line.rate.recip(), strength(line));
     let mut modes: Vec<ModePair> = aligned(&first.lines, &second.lines)
         .map(|(a, b)| {
             let none = (Twofold::ZERO, Twofold::ZERO);

@@ -94,6 +94,22 @@ fn a_missing_mode_is_named() {
 }
 
 #[test]
+fn constants_are_those_of_the_forms() {
+    // A spring of 2 in a row with 5 ∥ 10: J_g = 1/2, J = 1/5, λ = 2, and seen as a Maxwell form
+    // K_e = 10/7, K = 4/7, τ = λ K_e/K_g = 10/7.
+    let kelvin = Tree::parallel([Spring(5.0).into(), Dashpot(10.0).into()]);
+    let zener = model(&Tree::series([Spring(2.0).into(), kelvin]));
+    let found = compare(&zener, &zener);
+    let near = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-15;
+    let (maxwell, kelvin) = (found.maxwell.unwrap(), found.kelvin.unwrap());
+    assert!(near(kelvin.at_short_times.first, 0.5) && kelvin.at_long_times.first.to_bits() == 0);
+    assert!(near(kelvin.modes[0].strength.first, 0.2) && near(kelvin.modes[0].time.second, 2.0));
+    assert!(near(maxwell.at_long_times.first, 10.0 / 7.0));
+    assert!(near(maxwell.modes[0].strength.first, 4.0 / 7.0));
+    assert!(near(maxwell.modes[0].time.first, 10.0 / 7.0));
+}
+
+#[test]
 fn extremes_are_the_same_as_themselves_only() {
     let all = [Rigid, Spring(0.0), Spring(1.0), Dashpot(1.0)].map(LinearModel::primitive);
     for (i, first) in all.iter().enumerate() {
