@@ -15,6 +15,7 @@ mod numbers;
 mod operand;
 mod progress;
 mod registers;
+mod rheometer_folder;
 mod series;
 mod sketch;
 mod terminal;

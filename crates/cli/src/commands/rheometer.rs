@@ -1,15 +1,12 @@
 //! `dashpot rheometer`.
 
-use std::{f64::consts::TAU, fmt::Write as _, fs, path::Path};
+use std::fmt::Write as _;
 
 use dashpot_analysis::rheometer::{
-    ProtocolKind, ProtocolVisitor, RheometerReport, Series, Specimen, protocol, visit_protocols,
+    ProtocolKind, ProtocolVisitor, RheometerReport, Specimen, protocol, visit_protocols,
 };
 use dashpot_network::parameters::{Dimension, ParameterKind};
-use dashpot_plot::{
-    Measured, ModelSeries, ModelSubject, RheometerLine, RheometerSeries, Table,
-    figures::model::{LossFactor, MODEL_FIGURES, ModelFigure, Sweep},
-};
+use dashpot_plot::Table;
 use dashpot_scene::units::parse_quantity;
 
 use crate::{
@@ -19,8 +16,9 @@ use crate::{
     },
     args::{RheometerArguments, When},
     error::{CliError, Status},
-    folder::{prepare_for, unwritable},
+    folder::prepare_for,
     operand::{Operand, canonical_model},
+    rheometer_folder::{figure, file_names, write},
     terminal::{Terminal, Tone, WIDTH, note, print},
     text::{table, wrapped},
 };
@@ -220,147 +218,4 @@ fn summary(test: &str) -> &'static str {
     let mut find = Find(test, "");
     visit_protocols(&mut find);
     find.1
-}
-
-/// The points of a series, from the model and from the first computation.
-fn points(report: &RheometerReport, series: &Series) -> [Vec<(f64, f64)>; 2] {
-    let places = &report.abscissa.values;
-    let model = places.iter().copied().zip(series.model.iter().copied());
-    let computed = series.computed.first().map_or(&[][..], |own| &own.values);
-    let computed = places.iter().zip(computed).filter_map(|(&at, value)| Some((at, (*value)?)));
-    [model.collect(), computed.collect()]
-}
-
-/// A test over time as a figure; a sweep is one of the model's.
-fn figure(report: &RheometerReport, units: Units) -> Option<RheometerSeries> {
-    let series = report.series.first().filter(|_| report.abscissa.unit == "s")?;
-    let [model, simulated] = points(report, series);
-    let measured = match (series.unit, units.is_material) {
-        ("N", false) => Measured::Force,
-        ("N", true) => Measured::Stress,
-        (_, false) => Measured::Deformation,
-        (_, true) => Measured::Strain,
-    };
-    let line = |at: f64, label: &str| RheometerLine { at, label: label.to_owned() };
-    let lasting = report.figure("stays for good").and_then(|own| own.model);
-    let held = report.settings.iter().filter(|own| matches!(own.name, "hold" | "rise"));
-    let held: f64 = held.map(|own| own.value).sum();
-    Some(RheometerSeries {
-        title: report.protocol.to_owned(),
-        measured,
-        model,
-        simulated,
-        levels: lasting.map(|own| line(own, "ε3, stays for good")).into_iter().collect(),
-        instants: (held > 0.0 && measured_under_force(measured))
-            .then(|| line(held, "unloading"))
-            .into_iter()
-            .collect(),
-    })
-}
-
-fn measured_under_force(measured: Measured) -> bool {
-    matches!(measured, Measured::Deformation | Measured::Strain)
-}
-
-/// The files of these tests.
-fn file_names(tests: &[String]) -> Vec<String> {
-    let models = MODEL_FIGURES.iter().map(|own| format!("model-{}.svg", own.name()));
-    let tests = tests.iter().flat_map(|test| [format!("{test}.csv"), format!("{test}.svg")]);
-    models.chain(tests).collect()
-}
-
-/// Writes everything into the folder `path`, and returns the names of the files.
-fn write(
-    path: &Path,
-    json: &str,
-    units: Units,
-    (word, specimen): (&str, &Specimen),
-    reports: &[RheometerReport],
-) -> Result<Vec<String>, CliError> {
-    let mut files = vec![(crate::folder::RESULT.to_owned(), json.to_owned())];
-    let subject = if units.is_material { ModelSubject::Material } else { ModelSubject::Pad };
-    let curves = curves(word, specimen, reports);
-    for own in MODEL_FIGURES {
-        let is_swept = [Sweep.name(), LossFactor.name()].contains(&own.name());
-        let shown = if is_swept { &curves[..] } else { &curves[..1] };
-        files.push((format!("model-{}.svg", own.name()), own.chart(shown, subject).svg()?));
-    }
-    for report in reports {
-        files.push((format!("{}.csv", report.protocol), csv(report, units)));
-        if let Some(series) = figure(report, units) {
-            files.push((format!("{}.svg", report.protocol), series.chart().svg()?));
-        }
-    }
-    for (name, content) in &files {
-        let file = path.join(name);
-        fs::write(&file, content).map_err(unwritable(&file))?;
-    }
-    Ok(files.into_iter().map(|own| own.0).collect())
-}
-
-/// The model's own functions, and what a sweep of the network found.
-fn curves(word: &str, specimen: &Specimen, reports: &[RheometerReport]) -> Vec<ModelSeries> {
-    /// Points of a curve, and how far beyond the times of the model it goes.
-    const POINTS: i32 = 400;
-    const BEYOND: f64 = 100.0;
-    let (fastest, slowest) = specimen.range_of_times();
-    let (low, high) = (fastest / BEYOND, slowest * BEYOND);
-    let times: Vec<f64> =
-        (0..=POINTS).map(|at| low * (high / low).powf(f64::from(at) / f64::from(POINTS))).collect();
-    let linear = specimen.linear();
-    let over = |value: &dyn Fn(f64) -> f64, places: &[f64]| {
-        places.iter().map(|&at| (at, value(at))).filter(|own| own.1.is_finite()).collect::<Vec<_>>()
-    };
-    let omegas: Vec<f64> = times.iter().rev().map(|time| time.recip()).collect();
-    let spectrum = linear.maxwell().map(|form| form.elements()).unwrap_or_default();
-    let model = ModelSeries {
-        name: word.to_owned(),
-        relaxation: over(&|t| linear.relaxation(t), &times),
-        spectrum: spectrum.iter().map(|own| (own.relaxation_time, own.stiffness)).collect(),
-        creep: over(&|t| linear.creep(t), &times),
-        storage: over(&|omega| linear.storage(omega), &omegas),
-        loss: over(&|omega| linear.loss(omega), &omegas),
-        loss_factor: over(&|omega| linear.loss_factor(omega), &omegas),
-        markers: Vec::new(),
-    };
-    let sweep = reports.iter().find(|report| report.abscissa.unit == "Hz");
-    let network = sweep.map(|report| {
-        let of = |name: &str| {
-            let found = report.series(name).map(|series| points(report, series)[1].clone());
-            found.unwrap_or_default().into_iter().map(|(at, value)| (TAU * at, value)).collect()
-        };
-        ModelSeries {
-            name: "network".to_owned(),
-            storage: of("storage stiffness"),
-            loss: of("loss stiffness"),
-            loss_factor: of("loss factor"),
-            ..ModelSeries::default()
-        }
-    });
-    [model].into_iter().chain(network).collect()
-}
-
-/// A test as CSV.
-fn csv(report: &RheometerReport, units: Units) -> String {
-    let header = |name: &str, unit| format!("{name} [{}]", units.of(unit));
-    let mut columns: Vec<(String, Vec<String>)> = Vec::new();
-    let number =
-        |value: &f64| if value.is_finite() { format!("{:?}", value + 0.0) } else { String::new() };
-    for own in [Some(&report.abscissa), report.drive.as_ref()].into_iter().flatten() {
-        columns.push((header(&own.name, own.unit), own.values.iter().map(number).collect()));
-    }
-    for series in &report.series {
-        columns.push((header(series.name, series.unit), series.model.iter().map(number).collect()));
-        for (own, by) in series.computed.iter().zip(&report.computations) {
-            let name = format!("{} by {}", series.name, by.method);
-            let values = own.values.iter().map(|own| own.as_ref().map(number).unwrap_or_default());
-            columns.push((header(&name, series.unit), values.collect()));
-        }
-    }
-    let mut text = columns.iter().map(|own| own.0.as_str()).collect::<Vec<_>>().join(",") + "\n";
-    for row in 0..report.abscissa.values.len() {
-        let cells = columns.iter().map(|own| own.1.get(row).map_or("", String::as_str));
-        text += &(cells.collect::<Vec<_>>().join(",") + "\n");
-    }
-    text
 }
