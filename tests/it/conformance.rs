@@ -12,10 +12,12 @@ use dashpot::{
         problems,
     },
     network::{
-        Network, Node,
+        Model, Network, Node,
+        composites::{CompositeKind, CompositeVisitor, visit_composites},
         effects::{EffectKind, EffectVisitor, visit_effects},
         elements::{ElementKind, ElementVisitor, Law, visit_elements},
-        parameters::{Dimension, Parameter, Value},
+        parameters::{Dimension, Parameter, ParameterKind, Value},
+        shifts::{ShiftKind, ShiftVisitor, shifted, visit_shifts},
         waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
     },
     rheology::{Branch, Form, FormVisitor, Role, Tree, visit_forms},
@@ -197,7 +199,7 @@ impl FormVisitor for Forms {
             })
         })
         .unwrap();
-        let build = |model: dashpot::network::Model| {
+        let build = |model: Model| {
             let mut network = Network::new();
             let head = network.add_node(Node::mass("head", 2.0).moving(1.0));
             network.connect("pad", head, network.ground(), model);
@@ -241,7 +243,97 @@ fn written(parts: &[dashpot::rheology::Part], constant: &mut f64) -> String {
 fn forms_are_what_their_parts_say() {
     let mut visitor = Forms::default();
     visit_forms(&mut visitor);
-    assert_eq!(visitor.0, 4);
+    assert!(visitor.0 >= 4);
+}
+
+/// The parts of a model in the order of the text: path, kind and values.
+fn parts(model: &Model) -> Vec<String> {
+    let mut parts = Vec::new();
+    let mut open = vec![(String::new(), model)];
+    while let Some((path, tree)) = open.pop() {
+        if let Tree::Part(element) = tree {
+            parts.push(format!("{path} {} {:?}", element.kind(), element.values()));
+        }
+        let branches = tree.branches().iter().rev();
+        open.extend(branches.map(|own| (format!("{path}.{}", own.name), &own.tree)));
+    }
+    parts
+}
+
+/// The model of the element with this law.
+fn model_of(law: &str) -> Model {
+    let text = format!(
+        "nodes.head = {{ mass = 2, velocity = 1 }}\n[elements]\n\
+         pad = {{ between = [\"head\", \"ground\"], {law} }}\n[run]\nduration = 1\n"
+    );
+    scene(&text).network.connections()[0].model.clone()
+}
+
+#[derive(Default)]
+struct Composites(usize);
+
+impl CompositeVisitor for Composites {
+    fn visit<C: CompositeKind>(&mut self) {
+        self.0 += 1;
+        describes(C::KIND, C::SUMMARY, C::PARAMETERS);
+        let sample = C::sample();
+        let again = C::from_values(&sample.values()).unwrap();
+        assert_eq!(again.values(), sample.values());
+        let composed = sample.compose().unwrap();
+        assert_eq!(parts(&again.compose().unwrap().model), parts(&composed.model), "{}", C::KIND);
+        assert!(parts(&composed.model).len() > 1, "{} has one part only", C::KIND);
+        if let Some(note) = &composed.note {
+            assert!(!note.is_empty() && !note.ends_with('.'), "{}: {note}", C::KIND);
+        }
+        let law = write_kind(C::KIND, C::PARAMETERS, &sample.values(), C::AMPLITUDE);
+        assert_eq!(parts(&model_of(&law)), parts(&composed.model), "{law}");
+        let written = write_model(&composed.model);
+        let law = written.trim_start_matches("{ ").trim_end_matches(" }");
+        assert_eq!(parts(&model_of(law)), parts(&composed.model), "{law}");
+        for own in C::PARAMETERS {
+            // A default in N/m is the same in Pa only where it is zero.
+            if let (ParameterKind::Quantity(dimension), Some(default)) = (own.kind, own.default)
+                && dimension.length == 0
+                && dimension.mass != 0
+            {
+                let zero = dashpot::scene::units::parse_quantity(default).unwrap().value == 0.0;
+                assert!(zero, "{}.{} is {default} by default", C::KIND, own.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn composites_come_back_from_toml_as_the_models_that_they_describe() {
+    let mut visitor = Composites::default();
+    visit_composites(&mut visitor);
+    assert!(visitor.0 >= 2);
+}
+
+#[derive(Default)]
+struct Shifts(usize);
+
+impl ShiftVisitor for Shifts {
+    fn visit<S: ShiftKind>(&mut self) {
+        self.0 += 1;
+        describes(S::KIND, S::SUMMARY, S::PARAMETERS);
+        let sample = S::sample();
+        assert_eq!(S::from_values(&sample.values()).unwrap().values(), sample.values());
+        let factor = sample.factor().unwrap();
+        assert!(factor > 0.0 && factor.is_finite());
+        let shift = write_kind(S::KIND, S::PARAMETERS, &sample.values(), Dimension::NUMBER);
+        let law = "burgers = { maxwell = { spring = 2, dashpot = 3 }, \
+                   kelvin = { spring = 5, dashpot = 7 } }";
+        let found = model_of(&format!("{law}, shift = {{ {shift} }}"));
+        assert_eq!(parts(&found), parts(&shifted(&model_of(law), factor).unwrap()), "{shift}");
+    }
+}
+
+#[test]
+fn shifts_come_back_from_toml_and_multiply_the_times() {
+    let mut visitor = Shifts::default();
+    visit_shifts(&mut visitor);
+    assert!(visitor.0 >= 2);
 }
 
 struct Measures(dashpot::analysis::RunReport, usize);

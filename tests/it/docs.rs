@@ -15,6 +15,7 @@ use dashpot::{
     scene::{ReadOptions, read, templates, units::parse_quantity},
 };
 
+mod equivalent_models;
 mod readme;
 mod registers;
 
@@ -83,6 +84,15 @@ fn between<'t>(line: &'t str, before: &str, after: char) -> Vec<&'t str> {
         .filter_map(|rest| rest.split_once(after))
         .map(|(own, _)| own)
         .collect()
+}
+
+/// The arguments of a command line; those with blanks in them stand in quotes.
+fn arguments(command: &str) -> Vec<&str> {
+    let parts = command.split('"').enumerate().flat_map(|(at, part)| match at % 2 {
+        0 => part.split_whitespace().collect(),
+        _ => vec![part],
+    });
+    parts.collect()
 }
 
 /// The anchor that a heading gets.

@@ -2,6 +2,10 @@
 
 #[path = "../../examples/custom_padding.rs"]
 mod custom_padding;
+#[path = "../../examples/equivalent_models.rs"]
+mod equivalent_models;
+#[path = "../../examples/fibre_padding.rs"]
+mod fibre_padding;
 #[path = "../../examples/force_table.rs"]
 mod force_table;
 #[path = "../../examples/reference_impact.rs"]
@@ -34,4 +38,14 @@ fn the_scene_from_toml_runs() {
 #[test]
 fn the_force_table_runs() {
     force_table::main().unwrap();
+}
+
+#[test]
+fn the_equivalent_models_run() {
+    equivalent_models::main().unwrap();
+}
+
+#[test]
+fn the_fibre_padding_runs() {
+    fibre_padding::main().unwrap();
 }

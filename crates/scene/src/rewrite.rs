@@ -13,7 +13,9 @@ use crate::{
 const KEPT: [&str; 2] = ["between", "thickness"];
 
 /// `text` with `model` in the place of `named`, which was read from it. All else stays as it is,
-/// and comments within the old model stand, together with `comments`, before the new one.
+/// and comments within the old model stand, together with `comment`, before the new one. Of two
+/// comments that begin with the same two words, the new one is kept: the second of two rewritings
+/// replaces what the first one said.
 ///
 /// `None` where the text does not have this model.
 ///
@@ -25,19 +27,14 @@ const KEPT: [&str; 2] = ["between", "thickness"];
 ///
 /// let text = "[models]\n# of the lining\npad = { spring = \"2 kN/m\" }\nother = { spring = 1 }\n";
 /// let pad = read_named_model(text, "pad", &ReadOptions::default())?.value;
-/// let other = with_model(text, &pad, &part(Spring { stiffness: 3e3 }), &["stiffer".to_owned()]);
+/// let other = with_model(text, &pad, &part(Spring { stiffness: 3e3 }), "stiffer");
 /// assert_eq!(
 ///     other.unwrap(),
 ///     "[models]\n# of the lining\n# stiffer\npad = { spring = \"3 kN/m\" }\nother = { spring = 1 }\n"
 /// );
 /// # Ok::<(), dashpot_scene::Diagnostics>(())
 /// ```
-pub fn with_model(
-    text: &str,
-    named: &NamedModel,
-    model: &Model,
-    comments: &[String],
-) -> Option<String> {
+pub fn with_model(text: &str, named: &NamedModel, model: &Model, comment: &str) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let (law, value) = law(named, model)?;
     let sections = SHELVES.map(|shelf| (shelf.section(), &[][..]));
@@ -50,9 +47,14 @@ pub fn with_model(
     let (mut key, item) = owner.get_key_value_mut(&named.name)?;
     let is_section = item.is_table();
     let table = item.as_table_like_mut()?;
-    let mut lines = replaced(table, kept);
-    lines.extend(comments.iter().cloned());
-    let lines: String = lines.iter().map(|line| format!("# {line}\n")).collect();
+    let start = format!("# {} ", comment.split(' ').take(2).collect::<Vec<_>>().join(" "));
+    let mut lines = String::new();
+    for line in replaced(table, kept).iter().map(String::as_str).chain([comment]) {
+        let line = format!("# {line}\n");
+        if line.trim_start_matches("# ") == format!("{comment}\n") || !line.starts_with(&start) {
+            lines += &line;
+        }
+    }
     table.insert(&law, value);
     if is_section {
         // Within the table, which has its own lines.
@@ -62,7 +64,9 @@ pub fn with_model(
             inline.fmt();
         }
         let decor = key.leaf_decor_mut();
-        let before = decor.prefix().and_then(|own| own.as_str()).unwrap_or_default().to_owned();
+        let before = decor.prefix().and_then(|own| own.as_str()).unwrap_or_default();
+        let is_kept = |line: &&str| !line.trim_start().starts_with(&start);
+        let before: String = before.split_inclusive('\n').filter(is_kept).collect();
         decor.set_prefix(before + &lines);
     }
     Some(document.to_string())
@@ -141,7 +145,7 @@ padding = { between = ["head", "ground"], model = "pad", thickness = "2 cm" }
 
     fn with(name: &str) -> String {
         let named = read_named_model(TEXT, name, &ReadOptions::default()).unwrap().value;
-        let text = with_model(TEXT, &named, &part(Spring { stiffness: 1e3 }), &["half".to_owned()]);
+        let text = with_model(TEXT, &named, &part(Spring { stiffness: 1e3 }), "half as stiff");
         let text = text.unwrap();
         let again = read_named_model(&text, name, &ReadOptions::default()).unwrap().value;
         assert_eq!(again.is_material, named.is_material);
@@ -157,15 +161,17 @@ series = [
   { spring = "2 kN/m" },
 ]
 "##,
-            "# two layers\n# the skin\n# half\nspring = \"1 kN/m\"\n",
+            "# two layers\n# the skin\n# half as stiff\nspring = \"1 kN/m\"\n",
         );
         assert_eq!(with("pad"), expected);
     }
 
     #[test]
     fn a_material_stays_one() {
-        let expected =
-            TEXT.replace("foam = { spring = \"2 MPa\" }", "# half\nfoam = { spring = \"1 kPa\" }");
+        let expected = TEXT.replace(
+            "foam = { spring = \"2 MPa\" }",
+            "# half as stiff\nfoam = { spring = \"1 kPa\" }",
+        );
         assert_eq!(with("foam"), expected);
     }
 
@@ -173,7 +179,7 @@ series = [
     fn an_element_keeps_its_ends() {
         let expected = TEXT.replace(
             "padding = { between = [\"head\", \"ground\"], model = \"pad\", thickness = \"2 cm\" }",
-            "# half\npadding = { between = [\"head\", \"ground\"], thickness = \"2 cm\", spring = \"1 kN/m\" }",
+            "# half as stiff\npadding = { between = [\"head\", \"ground\"], thickness = \"2 cm\", spring = \"1 kN/m\" }",
         );
         assert_eq!(with("padding"), expected);
     }

@@ -4,7 +4,7 @@ use std::{fs, path::Path, process::Command};
 
 use serde_json::Value;
 
-use super::{OUTDATED, blocks, is_update, root, text};
+use super::{OUTDATED, arguments, blocks, is_update, root, text};
 
 fn printed(arguments: &[&str], folder: &Path) -> String {
     let command =
@@ -88,16 +88,7 @@ fn the_commands_of_the_first_scene_succeed() {
     let mut count = 0;
     for line in lines.lines().filter_map(|line| line.strip_prefix("dashpot ")) {
         let command = line.split(['#', '|']).next().unwrap_or_default().trim();
-        // One argument stands in quotes and has a blank in it.
-        let arguments: Vec<&str> = command
-            .split('"')
-            .enumerate()
-            .flat_map(|(at, part)| match at % 2 {
-                0 => part.split_whitespace().collect(),
-                _ => vec![part],
-            })
-            .collect();
-        printed(&arguments, folder.path());
+        printed(&arguments(command), folder.path());
         count += 1;
     }
     assert!(count >= 5);

@@ -6,9 +6,11 @@ use dashpot::{
     analysis::measures::{Family, MeasureKind, MeasureVisitor, visit_measures},
     dae::methods,
     network::{
+        composites::{CompositeKind, CompositeVisitor, visit_composites},
         effects::{EffectKind, EffectVisitor, visit_effects},
         elements::{ElementKind, ElementVisitor, visit_elements},
-        parameters::{Parameter, ParameterKind},
+        parameters::{Dimension, Parameter, ParameterKind},
+        shifts::{ShiftKind, ShiftVisitor, visit_shifts},
         waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
     },
     rheology::{Form, FormVisitor, Part, Role, visit_forms},
@@ -19,6 +21,10 @@ pub(super) fn sections() -> Vec<(&'static str, String)> {
     let mut kinds = Kinds::default();
     visit_elements(&mut kinds);
     let elements = kinds.take("word | law");
+    visit_composites(&mut kinds);
+    let composites = kinds.take("word | model");
+    visit_shifts(&mut kinds);
+    let shifts = kinds.take("word | law");
     visit_waveforms(&mut kinds);
     let waveforms = kinds.take("word | function");
     visit_effects(&mut kinds);
@@ -33,6 +39,8 @@ pub(super) fn sections() -> Vec<(&'static str, String)> {
     vec![
         ("elements", elements),
         ("forms", forms),
+        ("composites", composites),
+        ("shifts", shifts),
         ("functions", waveforms),
         ("effects", effects),
         ("measures", measures),
@@ -45,7 +53,7 @@ pub(super) fn sections() -> Vec<(&'static str, String)> {
 struct Kinds {
     rows: String,
     words: Vec<&'static str>,
-    parameters: Vec<(Parameter, Vec<&'static str>)>,
+    parameters: Vec<(Parameter, Option<Dimension>, Vec<&'static str>)>,
 }
 
 impl Kinds {
@@ -53,12 +61,20 @@ impl Kinds {
         self.rows += &row(cells);
     }
 
-    fn parameters(&mut self, kind: &'static str, parameters: &[Parameter]) {
+    /// The parameters of a kind, and the dimension of their amplitudes where it is fixed.
+    fn parameters(
+        &mut self,
+        kind: &'static str,
+        parameters: &[Parameter],
+        amplitude: Option<Dimension>,
+    ) {
         self.words.push(kind);
-        for parameter in parameters {
-            match self.parameters.iter_mut().find(|known| known.0 == *parameter) {
-                Some((_, kinds)) => kinds.push(kind),
-                None => self.parameters.push((*parameter, vec![kind])),
+        for own in parameters {
+            let is_own =
+                |known: &(Parameter, Option<Dimension>, _)| (known.0, known.1) == (*own, amplitude);
+            match self.parameters.iter_mut().find(|known| is_own(known)) {
+                Some((.., kinds)) => kinds.push(kind),
+                None => self.parameters.push((*own, amplitude, vec![kind])),
             }
         }
     }
@@ -71,11 +87,11 @@ impl Kinds {
             return text;
         }
         text += "\n| of | key | value | default | meaning |\n|---|---|---|---|---|\n";
-        for (parameter, kinds) in parameters {
+        for (parameter, amplitude, kinds) in parameters {
             text += &row(&[
                 owners(&words, &kinds),
                 code(parameter.name),
-                value(parameter.kind),
+                value(parameter.kind, amplitude),
                 parameter.default.map_or("required".to_owned(), code),
                 parameter.help.to_owned(),
             ]);
@@ -110,13 +126,22 @@ fn code(word: impl AsRef<str>) -> String {
     format!("`{}`", word.as_ref())
 }
 
-fn value(kind: ParameterKind) -> String {
+fn value(kind: ParameterKind, amplitude: Option<Dimension>) -> String {
+    let quantity = |dimension: Dimension| match dimension.named() {
+        Some((name, "1")) => name.to_owned(),
+        Some((name, unit)) => format!("{name} [{unit}]"),
+        None => "number".to_owned(),
+    };
+    match (kind, amplitude) {
+        (ParameterKind::Amplitude, Some(dimension)) => return quantity(dimension),
+        (ParameterKind::TimeTable, Some(dimension)) => {
+            return format!("list of pairs `[time, {}]`", quantity(dimension));
+        }
+        _ => {}
+    }
     match kind {
-        ParameterKind::Quantity(dimension) => match dimension.named() {
-            Some((name, "1")) => name.to_owned(),
-            Some((name, unit)) => format!("{name} [{unit}]"),
-            None => "number".to_owned(),
-        },
+        ParameterKind::Quantity(dimension) => quantity(dimension),
+        ParameterKind::TemperatureDifference => "temperature difference [K]".to_owned(),
         ParameterKind::Amplitude => "force [N] in a load, length [m] in a motion".to_owned(),
         ParameterKind::TimeTable => "list of points `[time, value]`".to_owned(),
         ParameterKind::Choice(words) => words.iter().map(code).collect::<Vec<_>>().join(" or "),
@@ -128,21 +153,35 @@ fn value(kind: ParameterKind) -> String {
 impl ElementVisitor for Kinds {
     fn visit<E: ElementKind>(&mut self) {
         self.row(&[code(E::KIND), E::SUMMARY.to_owned()]);
-        self.parameters(E::KIND, E::PARAMETERS);
+        self.parameters(E::KIND, E::PARAMETERS, None);
+    }
+}
+
+impl CompositeVisitor for Kinds {
+    fn visit<C: CompositeKind>(&mut self) {
+        self.row(&[code(C::KIND), C::SUMMARY.to_owned()]);
+        self.parameters(C::KIND, C::PARAMETERS, Some(C::AMPLITUDE));
+    }
+}
+
+impl ShiftVisitor for Kinds {
+    fn visit<S: ShiftKind>(&mut self) {
+        self.row(&[code(S::KIND), S::SUMMARY.to_owned()]);
+        self.parameters(S::KIND, S::PARAMETERS, None);
     }
 }
 
 impl WaveformVisitor for Kinds {
     fn visit<W: WaveformKind>(&mut self) {
         self.row(&[code(W::KIND), W::SUMMARY.to_owned()]);
-        self.parameters(W::KIND, W::PARAMETERS);
+        self.parameters(W::KIND, W::PARAMETERS, None);
     }
 }
 
 impl EffectVisitor for Kinds {
     fn visit<E: EffectKind>(&mut self) {
         self.row(&[code(E::KIND), E::SUMMARY.to_owned()]);
-        self.parameters(E::KIND, E::PARAMETERS);
+        self.parameters(E::KIND, E::PARAMETERS, None);
     }
 }
 
@@ -160,7 +199,7 @@ impl MeasureVisitor for Kinds {
             always.to_owned(),
             M::SUMMARY.to_owned(),
         ]);
-        self.parameters(M::KIND, M::PARAMETERS);
+        self.parameters(M::KIND, M::PARAMETERS, None);
     }
 }
 

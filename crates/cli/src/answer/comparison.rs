@@ -227,6 +227,16 @@ fn constants(form: Canonical, own: &FormComparison, units: [&'static str; 2]) ->
     singles.into_iter().filter(is_there).chain(modes).collect()
 }
 
+/// The times of two modes, as one where they look the same.
+fn times([first, second]: [f64; 2]) -> String {
+    let shown = [first, second].map(|own| quantity(own, "s", DIGITS));
+    match [first > 0.0, second > 0.0] {
+        [true, true] if shown[0] != shown[1] => shown.join(" | "),
+        [true, _] => shown[0].clone(),
+        _ => shown[1].clone(),
+    }
+}
+
 impl Form {
     /// As a table.
     pub(crate) fn table(&self) -> Table {
@@ -236,9 +246,7 @@ impl Form {
             "Maxwell form: side by side"
         };
         let rows = self.constants.iter().map(|own| {
-            let time = own.time.map_or_else(String::new, |[first, second]| {
-                quantity(if first > 0.0 { first } else { second }, "s", DIGITS)
-            });
+            let time = own.time.map_or_else(String::new, times);
             let value = |value: Option<f64>| {
                 value.map_or_else(|| "none".to_owned(), |it| quantity(it, own.unit, DIGITS))
             };

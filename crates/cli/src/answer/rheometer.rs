@@ -224,15 +224,13 @@ pub(crate) fn spectrum_table(specimen: &Specimen, units: Units) -> Table {
     let rows = (0..count.min(MOST_LINES))
         .map(|at| [cells(relaxation.get(at)), cells(retardation.get(at))].concat().to_vec());
     let more = if count > MOST_LINES {
-        format!(" (first {MOST_LINES} of {count})")
+        format!(", the first {MOST_LINES} of {count}")
     } else {
         String::new()
     };
     let stiffness = units.word("stiffness");
     Table {
-        caption: format!(
-            "Relaxation spectrum (Maxwell form) and retardation spectrum (Kelvin form){more}"
-        ),
+        caption: format!("Spectra of the Maxwell form and of the Kelvin form{more}"),
         header: vec![
             "relaxation time".to_owned(),
             stiffness.clone(),
@@ -302,7 +300,7 @@ pub(crate) fn settings(settings: &[Setting], units: Units) -> String {
             name => format!("{} {value}", units.word(name)),
         }
     };
-    settings.iter().map(one).collect::<Vec<_>>().join(", ")
+    settings.iter().map(one).collect::<Vec<_>>().join(", ").replace(", to ", " to ")
 }
 
 /// How far the independent computations are from the model, in whole sentences.

@@ -232,10 +232,12 @@ fn sentences(found: &Comparison) -> Vec<String> {
         all.extend(described(word, about));
     }
     if let Some(map) = &found.map {
+        let condition = map.condition;
+        let condition =
+            if condition < 1e4 { format!("{condition:.3}") } else { format!("{condition:.1e}") };
         all.push(format!(
-            "Condition number {:.3}: 1 % in the parameters of the first is up to that many \
+            "Condition number {condition}: 1 % in the parameters of the first is up to that many \
              percent in one of the second.",
-            map.condition
         ));
     }
     all

@@ -36,13 +36,13 @@ pub(crate) fn convert(
     })?;
     let model = model_of(&tree);
     let error = round_trip(&compare(&linear, &linear_model(&model)));
-    let comments = [format!("{} of {}", target.word, operand.word), said(error)];
+    let comment = format!("converted to {} from {}; {}", target.word, operand.word, said(error));
     let (text, name) = match &operand.subject {
         Subject::Model(named) => {
-            let text = with_model(operand.input.text()?, named, &model, &comments);
+            let text = with_model(operand.input.text()?, named, &model, &comment);
             (text.ok_or_else(|| CliError::NotReplaced { word: word() })?, named.name.as_str())
         }
-        Subject::Response(_) => (write_model_table(RESPONSE, &model, &comments), RESPONSE),
+        Subject::Response(_) => (write_model_table(RESPONSE, &model, &[comment]), RESPONSE),
     };
     confirm(&operand, &text, name, &model, &arguments.values.set)?;
     match &arguments.out {
