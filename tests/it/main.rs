@@ -8,10 +8,12 @@
 )]
 
 mod cli;
+mod cli_models;
 mod closed_forms;
 mod conformance;
 mod conversions;
 mod docs;
+mod equivalence;
 mod error_bars;
 mod examples;
 mod independent;

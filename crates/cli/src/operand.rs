@@ -65,6 +65,14 @@ impl Operand {
         }
     }
 
+    /// How well its poles and strengths are known, relatively.
+    pub(crate) fn error(&self) -> f64 {
+        match &self.subject {
+            Subject::Response(Response::Massless(own)) => own.error,
+            _ => 0.0,
+        }
+    }
+
     /// The tree of elements, where it is one.
     pub(crate) fn model(&self) -> Option<&Model> {
         match &self.subject {

@@ -1,7 +1,7 @@
 //! Texts with another model in the place of one of theirs.
 
 use dashpot_network::Model;
-use toml_edit::{DocumentMut, Item, Table, TableLike};
+use toml_edit::{Decor, DocumentMut, Item, Key, RawString, Table, TableLike};
 
 use crate::{
     NamedModel,
@@ -87,14 +87,36 @@ fn replaced(table: &mut dyn TableLike, kept: &[&str]) -> Vec<String> {
     let keys: Vec<String> = table.iter().map(|(key, _)| key.to_owned()).collect();
     let mut comments = Vec::new();
     for key in keys.iter().filter(|key| !kept.contains(&key.as_str())) {
-        let decor = table.key(key).map(|own| own.leaf_decor().clone());
-        let prefix = decor.as_ref().and_then(|own| own.prefix()).and_then(|own| own.as_str());
-        comments.extend(comments_in(prefix.unwrap_or_default()));
+        let prefix = table.key(key).map(|own| own.leaf_decor().clone());
+        comments.extend(comments_beside(prefix.as_ref()));
         if let Some(item) = table.remove(key) {
-            comments.extend(comments_in(&item.to_string()));
+            collect(&item, &mut comments);
         }
     }
     comments
+}
+
+/// Collects the comments within and around an item; sections within it hold their own.
+fn collect(item: &Item, comments: &mut Vec<String>) {
+    let mut within = |table: &Table| {
+        comments.extend(comments_beside(Some(table.decor())));
+        for (key, item) in table {
+            comments.extend(comments_beside(table.key(key).map(Key::leaf_decor)));
+            collect(item, comments);
+        }
+    };
+    match item {
+        Item::Table(table) => within(table),
+        Item::ArrayOfTables(tables) => tables.iter().for_each(within),
+        Item::Value(value) => comments.extend(comments_in(&value.to_string())),
+        Item::None => {}
+    }
+}
+
+fn comments_beside(decor: Option<&Decor>) -> Vec<String> {
+    let text = |part: Option<&RawString>| part.and_then(|own| own.as_str().map(comments_in));
+    let parts = decor.map(|own| [text(own.prefix()), text(own.suffix())]);
+    parts.into_iter().flatten().flatten().flatten().collect()
 }
 
 /// The comments in a piece of TOML, without their marks.

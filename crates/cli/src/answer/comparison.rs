@@ -63,8 +63,17 @@ pub(crate) struct Constant {
 pub(crate) struct Worst {
     pub(crate) frequency: Option<f64>,
     pub(crate) response: f64,
+    /// Of the creep; with masses that move, of the motion after an impulse.
     pub(crate) time: Option<f64>,
     pub(crate) creep: Option<f64>,
+    /// In units of the largest motion up to then.
+    pub(crate) after_impulse: Option<f64>,
+    /// Whether it may be larger after `until`.
+    pub(crate) is_growing: Option<bool>,
+    /// Up to when the motions were looked at; null where they end.
+    pub(crate) until: Option<f64>,
+    /// Whether something yields at the instant of the impulse, which is left out.
+    pub(crate) instant_left_out: bool,
 }
 
 /// What is known of one of the two.
@@ -148,6 +157,10 @@ impl Comparison {
                 response: own.stiffness,
                 time: Some(own.time),
                 creep: Some(own.creep),
+                after_impulse: None,
+                is_growing: None,
+                until: None,
+                instant_left_out: false,
             }),
             models: Vec::new(),
             map: None,

@@ -65,6 +65,10 @@ fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
     let is_material = operands[0].is_material();
     if let [Some(first), Some(second)] = [&operands[0], &operands[1]].map(Operand::linear) {
         let found = equivalence::compare(&first, &second);
+        let error = operands.iter().map(Operand::error).fold(0.0, f64::max);
+        if !found.is_same && error > equivalence::SAME_WITHIN {
+            return Err(CliError::Undecided { error });
+        }
         return Ok(Comparison::of(words, is_material, &found));
     }
     let receptance = |own: &Operand| match &own.subject {
@@ -82,12 +86,18 @@ fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
             comparison.same = true;
             comparison.largest_difference = Some(difference);
         }
-        Agreement::Different { omega, size } => {
+        Agreement::Different { omega, size, time, after_impulse, is_growing, until } => {
             comparison.worst = Some(Worst {
                 frequency: Some(omega / std::f64::consts::TAU),
                 response: size,
-                time: None,
+                time: Some(time),
                 creep: None,
+                after_impulse: Some(after_impulse),
+                is_growing: Some(is_growing),
+                until: Some(until),
+                instant_left_out: [&first, &second]
+                    .iter()
+                    .any(|own| own.instantaneous_compliance() > 0.0),
             });
         }
         Agreement::Undecided { error } => return Err(CliError::Undecided { error }),
@@ -264,6 +274,20 @@ fn disagreement(worst: &Worst, is_same: bool) -> String {
         let time = at(worst.time, "s", ["at once", "after ever longer times"]);
         let _ = write!(line, "; in creep most {time}, by {}", share(creep));
     }
+    match worst.after_impulse {
+        Some(0.0) => line += "; after an impulse only at the very instant",
+        Some(size) => {
+            let time = at(worst.time, "s", ["at once", "after ever longer times"]);
+            let aside = if worst.instant_left_out { ", its own instant aside," } else { "" };
+            let _ = write!(line, "; after an impulse{aside} most {time}, by {}", share(size));
+            if worst.is_growing == Some(true) {
+                line += " and growing";
+            } else if let Some(until) = worst.until.filter(|own| own.is_finite()) {
+                let _ = write!(line, " (looked at up to {})", quantity(until, "s", 3));
+            }
+        }
+        None => {}
+    }
     line + "."
 }
 
@@ -276,7 +300,11 @@ fn described(word: &str, about: &About) -> Vec<String> {
         ));
     }
     if let Some(least) = about.least_elements {
-        let has = about.elements.map_or_else(String::new, |own| format!(" has {own} elements and"));
+        let has = match about.elements {
+            None => String::new(),
+            Some(1) => " has 1 element and".to_owned(),
+            Some(count) => format!(" has {count} elements and"),
+        };
         let forms = match (about.maxwell_form, about.kelvin_form) {
             (true, true) => "in both forms, which are passive",
             (true, false) => "it bears no force, so it has no Kelvin form",

@@ -31,6 +31,8 @@ struct Mode {
     strength: Twofold,
     /// How many modes of the circuit have this rate.
     count: usize,
+    /// Relative difference of the strength between two runs.
+    doubt: f64,
 }
 
 impl Mode {
@@ -54,6 +56,9 @@ pub(super) fn response(circuit: &Circuit) -> Result<Massless, DrivingPointError>
     let fluidity = physical(scaled.origin().simple);
     let (modes, error, time) = settled(circuit, compliance, fluidity)?;
     let is_hidden = hidden(circuit, &modes, time, total(&modes, compliance, fluidity))?;
+    // Very weak modes that are seen count after all.
+    let shown = modes.iter().zip(&is_hidden).filter(|own| !*own.1);
+    let error = shown.map(|own| own.0.doubt).fold(error, f64::max);
     let mut kept = Vec::new();
     let mut cancelled = Vec::new();
     let at_rest = scaled.creeping_parts();
@@ -102,9 +107,9 @@ fn settled(
         let centre = exponent(middle.exp2());
         time = if centre == time || run > 0 { centre + OFFSETS[run] } else { centre };
         let next = modes(circuit, time)?;
-        let merged = merge(&next);
+        let mut merged = merge(&next);
         let total = total(&merged, compliance, fluidity);
-        let error = difference(&last, &next, &merged, total);
+        let error = difference(&last, &next, &mut merged, total);
         if best.as_ref().is_none_or(|(_, least, _)| error < *least) {
             best = Some((merged, error, time));
         }
@@ -154,7 +159,7 @@ fn modes(circuit: &Circuit, time: i32) -> Result<Vec<Mode>, DrivingPointError> {
         }
         shift(&mut rate, -time);
         shift(&mut strength, -force - time);
-        modes.push(Mode { rate, strength, count: 1 });
+        modes.push(Mode { rate, strength, count: 1, doubt: 0.0 });
     }
     modes.sort_by(|a, b| a.rate.high().total_cmp(&b.rate.high()));
     Ok(modes)
@@ -179,8 +184,9 @@ fn merge(modes: &[Mode]) -> Vec<Mode> {
     merged
 }
 
-/// Largest relative difference of two runs in the rates and in the strengths that count.
-fn difference(a: &[Mode], b: &[Mode], merged: &[Mode], total: f64) -> f64 {
+/// Largest relative difference of two runs in the rates and in the strengths that count; that of
+/// each strength is noted.
+fn difference(a: &[Mode], b: &[Mode], merged: &mut [Mode], total: f64) -> f64 {
     if a.len() != b.len() {
         return f64::INFINITY;
     }
@@ -193,9 +199,11 @@ fn difference(a: &[Mode], b: &[Mode], merged: &[Mode], total: f64) -> f64 {
         for (a, b) in a[at..at + mode.count].iter().zip(&b[at..at + mode.count]) {
             worst = worst.max(((a.rate - b.rate) / b.rate).high().abs());
         }
+        let doubt = ((sum(a) - sum(b)) / mode.strength).high().abs();
         if mode.compliance() > DOUBTFUL * total {
-            worst = worst.max(((sum(a) - sum(b)) / mode.strength).high().abs());
+            worst = worst.max(doubt);
         }
+        mode.doubt = doubt;
         at += mode.count;
     }
     worst

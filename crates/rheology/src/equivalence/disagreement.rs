@@ -15,7 +15,7 @@ const PER_DECADE: f64 = 12.0;
 const BEYOND: f64 = 1e3;
 /// How far beyond them there is one more, which stands for the limit.
 const LIMIT: f64 = 1e13;
-/// A limit that is no more than this above what is found elsewhere, relatively, is none.
+/// What is no more than this above a limit, relatively, is the limit.
 const FLAT: f64 = 1e-6;
 /// Steps of the golden section: to 10⁻⁶ of the distance of two points.
 const STEPS: usize = 30;
@@ -51,13 +51,22 @@ impl Disagreement {
     }
 }
 
-/// Places on a logarithmic scale, from far below to far beyond what `place` makes of all rates.
+/// Places on a logarithmic scale, from far below to far beyond what `place` makes of all rates and
+/// of those at which a single spring and a single dashpot are as stiff as something else.
 fn places(forms: [&Fractions; 2], place: fn(f64) -> f64) -> Vec<f64> {
-    let rates = forms.into_iter().flat_map(|own| &own.lines).map(|line| place(line.rate.high()));
-    let mut all: Vec<f64> = rates.collect();
+    let lines = || forms.into_iter().flat_map(|own| &own.lines);
+    let mut all: Vec<f64> = lines().map(|line| line.rate.high()).collect();
+    for own in forms {
+        let (at_zero, constant) = (own.at_zero.high(), own.constant.high());
+        all.extend(forms.map(|other| at_zero / other.constant.high()));
+        all.extend(lines().map(|line| at_zero * (line.rate / line.strength).high()));
+        all.extend(lines().map(|line| line.strength.high() / constant));
+    }
+    all.retain(|rate| rate.is_normal());
+    all.iter_mut().for_each(|rate| *rate = place(*rate));
     all.sort_by(f64::total_cmp);
     let ends = all.first().zip(all.last()).map(|(low, high)| (low / BEYOND, high * BEYOND));
-    // Without modes, nothing depends on the place.
+    // Where only springs are, or only dashpots, nothing depends on the place.
     let Some((low, high)) = ends else { return vec![1.0] };
     let decades = (high / low).log10();
     let count = (decades * PER_DECADE).ceil();
@@ -67,24 +76,27 @@ fn places(forms: [&Fractions; 2], place: fn(f64) -> f64) -> Vec<f64> {
         at += 1.0;
     }
     all.extend([low / LIMIT, high * LIMIT]);
+    all.retain(|place| place.is_normal());
     all.sort_by(f64::total_cmp);
     all
 }
 
-/// The largest value and its place, refined between its neighbours on a logarithmic scale.
+/// The largest value and its place, refined between its neighbours on a logarithmic scale; 0 and
+/// infinity where a limit is the largest, and 0 where it is the same everywhere.
 fn largest(places: &[f64], value: impl Fn(f64) -> f64) -> (f64, f64) {
     let all: Vec<f64> = places.iter().map(|&at| value(at)).collect();
-    let top = (0..all.len()).max_by(|&a, &b| all[a].total_cmp(&all[b])).unwrap_or(0);
-    // A limit counts only where it is approached from below.
-    let is_larger = |own: &usize| all[*own] >= all[top] * (1.0 - FLAT);
-    let inner = 1..all.len().saturating_sub(1);
-    let top = inner.filter(is_larger).max_by(|&a, &b| all[a].total_cmp(&all[b])).unwrap_or(top);
+    let [_, .., _] = places else { return (0.0, all[0]) };
+    let last = all.len() - 1;
+    let by_value = |a: &usize, b: &usize| all[*a].total_cmp(&all[*b]);
+    let top = (0..=last).max_by(by_value).unwrap_or(0);
+    let limit = if all[last] > all[0] { last } else { 0 };
+    // On a plateau rounding would decide, so a maximum has to stand out.
+    let stands_out = |own: &usize| all[*own] > all[limit] * (1.0 + FLAT);
+    let Some(top) = (1..last).filter(stands_out).max_by(by_value) else {
+        return (if limit == 0 { 0.0 } else { f64::INFINITY }, all[limit]);
+    };
     let best = (places[top], all[top]);
-    if places.len() > 1 && (top == 0 || top == places.len() - 1) {
-        return (if top == 0 { 0.0 } else { f64::INFINITY }, best.1);
-    }
-    let (mut low, mut high) =
-        (places[top.saturating_sub(1)].ln(), places[(top + 1).min(places.len() - 1)].ln());
+    let (mut low, mut high) = (places[top - 1].ln(), places[top + 1].ln());
     let ratio = (5_f64.sqrt() - 1.0) / 2.0;
     for _ in 0..STEPS {
         let [left, right] = [high - ratio * (high - low), low + ratio * (high - low)];
