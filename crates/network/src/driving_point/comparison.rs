@@ -1,6 +1,6 @@
 //! Whether two receptances are the same, decided on their poles and strengths.
 
-use super::{Receptance, complex::Complex, terms::Term};
+use super::{Receptance, complex::Complex, impulse::Largest, terms::Term};
 use crate::compile::bodies::Groups;
 
 /// What the poles and strengths of two receptances say.
@@ -18,6 +18,24 @@ pub enum Agreement {
         omega: f64,
         /// The disagreement there, `|H₁ − H₂|` over the larger of the two, between 0 and 2.
         size: f64,
+        /// Time at which the motions after an impulse differ most \[s\]; 0 and infinity are the
+        /// limits.
+        time: f64,
+        /// That difference, `|h₁ − h₂|` over the larger motion of both up to then, between 0 and 2.
+        ///
+        /// `h(t)` is the approach after a unit impulse at `t = 0` \[m/(N s)\], the transform of
+        /// which is `H(s)`. What an instantaneous compliance adds to it, a `δ(t)`, is left out: 0
+        /// where there is no other difference. Right to about 10⁻³ of itself; where rounding is
+        /// more than that, a lower bound.
+        after_impulse: f64,
+        /// The largest difference is at the end of what was looked at, and may be larger later.
+        is_growing: bool,
+        /// Up to when the motions were looked at \[s\]; infinite where they die down, or come to
+        /// rest, or move on freely without any oscillation that stays.
+        ///
+        /// Of oscillations that stay, or live for more than 2000 periods, 100 periods of the
+        /// slowest are looked at; less where others are so fast that this takes too long.
+        until: f64,
     },
     /// The receptances are known less well than this asks for.
     Undecided {
@@ -51,7 +69,9 @@ impl Receptance {
             return Agreement::Same { difference };
         }
         let (omega, size) = super::disagreement::worst(self, other);
-        Agreement::Different { omega, size }
+        let Largest { time, size: after_impulse, is_growing, until } =
+            super::impulse::worst(self, other);
+        Agreement::Different { omega, size, time, after_impulse, is_growing, until }
     }
 
     /// Largest relative difference of poles and strengths; infinite where one has no counterpart.
@@ -154,7 +174,7 @@ fn group_difference(ours: &[&Term], theirs: &[&Term]) -> f64 {
 }
 
 /// How far the poles of a group are from their mean, by a bound on the zeros of its polynomial.
-fn reach(term: &Term) -> f64 {
+pub(super) fn reach(term: &Term) -> f64 {
     let order = term.spread.len();
     let root =
         |(k, coefficient): (usize, &Complex)| coefficient.size().powf(1.0 / (order - k) as f64);

@@ -1,4 +1,4 @@
-//! Where two receptances disagree most.
+//! At which frequency two receptances disagree most.
 
 use super::{Receptance, complex::Complex};
 
@@ -39,7 +39,9 @@ pub(super) fn worst(a: &Receptance, b: &Receptance) -> (f64, f64) {
     for at in 1..last {
         let is_peak = values[at] >= values[at - 1] && values[at] >= values[at + 1];
         if is_peak && values[at] > 0.0 {
-            let peak = enclose(a, b, points[at - 1].ln(), points[at + 1].ln());
+            let value = |x: f64| apart(a, b, x.exp());
+            let (place, height) = summit(points[at - 1].ln(), points[at + 1].ln(), value);
+            let peak = (place.exp(), height);
             let peak = if peak.1 > values[at] { peak } else { (points[at], values[at]) };
             // Beyond the limits' own rounding, so that a plateau is reported as a limit.
             if peak.1 > best.1 * (1.0 + 1e-6) {
@@ -53,24 +55,23 @@ pub(super) fn worst(a: &Receptance, b: &Receptance) -> (f64, f64) {
     best
 }
 
-/// A maximum between two logarithms of the frequency.
-fn enclose(a: &Receptance, b: &Receptance, mut low: f64, mut high: f64) -> (f64, f64) {
+/// A maximum between two places by golden section.
+pub(super) fn summit(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> (f64, f64) {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let at = |x: f64| apart(a, b, x.exp());
     let (mut p, mut q) = (high - golden * (high - low), low + golden * (high - low));
-    let (mut at_p, mut at_q) = (at(p), at(q));
+    let (mut at_p, mut at_q) = (value(p), value(q));
     for _ in 0..STEPS {
         if at_p > at_q {
             (high, q, at_q) = (q, p, at_p);
             p = high - golden * (high - low);
-            at_p = at(p);
+            at_p = value(p);
         } else {
             (low, p, at_p) = (p, q, at_q);
             q = low + golden * (high - low);
-            at_q = at(q);
+            at_q = value(q);
         }
     }
-    if at_p > at_q { (p.exp(), at_p) } else { (q.exp(), at_q) }
+    if at_p > at_q { (p, at_p) } else { (q, at_q) }
 }
 
 /// Relative difference at one frequency.

@@ -15,14 +15,18 @@ mod comparison;
 mod complex;
 mod disagreement;
 mod dynamic;
+mod grouped;
 mod hessenberg;
+mod impulse;
 mod jacobi;
 mod kelvin;
 mod limits;
 mod links;
 mod massive;
 mod modes;
+mod motions;
 mod receptance;
+mod search;
 mod spectrum;
 mod terms;
 

@@ -88,7 +88,6 @@ fn largest(places: &[f64], value: impl Fn(f64) -> f64) -> (f64, f64) {
     let [_, .., _] = places else { return (0.0, all[0]) };
     let last = all.len() - 1;
     let by_value = |a: &usize, b: &usize| all[*a].total_cmp(&all[*b]);
-    let top = (0..=last).max_by(by_value).unwrap_or(0);
     let limit = if all[last] > all[0] { last } else { 0 };
     // On a plateau rounding would decide, so a maximum has to stand out.
     let stands_out = |own: &usize| all[*own] > all[limit] * (1.0 + FLAT);

@@ -13,7 +13,7 @@ fn assert_same(a: &Receptance, b: &Receptance) {
 
 fn worst(a: &Receptance, b: &Receptance) -> (f64, f64) {
     match a.agreement(b) {
-        Agreement::Different { omega, size } => (omega, size),
+        Agreement::Different { omega, size, .. } => (omega, size),
         other => panic!("{other:?}"),
     }
 }

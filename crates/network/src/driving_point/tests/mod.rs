@@ -1,4 +1,5 @@
 mod agreement;
+mod impulse;
 mod judge;
 mod massive;
 mod massless;
