@@ -145,6 +145,15 @@ pub(crate) struct ExplainArguments {
     pub(crate) out: Option<PathBuf>,
 }
 
+/// What may stand for a model.
+const MODEL: &str = "FILE:NAME, a model, material or element of a file or of a built-in scene; \
+                     FILE alone if it has one model; FILE:NODE,NODE for the response of a \
+                     network without moving masses";
+/// What may be compared.
+const OPERAND: &str = "FILE:NAME, a model, material or element of a file or of a built-in scene; \
+                       FILE alone if it has one model; FILE:NODE,NODE for the response of a \
+                       whole network at two of its nodes";
+
 /// `convert`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
@@ -155,9 +164,8 @@ pub(crate) struct ExplainArguments {
     `dashpot run` takes it as it took FILE. The response at nodes becomes a table \
     [models.NAME] of its own.")]
 pub(crate) struct ConvertArguments {
-    /// FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it
-    /// has one model; FILE:NODE,NODE for the response of a network without moving masses.
-    #[arg(value_name = "MODEL")]
+    /// The model.
+    #[arg(value_name = "MODEL", help = MODEL)]
     pub(crate) model: String,
     /// The form.
     #[arg(long, value_name = "FORM", value_parser = forms())]
@@ -182,14 +190,13 @@ pub(crate) struct ConvertArguments {
     `Same` means that all poles and strengths agree within 1e-11, relatively.\n\n\
     Exit codes: 0 they are the same, 3 they are not, 2 the input is wrong.")]
 pub(crate) struct CompareArguments {
-    /// FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it
-    /// has one model; FILE:NODE,NODE for the response of a whole network at two of its nodes.
-    #[arg(value_name = "FIRST")]
+    /// The model.
+    #[arg(value_name = "FIRST", help = OPERAND)]
     pub(crate) first: String,
     /// The other one.
     #[arg(value_name = "SECOND")]
     pub(crate) second: String,
-    /// SCENE:ELEMENT: solves this impact with each of the models in the element's place, and
+    /// Scene and element: solves this impact with each of the models in the element's place, and
     /// compares what is measured.
     #[arg(long, value_name = "SCENE:ELEMENT")]
     pub(crate) impact: Option<String>,
@@ -211,9 +218,8 @@ pub(crate) struct CompareArguments {
     independently from the equations of its network; both are shown. `dashpot list tests` \
     tells of each test and its parameters.")]
 pub(crate) struct RheometerArguments {
-    /// FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it
-    /// has one model; FILE:NODE,NODE for the response of a network without moving masses.
-    #[arg(value_name = "MODEL")]
+    /// The model.
+    #[arg(value_name = "MODEL", help = MODEL)]
     pub(crate) model: String,
     /// Tests [default: all].
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = test_names())]
@@ -242,7 +248,7 @@ pub(crate) struct RheometerArguments {
 #[command(after_help = "Examples:\n  dashpot list\n  dashpot list measures\n  dashpot list zener")]
 pub(crate) struct ListArguments {
     /// One family alone (elements, forms, composites, shifts, waveforms, effects, measures,
-    /// methods, templates, scenes), or one kind, by any of its names.
+    /// methods, tests, templates, scenes), or one kind, by any of its names.
     #[arg(value_name = "FAMILY|KIND")]
     pub(crate) what: Option<String>,
 }

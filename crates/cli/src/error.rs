@@ -129,6 +129,18 @@ pub(crate) enum CliError {
         /// The elements that there are.
         known: Vec<String>,
     },
+    /// Constants that are too far apart.
+    #[error("the constants of `{word}` are too far apart for double precision")]
+    OutOfRange {
+        /// The model as it was named.
+        word: String,
+    },
+    /// A response between a node and itself.
+    #[error("both nodes are `{name}`: nothing deforms between a node and itself")]
+    OneNode {
+        /// The node.
+        name: String,
+    },
     /// A material and a pad.
     #[error("one of them is a material, in Pa, the other a model of a pad, in N/m")]
     MaterialAndPad,
@@ -182,6 +194,8 @@ impl CliError {
             | Self::UnknownSetting { .. }
             | Self::WrongSetting { .. }
             | Self::MaterialAndPad
+            | Self::OutOfRange { .. }
+            | Self::OneNode { .. }
             | Self::MaterialInImpact { .. }
             | Self::NotReplaced { .. } => Status::InputWrong,
             // The place is wrong; all else, such as a full disk, is a failure.
@@ -219,7 +233,7 @@ impl CliError {
                     .to_owned(),
             ),
             Self::Foreign { help, .. } => Some((*help).to_owned()),
-            Self::Unfit { .. } => Some(
+            Self::Unfit { reason: Unfit::OtherShape { .. }, .. } => Some(
                 "`--to generalized-maxwell` and `--to generalized-kelvin` take every model"
                     .to_owned(),
             ),

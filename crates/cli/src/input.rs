@@ -25,7 +25,7 @@ impl Input {
     /// The built-in scene of this name, a file, or standard input for `-`.
     pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let name = path.to_string_lossy();
-        if !path.exists()
+        if !path.is_file()
             && let Some(shipped) = references().iter().find(|shipped| shipped.name == name)
         {
             let file = format!("{}.toml", shipped.name);

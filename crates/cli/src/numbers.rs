@@ -139,6 +139,11 @@ pub(crate) fn bound(relative: f64) -> String {
     shown_percent((percent / power - 1e-9).ceil() * power, 1)
 }
 
+/// A relative difference in percent: to two digits, or where it is tiny rounded up to one.
+pub(crate) fn apart(relative: f64) -> String {
+    if relative >= 1e-4 { share(relative) } else { bound(relative) }
+}
+
 /// A share in percent to two digits.
 pub(crate) fn share(relative: f64) -> String {
     shown_percent(100.0 * relative, 2)

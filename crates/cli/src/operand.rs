@@ -45,6 +45,9 @@ impl Operand {
             terminal.diagnose(&checked.warnings);
             let network = checked.value;
             let [a, b] = [node(&network, from)?, node(&network, to)?];
+            if a == b {
+                return Err(CliError::OneNode { name: from.trim().to_owned() });
+            }
             Subject::Response(network.driving_point(a, b)?)
         } else {
             let checked =
@@ -57,11 +60,16 @@ impl Operand {
     }
 
     /// The linear model, where it is one.
-    pub(crate) fn linear(&self) -> Option<LinearModel> {
-        match &self.subject {
-            Subject::Model(named) => Some(linear_model(&named.model)),
-            Subject::Response(Response::Massless(own)) => Some(own.model.clone()),
-            Subject::Response(Response::Massive(_)) => None,
+    pub(crate) fn linear(&self) -> Result<Option<LinearModel>, CliError> {
+        let linear = match &self.subject {
+            Subject::Model(named) => linear_model(&named.model),
+            Subject::Response(Response::Massless(own)) => own.model.clone(),
+            Subject::Response(Response::Massive(_)) => return Ok(None),
+        };
+        if linear.is_in_range() {
+            Ok(Some(linear))
+        } else {
+            Err(CliError::OutOfRange { word: self.word.clone() })
         }
     }
 
@@ -93,7 +101,7 @@ pub(crate) fn canonical_model(operand: &Operand) -> Result<Model, CliError> {
         return Ok(model.clone());
     }
     let masses = || CliError::MovingMasses { word: operand.word.clone() };
-    let linear = operand.linear().ok_or_else(masses)?;
+    let linear = operand.linear()?.ok_or_else(masses)?;
     let forms = [Canonical::Maxwell, Canonical::Kelvin];
     let tree = forms.into_iter().find_map(|form| linear.tree(form));
     tree.map(|tree| model_of(&tree)).ok_or_else(masses)
@@ -101,7 +109,7 @@ pub(crate) fn canonical_model(operand: &Operand) -> Result<Model, CliError> {
 
 /// Says what there is to say about models.
 pub(crate) fn tell(notes: &[ModelNote]) {
-    for ModelNote { subject, text } in notes {
+    for ModelNote { subject, text, .. } in notes {
         note(&format!("note: {subject}: {text}"));
     }
 }
@@ -109,7 +117,7 @@ pub(crate) fn tell(notes: &[ModelNote]) {
 /// File and name; a word that is a file, or a built-in scene, has no name.
 pub(crate) fn parted(word: &str) -> (&str, &str) {
     let is_whole = word == "-"
-        || Path::new(word).exists()
+        || Path::new(word).is_file()
         || references().iter().any(|shipped| shipped.name == word);
     if is_whole { (word, "") } else { word.rsplit_once(':').unwrap_or((word, "")) }
 }

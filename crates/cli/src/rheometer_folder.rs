@@ -7,6 +7,7 @@ use dashpot_plot::{
     Measured, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
     figures::model::{LossFactor, MODEL_FIGURES, ModelFigure, Sweep},
 };
+use dashpot_rheology::MaxwellForm;
 
 use crate::{
     answer::rheometer::Units,
@@ -111,7 +112,7 @@ fn curves(word: &str, specimen: &Specimen, reports: &[RheometerReport]) -> Vec<M
         places.iter().map(|&at| (at, value(at))).filter(|own| own.1.is_finite()).collect::<Vec<_>>()
     };
     let omegas: Vec<f64> = times.iter().rev().map(|time| time.recip()).collect();
-    let spectrum = linear.maxwell().map(|form| form.elements()).unwrap_or_default();
+    let spectrum = linear.maxwell().map(MaxwellForm::elements).unwrap_or_default();
     let model = ModelSeries {
         name: word.to_owned(),
         relaxation: over(&|t| linear.relaxation(t), &times),

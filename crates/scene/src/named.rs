@@ -24,6 +24,8 @@ pub struct NamedModel {
     /// The model. That of a material has the values of a pad of 1 m² that is 1 m thick: its
     /// stiffnesses in N/m are the moduli in Pa.
     pub model: Model,
+    /// Where it stands: `models`, `materials` or `elements`.
+    pub section: &'static str,
     /// Whether it is a material.
     pub is_material: bool,
     /// What is to be said about it.
@@ -40,7 +42,8 @@ enum Found<'d> {
 }
 
 /// Reads the model that `name` means in a text: one of `[models]`, else of `[materials]`, else that
-/// of one of `[elements]`.
+/// of one of `[elements]`. `models.felt`, `materials.felt` and `elements.felt` tell models of one
+/// name apart.
 ///
 /// Without a name it is the only model or material, else the model of the only element. What the
 /// text says besides is not looked at: it may be a scene, or a file of models alone.
@@ -72,7 +75,7 @@ pub fn read_named_model(
     checked(|faults| {
         let (library, source) = load(text, options, faults)?;
         let models = ModelReader::new(&library, faults);
-        let found = match find(&library, name) {
+        let (found, is_shared) = match find(&library, name) {
             Ok(found) => found,
             Err(fault) => {
                 if !faults.damaged() {
@@ -91,12 +94,24 @@ pub fn read_named_model(
         };
         let is_material =
             matches!(found, Found::OnShelf(reference) if reference.shelf == Shelf::Materials);
-        let (name, notes, span) = (entry.key.clone(), models.notes(), lines_of(&source, entry));
-        Some(NamedModel { name, model, is_material, notes, span })
+        let (name, mut notes, span) = (entry.key.clone(), models.notes(), lines_of(&source, entry));
+        if is_shared {
+            let subject = match found {
+                Found::OnShelf(reference) => format!("{} `{name}`", reference.shelf.word()),
+                Found::Element(_) => format!("element `{name}`"),
+            };
+            notes.push(ModelNote { subject, text: shared(&name), until: None });
+        }
+        let section = match found {
+            Found::OnShelf(reference) => reference.shelf.section(),
+            Found::Element(_) => "elements",
+        };
+        Some(NamedModel { name, section, model, is_material, notes, span })
     })
 }
 
-fn find<'d>(library: &'d Library, name: &str) -> Result<Found<'d>, Fault> {
+/// Where a name leads, and whether it leads elsewhere, too.
+fn find<'d>(library: &'d Library, name: &str) -> Result<(Found<'d>, bool), Fault> {
     let elements = library.section("elements").and_then(|entry| entry.item.table()).unwrap_or(&[]);
     let shelves = || SHELVES.into_iter().flat_map(|shelf| library.models(0, shelf));
     if name.is_empty() {
@@ -107,16 +122,33 @@ fn find<'d>(library: &'d Library, name: &str) -> Result<Found<'d>, Fault> {
         };
         let mut found = found.into_iter();
         return match (found.next(), found.next()) {
-            (Some(only), None) => Ok(only),
+            (Some(only), None) => Ok((only, false)),
             _ => Err(Fault::WhichModel { known: known(library, elements) }),
         };
     }
-    let on_shelf = SHELVES.into_iter().find_map(|shelf| library.own(0, shelf, name));
-    let element = || elements.iter().find(|entry| entry.key == name).map(Found::Element);
-    on_shelf.map(Found::OnShelf).or_else(element).ok_or_else(|| {
+    let (section, word) =
+        name.split_once('.').map_or((None, name), |(own, word)| (Some(own), word));
+    let is_asked = |own: &str| section.is_none_or(|section| section == own);
+    let on_shelf = |shelf: Shelf| {
+        let found = library.own(0, shelf, word).filter(|_| is_asked(shelf.section()));
+        found.map(Found::OnShelf)
+    };
+    let element = elements.iter().find(|entry| entry.key == word && is_asked("elements"));
+    let all = SHELVES.into_iter().filter_map(on_shelf).chain(element.map(Found::Element));
+    let mut all = all.collect::<Vec<_>>().into_iter();
+    let first = all.next().ok_or_else(|| {
         let (family, known) = ("model, material or element", known(library, elements));
         Fault::UnknownName { family, name: name.to_owned(), known }
-    })
+    })?;
+    Ok((first, all.next().is_some()))
+}
+
+/// What is said of a name that is that of several things.
+fn shared(name: &str) -> String {
+    format!(
+        "the name is also that of another; `models.{name}`, `materials.{name}` and \
+         `elements.{name}` tell them apart"
+    )
 }
 
 /// All names that lead to a model.

@@ -10,6 +10,7 @@ use crate::{
     fault::Fault,
     kinds::registers,
     network_faults::value_of,
+    notes::ModelNote,
     sections::Reading,
     units::format_short,
 };
@@ -83,6 +84,20 @@ fn moving_away(reading: &Reading<'_>, entry: &Entry, node: &Node) {
             format!("`{}` moves away from the support: positive is towards it", node.name);
         let place = value_of(entry, "velocity").map_or(entry.key_place, |item| item.place);
         reading.faults.warning(place, Fault::Odd { message, help: None });
+    }
+}
+
+/// Warns of models that stand for their description only up to a time within the run.
+pub(crate) fn outlasted(reading: &Reading<'_>, notes: &[ModelNote], duration: f64) {
+    let run = reading.section("run").iter().find(|own| own.key == "duration");
+    let place = run.map(|own| own.item.place);
+    for ModelNote { subject, until, .. } in notes {
+        let Some(until) = until.filter(|until| *until < duration) else { continue };
+        let [until, end] = [until, duration].map(|time| format_short(time, Dimension::TIME, 4));
+        let message =
+            format!("{subject} stands for its spectrum up to {until}; the run lasts {end}");
+        let help = "give the spectrum a later `to`";
+        reading.faults.warning(place, Fault::odd(message, help));
     }
 }
 

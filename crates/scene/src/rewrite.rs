@@ -5,7 +5,6 @@ use toml_edit::{Decor, DocumentMut, Item, Key, RawString, Table, TableLike};
 
 use crate::{
     NamedModel,
-    library::SHELVES,
     write::{write_material_table, write_model_table},
 };
 
@@ -37,13 +36,8 @@ const KEPT: [&str; 2] = ["between", "thickness"];
 pub fn with_model(text: &str, named: &NamedModel, model: &Model, comment: &str) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let (law, value) = law(named, model)?;
-    let sections = SHELVES.map(|shelf| (shelf.section(), &[][..]));
-    let mut sections = sections.into_iter().chain([("elements", &KEPT[..])]);
-    let (section, kept) = sections.find(|(section, _)| {
-        let table = document.get(section).and_then(Item::as_table_like);
-        table.is_some_and(|own| own.contains_key(&named.name))
-    })?;
-    let owner = document.get_mut(section)?.as_table_like_mut()?;
+    let kept = if named.section == "elements" { &KEPT[..] } else { &[] };
+    let owner = document.get_mut(named.section)?.as_table_like_mut()?;
     let (mut key, item) = owner.get_key_value_mut(&named.name)?;
     let is_section = item.is_table();
     let table = item.as_table_like_mut()?;

@@ -15,7 +15,7 @@ use crate::{
     models::ModelReader,
     network_faults::{note_errors, note_warnings},
     notes::ModelNote,
-    review::review,
+    review::{outlasted, review},
     sections::{
         Reading, check_stops, read_accuracy, read_effects, read_elements, read_loads,
         read_measures, read_nodes, read_run,
@@ -276,6 +276,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     };
     note_warnings(&reading, &assembly.warnings);
     review(&reading, &network, run.duration);
+    outlasted(&reading, &notes, run.duration);
     run.stops = check_stops(&reading, &stops, &assembly);
     let mut values: Vec<NamedValue> = library
         .values()

@@ -8,7 +8,7 @@ use dashpot_rheology::{
 };
 use serde::Serialize;
 
-use crate::numbers::{bound, quantity};
+use crate::numbers::{apart, bound, quantity};
 
 /// Digits of constants.
 const DIGITS: usize = 6;
@@ -43,7 +43,8 @@ pub(crate) struct Comparison {
 /// A canonical form of both.
 #[derive(Serialize)]
 pub(crate) struct Form {
-    pub(crate) form: &'static str,
+    #[serde(rename = "form")]
+    pub(crate) word: &'static str,
     pub(crate) largest_difference: f64,
     pub(crate) constants: Vec<Constant>,
 }
@@ -138,7 +139,7 @@ impl Comparison {
         let forms = [(Canonical::Maxwell, &found.maxwell), (Canonical::Kelvin, &found.kelvin)];
         let forms = forms.into_iter().filter_map(|(form, own)| {
             own.as_ref().map(|own| Form {
-                form: word(form),
+                word: word(form),
                 largest_difference: own.largest,
                 constants: constants(form, own, units),
             })
@@ -253,7 +254,7 @@ fn times([first, second]: [f64; 2]) -> String {
 impl Form {
     /// As a table.
     pub(crate) fn table(&self) -> Table {
-        let caption = if self.form == "kelvin" {
+        let caption = if self.word == "kelvin" {
             "Kelvin form: in a row"
         } else {
             "Maxwell form: side by side"
@@ -264,7 +265,7 @@ impl Form {
                 value.map_or_else(|| "none".to_owned(), |it| quantity(it, own.unit, DIGITS))
             };
             let [first, second] = own.value.map(value);
-            vec![own.part.clone(), time, first, second, bound(own.difference)]
+            vec![own.part.clone(), time, first, second, apart(own.difference)]
         });
         Table {
             caption: caption.to_owned(),
@@ -284,7 +285,7 @@ impl Impact {
             let error = own.error.iter().flatten().copied().fold(0.0, f64::max);
             let size = own.value.iter().flatten().fold(0.0_f64, |size, own| size.max(own.abs()));
             let error = if size > 0.0 { bound(error / size) } else { String::new() };
-            let difference = own.difference.map_or_else(|| "–".to_owned(), bound);
+            let difference = own.difference.map_or_else(|| "–".to_owned(), apart);
             vec![own.measure.clone(), value(0), value(1), difference, error]
         });
         Table {

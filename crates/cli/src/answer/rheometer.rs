@@ -4,14 +4,17 @@ use dashpot_analysis::rheometer::{
     Computation, Computed, Figure, RheometerReport, Series, Setting, Specimen,
 };
 use dashpot_plot::Table;
+use dashpot_rheology::{KelvinForm, MaxwellForm};
 use serde::Serialize;
 
-use crate::numbers::{bound, constant, quantity, rounded};
+use crate::numbers::{Unit, bound, constant, quantity, rounded};
 
 /// Digits of what is measured.
 const DIGITS: usize = 6;
 /// Smaller values, relative to others of their unit, are what rounding leaves of zero.
 const NOISE: f64 = 1e-13;
+/// Unit of a strain rate.
+const STRAIN_RATE: &str = "1/s";
 /// Digits of settings that follow from the model.
 const CHOSEN_DIGITS: usize = 4;
 /// More lines of a spectrum are only counted.
@@ -34,7 +37,7 @@ impl Units {
             "N" | "N/m" => "Pa",
             "N s/m" => "Pa s",
             "m" => "1",
-            "m/s" => "1/s",
+            "m/s" => STRAIN_RATE,
             "m/N" => "1/Pa",
             other => other,
         }
@@ -71,24 +74,25 @@ struct Line {
 
 #[derive(Serialize)]
 struct Test<'r> {
-    test: &'static str,
-    settings: Vec<Value>,
-    abscissa: Values<'r>,
-    drive: Option<Values<'r>>,
+    #[serde(rename = "test")]
+    protocol: &'static str,
+    settings: Vec<Parameter>,
+    abscissa: Column<'r>,
+    drive: Option<Column<'r>>,
     series: Vec<Answers<'r>>,
     figures: Vec<Characteristic>,
     notes: &'r [String],
 }
 
 #[derive(Serialize)]
-struct Value {
+struct Parameter {
     name: &'static str,
     unit: &'static str,
     value: f64,
 }
 
 #[derive(Serialize)]
-struct Values<'r> {
+struct Column<'r> {
     name: String,
     unit: &'static str,
     values: &'r [f64],
@@ -142,7 +146,7 @@ impl<'r> Document<'r> {
 
 impl<'r> Test<'r> {
     fn of(report: &'r RheometerReport, units: Units) -> Self {
-        let column = |own: &'r dashpot_analysis::Column| Values {
+        let column = |own: &'r dashpot_analysis::Column| Column {
             name: units.word(&own.name),
             unit: units.of(own.unit),
             values: &own.values,
@@ -161,11 +165,11 @@ impl<'r> Test<'r> {
             computed: own.computed.iter().zip(&report.computations).map(other).collect(),
         };
         Self {
-            test: report.protocol,
+            protocol: report.protocol,
             settings: report
                 .settings
                 .iter()
-                .map(|own| Value { name: own.name, unit: units.of(own.unit), value: own.value })
+                .map(|own| Parameter { name: own.name, unit: units.of(own.unit), value: own.value })
                 .collect(),
             abscissa: column(&report.abscissa),
             drive: report.drive.as_ref().map(column),
@@ -189,8 +193,8 @@ impl<'r> Test<'r> {
 /// The elements of the Maxwell and of the Kelvin form.
 fn spectra(specimen: &Specimen) -> [Vec<Line>; 2] {
     let linear = specimen.linear();
-    let relaxation = linear.maxwell().map(|form| form.elements()).unwrap_or_default();
-    let retardation = linear.kelvin().map(|form| form.elements()).unwrap_or_default();
+    let relaxation = linear.maxwell().map(MaxwellForm::elements).unwrap_or_default();
+    let retardation = linear.kelvin().map(KelvinForm::elements).unwrap_or_default();
     [
         relaxation
             .iter()
@@ -222,7 +226,7 @@ pub(crate) fn spectrum_table(specimen: &Specimen, units: Units) -> Table {
         }
     };
     let rows = (0..count.min(MOST_LINES))
-        .map(|at| [cells(relaxation.get(at)), cells(retardation.get(at))].concat().to_vec());
+        .map(|at| [cells(relaxation.get(at)), cells(retardation.get(at))].concat());
     let more = if count > MOST_LINES {
         format!(", the first {MOST_LINES} of {count}")
     } else {
@@ -263,7 +267,7 @@ pub(crate) fn figure_table(figures: &[Figure], units: Units) -> Table {
         let shown = |value: f64| {
             // What rounding leaves of a zero is none of the figure's.
             let value = if value.abs() <= NOISE * scale(own.unit) { 0.0 } else { value };
-            quantity(value, units.of(own.unit), DIGITS)
+            in_unit(value, units.of(own.unit), DIGITS)
         };
         value.map_or_else(String::new, shown)
     };
@@ -286,11 +290,22 @@ pub(crate) fn missing(figures: &[Figure], units: Units) -> Vec<String> {
     figures.iter().filter_map(told).collect()
 }
 
+/// A value in its unit; a strain rate is no frequency.
+fn in_unit(value: f64, unit: &'static str, digits: usize) -> String {
+    if unit == STRAIN_RATE {
+        Unit::plain(unit).text(value, digits)
+    } else {
+        quantity(value, unit, digits)
+    }
+}
+
 /// The parameters of a test in words.
 pub(crate) fn settings(settings: &[Setting], units: Units) -> String {
     let one = |own: &Setting| {
         let unit = units.of(own.unit);
-        let value = if own.is_chosen {
+        let value = if unit == STRAIN_RATE {
+            in_unit(own.value, unit, CHOSEN_DIGITS)
+        } else if own.is_chosen {
             rounded(own.value, unit, CHOSEN_DIGITS)
         } else {
             constant(own.value, unit)

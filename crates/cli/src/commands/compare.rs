@@ -17,7 +17,7 @@ use crate::{
     entanglement::{combinations, groups, sentence},
     error::{CliError, Status},
     input::read_scene,
-    numbers::{bound, quantity, share},
+    numbers::{apart, bound, quantity, share},
     operand::{Operand, Subject, canonical_model, parted},
     terminal::{Terminal, Tone, WIDTH, print},
     text::{columns, table, width, wrapped},
@@ -42,7 +42,7 @@ pub(crate) fn compare(
         return Err(CliError::MaterialAndPad);
     }
     let mut found = compared(&operands)?;
-    found.models = operands.iter().map(about).collect();
+    found.models = operands.iter().map(about).collect::<Result<_, _>>()?;
     if let (true, [Some(first), Some(second)]) =
         (found.same, [&operands[0], &operands[1]].map(Operand::model))
     {
@@ -63,8 +63,8 @@ pub(crate) fn compare(
 fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
     let words = [&operands[0], &operands[1]].map(|own| own.word.clone());
     let is_material = operands[0].is_material();
-    if let [Some(first), Some(second)] = [&operands[0], &operands[1]].map(Operand::linear) {
-        let found = equivalence::compare(&first, &second);
+    if let [Some(first), Some(second)] = [&operands[0].linear()?, &operands[1].linear()?] {
+        let found = equivalence::compare(first, second);
         let error = operands.iter().map(Operand::error).fold(0.0, f64::max);
         if !found.is_same && error > equivalence::SAME_WITHIN {
             return Err(CliError::Undecided { error });
@@ -106,8 +106,8 @@ fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
 }
 
 /// What is known of one operand by itself.
-fn about(operand: &Operand) -> About {
-    let linear = operand.linear();
+fn about(operand: &Operand) -> Result<About, CliError> {
+    let linear = operand.linear()?;
     let hidden = |own: &Hidden| Cancelled { pole: own.rate, count: own.count };
     let mut cancelled: Vec<Cancelled> = match &operand.subject {
         Subject::Model(_) => Vec::new(),
@@ -127,7 +127,7 @@ fn about(operand: &Operand) -> About {
         }
         _ => None,
     };
-    About {
+    Ok(About {
         poles,
         elements: tree.map(|tree| tree.parts().len()),
         least_elements: linear.as_ref().map(dashpot_rheology::LinearModel::least_elements),
@@ -135,7 +135,7 @@ fn about(operand: &Operand) -> About {
         kelvin_form: linear.as_ref().is_some_and(|own| own.kelvin().is_some()),
         cancelled,
         entangled: tree.map(together).unwrap_or_default(),
-    }
+    })
 }
 
 fn together(model: &Model) -> Vec<Together> {
@@ -213,6 +213,9 @@ fn text(found: &Comparison, terminal: Terminal) -> String {
     let impact = found.impact.as_ref().map(Impact::table);
     let forms = found.forms.iter().map(super::super::answer::comparison::Form::table);
     for own in forms.chain(small.filter(|own| width(own) <= WIDTH)).chain(impact) {
+        if own.rows.is_empty() {
+            continue;
+        }
         let (header, rows) = table(&own);
         let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, &own.caption));
         for line in [header].iter().chain(&rows).filter(|line| columns(line) > 0) {
@@ -232,7 +235,7 @@ fn sentences(found: &Comparison) -> Vec<String> {
         } else {
             "A pole or strength differs by"
         };
-        all.push(format!("{text} {} (the limit is {limit}).", bound(largest)));
+        all.push(format!("{text} {} (the limit is {limit}).", apart(largest)));
     }
     if found.forms.is_empty() && found.worst.is_none() && !found.same {
         all.push("One of them has masses that move, the other has none.".to_owned());

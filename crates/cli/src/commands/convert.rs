@@ -26,7 +26,7 @@ pub(crate) fn convert(
 ) -> Result<Status, CliError> {
     let operand = Operand::read(&arguments.model, &arguments.values.set, terminal)?;
     let word = || operand.word.clone();
-    let linear = operand.linear().ok_or_else(|| CliError::MovingMasses { word: word() })?;
+    let linear = operand.linear()?.ok_or_else(|| CliError::MovingMasses { word: word() })?;
     let target = Target::named(&arguments.to)
         .ok_or_else(|| CliError::UnknownKind { word: arguments.to.clone() })?;
     let tree = converted(&linear, &target).map_err(|reason| CliError::Unfit {
@@ -36,15 +36,22 @@ pub(crate) fn convert(
     })?;
     let model = model_of(&tree);
     let error = round_trip(&compare(&linear, &linear_model(&model)));
-    let comment = format!("converted to {} from {}; {}", target.word, operand.word, said(error));
-    let (text, name) = match &operand.subject {
+    let set = &arguments.values.set;
+    let with: Vec<String> = set.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    let with = if with.is_empty() { String::new() } else { format!(" with {}", with.join(", ")) };
+    let comment =
+        format!("converted to {} from {}{with}; {}", target.word, operand.word, said(error));
+    let (text, section, name) = match &operand.subject {
         Subject::Model(named) => {
             let text = with_model(operand.input.text()?, named, &model, &comment);
-            (text.ok_or_else(|| CliError::NotReplaced { word: word() })?, named.name.as_str())
+            let text = text.ok_or_else(|| CliError::NotReplaced { word: word() })?;
+            (text, named.section, named.name.as_str())
         }
-        Subject::Response(_) => (write_model_table(RESPONSE, &model, &[comment]), RESPONSE),
+        Subject::Response(_) => {
+            (write_model_table(RESPONSE, &model, &[comment]), "models", RESPONSE)
+        }
     };
-    confirm(&operand, &text, name, &model, &arguments.values.set)?;
+    confirm(&operand, &text, &format!("{section}.{name}"), &model, set)?;
     match &arguments.out {
         Some(path) => {
             write_new(path, &text, arguments.force)?;
@@ -54,6 +61,9 @@ pub(crate) fn convert(
         None => print(&text)?,
     }
     note(&format!("note: {}", said(error)));
+    if !with.is_empty() {
+        note(&format!("note: the model is converted{with}; the table [values] is as it was"));
+    }
     Ok(Status::Done)
 }
 

@@ -46,8 +46,8 @@ pub(crate) fn rheometer(
             given.iter().filter(|own| has_parameter(&test, own.0)).copied().collect();
         match protocol(&test, &own)?.run(&specimen, &methods) {
             Ok(report) => reports.push(report),
-            // One test alone was asked for; of all of them, the others go on.
-            Err(error) if arguments.test.is_empty() => note(&format!("note: {error}")),
+            // One test alone was asked for; of several, the others go on.
+            Err(error) if arguments.test.len() != 1 => note(&format!("note: {error}")),
             Err(error) => return Err(error.into()),
         }
     }
@@ -125,6 +125,10 @@ fn given<'a>(
                     unit(found),
                     unit(expected)
                 )))
+            }
+            _ if quantity.angle != 0 => {
+                let frequency = quantity.value / std::f64::consts::TAU;
+                Err(wrong(format!("`{text}` is an angular frequency; write \"{frequency:.6} Hz\"")))
             }
             _ => Ok((name.as_str(), quantity.value)),
         }

@@ -78,7 +78,7 @@ impl Kept {
         let terms: Vec<Term> =
             reduced.branches.iter().map(|own| (own.time, own.compliance)).collect();
         let model = kelvin_chain("compliance", &terms)?;
-        Ok(Composed { model, note: Some(self.note(&reduced)) })
+        Ok(Composed { model, note: Some(self.note(&reduced)), until: Some(self.to) })
     }
 
     fn note(&self, reduced: &Reduced) -> String {

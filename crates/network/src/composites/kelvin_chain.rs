@@ -41,7 +41,7 @@ impl CompositeKind for KelvinChain {
     fn compose(&self) -> Result<Composed, InvalidParameter> {
         let terms = sorted("kelvin-chain", &self.terms)?;
         let model = kelvin_chain("kelvin-chain", &terms)?;
-        Ok(Composed { model, note: order_note(&self.terms, &terms, "kelvin-1") })
+        Ok(Composed { model, note: order_note(&self.terms, &terms, "kelvin-1"), until: None })
     }
 
     fn values(&self) -> Vec<Value> {

@@ -29,6 +29,8 @@ pub struct Composed {
     /// What the reader of the description is told besides: an error that was reached, a range, an
     /// order that was changed; `None` where the model is just what was described.
     pub note: Option<String>,
+    /// Time up to which the model stands for its description \[s\]; `None` for any time.
+    pub until: Option<f64>,
 }
 
 /// A kind of model that a few parameters describe as a whole.

@@ -81,7 +81,7 @@ impl CompositeKind for Prony {
             branches.push(Branch::new(format!("maxwell-{}", at + 1), maxwell));
         }
         let note = order_note(&self.terms, &terms, "maxwell-1");
-        Ok(Composed { model: Tree::Parallel(branches), note })
+        Ok(Composed { model: Tree::Parallel(branches), note, until: None })
     }
 
     fn values(&self) -> Vec<Value> {

@@ -102,7 +102,8 @@ impl LinearModel {
     /// elements in rising order of their times, each value rounded once. Branches are named
     /// `spring`, `dashpot`, `maxwell` or `kelvin`, numbered from 1 where there are several.
     ///
-    /// `None` where the form does not exist: a rigid link has no Maxwell form, and what bears no
+    /// A rigid link in the Kelvin form is a rigid link, and what bears no force is a spring of
+    /// stiffness 0 in the Maxwell form. `None` where the form does not exist: a rigid link has no Maxwell form, and what bears no
     /// force has no Kelvin form.
     pub fn tree(&self, form: Canonical) -> Option<Tree<Primitive>> {
         let numbered = |word: &str, at: usize, count: usize| {
@@ -139,6 +140,8 @@ impl LinearModel {
             Branch::new(numbered(word, at, count), tree)
         }));
         Some(match branches.len() {
+            0 if in_series => Primitive::Rigid.into(),
+            0 => Primitive::Spring(0.0).into(),
             1 => branches.remove(0).tree,
             _ if in_series => Tree::Series(branches),
             _ => Tree::Parallel(branches),

@@ -92,6 +92,26 @@ impl LinearModel {
         self.kelvin.as_ref()
     }
 
+    /// Whether all its constants, and all that follow from them, are within the range of doubles.
+    /// Where they are not, because constants are more than some 10^150 apart, nothing else here has
+    /// a meaning.
+    pub fn is_in_range(&self) -> bool {
+        let forms =
+            [self.maxwell.as_ref().map(|own| &own.0), self.kelvin.as_ref().map(|own| &own.0)];
+        forms.into_iter().flatten().all(|form| {
+            let is_normal = |own: Twofold| own.high().is_normal() && own.high() > 0.0;
+            let is_single =
+                |own: Twofold| own.high() == 0.0 || (is_normal(own) && is_normal(own.recip()));
+            [form.constant, form.at_zero].into_iter().all(is_single)
+                && form.lines.iter().all(|line| {
+                    let elements = [line.strength / line.rate, line.strength.recip()];
+                    is_normal(line.rate)
+                        && is_normal(line.strength)
+                        && elements.into_iter().all(is_normal)
+                })
+        })
+    }
+
     /// Modes that became one when the model was composed.
     pub fn merged(&self) -> &[Merged] {
         &self.merged

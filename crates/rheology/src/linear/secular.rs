@@ -138,7 +138,7 @@ impl View {
     /// without the pole itself. Unlike the function, `φ` is smooth down to `η = 0`.
     fn zero(&self) -> f64 {
         let (mut low, mut high) = (0.0, self.limit);
-        let mut at = self.first().clamp(f64::MIN_POSITIVE, high);
+        let mut at = self.first().max(f64::MIN_POSITIVE).min(high);
         for _ in 0..MOST_STEPS {
             let (rest, slope) = self.rest(at);
             let value = at * self.side * rest - self.strength;

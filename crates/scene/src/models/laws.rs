@@ -31,8 +31,8 @@ pub(super) struct LawReader<'d> {
 pub(super) struct Made {
     /// The model, where it could be read.
     pub(super) model: Option<Model>,
-    /// What is to be said about it.
-    pub(super) notes: Vec<String>,
+    /// What is to be said about it, and the time up to which that holds.
+    pub(super) note: Option<(String, Option<f64>)>,
 }
 
 impl<'d> LawReader<'d> {
@@ -54,10 +54,12 @@ impl<'d> LawReader<'d> {
         } else if let Some(form) = registers.form(word) {
             made.model = FormReader { quantities }.read(form.parts, form.in_series, law);
         } else if let Some(composite) = registers.composite(word)
-            && let Some(Composed { model, note }) = self.composite(quantities, composite, law)
+            && let Some(Composed { model, note, until }) =
+                self.composite(quantities, composite, law)
         {
             made.model = Some(model);
-            made.notes = note.map(|note| said_of(&note, context)).into_iter().collect();
+            let until = until.map(|time| time * context.times);
+            made.note = note.map(|note| (said_of(&note, context), until));
         }
         if is_shift(context) {
             made.model = made.model.and_then(|model| self.shifted(&model, law, context));

@@ -20,7 +20,8 @@ impl<'d> ModelReader<'d> {
         let besides = Besides { library: self.library, faults: self.faults };
         let (context, shift) = besides.read(spot, entries, law);
         if let Some(Shift { word, factor }) = shift {
-            self.note(open, given, format!("`{word}` multiplies its times by {factor:.3e}"));
+            let text = format!("`{word}` multiplies its times by {factor:.3e}");
+            self.note(open, given, (text, None));
         }
         match law.key.as_str() {
             word @ ("series" | "parallel") => {
@@ -42,21 +43,21 @@ impl<'d> ModelReader<'d> {
             }
             word => {
                 let made = self.laws.read(spot.document, law, context);
-                made.notes.into_iter().for_each(|note| self.note(open, given, note));
+                made.note.into_iter().for_each(|note| self.note(open, given, note));
                 Some(Step::Done(Done { word, given, model: made.model }))
             }
         }
     }
 
     /// Notes something about the table that is being read.
-    fn note(&self, open: &Open, given: Given<'d>, text: String) {
+    fn note(&self, open: &Open, given: Given<'d>, (text, until): (String, Option<f64>)) {
         let Some(outer) = &open.outer else { return };
         let inner = open.order.last().map_or_else(|| outer.clone(), |own| self.called(*own));
         let subject = match given {
             Some((name, _)) => format!("{inner}, branch `{name}`"),
             None => inner,
         };
-        self.notes.add(subject, text);
+        self.notes.add(subject, text, until);
     }
 
     /// The one entry that says what the model is.

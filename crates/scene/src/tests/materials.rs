@@ -167,7 +167,9 @@ fn a_shift_multiplies_every_dashpot_below_it() {
     near("material = \"wax\", thickness = 1, area = 2", &[6.0, 10.0 * factor]);
     near(&format!("dashpot = 4, shift = {arrhenius}"), &[4.0 * factor]);
     let read = scene(&format!("{tables}{}", on_model("model = \"cold\"")));
-    let [ModelNote { subject, text }] = read.notes.as_slice() else { panic!("{:?}", read.notes) };
+    let [ModelNote { subject, text, .. }] = read.notes.as_slice() else {
+        panic!("{:?}", read.notes)
+    };
     assert_eq!(subject, "model `cold`");
     assert_eq!(text, &format!("`arrhenius` multiplies its times by {factor:.3e}"));
 }
