@@ -7,6 +7,8 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+use dashpot_twofold::Twofold;
+
 use super::row::Combination;
 
 /// Places and the links between them.
@@ -19,7 +21,7 @@ pub(super) struct Mesh<R> {
 /// A link as seen from one of its ends.
 #[derive(Debug, Clone)]
 pub(super) struct Link<R> {
-    pub(super) conductance: f64,
+    pub(super) conductance: Twofold,
     pub(super) offset: R,
 }
 
@@ -27,7 +29,7 @@ pub(super) struct Link<R> {
 #[derive(Debug, Clone)]
 struct Step<R> {
     place: usize,
-    star: Vec<(usize, f64, R)>,
+    star: Vec<(usize, Twofold, R)>,
     share: R,
 }
 
@@ -52,21 +54,22 @@ impl<R: Combination> Mesh<R> {
     }
 
     /// Adds a link that carries `conductance · (X_p − X_q + offset)` from `p` to `q`.
-    pub(super) fn link(&mut self, p: usize, q: usize, conductance: f64, offset: &R) {
+    pub(super) fn link(&mut self, p: usize, q: usize, conductance: impl Into<Twofold>, offset: &R) {
         if p == q {
             return;
         }
+        let conductance = conductance.into();
         self.half_link(p, q, conductance, offset, 1.0);
         self.half_link(q, p, conductance, offset, -1.0);
     }
 
-    fn half_link(&mut self, p: usize, q: usize, conductance: f64, offset: &R, sign: f64) {
+    fn half_link(&mut self, p: usize, q: usize, conductance: Twofold, offset: &R, sign: f64) {
         let link = self.neighbours[p]
             .entry(q)
-            .or_insert_with(|| Link { conductance: 0.0, offset: R::default() });
+            .or_insert_with(|| Link { conductance: Twofold::ZERO, offset: R::default() });
         let total = link.conductance + conductance;
         let (old, new) = (link.conductance / total, conductance / total);
-        link.offset = R::default().plus(old, &link.offset).plus(sign * new, offset);
+        link.offset = R::default().plus(old, &link.offset).plus(new * sign, offset);
         link.conductance = total;
     }
 
@@ -114,9 +117,9 @@ impl<R: Combination> Mesh<R> {
     }
 
     fn star_to_mesh(&mut self, place: usize, star: BTreeMap<usize, Link<R>>) -> Step<R> {
-        let total: f64 = star.values().map(|link| link.conductance).sum();
+        let total: Twofold = star.values().map(|link| link.conductance).sum();
         let load = std::mem::take(&mut self.loads[place]);
-        let star: Vec<(usize, f64, Link<R>)> =
+        let star: Vec<(usize, Twofold, Link<R>)> =
             star.into_iter().map(|(q, link)| (q, link.conductance / total, link)).collect();
         for &(q, weight, _) in &star {
             self.neighbours[q].remove(&place);
@@ -125,10 +128,10 @@ impl<R: Combination> Mesh<R> {
         for (at, (p, weight, link)) in star.iter().enumerate() {
             for (q, _, other) in &star[at + 1..] {
                 let offset = other.offset.plus(-1.0, &link.offset);
-                self.link(*p, *q, weight * other.conductance, &offset);
+                self.link(*p, *q, *weight * other.conductance, &offset);
             }
         }
-        let share = R::default().plus(1.0 / total, &load);
+        let share = R::default().plus(total.recip(), &load);
         Step {
             place,
             star: star.into_iter().map(|(q, w, link)| (q, w, link.offset)).collect(),
@@ -149,10 +152,10 @@ impl<R: Combination> Eliminated<R> {
         for step in self.steps.iter().rev() {
             let mut value = step.share.clone();
             for (q, weight, offset) in &step.star {
-                value = value.plus(*weight, &values[*q]).plus(-weight, offset);
+                value = value.plus(*weight, &values[*q]).plus(-*weight, offset);
             }
             for (q, weight, offset) in &step.star {
-                let mut difference = step.share.plus(-weight, offset);
+                let mut difference = step.share.plus(-*weight, offset);
                 for (p, other_weight, other_offset) in &step.star {
                     if p == q {
                         continue;
@@ -161,9 +164,9 @@ impl<R: Combination> Eliminated<R> {
                         Some(known) => difference.plus(*other_weight, known),
                         None => difference
                             .plus(*other_weight, &values[*p])
-                            .plus(-other_weight, &values[*q]),
+                            .plus(-*other_weight, &values[*q]),
                     }
-                    .plus(-other_weight, other_offset);
+                    .plus(-*other_weight, other_offset);
                 }
                 differences.insert((*q, step.place), R::default().plus(-1.0, &difference));
                 differences.insert((step.place, *q), difference);

@@ -2,13 +2,16 @@
 //!
 //! Models are expanded into primitives between joints ([`expand`]), rigid links merge joints into
 //! bodies ([`bodies`]), and the graph says which bodies have rates of their own and which follow
-//! from balances ([`structure`]). Balances are solved by star–mesh elimination ([`mesh`]), never
-//! by subtracting from a diagonal. The rows so found are in SI; `system` makes them dimensionless.
+//! from balances ([`structure`]). Bodies are counted from each other along springs and dashpots
+//! ([`tree`]). Balances are solved by star–mesh elimination ([`mesh`]), never by subtracting from a
+//! diagonal, and rows have twice the digits of a double ([`form`]) until they are complete. They are
+//! in SI; `system` rounds them and makes them dimensionless.
 
 mod balance;
 pub(crate) mod bodies;
 mod dashpots;
 pub(crate) mod expand;
+mod form;
 mod mesh;
 mod motion;
 mod outputs;
@@ -19,6 +22,7 @@ mod scales;
 mod springs;
 mod structure;
 mod system;
+mod tree;
 mod unknowns;
 pub(crate) mod validate;
 

@@ -140,7 +140,6 @@ fn unknown_rates(
             let anchors = cluster.map(|cluster| &structure.clusters[cluster].anchors);
             places.drafts[unknown].row = match (places.parent[at], anchors) {
                 (None, _) => of(at),
-                (Some(_), Some(anchors)) if anchors.is_empty() => dashpots.velocity(at).clone(),
                 (Some(parent), Some(_)) if structure.cluster_of[parent] == cluster => {
                     dashpots.difference(at, parent)
                 }

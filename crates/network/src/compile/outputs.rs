@@ -41,8 +41,8 @@ impl Outputs {
                 name,
                 unit,
                 scale: 1.0,
-                unknowns: row.unknowns.clone(),
-                inputs: row.inputs.clone(),
+                unknowns: row.unknowns.rounded(),
+                inputs: row.inputs.rounded(),
             },
             row,
         ));

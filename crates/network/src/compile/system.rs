@@ -87,10 +87,7 @@ pub(super) fn dimensionless(
 }
 
 fn scaled(row: &Row, columns: &[f64], input_columns: &[f64]) -> (LinearForm, LinearForm) {
-    let scale = |form: &LinearForm, by: &[f64]| {
-        LinearForm::sum(form.terms().iter().map(|&(at, value)| (at, value * by[at])).collect())
-    };
-    (scale(&row.unknowns, columns), scale(&row.inputs, input_columns))
+    (row.unknowns.scaled(columns), row.inputs.scaled(input_columns))
 }
 
 fn divided(form: &LinearForm, by: f64) -> LinearForm {

@@ -5,11 +5,12 @@ use std::collections::{BTreeMap, HashMap};
 use dashpot_dae::{Input, UnknownKind, Waveform};
 
 use super::{
-    bodies::{Bodies, Groups, Role, joint_name},
+    bodies::{Bodies, Role, joint_name},
     expand::Expansion,
     row::{Combination, Row},
     scales::Scales,
     structure::Structure,
+    tree,
 };
 use crate::Network;
 
@@ -83,16 +84,12 @@ pub(super) struct Places {
     pub(super) position: Vec<Row>,
 }
 
-/// Deformations instead of positions are unknowns up to this many bodies only, because they make
-/// dense rows.
-const MOST_RELATIVE: usize = 100;
-
 /// Chooses the unknowns that have a rate.
 ///
 /// Masses have position and velocity. So that forces do not come from small differences of large
-/// numbers, the deformations of a spanning tree of the stiffest springs stand for positions in
-/// small networks; massless bodies that dashpots tie to one anchor are else counted from that
-/// anchor, and those of an algebraic cluster from its first body.
+/// numbers, deformations along a [`tree`] of springs and dashpots stand for positions in small
+/// networks; massless bodies that dashpots tie to one anchor are else counted from that anchor, and
+/// those of an algebraic cluster from its first body.
 pub(super) fn choose(
     network: &Network,
     expansion: &Expansion,
@@ -105,7 +102,7 @@ pub(super) fn choose(
     let mut places = Places {
         unknown: vec![None; count],
         velocity: vec![None; count],
-        parent: spring_parents(bodies, structure),
+        parent: tree::parents(bodies, structure, scales.time),
         position: vec![Row::default(); count],
         drafts: Vec::new(),
     };
@@ -182,70 +179,4 @@ impl Places {
             }
         }
     }
-}
-
-/// A spanning tree of the stiffest springs; each body is counted from the one before it.
-///
-/// Masses are counted from masses and fixed bodies only, because the velocity of a massless body
-/// may be the small difference of large terms. Bodies whose place may jump are left out, and so is
-/// what dashpots let jump with them.
-fn spring_parents(bodies: &Bodies, structure: &Structure) -> Vec<Option<usize>> {
-    let count = bodies.all.len();
-    let mut parent = vec![None; count];
-    let joins = |body: usize| match structure.cluster_of[body] {
-        Some(cluster) => {
-            let anchors = &structure.clusters[cluster].anchors;
-            !anchors.is_empty()
-                && !anchors.iter().any(|&anchor| structure.first_jump[anchor].is_some())
-        }
-        None => structure.first_jump[body].is_none(),
-    };
-    let joined: Vec<bool> = (0..count).map(joins).collect();
-    if joined.iter().filter(|&&joins| joins).count() > MOST_RELATIVE {
-        return parent;
-    }
-    let is_massless = |body: usize| bodies.all[body].is_massless();
-    let mut springs: Vec<_> =
-        structure.springs.iter().filter(|edge| edge.ends.iter().all(|&end| joined[end])).collect();
-    springs.sort_by(|a, b| b.constant.total_cmp(&a.constant));
-    let (loose, firm): (Vec<_>, Vec<_>) = springs
-        .into_iter()
-        .map(|edge| edge.ends)
-        .partition(|ends| ends.iter().any(|&end| is_massless(end)));
-    let mut tree: Vec<Vec<usize>> = vec![Vec::new(); count];
-    let mut grow = |groups: &mut Groups, springs: Vec<[usize; 2]>| {
-        for [a, b] in springs {
-            if groups.join(a, b) {
-                tree[a].push(b);
-                tree[b].push(a);
-            }
-        }
-    };
-    let mut groups = Groups::new(count);
-    grow(&mut groups, firm);
-    if let Some(first) = (0..count).find(|&body| !is_massless(body)) {
-        (0..count).filter(|&body| !is_massless(body)).for_each(|body| {
-            groups.join(first, body);
-        });
-    }
-    grow(&mut groups, loose);
-    let is_given = |body: usize| matches!(bodies.all[body].role, Role::Fixed | Role::Prescribed(_));
-    let mut roots: Vec<usize> = (0..count).filter(|&body| joined[body]).collect();
-    roots.sort_by_key(|&body| (is_massless(body), !is_given(body), body));
-    let mut is_done = vec![false; count];
-    for root in roots {
-        let mut stack = vec![root];
-        while let Some(body) = stack.pop() {
-            if std::mem::replace(&mut is_done[body], true) {
-                continue;
-            }
-            for &next in &tree[body] {
-                if !is_done[next] && !is_given(next) && parent[next].is_none() {
-                    parent[next] = Some(body);
-                    stack.push(next);
-                }
-            }
-        }
-    }
-    parent
 }
