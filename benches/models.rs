@@ -9,7 +9,9 @@ use criterion::{BenchmarkId, Criterion};
 use dashpot::rheology::{
     Canonical, LinearModel,
     Primitive::{self, Dashpot, Spring},
-    Tree, equivalence::compare, sensitivity::sensitivity,
+    Tree,
+    equivalence::compare,
+    sensitivity::sensitivity,
 };
 
 /// Maxwell elements side by side, their times over 24 decades and their weights over 15.
@@ -42,8 +44,7 @@ fn main() {
     });
     group.bench_function("comparison of 30 modes, with the map of their parameters", |bench| {
         bench.iter(|| {
-            let is_same =
-                compare(&model(black_box(&maxwell)), &model(black_box(&kelvin))).is_same;
+            let is_same = compare(&model(black_box(&maxwell)), &model(black_box(&kelvin))).is_same;
             let [first, second] = [&maxwell, &kelvin].map(|own| sensitivity(own, |&part| part));
             let map = first.zip(second).and_then(|(first, second)| first.map_to(&second));
             (is_same, map.map(|own| own.condition()))

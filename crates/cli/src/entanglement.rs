@@ -10,7 +10,9 @@ use dashpot_scene::Scene;
 use crate::numbers::quantity;
 
 /// Models of more parts than this are not looked at: it would take longer than to solve them.
-const MOST_PARTS: usize = 2000;
+const MOST_PARTS: usize = 300;
+/// More parameters of one group are only counted.
+const MOST_LISTED: usize = 8;
 /// Digits of constants.
 const DIGITS: usize = 6;
 
@@ -34,12 +36,23 @@ pub(crate) fn combinations(group: &Entangled) -> Vec<String> {
 
 /// A group as a sentence.
 pub(crate) fn sentence(parameters: &[String], combinations: &[String]) -> String {
-    let parameters = parameters.join(", ");
+    let parameters = listed(parameters);
     if combinations.is_empty() {
         format!("{parameters} cannot be seen from outside")
     } else {
-        let combinations = combinations.join(", ");
+        let combinations = listed(combinations);
         format!("{parameters} cannot all be told apart from outside, only {combinations}")
+    }
+}
+
+/// The first of them, and how many there are besides.
+fn listed(all: &[String]) -> String {
+    match all {
+        [first @ .., _, _] if first.len() >= MOST_LISTED - 1 => {
+            let shown = &all[..MOST_LISTED];
+            format!("{} and {} more", shown.join(", "), all.len() - MOST_LISTED)
+        }
+        _ => all.join(", "),
     }
 }
 

@@ -30,10 +30,11 @@ pub struct ParameterMap {
 
 impl ParameterMap {
     /// Largest relative change of a parameter for relative changes of at most 1 in those that the
-    /// map comes from: the largest sum of absolute values in a row.
+    /// map comes from: the largest sum of absolute values in a row; infinite where it is not known.
     pub fn condition(&self) -> f64 {
-        let row = |own: &Vec<f64>| own.iter().map(|entry| entry.abs()).sum();
-        self.relative.iter().map(row).fold(0.0, f64::max)
+        let row = |own: &Vec<f64>| own.iter().map(|entry| entry.abs()).sum::<f64>();
+        let rows = self.relative.iter().map(row);
+        rows.fold(0.0, |most, own| if own.is_nan() { f64::INFINITY } else { most.max(own) })
     }
 }
 
@@ -49,8 +50,7 @@ pub struct Sensitivity {
 /// The derivatives of the Maxwell form of a tree; `leaf` says what its parts are. `None` for rigid
 /// links and for what bears no force.
 ///
-/// Work and memory grow with the square and, in alternating nests, with the cube of the number of
-/// parts.
+/// Work grows with the square of the number of parts and, in alternating nests, with its fourth power.
 pub fn sensitivity<P>(tree: &Tree<P>, leaf: impl Fn(&P) -> Primitive) -> Option<Sensitivity> {
     let parts = tree.parts().into_iter().map(|(path, part)| (path, leaf(part)));
     let parameters: Vec<Parameter> = parts

@@ -106,7 +106,7 @@ pub fn read_named_model(
             Found::OnShelf(reference) => reference.shelf.section(),
             Found::Element(_) => "elements",
         };
-        Some(NamedModel { name, section, model, is_material, notes, span })
+        Some(NamedModel { name, model, section, is_material, notes, span })
     })
 }
 

@@ -12,9 +12,9 @@ use crate::{
 const KEPT: [&str; 2] = ["between", "thickness"];
 
 /// `text` with `model` in the place of `named`, which was read from it. All else stays as it is,
-/// and comments within the old model stand, together with `comment`, before the new one. Of two
-/// comments that begin with the same two words, the new one is kept: the second of two rewritings
-/// replaces what the first one said.
+/// and comments within the old model stand, together with `comment`, before the new one. An older
+/// comment that begins with the same two words, and goes on with the same two after its semicolon,
+/// is what an earlier rewriting said, and is replaced.
 ///
 /// `None` where the text does not have this model.
 ///
@@ -41,11 +41,14 @@ pub fn with_model(text: &str, named: &NamedModel, model: &Model, comment: &str) 
     let (mut key, item) = owner.get_key_value_mut(&named.name)?;
     let is_section = item.is_table();
     let table = item.as_table_like_mut()?;
-    let start = format!("# {} ", comment.split(' ').take(2).collect::<Vec<_>>().join(" "));
+    let words = |text: &str| text.split(' ').take(2).collect::<Vec<_>>().join(" ");
+    let (start, after) = (words(comment), comment.split_once("; ").map_or("", |own| own.1));
+    let (start, after) = (format!("# {start} "), format!("; {} ", words(after)));
+    let is_old = |line: &str| line.starts_with(&start) && line.contains(&after);
     let mut lines = String::new();
     for line in replaced(table, kept).iter().map(String::as_str).chain([comment]) {
         let line = format!("# {line}\n");
-        if line.trim_start_matches("# ") == format!("{comment}\n") || !line.starts_with(&start) {
+        if line == format!("# {comment}\n") || !is_old(&line) {
             lines += &line;
         }
     }
@@ -59,7 +62,7 @@ pub fn with_model(text: &str, named: &NamedModel, model: &Model, comment: &str) 
         }
         let decor = key.leaf_decor_mut();
         let before = decor.prefix().and_then(|own| own.as_str()).unwrap_or_default();
-        let is_kept = |line: &&str| !line.trim_start().starts_with(&start);
+        let is_kept = |line: &&str| !is_old(line.trim_start());
         let before: String = before.split_inclusive('\n').filter(is_kept).collect();
         decor.set_prefix(before + &lines);
     }

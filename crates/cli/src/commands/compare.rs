@@ -26,7 +26,7 @@ use crate::{
 /// Maps of more parameters than this are in the JSON only.
 const MOST_SHOWN: usize = 8;
 /// Models of more parts than this have no map: it would take longer than all else.
-const MOST_MAPPED: usize = 400;
+const MOST_MAPPED: usize = 120;
 
 /// Says whether two models are the same.
 pub(crate) fn compare(
@@ -317,10 +317,17 @@ fn described(word: &str, about: &About) -> Vec<String> {
     }
     for own in &about.cancelled {
         let [real, imaginary] = own.pole;
-        let place = if imaginary == 0.0 {
+        if imaginary < 0.0 {
+            // Its conjugate stands for both.
+            continue;
+        }
+        let place = if real == 0.0 && imaginary == 0.0 {
+            "of free motion".to_owned()
+        } else if imaginary == 0.0 {
             format!("at a time of {}", quantity(real.abs().recip(), "s", 4))
         } else {
-            format!("at {real:.4e} ± {:.4e}i 1/s", imaginary.abs())
+            let real = if real.abs() < 1e-12 * imaginary { 0.0 } else { real };
+            format!("at {real:.4e} ± {imaginary:.4e}i 1/s")
         };
         all.push(match own.count {
             1 => format!("In the {word}, a zero cancels a pole {place}."),

@@ -2,19 +2,19 @@
 
 use nalgebra::Complex;
 
-use super::alignment::aligned;
+use super::alignment::{Aligned, aligned};
 use crate::{
     LinearModel,
     linear::{Fractions, Line},
 };
 
-/// Points per decade at which the disagreement is looked at before its maximum is refined. The
-/// responses of a mode change over about a decade.
-const PER_DECADE: f64 = 12.0;
-/// How far beyond the fastest and the slowest mode there are such points.
-const BEYOND: f64 = 1e3;
-/// How far beyond them there is one more, which stands for the limit.
-const LIMIT: f64 = 1e13;
+/// Points per factor e at which the disagreement is looked at before its maximum is refined: 12 in a
+/// decade. The responses of a mode change over about a decade.
+const PER_FACTOR: f64 = 5.2;
+/// How far beyond the fastest and the slowest mode there are such points, as a logarithm.
+const BEYOND: f64 = 7.0;
+/// How far beyond them there is one more, which stands for the limit, as a logarithm.
+const LIMIT: f64 = 30.0;
 /// What is no more than this above a limit, relatively, is the limit.
 const FLAT: f64 = 1e-6;
 /// Steps of the golden section: to 10⁻⁶ of the distance of two points.
@@ -39,13 +39,15 @@ impl Disagreement {
     /// Of two models that have both forms.
     pub(super) fn of(first: &LinearModel, second: &LinearModel) -> Option<Self> {
         let (a, b) = first.maxwell().zip(second.maxwell()).map(|(a, b)| (&a.0, &b.0))?;
+        let pairs: Vec<Aligned<'_>> = aligned(&a.lines, &b.lines).collect();
         let (omega, stiffness) = largest(&places([a, b], |rate| rate), |omega| {
-            let difference = difference(a, b, omega).norm();
+            let difference = difference(a, b, &pairs, omega).norm();
             difference / stiffness_at(a, omega).norm().max(stiffness_at(b, omega).norm())
         });
         let (a, b) = first.kelvin().zip(second.kelvin()).map(|(a, b)| (&a.0, &b.0))?;
+        let pairs: Vec<Aligned<'_>> = aligned(&a.lines, &b.lines).collect();
         let (time, creep) = largest(&places([a, b], f64::recip), |time| {
-            creep_difference(a, b, time).abs() / first.creep(time).max(second.creep(time))
+            creep_difference(a, b, &pairs, time).abs() / first.creep(time).max(second.creep(time))
         });
         Some(Self { omega, stiffness, time, creep })
     }
@@ -63,19 +65,20 @@ fn places(forms: [&Fractions; 2], place: fn(f64) -> f64) -> Vec<f64> {
         all.extend(lines().map(|line| line.strength.high() / constant));
     }
     all.retain(|rate| rate.is_normal());
-    all.iter_mut().for_each(|rate| *rate = place(*rate));
+    // Logarithms, because the places may be farther apart than numbers reach.
+    let mut all: Vec<f64> = all.into_iter().map(|rate| place(rate).ln()).collect();
     all.sort_by(f64::total_cmp);
-    let ends = all.first().zip(all.last()).map(|(low, high)| (low / BEYOND, high * BEYOND));
+    let ends = all.first().zip(all.last()).map(|(low, high)| (low - BEYOND, high + BEYOND));
     // Where only springs are, or only dashpots, nothing depends on the place.
     let Some((low, high)) = ends else { return vec![1.0] };
-    let decades = (high / low).log10();
-    let count = (decades * PER_DECADE).ceil();
+    let count = ((high - low) * PER_FACTOR).ceil();
     let mut at = 0.0;
     while at <= count {
-        all.push(low * (high / low).powf(at / count));
+        all.push(low + (high - low) * (at / count));
         at += 1.0;
     }
-    all.extend([low / LIMIT, high * LIMIT]);
+    all.extend([low - LIMIT, high + LIMIT]);
+    all.iter_mut().for_each(|place| *place = place.exp());
     all.retain(|place| place.is_normal());
     all.sort_by(f64::total_cmp);
     all
@@ -127,13 +130,18 @@ fn stiffness_at(form: &Fractions, omega: f64) -> Complex<f64> {
 }
 
 /// `Q₁(iω) − Q₂(iω)`, mode by mode, so that what agrees does not hide what differs.
-fn difference(first: &Fractions, second: &Fractions, omega: f64) -> Complex<f64> {
+fn difference(
+    first: &Fractions,
+    second: &Fractions,
+    pairs: &[Aligned<'_>],
+    omega: f64,
+) -> Complex<f64> {
     let alone = |own: &Line| share(own.rate.high(), omega) * own.strength.high();
     let singles = Complex::new(
         (first.at_zero - second.at_zero).high(),
         (first.constant - second.constant).high() * omega,
     );
-    aligned(&first.lines, &second.lines).fold(singles, |sum, pair| {
+    pairs.iter().fold(singles, |sum, pair| {
         sum + match pair {
             (Some(a), Some(b)) => {
                 let [u, v] = [a, b].map(|own| share(own.rate.high(), omega));
@@ -150,12 +158,12 @@ fn difference(first: &Fractions, second: &Fractions, omega: f64) -> Complex<f64>
 }
 
 /// `J₁(t) − J₂(t)` of two Kelvin forms, mode by mode.
-fn creep_difference(first: &Fractions, second: &Fractions, t: f64) -> f64 {
+fn creep_difference(first: &Fractions, second: &Fractions, pairs: &[Aligned<'_>], t: f64) -> f64 {
     let yielded = |own: &Line| -(-own.rate.high() * t).exp_m1();
     let compliance = |own: &Line| own.strength / own.rate;
     let singles =
         (first.constant - second.constant).high() + (first.at_zero - second.at_zero).high() * t;
-    aligned(&first.lines, &second.lines).fold(singles, |sum, pair| {
+    pairs.iter().fold(singles, |sum, pair| {
         sum + match pair {
             (Some(a), Some(b)) => {
                 let apart = (a.rate - b.rate).high() * t;

@@ -3,7 +3,9 @@
 //! All terms of the relaxance on the imaginary axis lie in one quadrant, so they cannot cancel: if
 //! all rates and strengths of two Maxwell forms agree within `ε`, relatively, their complex
 //! stiffnesses agree within `2√2 ε` at every frequency. The same goes for the Kelvin forms and the
-//! complex compliances, so agreement in one form is enough.
+//! complex compliances, so agreement in one form is enough. Modes that are nearer to each other than
+//! [`TOGETHER_WITHIN`] may be compared as one, with an error of its square: what conversion and
+//! rounding do to nearly equal times does not make another model.
 
 mod alignment;
 mod disagreement;
@@ -19,6 +21,10 @@ pub use disagreement::Disagreement;
 
 /// Two models are the same when all rates and strengths of one form agree within this, relatively.
 pub const SAME_WITHIN: f64 = 1e-11;
+
+/// Modes whose rates differ by less, relatively, may be compared by their sums. As one mode with the
+/// same sum of strengths and of strengths over rates they answer alike within the square of this.
+pub const TOGETHER_WITHIN: f64 = 1e-6;
 
 /// Two constants that take the same place in two models.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,23 +88,23 @@ pub struct Equivalence {
 /// ```
 pub fn compare(first: &LinearModel, second: &LinearModel) -> Equivalence {
     let maxwell = first.maxwell().zip(second.maxwell());
-    let maxwell = maxwell.map(|(a, b)| forms(&a.0, &b.0, |line| line.strength));
     let kelvin = first.kelvin().zip(second.kelvin());
-    let kelvin = kelvin.map(|(a, b)| forms(&a.0, &b.0, |line| line.strength / line.rate));
-    let is_close = |own: &FormComparison| own.largest <= SAME_WITHIN;
-    Equivalence {
-        is_same: maxwell.iter().chain(&kelvin).any(is_close),
-        maxwell,
-        kelvin,
-        worst: Disagreement::of(first, second),
-    }
+    let compared = |within: f64| {
+        let near = |own: &Fractions| own.together(within);
+        let maxwell = maxwell.map(|(a, b)| forms(&near(&a.0), &near(&b.0), |line| line.strength));
+        let kelvin =
+            kelvin.map(|(a, b)| forms(&near(&a.0), &near(&b.0), |line| line.strength / line.rate));
+        let is_close = |own: &FormComparison| own.largest <= SAME_WITHIN;
+        (maxwell.iter().chain(&kelvin).any(is_close), maxwell, kelvin)
+    };
+    // One by one; else what rounding may have rearranged among neighbours counts as a whole.
+    let one_by_one = compared(0.0);
+    let together = if one_by_one.0 { None } else { Some(compared(TOGETHER_WITHIN)) };
+    let (is_same, maxwell, kelvin) = together.filter(|own| own.0).unwrap_or(one_by_one);
+    Equivalence { is_same, maxwell, kelvin, worst: Disagreement::of(first, second) }
 }
 
-fn forms(
-    first: &Fractions,
-    second: &Fractions,
-    strength: fn(&Line) -> Twofold,
-) -> FormComparison {
+fn forms(first: &Fractions, second: &Fractions, strength: fn(&Line) -> Twofold) -> FormComparison {
     let at_long_times = pair(first.at_zero, second.at_zero);
     let at_short_times = pair(first.constant, second.constant);
     let mut largest = at_long_times.difference.max(at_short_times.difference);
@@ -119,8 +125,13 @@ fn forms(
 
 fn pair(first: Twofold, second: Twofold) -> Pair {
     let larger = if first > second { first } else { second };
-    let difference =
-        if larger.high() > 0.0 { ((first - second).abs() / larger).high() } else { 0.0 };
+    let difference = if larger.high() > 0.0 || larger.high().is_nan() {
+        let difference = ((first - second).abs() / larger).high();
+        // What is not a number is nowhere the same.
+        if difference.is_nan() { f64::INFINITY } else { difference }
+    } else {
+        0.0
+    };
     Pair { first: first.high(), second: second.high(), difference }
 }
 

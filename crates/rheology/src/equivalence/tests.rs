@@ -110,6 +110,38 @@ fn constants_are_those_of_the_forms() {
 }
 
 #[test]
+fn what_is_not_a_number_is_not_the_same() {
+    let huge = |k: f64, c: f64| {
+        let kelvin = Tree::parallel([Spring(k).into(), Dashpot(c).into()]);
+        model(&Tree::series([Spring(2e7).into(), Dashpot(6e3).into(), kelvin]))
+    };
+    for power in [120.0, 160.0, 250.0, 300.0, -160.0, -300.0] {
+        let size = 10_f64.powf(power);
+        let (one, other) = (huge(2e7, size), huge(4e7, 2.0 * size));
+        assert!(!compare(&one, &other).is_same, "{power}");
+    }
+}
+
+#[test]
+fn nearly_equal_times_in_both_forms_are_the_same_after_rounding() {
+    // Each form has neighbours that are 10⁻⁸ apart, so neither is well determined one by one.
+    let maxwell = |c: f64| Tree::series([Spring(1.0).into(), Dashpot(c).into()]);
+    let kelvin = |c: f64| Tree::parallel([Spring(1.0).into(), Dashpot(c).into()]);
+    let inner = Tree::series([Spring(2.0).into(), kelvin(1.0), kelvin(1.000_000_01)]);
+    let tree = Tree::parallel([inner, maxwell(1.0), maxwell(1.000_000_01), maxwell(0.999_999_99)]);
+    let own = model(&tree);
+    let forms = [Canonical::Maxwell, Canonical::Kelvin].map(|form| model(&own.tree(form).unwrap()));
+    assert!(compare(&forms[0], &forms[1]).is_same);
+    assert!(compare(&own, &forms[0]).is_same && compare(&own, &forms[1]).is_same);
+    // At the limit of merging, too.
+    let near = |gap: f64| {
+        let other = Tree::series([Spring(1.0).into(), Dashpot(1.0 + gap).into()]);
+        model(&Tree::parallel([maxwell(1.0), other, Spring(1.0).into()]))
+    };
+    assert!(compare(&near(9.9e-13), &near(1.01e-12)).is_same);
+}
+
+#[test]
 fn extremes_are_the_same_as_themselves_only() {
     let all = [Rigid, Spring(0.0), Spring(1.0), Dashpot(1.0)].map(LinearModel::primitive);
     for (i, first) in all.iter().enumerate() {

@@ -82,6 +82,20 @@ impl Fractions {
         groups
     }
 
+    /// The same with modes whose rates differ by `within` or less, relatively, as one.
+    pub(crate) fn together(&self, within: f64) -> Self {
+        let mut lines: Vec<Line> = Vec::with_capacity(self.lines.len());
+        let mut rest = self.lines.as_slice();
+        while let [first, ..] = rest {
+            let is_near = |line: &&Line| gap(first.rate, line.rate) <= within;
+            let count = 1 + rest[1..].iter().take_while(is_near).count();
+            let group = &rest[..count];
+            lines.push(if count == 1 { *first } else { merged(group, &mut Vec::new()) });
+            rest = &rest[count..];
+        }
+        Self { lines, ..self.clone() }
+    }
+
     /// Whether the function is zero everywhere.
     pub(crate) fn is_zero(&self) -> bool {
         self.constant.high() == 0.0 && self.at_zero.high() == 0.0 && self.lines.is_empty()
@@ -93,6 +107,48 @@ impl Fractions {
     /// `c > 0`; with `Q = −x F`, the strength at the zero `x` is `1/(x F'(x))`. What stands at zero
     /// and at infinity follows from sums of positive terms.
     pub(crate) fn reciprocal(&self) -> Self {
+        let (rate, strength) = self.middle();
+        let [to_rate, to_strength] = [rate, strength].map(|own| (-own).exp2());
+        let scaled =
+            |line: &Line| Line { rate: line.rate * to_rate, strength: line.strength * to_strength };
+        let own = Self {
+            constant: self.constant * to_strength * rate.exp2(),
+            at_zero: self.at_zero * to_strength,
+            lines: self.lines.iter().map(scaled).collect(),
+        };
+        let other = own.reciprocal_near_one();
+        let back = |line: &Line| Line {
+            rate: line.rate * rate.exp2(),
+            strength: line.strength * to_strength * rate.exp2(),
+        };
+        Self {
+            constant: other.constant * to_strength,
+            at_zero: other.at_zero * to_strength * rate.exp2(),
+            lines: other.lines.iter().map(back).collect(),
+        }
+    }
+
+    /// Exponents of two in the middle of the rates and of the strengths, so that neither squares nor
+    /// the second halves of numbers leave the range of doubles.
+    fn middle(&self) -> (f64, f64) {
+        let exponent = |own: Twofold| own.high().log2();
+        let middle = |all: &mut dyn Iterator<Item = f64>| {
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            for own in all.filter(|own| own.is_finite()) {
+                (low, high) = (low.min(own), high.max(own));
+            }
+            if low <= high { f64::midpoint(low, high).round() } else { 0.0 }
+        };
+        let lines = || self.lines.iter();
+        let strengths = || lines().map(|line| line.strength).chain([self.at_zero]).map(exponent);
+        // Beyond the last pole, the zero is about where the constant is as large as a term.
+        let constant = exponent(self.constant);
+        let last = strengths().map(|own| own - constant);
+        let rate = middle(&mut lines().map(|line| exponent(line.rate)).chain(last));
+        (rate, middle(&mut strengths().chain([constant + rate])))
+    }
+
+    fn reciprocal_near_one(&self) -> Self {
         let mut poles = Vec::with_capacity(self.lines.len() + 1);
         if self.at_zero.high() > 0.0 {
             poles.push(Line { rate: Twofold::ZERO, strength: self.at_zero });

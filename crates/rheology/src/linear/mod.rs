@@ -28,6 +28,9 @@ pub(crate) use derivatives::Derivatives;
 use fractions::Merger;
 pub(crate) use fractions::{Fractions, Line};
 
+/// Where numbers have twice the digits of a double, and their quotients, too.
+const RANGE: std::ops::Range<f64> = 1e-150..1e150;
+
 /// A spring, a dashpot or a rigid link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Primitive {
@@ -92,14 +95,13 @@ impl LinearModel {
         self.kelvin.as_ref()
     }
 
-    /// Whether all its constants, and all that follow from them, are within the range of doubles.
-    /// Where they are not, because constants are more than some 10^150 apart, nothing else here has
-    /// a meaning.
+    /// Whether all its constants, and all that follow from them, are within the range in which
+    /// numbers have all their digits. Where they are not, nothing else here has a meaning.
     pub fn is_in_range(&self) -> bool {
         let forms =
             [self.maxwell.as_ref().map(|own| &own.0), self.kelvin.as_ref().map(|own| &own.0)];
         forms.into_iter().flatten().all(|form| {
-            let is_normal = |own: Twofold| own.high().is_normal() && own.high() > 0.0;
+            let is_normal = |own: Twofold| RANGE.contains(&own.high());
             let is_single =
                 |own: Twofold| own.high() == 0.0 || (is_normal(own) && is_normal(own.recip()));
             [form.constant, form.at_zero].into_iter().all(is_single)

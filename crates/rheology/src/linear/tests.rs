@@ -3,7 +3,10 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::Tree;
+use crate::{
+    Tree,
+    appendix_a::{Burgers, SpringDashpot, TwoMaxwell},
+};
 use Primitive::{Dashpot, Rigid, Spring};
 
 fn prony(spring: f64, terms: &[(f64, f64)]) -> LinearModel {
@@ -202,6 +205,35 @@ fn composed(tree: &Tree<Primitive>, s: f64) -> f64 {
             all.iter().map(|own| composed(&own.tree, s).recip()).sum::<f64>().recip()
         }
         Tree::Parallel(all) => all.iter().map(|own| composed(&own.tree, s)).sum(),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 2000, ..ProptestConfig::default() })]
+
+    /// Whatever the constants: right to rounding, or said to be out of range. The judge has
+    /// exponents without end.
+    #[test]
+    fn constants_of_any_size_are_converted_right_or_not_at_all(
+        powers in prop::array::uniform4(-170.0..170.0_f64),
+    ) {
+        let [k2, c2, k1, c1] = powers.map(|own| 10_f64.powf(own));
+        let kelvin = Tree::parallel([Spring(k1).into(), Dashpot(c1).into()]);
+        let burgers = Tree::series([Spring(k2).into(), Dashpot(c2).into(), kelvin]);
+        let model = LinearModel::of(&burgers, |&part| part);
+        if !model.is_in_range() {
+            return Ok(());
+        }
+        let pair = |spring, dashpot| SpringDashpot { spring, dashpot };
+        let judge = Burgers { maxwell: pair(k2, c2), kelvin: pair(k1, c1) };
+        let Ok(TwoMaxwell { slow, fast }) = judge.to_two_maxwell() else { return Ok(()) };
+        let elements = model.maxwell().unwrap().elements();
+        prop_assert_eq!(elements.len(), 2);
+        for (found, expected) in elements.iter().zip([fast, slow]) {
+            for (found, expected) in [(found.stiffness, expected.spring), (found.damping, expected.dashpot)] {
+                prop_assert!((found / expected - 1.0).abs() < 1e-14, "{:e} for {:e}", found, expected);
+            }
+        }
     }
 }
 

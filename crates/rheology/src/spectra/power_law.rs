@@ -67,7 +67,8 @@ impl PowerLaw {
         }
         // The places are measured from the end where the density is greatest, so that nothing
         // overflows.
-        let span = ((longest - shortest) / shortest).ln_1p();
+        let ratio = (longest - shortest) / shortest;
+        let span = if ratio.is_finite() { ratio.ln_1p() } else { longest.ln() - shortest.ln() };
         let (anchor, direction) = if exponent > 0.0 { (longest, -1.0) } else { (shortest, 1.0) };
         let decay = exponent.abs();
         // At short times the creep weighs the density by 1/λ, and a steep rise by one power less.

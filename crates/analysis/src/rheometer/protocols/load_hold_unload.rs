@@ -119,7 +119,11 @@ impl LoadHoldUnload {
             + (after.delayed - last.delayed)
             + (after.viscous - last.viscous);
         vec![
-            part("ε2, instantaneous part at the end of the hold", "instantaneous", under.instantaneous),
+            part(
+                "ε2, instantaneous part at the end of the hold",
+                "instantaneous",
+                under.instantaneous,
+            ),
             part("ε1, delayed part at the end of the hold", "delayed", under.delayed),
             part("ε3, viscous part at the end of the hold", "viscous", under.viscous),
             Figure::of("deformation at the end of the hold", "m", under.total())
