@@ -3,6 +3,7 @@
 mod box_fibre;
 mod fibre;
 mod kelvin_chain;
+mod list_fibre;
 mod log_normal_fibre;
 mod power_law_fibre;
 mod prony;
@@ -12,6 +13,7 @@ use std::fmt::Debug;
 
 pub use box_fibre::BoxFibre;
 pub use kelvin_chain::KelvinChain;
+pub use list_fibre::ListFibre;
 pub use log_normal_fibre::LogNormalFibre;
 pub use power_law_fibre::PowerLawFibre;
 pub use prony::Prony;
@@ -81,6 +83,7 @@ pub trait CompositeVisitor {
 pub fn visit_composites(visitor: &mut impl CompositeVisitor) {
     visitor.visit::<Prony>();
     visitor.visit::<KelvinChain>();
+    visitor.visit::<ListFibre>();
     visitor.visit::<LogNormalFibre>();
     visitor.visit::<BoxFibre>();
     visitor.visit::<PowerLawFibre>();
