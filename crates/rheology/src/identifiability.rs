@@ -186,6 +186,7 @@ fn composed<'t, P>(node: &'t Tree<P>, mut parts: Vec<Seen<'t, P>>) -> Seen<'t, P
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linear::tests::trees;
     use Primitive::{Dashpot, Rigid, Spring};
 
     fn told(tree: &Tree<Primitive>) -> Vec<(Vec<String>, Vec<String>)> {
@@ -197,6 +198,20 @@ mod tests {
 
     fn maxwell() -> Tree<Primitive> {
         Tree::series([Spring(2.0).into(), Dashpot(3.0).into()])
+    }
+
+    proptest::proptest! {
+        /// What cannot be told is what a tree has more than the smallest network.
+        #[test]
+        fn parameters_less_what_is_lost_are_the_least_number_of_elements(tree in trees()) {
+            let model = LinearModel::of(&tree, |&part| part);
+            proptest::prop_assume!(model.merged().is_empty());
+            let lost: usize = entangled(&tree, |&part| part)
+                .iter()
+                .map(|own| own.parameters.len() - own.combinations.len())
+                .sum();
+            proptest::prop_assert_eq!(tree.parts().len() - lost, model.least_elements());
+        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! `dashpot convert`.
 
+use std::path::Path;
+
 use dashpot_network::{Model, linear_model, model_of};
 use dashpot_rheology::{
     conversion::{Target, converted},
@@ -55,6 +57,10 @@ pub(crate) fn convert(
     match &arguments.out {
         Some(path) => {
             write_new(path, &text, arguments.force)?;
+            let elsewhere = path.parent() != Path::new(&operand.input.file).parent();
+            if elsewhere && text.contains(".toml:") {
+                note("note: models of other files are now looked for beside the new file");
+            }
             let path = path.display();
             print(&format!("wrote {path}; its model is `{path}:{name}`\n"))?;
         }

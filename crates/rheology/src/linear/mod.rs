@@ -154,4 +154,4 @@ impl LinearModel {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -183,7 +183,7 @@ fn ten_thousand_levels_tend_to_the_golden_ratio() {
 }
 
 /// Trees of springs and dashpots with constants over 12 decades.
-fn trees() -> impl Strategy<Value = Tree<Primitive>> {
+pub(crate) fn trees() -> impl Strategy<Value = Tree<Primitive>> {
     let constant = || (-6.0..6.0_f64).prop_map(|power| 10_f64.powf(power));
     let leaf = prop_oneof![
         constant().prop_map(|own| Spring(own).into()),
