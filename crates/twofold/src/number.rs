@@ -64,6 +64,11 @@ impl Twofold {
         if self.high < 0.0 { -self } else { self }
     }
 
+    /// An order in which every number has its place, NaN too.
+    pub fn total_cmp(&self, other: &Self) -> Ordering {
+        self.high.total_cmp(&other.high).then(self.low.total_cmp(&other.low))
+    }
+
     /// The square root of a number ≥ 0.
     #[must_use]
     pub fn sqrt(self) -> Self {

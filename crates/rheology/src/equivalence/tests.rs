@@ -115,6 +115,18 @@ fn what_is_not_a_number_is_not_the_same() {
         let kelvin = Tree::parallel([Spring(k).into(), Dashpot(c).into()]);
         model(&Tree::series([Spring(2e7).into(), Dashpot(6e3).into(), kelvin]))
     };
+    // Constants that are not in range must not bring anything down either.
+    for power in (-60..=60).map(|at| 5.0 * f64::from(at)) {
+        let constants = [10_f64.powf(power), 10_f64.powf(-power)];
+        let wild = Tree::series([
+            Tree::parallel([Spring(constants[0]).into(), Dashpot(constants[1]).into()]),
+            Tree::parallel([Spring(constants[1]).into(), Dashpot(constants[0]).into()]),
+            Tree::parallel([Spring(1.0).into(), Dashpot(constants[0]).into()]),
+            Dashpot(constants[1]).into(),
+        ]);
+        let wild = model(&Tree::parallel([wild, Spring(constants[1]).into()]));
+        assert!(wild.is_in_range() || !compare(&wild, &model(&Spring(1.0).into())).is_same);
+    }
     for power in [120.0, 160.0, 250.0, 300.0, -160.0, -300.0] {
         let size = 10_f64.powf(power);
         let (one, other) = (huge(2e7, size), huge(4e7, 2.0 * size));

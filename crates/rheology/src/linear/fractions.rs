@@ -1,7 +1,5 @@
 //! Partial fractions with positive strengths, and their reciprocal.
 
-use std::cmp::Ordering;
-
 use dashpot_twofold::Twofold;
 
 use super::secular::Secular;
@@ -65,7 +63,7 @@ impl Fractions {
         let numbers = |(part, own): (usize, &&Self)| (0..own.lines.len()).map(move |at| (part, at));
         let mut all: Vec<(usize, usize)> = parts.iter().enumerate().flat_map(numbers).collect();
         let rate = |&(part, at): &(usize, usize)| parts[part].lines[at].rate;
-        all.sort_by(|a, b| rate(a).partial_cmp(&rate(b)).unwrap_or(Ordering::Equal));
+        all.sort_by(|a, b| rate(a).total_cmp(&rate(b)));
         let mut groups: Vec<Vec<(usize, usize)>> = Vec::with_capacity(all.len());
         for next in all {
             match groups.last_mut() {

@@ -129,7 +129,7 @@ impl LinearModel {
     ) -> Self {
         let line = |(rate, strength): (Twofold, Twofold)| Line { rate, strength };
         let mut lines: Vec<Line> = modes.into_iter().map(line).collect();
-        lines.sort_by(|a, b| a.rate.high().total_cmp(&b.rate.high()));
+        lines.sort_by(|a, b| a.rate.total_cmp(&b.rate));
         let kelvin = Fractions { constant: spring_compliance, at_zero: fluidity, lines };
         Self::of_kelvin(kelvin, Vec::new())
     }
