@@ -11,6 +11,8 @@ use crate::{
 /// Points per factor e at which the disagreement is looked at before its maximum is refined: 12 in a
 /// decade. The responses of a mode change over about a decade.
 const PER_FACTOR: f64 = 5.2;
+/// Least distance of two points, as a logarithm.
+const ROOM: f64 = 0.01;
 /// How far beyond the fastest and the slowest mode there are such points, as a logarithm.
 const BEYOND: f64 = 7.0;
 /// How far beyond them there is one more, which stands for the limit, as a logarithm.
@@ -78,9 +80,11 @@ fn places(forms: [&Fractions; 2], place: fn(f64) -> f64) -> Vec<f64> {
         at += 1.0;
     }
     all.extend([low - LIMIT, high + LIMIT]);
+    all.sort_by(f64::total_cmp);
+    // Neighbours enclose a maximum only if there is room between them.
+    all.dedup_by(|next, kept| *next - *kept < ROOM);
     all.iter_mut().for_each(|place| *place = place.exp());
     all.retain(|place| place.is_normal());
-    all.sort_by(f64::total_cmp);
     all
 }
 

@@ -154,6 +154,49 @@ fn nearly_equal_times_in_both_forms_are_the_same_after_rounding() {
 }
 
 #[test]
+fn neighbours_count_as_one_only_where_no_response_tells_them_apart() {
+    // Stiffnesses 1 and 1 with the times 1 and 1 + g, against one element with the same sums. The
+    // responses are some g²/8 apart.
+    for power in 1..=7 {
+        let gap = 10_f64.powi(-power);
+        let twins = prony(&[(1.0, 1.0), (1.0 + gap, 1.0)]);
+        let single = prony(&[(1.0 + 0.5 * gap, 2.0)]);
+        let found = compare(&twins, &single);
+        let worst = found.worst.unwrap();
+        assert_eq!(found.is_same, power > 5, "{gap:e}: {worst:?}");
+        assert!(worst.stiffness < gap * gap && worst.creep < gap * gap, "{gap:e}: {worst:?}");
+        assert!(worst.stiffness > 0.05 * gap * gap, "{gap:e}: {worst:?}");
+    }
+}
+
+#[test]
+fn a_narrow_disagreement_between_wide_models_is_found() {
+    // One mode among 25 that are a decade apart differs. Stiffnesses rise with the root of the
+    // rate, so each rules the response about its own rate, and nowhere else.
+    let all = |at: Option<i32>| {
+        let weight = |own: i32| if Some(own) == at { 1.5 } else { 1.0 };
+        let size = |own: i32| 10_f64.powf(-0.5 * f64::from(own)) * weight(own);
+        let terms = (-12..=12).map(|own| (10_f64.powi(own), size(own)));
+        prony(&terms.collect::<Vec<_>>())
+    };
+    let first = all(None);
+    for at in -11..=11 {
+        let second = all(Some(at));
+        let worst = compare(&first, &second).worst.unwrap();
+        let apart = |omega: f64| {
+            let size = |own: &LinearModel| own.storage(omega).hypot(own.loss(omega));
+            let gap = (first.storage(omega) - second.storage(omega))
+                .hypot(first.loss(omega) - second.loss(omega));
+            gap / size(&first).max(size(&second))
+        };
+        let scan = (-15_000..15_000).map(|own| apart(10_f64.powf(f64::from(own) * 1e-3)));
+        let largest = scan.fold(0.0, f64::max);
+        // A scan by 1e-3 of a decade misses a smooth maximum by some 1e-6.
+        assert!((worst.stiffness / largest - 1.0).abs() < 1e-5, "{at}: {worst:?} {largest}");
+    }
+}
+
+#[test]
 fn extremes_are_the_same_as_themselves_only() {
     let all = [Rigid, Spring(0.0), Spring(1.0), Dashpot(1.0)].map(LinearModel::primitive);
     for (i, first) in all.iter().enumerate() {
