@@ -21,7 +21,7 @@ use dashpot::{
         waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
     },
     rheology::{Branch, Form, FormVisitor, Role, Tree, visit_forms},
-    scene::{ReadOptions, Scene, read, write_kind, write_model},
+    scene::{ReadOptions, Scene, read, write_effect, write_kind, write_model},
 };
 
 use crate::thesis::{dashpot, impact, kelvin, reference, spring};
@@ -160,14 +160,18 @@ impl EffectVisitor for Effects {
         describes(E::KIND, E::SUMMARY, E::PARAMETERS);
         let sample = E::sample();
         assert!(sample.validate().is_ok());
-        assert_eq!(E::from_values(&sample.values()).unwrap().values(), sample.values());
-        let text = write_kind(E::KIND, E::PARAMETERS, &sample.values(), Dimension::FORCE);
+        assert_eq!(sample.target().is_some(), E::PER_ELEMENT, "{}", E::KIND);
+        let again = E::from_values(sample.target().unwrap_or(""), &sample.values()).unwrap();
+        assert_eq!((again.target(), again.values()), (sample.target(), sample.values()));
         let text = format!(
-            "nodes.m = {{ mass = 1 }}\n[elements]\nk = {{ between = [\"m\", \"ground\"], spring = 1 }}\n\
-             [effects]\n{text}\n[run]\nduration = 1\n"
+            "nodes.head = {{ mass = 1, velocity = 1 }}\n[elements]\n\
+             padding = {{ between = [\"head\", \"ground\"], spring = 1 }}\n\
+             [effects]\n{}\n[run]\nduration = 1\n",
+            write_effect(&sample)
         );
         let scene = scene(&text);
-        assert_eq!(scene.network.effects()[0].values(), sample.values());
+        let effect = &scene.network.effects()[0];
+        assert_eq!((effect.target(), effect.values()), (sample.target(), sample.values()));
     }
 }
 

@@ -1,6 +1,6 @@
 //! The time span of an impact.
 
-use dashpot_dae::{Crossing, Signal};
+use dashpot_dae::{Crossing, Panel, Signal};
 use dashpot_network::parameters::WindowWish;
 
 /// How the contact of an impact ends.
@@ -8,6 +8,8 @@ use dashpot_network::parameters::WindowWish;
 pub enum Contact {
     /// The contact force falls to zero and would turn to tension.
     Released,
+    /// The contact opens: its force falls to zero and stays there.
+    Parted,
     /// The contact force pushes until the run ends.
     Lasting,
     /// The contact force pulls from the start, so there is no impact.
@@ -45,7 +47,27 @@ impl Impact {
         match force.departure(0.0, 0.0) {
             None => Self { contact: Contact::Unloaded, ..run },
             Some(false) => Self { end: 0.0, contact: Contact::Pulling, ..run },
-            Some(true) => match release(force, run_end, doubt) {
+            Some(true) => Self::of_push(force, Self { start: first_push(force), ..run }, doubt),
+        }
+    }
+
+    /// The impact of a force that pushes first.
+    fn of_push(force: &Signal, run: Self, doubt: f64) -> Self {
+        let run_end = run.end;
+        let parted = rest_after(force, run.start);
+        let released = release(force, run_end, doubt)
+            .filter(|release| parted.is_none_or(|parted| release.time < parted));
+        match (parted, released) {
+            (Some(parted), None) => {
+                let slope = force.panels[..force.panels.partition_point(|own| own.end <= parted)]
+                    .last()
+                    .map_or(0.0, |panel| panel.slope(parted).abs());
+                let shift = |error: f64| if slope > 0.0 { error / slope } else { 0.0 };
+                let rounding = 4.0 * f64::EPSILON * parted;
+                let end_error = force.error.map(|error| shift(error).min(run_end) + rounding);
+                Self { end: parted, end_error, contact: Contact::Parted, ..run }
+            }
+            (_, released) => match released {
                 None if ends_at_zero(force, run_end, doubt) => {
                     Self { end_error: force.error.map(|_| 0.0), contact: Contact::Released, ..run }
                 }
@@ -58,6 +80,11 @@ impl Impact {
                 }
             },
         }
+    }
+
+    /// Whether it takes place and ends before the run does, or with it.
+    pub fn has_ended(self) -> bool {
+        matches!(self.contact, Contact::Released | Contact::Parted)
     }
 
     /// The impact of a node that nothing touches.
@@ -84,7 +111,7 @@ impl Impact {
     }
 
     fn takes_place(self) -> bool {
-        matches!(self.contact, Contact::Released | Contact::Lasting)
+        self.has_ended() || self.contact == Contact::Lasting
     }
 
     /// The part of a run of `run_end` \[s\] that a measure with the given wish looks at; `Err` says
@@ -101,7 +128,7 @@ impl Impact {
                 fixed(from.max(0.0), to.min(run_end), note)
             }
             WindowWish::Impact => match self.contact {
-                Contact::Released => Ok(Span {
+                Contact::Released | Contact::Parted => Ok(Span {
                     from: self.start,
                     to: self.end,
                     to_error: self.end_error,
@@ -114,6 +141,24 @@ impl Impact {
             },
         }
     }
+}
+
+/// When a force that is zero at first begins to push \[s\].
+fn first_push(force: &Signal) -> f64 {
+    let loaded = force.panels.iter().find(|panel| !rests(panel));
+    loaded.map_or(0.0, |panel| panel.start)
+}
+
+/// When the force comes to rest on zero after `start` \[s\], as it does where a contact opens.
+fn rest_after(force: &Signal, start: f64) -> Option<f64> {
+    let later = force.panels.iter().filter(|panel| panel.start >= start && panel.length() > 0.0);
+    later.skip_while(|panel| rests(panel)).find(|panel| rests(panel)).map(|panel| panel.start)
+}
+
+/// Whether the force is zero all over a panel, as it is by structure where a contact is open; a force
+/// that decays is not.
+fn rests(panel: &Panel) -> bool {
+    panel.coefficients.iter().all(|own| *own == 0.0)
 }
 
 /// The last passage of zero before the force pulls for the first time.
@@ -186,8 +231,6 @@ impl Span {
 
 #[cfg(test)]
 mod tests {
-    use dashpot_dae::Panel;
-
     use super::*;
 
     fn line(start: f64, end: f64) -> Signal {

@@ -5,10 +5,17 @@ mod series;
 use std::ops::Range;
 
 use dashpot_dae::Signal;
-use dashpot_network::{Assembly, elements::Law};
+use dashpot_network::{
+    Assembly, PrimitiveOutputs,
+    elements::Law,
+    phases::{Phase, PhaseLaw},
+};
 pub use series::{EnergySeries, energy_series};
 
-use crate::Solution;
+use crate::{
+    Solution,
+    accounts::{self, Accounts},
+};
 
 /// The energy balance from the start of a run until a time.
 ///
@@ -57,10 +64,12 @@ impl Ledger {
         let sums = assembly.connections.iter().map(|connection| {
             let mut sum = (connection.name.as_str(), 0.0, 0.0);
             for primitive in assembly.primitives.get(connection.primitives.clone()).unwrap_or(&[]) {
-                match primitive.element.law() {
-                    Law::Spring(_) => sum.1 += stored.next().unwrap_or(0.0),
-                    Law::Dashpot(_) => sum.2 += dissipated.next().unwrap_or(0.0),
-                    Law::Rigid => {}
+                let own = Accounts::of(primitive.element.as_ref());
+                if own.stores {
+                    sum.1 += stored.next().unwrap_or(0.0);
+                }
+                if own.dissipates {
+                    sum.2 += dissipated.next().unwrap_or(0.0);
                 }
             }
             sum
@@ -87,6 +96,20 @@ fn total(entries: &[(String, f64)]) -> f64 {
 /// Name of the work that loads and motions do where they jump.
 const STEPS: &str = "jumps of loads and motions";
 
+/// Name of the work that moving supports do in impacts.
+const IMPACTS: &str = "impacts of moving supports";
+
+/// The energy \[J\] that impacts at the very start lose, before any velocity is reported, and the
+/// work that moving supports do in impacts.
+fn at_impacts(solution: &Solution<'_>, window: (f64, f64)) -> (f64, f64) {
+    let switches = solution.trajectory().switches.iter();
+    let own = switches.filter(|own| own.impulse > 0.0 && own.time <= window.1);
+    own.fold((0.0, 0.0), |(struck, worked), own| {
+        let at_start = if own.time <= 0.0 { own.lost - own.worked } else { 0.0 };
+        (struck + at_start, worked + own.worked)
+    })
+}
+
 /// The energy balance of `solution` until `time` \[s\], by quadrature that is exact for its
 /// polynomials.
 ///
@@ -108,24 +131,25 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
     }
     let (mut stored, mut dissipated) = (Vec::new(), Vec::new());
     for primitive in &assembly.primitives {
-        match primitive.element.law() {
-            Law::Spring(stiffness) => {
-                let deformation = solution.signal(primitive.deformation);
-                let last = deformation.left_value(time);
-                start += primitive.element.stored(deformation.value(0.0));
-                stored.push((primitive.name.clone(), primitive.element.stored(last)));
-                let bound = |error: f64| stiffness * error * (last.abs() + error);
-                balance.add_error(deformation.error.map(bound));
-            }
-            Law::Dashpot(_) => {
-                let (force, rate) = (
-                    solution.signal(primitive.force),
-                    &solution.rate(primitive.rate, primitive.deformation),
-                );
-                let energy = balance.work(force, rate, window);
-                dissipated.push((primitive.name.clone(), energy));
-            }
-            Law::Rigid => {}
+        let own = Accounts::of(primitive.element.as_ref());
+        let mut gained = 0.0;
+        if own.stores {
+            let deformation = solution.signal(primitive.deformation);
+            let last = deformation.left_value(time);
+            let first = deformation.value(0.0);
+            let at_start = accounts::stored(solution, primitive, 0.0, first);
+            let at_end = accounts::stored(solution, primitive, time, last);
+            start += at_start;
+            gained = at_end - at_start;
+            stored.push((primitive.name.clone(), at_end));
+            let slope = |y: f64| primitive.element.tangent(y, 0.0).stiffness.abs();
+            let stiffness = slope(last);
+            let bound = |error: f64| stiffness * error * (last.abs() + error);
+            balance.add_error(deformation.error.map(bound));
+        }
+        if own.dissipates {
+            let energy = dissipation(solution, primitive, window, &mut balance) - gained;
+            dissipated.push((primitive.name.clone(), energy));
         }
     }
     let mut work_in: Vec<(String, f64)> = assembly
@@ -136,6 +160,11 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
             (drive.name.clone(), balance.work(force, velocity, window))
         })
         .collect();
+    let (struck, worked) = at_impacts(solution, window);
+    start += struck;
+    if worked != 0.0 {
+        work_in.push((IMPACTS.to_owned(), worked));
+    }
     let steps = steps(solution, 0..assembly.primitives.len(), window);
     if steps != 0.0 {
         work_in.push((STEPS.to_owned(), steps));
@@ -159,6 +188,34 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
     }
 }
 
+/// The work \[J\] done on a part within the window, with what impacts in it lose.
+fn dissipation(
+    solution: &Solution<'_>,
+    primitive: &PrimitiveOutputs,
+    window: (f64, f64),
+    balance: &mut Balance,
+) -> f64 {
+    let force = solution.signal(primitive.force);
+    let rate = &solution.rate(primitive.rate, primitive.deformation);
+    let lost = accounts::lost_in_impacts(solution, primitive, window);
+    if primitive.element.law() == Law::Phased && !does_work(primitive) {
+        return lost;
+    }
+    balance.work(force, rate, window) + lost
+}
+
+/// Whether the force of a part that switches can do work: that of a contact cannot.
+fn does_work(primitive: &PrimitiveOutputs) -> bool {
+    primitive.element.phases().is_some_and(|own| {
+        (0..own.names().len()).any(|index| {
+            matches!(
+                own.law(Phase { index, memory: 0.0 }),
+                PhaseLaw::Element(_) | PhaseLaw::Force(_)
+            )
+        })
+    })
+}
+
 /// The largest energy \[J\] that any one mass or spring holds within the window: what is driven may
 /// come to rest again with all energy given back.
 fn most_in_one_place(solution: &Solution<'_>, window: (f64, f64)) -> f64 {
@@ -170,8 +227,10 @@ fn most_in_one_place(solution: &Solution<'_>, window: (f64, f64)) -> f64 {
     });
     let springs =
         assembly.primitives.iter().filter_map(|primitive| match primitive.element.law() {
-            Law::Spring(_) => Some(primitive.element.stored(largest(primitive.deformation))),
-            Law::Dashpot(_) | Law::Rigid => None,
+            Law::Spring(_) | Law::Nonlinear { .. } => {
+                Some(primitive.element.stored(largest(primitive.deformation)))
+            }
+            _ => None,
         });
     masses.chain(springs).fold(0.0, f64::max)
 }
@@ -223,7 +282,9 @@ pub(crate) fn steps(solution: &Solution<'_>, primitives: Range<usize>, window: (
         return 0.0;
     }
     let springs = assembly.primitives.get(primitives).unwrap_or_default().iter();
-    let springs = springs.filter(|primitive| matches!(primitive.element.law(), Law::Spring(_)));
+    let springs = springs.filter(|primitive| {
+        matches!(primitive.element.law(), Law::Spring(_) | Law::Nonlinear { .. })
+    });
     springs
         .map(|primitive| {
             let deformation = solution.signal(primitive.deformation);

@@ -4,6 +4,7 @@
 //! [`solve`] compiles a network, integrates it as often as its errors ask for, and returns a
 //! [`RunReport`]. All measures are read off the continuous solution, never off samples.
 
+mod accounts;
 mod accuracy;
 mod bodies;
 mod difference;
@@ -21,6 +22,7 @@ mod selection;
 mod settings;
 mod solution;
 mod solve;
+pub mod vibration;
 mod warnings;
 mod wording;
 

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use dashpot_dae::{Method, Observer, Run, SolveError, Trajectory};
+use dashpot_dae::{Method, Observer, Run, SolveError, Trajectory, switching};
 use dashpot_network::Assembly;
 
 use crate::{
@@ -73,7 +73,10 @@ impl Task<'_> {
     }
 
     fn solve(&self, run: &Run, observer: &mut dyn Observer) -> Result<Solved, SolveError> {
-        let trajectory = self.method.integrate(&self.assembly.system, run, observer)?;
+        let trajectory = match &self.assembly.switching {
+            None => self.method.integrate(&self.assembly.system, run, observer)?,
+            Some(phased) => switching::integrate(self.method, phased.as_ref(), run, observer)?,
+        };
         let doubt = doubt_at((!self.method.is_exact()).then_some(run.rtol));
         let solution = Solution::new(self.assembly, &trajectory).doubting(doubt);
         let readings = self.read(&solution);

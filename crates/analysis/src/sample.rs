@@ -48,8 +48,17 @@ pub fn table_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -
         .connections
         .iter()
         .flat_map(|connection| [Some(connection.deformation), connection.rate, connection.force]);
-    let outputs: Vec<_> =
-        nodes.chain(elements).flatten().filter_map(|at| system.outputs.get(at)).collect();
+    let numbers: Vec<usize> = nodes.chain(elements).flatten().collect();
+    if assembly.switching.is_some() {
+        let column = |&at: &usize| Column {
+            name: system.outputs[at].name.clone(),
+            unit: system.outputs[at].unit,
+            values: trajectory.signal(system, at).sample(&times),
+        };
+        let columns = numbers.iter().map(column).collect();
+        return Table { times, columns };
+    }
+    let outputs: Vec<_> = numbers.iter().filter_map(|&at| system.outputs.get(at)).collect();
     let scaled: Vec<f64> = times.iter().map(|time| time / system.time_scale).collect();
     let states = trajectory.dense.sample(system, &scaled);
     let mut inputs = vec![0.0; system.inputs.len()];

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use dashpot_dae::{Direction, Guard, Method, Observer, Run, Trajectory, methods};
+use dashpot_dae::{
+    Direction, Guard, Method, Observer, Run, SolveError, Switch, Trajectory, methods,
+};
 use dashpot_network::{
     Assembly, Network,
     parameters::{ParameterKind, Value, WindowWish},
@@ -66,7 +68,16 @@ pub fn solve_assembly(
     };
     let (method, why) = choose(&settings.method, assembly, &run)?;
     let task = Task { assembly, settings, selected: &selected, method: method.as_ref() };
-    let outcome = task.run(&run, observer)?;
+    let outcome = match task.run(&run, observer) {
+        Err(SolveError::NotApplicable { reason, .. }) if settings.method == "auto" => {
+            // A phase that is reached later asks for more than the first one.
+            let other = Task { method: &methods::Bdf, ..task };
+            let why = format!("`{}` declines on the way: {reason}", method.name());
+            let outcome = other.run(&run, observer)?;
+            return report(assembly, effects, &other, &run, why, outcome);
+        }
+        outcome => outcome?,
+    };
     if settings.method == "auto" && method.is_exact() && !task.suffices(&outcome) {
         // Rounding has spoilt the exact solution; another method may do better.
         let other = Task { method: &methods::Bdf, ..task };
@@ -135,6 +146,7 @@ fn guards(assembly: &Assembly, settings: &SolveSettings) -> Result<Vec<Guard>, R
             level: stop.level,
             direction: stop.direction,
             stops: true,
+            begins: None,
         })
     };
     settings.stops.iter().map(guard).collect()
@@ -178,8 +190,7 @@ fn report(
         .collect();
     let contacts = contacts(&solution);
     let impact = solution.scene_impact();
-    let energy_after_impact =
-        (impact.contact == Contact::Released).then(|| ledger(&solution, impact.end));
+    let energy_after_impact = impact.has_ended().then(|| ledger(&solution, impact.end));
     let events = events(run, &trajectory, &contacts);
     let warnings = warnings::collect(&warnings::Findings {
         solution: &solution,
@@ -204,7 +215,7 @@ fn report(
         system: SystemReport {
             states: assembly.system.states(),
             algebraic: assembly.system.algebraic(),
-            modes: 1,
+            modes: modes(assembly),
             effects: effects.to_vec(),
         },
         measures,
@@ -216,6 +227,12 @@ fn report(
         assembly: Arc::clone(assembly),
         trajectory,
     })
+}
+
+/// How many combinations of phases there are; as many as fit into the number.
+fn modes(assembly: &Assembly) -> usize {
+    let parts = assembly.switching.iter().flat_map(|own| own.parts());
+    parts.map(|part| part.phases.len()).fold(1, usize::saturating_mul)
 }
 
 fn measure_report(
@@ -281,9 +298,25 @@ fn events(run: &Run, trajectory: &Trajectory, contacts: &[ContactReport]) -> Vec
         what: format!("{} force turns to tension", contact.element),
         stops: false,
     });
-    let mut events: Vec<EventReport> = releases.chain(guards).collect();
+    let switches = trajectory.switches.iter().map(|own| EventReport {
+        time: own.time,
+        what: switched(own),
+        stops: false,
+    });
+    let mut events: Vec<EventReport> = releases.chain(guards).chain(switches).collect();
     events.sort_by(|one, other| one.time.total_cmp(&other.time));
     events
+}
+
+/// What has switched, in words.
+fn switched(own: &Switch) -> String {
+    if own.impulse > 0.0 {
+        let impulse = quantity(own.impulse, "N s");
+        let lost = quantity(own.lost, "J");
+        format!("{}: impact of {impulse}, which loses {lost}", own.name)
+    } else {
+        format!("{}: {}", own.name, own.what)
+    }
 }
 
 #[cfg(test)]

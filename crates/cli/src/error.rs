@@ -92,6 +92,14 @@ pub(crate) enum CliError {
         /// The network as it was named.
         word: String,
     },
+    /// A model that is not linear, where one is wanted that is.
+    #[error("`{kind}` in `{word}` is not linear")]
+    NotLinear {
+        /// The model as it was named.
+        word: String,
+        /// Word of the first element that is not linear.
+        kind: &'static str,
+    },
     /// A model that cannot be brought into a form.
     #[error("`{word}` cannot be written as `{form}`: {reason}")]
     Unfit {
@@ -188,6 +196,7 @@ impl CliError {
             | Self::UnknownNode { .. }
             | Self::Response(_)
             | Self::MovingMasses { .. }
+            | Self::NotLinear { .. }
             | Self::Unfit { .. }
             | Self::UnknownElement { .. }
             | Self::Rheometer(_)
@@ -235,6 +244,11 @@ impl CliError {
             Self::Foreign { help, .. } => Some((*help).to_owned()),
             Self::Unfit { reason: Unfit::OtherShape { .. }, .. } => Some(
                 "`--to generalized-maxwell` and `--to generalized-kelvin` take every model"
+                    .to_owned(),
+            ),
+            Self::NotLinear { .. } => Some(
+                "only linear models can be converted, compared and put on the rheometer; run it in \
+                 a scene"
                     .to_owned(),
             ),
             Self::MovingMasses { .. } => {

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use dashpot_network::{Model, Network, NodeId, driving_point::Response, linear_model, model_of};
+use dashpot_network::{
+    Model, Network, NodeId, driving_point::Response, first_nonlinear, linear_model, model_of,
+};
 use dashpot_rheology::{Canonical, LinearModel};
 use dashpot_scene::{ModelNote, NamedModel, read_named_model, read_network, references};
 
@@ -24,7 +26,7 @@ pub(crate) struct Operand {
 
 /// A model, or the response of a network.
 pub(crate) enum Subject {
-    /// A series-parallel model.
+    /// A series-parallel model of linear elements.
     Model(NamedModel),
     /// The response of a network at two of its nodes.
     Response(Response),
@@ -32,6 +34,9 @@ pub(crate) enum Subject {
 
 impl Operand {
     /// Reads what `word` stands for, with the values `set`; warnings and notes are told.
+    ///
+    /// Whatever is done with an operand takes its linear response, so one with an element that is
+    /// not linear is an error.
     pub(crate) fn read(
         word: &str,
         set: &[(String, String)],
@@ -54,6 +59,9 @@ impl Operand {
                 read_named_model(input.text()?, name, &options).map_err(CliError::Scene)?;
             terminal.diagnose(&checked.warnings);
             tell(&checked.value.notes);
+            if let Some(element) = first_nonlinear(&checked.value.model) {
+                return Err(CliError::NotLinear { word: word.to_owned(), kind: element.kind() });
+            }
             Subject::Model(checked.value)
         };
         Ok(Self { word: word.to_owned(), input, subject })

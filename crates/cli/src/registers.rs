@@ -4,7 +4,6 @@ use dashpot_analysis::measures::{self, MeasureKind, MeasureVisitor, visit_measur
 use dashpot_analysis::rheometer::{FROM_THE_MODEL, ProtocolKind, ProtocolVisitor, visit_protocols};
 use dashpot_dae::methods;
 use dashpot_network::{
-    Effect,
     composites::{CompositeKind, CompositeVisitor, visit_composites},
     effects::{EffectKind, EffectVisitor, visit_effects},
     elements::{ElementKind, ElementVisitor, visit_elements},
@@ -13,7 +12,7 @@ use dashpot_network::{
     waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
 };
 use dashpot_rheology::{Form, FormVisitor, Part, Role, visit_forms};
-use dashpot_scene::write_kind;
+use dashpot_scene::{write_effect, write_kind};
 
 use crate::args::Family;
 
@@ -58,22 +57,6 @@ pub(crate) fn entries(family: Family) -> Vec<Entry> {
         Family::Templates | Family::Scenes => {}
     }
     collect.0
-}
-
-/// An effect with its values, as a scene would say it.
-pub(crate) fn written(effect: &dyn Effect) -> String {
-    struct Find<'e>(&'e dyn Effect, String);
-    impl EffectVisitor for Find<'_> {
-        fn visit<E: EffectKind>(&mut self) {
-            if E::KIND == self.0.kind() {
-                let values = self.0.values();
-                self.1 = write_kind(E::KIND, E::PARAMETERS, &values, Dimension::FORCE);
-            }
-        }
-    }
-    let mut find = Find(effect, String::new());
-    visit_effects(&mut find);
-    find.1
 }
 
 struct Collect(Vec<Entry>);
@@ -126,9 +109,7 @@ impl WaveformVisitor for Collect {
 
 impl EffectVisitor for Collect {
     fn visit<E: EffectKind>(&mut self) {
-        let sample = E::sample().values();
-        let example = write_kind(E::KIND, E::PARAMETERS, &sample, Dimension::FORCE);
-        self.add_kind(E::KIND, E::SUMMARY, E::PARAMETERS, example);
+        self.add_kind(E::KIND, E::SUMMARY, E::PARAMETERS, write_effect(&E::sample()));
     }
 }
 
@@ -166,7 +147,8 @@ fn described(parameter: &Parameter) -> String {
     };
     // The help of what follows from the model says how.
     let default = parameter.default.filter(|own| *own != FROM_THE_MODEL);
-    let default = default.map(|own| format!(" (default {own})")).unwrap_or_default();
+    let word = if parameter.follows { "left out:" } else { "default" };
+    let default = default.map(|own| format!(" ({word} {own})")).unwrap_or_default();
     format!("{}: {}{choice}{default}", parameter.name, parameter.help)
 }
 

@@ -63,18 +63,28 @@ fn node(network: &Network, id: NodeId, node: &Node, duration: f64) -> SketchNode
 pub(crate) fn waveform(waveform: &Waveform, si: &str, duration: f64) -> String {
     let pieces = waveform.pieces();
     let most = || constant(waveform.bound(duration), si);
-    let is_straight = |piece: &Piece| piece.sine == 0.0 && piece.cosine == 0.0;
+    let is_wave_only = |piece: &Piece| {
+        piece.value == 0.0 && piece.slope == 0.0 && piece.curvature == 0.0 && piece.jerk == 0.0
+    };
+    let is_straight = |piece: &Piece| {
+        let is_bent = piece.curvature != 0.0 || piece.jerk != 0.0;
+        piece.sine == 0.0 && piece.cosine == 0.0 && !is_bent
+    };
     let is_zero = |piece: &Piece| is_straight(piece) && piece.slope == 0.0 && piece.value == 0.0;
     match pieces {
         [one] if is_straight(one) && one.slope == 0.0 => {
             format!("constant {}", constant(one.value, si))
         }
-        [one] if one.slope == 0.0 && one.value == 0.0 => {
+        [one] if is_wave_only(one) && !one.is_swept() => {
             let frequency = rounded(one.omega / TAU, "Hz", DIGITS);
             format!("sine of {} at {frequency}", rounded(one.sine.hypot(one.cosine), si, DIGITS))
         }
         [before, arch, after]
-            if is_zero(before) && is_zero(after) && arch.sine != 0.0 && arch.cosine == 0.0 =>
+            if is_zero(before)
+                && is_zero(after)
+                && is_wave_only(arch)
+                && arch.sine != 0.0
+                && arch.cosine == 0.0 =>
         {
             let length = rounded(after.start - arch.start, "s", DIGITS);
             format!("arch of {} in {length}", constant(arch.sine, si))
@@ -82,8 +92,10 @@ pub(crate) fn waveform(waveform: &Waveform, si: &str, duration: f64) -> String {
         [before, rising, after]
             if is_zero(before)
                 && is_straight(rising)
+                && rising.value == 0.0
                 && is_straight(after)
-                && after.slope == 0.0 =>
+                && after.slope == 0.0
+                && waveform.jump(after.start) == 0.0 =>
         {
             let length = rounded(after.start - rising.start, "s", DIGITS);
             format!("ramp to {} in {length}", constant(after.value, si))
@@ -101,7 +113,7 @@ pub(crate) fn element(element: &dyn Element) -> String {
     match element.law() {
         Law::Spring(stiffness) => constant(stiffness, "N/m"),
         Law::Dashpot(damping) => constant(damping, "N s/m"),
-        Law::Rigid => String::new(),
+        Law::Rigid | Law::Nonlinear { .. } | Law::Phased => String::new(),
     }
 }
 
@@ -117,6 +129,9 @@ fn tree(model: &Tree<Arc<dyn Element>>, depth: usize) -> SketchTree {
             Law::Spring(_) => SketchTree::Spring { label: element(part.as_ref()) },
             Law::Dashpot(_) => SketchTree::Dashpot { label: element(part.as_ref()) },
             Law::Rigid => SketchTree::Rigid,
+            Law::Nonlinear { .. } | Law::Phased => {
+                SketchTree::Other { word: part.kind().to_owned(), label: String::new() }
+            }
         },
         Tree::Series(branches) => SketchTree::Series(parts(branches)),
         Tree::Parallel(branches) => SketchTree::Parallel(parts(branches)),

@@ -42,6 +42,14 @@ pub enum SolveError {
         /// Time reached \[s\].
         time: f64,
     },
+    /// The balances of the algebraic unknowns were not solved.
+    #[error("the balances at {time:.3e} s were not solved: no value of `{unknown}` was found")]
+    Inconsistent {
+        /// Time reached \[s\].
+        time: f64,
+        /// The unknown whose balance is farthest from being satisfied.
+        unknown: String,
+    },
     /// The result contains a number that is not finite.
     #[error("`{method}` lost `{unknown}` at {time:.3e} s: its value is not finite")]
     NotFinite {
@@ -61,6 +69,14 @@ pub enum SolveError {
         time: f64,
         /// The limit.
         steps: usize,
+    },
+    /// The equations that follow a switching are not known.
+    #[error("at {time:.6e} s: {reason}")]
+    Switching {
+        /// Time reached \[s\].
+        time: f64,
+        /// Which parts, and why.
+        reason: String,
     },
     /// An observer ended the run.
     #[error("the run was cancelled at {time:.3e} s")]

@@ -42,6 +42,10 @@ pub struct Guard {
     pub direction: Direction,
     /// Whether the run ends at the first crossing.
     pub stops: bool,
+    /// The side of the level on which the output begins, `true` above, where that is known although
+    /// the value may be on the level. `None` lets the guard be armed by the way in which its output
+    /// leaves the level.
+    pub begins: Option<bool>,
 }
 
 /// A crossing that was found.

@@ -6,25 +6,32 @@
 //! integrals are those of the continuous solution, not of samples.
 
 pub mod chebyshev;
+mod derivatives;
 mod error;
 pub mod events;
 mod exact;
+pub mod frequency;
 mod linear_form;
 pub mod methods;
 mod pieces;
 pub mod problems;
 mod run;
 mod signal;
+pub mod switching;
 mod system;
+mod term;
 mod trajectory;
 mod waveform;
 
+pub use derivatives::{Derivatives, derivatives};
 pub use error::SolveError;
 pub use events::{Direction, Event, Guard};
 pub use linear_form::LinearForm;
 pub use methods::{Method, MethodKind};
 pub use run::{Observer, Progress, Run, Silent};
 pub use signal::{Crossing, Extremum, Panel, Signal};
+pub use switching::{Leg, LegEnd, Switch, Switching};
 pub use system::{Input, Linear, Output, System, Unknown, UnknownKind};
+pub use term::{Argument, Characteristic, Term};
 pub use trajectory::{Dense, Outcome, Statistics, Trajectory};
 pub use waveform::{Piece, Waveform};

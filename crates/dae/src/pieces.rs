@@ -159,8 +159,8 @@ impl Pieces {
 }
 
 impl Dense for Pieces {
-    fn signal(&self, system: &System, output: &Output) -> Signal {
-        self.signal_from(system, output, 0)
+    fn signal(&self, system: &System, output: usize) -> Signal {
+        self.signal_from(system, &system.outputs[output], 0)
     }
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {

@@ -2,12 +2,21 @@
 
 mod balances;
 mod chains;
+mod contact;
 mod driven;
+mod jacobi;
+mod lattice;
+mod nonlinear;
 mod oscillators;
 
 pub use balances::{maxwell_relaxation, maxwell_under_steps};
 pub use chains::{diagonal_chain, stiff_pair, vibrating_chain};
+pub use contact::hertz_contact;
 pub use driven::{driven_by_sine, driven_by_table, struck_by_pulse};
+pub use lattice::solitary_wave;
+pub use nonlinear::{
+    cubic_spring, pulled_spring, quadratic_dashpot, root_dashpot, springs_in_series,
+};
 pub use oscillators::{critically_damped, free_motion, overdamped, underdamped};
 
 use std::fmt;
@@ -59,6 +68,13 @@ pub fn all() -> Vec<Problem> {
         stiff_pair(),
         diagonal_chain(),
         vibrating_chain(),
+        cubic_spring(),
+        quadratic_dashpot(),
+        root_dashpot(),
+        springs_in_series(),
+        pulled_spring(),
+        hertz_contact(),
+        solitary_wave(),
     ]
 }
 
@@ -107,6 +123,7 @@ impl Parts<'_> {
             input_matrix: matrix(self.waveforms.len(), self.input_matrix),
             inputs: (0..self.waveforms.len()).map(input).collect(),
             waveforms: self.waveforms,
+            terms: Vec::new(),
             initial: self.initial,
             time_scale: TIME_SCALE,
         }

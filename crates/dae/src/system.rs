@@ -2,7 +2,7 @@
 
 use nalgebra_sparse::CsrMatrix;
 
-use crate::{LinearForm, Waveform};
+use crate::{LinearForm, Term, Waveform};
 
 /// How an unknown enters the system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +51,9 @@ pub struct Output {
     pub inputs: LinearForm,
 }
 
-/// The differential–algebraic system `M ẏ = J y + B w(t)`, `M = diag(1…1, 0…0)`.
+/// The differential–algebraic system `M ẏ = J y + B w(t) + n(y, w)`, `M = diag(1…1, 0…0)`.
+///
+/// The terms `n` that are not linear stand in rows of algebraic unknowns; most systems have none.
 ///
 /// Everything is dimensionless: time in units of [`time_scale`](Self::time_scale), unknowns in
 /// units of their own [`scale`](Unknown::scale). It is semi-explicit and of index 1: the block of
@@ -68,6 +70,8 @@ pub struct System {
     pub inputs: Vec<Input>,
     /// The driving functions, in dimensionless time and value.
     pub waveforms: Vec<Waveform>,
+    /// Terms that are not linear.
+    pub terms: Vec<Term>,
     /// Initial values of the unknowns; those of algebraic unknowns are a first guess, because methods
     /// solve the balances before they start.
     pub initial: Vec<f64>,
@@ -89,7 +93,12 @@ pub struct Linear<'a> {
 impl System {
     /// The matrices, where the system is linear and every algebraic unknown has been eliminated.
     pub fn linear(&self) -> Option<Linear<'_>> {
-        (self.algebraic() == 0).then_some(Linear { a: &self.jacobian, b: &self.input_matrix })
+        (self.is_linear() && self.algebraic() == 0).then_some(Linear { a: &self.jacobian, b: &self.input_matrix })
+    }
+
+    /// Whether it has no other terms than linear ones.
+    pub fn is_linear(&self) -> bool {
+        self.terms.is_empty()
     }
 
     /// Number of unknowns.

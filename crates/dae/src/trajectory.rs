@@ -2,7 +2,7 @@
 
 use std::{fmt::Debug, time::Duration};
 
-use crate::{Event, Output, Signal, System};
+use crate::{Event, Signal, Switch, System};
 
 /// How much work a run was.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -23,6 +23,18 @@ pub struct Statistics {
     pub wall: Duration,
 }
 
+impl Statistics {
+    /// Adds the work of a part of the run, but for its wall-clock time.
+    pub(crate) fn add(&mut self, part: &Self) {
+        self.accepted += part.accepted;
+        self.rejected += part.rejected;
+        self.rhs_calls += part.rhs_calls;
+        self.jacobian_calls += part.jacobian_calls;
+        self.factorizations += part.factorizations;
+        self.linear_solves += part.linear_solves;
+    }
+}
+
 /// How a run that went well came to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outcome {
@@ -37,11 +49,12 @@ pub enum Outcome {
 
 /// A solution between its ends.
 pub trait Dense: Debug + Send + Sync {
-    /// The output as a function of time, in SI units, over the whole run.
-    fn signal(&self, system: &System, output: &Output) -> Signal;
+    /// The output of this number as a function of time, in SI units, over the whole run.
+    fn signal(&self, system: &System, output: usize) -> Signal;
 
     /// All unknowns, dimensionless, at each of the dimensionless `times` (rising, within the run):
-    /// one row of `n` values after another.
+    /// one row of `n` values after another. Empty for a run of several legs, each of which has
+    /// unknowns of its own.
     fn sample(&self, system: &System, times: &[f64]) -> Vec<f64>;
 }
 
@@ -56,6 +69,10 @@ pub struct Trajectory {
     pub t_end: f64,
     /// Crossings of guards, in order of time.
     pub events: Vec<Event>,
+    /// The phase of each switching part at the start: its number, and what it remembers.
+    pub first_phases: Vec<(usize, f64)>,
+    /// What switched, in order of time.
+    pub switches: Vec<Switch>,
     /// Work done.
     pub statistics: Statistics,
     /// The solution itself.
@@ -69,6 +86,6 @@ impl Trajectory {
     ///
     /// When `system` is not the one that was solved and has fewer outputs.
     pub fn signal(&self, system: &System, output: usize) -> Signal {
-        self.dense.signal(system, &system.outputs[output])
+        self.dense.signal(system, output)
     }
 }

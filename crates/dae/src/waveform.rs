@@ -1,51 +1,13 @@
 //! Functions of time that drive a system.
 
-/// One smooth piece of a [`Waveform`], from its `start` to the start of the next:
-/// `u(t) = value + slope·s + sine·sin(ω s) + cosine·cos(ω s)` with `s = t − start`.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Piece {
-    /// Where the piece begins; the first one holds before its start as well.
-    pub start: f64,
-    /// Constant part.
-    pub value: f64,
-    /// Slope of the linear part.
-    pub slope: f64,
-    /// Amplitude of the sine.
-    pub sine: f64,
-    /// Amplitude of the cosine.
-    pub cosine: f64,
-    /// Angular frequency `ω` of sine and cosine.
-    pub omega: f64,
-}
+mod piece;
 
-impl Piece {
-    /// The `order`-th derivative of the piece at `t`.
-    pub fn derivative(&self, order: u32, t: f64) -> f64 {
-        let s = t - self.start;
-        let polynomial = match order {
-            0 => self.value + self.slope * s,
-            1 => self.slope,
-            _ => 0.0,
-        };
-        if self.omega == 0.0 || (self.sine == 0.0 && self.cosine == 0.0) {
-            return if order == 0 { polynomial + self.cosine } else { polynomial };
-        }
-        let (sin, cos) = (self.omega * s).sin_cos();
-        let (sine, cosine) = match order % 4 {
-            0 => (sin, cos),
-            1 => (cos, -sin),
-            2 => (-sin, -cos),
-            _ => (-cos, sin),
-        };
-        polynomial
-            + self.omega.powi(order.cast_signed()) * (self.sine * sine + self.cosine * cosine)
-    }
-}
+pub use piece::Piece;
 
 /// A function of time made of smooth pieces; it may jump, or have a kink, where they meet.
 ///
-/// Constants, lines and sines are all that a piece holds, because those are what the exact method
-/// can follow without quadrature.
+/// Cubics and sines are what the exact method can follow without quadrature; a sine whose frequency
+/// is swept can only be stepped through.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Waveform {
     pieces: Vec<Piece>,
@@ -57,9 +19,7 @@ impl Waveform {
     /// Returns `None` when there is no piece, or the order is not strict, or a number is not finite.
     pub fn new(pieces: Vec<Piece>) -> Option<Self> {
         let ordered = pieces.windows(2).all(|pair| pair[0].start < pair[1].start);
-        let finite = pieces.iter().all(|p| {
-            [p.start, p.value, p.slope, p.sine, p.cosine, p.omega].iter().all(|x| x.is_finite())
-        });
+        let finite = pieces.iter().all(|piece| piece.numbers().iter().all(|x| x.is_finite()));
         (!pieces.is_empty() && ordered && finite).then_some(Self { pieces })
     }
 
@@ -75,8 +35,7 @@ impl Waveform {
 
     /// The piece that holds on the interval that begins at `t`.
     pub fn piece_at(&self, t: f64) -> &Piece {
-        let after = self.pieces.partition_point(|piece| piece.start <= t);
-        &self.pieces[after.saturating_sub(1)]
+        &self.pieces[self.index_at(t)]
     }
 
     /// The value at `t`, from the right where the function jumps.
@@ -92,46 +51,68 @@ impl Waveform {
     /// The jump of the value at `t`, zero where the function is continuous up to rounding.
     #[expect(clippy::float_cmp, reason = "a breakpoint is met exactly or not at all")]
     pub fn jump(&self, t: f64) -> f64 {
-        let Some(at) = self.pieces.iter().skip(1).position(|piece| piece.start == t) else {
+        let at = self.index_at(t);
+        if at == 0 || self.pieces[at].start != t {
             return 0.0;
-        };
-        let (before, after) =
-            (self.pieces[at].derivative(0, t), self.pieces[at + 1].derivative(0, t));
-        let noise = 1e-12 * (self.pieces[at].scale_at(t) + self.pieces[at + 1].scale_at(t));
-        if (after - before).abs() <= noise { 0.0 } else { after - before }
+        }
+        let [before, after] = [&self.pieces[at - 1], &self.pieces[at]];
+        let jump = after.derivative(0, t) - before.derivative(0, t);
+        if jump.abs() <= before.noise(t) + after.noise(t) { 0.0 } else { jump }
     }
 
     /// The same function with time and value measured in other units:
     /// `û(t̂) = u(t̂ · time) / value`.
     #[must_use]
     pub fn in_units(&self, time: f64, value: f64) -> Self {
-        let scaled = |p: &Piece| Piece {
-            start: p.start / time,
-            value: p.value / value,
-            slope: p.slope * time / value,
-            sine: p.sine / value,
-            cosine: p.cosine / value,
-            omega: p.omega * time,
-        };
-        Self { pieces: self.pieces.iter().map(scaled).collect() }
+        Self { pieces: self.pieces.iter().map(|piece| piece.in_units(time, value)).collect() }
+    }
+
+    /// The integral from `t = 0` on: it is zero there, continuous, and has this function as its rate
+    /// at all later times. The piece that holds at 0 is its first one.
+    ///
+    /// Returns `None` when a piece has no integral that a piece can hold, which is so for a swept
+    /// frequency and for a cubic, or when a number becomes too large.
+    pub fn integral(&self) -> Option<Self> {
+        let mut pieces: Vec<Piece> = Vec::with_capacity(self.pieces.len());
+        for piece in &self.pieces[self.index_at(0.0)..] {
+            let (start, reached) = match pieces.last() {
+                Some(last) => (piece.start, last.derivative(0, piece.start)),
+                None => (0.0, 0.0),
+            };
+            let mut whole = piece.integral(start)?;
+            whole.value += reached;
+            pieces.push(whole);
+        }
+        Self::new(pieces)
+    }
+
+    /// The same function with time counted from `start`; what lies before it is cut off.
+    #[must_use]
+    pub fn since(&self, start: f64) -> Self {
+        let first = self.pieces.partition_point(|piece| piece.start <= start).saturating_sub(1);
+        let shifted = |piece: &Piece| Piece { start: piece.start - start, ..*piece };
+        Self { pieces: self.pieces[first..].iter().map(shifted).collect() }
     }
 
     /// The largest absolute value on `[0, end]`, bounded from above.
     pub fn bound(&self, end: f64) -> f64 {
         let mut bound = 0.0_f64;
-        for (at, piece) in self.pieces.iter().enumerate() {
-            let stop = self.pieces.get(at + 1).map_or(end, |next| next.start.min(end));
-            if at > 0 && piece.start > end {
+        let mut from = 0.0;
+        for (at, piece) in self.pieces.iter().enumerate().skip(self.index_at(0.0)) {
+            let next = self.pieces.get(at + 1).map_or(f64::INFINITY, |next| next.start);
+            bound = bound.max(piece.bound(from, next.min(end)));
+            if next > end {
                 break;
             }
-            bound = bound.max(piece.scale_at(piece.start)).max(piece.scale_at(stop));
+            from = next;
         }
         bound
     }
-}
 
-impl Piece {
-    fn scale_at(&self, t: f64) -> f64 {
-        (self.value + self.slope * (t - self.start)).abs() + self.sine.hypot(self.cosine)
+    fn index_at(&self, t: f64) -> usize {
+        self.pieces.partition_point(|piece| piece.start <= t).saturating_sub(1)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,7 +4,7 @@ use std::{ops::Range, sync::Arc};
 
 use dashpot_dae::System;
 
-use crate::{NodeId, elements::Element};
+use crate::{NodeId, PhasedNetwork, elements::Element};
 
 /// A network compiled to a [`System`], with an index of its outputs.
 ///
@@ -23,6 +23,9 @@ pub struct Assembly {
     pub drives: Vec<DriveOutputs>,
     /// What is odd but not wrong.
     pub warnings: Vec<String>,
+    /// The phases of what switches, where anything does; [`system`](Self::system) is then that of
+    /// the first ones.
+    pub switching: Option<Arc<PhasedNetwork>>,
 }
 
 /// Outputs of a node.

@@ -22,6 +22,8 @@ pub enum Subject {
     Load(String),
     /// An effect, by its word.
     Effect(&'static str),
+    /// An effect on one element, by its word and the element's name.
+    EffectOn(&'static str, String),
 }
 
 /// Why a network cannot be turned into a system.
@@ -125,6 +127,67 @@ pub enum NetworkError {
         /// The nodes that would sink, by name.
         nodes: Vec<String>,
     },
+    /// An effect acts on an element that the network does not have.
+    #[error("`{effect}.{element}` acts on no element: there is none named `{element}`")]
+    NoElement {
+        /// Word of the effect.
+        effect: &'static str,
+        /// The element.
+        element: String,
+    },
+    /// An effect acts at a node that is no end of its element.
+    #[error(
+        "`{effect}.{element}` is at `{node}`, but `{element}` is between `{}` and `{}`",
+        .ends[0],
+        .ends[1]
+    )]
+    NotAnEnd {
+        /// Word of the effect.
+        effect: &'static str,
+        /// The element.
+        element: String,
+        /// The node.
+        node: String,
+        /// The nodes at the element's ends.
+        ends: [String; 2],
+    },
+    /// A face is to have mass at another end than the one that separates.
+    #[error(
+        "`face.{element}` is at `{face}`, but `separation.{element}` opens at `{separation}`: \
+         they are to be at one node"
+    )]
+    TwoFaces {
+        /// The element.
+        element: String,
+        /// The node on whose side the mass is.
+        face: String,
+        /// The node at which the element opens.
+        separation: String,
+    },
+    /// A stop whose depth is not known.
+    #[error("`stop.{element}` has no `at`, and `{element}` has no thickness from which it follows")]
+    NoDepth {
+        /// The element.
+        element: String,
+    },
+    /// The force in a closed contact, a slider that sticks or a rigid link follows from nothing.
+    #[error(
+        "the force in `{element}` is undetermined: another rigid way leads around it; give one of \
+         the parts a stiffness"
+    )]
+    UndeterminedForce {
+        /// Path of the part.
+        element: String,
+    },
+    /// The rate of a part that switches follows from unknowns that have no rate.
+    #[error(
+        "how fast `{element}` deforms does not follow from its neighbours: put a dashpot beside the \
+         spring that it is in series with"
+    )]
+    UndeterminedRate {
+        /// Path of the part.
+        element: String,
+    },
     /// A number became too large or too small for double precision.
     #[error("the constants of the network are too far apart: {what} is {value:e} in {unit}")]
     OutOfScale {
@@ -155,6 +218,16 @@ impl NetworkError {
             | Self::StepAcrossDashpots { node: name, .. } => node(name),
             Self::Undetermined { nodes } | Self::NoBalance { nodes } => {
                 nodes.first().and_then(node)
+            }
+            Self::NoElement { effect, element } | Self::NotAnEnd { effect, element, .. } => {
+                Some(Subject::EffectOn(effect, element.clone()))
+            }
+            Self::TwoFaces { element, .. } => Some(Subject::EffectOn("face", element.clone())),
+            Self::NoDepth { element } => Some(Subject::EffectOn("stop", element.clone())),
+            Self::UndeterminedForce { element } | Self::UndeterminedRate { element } => {
+                let mut path = element.split('.').map(str::to_owned);
+                let name = path.next().unwrap_or_default();
+                Some(Subject::Element { name, path: path.collect() })
             }
             Self::OutOfScale { .. } => None,
         }

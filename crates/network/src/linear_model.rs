@@ -25,9 +25,34 @@ pub fn linear_model(model: &Model) -> LinearModel {
     LinearModel::of(model, |element| primitive(element.as_ref()))
 }
 
-/// An element as a part of a linear model.
+/// Whether every element of a model is a linear spring, dashpot or rigid link.
+pub fn is_linear(model: &Model) -> bool {
+    first_nonlinear(model).is_none()
+}
+
+/// The first element of a model that is no linear spring, dashpot or rigid link.
+pub fn first_nonlinear(model: &Model) -> Option<&Arc<dyn Element>> {
+    let mut left = vec![model];
+    while let Some(tree) = left.pop() {
+        match tree {
+            Tree::Part(element) => {
+                if matches!(element.law(), Law::Nonlinear { .. } | Law::Phased) {
+                    return Some(element);
+                }
+            }
+            Tree::Series(branches) | Tree::Parallel(branches) => {
+                left.extend(branches.iter().rev().map(|branch| &branch.tree));
+            }
+        }
+    }
+    None
+}
+
+/// An element as a part of a linear model. One that is not [linear](is_linear) has no linear model;
+/// whoever asks for one must have made sure of that.
 pub fn primitive(element: &dyn Element) -> Primitive {
     match element.law() {
+        Law::Nonlinear { .. } | Law::Phased => Primitive::Spring(f64::NAN),
         Law::Spring(stiffness) => Primitive::Spring(stiffness),
         Law::Dashpot(damping) => Primitive::Dashpot(damping),
         Law::Rigid => Primitive::Rigid,

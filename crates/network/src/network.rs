@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dashpot_dae::Waveform;
 use dashpot_rheology::Tree;
 
-use crate::{effects::Effect, elements::Element};
+use crate::{effects::Effect, elements::Element, layers::Layers};
 
 /// A two-terminal model composed of elements.
 pub type Model = Tree<Arc<dyn Element>>;
@@ -114,6 +114,12 @@ pub struct Connection {
     /// Thickness \[m\] of the pad that it stands for, where it is one: deformation beyond it is
     /// warned of.
     pub thickness: Option<f64>,
+    /// The layers with mass that it is made of, where it is; its model is that of the pad as if it
+    /// had no mass. They are cut into segments when the network is compiled.
+    pub layers: Option<Layers>,
+    /// Nodes between the branches of the model, one fewer than branches of a series; none where
+    /// nothing hangs on the places between them.
+    pub(crate) through: Vec<NodeId>,
 }
 
 /// A force on a node.
@@ -193,8 +199,24 @@ impl Network {
             between: [from, to],
             model,
             thickness: None,
+            layers: None,
+            through: Vec::new(),
         });
         &mut self.connections[at]
+    }
+
+    /// Puts a pad of layers between two nodes of this network, the impactor's side first.
+    pub fn connect_layers(
+        &mut self,
+        name: impl Into<String>,
+        from: NodeId,
+        to: NodeId,
+        layers: Layers,
+    ) -> &mut Connection {
+        let connection = self.connect(name, from, to, layers.model());
+        connection.thickness = Some(layers.thickness());
+        connection.layers = Some(layers);
+        connection
     }
 
     /// Puts another model in the place of that of a connection, by its position.

@@ -99,12 +99,16 @@ pub enum ParameterKind {
     Amplitude,
     /// Pairs of time and amplitude; the kind says in which order.
     TimeTable,
+    /// Pairs of two quantities of these dimensions.
+    Curve(Dimension, Dimension),
     /// One of these words.
     Choice(&'static [&'static str]),
     /// `true`; the key's presence says it all.
     Flag,
     /// `"impact"`, `"run"` or a pair of times.
     Window,
+    /// The name of a node.
+    Node,
 }
 
 /// One parameter of a kind.
@@ -117,6 +121,9 @@ pub struct Parameter {
     /// Value where the key is left out, in the form in which it would be written; `None` if it is
     /// required.
     pub default: Option<&'static str>,
+    /// Whether it follows from the rest of the scene where the key is left out: the default then
+    /// says in words from what, and the value is [`Value::LeftOut`].
+    pub follows: bool,
     /// One line of help with symbol, unit and range.
     pub help: &'static str,
 }
@@ -124,7 +131,7 @@ pub struct Parameter {
 impl Parameter {
     /// A required parameter.
     pub const fn required(name: &'static str, kind: ParameterKind, help: &'static str) -> Self {
-        Self { name, kind, default: None, help }
+        Self { name, kind, default: None, follows: false, help }
     }
 
     /// A parameter that may be left out.
@@ -134,7 +141,17 @@ impl Parameter {
         default: &'static str,
         help: &'static str,
     ) -> Self {
-        Self { name, kind, default: Some(default), help }
+        Self { name, kind, default: Some(default), follows: false, help }
+    }
+
+    /// A parameter that follows from the rest of the scene where it is left out; `from` says how.
+    pub const fn following(
+        name: &'static str,
+        kind: ParameterKind,
+        from: &'static str,
+        help: &'static str,
+    ) -> Self {
+        Self { name, kind, default: Some(from), follows: true, help }
     }
 }
 
@@ -144,14 +161,16 @@ pub enum Value {
     /// For [`ParameterKind::Quantity`], [`ParameterKind::TemperatureDifference`] and
     /// [`ParameterKind::Amplitude`].
     Number(f64),
-    /// For [`ParameterKind::TimeTable`].
+    /// For [`ParameterKind::TimeTable`] and [`ParameterKind::Curve`].
     Table(Vec<(f64, f64)>),
-    /// For [`ParameterKind::Choice`].
+    /// For [`ParameterKind::Choice`] and [`ParameterKind::Node`].
     Word(String),
     /// For [`ParameterKind::Flag`].
     Flag,
     /// For [`ParameterKind::Window`].
     Window(WindowWish),
+    /// Of a parameter that [follows](Parameter::follows) from the rest of the scene.
+    LeftOut,
 }
 
 /// The part of a run that a measure looks at.

@@ -27,6 +27,9 @@ pub use figures::model::{
     Measured, ModelCurve, ModelFigure, ModelMarker, ModelSeries, ModelSubject, RheometerLine,
     RheometerSeries,
 };
-pub use figures::{ElementSeries, EnergySeries, Figure, RunMarker, RunMarkerKind, RunSeries};
+pub use figures::{
+    ElementSeries, EnergySeries, Figure, RunMarker, RunMarkerKind, RunSeries, VibrationCurve,
+    VibrationSeries,
+};
 pub use report::{Report, ReportFigure, Table};
 pub use sketch::{Sketch, SketchKind, SketchLink, SketchNode, SketchTree};

@@ -5,6 +5,9 @@ use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, Parame
 /// Area \[m²\].
 pub(crate) const AREA: Dimension = Dimension::new(0, 2, 0);
 
+/// Density \[kg/m³\].
+pub(crate) const DENSITY: Dimension = Dimension::new(1, -3, 0);
+
 /// What the values of a model measure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Basis {
@@ -83,6 +86,20 @@ impl Basis {
         });
         all.collect()
     }
+}
+
+/// Whether all values of a kind become those of a pad by its area over its thickness: a force or a
+/// length of an element does not.
+pub(crate) fn fits_material(parameters: &[Parameter]) -> bool {
+    let fits = |dimension: Dimension| {
+        stiffness_power(dimension) != 0 || (dimension.mass == 0 && dimension.length == 0)
+    };
+    parameters.iter().all(|own| match own.kind {
+        ParameterKind::Quantity(dimension) => fits(dimension),
+        ParameterKind::Curve(first, second) => fits(first) && fits(second),
+        ParameterKind::Amplitude | ParameterKind::TimeTable => false,
+        _ => true,
+    })
 }
 
 /// The power e of the stiffness in a dimension (N/m)^e s^k; 0 for all other dimensions.

@@ -7,7 +7,8 @@ use dashpot_network::{
 use thiserror::Error;
 
 use crate::{
-    basis::{AREA, Basis},
+    basis::{AREA, Basis, DENSITY},
+    csv::CsvFault,
     fault_help::{bad_value_help, unknown_name_help, unreadable_help, wrong_dimension_help},
     nearest::{list, suggestion},
     units::{UnitError, si_unit},
@@ -197,6 +198,12 @@ pub enum Fault {
     /// A model within a material.
     #[error("`model` cannot stand in a material: models are in N/m, materials in Pa")]
     ModelInMaterial,
+    /// An element of forces and lengths within a material.
+    #[error("`{word}` cannot stand in a material: it has forces or lengths of its own")]
+    ElementInMaterial {
+        /// Word of the element.
+        word: &'static str,
+    },
     /// The size of a pad where there is none.
     #[error("`{key}` goes with `material`, which {owner} does not have")]
     SizeWithoutMaterial {
@@ -271,6 +278,9 @@ pub enum Fault {
         /// Why.
         reason: String,
     },
+    /// A file of numbers that is no table.
+    #[error("{0}")]
+    Csv(CsvFault),
     /// Something that is odd but not wrong.
     #[error("{message}")]
     Odd {
@@ -367,6 +377,9 @@ impl Fault {
                  with `{ material = \"…\", thickness = \"2 cm\", area = \"100 cm^2\" }`"
                     .to_owned(),
             ),
+            Self::ElementInMaterial { .. } => Some(
+                "write it in [models] or [elements], with the values of the pad".to_owned(),
+            ),
             Self::SizeWithoutMaterial { .. } => Some(
                 "leave it out, or name a material of [materials], in Pa: `material = \"…\"`".to_owned(),
             ),
@@ -384,6 +397,7 @@ impl Fault {
                 "for example:\n\n[elements]\npadding = { between = [\"head\", \"ground\"], spring = \"20 MN/m\" }"
                     .to_owned(),
             ),
+            Self::Csv(fault) => fault.help(),
             Self::EmptyList { .. } => Some("leave the key out, or give an entry".to_owned()),
             _ => None,
         }
@@ -409,6 +423,7 @@ pub(crate) fn described(dimension: Dimension) -> String {
             "a compliance of a material (1/Pa)".to_owned()
         }
         None if dimension == AREA => "an area (m^2)".to_owned(),
+        None if dimension == DENSITY => "a density (kg/m^3)".to_owned(),
         None => format!("a quantity in {}", si_unit(dimension)),
     }
 }
@@ -438,6 +453,7 @@ pub(crate) fn example_text(dimension: Dimension) -> &'static str {
         Dimension::COMPLIANCE => "0.05 mm/kN",
         Dimension::TEMPERATURE => "20 degC",
         AREA => "100 cm^2",
+        DENSITY => "120 kg/m^3",
         _ if dimension == Basis::MATERIAL.dimension(Dimension::COMPLIANCE) => "0.5 1/MPa",
         _ => "1.5",
     }

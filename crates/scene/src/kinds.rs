@@ -32,6 +32,13 @@ pub(crate) struct Kind<T> {
     pub(crate) make: fn(&[Value]) -> Result<T, InvalidParameter>,
 }
 
+impl<T> Kind<T> {
+    /// Whether all it takes is a table of amplitudes over time.
+    pub(crate) fn is_table(&self) -> bool {
+        matches!(self.parameters, [only] if only.kind == ParameterKind::TimeTable)
+    }
+}
+
 /// A named form.
 pub(crate) struct FormKind {
     /// Its word.
@@ -52,6 +59,20 @@ pub(crate) struct CompositeEntry {
     pub(crate) kind: Kind<Composed>,
     /// Dimension of what stands beside the times in its tables, in a model.
     pub(crate) amplitude: Dimension,
+}
+
+/// An effect kind.
+pub(crate) struct EffectEntry {
+    /// Its word.
+    pub(crate) word: &'static str,
+    /// One line of help.
+    pub(crate) summary: &'static str,
+    /// Its parameters.
+    pub(crate) parameters: &'static [Parameter],
+    /// Whether it acts on one element.
+    pub(crate) is_per_element: bool,
+    /// Makes the effect on an element, whose name is empty for one that acts on the network.
+    pub(crate) make: fn(&str, &[Value]) -> Result<Arc<dyn Effect>, InvalidParameter>,
 }
 
 /// A measure kind.
@@ -75,7 +96,7 @@ pub(crate) struct Registers {
     /// Driving functions.
     pub(crate) waveforms: Vec<Kind<Waveform>>,
     /// Effects.
-    pub(crate) effects: Vec<Kind<Arc<dyn Effect>>>,
+    pub(crate) effects: Vec<EffectEntry>,
     /// Measures.
     pub(crate) measures: Vec<MeasureEntry>,
     /// Methods.
@@ -124,6 +145,11 @@ impl Registers {
     /// The composite of this word.
     pub(crate) fn composite(&self, word: &str) -> Option<&CompositeEntry> {
         self.composites.iter().find(|entry| entry.kind.word == word)
+    }
+
+    /// The effect of this word.
+    pub(crate) fn effect(&self, word: &str) -> Option<&EffectEntry> {
+        self.effects.iter().find(|entry| entry.word == word)
     }
 
     /// The words with which a model begins.
@@ -195,11 +221,12 @@ impl WaveformVisitor for Registers {
 
 impl EffectVisitor for Registers {
     fn visit<E: EffectKind>(&mut self) {
-        self.effects.push(Kind {
+        self.effects.push(EffectEntry {
             word: E::KIND,
             summary: E::SUMMARY,
             parameters: E::PARAMETERS,
-            make: |values| E::from_values(values).map(|effect| Arc::new(effect) as _),
+            is_per_element: E::PER_ELEMENT,
+            make: |target, values| E::from_values(target, values).map(|own| Arc::new(own) as _),
         });
     }
 }
@@ -261,9 +288,14 @@ impl Example {
                 let value = self.amplitude();
                 format!("[[\"1 ms\", {value}], [\"5 ms\", {value}]]")
             }
+            ParameterKind::Curve(first, second) => {
+                let point = format!("[{}, {}]", self.quantity(first), self.quantity(second));
+                format!("[{point}, …]")
+            }
             ParameterKind::Choice(words) => format!("\"{}\"", words.first().unwrap_or(&"")),
             ParameterKind::Flag => "true".to_owned(),
             ParameterKind::Window => "\"impact\"".to_owned(),
+            ParameterKind::Node => "\"head\"".to_owned(),
         }
     }
 

@@ -12,6 +12,7 @@
 //! Quantities carry [`units`]; inside all values are SI.
 
 mod basis;
+mod csv;
 mod diagnostics;
 mod document;
 mod fault;
@@ -41,6 +42,7 @@ pub mod units;
 mod values;
 mod write;
 
+pub use csv::CsvFault;
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
 pub use document::MAX_BYTES;
 pub use fault::Fault;
@@ -53,7 +55,7 @@ pub use schema::schema;
 pub use shipped::{Shipped, reference, references, template, templates};
 pub use source::Source;
 pub use values::NamedValue;
-pub use write::{write_kind, write_material_table, write_model, write_model_table};
+pub use write::{write_effect, write_kind, write_material_table, write_model, write_model_table};
 
 #[cfg(test)]
 mod tests;

@@ -8,9 +8,11 @@ use std::{
 use crate::{
     basis::Basis,
     diagnostics::Faults,
-    document::{Content, Entry, Item, parse},
+    document::{Content, Entry, Item, MAX_BYTES, parse},
     fault::Fault,
+    kinds::registers,
     quantity::{Quantities, Values},
+    sections::file_named,
     source::{Place, Source},
     table::{check_name, entries_of},
     values::{self, Overrides},
@@ -82,10 +84,21 @@ struct Document {
     models: HashMap<(Shelf, String), usize>,
 }
 
+/// A file of numbers that a driving function is read from.
+#[derive(Debug)]
+pub(crate) struct TableFile {
+    /// Number of its text among the sources.
+    pub(crate) number: u32,
+    /// Its text.
+    pub(crate) source: Arc<Source>,
+}
+
 /// All documents of one reading, the scene's own first.
 #[derive(Debug)]
 pub(crate) struct Library {
     documents: Vec<Document>,
+    /// The files of numbers by their paths, `None` where one could not be read.
+    tables: HashMap<String, Option<TableFile>>,
     /// Index of the document of each path that was asked for, `None` where it could not be read.
     files: HashMap<String, Option<usize>>,
 }
@@ -99,7 +112,8 @@ impl Library {
         overrides: &Overrides,
         faults: &Faults,
     ) -> Self {
-        let mut library = Self { documents: Vec::new(), files: HashMap::new() };
+        let mut library =
+            Self { documents: Vec::new(), tables: HashMap::new(), files: HashMap::new() };
         library.add(path, root, overrides, faults);
         let mut next = 0;
         while next < library.documents.len() {
@@ -111,6 +125,43 @@ impl Library {
         let known: Vec<&Values> = library.documents.iter().map(|own| &own.values).collect();
         overrides.check(&known, faults);
         library
+    }
+
+    /// Reads the files of numbers that the loads and nodes of the scene name.
+    pub(crate) fn load_tables(&mut self, loader: Option<Loader<'_>>, faults: &Faults) {
+        for (path, place) in self.tables_wanted() {
+            if self.tables.contains_key(&path) {
+                continue;
+            }
+            let text = match loader {
+                None => Err("no other files can be read here".to_owned()),
+                Some(_) if self.tables.len() >= MAX_FILES => {
+                    Err(format!("a scene may use {MAX_FILES} files of numbers"))
+                }
+                Some(loader) => loader(&path),
+            };
+            let text = text.and_then(|text| match text.len() {
+                0..=MAX_BYTES => Ok(text),
+                bytes => Err(format!("it has {bytes} bytes; the limit is 64 MB")),
+            });
+            let file = match text {
+                Ok(text) => {
+                    let source = Arc::new(Source::new(&*path, text));
+                    let number = faults.add_source(Arc::clone(&source));
+                    Some(TableFile { number, source })
+                }
+                Err(reason) => {
+                    faults.error(place, Fault::Unloadable { path: path.clone(), reason });
+                    None
+                }
+            };
+            self.tables.insert(path, file);
+        }
+    }
+
+    /// The file of numbers that the scene calls `path`; `None` where it could not be read.
+    pub(crate) fn table_file(&self, path: &str) -> Option<&TableFile> {
+        self.tables.get(&beside(&self.documents.first()?.path, path))?.as_ref()
     }
 
     /// The entry of a key of the scene's own document.
@@ -242,6 +293,26 @@ impl Library {
         }
     }
 
+    /// The paths in `table = "path"` and `table = { file = "path" }` in the scene's loads and nodes,
+    /// with their places.
+    fn tables_wanted(&self) -> Vec<(String, Place)> {
+        let sections = ["loads", "nodes"].into_iter().filter_map(|key| self.section(key));
+        let mut queue: VecDeque<&Item> = sections.map(|entry| &entry.item).collect();
+        let mut wanted = Vec::new();
+        while let Some(item) = queue.pop_front() {
+            for entry in item.table().unwrap_or(&[]) {
+                let named = file_named(&entry.item).filter(|_| is_table(&entry.key));
+                match named.and_then(|named| Some((named.text()?, named.place))) {
+                    Some((path, place)) => {
+                        wanted.push((beside(&self.documents[0].path, path), place));
+                    }
+                    None => queue.push_back(&entry.item),
+                }
+            }
+        }
+        wanted
+    }
+
     /// The paths in `model = "path:name"` and `material = "path:name"` anywhere in a document, with
     /// their places.
     fn files_wanted(&self, document: usize) -> Vec<(String, Place)> {
@@ -268,6 +339,11 @@ impl Library {
         }
         wanted
     }
+}
+
+/// Whether `word` is that of a driving function that is a table.
+pub(crate) fn is_table(word: &str) -> bool {
+    registers().waveforms.iter().any(|kind| kind.word == word && kind.is_table())
 }
 
 fn section<'r>(root: &'r Item, key: &str) -> Option<&'r Entry> {

@@ -10,6 +10,7 @@ use crate::{
     fault::Fault,
     library::{Library, SHELVES, Shelf},
     models::ModelReader,
+    network_faults::value_of,
     notes::ModelNote,
     scene::{ReadOptions, checked, load},
     sections::ELEMENT_KEYS,
@@ -47,6 +48,10 @@ enum Found<'d> {
 ///
 /// Without a name it is the only model or material, else the model of the only element. What the
 /// text says besides is not looked at: it may be a scene, or a file of models alone.
+///
+/// The model may hold elements that are not linear. Whoever wants its
+/// [linear model](dashpot_network::linear_model) asks
+/// [`first_nonlinear`](dashpot_network::first_nonlinear) before.
 ///
 /// # Examples
 ///
@@ -88,6 +93,13 @@ pub fn read_named_model(
             Found::OnShelf(reference) => (library.entry(reference), models.named(reference)?),
             Found::Element(entry) => {
                 let owner = format!("element `{}`", entry.key);
+                if let Some(layers) = value_of(entry, "layers") {
+                    let message =
+                        format!("{owner} is made of layers with mass, which no model has");
+                    let help = "ask for one of its materials";
+                    faults.error(layers.place, Fault::odd(message, help));
+                    return None;
+                }
                 let keys = ELEMENT_KEYS;
                 (entry, models.element(&entry.item, owner, entry.key_place, keys)?)
             }

@@ -82,12 +82,18 @@ impl<'d> Entries<'d> {
             Subject::Element { name, .. } => self.named(&name)?,
             Subject::Load(name) => self.loads.iter().find(|entry| entry.key == name)?,
             Subject::Effect(word) => self.effects.iter().find(|entry| entry.key == word)?,
+            Subject::EffectOn(word, element) => {
+                let of_kind = self.effects.iter().find(|entry| entry.key == word)?;
+                let own = of_kind.item.table().unwrap_or(&[]).iter();
+                own.clone().find(|entry| entry.key == element).unwrap_or(of_kind)
+            }
         };
         let keys: &[&str] = match error {
             NetworkError::Invalid { invalid, .. } => &[invalid.parameter],
             NetworkError::BothEndsAtOneNode { .. } => &["between"],
             NetworkError::StartSpeed { .. } => &["velocity", "drop"],
             NetworkError::StepAcrossDashpots { .. } => &["motion"],
+            NetworkError::NotAnEnd { .. } | NetworkError::TwoFaces { .. } => &["at"],
             _ => &[],
         };
         let own = entry.item.table().unwrap_or(&[]).iter();

@@ -15,6 +15,9 @@ use crate::{
     units::parse_quantity,
 };
 
+/// What makes a thing of its values.
+pub(crate) type Make<'m, T> = dyn Fn(&[Value]) -> Result<T, InvalidParameter> + 'm;
+
 /// Where a parameter's value stands, and the value where it is given.
 type Given<'i> = (Place, Option<&'i Item>);
 
@@ -47,11 +50,22 @@ impl<'d> KindReader<'d> {
     ///
     /// A kind with one required parameter takes the value alone; all others take a table.
     pub(crate) fn read<T>(self, kind: &Kind<T>, item: &Item, place: Place) -> Option<T> {
-        let (values, places) = self.values(kind, item, place)?;
-        match self.made(kind, &values) {
+        self.read_as((kind.word, kind.parameters), &kind.make, item, place)
+    }
+
+    /// Reads what `make` makes of parameters, which `item` gives for the word at `place`.
+    pub(crate) fn read_as<T>(
+        self,
+        (word, parameters): (&str, &[Parameter]),
+        make: &Make<'_, T>,
+        item: &Item,
+        place: Place,
+    ) -> Option<T> {
+        let (values, places) = self.values(word, parameters, item, place)?;
+        match self.made(parameters, make, &values) {
             Ok(made) => Some(made),
             Err(invalid) => {
-                let at = kind.parameters.iter().position(|known| known.name == invalid.parameter);
+                let at = parameters.iter().position(|known| known.name == invalid.parameter);
                 let at = at.and_then(|at| places.get(at).copied());
                 let (place, item) = at.unwrap_or((item.place, Some(item)));
                 let fault = Fault::Invalid(invalid);
@@ -79,16 +93,21 @@ impl<'d> KindReader<'d> {
         }
     }
 
-    /// The thing of `kind` with the written `values`, for the pad where they are those of a material.
-    fn made<T>(self, kind: &Kind<T>, values: &[Value]) -> Result<T, InvalidParameter> {
+    /// What `make` makes of the written `values`, for the pad where they are those of a material.
+    fn made<T>(
+        self,
+        parameters: &[Parameter],
+        make: &Make<'_, T>,
+        values: &[Value],
+    ) -> Result<T, InvalidParameter> {
         let basis = self.quantities.basis;
         if !basis.is_material() {
-            return (kind.make)(values);
+            return make(values);
         }
-        let of_pad = basis.of_pad_all(kind.parameters, values, self.driven);
-        let of_pad = of_pad.and_then(|of_pad| (kind.make)(&of_pad));
+        let of_pad = basis.of_pad_all(parameters, values, self.driven);
+        let of_pad = of_pad.and_then(|of_pad| make(&of_pad));
         // A value that is out of range as it is written is told as it is written.
-        of_pad.or_else(|invalid| (kind.make)(values).and(Err(invalid)))
+        of_pad.or_else(|invalid| make(values).and(Err(invalid)))
     }
 
     /// The thing of `kind` with all keys left out.
@@ -96,9 +115,10 @@ impl<'d> KindReader<'d> {
         self.read(kind, &Item { value: Content::Table(Vec::new()), place }, place)
     }
 
-    fn values<'i, T>(
+    fn values<'i>(
         self,
-        kind: &Kind<T>,
+        word: &str,
+        parameters: &[Parameter],
         item: &'i Item,
         place: Place,
     ) -> Option<(Vec<Value>, Vec<Given<'i>>)>
@@ -106,9 +126,9 @@ impl<'d> KindReader<'d> {
         'd: 'i,
     {
         let faults = self.quantities.faults;
-        let required = kind.parameters.iter().filter(|known| known.default.is_none()).count();
+        let required = parameters.iter().filter(|known| known.default.is_none()).count();
         let is_table = item.table().is_some();
-        if required == 1 && (!is_table || kind.parameters.len() == 1) {
+        if required == 1 && (!is_table || parameters.len() == 1) {
             let read = |parameter: &Parameter| {
                 if parameter.default.is_none() {
                     self.value(parameter, item)
@@ -116,22 +136,21 @@ impl<'d> KindReader<'d> {
                     self.default(parameter)
                 }
             };
-            let values = kind.parameters.iter().map(read).collect::<Option<Vec<_>>>()?;
-            return Some((values, vec![(item.place, Some(item)); kind.parameters.len()]));
+            let values = parameters.iter().map(read).collect::<Option<Vec<_>>>()?;
+            return Some((values, vec![(item.place, Some(item)); parameters.len()]));
         }
         if !is_table {
-            let expected =
-                format!("a table, for example `{}`", self.example().value(kind.parameters));
-            wrong_type(item, &format!("`{}`", kind.word), &expected, faults);
+            let expected = format!("a table, for example `{}`", self.example().value(parameters));
+            wrong_type(item, &format!("`{word}`"), &expected, faults);
             return None;
         }
-        let table = Table::new(item, format!("`{}`", kind.word), place, faults)?;
+        let table = Table::new(item, format!("`{word}`"), place, faults)?;
         for key in self.other_keys {
             table.take(key);
         }
-        let mut places = Vec::with_capacity(kind.parameters.len());
-        let mut values = Vec::with_capacity(kind.parameters.len());
-        for parameter in kind.parameters {
+        let mut places = Vec::with_capacity(parameters.len());
+        let mut values = Vec::with_capacity(parameters.len());
+        for parameter in parameters {
             let entry = match parameter.default {
                 None => {
                     let value = self.example().value(std::slice::from_ref(parameter));
@@ -164,7 +183,16 @@ impl<'d> KindReader<'d> {
                 self.quantities.read_difference(item).map(Value::Number)
             }
             ParameterKind::Amplitude => self.amplitude(item).map(Value::Number),
-            ParameterKind::TimeTable => self.time_table(item, &what()).map(Value::Table),
+            ParameterKind::TimeTable => self
+                .points(item, &what(), parameter.kind, |pair| self.at_time(pair))
+                .map(Value::Table),
+            ParameterKind::Curve(first, second) => self
+                .points(item, &what(), parameter.kind, |[x, y]| {
+                    let at = self.quantities.read(x, first);
+                    let value = self.quantities.read(y, second);
+                    at.zip(value)
+                })
+                .map(Value::Table),
             ParameterKind::Choice(words) => {
                 let word = text_of(item, &what(), faults)?;
                 if words.contains(&word) {
@@ -183,6 +211,9 @@ impl<'d> KindReader<'d> {
                 None
             }
             ParameterKind::Window => self.window(item).map(Value::Window),
+            ParameterKind::Node => {
+                text_of(item, &what(), faults).map(|name| Value::Word(name.to_owned()))
+            }
         }
     }
 
@@ -191,30 +222,43 @@ impl<'d> KindReader<'d> {
         Quantities { is_motion, ..self.quantities }.read(item, self.driven)
     }
 
-    fn time_table(self, item: &Item, what: &str) -> Option<Vec<(f64, f64)>> {
+    fn points(
+        self,
+        item: &Item,
+        what: &str,
+        kind: ParameterKind,
+        read: impl Fn(&[Item; 2]) -> Option<(f64, f64)>,
+    ) -> Option<Vec<(f64, f64)>> {
+        let faults = self.quantities.faults;
         let Content::List(points) = &item.value else {
-            let example = self.example().parameter(ParameterKind::TimeTable);
+            let example = self.example().parameter(kind);
             let expected = format!("a list of pairs, for example `{example}`");
-            wrong_type(item, what, &expected, self.quantities.faults);
+            wrong_type(item, what, &expected, faults);
             return None;
         };
+        let point = |item: &Item| {
+            let pair: Option<&[Item; 2]> = match &item.value {
+                Content::List(pair) => pair.as_slice().try_into().ok(),
+                _ => None,
+            };
+            if pair.is_none() {
+                let pair = if kind == ParameterKind::TimeTable {
+                    "a pair [time, value]"
+                } else {
+                    "a pair of quantities"
+                };
+                wrong_type(item, "a point", pair, faults);
+            }
+            read(pair?)
+        };
         // Every point is read, so that all faults are found.
-        let points = points.iter().map(|point| self.point(point)).collect::<Vec<_>>();
-        points.into_iter().collect()
+        points.iter().map(point).collect::<Vec<_>>().into_iter().collect()
     }
 
-    fn point(self, item: &Item) -> Option<(f64, f64)> {
-        match &item.value {
-            Content::List(pair) if pair.len() == 2 => {
-                let time = self.quantities.read(&pair[0], Dimension::TIME);
-                let value = self.amplitude(&pair[1]);
-                time.zip(value)
-            }
-            _ => {
-                wrong_type(item, "a point", "a pair [time, value]", self.quantities.faults);
-                None
-            }
-        }
+    fn at_time(self, [time, value]: &[Item; 2]) -> Option<(f64, f64)> {
+        let time = self.quantities.read(time, Dimension::TIME);
+        let value = self.amplitude(value);
+        time.zip(value)
     }
 
     fn window(self, item: &Item) -> Option<WindowWish> {
@@ -247,6 +291,9 @@ impl<'d> KindReader<'d> {
     /// The value that stands for a key that is left out. The registers write it as a scene would.
     fn default(self, parameter: &Parameter) -> Option<Value> {
         let text = parameter.default?;
+        if parameter.follows {
+            return Some(Value::LeftOut);
+        }
         let content = match parameter.kind {
             ParameterKind::Flag => Content::Switch(text == "true"),
             _ => Content::Text(text.to_owned()),

@@ -37,9 +37,7 @@ pub(crate) struct Definition {
 }
 
 /// What to do where only an acceleration is known.
-const MOTION_HELP: &str = "a motion is a displacement; acceleration pulses are not read yet: \
-                           integrate twice, or load the mass with the force m a and take its \
-                           motion as seen from the base";
+const MOTION_HELP: &str = "a motion is a displacement: write `acceleration` in place of `motion`";
 
 /// What to do with moduli in a model.
 const MODULUS_IN_MODEL_HELP: &str = "values in Pa belong in [materials]; a pad is made of one by \

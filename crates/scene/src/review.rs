@@ -1,5 +1,6 @@
 //! What is odd about a scene as a whole, but not wrong.
 
+use dashpot_dae::Waveform;
 use dashpot_network::{
     Network, Node, Start, Support,
     parameters::{Dimension, ParameterKind},
@@ -9,9 +10,11 @@ use crate::{
     document::{Content, Entry, Item},
     fault::Fault,
     kinds::registers,
+    library::is_table,
     network_faults::value_of,
     notes::ModelNote,
-    sections::Reading,
+    sections::{Reading, file_named},
+    source::Place,
     units::format_short,
 };
 
@@ -36,9 +39,13 @@ pub(crate) fn review(reading: &Reading<'_>, network: &Network, duration: f64) {
             moving_away(reading, entry, node);
         }
     }
-    for (section, key) in [("loads", "force"), ("nodes", "motion")] {
-        for driven in reading.section(section).iter().filter_map(|own| value_of(own, key)) {
+    for (section, key) in [("loads", "force"), ("nodes", "motion"), ("nodes", "acceleration")] {
+        for own in reading.section(section) {
+            let Some(driven) = value_of(own, key) else { continue };
             time_table(reading, driven, duration);
+            if let Some(waveform) = driving(network, section, &own.key) {
+                file(reading, driven, waveform, duration);
+            }
         }
     }
 }
@@ -65,7 +72,10 @@ fn still(reading: &Reading<'_>, network: &Network) {
     let is_driven = |node: &Node| matches!(node.support, Support::Prescribed(_));
     let moves = !network.loads().is_empty()
         || network.nodes().any(|(_, node)| starts(node) || is_driven(node))
-        || network.effects().iter().any(|effect| !effect.starts_in_balance());
+        || network
+            .effects()
+            .iter()
+            .any(|effect| effect.gravity().is_some() && !effect.starts_in_balance());
     if !moves {
         let message =
             "nothing moves: no node has `velocity` or `drop`, there is no load and no motion";
@@ -101,6 +111,39 @@ pub(crate) fn outlasted(reading: &Reading<'_>, notes: &[ModelNote], duration: f6
     }
 }
 
+/// What drives a load or a node of this name.
+fn driving<'n>(network: &'n Network, section: &str, name: &str) -> Option<&'n Waveform> {
+    if section == "loads" {
+        return network.loads().iter().find(|load| load.name == name).map(|load| &load.force);
+    }
+    let (_, node) = network.nodes().find(|(_, node)| node.name == name)?;
+    if let Support::Prescribed(motion) = &node.support { Some(motion) } else { None }
+}
+
+/// Warns of rows of a file that have no influence.
+fn file(reading: &Reading<'_>, driven: &Item, waveform: &Waveform, duration: f64) {
+    let table = driven.table().unwrap_or(&[]).iter().find(|own| is_table(&own.key));
+    let Some(named) = table.and_then(|own| file_named(&own.item)) else { return };
+    let count = waveform.breakpoints().count();
+    let late = waveform.breakpoints().filter(|time| *time > duration).count();
+    if late > 0 {
+        late_points(reading, named.place, (late, count, "times"), duration);
+    }
+}
+
+fn late_points(
+    reading: &Reading<'_>,
+    place: Place,
+    (late, count, what): (usize, usize, &str),
+    duration: f64,
+) {
+    let end = format_short(duration, Dimension::TIME, 4);
+    let verb = if late == 1 { "lies" } else { "lie" };
+    let message = format!("{late} of {count} {what} {verb} after the end of the run at {end}");
+    let help = "give a longer `duration` in [run], or check the unit of the times";
+    reading.faults.warning(place, Fault::odd(message, help));
+}
+
 /// Warns of points of a table of time that have no influence.
 fn time_table(reading: &Reading<'_>, driven: &Item, duration: f64) {
     let kinds = &registers().waveforms;
@@ -124,14 +167,7 @@ fn time_table(reading: &Reading<'_>, driven: &Item, duration: f64) {
         };
         let late = points.iter().filter(is_late).count();
         if late > 0 {
-            let end = format_short(duration, Dimension::TIME, 4);
-            let verb = if late == 1 { "lies" } else { "lie" };
-            let message = format!(
-                "{late} of {} points {verb} after the end of the run at {end}",
-                points.len()
-            );
-            let help = "give a longer `duration` in [run], or check the unit of the times";
-            reading.faults.warning(item.place, Fault::odd(message, help));
+            late_points(reading, item.place, (late, points.len(), "points"), duration);
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::{
     diagnostics::{Checked, Diagnostics, Faults},
     document::{Entry, MAX_BYTES, parse},
     fault::Fault,
-    kinds::registers,
+    kinds::{Example, registers},
     library::{Library, Loader},
     models::ModelReader,
     network_faults::{note_errors, note_warnings},
@@ -165,7 +165,8 @@ pub fn read_network(
     options: &ReadOptions<'_>,
 ) -> Result<Checked<Network>, Diagnostics> {
     checked(|faults| {
-        let (library, _) = load(text, options, faults)?;
+        let (mut library, _) = load(text, options, faults)?;
+        library.load_tables(options.loader, faults);
         let parts = Parts::read(&library, faults);
         if library.section("run").is_some() {
             read_run(&parts.reading);
@@ -204,8 +205,10 @@ pub(crate) fn load(
 /// Where a key belongs that stands at the top of a scene.
 fn home_of(key: &str) -> Option<String> {
     let registers = registers();
-    if registers.effects.iter().any(|kind| kind.word == key) {
-        return Some(format!("write it under [effects]: `{key} = {{}}`"));
+    if let Some(entry) = registers.effect(key) {
+        let path = if entry.is_per_element { format!("{key}.ELEMENT") } else { key.to_owned() };
+        let value = Example::PLAIN.value(entry.parameters);
+        return Some(format!("write it under [effects]: `{path} = {value}`"));
     }
     if registers.model_words().contains(&key) {
         return Some(format!("write [elements.name] with `between` and `{key}`"));
@@ -260,7 +263,8 @@ impl<'d> Parts<'d> {
 }
 
 fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<Scene> {
-    let (library, source) = load(text, options, faults)?;
+    let (mut library, source) = load(text, options, faults)?;
+    library.load_tables(options.loader, faults);
     let Parts { reading, network, title, measures, accuracy, notes } =
         Parts::read(&library, faults);
     let (mut run, stops) = read_run(&reading);

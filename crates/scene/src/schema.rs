@@ -5,14 +5,14 @@ mod values;
 use std::collections::BTreeMap;
 
 use dashpot_analysis::Family;
-use dashpot_network::parameters::Dimension;
+use dashpot_network::{layers::MOST_SEGMENTS, parameters::Dimension};
 use dashpot_rheology::{Part, Role};
 use serde_json::{Map, Value, json};
 
-use self::values::{Values, named_quantity, quantity};
+use self::values::{Values, named_quantity, quantity, table_or_file};
 use crate::{
-    basis::{AREA, Basis},
-    kinds::{CompositeEntry, Kind, registers},
+    basis::{AREA, Basis, DENSITY, fits_material},
+    kinds::{CompositeEntry, EffectEntry, Kind, registers},
 };
 
 /// The JSON schema (draft 2020-12) of scenes, for editors: `#:schema ./scene.schema.json`.
@@ -51,7 +51,7 @@ pub fn schema() -> Value {
             },
             "effects": closed(
                 "what acts besides the elements, and only if named",
-                registers().effects.iter().map(|kind| (kind.word, effect(kind))),
+                registers().effects.iter().map(|entry| (entry.word, effect(entry))),
             ),
             "loads": {
                 "description": "forces on nodes",
@@ -92,11 +92,13 @@ fn definitions() -> Value {
         "description": "its ends, the impactor's side first",
         "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2,
     });
-    let own = [("between", between), ("thickness", thickness())];
-    add("element", composed("a model between two nodes", own, &["between"], Basis::Model));
+    let own = [("between", between.clone()), ("thickness", thickness())];
+    let of_model = composed("a model between two nodes", own, &["between"], Basis::Model);
+    add("element", json!({ "anyOf": [of_model, layered(&between)] }));
     add("node", node());
     add("force-function", function(Dimension::FORCE));
     add("length-function", function(Dimension::LENGTH));
+    add("acceleration-function", function(Dimension::ACCELERATION));
     add(
         "load",
         json!({
@@ -120,6 +122,13 @@ fn node() -> Value {
         ("drop", described_as(reference("length"), "height of a fall that ends at t = 0")),
         ("fixed", json!({ "const": true, "description": "nothing moves it" })),
         ("motion", described_as(reference("length-function"), "its displacement over time")),
+        (
+            "acceleration",
+            described_as(
+                reference("acceleration-function"),
+                "its acceleration over time, from rest at t = 0",
+            ),
+        ),
     ];
     closed("a point with one displacement", properties)
 }
@@ -201,7 +210,8 @@ fn composed<'k>(
 ) -> Value {
     let is_material = basis.is_material();
     let mut laws = BTreeMap::new();
-    for kind in &registers().elements {
+    let fits = |kind: &&Kind<_>| !is_material || fits_material(kind.parameters);
+    for kind in registers().elements.iter().filter(fits) {
         let values = Values { driven: Dimension::FORCE, basis };
         laws.insert(kind.word, described_as(values.of_kind(kind.parameters), kind.summary));
     }
@@ -247,6 +257,40 @@ fn composed<'k>(
     })
 }
 
+/// An element made of layers.
+fn layered(between: &Value) -> Value {
+    let material = json!({ "type": "string", "description": "a material by name" });
+    let area = described_as(quantity(AREA), "area [m^2], positive");
+    let density = described_as(quantity(DENSITY), "density [kg/m^3], zero or positive");
+    let mut layer = closed(
+        "a layer with mass",
+        [
+            ("material", material),
+            ("thickness", described_as(reference("length"), "thickness [m], positive")),
+            ("area", area),
+            ("density", density),
+            ("shift", reference("shift")),
+        ],
+    );
+    layer["required"] = json!(["material", "thickness", "area", "density"]);
+    let segments = json!({
+        "description": "into how many segments the pad is cut",
+        "type": "integer", "minimum": 1, "maximum": MOST_SEGMENTS,
+    });
+    let accuracy = "relative error of the speed of waves; 1 %";
+    let mut table = closed(
+        "a pad of layers in which waves travel",
+        [
+            ("between", between.clone()),
+            ("layers", json!({ "type": "array", "items": layer, "minItems": 1 })),
+            ("segments", segments),
+            ("accuracy", described_as(reference("number"), accuracy)),
+        ],
+    );
+    table["required"] = json!(["between", "layers"]);
+    table
+}
+
 fn thickness() -> Value {
     described_as(reference("length"), "thickness of the pad [m], positive")
 }
@@ -278,18 +322,24 @@ fn parts(parts_of_form: &[Part], basis: Basis) -> Value {
 fn function(driven: Dimension) -> Value {
     let kinds = registers().waveforms.iter();
     let schema = |kind: &Kind<_>| {
-        described_as(Values::driving(driven).of_kind(kind.parameters), kind.summary)
+        let values = Values::driving(driven).of_kind(kind.parameters);
+        let values = if kind.is_table() { table_or_file(&values) } else { values };
+        described_as(values, kind.summary)
     };
     let mut table = closed("a function of time", kinds.map(|kind| (kind.word, schema(kind))));
     (table["minProperties"], table["maxProperties"]) = (json!(1), json!(1));
     table
 }
 
-fn effect<T>(kind: &Kind<T>) -> Value {
-    let table = Values::driving(Dimension::FORCE).of_kind(kind.parameters);
-    let plain = kind.parameters.iter().all(|parameter| parameter.default.is_some());
+fn effect(entry: &EffectEntry) -> Value {
+    let table = Values::driving(Dimension::FORCE).of_kind(entry.parameters);
+    let plain = entry.parameters.iter().all(|parameter| parameter.default.is_some());
     let schema = if plain { json!({ "anyOf": [{ "const": true }, table] }) } else { table };
-    described_as(schema, kind.summary)
+    if entry.is_per_element {
+        let by_element = json!({ "type": "object", "additionalProperties": schema });
+        return described_as(by_element, &format!("by elements: {}", entry.summary));
+    }
+    described_as(schema, entry.summary)
 }
 
 fn one_or_many(schema: &Value) -> Value {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use dashpot_network::{
-    Element, Model,
+    Effect, Element, Model,
     parameters::{Dimension, Parameter, ParameterKind, Value, WindowWish},
 };
 use dashpot_rheology::{Branch, Tree};
@@ -72,12 +72,13 @@ fn table(section: &str, name: &str, model: &Model, basis: Basis, comments: &[Str
         text.push_str(&line);
         text.push('\n');
     }
+    text + &format!("[{section}.{}]\n{}\n", key(name), law(model, basis, true))
+}
+
+/// A name as a key.
+fn key(name: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
-    let key = match name {
-        _ if !name.is_empty() && name.chars().all(is_bare) => name.to_owned(),
-        _ => quoted(name),
-    };
-    text + &format!("[{section}.{key}]\n{}\n", law(model, basis, true))
+    if !name.is_empty() && name.chars().all(is_bare) { name.to_owned() } else { quoted(name) }
 }
 
 /// A model by its law: `spring = "20 MN/m"`, `series = […]`; `in_lines` gives each of the outer
@@ -147,12 +148,13 @@ fn write_kind_in(
     driven: Dimension,
 ) -> String {
     let write_value = |kind: ParameterKind, value: &Value| {
-        let dimension = match kind {
-            ParameterKind::Quantity(dimension) => dimension,
-            ParameterKind::TemperatureDifference => Dimension::TEMPERATURE,
-            _ => driven,
+        let (beside, dimension) = match kind {
+            ParameterKind::Quantity(dimension) => (Dimension::TIME, dimension),
+            ParameterKind::TemperatureDifference => (Dimension::TIME, Dimension::TEMPERATURE),
+            ParameterKind::Curve(first, second) => (first, second),
+            _ => (Dimension::TIME, driven),
         };
-        write_value(value, basis.dimension(dimension))
+        write_value(value, basis.dimension(dimension), basis.dimension(beside))
     };
     let pairs = parameters.iter().zip(values);
     if let ([parameter], [value]) = (parameters, values)
@@ -160,10 +162,34 @@ fn write_kind_in(
     {
         return format!("{word} = {}", write_value(parameter.kind, value));
     }
-    let written = pairs.map(|(parameter, value)| {
+    let given = pairs.filter(|(_, value)| **value != Value::LeftOut);
+    let written = given.map(|(parameter, value)| {
         format!("{} = {}", parameter.name, write_value(parameter.kind, value))
     });
     format!("{word} = {{ {} }}", written.collect::<Vec<_>>().join(", "))
+}
+
+/// An effect as it stands under `[effects]`.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::effects::Separation;
+/// use dashpot_scene::write_effect;
+///
+/// let separation =
+///     Separation { element: "padding".into(), at: Some("head".into()), restitution: 0.0 };
+/// let written = write_effect(&separation);
+/// assert_eq!(written, "separation.padding = { at = \"head\", restitution = 0.0 }");
+/// ```
+pub fn write_effect(effect: &dyn Effect) -> String {
+    let word = effect.kind();
+    let parameters = registers().effect(word).map_or(&[][..], |entry| entry.parameters);
+    let word = match effect.target() {
+        Some(element) => format!("{word}.{}", key(element)),
+        None => word.to_owned(),
+    };
+    write_kind(&word, parameters, &effect.values(), Dimension::FORCE)
 }
 
 fn write_element(element: &dyn Element, basis: Basis) -> String {
@@ -171,8 +197,9 @@ fn write_element(element: &dyn Element, basis: Basis) -> String {
     write_kind_in(basis, (element.kind(), parameters, &element.values()), Dimension::FORCE)
 }
 
-/// A value; numbers, and what stands beside times, are of this dimension.
-fn write_value(value: &Value, dimension: Dimension) -> String {
+/// A value; numbers, and the second ones of pairs, are of this dimension, the first ones of pairs of
+/// that `beside`.
+fn write_value(value: &Value, dimension: Dimension, beside: Dimension) -> String {
     let quantity = |value: f64, dimension| match dimension {
         Dimension::NUMBER => format!("{value:?}"),
         dimension => quoted(&exact_quantity(value, dimension)),
@@ -183,11 +210,12 @@ fn write_value(value: &Value, dimension: Dimension) -> String {
         Value::Table(points) => {
             let points = points
                 .iter()
-                .map(|&(at, value)| format!("[{}, {}]", time(at), quantity(value, dimension)));
+                .map(|&(at, own)| format!("[{}, {}]", quantity(at, beside), quantity(own, dimension)));
             format!("[{}]", points.collect::<Vec<_>>().join(", "))
         }
         Value::Word(word) => quoted(word),
         Value::Flag => "true".to_owned(),
+        Value::LeftOut => String::new(),
         Value::Window(WindowWish::Impact) => quoted("impact"),
         Value::Window(WindowWish::Run) => quoted("run"),
         Value::Window(WindowWish::Times(from, to)) => format!("[{}, {}]", time(*from), time(*to)),

@@ -92,7 +92,7 @@ impl Kinds {
                 owners(&words, &kinds),
                 code(parameter.name),
                 value(parameter.kind, amplitude),
-                parameter.default.map_or("required".to_owned(), code),
+                default(&parameter),
                 parameter.help.to_owned(),
             ]);
         }
@@ -122,6 +122,14 @@ fn row(cells: &[String]) -> String {
     row + "|\n"
 }
 
+fn default(parameter: &Parameter) -> String {
+    match parameter.default {
+        None => "required".to_owned(),
+        Some(from) if parameter.follows => from.to_owned(),
+        Some(value) => code(value),
+    }
+}
+
 fn code(word: impl AsRef<str>) -> String {
     format!("`{}`", word.as_ref())
 }
@@ -144,9 +152,13 @@ fn value(kind: ParameterKind, amplitude: Option<Dimension>) -> String {
         ParameterKind::TemperatureDifference => "temperature difference [K]".to_owned(),
         ParameterKind::Amplitude => "force [N] in a load, length [m] in a motion".to_owned(),
         ParameterKind::TimeTable => "list of points `[time, value]`".to_owned(),
+        ParameterKind::Curve(first, second) => {
+            format!("list of points `[{}, {}]`", quantity(first), quantity(second))
+        }
         ParameterKind::Choice(words) => words.iter().map(code).collect::<Vec<_>>().join(" or "),
         ParameterKind::Flag => "`true`".to_owned(),
         ParameterKind::Window => "`\"impact\"`, `\"run\"` or `[from, to]`".to_owned(),
+        ParameterKind::Node => "name of a node".to_owned(),
     }
 }
 

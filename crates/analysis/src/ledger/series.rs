@@ -3,8 +3,11 @@
 use dashpot_dae::Signal;
 use dashpot_network::elements::Law;
 
-use super::steps;
-use crate::Solution;
+use super::{does_work, steps};
+use crate::{
+    Solution,
+    accounts::{self, Accounts},
+};
 
 /// Energies of a run at given times \[J\].
 #[derive(Debug, Clone, PartialEq)]
@@ -39,21 +42,33 @@ pub fn energy_series(solution: &Solution<'_>, times: &[f64]) -> EnergySeries {
         }
     }
     for primitive in &assembly.primitives {
-        match primitive.element.law() {
-            Law::Spring(_) => {
-                let deformation = solution.signal(primitive.deformation);
-                add(&mut series.stored, times, |t| primitive.element.stored(deformation.value(t)));
+        let own = Accounts::of(primitive.element.as_ref());
+        let stores = own.stores;
+        let mut gained = vec![0.0; times.len()];
+        if own.stores {
+            let deformation = solution.signal(primitive.deformation);
+            let energy = |t: f64| accounts::stored(solution, primitive, t, deformation.value(t));
+            add(&mut gained, times, energy);
+            for (sum, own) in series.stored.iter_mut().zip(&gained) {
+                *sum += own;
             }
-            Law::Dashpot(_) => {
-                let force = solution.signal(primitive.force);
+        }
+        if own.dissipates {
+            let start = solution.signal(primitive.deformation).value(0.0);
+            let start = accounts::stored(solution, primitive, 0.0, start);
+            let does_work = does_work(primitive) || primitive.element.law() != Law::Phased;
+            if does_work {
                 accumulate(
                     &mut series.dissipated,
                     times,
-                    force,
+                    solution.signal(primitive.force),
                     &solution.rate(primitive.rate, primitive.deformation),
                 );
             }
-            Law::Rigid => {}
+            for ((sum, own), &time) in series.dissipated.iter_mut().zip(&gained).zip(times) {
+                let gained = if stores { own - start } else { 0.0 };
+                *sum += accounts::lost_in_impacts(solution, primitive, (0.0, time)) - gained;
+            }
         }
     }
     for drive in &assembly.drives {

@@ -39,7 +39,7 @@ impl MeasureKind for ContactTime {
         }
         let impact = solution.element_impact(target);
         match impact.contact {
-            Contact::Released => {
+            Contact::Released | Contact::Parted => {
                 let length = impact.end - impact.start;
                 Reading {
                     value: Some(length),

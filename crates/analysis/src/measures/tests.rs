@@ -20,7 +20,8 @@ impl Debug for Written {
 }
 
 impl Dense for Written {
-    fn signal(&self, _system: &System, output: &Output) -> Signal {
+    fn signal(&self, system: &System, output: usize) -> Signal {
+        let output = &system.outputs[output];
         const PANELS: u32 = 8;
         let interpolation = Interpolation::of_degree(15);
         let border = |at: u32| self.end * f64::from(at) / f64::from(PANELS);
@@ -57,6 +58,8 @@ fn read(measure: impl Measure, end: f64, signal: fn(&str, f64) -> f64) -> Readin
         outcome: Outcome::Finished,
         t_end: end,
         events: Vec::new(),
+        first_phases: Vec::new(),
+        switches: Vec::new(),
         statistics: Statistics::default(),
         dense: Box::new(Written { end, signal }),
     };

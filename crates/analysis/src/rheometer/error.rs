@@ -36,6 +36,12 @@ pub enum RheometerError {
     /// A parameter of the test or of the model is out of its range.
     #[error(transparent)]
     Invalid(#[from] InvalidParameter),
+    /// The model is not linear.
+    #[error("`{kind}` is not linear: run it in a scene")]
+    NotLinear {
+        /// Word of the first element that is not.
+        kind: &'static str,
+    },
     /// The constants of the model or of the test are too far apart for double precision.
     #[error("the constants of the model or the test are too far apart for double precision")]
     OutOfScale,

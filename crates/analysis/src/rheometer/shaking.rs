@@ -35,7 +35,7 @@ pub(super) fn shaken(model: &Model, seed: u64) -> Model {
                 Law::Dashpot(own) => {
                     *element = Arc::new(Dashpot { damping: own * stream.factor() });
                 }
-                Law::Rigid => {}
+                Law::Rigid | Law::Nonlinear { .. } | Law::Phased => {}
             },
             Model::Series(branches) | Model::Parallel(branches) => {
                 left.extend(branches.iter_mut().map(|branch| &mut branch.tree));

@@ -3,7 +3,7 @@
 use dashpot_network::{
     Model,
     elements::{Dashpot, Spring},
-    linear_model,
+    first_nonlinear, linear_model,
     parameters::InvalidParameter,
     part,
 };
@@ -29,10 +29,14 @@ impl Specimen {
     /// # Errors
     ///
     /// [`RheometerError::Invalid`] for a constant out of its range or a series or parallel without
-    /// parts, and [`RheometerError::OutOfScale`] where constants are so far apart that the model's
+    /// parts, [`RheometerError::NotLinear`] for an element that is not linear, and
+    /// [`RheometerError::OutOfScale`] where constants are so far apart that the model's
     /// own leave the range of numbers.
     pub fn new(model: &Model) -> Result<Self, RheometerError> {
         check(model)?;
+        if let Some(element) = first_nonlinear(model) {
+            return Err(RheometerError::NotLinear { kind: element.kind() });
+        }
         let linear = linear_model(model);
         let times = |form: &MaxwellForm| -> Vec<f64> {
             form.elements().iter().map(|element| element.relaxation_time).collect()

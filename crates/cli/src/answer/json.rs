@@ -151,7 +151,7 @@ impl Serialize for Measure<'_> {
                 Value::Flag => map.serialize_entry(name, &true)?,
                 Value::Table(points) => map.serialize_entry(name, points)?,
                 // Its times stand above, as they were resolved.
-                Value::Window(_) => {}
+                Value::Window(_) | Value::LeftOut => {}
             }
         }
         map.end()

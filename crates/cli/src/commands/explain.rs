@@ -10,7 +10,7 @@ use dashpot_analysis::reported_measures;
 use dashpot_dae::{Run, UnknownKind, methods::Auto};
 use dashpot_network::{Node, Start, Support, elements::Law};
 use dashpot_plot::Table;
-use dashpot_scene::Scene;
+use dashpot_scene::{Scene, write_effect};
 
 use crate::{
     answer::title,
@@ -20,7 +20,7 @@ use crate::{
     folder::unwritable,
     input::read_scene,
     numbers::{constant, quantity},
-    registers::{entries, written},
+    registers::entries,
     sketch::{element, sketch, waveform},
     terminal::{Terminal, Tone, WIDTH, print},
     text::{indented, labelled, table, wrapped},
@@ -156,10 +156,16 @@ fn unknowns(scene: &Scene) -> Table {
 }
 
 fn effects(scene: &Scene) -> Table {
-    let on = |name: &str| scene.network.effects().iter().find(|effect| effect.kind() == name);
-    let described = entries(Family::Effects).into_iter().map(|entry| match on(&entry.name) {
-        Some(effect) => vec![entry.name, "on".to_owned(), written(effect.as_ref())],
-        None => vec![entry.name, "off".to_owned(), entry.summary],
+    let described = entries(Family::Effects).into_iter().flat_map(|entry| {
+        let all = scene.network.effects().iter();
+        let on = all.filter(|effect| effect.kind() == entry.name).map(|effect| {
+            vec![entry.name.clone(), "on".to_owned(), write_effect(effect.as_ref())]
+        });
+        let mut on = on.collect::<Vec<_>>();
+        if on.is_empty() {
+            on.push(vec![entry.name, "off".to_owned(), entry.summary]);
+        }
+        on
     });
     rows("Effects", described.collect())
 }

@@ -19,7 +19,7 @@ const FAMILIES: [(Family, &str); 11] = [
     (Family::Forms, "Forms: models by name, composed of springs and dashpots"),
     (Family::Composites, "Composites: models that a few numbers describe as a whole"),
     (Family::Shifts, "Shifts: for `shift` beside the law of a model; they multiply all its times"),
-    (Family::Waveforms, "Waveforms: functions of time for `force` and `motion`"),
+    (Family::Waveforms, "Waveforms: functions of time for `force`, `motion` and `acceleration`"),
     (Family::Effects, "Effects: off unless they are named in [effects]"),
     (Family::Measures, "Measures: numbers read off a run; * marks those that every run reports"),
     (Family::Methods, "Methods: ways to solve, for `--method` and `methods` in [run]"),

@@ -29,7 +29,8 @@ struct Found {
 impl Watch {
     /// A watch over these guards from the start of a run.
     pub fn new(guards: &[Guard]) -> Self {
-        Self { tracks: vec![Track::default(); guards.len()], ..Self::default() }
+        let track = |guard: &Guard| Track { side: guard.begins, ..Track::default() };
+        Self { tracks: guards.iter().map(track).collect(), ..Self::default() }
     }
 
     /// Whether there is nothing to watch.

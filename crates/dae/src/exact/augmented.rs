@@ -203,7 +203,7 @@ fn scale_generators(
         let coupling = if pair {
             part(matrix, j) + part(matrix, j + 1)
         } else if j > states && matrix[(j - 1, j)] != 0.0 {
-            // A slope feeds its value, whose unit is settled.
+            // A derivative feeds the one of the order below, whose unit is settled.
             part(matrix, j) + matrix[(j - 1, j)]
         } else {
             part(matrix, j)

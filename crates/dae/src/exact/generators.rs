@@ -7,18 +7,17 @@ use crate::{Input, LinearForm, Piece, System};
 /// What one generator state follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Role {
-    /// `u = value + slope·s`, `u' = slope`.
-    Value,
-    /// `u' = slope`, constant.
-    Slope,
+    /// The derivative of this order of the polynomial part, whose rate is the next state or zero.
+    Polynomial(u32),
     /// `p = sine·sin ωs + cosine·cos ωs`, `p' = ω q`; its `q` is the next state.
     Wave { omega: f64 },
     /// `q = sine·cos ωs − cosine·sin ωs`, `q' = −ω p`.
     Quadrature { omega: f64 },
 }
 
-/// The generator states that drive a system: for each waveform in use its value and slope, as far
-/// as some piece needs them, and one pair for each of its frequencies.
+/// The generator states that drive a system: for each waveform in use its polynomial part and the
+/// derivatives of it that are not zero, from the lowest order in use on, and one pair for each of its
+/// frequencies. Frequencies that are swept have no generators.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Generators {
     states: Vec<(usize, Role)>,
@@ -32,16 +31,12 @@ impl Generators {
             let orders =
                 || system.inputs.iter().filter(|i| i.waveform == index).map(|i| i.derivative);
             let Some(lowest) = orders().min() else { continue };
-            let sloped = waveform.pieces().iter().any(|piece| piece.slope != 0.0);
-            let offset = waveform.pieces().iter().any(|piece| constant_part(piece) != 0.0);
-            if lowest == 0 && (sloped || offset) {
-                states.push((index, Role::Value));
-            }
-            if lowest <= 1 && sloped {
-                states.push((index, Role::Slope));
+            if let Some(degree) = waveform.pieces().iter().filter_map(Piece::degree).max() {
+                states.extend((lowest..=degree).map(|order| (index, Role::Polynomial(order))));
             }
             let mut seen: Vec<f64> = Vec::new();
-            for omega in waveform.pieces().iter().filter(|p| waves(p)).map(|piece| piece.omega) {
+            for omega in waveform.pieces().iter().filter(|p| is_steady(p)).map(|piece| piece.omega)
+            {
                 if !seen.contains(&omega) {
                     seen.push(omega);
                     states.push((index, Role::Wave { omega }));
@@ -63,8 +58,7 @@ impl Generators {
             let piece = system.waveforms[waveform].piece_at(start);
             let s = start - piece.start;
             match role {
-                Role::Value => constant_part(piece) + piece.slope * s,
-                Role::Slope => piece.slope,
+                Role::Polynomial(order) => piece.polynomial(order, start),
                 Role::Wave { omega } if matches(piece, omega) => {
                     let (sin, cos) = (omega * s).sin_cos();
                     piece.sine * sin + piece.cosine * cos
@@ -88,7 +82,7 @@ impl Generators {
             }
             let power = |omega: f64| omega.powi(input.derivative.cast_signed());
             let coefficient = match (role, input.derivative) {
-                (Role::Value, 0) | (Role::Slope, 1) => 1.0,
+                (Role::Polynomial(own), order) if own == order => 1.0,
                 (Role::Wave { omega }, order) if order % 4 == 0 => power(omega),
                 (Role::Wave { omega }, order) if order % 4 == 2 => -power(omega),
                 (Role::Quadrature { omega }, order) if order % 4 == 1 => power(omega),
@@ -105,7 +99,10 @@ impl Generators {
         for (at, &(waveform, role)) in self.states.iter().enumerate() {
             let row = offset + at;
             match role {
-                Role::Value if self.states.get(at + 1) == Some(&(waveform, Role::Slope)) => {
+                Role::Polynomial(order)
+                    if self.states.get(at + 1)
+                        == Some(&(waveform, Role::Polynomial(order + 1))) =>
+                {
                     matrix[(row, row + 1)] = 1.0;
                 }
                 Role::Wave { omega } => {
@@ -126,16 +123,12 @@ impl Generators {
     }
 }
 
-/// Whether the piece has a sine part; at frequency zero its cosine is a constant.
-fn waves(piece: &Piece) -> bool {
-    piece.omega != 0.0 && (piece.sine != 0.0 || piece.cosine != 0.0)
+/// Whether the piece has a part of one frequency.
+fn is_steady(piece: &Piece) -> bool {
+    piece.is_wave() && !piece.is_swept()
 }
 
 #[expect(clippy::float_cmp, reason = "the frequency was copied from the pieces")]
 fn matches(piece: &Piece, omega: f64) -> bool {
-    waves(piece) && piece.omega == omega
-}
-
-fn constant_part(piece: &Piece) -> f64 {
-    if piece.omega == 0.0 { piece.value + piece.cosine } else { piece.value }
+    is_steady(piece) && piece.omega == omega
 }

@@ -1,6 +1,6 @@
 //! The exact solution of `ẏ = A y + B w(t)`.
 //!
-//! Constants, lines and sines obey linear equations of their own, so between two breakpoints the
+//! Cubics and sines of time obey linear equations of their own, so between two breakpoints the
 //! unknowns together with those *generators* are `ż = Ā z`, `z(t) = e^{Ā t} z(0)`
 //! ([`augmented`]). Two evaluations of that exponential are kept, which share no arithmetic:
 //!

@@ -12,7 +12,7 @@ use super::{
     panels::{ModalRow, Piece, Quality, coordinates_at},
     propagator::{Grid, advance, march},
 };
-use crate::{Dense, Output, Panel, Signal, System};
+use crate::{Dense, Panel, Signal, System};
 
 /// Rounding of a value relative to the sizes of its terms, in units of `ε`: interpolation, a few
 /// operations for each term, and what trimming leaves between panels.
@@ -198,7 +198,8 @@ impl Solution {
 }
 
 impl Dense for Solution {
-    fn signal(&self, _system: &System, output: &Output) -> Signal {
+    fn signal(&self, system: &System, output: usize) -> Signal {
+        let output = &system.outputs[output];
         let Modal { modes, spans } = self.modal();
         let row = ModalRow::new(modes, &self.system.form(output));
         let lengths = || self.system.spans.iter().zip(spans);

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::check;
 use crate::{
     Method, MethodKind, Observer, Outcome, Progress, Run, SolveError, Statistics, System,
-    Trajectory,
+    Trajectory, Waveform,
     events::scan,
     exact::{Augmented, Solution},
 };
@@ -26,7 +26,7 @@ const LIFETIMES: f64 = 45.0;
 /// The solution by the matrix exponential: no steps, and no error but rounding.
 ///
 /// `ẏ = A y + B w(t)` is solved between breakpoints of the driving functions as `z(t) = e^{Ā t} z(0)`,
-/// where `z` holds the unknowns and the generators of constants, lines and sines. Samples on a
+/// where `z` holds the unknowns and the generators of cubics and sines. Samples on a
 /// uniform grid come from one exponential of the step; outputs come from the modal form, as
 /// piecewise polynomials whose interpolation error is bounded mode by mode, so that no extremum and
 /// no crossing is missed for lying between samples. Nothing is computed before it is asked for.
@@ -46,6 +46,8 @@ const LIFETIMES: f64 = 45.0;
 /// - A bound of a signal covers the largest error over its spans, the rounding of times included.
 ///   Where no modal form is found that a bound can be given for, the values are those of the matrix
 ///   exponential, and no bound is stated.
+/// - A driving function whose frequency changes (a chirp) has no finite set of generators, so scenes
+///   that are driven by one are declined.
 /// - The work of a signal grows with the number of oscillations; beyond six million radians of all
 ///   undamped modes together the scene is declined.
 ///
@@ -62,6 +64,11 @@ impl Exact {
     /// The system with its generators, if its structure and stiffness permit.
     fn prepare(system: &System, run: &Run) -> Result<Augmented, SolveError> {
         check(system, run)?;
+        match system.terms.len() {
+            0 => {}
+            1 => return Self::decline("one of its parts is not linear".to_owned()),
+            count => return Self::decline(format!("{count} of its parts are not linear")),
+        }
         if system.linear().is_none() {
             let count = system.algebraic();
             return Self::decline(format!(
@@ -75,10 +82,17 @@ impl Exact {
             ));
         }
         let end = run.t_end / system.time_scale;
+        if is_swept(system, end) {
+            return Self::decline(
+                "the frequency of a driving function changes (a chirp), and only constant \
+                 frequencies have a matrix exponential"
+                    .to_owned(),
+            );
+        }
         let augmented = Augmented::new(system, end);
         if augmented.size() > SIZE {
             return Self::decline(format!(
-                "its driving functions have {} frequencies and slopes of their own",
+                "its driving functions have {} frequencies and powers of time of their own",
                 augmented.size() - states
             ));
         }
@@ -121,6 +135,14 @@ impl Exact {
     }
 }
 
+/// Whether the frequency of a driving function in use is swept on a piece that begins before `end`.
+fn is_swept(system: &System, end: f64) -> bool {
+    let swept = |waveform: &Waveform| {
+        waveform.pieces().iter().any(|piece| piece.is_swept() && piece.start < end)
+    };
+    system.inputs.iter().any(|input| swept(&system.waveforms[input.waveform]))
+}
+
 impl Method for Exact {
     fn name(&self) -> &'static str {
         Self::KIND
@@ -156,7 +178,7 @@ impl Method for Exact {
             let signals: Vec<_> = run
                 .guards
                 .iter()
-                .map(|guard| crate::Dense::signal(&solution, system, &system.outputs[guard.output]))
+                .map(|guard| crate::Dense::signal(&solution, system, guard.output))
                 .collect();
             let (found, stop) = scan(&run.guards, &signals);
             events = found;
@@ -170,7 +192,16 @@ impl Method for Exact {
         }
         let statistics = Statistics { wall: begin.elapsed(), ..Statistics::default() };
         let dense = Box::new(solution);
-        Ok(Trajectory { method: Self::KIND, outcome, t_end, events, statistics, dense })
+        Ok(Trajectory {
+            method: Self::KIND,
+            outcome,
+            t_end,
+            events,
+            first_phases: Vec::new(),
+            switches: Vec::new(),
+            statistics,
+            dense,
+        })
     }
 }
 

@@ -15,6 +15,8 @@ pub use exact::Exact;
 pub use tr_bdf2::TrBdf2;
 pub use tsit45::Tsit45;
 
+pub(crate) use stepping::derivatives;
+
 use std::fmt::Debug;
 
 use crate::{Observer, Run, SolveError, System, Trajectory};

@@ -3,6 +3,7 @@
 use super::*;
 use crate::{Silent, problems, problems::Problem};
 
+mod drives;
 mod guards;
 mod limits;
 

@@ -31,9 +31,10 @@ pub(super) fn add(
 ) {
     let terms: Vec<Term> =
         output.inputs.terms().iter().map(|term| term_of(system, step, *term)).collect();
-    let half = 0.5 * terms.iter().map(Term::omega).fold(0.0, f64::max) * (step.end - step.start);
+    let omega = terms.iter().map(|term| term.omega(step)).fold(0.0, f64::max);
+    let half = 0.5 * omega * (step.end - step.start);
     let parts = count((half / LONGEST).ceil()).max(1);
-    let degree = degree(step, &terms, half / size(parts));
+    let degree = degree(step, &terms, half / size(parts), parts);
     let interpolation = Interpolation::of_degree(degree);
     let mut own = vec![0.0; step.degree + 1];
     Interpolation::of_degree(step.degree).coefficients(values, &mut own);
@@ -77,25 +78,53 @@ fn term_of(system: &System, step: &Step, (input, factor): (usize, f64)) -> Term 
     Term { piece, derivative: input.derivative, factor }
 }
 
-/// The degree that follows the step's polynomial, and sines of phase up to ±`half`: their
-/// coefficients are Bessel functions, `|J_k(a)| ≤ (a/2)^k/k!`.
-fn degree(step: &Step, terms: &[Term], half: f64) -> usize {
+/// The degree that follows the step's polynomial, and the driving functions on one of `parts` equal
+/// parts of the step, on which the phase of no sine turns by more than ±`half`.
+fn degree(step: &Step, terms: &[Term], half: f64, parts: usize) -> usize {
+    let own = |term: &Term| term.degree(half, (step.end - step.start) / size(parts));
+    terms.iter().map(own).fold(step.degree, usize::max)
+}
+
+/// The degree that follows a sine of phase up to ±`half`: its coefficients are Bessel functions,
+/// `|J_k(a)| ≤ (a/2)^k/k!`.
+fn waves(half: f64) -> usize {
     let mut waves = 0;
     let mut bound = 0.5 * half;
     while bound > NEGLIGIBLE {
         waves += 1;
         bound *= 0.5 * half / size(waves + 1);
     }
-    let sloped = terms.iter().any(|term| term.derivative == 0 && term.piece.slope != 0.0);
-    step.degree.max(usize::from(sloped)).max(waves)
+    waves
 }
 
 impl Term {
-    /// Angular frequency of the term; zero where it is no sine.
-    fn omega(&self) -> f64 {
-        let still = self.piece.sine == 0.0 && self.piece.cosine == 0.0;
-        if still { 0.0 } else { self.piece.omega.abs() }
+    /// Largest angular frequency of the term in a step; zero where it is no sine.
+    fn omega(&self, step: &Step) -> f64 {
+        let at = |time: f64| self.piece.frequency(step.origin + time);
+        at(step.start).max(at(step.end))
     }
+
+    /// The degree that follows the term over `length`, on which its phase turns by up to ±`half`.
+    ///
+    /// With the place `x` from −1 to 1, the phase of a swept sine is a constant and `a x + b T₂(x)`,
+    /// where `b = κ length²/16`; the coefficients of a product reach as far as those of its factors
+    /// together. Each derivative is multiplied by the frequency, which is a line.
+    fn degree(&self, half: f64, length: f64) -> usize {
+        let polynomial = self.piece.degree().unwrap_or(0).saturating_sub(self.derivative);
+        if !self.piece.is_wave() {
+            return wide(polynomial);
+        }
+        let mut degree = waves(half);
+        if self.piece.is_swept() {
+            let bend = (self.piece.sweep * length * length / 16.0).abs();
+            degree += 2 * waves(bend) + wide(self.derivative);
+        }
+        degree.max(wide(polynomial))
+    }
+}
+
+fn wide(order: u32) -> usize {
+    usize::try_from(order).unwrap_or(usize::MAX)
 }
 
 /// A small number of things, from a float that is a whole number.

@@ -32,7 +32,7 @@ pub(super) fn positions(
     let mut mesh = Mesh::<f64>::new(count);
     for spring in &structure.springs {
         groups.join(spring.ends[0], spring.ends[1]);
-        mesh.link(spring.ends[0], spring.ends[1], spring.constant, &0.0);
+        mesh.link(spring.ends[0], spring.ends[1], spring.constant, &spring.offset);
     }
     let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for body in 0..count {

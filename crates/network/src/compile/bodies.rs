@@ -1,6 +1,6 @@
 //! Joints merged into bodies by rigid links.
 
-use super::expand::Expansion;
+use super::expand::{Expansion, Primitive};
 use crate::{Network, NetworkError, Start, Subject, Support, elements::Law};
 
 /// Joints that move as one.
@@ -12,6 +12,8 @@ pub(crate) struct Body {
     /// Start velocity \[m/s\].
     pub(crate) velocity: f64,
     pub(crate) is_impactor: bool,
+    /// Sum of the masses of its nodes \[kg\], whatever rules its motion.
+    pub(crate) whole_mass: f64,
 }
 
 /// What rules a body's motion.
@@ -30,6 +32,8 @@ pub(crate) enum Role {
 pub(crate) struct Bodies {
     pub(crate) all: Vec<Body>,
     pub(crate) of_joint: Vec<usize>,
+    /// How far each joint is from the place of its body \[m\]: rigid links may keep a deformation.
+    pub(crate) offset: Vec<f64>,
 }
 
 /// Groups of numbers that are joined in pairs.
@@ -94,14 +98,80 @@ impl Bodies {
             members[of_joint[joint]].push(joint);
         }
         let mut errors = Vec::new();
+        let offset = offsets(network, expansion, &of_joint, &mut errors);
         let all =
-            members.into_iter().map(|joints| Body::of(network, joints, &mut errors)).collect();
-        if errors.is_empty() { Ok(Self { all, of_joint }) } else { Err(errors) }
+            members.into_iter().map(|joints| Body::of(network, joints, expansion.switches, &mut errors)).collect();
+        if errors.is_empty() { Ok(Self { all, of_joint, offset }) } else { Err(errors) }
     }
 }
 
+/// The place of each joint within its body \[m\], zero where rigid links keep no deformation.
+fn offsets(
+    network: &Network,
+    expansion: &Expansion,
+    of_joint: &[usize],
+    errors: &mut Vec<NetworkError>,
+) -> Vec<f64> {
+    let mut offset = vec![0.0; expansion.joints];
+    let links: Vec<&Primitive> =
+        expansion.primitives.iter().filter(|part| part.law == Law::Rigid).collect();
+    if links.iter().all(|link| link.held == 0.0) {
+        return offset;
+    }
+    let mut neighbours: Vec<Vec<(usize, f64)>> = vec![Vec::new(); expansion.joints];
+    for link in &links {
+        let [a, b] = link.ends;
+        neighbours[a].push((b, -link.held));
+        neighbours[b].push((a, link.held));
+    }
+    let is_given = |joint: usize| {
+        network.nodes.get(joint).is_some_and(|node| node.support != Support::Free)
+    };
+    let mut is_placed = vec![false; expansion.joints];
+    // The place of a body is that of the node that is held, where one is.
+    let starts = (0..expansion.joints).filter(|&joint| is_given(joint)).chain(0..expansion.joints);
+    let mut body_is_placed = vec![false; expansion.joints];
+    for start in starts {
+        if is_placed[start] || body_is_placed[of_joint[start]] {
+            continue;
+        }
+        body_is_placed[of_joint[start]] = true;
+        is_placed[start] = true;
+        let mut reached = vec![start];
+        while let Some(joint) = reached.pop() {
+            for &(next, further) in &neighbours[joint] {
+                if !is_placed[next] {
+                    is_placed[next] = true;
+                    offset[next] = offset[joint] + further;
+                    reached.push(next);
+                }
+            }
+        }
+    }
+    for link in links {
+        let [a, b] = link.ends;
+        let kept = offset[a] - offset[b];
+        let size = offset[a].abs().max(offset[b].abs()).max(link.held.abs());
+        if (kept - link.held).abs() > 1e-12 * size {
+            let name = |joint: usize| joint_name(network, expansion, joint);
+            errors.push(NetworkError::ContradictingMotions {
+                first: name(a),
+                second: name(b),
+                difference: "the distances that rigid links and closed contacts keep differ",
+            });
+        }
+    }
+    offset
+}
+
 impl Body {
-    fn of(network: &Network, joints: Vec<usize>, errors: &mut Vec<NetworkError>) -> Self {
+    /// Where the network `switches`, bodies that a phase joins may have begun at different speeds.
+    fn of(
+        network: &Network,
+        joints: Vec<usize>,
+        switches: bool,
+        errors: &mut Vec<NetworkError>,
+    ) -> Self {
         let nodes: Vec<usize> =
             joints.iter().copied().filter(|&joint| joint < network.nodes.len()).collect();
         let mut held: Option<usize> = None;
@@ -118,6 +188,7 @@ impl Body {
             if network.nodes[node].mass > 0.0 {
                 let speed = |node: usize| start_velocity(network, network.nodes[node].start);
                 if let Some(other) = moving
+                    && !switches
                     && (speed(other) - speed(node)).abs() > 0.0
                 {
                     errors.push(contradiction(network, other, node, "their start speeds differ"));
@@ -133,7 +204,7 @@ impl Body {
             _ => Role::Massless,
         };
         let impactor = nodes.iter().copied().find(|&node| network.nodes[node].is_impactor());
-        if let Some(node) = impactor {
+        if let Some(node) = impactor.filter(|_| !switches) {
             let reason = match role {
                 Role::Fixed => Some("nothing moves it: it is fixed"),
                 Role::Prescribed(_) => Some("its motion is prescribed"),
@@ -145,14 +216,11 @@ impl Body {
                 errors.push(NetworkError::StartSpeed { node, reason });
             }
         }
-        let velocity =
-            moving.map_or(0.0, |node| start_velocity(network, network.nodes[node].start));
-        Self { joints, role, velocity, is_impactor: impactor.is_some() }
-    }
-
-    /// Sum of the masses of its nodes \[kg\], whatever rules its motion.
-    pub(crate) fn mass(&self, network: &Network) -> f64 {
-        self.joints.iter().filter_map(|&joint| network.nodes.get(joint)).map(|node| node.mass).sum()
+        let massive = nodes.iter().filter(|&&node| network.nodes[node].mass > 0.0);
+        let speeds = massive.map(|&node| start_velocity(network, network.nodes[node].start));
+        let velocity = speeds.fold(0.0, |most: f64, own| if own.abs() > most.abs() { own } else { most });
+        let is_impactor = impactor.is_some();
+        Self { joints, role, velocity, is_impactor, whole_mass: mass }
     }
 
     pub(crate) fn is_massless(&self) -> bool {

@@ -97,6 +97,7 @@ impl<'a> DashpotBalance<'a> {
                 scale,
                 initial: 0.0,
                 row: balance.total(),
+                term: None,
             });
         }
         let solution = mesh.eliminate(&solved, usize::MAX).solve(values);

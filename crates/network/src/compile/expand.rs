@@ -8,6 +8,7 @@ use crate::{
     Network,
     elements::{Element, Law},
     network::Model,
+    phases::{Phase, PhaseLaw, Watched},
 };
 
 /// A spring, dashpot or rigid link between two joints.
@@ -16,9 +17,55 @@ pub(crate) struct Primitive {
     /// Its path, for instance `padding.maxwell.spring`.
     pub(crate) name: String,
     pub(crate) element: Arc<dyn Element>,
+    /// The element as it stands in the model; `element` may be that of a phase.
+    pub(crate) origin: Arc<dyn Element>,
     pub(crate) law: Law,
+    /// Whether it is a rigid link in the model.
+    pub(crate) is_link: bool,
+    /// The deformation that a rigid link keeps \[m\].
+    pub(crate) held: f64,
+    /// A force that it puts on its ends whatever they do \[N\].
+    pub(crate) push: f64,
     /// Its ends; joints below the number of nodes are the nodes themselves.
     pub(crate) ends: [usize; 2],
+}
+
+impl Primitive {
+    /// Stiffness \[N/m\] and damping \[N s/m\] that stand for it in the structure of a network.
+    pub(crate) fn slopes(&self) -> [f64; 2] {
+        match self.law {
+            Law::Spring(stiffness) => [stiffness, 0.0],
+            Law::Dashpot(damping) => [0.0, damping],
+            Law::Nonlinear { stiffness, damping } => [stiffness, damping],
+            Law::Rigid | Law::Phased => [0.0, 0.0],
+        }
+    }
+
+    /// Whether it switches.
+    pub(crate) fn is_phased(&self) -> bool {
+        self.origin.phases().is_some()
+    }
+
+    /// Whether its rate is of interest in a network that switches: something is dissipated by it, or
+    /// watches it.
+    pub(crate) fn needs_rate(&self) -> bool {
+        match self.origin.law() {
+            Law::Dashpot(_) => true,
+            Law::Nonlinear { damping, .. } => damping > 0.0,
+            Law::Phased => self.origin.phases().is_some_and(|own| {
+                (0..own.names().len()).any(|index| {
+                    let exits = own.exits(Phase { index, memory: 0.0 });
+                    exits.iter().any(|exit| exit.watched == Watched::Rate)
+                })
+            }),
+            Law::Spring(_) | Law::Rigid => false,
+        }
+    }
+
+    /// Whether the law is not linear.
+    pub(crate) fn is_nonlinear(&self) -> bool {
+        matches!(self.law, Law::Nonlinear { .. })
+    }
 }
 
 /// How the primitives of a connection are composed; children stand after their parent.
@@ -42,6 +89,8 @@ pub(crate) struct Expansion {
     /// Number of joints: the nodes, then those inside of models.
     pub(crate) joints: usize,
     pub(crate) primitives: Vec<Primitive>,
+    /// Whether it is one phase of a network that switches.
+    pub(crate) switches: bool,
     /// For each connection its shape, the root first.
     pub(crate) shapes: Vec<Vec<Shape>>,
     /// For each joint inside of a model the name of its connection; `None` for nodes.
@@ -73,6 +122,39 @@ impl Expansion {
         expansion
     }
 
+    /// The primitives that switch, by their numbers.
+    pub(crate) fn phased(&self) -> Vec<usize> {
+        (0..self.primitives.len())
+            .filter(|&at| self.primitives[at].law == Law::Phased)
+            .collect()
+    }
+
+    /// The same expansion with each of these primitives in a phase.
+    pub(crate) fn in_phases(&self, parts: &[usize], phases: &[Phase]) -> Self {
+        let mut copy = self.clone();
+        copy.switches = true;
+        for (&part, &phase) in parts.iter().zip(phases) {
+            let primitive = &mut copy.primitives[part];
+            let Some(own) = primitive.element.phases() else { continue };
+            match own.law(phase) {
+                PhaseLaw::Open => primitive.law = Law::Spring(0.0),
+                PhaseLaw::Held(deformation) => {
+                    primitive.law = Law::Rigid;
+                    primitive.held = deformation;
+                }
+                PhaseLaw::Force(force) => {
+                    primitive.law = Law::Spring(0.0);
+                    primitive.push = force;
+                }
+                PhaseLaw::Element(element) => {
+                    primitive.law = element.law();
+                    primitive.element = element;
+                }
+            }
+        }
+        copy
+    }
+
     /// Without recursion, because nesting has no limit.
     fn expand(&mut self, connection: &str, model: &Model, ends: [usize; 2]) -> Vec<Shape> {
         let mut shapes = vec![Shape::Series(Vec::new())];
@@ -88,7 +170,11 @@ impl Expansion {
                     self.primitives.push(Primitive {
                         name,
                         element: Arc::clone(element),
+                        origin: Arc::clone(element),
+                        is_link: law == Law::Rigid,
                         law,
+                        held: 0.0,
+                        push: 0.0,
                         ends,
                     });
                 }

@@ -8,6 +8,7 @@
 //! in SI; `system` rounds them and makes them dimensionless.
 
 mod balance;
+mod carry;
 pub(crate) mod bodies;
 mod dashpots;
 pub(crate) mod expand;
@@ -15,6 +16,8 @@ mod form;
 mod mesh;
 mod motion;
 mod outputs;
+pub(crate) mod phased;
+mod pushes;
 mod reactions;
 mod review;
 mod row;
@@ -29,12 +32,13 @@ pub(crate) mod validate;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::{borrow::Cow, collections::BTreeMap};
 
 use dashpot_dae::Waveform;
 
 use self::{
     bodies::{Bodies, Role, joint_name},
+    carry::Carry,
     expand::Expansion,
     motion::Motion,
     outputs::Outputs,
@@ -43,7 +47,7 @@ use self::{
     structure::Structure,
     unknowns::{Inputs, Places},
 };
-use crate::{Assembly, Network, NetworkErrors, Support};
+use crate::{Assembly, effects, Network, NetworkErrors, Support};
 
 /// What acts on a body from outside.
 #[derive(Debug, Clone)]
@@ -69,6 +73,17 @@ struct Parts<'a> {
     motion: &'a Motion,
     places: &'a Places,
     drives: &'a [Drive],
+    /// How far each joint is from the place of its body.
+    offsets: &'a [Row],
+    /// Own mass of each joint \[kg\].
+    masses: &'a [f64],
+}
+
+/// A compiled network, with what leads from it to its other phases.
+struct Compiled {
+    assembly: Assembly,
+    carry: Option<Carry>,
+    bodies: Bodies,
 }
 
 impl Network {
@@ -80,19 +95,46 @@ impl Network {
     /// All that is wrong with the network, by name: [`NetworkErrors`] of its names and numbers, or
     /// else of its topology.
     pub fn compile(&self, duration: f64) -> Result<Assembly, NetworkErrors> {
-        let expansion = Expansion::of(self);
-        let faults = validate::faults(self, &expansion);
+        let network = self.rewritten()?;
+        let expansion = Expansion::of(&network);
+        let faults = validate::faults(&network, &expansion);
         if !faults.is_empty() {
             return Err(NetworkErrors(faults));
         }
-        let bodies = Bodies::of(self, &expansion).map_err(NetworkErrors)?;
-        let structure =
-            Structure::of(self, &expansion, &bodies, duration).map_err(NetworkErrors)?;
+        let parts = expansion.phased();
+        if parts.is_empty() {
+            return Ok(network.assemble(&expansion, duration)?.assembly);
+        }
+        phased::compile(network.into_owned(), expansion, parts, duration)
+    }
+
+    /// The network with what its effects put into it.
+    fn rewritten(&self) -> Result<Cow<'_, Self>, NetworkErrors> {
+        if !effects::rewrites(self) {
+            return Ok(Cow::Borrowed(self));
+        }
+        let mut network = self.clone();
+        effects::rewrite(&mut network)?;
+        Ok(Cow::Owned(network))
+    }
+
+    /// The system of the primitives as they stand in `expansion`; none of them switches.
+    fn assemble(
+        &self,
+        expansion: &Expansion,
+        duration: f64,
+    ) -> Result<Compiled, NetworkErrors> {
+        let bodies = Bodies::of(self, expansion).map_err(NetworkErrors)?;
+        let structure = Structure::of(self, expansion, &bodies, duration).map_err(NetworkErrors)?;
 
         let mut inputs = Inputs::default();
         let mut sizes = Drives::default();
         let motions = self.motions(&bodies, duration, &mut inputs, &mut sizes);
         let drives = self.drives(&bodies, &motions, duration, &mut inputs, &mut sizes);
+        for primitive in expansion.primitives.iter().filter(|own| own.push != 0.0) {
+            let ends = primitive.ends.map(|joint| bodies.of_joint[joint]);
+            sizes.forces.extend(ends.map(|end| (end, primitive.push.abs())));
+        }
         let scales = Scales::of(&bodies, &structure, &sizes, duration)?;
 
         let mut loads = vec![Row::default(); bodies.all.len()];
@@ -101,40 +143,71 @@ impl Network {
                 loads[drive.body] = loads[drive.body].plus(1.0, force);
             }
         }
-        let mut places = unknowns::choose(self, &expansion, &bodies, &structure, &scales, &motions);
+        let mut places = unknowns::choose(self, expansion, &bodies, &structure, &scales, &motions);
+        let pushes = pushes::add(
+            expansion,
+            &bodies,
+            &structure,
+            &scales,
+            &mut inputs,
+            &mut places,
+            &mut loads,
+        );
         let motion = motion::build(
             &motion::Given {
-                primitives: expansion.primitives.len(),
+                primitives: &expansion.primitives,
+                pushes: &pushes,
                 bodies: &bodies,
                 structure: &structure,
                 scales: &scales,
                 loads: &loads,
-                names: &|body| joint_name(self, &expansion, bodies.all[body].joints[0]),
+                names: &|body| joint_name(self, expansion, bodies.all[body].joints[0]),
             },
             &mut inputs,
             &mut places,
         );
-        self.start(&expansion, &bodies, &structure, &drives, &inputs, &mut places)?;
+        pushes::complete(expansion, &motion, &mut places);
+        if !expansion.switches {
+            self.start(expansion, &bodies, &structure, &drives, &inputs, &mut places)?;
+        }
 
+        let offsets: Vec<Row> =
+            bodies.offset.iter().map(|&offset| inputs.constant(offset)).collect();
+        let masses: Vec<f64> = (0..expansion.joints)
+            .map(|joint| self.nodes.get(joint).map_or(0.0, |node| node.mass))
+            .collect();
         let parts = Parts {
-            expansion: &expansion,
+            expansion,
             bodies: &bodies,
             structure: &structure,
             motion: &motion,
             places: &places,
             drives: &drives,
+            offsets: &offsets,
+            masses: &masses,
         };
-        let outputs = Outputs::of(self, &parts);
+        let outputs = Outputs::of(self, &parts)?;
         let warnings = review::warnings(self, &parts);
-        let system = system::dimensionless(&places, &inputs, &outputs, scales.time, duration)?;
-        Ok(Assembly {
+        let system = system::dimensionless(
+            expansion,
+            &motion,
+            &places,
+            &inputs,
+            &outputs,
+            scales.time,
+            duration,
+        )?;
+        let carry = expansion.switches.then(|| Carry::of(&parts, &inputs, &system, duration));
+        let assembly = Assembly {
             system,
             nodes: outputs.nodes,
             connections: outputs.connections,
             primitives: outputs.primitives,
             drives: outputs.drives,
             warnings,
-        })
+            switching: None,
+        };
+        Ok(Compiled { assembly, carry, bodies })
     }
 
     /// The given displacements of bodies as rows.
@@ -196,7 +269,7 @@ impl Network {
         for (at, body) in bodies.all.iter().enumerate() {
             let Role::Prescribed(node) = body.role else { continue };
             if let Support::Prescribed(motion) = &self.nodes[node].support {
-                let mass = body.mass(self);
+                let mass = body.whole_mass;
                 let inertia = match motions.get(&at) {
                     Some(row) if mass > 0.0 => {
                         let velocity = inputs.rate(row);

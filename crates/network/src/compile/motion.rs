@@ -5,12 +5,14 @@ use dashpot_dae::UnknownKind;
 use super::{
     bodies::{Bodies, Role},
     dashpots::DashpotBalance,
+    expand::Primitive,
     row::{Combination, Row, RowSum},
     scales::Scales,
     springs::SpringBalance,
     structure::Structure,
     unknowns::{Inputs, Places},
 };
+use crate::elements::Law;
 
 /// All that moves and pushes, in SI units.
 #[derive(Debug, Clone, Default)]
@@ -34,8 +36,10 @@ const MOST_LINKS: usize = 16;
 
 /// What the rows are built from.
 pub(super) struct Given<'a> {
-    /// Number of primitives.
-    pub(super) primitives: usize,
+    pub(super) primitives: &'a [Primitive],
+    /// What each primitive pushes with besides a linear spring's and dashpot's force \[N\]; it is
+    /// among the loads.
+    pub(super) pushes: &'a [Option<Row>],
     pub(super) bodies: &'a Bodies,
     pub(super) structure: &'a Structure,
     pub(super) scales: &'a Scales,
@@ -47,28 +51,29 @@ pub(super) struct Given<'a> {
 
 /// Builds all rows and completes the drafts of the unknowns.
 pub(super) fn build(given: &Given<'_>, inputs: &mut Inputs, places: &mut Places) -> Motion {
-    let Given { primitives, bodies, structure, scales, loads, names } = *given;
+    let Given { primitives, pushes, bodies, structure, scales, loads, names } = *given;
     let massless = structure.cluster_of.iter().flatten().count();
     let most = if massless <= SMALL { usize::MAX } else { MOST_LINKS };
     let mut motion = Motion {
         position: Vec::new(),
         velocity: known_velocities(bodies, places, inputs),
-        deformation: vec![None; primitives],
-        rate: vec![None; primitives],
-        force: vec![None; primitives],
+        deformation: vec![None; primitives.len()],
+        rate: vec![None; primitives.len()],
+        force: pushes.to_vec(),
     };
 
-    let springs = SpringBalance::solve(structure, loads, most, places, |body| {
+    let springs = SpringBalance::solve(structure, loads, most, places, inputs, |body| {
         (names(body), scales.length[body])
     });
     motion.position = (0..bodies.all.len()).map(|body| springs.position(places, body)).collect();
     let mut net: Vec<RowSum> = loads.iter().map(RowSum::from).collect();
     for spring in &structure.springs {
-        let deformation = springs.deformation(places, spring.ends);
+        let deformation =
+            springs.difference(places, spring.ends).plus(1.0, &inputs.constant(spring.offset));
         let force = deformation.times(spring.constant);
         push_apart(&mut net, spring.ends, &force);
         motion.deformation[spring.primitive] = Some(deformation);
-        motion.force[spring.primitive] = Some(force);
+        add_to(&mut motion.force[spring.primitive], force);
     }
 
     let dashpots = DashpotBalance::solve(structure, &net, &motion.velocity, most, places, |body| {
@@ -83,13 +88,62 @@ pub(super) fn build(given: &Given<'_>, inputs: &mut Inputs, places: &mut Places)
         });
         let force = rate.times(dashpot.constant);
         push_apart(&mut net, dashpot.ends, &force);
-        motion.deformation[dashpot.primitive] = Some(springs.deformation(places, dashpot.ends));
+        motion.deformation[dashpot.primitive] = Some(
+            springs.difference(places, dashpot.ends).plus(1.0, &inputs.constant(dashpot.offset)),
+        );
         motion.rate[dashpot.primitive] = Some(rate);
-        motion.force[dashpot.primitive] = Some(force);
+        add_to(&mut motion.force[dashpot.primitive], force);
     }
     unknown_rates(bodies, &net, &dashpots, structure, &motion.velocity, places);
     derived_rates(structure, inputs, places, &mut motion);
+    pushed(given, &springs, inputs, places, &mut motion);
     motion
+}
+
+fn add_to(sum: &mut Option<Row>, row: Row) {
+    *sum = Some(match sum.take() {
+        Some(sum) => sum.plus(1.0, &row),
+        None => row,
+    });
+}
+
+/// How what only pushes is deformed.
+fn pushed(
+    given: &Given<'_>,
+    springs: &SpringBalance<'_>,
+    inputs: &mut Inputs,
+    places: &Places,
+    motion: &mut Motion,
+) {
+    for (at, primitive) in given.primitives.iter().enumerate() {
+        if motion.deformation[at].is_some() {
+            continue;
+        }
+        let ends = primitive.ends.map(|joint| given.bodies.of_joint[joint]);
+        let [a, b] = primitive.ends.map(|joint| given.bodies.offset[joint]);
+        let offset = inputs.constant(a - b);
+        if ends[0] == ends[1] && a != b && primitive.law != Law::Rigid {
+            // Held at a deformation, it pushes all the same.
+            let [stiffness, _] = primitive.slopes();
+            let force = if primitive.is_nonlinear() {
+                inputs.constant(primitive.element.force(a - b, 0.0))
+            } else {
+                offset.times(stiffness)
+            };
+            motion.deformation[at] = Some(offset);
+            motion.rate[at] = Some(Row::default());
+            motion.force[at] = Some(force);
+            continue;
+        }
+        if given.pushes[at].is_none() {
+            continue;
+        }
+        motion.deformation[at] = Some(springs.difference(places, ends).plus(1.0, &offset));
+        motion.rate[at] = match ends.map(|end| motion.velocity[end].as_ref()) {
+            [Some(a), Some(b)] => Some(a.plus(-1.0, b)),
+            _ => None,
+        };
+    }
 }
 
 fn push_apart(net: &mut [RowSum], [a, b]: [usize; 2], force: &Row) {
@@ -172,8 +226,10 @@ fn derived_rates(structure: &Structure, inputs: &mut Inputs, places: &Places, mo
         Some(sum.total())
     };
     for spring in &structure.springs {
-        motion.rate[spring.primitive] =
-            motion.deformation[spring.primitive].as_ref().and_then(&mut rate_of);
+        if motion.rate[spring.primitive].is_none() {
+            motion.rate[spring.primitive] =
+                motion.deformation[spring.primitive].as_ref().and_then(&mut rate_of);
+        }
     }
     for (body, cluster) in structure.cluster_of.iter().enumerate() {
         if cluster.is_some() && motion.velocity[body].is_none() {

@@ -12,7 +12,8 @@ use super::{
     row::{Combination, Row, RowSum},
 };
 use crate::{
-    ConnectionOutputs, DriveOutputs, Network, NodeOutputs, PrimitiveOutputs, Support, elements::Law,
+    ConnectionOutputs, DriveOutputs, Network, NetworkError, Node, NodeOutputs, PrimitiveOutputs,
+    Support, elements::Law,
 };
 
 /// Outputs with rows that are still in SI units.
@@ -26,13 +27,15 @@ pub(super) struct Outputs {
 }
 
 impl Outputs {
-    pub(super) fn of(network: &Network, parts: &Parts<'_>) -> Self {
+    /// All outputs. In a network that switches they are the same ones in all phases, whether or not
+    /// a part takes part in a phase; rates that some phases do not know are left out.
+    pub(super) fn of(network: &Network, parts: &Parts<'_>) -> Result<Self, NetworkError> {
         let mut outputs = Self::default();
         let contact = contact_forces(parts);
         outputs.add_nodes(network, parts, &contact);
-        outputs.add_connections(network, parts);
-        outputs.add_drives(parts, &contact);
-        outputs
+        outputs.add_connections(network, parts)?;
+        outputs.add_drives(network, parts, &contact);
+        Ok(outputs)
     }
 
     fn add(&mut self, name: String, unit: &'static str, row: Row) -> usize {
@@ -53,10 +56,12 @@ impl Outputs {
         for (at, node) in network.nodes.iter().enumerate() {
             let body = parts.bodies.of_joint[at];
             let name = &node.name;
-            let position =
-                self.add(format!("{name}.position"), "m", parts.motion.position[body].clone());
+            let place = parts.motion.position[body].plus(1.0, &parts.offsets[at]);
+            let position = self.add(format!("{name}.position"), "m", place);
+            let is_known = !parts.expansion.switches || moves_by_itself(node);
             let velocity = parts.motion.velocity[body]
                 .clone()
+                .filter(|_| is_known)
                 .map(|row| self.add(format!("{name}.velocity"), "m/s", row));
             let acceleration = accelerometer(network, parts, at, &contact[body])
                 .map(|row| self.add(format!("{name}.acceleration"), "m/s^2", row));
@@ -73,7 +78,11 @@ impl Outputs {
         }
     }
 
-    fn add_connections(&mut self, network: &Network, parts: &Parts<'_>) {
+    fn add_connections(
+        &mut self,
+        network: &Network,
+        parts: &Parts<'_>,
+    ) -> Result<(), NetworkError> {
         let reactions = rigid_forces(network, parts);
         let primitives = &parts.expansion.primitives;
         let force = |at: usize| match primitives[at].law {
@@ -83,10 +92,9 @@ impl Outputs {
         for (connection, shapes) in network.connections.iter().zip(&parts.expansion.shapes) {
             let first = self.primitives.len();
             for at in shapes.iter().filter_map(Shape::leaf) {
-                self.add_primitive(parts, at);
+                self.add_primitive(parts, &reactions, at)?;
             }
-            let deformation =
-                |at: usize| Some(parts.motion.deformation[at].clone().unwrap_or_default());
+            let deformation = |at: usize| Some(deformation(parts, at));
             let rate = |at: usize| match parts.motion.deformation[at] {
                 Some(_) => parts.motion.rate[at].clone(),
                 None => Some(Row::default()),
@@ -96,12 +104,17 @@ impl Outputs {
             let whole = composed(shapes, &force, &softest(parts));
             let is_placed = |body: usize| parts.structure.algebraic_cluster(body).is_none();
             let [a, b] = ends;
-            let position = if ends.iter().all(|&end| is_placed(end)) {
-                parts.motion.position[a].plus(-1.0, &parts.motion.position[b])
+            let position = if ends.iter().all(|&end| is_placed(end)) || parts.expansion.switches {
+                let offset = connection.between.map(|id| &parts.offsets[id.0]);
+                parts.motion.position[a]
+                    .plus(-1.0, &parts.motion.position[b])
+                    .plus(1.0, offset[0])
+                    .plus(-1.0, offset[1])
             } else {
                 summed(shapes, &deformation).unwrap_or_default()
             };
             let velocity = match (&parts.motion.velocity[a], &parts.motion.velocity[b]) {
+                _ if parts.expansion.switches => None,
                 (Some(va), Some(vb)) if ends.iter().all(|&end| is_placed(end)) => {
                     Some(va.plus(-1.0, vb))
                 }
@@ -119,37 +132,63 @@ impl Outputs {
             };
             self.connections.push(outputs);
         }
+        Ok(())
     }
 
     /// A primitive that takes part; others have neither force nor energy.
-    fn add_primitive(&mut self, parts: &Parts<'_>, at: usize) {
+    fn add_primitive(
+        &mut self,
+        parts: &Parts<'_>,
+        reactions: &[Option<Row>],
+        at: usize,
+    ) -> Result<(), NetworkError> {
         let primitive = &parts.expansion.primitives[at];
-        let (Some(force), Some(deformation)) =
-            (&parts.motion.force[at], &parts.motion.deformation[at])
-        else {
-            return;
-        };
+        let switches = parts.expansion.switches;
+        let is_taking_part =
+            parts.motion.force[at].is_some() && parts.motion.deformation[at].is_some();
+        if !is_taking_part && (!switches || primitive.is_link) {
+            return Ok(());
+        }
         let name = &primitive.name;
+        let force = match primitive.law {
+            Law::Rigid => reactions[at]
+                .clone()
+                .ok_or_else(|| NetworkError::UndeterminedForce { element: name.clone() })?,
+            _ => parts.motion.force[at].clone().unwrap_or_default(),
+        };
+        let rate = if switches {
+            let ends = primitive.ends.map(|joint| parts.bodies.of_joint[joint]);
+            let is_still = ends[0] == ends[1] || !is_taking_part && !primitive.is_phased();
+            let known = if is_still { Some(Row::default()) } else { parts.motion.rate[at].clone() };
+            known.filter(|_| primitive.needs_rate())
+        } else {
+            parts.motion.rate[at].clone()
+        };
+        if switches && primitive.needs_rate() && rate.is_none() {
+            return Err(NetworkError::UndeterminedRate { element: name.clone() });
+        }
         let outputs = PrimitiveOutputs {
             name: name.clone(),
-            element: Arc::clone(&primitive.element),
-            force: self.add(format!("{name}.force"), "N", force.clone()),
-            deformation: self.add(format!("{name}.deformation"), "m", deformation.clone()),
-            rate: parts.motion.rate[at]
-                .clone()
-                .map(|row| self.add(format!("{name}.rate"), "m/s", row)),
+            element: Arc::clone(&primitive.origin),
+            force: self.add(format!("{name}.force"), "N", force),
+            deformation: self.add(format!("{name}.deformation"), "m", deformation(parts, at)),
+            rate: rate.map(|row| self.add(format!("{name}.rate"), "m/s", row)),
         };
         self.primitives.push(outputs);
+        Ok(())
     }
 
-    fn add_drives(&mut self, parts: &Parts<'_>, contact: &[RowSum]) {
+    fn add_drives(&mut self, network: &Network, parts: &Parts<'_>, contact: &[RowSum]) {
         for drive in parts.drives {
-            let Some(velocity) = parts.motion.velocity[drive.body].clone() else { continue };
+            let velocity = parts.motion.velocity[drive.body].clone();
+            let switches = parts.expansion.switches;
+            let is_known = !switches || moves_by_itself(&network.nodes[drive.node]);
+            let Some(velocity) = velocity.filter(|_| is_known) else { continue };
             let force = match &drive.force {
                 Some(force) => force.clone(),
                 None => held_force(parts, drive, &contact[drive.body]),
             };
-            if force.is_zero() {
+            if force.is_zero() && !switches {
                 continue;
             }
             let name = drive.name.clone();
@@ -164,15 +203,36 @@ impl Outputs {
     }
 }
 
+/// Whether a node has a velocity of its own in all phases of a network.
+fn moves_by_itself(node: &Node) -> bool {
+    node.mass > 0.0 || node.support != Support::Free
+}
+
+/// The deformation of a primitive; zero where it takes no part.
+fn deformation(parts: &Parts<'_>, at: usize) -> Row {
+    match &parts.motion.deformation[at] {
+        Some(deformation) => deformation.clone(),
+        None if !parts.expansion.switches => Row::default(),
+        None => {
+            let [a, b] = parts.expansion.primitives[at].ends;
+            let [p, q] = [a, b].map(|joint| parts.bodies.of_joint[joint]);
+            parts.motion.position[p]
+                .plus(-1.0, &parts.motion.position[q])
+                .plus(1.0, &parts.offsets[a])
+                .plus(-1.0, &parts.offsets[b])
+        }
+    }
+}
+
 /// Sum of the forces of springs and dashpots on each body, with the loads that an accelerometer
 /// feels.
 fn contact_forces(parts: &Parts<'_>) -> Vec<RowSum> {
     let mut contact = vec![RowSum::default(); parts.bodies.all.len()];
-    for edge in parts.structure.springs.iter().chain(&parts.structure.dashpots) {
-        if let Some(force) = &parts.motion.force[edge.primitive] {
-            contact[edge.ends[0]].add(-1.0, force);
-            contact[edge.ends[1]].add(1.0, force);
-        }
+    for (primitive, force) in parts.expansion.primitives.iter().zip(&parts.motion.force) {
+        let Some(force) = force else { continue };
+        let [a, b] = primitive.ends.map(|joint| parts.bodies.of_joint[joint]);
+        contact[a].add(-1.0, force);
+        contact[b].add(1.0, force);
     }
     for drive in parts.drives.iter().filter(|drive| !drive.is_body_force) {
         if let Some(force) = &drive.force {
@@ -207,8 +267,12 @@ fn accelerometer(
         return None;
     }
     let body = parts.bodies.of_joint[node];
-    let Role::Mass(total) = parts.bodies.all[body].role else { return None };
     let mut sum = RowSum::default();
+    let total = match parts.bodies.all[body].role {
+        Role::Mass(total) => total,
+        Role::Massless => return None,
+        Role::Fixed | Role::Prescribed(_) => return resting(parts, node, mass),
+    };
     sum.add(1.0 / total, &contact.total());
     let is_alone = parts.bodies.all[body].joints.iter().all(|&joint| {
         joint == node || network.nodes.get(joint).is_none_or(|other| other.mass == 0.0)
@@ -222,6 +286,26 @@ fn accelerometer(
             if drive.node == node {
                 sum.add(-1.0 / mass, force);
             }
+        }
+    }
+    Some(sum.total())
+}
+
+/// What an accelerometer reads on a free node that a closed contact holds to a fixed or prescribed
+/// body: the acceleration of that body less the body force per mass. `None` where no contact does.
+fn resting(parts: &Parts<'_>, node: usize, mass: f64) -> Option<Row> {
+    if !parts.expansion.switches {
+        return None;
+    }
+    let body = parts.bodies.of_joint[node];
+    let whole: f64 = parts.bodies.all[body].whole_mass;
+    let mut sum = RowSum::default();
+    for drive in parts.drives.iter().filter(|drive| drive.body == body) {
+        if drive.force.is_none() && whole > 0.0 {
+            sum.add(1.0 / whole, &drive.inertia);
+        }
+        if let Some(force) = drive.force.as_ref().filter(|_| drive.is_body_force && drive.node == node) {
+            sum.add(-1.0 / mass, force);
         }
     }
     Some(sum.total())
@@ -284,6 +368,7 @@ fn softest(parts: &Parts<'_>) -> impl Fn(usize) -> f64 {
         Law::Rigid => f64::INFINITY,
         _ if parts.motion.force[at].is_none() => -1.0,
         Law::Spring(stiffness) => stiffness,
-        Law::Dashpot(_) => f64::MAX,
+        Law::Nonlinear { stiffness, .. } if stiffness > 0.0 => stiffness,
+        _ => f64::MAX,
     }
 }

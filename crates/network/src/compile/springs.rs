@@ -6,7 +6,7 @@ use super::{
     mesh::{Mesh, Solution},
     row::{Combination, Row, RowSum},
     structure::Structure,
-    unknowns::{Draft, Places},
+    unknowns::{Draft, Inputs, Places},
 };
 
 /// Positions of the algebraic clusters and differences along the springs.
@@ -37,6 +37,7 @@ impl<'a> SpringBalance<'a> {
         loads: &[Row],
         most_links: usize,
         places: &mut Places,
+        inputs: &mut Inputs,
         draft: impl Fn(usize) -> (String, f64),
     ) -> Self {
         let clusters = structure.clusters.len();
@@ -45,7 +46,9 @@ impl<'a> SpringBalance<'a> {
             let [a, b] = spring.ends;
             let (p, q) = (place(structure, a), place(structure, b));
             if p < clusters || q < clusters {
-                let offset = within(structure, places, a).plus(-1.0, &within(structure, places, b));
+                let offset = within(structure, places, a)
+                    .plus(-1.0, &within(structure, places, b))
+                    .plus(1.0, &inputs.constant(spring.offset));
                 mesh.link(p, q, spring.constant, &offset);
             }
         }
@@ -82,6 +85,7 @@ impl<'a> SpringBalance<'a> {
                 scale,
                 initial: 0.0,
                 row: balance.total(),
+                term: None,
             });
         }
         Self { structure, solution: eliminated.solve(values) }
@@ -95,8 +99,8 @@ impl<'a> SpringBalance<'a> {
         }
     }
 
-    /// Deformation of a spring between two bodies.
-    pub(super) fn deformation(&self, places: &Places, [a, b]: [usize; 2]) -> Row {
+    /// How far apart the places of two bodies are, the deformation of what has no offset.
+    pub(super) fn difference(&self, places: &Places, [a, b]: [usize; 2]) -> Row {
         let (p, q) = (place(self.structure, a), place(self.structure, b));
         let offset =
             within(self.structure, places, a).plus(-1.0, &within(self.structure, places, b));

@@ -9,7 +9,7 @@ use super::{
     bodies::{Bodies, Body, Groups, Role, joint_name},
     expand::Expansion,
 };
-use crate::{Network, NetworkError, Support, elements::Law};
+use crate::{Network, NetworkError, Support};
 
 /// A spring or dashpot that takes part, between two different bodies.
 #[derive(Debug, Clone, Copy)]
@@ -18,6 +18,8 @@ pub(super) struct Edge {
     pub(super) ends: [usize; 2],
     /// Stiffness \[N/m\] or damping \[N s/m\], positive.
     pub(super) constant: f64,
+    /// Its deformation where both bodies are at one place \[m\].
+    pub(super) offset: f64,
 }
 
 /// Massless bodies that dashpots join.
@@ -37,6 +39,8 @@ pub(super) struct Structure {
     pub(super) clusters: Vec<Cluster>,
     /// The cluster of each body that has one.
     pub(super) cluster_of: Vec<Option<usize>>,
+    /// Whether each body hangs together with a node through springs and dashpots.
+    pub(super) held: Vec<bool>,
     /// For each body the first time at which its given displacement jumps \[s\], if it does.
     pub(super) first_jump: Vec<Option<f64>>,
 }
@@ -55,14 +59,13 @@ impl Structure {
             if ends[0] == ends[1] || !held[ends[0]] {
                 continue;
             }
-            match part.law {
-                Law::Spring(constant) if constant > 0.0 => {
-                    structure.springs.push(Edge { primitive, ends, constant });
-                }
-                Law::Dashpot(constant) if constant > 0.0 => {
-                    structure.dashpots.push(Edge { primitive, ends, constant });
-                }
-                _ => {}
+            let offset = bodies.offset[part.ends[0]] - bodies.offset[part.ends[1]];
+            let [stiffness, damping] = part.slopes();
+            if stiffness > 0.0 {
+                structure.springs.push(Edge { primitive, ends, constant: stiffness, offset });
+            }
+            if damping > 0.0 {
+                structure.dashpots.push(Edge { primitive, ends, constant: damping, offset });
             }
         }
         let first_jump = |body: &Body| match body.role {
@@ -74,6 +77,7 @@ impl Structure {
         };
         structure.first_jump = bodies.all.iter().map(first_jump).collect();
         structure.find_clusters(bodies, &held);
+        structure.held = held;
         let mut errors = structure.undetermined(network, expansion, bodies);
         errors.extend(structure.steps_across_dashpots(network, expansion, bodies));
         errors.extend(structure.motions_of_masses(network, bodies, duration));
@@ -156,7 +160,7 @@ impl Structure {
         for (at, body) in bodies.all.iter().enumerate() {
             let Role::Prescribed(node) = body.role else { continue };
             let Support::Prescribed(motion) = &network.nodes[node].support else { continue };
-            if body.mass(network) == 0.0 {
+            if body.whole_mass == 0.0 {
                 continue;
             }
             let jump = self.first_jump[at].map(|time| ("jumps", time));
@@ -209,7 +213,7 @@ impl Structure {
 fn held_bodies(expansion: &Expansion, bodies: &Bodies) -> Vec<bool> {
     let mut groups = Groups::new(bodies.all.len());
     for part in &expansion.primitives {
-        if matches!(part.law, Law::Spring(constant) | Law::Dashpot(constant) if constant > 0.0) {
+        if part.slopes().iter().any(|&slope| slope > 0.0) {
             groups.join(bodies.of_joint[part.ends[0]], bodies.of_joint[part.ends[1]]);
         }
     }
@@ -240,7 +244,11 @@ fn first_kink(motion: &Waveform, duration: f64) -> Option<f64> {
     let kinks = pairs.filter(|pair| {
         let time = pair[1].start;
         let (before, after) = (pair[0].derivative(1, time), pair[1].derivative(1, time));
-        let size = |piece: &Piece| piece.slope.abs() + piece.omega * piece.sine.hypot(piece.cosine);
+        let size = |piece: &Piece| {
+            let s = time - piece.start;
+            let bent = (piece.curvature * s).abs() + (0.5 * piece.jerk * s * s).abs();
+            piece.slope.abs() + bent + piece.frequency(time) * piece.sine.hypot(piece.cosine)
+        };
         (after - before).abs() > 1e-12 * (size(&pair[0]) + size(&pair[1]))
     });
     kinks.map(|pair| pair[1].start).find(|&time| time > 0.0 && time <= duration)

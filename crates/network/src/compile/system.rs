@@ -1,18 +1,41 @@
 //! Rows in SI turned into a dimensionless system.
 
-use dashpot_dae::{Input, LinearForm, Output, System, Unknown, UnknownKind};
+use std::sync::Arc;
+
+use dashpot_dae::{
+    Argument, Characteristic, LinearForm, Output, System, Term, Unknown, UnknownKind,
+};
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use super::{
+    expand::Expansion,
+    motion::Motion,
     outputs::Outputs,
     row::Row,
     scales::power_of_two,
     unknowns::{Inputs, Places},
 };
-use crate::NetworkError;
+use crate::{NetworkError, elements::{Element, Tangent}};
+
+/// The force of an element as a law of the equations.
+#[derive(Debug)]
+struct OfElement(Arc<dyn Element>);
+
+impl Characteristic for OfElement {
+    fn value(&self, [deformation, rate]: [f64; 2]) -> f64 {
+        self.0.force(deformation, rate)
+    }
+
+    fn slopes(&self, [deformation, rate]: [f64; 2]) -> [f64; 2] {
+        let Tangent { stiffness, damping } = self.0.tangent(deformation, rate);
+        [stiffness, damping]
+    }
+}
 
 /// The system of all rows, with `time` \[s\] as its unit of time.
 pub(super) fn dimensionless(
+    expansion: &Expansion,
+    motion: &Motion,
     places: &Places,
     inputs: &Inputs,
     outputs: &Outputs,
@@ -20,18 +43,11 @@ pub(super) fn dimensionless(
     duration: f64,
 ) -> Result<System, NetworkError> {
     let columns: Vec<f64> = places.drafts.iter().map(|draft| draft.scale).collect();
-    let heights: Vec<f64> = inputs
-        .waveforms
-        .iter()
-        .map(|waveform| {
-            power_of_two(Some(waveform.bound(duration)).filter(|&h| h > 0.0).unwrap_or(1.0))
-        })
-        .collect();
-    let scale_of =
-        |input: &Input| heights[input.waveform] / time.powi(input.derivative.cast_signed());
-    let input_columns: Vec<f64> = inputs.entries.iter().map(scale_of).collect();
+    let heights = inputs.heights(duration);
+    let input_columns = inputs.columns(time, duration);
 
     let count = places.drafts.len();
+    let mut terms = Vec::new();
     let mut jacobian = CooMatrix::new(count, count);
     let mut input_matrix = CooMatrix::new(count, inputs.entries.len());
     for (at, draft) in places.drafts.iter().enumerate() {
@@ -40,6 +56,22 @@ pub(super) fn dimensionless(
             UnknownKind::Differential => time / draft.scale,
             UnknownKind::Algebraic => 1.0 / power_of_two(largest(&own).max(f64::MIN_POSITIVE)),
         };
+        if let Some(primitive) = draft.term {
+            let argument = |row: &Option<Row>| {
+                let row = row.clone().unwrap_or_default();
+                let (unknowns, inputs) = scaled(&row, &columns, &input_columns);
+                Argument { scale: 1.0, unknowns, inputs }
+            };
+            let element = &expansion.primitives[primitive];
+            let [_, damping] = element.slopes();
+            let rate = if damping > 0.0 { &motion.rate[primitive] } else { &None };
+            terms.push(Term {
+                row: at,
+                factor: finite(factor)?,
+                law: Arc::new(OfElement(Arc::clone(&element.element))),
+                arguments: [argument(&motion.deformation[primitive]), argument(rate)],
+            });
+        }
         for &(column, value) in own.terms() {
             jacobian.push(at, column, finite(factor * value)?);
         }
@@ -80,6 +112,7 @@ pub(super) fn dimensionless(
             .zip(&heights)
             .map(|(waveform, &height)| waveform.in_units(time, height))
             .collect(),
+        terms,
         initial: places.drafts.iter().map(|draft| draft.initial / draft.scale).collect(),
         outputs: outputs.list.iter().map(report).collect::<Result<_, NetworkError>>()?,
         time_scale: time,

@@ -8,7 +8,7 @@ use super::{
     bodies::{Bodies, Role, joint_name},
     expand::Expansion,
     row::{Combination, Row},
-    scales::Scales,
+    scales::{Scales, power_of_two},
     structure::Structure,
     tree,
 };
@@ -26,6 +26,8 @@ pub(super) struct Draft {
     pub(super) initial: f64,
     /// Rate of a differential unknown, balance of an algebraic one; SI.
     pub(super) row: Row,
+    /// Number of the primitive whose force, that is not linear, stands in the row.
+    pub(super) term: Option<usize>,
 }
 
 /// The inputs that rows speak of, numbered as they are asked for.
@@ -34,6 +36,8 @@ pub(super) struct Inputs {
     pub(super) waveforms: Vec<Waveform>,
     pub(super) entries: Vec<Input>,
     numbers: HashMap<Input, usize>,
+    /// The waveform that is 1 at all times, where one is asked for.
+    one: Option<usize>,
 }
 
 impl Inputs {
@@ -53,15 +57,45 @@ impl Inputs {
         })
     }
 
+    /// SI value of the dimensionless value 1 of each waveform in a run of `duration` \[s\].
+    pub(super) fn heights(&self, duration: f64) -> Vec<f64> {
+        let height = |waveform: &Waveform| {
+            power_of_two(Some(waveform.bound(duration)).filter(|&h| h > 0.0).unwrap_or(1.0))
+        };
+        self.waveforms.iter().map(height).collect()
+    }
+
+    /// SI value of the dimensionless value 1 of each entry, with `time` \[s\] as the unit of time.
+    pub(super) fn columns(&self, time: f64, duration: f64) -> Vec<f64> {
+        let heights = self.heights(duration);
+        let column = |input: &Input| {
+            heights[input.waveform] / time.powi(input.derivative.cast_signed())
+        };
+        self.entries.iter().map(column).collect()
+    }
+
+    /// The constant `value`.
+    pub(super) fn constant(&mut self, value: f64) -> Row {
+        if value == 0.0 {
+            return Row::default();
+        }
+        let one = match self.one {
+            Some(one) => one,
+            None => *self.one.insert({
+                self.waveforms.push(Waveform::constant(1.0));
+                self.waveforms.len() - 1
+            }),
+        };
+        self.row(one, 0).times(value)
+    }
+
     /// The rate of a combination of inputs.
     pub(super) fn rate(&mut self, row: &Row) -> Row {
         let mut rate = Row::default();
         for &(at, coefficient) in row.inputs.terms() {
             let Input { waveform, derivative } = self.entries[at];
-            let is_constant = self.waveforms[waveform]
-                .pieces()
-                .iter()
-                .all(|piece| piece.slope == 0.0 && piece.omega == 0.0);
+            let is_constant =
+                self.waveforms[waveform].pieces().iter().all(|piece| piece.is_constant(derivative));
             if !is_constant {
                 rate = rate.plus(coefficient, &self.row(waveform, derivative + 1));
             }
@@ -142,6 +176,7 @@ pub(super) fn choose(
             scale: scales.length[body],
             initial: 0.0,
             row: Row::default(),
+            term: None,
         });
         if let Role::Mass(_) = bodies.all[body].role {
             places.velocity[body] = Some(places.drafts.len());
@@ -152,6 +187,7 @@ pub(super) fn choose(
                 scale: scales.velocity[body],
                 initial: bodies.all[body].velocity,
                 row: Row::default(),
+                term: None,
             });
         }
     }

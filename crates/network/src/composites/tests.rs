@@ -13,6 +13,7 @@ fn relaxance(model: &Model, s: f64) -> f64 {
             Law::Spring(stiffness) => stiffness,
             Law::Dashpot(damping) => damping * s,
             Law::Rigid => f64::INFINITY,
+            law => panic!("{law:?} is not linear"),
         },
         Tree::Series(_) => all().map(f64::recip).sum::<f64>().recip(),
         Tree::Parallel(_) => all().sum(),

@@ -84,6 +84,13 @@ impl Circuit {
                 Law::Spring(stiffness) => (&mut whole.springs, stiffness),
                 Law::Dashpot(damping) => (&mut whole.dashpots, damping),
                 Law::Rigid => continue,
+                Law::Nonlinear { .. } | Law::Phased if ends[0] == ends[1] => continue,
+                Law::Nonlinear { .. } | Law::Phased => {
+                    return Err(DrivingPointError::NotLinear {
+                        element: primitive.name.clone(),
+                        kind: primitive.element.kind(),
+                    });
+                }
             };
             if constant > 0.0 && ends[0] != ends[1] {
                 list.push(Link { ends, constant: Twofold::from(constant) });
@@ -338,5 +345,50 @@ pub(super) fn shift(value: &mut Twofold, exponent: i32) {
         let step = left.clamp(-500, 500);
         *value *= f64::from(step).exp2();
         left -= step;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        Node,
+        elements::{ElementKind, ElementVisitor, Spring, visit_elements},
+        part,
+    };
+
+    /// Asks for the response of a mass that hangs on a spring and one more element.
+    struct Ask(usize);
+
+    impl ElementVisitor for Ask {
+        fn visit<E: ElementKind>(&mut self) {
+            let mut network = Network::new();
+            let ground = network.ground();
+            let [head, held] =
+                [Node::mass("head", 1.0), Node::fixed("held")].map(|node| network.add_node(node));
+            network.connect("spring", head, ground, part(Spring { stiffness: 1.0 }));
+            // Between what is held it does not matter.
+            network.connect("aside", held, ground, part(E::sample()));
+            assert!(E::KIND == "rigid" || Circuit::of(&network, head, ground).is_ok());
+            network.connect("pad", head, ground, part(E::sample()));
+            let found = Circuit::of(&network, head, ground);
+            if matches!(E::sample().law(), Law::Nonlinear { .. } | Law::Phased) {
+                let expected = DrivingPointError::NotLinear {
+                    element: format!("pad.{}", E::KIND),
+                    kind: E::KIND,
+                };
+                assert_eq!(found.unwrap_err(), expected);
+                self.0 += 1;
+            } else {
+                assert!(found.is_ok(), "{}", E::KIND);
+            }
+        }
+    }
+
+    #[test]
+    fn elements_that_are_not_linear_are_refused_by_name() {
+        let mut ask = Ask(0);
+        visit_elements(&mut ask);
+        assert!(ask.0 >= 10);
     }
 }

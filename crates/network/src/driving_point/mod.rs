@@ -59,6 +59,14 @@ pub enum DrivingPointError {
         /// The node.
         node: String,
     },
+    /// An element that has no linear response.
+    #[error("`{kind}`, element `{element}`, is not linear: run it in a scene")]
+    NotLinear {
+        /// Path of the element, for instance `padding.foam`.
+        element: String,
+        /// Its word.
+        kind: &'static str,
+    },
     /// The part that moves is larger than what is computed with twice the digits.
     #[error("the response of {bodies} free bodies is asked for; {most} is the most")]
     TooLarge {
@@ -111,7 +119,8 @@ impl Network {
     ///
     /// # Errors
     ///
-    /// [`DrivingPointError`] for a network that is at fault, a force that meets nothing, and more
+    /// [`DrivingPointError`] for a network that is at fault, an element that is not linear between
+    /// bodies that are not held, a force that meets nothing, and more
     /// than 200 free bodies (80 where masses move).
     ///
     /// # Examples

@@ -88,7 +88,7 @@ impl EffectKind for Gravity {
         ),
     ];
 
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+    fn from_values(_target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {
         let start = match values.get(1) {
             Some(Value::Word(word)) => {
                 GravityStart::WORDS.iter().find(|entry| entry.1 == word).map(|entry| entry.0)

@@ -1,14 +1,25 @@
 //! The register of effects: what acts on a network besides its elements, and only if asked for.
 
+mod face;
+mod flight;
 mod gravity;
+mod separation;
+mod site;
+mod stop;
 
-use std::fmt::Debug;
+#[cfg(test)]
+mod tests;
+
+use std::{fmt::Debug, sync::Arc};
 
 use dashpot_dae::Waveform;
+pub use face::{Face, Touch};
 pub use gravity::{Gravity, GravityStart};
+pub use separation::Separation;
+pub use stop::Stop;
 
 use crate::{
-    Network, NodeId,
+    Network, NetworkError, NodeId, layers,
     parameters::{InvalidParameter, Parameter, Value},
 };
 
@@ -35,6 +46,25 @@ pub trait Effect: Debug + Send + Sync {
         None
     }
 
+    /// Name of the element that it acts on, where it acts on one.
+    fn target(&self) -> Option<&str> {
+        None
+    }
+
+    /// Whether it puts nodes and elements into the network; those on one element do.
+    fn rewrites(&self) -> bool {
+        self.target().is_some()
+    }
+
+    /// Puts the nodes and elements that the effect is made of into the network.
+    ///
+    /// # Errors
+    ///
+    /// [`NetworkError`] where the network has no place for them.
+    fn rewrite(&self, _network: &mut Network) -> Result<(), NetworkError> {
+        Ok(())
+    }
+
     /// Checks the parameters.
     ///
     /// # Errors
@@ -54,13 +84,16 @@ pub trait EffectKind: Effect + Sized + 'static {
     const SUMMARY: &'static str;
     /// Its parameters.
     const PARAMETERS: &'static [Parameter];
+    /// Whether it acts on one element, `effects.<kind>.<element>` in scenes; else on the network.
+    const PER_ELEMENT: bool = false;
 
-    /// The effect with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
+    /// The effect on `target`, the element's name where it acts on one, with these values, one for
+    /// each of [`PARAMETERS`](Self::PARAMETERS).
     ///
     /// # Errors
     ///
     /// [`InvalidParameter`] when a value is out of range.
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter>;
+    fn from_values(target: &str, values: &[Value]) -> Result<Self, InvalidParameter>;
 
     /// A valid example.
     fn sample() -> Self;
@@ -72,7 +105,44 @@ pub trait EffectVisitor {
     fn visit<E: EffectKind>(&mut self);
 }
 
-/// Shows every effect kind to `visitor`. **A new kind is registered here.**
+/// Shows every effect kind to `visitor`. **A new kind is registered here**, behind those whose
+/// rewriting it builds on.
 pub fn visit_effects(visitor: &mut impl EffectVisitor) {
     visitor.visit::<Gravity>();
+    visitor.visit::<Separation>();
+    visitor.visit::<Face>();
+    visitor.visit::<Stop>();
+}
+
+/// Whether [`rewrite`] puts anything into a network.
+pub(crate) fn rewrites(network: &Network) -> bool {
+    network.effects.iter().any(|effect| effect.rewrites())
+        || network.connections.iter().any(|own| own.layers.is_some())
+}
+
+/// Puts into a network the masses of its layers and all that its effects are made of, in the order
+/// of the register, and lets what is dropped fall.
+///
+/// # Errors
+///
+/// [`NetworkError`] of the first layers that cannot be resolved, or of the first effect that has no
+/// place in the network.
+pub(crate) fn rewrite(network: &mut Network) -> Result<(), NetworkError> {
+    struct Order(Vec<&'static str>);
+    impl EffectVisitor for Order {
+        fn visit<E: EffectKind>(&mut self) {
+            self.0.push(E::KIND);
+        }
+    }
+    let mut order = Order(Vec::new());
+    visit_effects(&mut order);
+    let mut effects: Vec<Arc<dyn Effect>> =
+        network.effects.iter().filter(|effect| effect.rewrites()).map(Arc::clone).collect();
+    effects.sort_by_key(|effect| order.0.iter().position(|kind| *kind == effect.kind()));
+    layers::resolve(network)?;
+    for effect in effects {
+        effect.rewrite(network)?;
+    }
+    flight::begin(network);
+    Ok(())
 }

@@ -1,15 +1,46 @@
 //! The register of elements.
 
+mod bumper;
+mod contact;
+mod cubic_spring;
 mod dashpot;
+mod foam;
+mod friction;
+mod hunt_crossley;
+mod hysteretic_foam;
+mod impact_law;
+mod power;
+mod power_dashpot;
+mod power_spring;
+mod quadrature;
+mod rate_spring;
 mod rigid;
 mod spring;
+mod stiffening_spring;
+mod table_spring;
+
+#[cfg(test)]
+mod tests;
 
 use std::fmt::Debug;
 
+pub use bumper::{Bumper, BumperSettings};
+pub use contact::Contact;
+pub use cubic_spring::CubicSpring;
 pub use dashpot::Dashpot;
+pub use foam::Foam;
+pub use friction::Friction;
+pub use hunt_crossley::HuntCrossley;
+pub use hysteretic_foam::HystereticFoam;
+pub use power_dashpot::PowerDashpot;
+pub use power_spring::PowerSpring;
+pub use rate_spring::RateSpring;
 pub use rigid::Rigid;
 pub use spring::Spring;
+pub use stiffening_spring::StiffeningSpring;
+pub use table_spring::TableSpring;
 
+use crate::phases::Phases;
 use crate::parameters::{InvalidParameter, Parameter, Value};
 
 /// A massless two-terminal element: a law giving the force in the element from its deformation
@@ -35,6 +66,13 @@ pub trait Element: Debug + Send + Sync {
 
     /// The law as the compiler of networks sees it.
     fn law(&self) -> Law;
+
+    /// The phases of an element whose law changes at switchings, that is of [`Law::Phased`]; its
+    /// [`force`](Self::force), [`tangent`](Self::tangent) and [`stored`](Self::stored) are then
+    /// those of its first phase.
+    fn phases(&self) -> Option<&dyn Phases> {
+        None
+    }
 
     /// Checks the parameters.
     ///
@@ -65,6 +103,17 @@ pub enum Law {
     Dashpot(f64),
     /// `y = 0`, whatever the force.
     Rigid,
+    /// [`Element::force`], which is not linear. A spring and a dashpot in parallel of these
+    /// constants, at least one of them positive, stand for it where the structure of a network is
+    /// found; what the force differs from theirs by is a term of the equations.
+    Nonlinear {
+        /// A typical slope `∂F/∂y` \[N/m\]; 0 for a law of the rate alone.
+        stiffness: f64,
+        /// A typical slope `∂F/∂ẏ` \[N s/m\]; 0 for a law of the deformation alone.
+        damping: f64,
+    },
+    /// The law of one of its [`phases`](Element::phases) at a time.
+    Phased,
 }
 
 /// What an element kind says about itself.
@@ -98,6 +147,18 @@ pub fn visit_elements(visitor: &mut impl ElementVisitor) {
     visitor.visit::<Spring>();
     visitor.visit::<Dashpot>();
     visitor.visit::<Rigid>();
+    visitor.visit::<Contact>();
+    visitor.visit::<Friction>();
+    visitor.visit::<PowerSpring>();
+    visitor.visit::<CubicSpring>();
+    visitor.visit::<StiffeningSpring>();
+    visitor.visit::<TableSpring>();
+    visitor.visit::<Foam>();
+    visitor.visit::<HystereticFoam>();
+    visitor.visit::<RateSpring>();
+    visitor.visit::<PowerDashpot>();
+    visitor.visit::<HuntCrossley>();
+    visitor.visit::<Bumper>();
 }
 
 /// The number at `at`, for [`ElementKind::from_values`].

@@ -9,10 +9,12 @@ use crate::{
     elements::{Dashpot, Law},
     network::part,
     parameters::{InvalidParameter, positive},
+    phases::{Phase, PhaseLaw},
 };
 
 /// The model with all its times multiplied by `factor` \[1\], which is positive: every dashpot
-/// constant is multiplied by it, and all else is kept.
+/// constant is multiplied by it, and all else is kept. Springs of any law have no time, and neither
+/// do dry friction, rigid contact and foam.
 ///
 /// # Examples
 ///
@@ -29,8 +31,9 @@ use crate::{
 ///
 /// # Errors
 ///
-/// [`InvalidParameter`] when the factor is not positive and finite, or when a dashpot constant
-/// does not fit into double precision.
+/// [`InvalidParameter`] when the factor is not positive and finite, when a dashpot constant
+/// does not fit into double precision, or for an element whose force depends on the rate, but not
+/// in proportion to it.
 pub fn shifted(model: &Model, factor: f64) -> Result<Model, InvalidParameter> {
     enum Step<'m> {
         Enter(&'m Model),
@@ -62,9 +65,34 @@ pub fn shifted(model: &Model, factor: f64) -> Result<Model, InvalidParameter> {
     Ok(done.pop().unwrap_or_else(|| Tree::Series(Vec::new())))
 }
 
+/// Whether the force of an element depends on the size of its rate, in any of its phases. Laws whose
+/// force only switches where the rate changes its sign have no time of their own.
+fn depends_on_rate(element: &dyn Element) -> bool {
+    let is_damped = |law: Law| match law {
+        Law::Dashpot(damping) | Law::Nonlinear { damping, .. } => damping > 0.0,
+        Law::Spring(_) | Law::Rigid | Law::Phased => false,
+    };
+    let Some(phases) = element.phases() else { return is_damped(element.law()) };
+    // Any memory will do: what a phase remembers is a deformation.
+    (0..phases.names().len()).any(|index| match phases.law(Phase { index, memory: 1.0 }) {
+        PhaseLaw::Element(own) => is_damped(own.law()),
+        PhaseLaw::Open | PhaseLaw::Held(_) | PhaseLaw::Force(_) => false,
+    })
+}
+
 fn shifted_element(element: &Arc<dyn Element>, factor: f64) -> Result<Model, InvalidParameter> {
     match element.law() {
-        Law::Spring(_) | Law::Rigid => Ok(Tree::Part(Arc::clone(element))),
+        Law::Nonlinear { .. } | Law::Phased if depends_on_rate(element.as_ref()) => {
+            let range = "independent of the rate where its times are multiplied";
+            Err(InvalidParameter::new(
+                element.kind(),
+                range,
+                "a law of the rate that is not linear",
+            ))
+        }
+        Law::Spring(_) | Law::Rigid | Law::Nonlinear { .. } | Law::Phased => {
+            Ok(Tree::Part(Arc::clone(element)))
+        }
         Law::Dashpot(damping) => {
             let shifted = damping * factor;
             if shifted.is_normal() || damping == 0.0 {
@@ -75,5 +103,44 @@ fn shifted_element(element: &Arc<dyn Element>, factor: f64) -> Result<Model, Inv
                 Err(InvalidParameter::new("dashpot", range, found))
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elements::{ElementKind, ElementVisitor, visit_elements};
+
+    /// Shifts every kind; whatever the rate acts on is refused, but for the dashpot.
+    struct Shift(Vec<&'static str>);
+
+    impl ElementVisitor for Shift {
+        fn visit<E: ElementKind>(&mut self) {
+            let sample = E::sample();
+            // At a deformation and a rate at which every sample bears a force.
+            let is_rated = [0.003, 0.3].map(|rate| sample.force(0.02, rate));
+            let is_rated = is_rated[0].to_bits() != is_rated[1].to_bits();
+            let is_linear = matches!(sample.law(), Law::Dashpot(_));
+            match shifted(&part(sample), 3.0) {
+                Ok(Tree::Part(own)) => {
+                    assert!(is_linear || !is_rated, "{}", E::KIND);
+                    assert_eq!(own.kind(), E::KIND);
+                }
+                Ok(tree) => panic!("{tree:?}"),
+                Err(invalid) => {
+                    assert!(is_rated && !is_linear, "{}", E::KIND);
+                    assert_eq!(invalid.parameter, E::KIND);
+                    self.0.push(E::KIND);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn laws_without_a_time_are_kept_and_nonlinear_laws_of_the_rate_refused() {
+        let mut shift = Shift(Vec::new());
+        visit_elements(&mut shift);
+        assert!(shift.0.contains(&"power-dashpot") && shift.0.contains(&"bumper"));
+        assert!(!shift.0.contains(&"foam") && !shift.0.contains(&"hysteretic-foam"));
     }
 }

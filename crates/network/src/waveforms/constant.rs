@@ -11,7 +11,7 @@ use crate::{
 /// A constant that is switched on: `u(t) = value` for `t ≥ start`, 0 before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constant {
-    /// The value \[N or m\].
+    /// The value \[N, m or m/s²\].
     pub value: f64,
     /// When it begins \[s\].
     pub start: f64,
@@ -21,7 +21,7 @@ impl WaveformKind for Constant {
     const KIND: &'static str = "constant";
     const SUMMARY: &'static str = "u = value from `start` on, 0 before (a step if start > 0)";
     const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required("value", ParameterKind::Amplitude, "the value [N or m]"),
+        Parameter::required("value", ParameterKind::Amplitude, "the value [N, m or m/s^2]"),
         Parameter::optional(
             "start",
             ParameterKind::Quantity(Dimension::TIME),

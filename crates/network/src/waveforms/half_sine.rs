@@ -14,7 +14,7 @@ use crate::{
 /// duration`, 0 elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfSine {
-    /// The peak \[N or m\].
+    /// The peak \[N, m or m/s²\].
     pub peak: f64,
     /// The duration \[s\], positive.
     pub duration: f64,
@@ -26,7 +26,7 @@ impl WaveformKind for HalfSine {
     const KIND: &'static str = "half-sine";
     const SUMMARY: &'static str = "one arch of a sine, `peak` high and `duration` long";
     const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required("peak", ParameterKind::Amplitude, "largest value [N or m]"),
+        Parameter::required("peak", ParameterKind::Amplitude, "largest value [N, m or m/s^2]"),
         Parameter::required(
             "duration",
             ParameterKind::Quantity(Dimension::TIME),

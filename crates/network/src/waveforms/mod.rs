@@ -1,19 +1,26 @@
-//! The register of driving functions: forces on nodes and motions of nodes as functions of time.
+//! The register of driving functions: forces on nodes, and displacements or accelerations of nodes,
+//! as functions of time.
 
+mod chirp;
 mod constant;
 mod half_sine;
+mod haversine;
 mod ramp;
 mod sine;
 mod table;
+mod trapezoid;
 
 use std::fmt::Debug;
 
+pub use chirp::Chirp;
 pub use constant::Constant;
 use dashpot_dae::Waveform;
 pub use half_sine::HalfSine;
+pub use haversine::Haversine;
 pub use ramp::Ramp;
 pub use sine::Sine;
 pub use table::Table;
+pub use trapezoid::Trapezoid;
 
 use crate::parameters::{InvalidParameter, Parameter, Value};
 
@@ -59,6 +66,9 @@ pub fn visit_waveforms(visitor: &mut impl WaveformVisitor) {
     visitor.visit::<Ramp>();
     visitor.visit::<Sine>();
     visitor.visit::<HalfSine>();
+    visitor.visit::<Haversine>();
+    visitor.visit::<Trapezoid>();
+    visitor.visit::<Chirp>();
     visitor.visit::<Table>();
 }
 

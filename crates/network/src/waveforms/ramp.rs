@@ -11,7 +11,7 @@ use crate::{
 /// A straight rise: 0 until `start`, then linear to `height` within `rise`, then `height`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ramp {
-    /// The final value \[N or m\].
+    /// The final value \[N, m or m/s²\].
     pub height: f64,
     /// The rise time \[s\], positive.
     pub rise: f64,
@@ -23,7 +23,7 @@ impl WaveformKind for Ramp {
     const KIND: &'static str = "ramp";
     const SUMMARY: &'static str = "linear from 0 to `height` within `rise`, then constant";
     const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required("height", ParameterKind::Amplitude, "final value [N or m]"),
+        Parameter::required("height", ParameterKind::Amplitude, "final value [N, m or m/s^2]"),
         Parameter::required(
             "rise",
             ParameterKind::Quantity(Dimension::TIME),

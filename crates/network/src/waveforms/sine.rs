@@ -13,7 +13,7 @@ use crate::{
 /// `u(t) = amplitude · sin(2π frequency t + phase)`, at all times.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sine {
-    /// The amplitude \[N or m\].
+    /// The amplitude \[N, m or m/s²\].
     pub amplitude: f64,
     /// The frequency \[Hz\], positive.
     pub frequency: f64,
@@ -25,7 +25,7 @@ impl WaveformKind for Sine {
     const KIND: &'static str = "sine";
     const SUMMARY: &'static str = "u = amplitude sin(2 pi frequency t + phase)";
     const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required("amplitude", ParameterKind::Amplitude, "amplitude [N or m]"),
+        Parameter::required("amplitude", ParameterKind::Amplitude, "amplitude [N, m or m/s^2]"),
         Parameter::required(
             "frequency",
             ParameterKind::Quantity(Dimension::FREQUENCY),

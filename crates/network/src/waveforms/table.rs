@@ -9,18 +9,19 @@ use crate::parameters::{InvalidParameter, Parameter, ParameterKind, Value};
 /// keeps that point's value. Two points at one time are a jump.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// Time \[s\] and value \[N or m\], in order of time.
+    /// Time \[s\] and value \[N, m or m/s²\], in order of time.
     pub points: Vec<(f64, f64)>,
 }
 
 impl WaveformKind for Table {
     const KIND: &'static str = "table";
     const SUMMARY: &'static str =
-        "straight lines through points [time, value]; equal times: a jump";
+        "straight lines through points [time, value], or those of a CSV file; equal times: a jump";
     const PARAMETERS: &'static [Parameter] = &[Parameter::required(
         "table",
         ParameterKind::TimeTable,
-        "points [time, value] in order of time, for instance [[\"0 ms\", \"0 N\"], …]",
+        "points [time, value] in order of time, for instance [[\"0 ms\", \"0 N\"], …], or the name \
+         of a CSV file",
     )];
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {

@@ -43,3 +43,98 @@ fn a_ramp_is_continuous() {
     assert!((ramp.value(0.5) - 1.0).abs() < 1e-15 && (ramp.value(9.0) - 2.0).abs() < 1e-15);
     assert!(ramp.breakpoints().all(|t| ramp.jump(t) == 0.0));
 }
+
+#[test]
+fn a_haversine_begins_and_ends_without_a_kink() {
+    let pulse = Haversine { peak: 2.0, duration: 0.5, start: 0.25 }.waveform().unwrap();
+    assert!((pulse.value(0.5) - 2.0).abs() < 1e-15 && (pulse.value(0.375) - 1.0).abs() < 1e-15);
+    assert!(pulse.value(0.2) == 0.0 && pulse.value(0.76) == 0.0);
+    for time in pulse.breakpoints() {
+        assert!(pulse.jump(time) == 0.0);
+        for piece in pulse.pieces() {
+            assert!(piece.derivative(1, time).abs() < 1e-13);
+        }
+    }
+    let impulse = pulse.integral().unwrap();
+    assert!((impulse.value(9.0) - 0.5).abs() < 1e-15);
+}
+
+#[test]
+fn a_trapezoid_has_its_area_and_jumps_only_where_a_side_is_upright() {
+    let pulse = Trapezoid { peak: 2.0, rise: 0.125, hold: 0.25, fall: 0.375, start: 0.25 };
+    let area = |pulse: Trapezoid| pulse.waveform().unwrap().integral().unwrap().value(9.0);
+    let jumps = |pulse: Trapezoid| {
+        let waveform = pulse.waveform().unwrap();
+        let jumps: Vec<f64> = waveform.breakpoints().map(|t| waveform.jump(t)).collect();
+        jumps.into_iter().filter(|jump| *jump != 0.0).collect::<Vec<_>>()
+    };
+    assert!((area(pulse) - 1.0).abs() < 1e-15);
+    assert!(jumps(pulse).is_empty());
+    assert_eq!(jumps(Trapezoid { fall: 0.0, ..pulse }), [-2.0]);
+    assert_eq!(jumps(Trapezoid { rise: 0.0, ..pulse }), [2.0]);
+    let block = Trapezoid { rise: 0.0, fall: 0.0, ..pulse };
+    assert_eq!(jumps(block), [2.0, -2.0]);
+    assert!((area(block) - 0.5).abs() < 1e-15);
+    let tooth = Trapezoid { hold: 0.0, fall: 0.0, ..pulse };
+    assert!((area(tooth) - 0.125).abs() < 1e-15);
+    assert_eq!(tooth.waveform().unwrap().pieces().len(), 3);
+    let nothing = Trapezoid { rise: 0.0, hold: 0.0, fall: 0.0, ..pulse };
+    assert!(nothing.waveform().is_err());
+    let short = Trapezoid { rise: 1e-20, start: 1.0, ..pulse };
+    let message = short.waveform().unwrap_err().to_string();
+    assert!(message.contains("`rise`") && message.contains("tell its ends apart"), "{message}");
+}
+
+#[test]
+fn a_chirp_passes_through_its_cycles_and_goes_on_smoothly() {
+    // From 1 to 4 Hz in 0.5 s: 1.25 cycles, so it ends at its crest.
+    let chirp = Chirp::sample().waveform().unwrap();
+    let end = 0.75;
+    assert!((chirp.value(end) - 3.0).abs() < 1e-13);
+    assert!(chirp.value(0.2) == 0.0);
+    // s + 3 s² = ½ is the first zero within.
+    let zero = 0.25 + (7_f64.sqrt() - 1.0) / 6.0;
+    assert!(chirp.value(zero).abs() < 1e-14);
+    assert!(chirp.breakpoints().all(|t| chirp.jump(t) == 0.0));
+    let [swept, steady] = [1, 2].map(|k| chirp.pieces()[k]);
+    assert!((swept.frequency(end) - 8.0 * PI).abs() < 1e-13);
+    for order in 0..2 {
+        let [before, after] = [swept, steady].map(|piece| piece.derivative(order, end));
+        assert!((before - after).abs() < 1e-12, "{order}: {before} {after}");
+    }
+    assert!((chirp.value(end + 0.25) - 3.0).abs() < 1e-13);
+    let down = Chirp { from: 4.0, to: 0.0, ..Chirp::sample() }.waveform().unwrap();
+    assert!((down.value(9.0) - down.value(end)).abs() < 1e-15);
+    let still = Chirp { from: 0.0, to: 0.0, ..Chirp::sample() };
+    assert!(still.waveform().unwrap_err().to_string().contains("positive where `from` is 0"));
+    assert!(Chirp { from: -1.0, ..Chirp::sample() }.waveform().is_err());
+}
+
+#[test]
+fn accelerations_become_displacements_without_a_kink() {
+    let twice = |waveform: Waveform| waveform.integral()?.integral();
+    let pulses = [
+        HalfSine { peak: 500.0, duration: 0.011, start: 0.003 }.waveform(),
+        Haversine { peak: 500.0, duration: 0.011, start: 0.003 }.waveform(),
+        Trapezoid { peak: 500.0, rise: 0.001, hold: 0.0, fall: 0.01, start: 0.003 }.waveform(),
+        Trapezoid { peak: 500.0, rise: 0.0, hold: 0.011, fall: 0.0, start: 0.003 }.waveform(),
+        Constant { value: 500.0, start: 0.003 }.waveform(),
+        Sine { amplitude: 500.0, frequency: 30.0, phase: 0.4 }.waveform(),
+    ];
+    for pulse in pulses {
+        let pulse = pulse.unwrap();
+        let motion = twice(pulse.clone()).unwrap();
+        for time in motion.breakpoints() {
+            assert!(motion.jump(time) == 0.0);
+            let [before, after] = [time - 1e-9, time].map(|t| *motion.piece_at(t));
+            let rates = [before, after].map(|piece| piece.derivative(1, time));
+            assert!((rates[0] - rates[1]).abs() < 1e-12, "{rates:?}");
+        }
+        for k in 0..30 {
+            let t = 1e-3 * f64::from(k) + 1e-4;
+            let found = motion.piece_at(t).derivative(2, t);
+            assert!((found - pulse.value(t)).abs() < 1e-11, "{found}");
+        }
+    }
+    assert_eq!(twice(Chirp::sample().waveform().unwrap()), None);
+}

@@ -9,6 +9,7 @@ mod force_time;
 pub mod model;
 mod run_series;
 mod unit;
+mod vibration;
 
 use crate::{Chart, Pattern, Series, Stroke};
 
@@ -17,6 +18,7 @@ pub use energy_time::EnergyTime;
 pub use force_deformation::ForceDeformation;
 pub use force_time::ForceTime;
 pub use run_series::{ElementSeries, EnergySeries, RunMarker, RunMarkerKind, RunSeries};
+pub use vibration::{VibrationCurve, VibrationSeries};
 
 /// Every figure, in the order of the report. **A new figure is registered here.**
 pub const FIGURES: &[&dyn Figure] = &[&ForceTime, &DeformationTime, &ForceDeformation, &EnergyTime];

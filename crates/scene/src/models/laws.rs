@@ -7,7 +7,7 @@ use dashpot_rheology::Tree;
 
 use super::{context::Context, forms::FormReader};
 use crate::{
-    basis::Basis,
+    basis::{Basis, fits_material},
     diagnostics::Faults,
     document::Entry,
     fault::Fault,
@@ -49,6 +49,10 @@ impl<'d> LawReader<'d> {
         let word = law.key.as_str();
         let mut made = Made::default();
         if let Some(kind) = registers.element(word) {
+            if context.basis.is_material() && !fits_material(kind.parameters) {
+                self.faults.error(law.key_place, Fault::ElementInMaterial { word: kind.word });
+                return made;
+            }
             let reader = KindReader::new(quantities);
             made.model = reader.read(kind, &law.item, law.key_place).map(Tree::Part);
         } else if let Some(form) = registers.form(word) {

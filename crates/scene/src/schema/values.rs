@@ -57,12 +57,20 @@ impl Values {
             ParameterKind::TimeTable => {
                 json!({ "type": "array", "items": pair(&time, &of(self.driven)) })
             }
+            ParameterKind::Curve(first, second) => {
+                json!({ "type": "array", "items": pair(&of(first), &of(second)) })
+            }
             ParameterKind::Choice(words) => json!({ "enum": words }),
             ParameterKind::Flag => json!({ "const": true }),
             ParameterKind::Window => {
                 json!({ "anyOf": [{ "enum": ["impact", "run"] }, pair(&time, &time)] })
             }
+            ParameterKind::Node => json!({ "type": "string" }),
         };
+        if parameter.follows {
+            let from = parameter.default.unwrap_or_default();
+            return described_as(schema, &format!("{}; left out: {from}", parameter.help));
+        }
         if let Some(default) = parameter.default {
             // What counts in N/m by default is zero, and zero is so in Pa.
             let stays = match parameter.kind {
@@ -73,6 +81,30 @@ impl Values {
         }
         described_as(schema, parameter.help)
     }
+}
+
+/// A table as it is, or as a file of numbers.
+pub(super) fn table_or_file(table: &Value) -> Value {
+    let file = || json!({ "type": "string", "description": "a CSV file, beside the scene" });
+    let column = json!({
+        "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }],
+    });
+    let columns = described_as(
+        pair(&column, &column),
+        "time and value: columns by number from 1, or by name; needed where there are more than two",
+    );
+    let unit = json!({ "type": "string" });
+    let units = described_as(
+        pair(&unit, &unit),
+        "units of time and value, where the header of the file does not say them",
+    );
+    let detailed = json!({
+        "type": "object",
+        "properties": { "file": file(), "columns": columns, "units": units },
+        "required": ["file"],
+        "additionalProperties": false,
+    });
+    json!({ "anyOf": [table, file(), detailed] })
 }
 
 fn pair(first: &Value, second: &Value) -> Value {

@@ -1,49 +1,155 @@
 //! `[effects]`: what acts besides the elements, and only if named.
 
+use std::sync::Arc;
+
 use dashpot_network::{
-    Network,
+    Effect, Network, NetworkError,
     parameters::{Parameter, ParameterKind},
 };
 
 use super::Reading;
 use crate::{
-    document::{Content, Entry},
+    document::{Content, Entry, Item},
     fault::Fault,
-    kinds::registers,
+    kinds::{EffectEntry, Example, registers},
+    network_faults::value_of,
     parameters::KindReader,
     units::{parse_quantity, si_unit},
 };
 
 /// Reads the effects into `network`.
 pub(crate) fn read_effects(reading: &Reading<'_>, network: &mut Network) {
-    let kinds = &registers().effects;
     for entry in reading.section("effects") {
-        let Some(kind) = kinds.iter().find(|kind| kind.word == entry.key) else {
-            let known = kinds.iter().map(|kind| kind.word).collect();
+        let Some(kind) = registers().effect(&entry.key) else {
+            let known = registers().effects.iter().map(|kind| kind.word).collect();
             let (key, owner) = (entry.key.clone(), "[effects]".to_owned());
             reading.faults.error(entry.key_place, Fault::UnknownKey { key, owner, known });
             continue;
         };
-        let optional = kind.parameters.iter().all(|parameter| parameter.default.is_some());
-        let reader = KindReader::new(reading.quantities());
-        let is_value = matches!(entry.item.value, Content::Number(_) | Content::Text(_));
-        if let Some(first) = kind.parameters.first().filter(|_| optional && is_value) {
-            note_bare_value(reading, entry, first);
+        if !kind.is_per_element {
+            let effect = Wanted { reading, kind, target: "", path: &entry.key, entry }.read();
+            add(network, effect);
             continue;
         }
-        let effect = if optional && matches!(entry.item.value, Content::Switch(true)) {
-            reader.defaults(kind, entry.item.place)
-        } else {
-            reader.read(kind, &entry.item, entry.key_place)
+        let Some(own) = entry.item.table() else {
+            note_missing_element(reading, kind, entry);
+            continue;
         };
-        if let Some(effect) = effect {
-            network.add_shared_effect(effect);
+        for own in own {
+            let path = format!("{}.{}", entry.key, own.key);
+            let wanted = Wanted { reading, kind, target: &own.key, path: &path, entry: own };
+            add(network, wanted.read_on_element());
         }
     }
 }
 
+fn add(network: &mut Network, effect: Option<Arc<dyn Effect>>) {
+    if let Some(effect) = effect {
+        network.add_shared_effect(effect);
+    }
+}
+
+/// An effect that a scene asks for.
+struct Wanted<'r> {
+    reading: &'r Reading<'r>,
+    kind: &'static EffectEntry,
+    /// Name of the element that it acts on; empty where it acts on the network.
+    target: &'r str,
+    /// Its word, and the name of the element.
+    path: &'r str,
+    /// What is said about it.
+    entry: &'r Entry,
+}
+
+impl Wanted<'_> {
+    fn read_on_element(&self) -> Option<Arc<dyn Effect>> {
+        let Self { reading, kind, target, entry, .. } = self;
+        let Some(element) = reading.elements.get(target) else {
+            let mut known: Vec<String> =
+                reading.elements.keys().map(|name| (*name).to_owned()).collect();
+            known.sort();
+            let (family, name) = ("element", (*target).to_owned());
+            let is_parameter = kind.parameters.iter().any(|own| own.name == *target);
+            let help = known.first().filter(|_| is_parameter);
+            let help = help.map(|name| {
+                let example = entry.item.text().unwrap_or("…");
+                format!("write `{}.{name} = {{ {target} = \"{example}\" }}`", kind.word)
+            });
+            let fault = Fault::UnknownName { family, name, known };
+            let fault = match help {
+                Some(help) => fault.with_help(help),
+                None => fault,
+            };
+            if !reading.faults.damaged() {
+                reading.faults.error(entry.key_place, fault);
+            }
+            return None;
+        };
+        let effect = self.read();
+        let nodes = kind.parameters.iter().filter(|own| own.kind == ParameterKind::Node);
+        for item in nodes.filter_map(|own| value_of(entry, own.name)) {
+            self.check_end(element, item);
+        }
+        effect
+    }
+
+    /// Notes a node that is no end of the element.
+    fn check_end(&self, element: &Entry, item: &Item) -> Option<()> {
+        let name = item.text()?;
+        self.reading.node(item)?;
+        let Content::List(ends) = &value_of(element, "between")?.value else { return None };
+        let [from, to] = ends.as_slice() else { return None };
+        let ends = [from.text()?, to.text()?];
+        if !ends.contains(&name) {
+            let help = format!("write \"{}\" or \"{}\"", ends[0], ends[1]);
+            let fault = Fault::Network(NetworkError::NotAnEnd {
+                effect: self.kind.word,
+                element: self.target.to_owned(),
+                node: name.to_owned(),
+                ends: ends.map(str::to_owned),
+            });
+            self.reading.faults.error(item.place, fault.with_help(help));
+        }
+        Some(())
+    }
+
+    fn read(&self) -> Option<Arc<dyn Effect>> {
+        let Self { reading, kind, target, path, entry } = self;
+        let optional = kind.parameters.iter().all(|parameter| parameter.default.is_some());
+        let is_value = matches!(entry.item.value, Content::Number(_) | Content::Text(_));
+        if let Some(first) = kind.parameters.first().filter(|_| optional && is_value) {
+            note_bare_value(reading, path, entry, first);
+            return None;
+        }
+        let defaults = Item { value: Content::Table(Vec::new()), place: entry.item.place };
+        let is_on = optional && matches!(entry.item.value, Content::Switch(true));
+        let item = if is_on { &defaults } else { &entry.item };
+        KindReader::new(reading.quantities()).read_as(
+            (path, kind.parameters),
+            &|values| (kind.make)(target, values),
+            item,
+            entry.key_place,
+        )
+    }
+}
+
+/// Notes an effect on elements that names none.
+fn note_missing_element(reading: &Reading<'_>, kind: &EffectEntry, entry: &Entry) {
+    let fault = Fault::WrongType {
+        what: format!("`{}`", entry.key),
+        expected: "a table with the names of elements".to_owned(),
+        found: entry.item.type_name(),
+    };
+    let mut names: Vec<&str> = reading.elements.keys().copied().collect();
+    names.sort_unstable();
+    let name = names.first().copied().unwrap_or("padding");
+    let value = Example::PLAIN.value(kind.parameters);
+    let help = format!("write `{}.{name} = {value}`", kind.word);
+    reading.faults.error(entry.item.place, fault.with_help(help));
+}
+
 /// Notes a value where a table is expected that may hold it.
-fn note_bare_value(reading: &Reading<'_>, entry: &Entry, first: &Parameter) {
+fn note_bare_value(reading: &Reading<'_>, path: &str, entry: &Entry, first: &Parameter) {
     let value = match (&entry.item.value, first.kind) {
         (Content::Number(digits), ParameterKind::Quantity(dimension)) => {
             format!("{digits} {}", si_unit(dimension))
@@ -53,18 +159,19 @@ fn note_bare_value(reading: &Reading<'_>, entry: &Entry, first: &Parameter) {
         {
             text.clone()
         }
+        (Content::Text(text), ParameterKind::Node) => text.clone(),
+        _ if first.follows => "…".to_owned(),
         _ => first.default.unwrap_or_default().to_owned(),
     };
-    let Entry { key, item, .. } = entry;
     let fault = Fault::WrongType {
-        what: format!("`{key}`"),
+        what: format!("`{path}`"),
         expected: "a table".to_owned(),
-        found: item.type_name(),
+        found: entry.item.type_name(),
     };
     let default = first.default.unwrap_or_default();
     let help = format!(
-        "write `{key} = {{ {} = \"{value}\" }}`, or `{key} = {{}}` for {default}",
+        "write `{path} = {{ {} = \"{value}\" }}`, or `{path} = {{}}` for {default}",
         first.name
     );
-    reading.faults.error(item.place, fault.with_help(help));
+    reading.faults.error(entry.item.place, fault.with_help(help));
 }

@@ -5,7 +5,7 @@ use dashpot_network::{
     parameters::{Dimension, positive},
 };
 
-use super::Reading;
+use super::{Reading, layers::read_layers};
 use crate::{
     document::{Content, Entry},
     fault::Fault,
@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// The keys of an element besides its law.
-pub(crate) const ELEMENT_KEYS: &[&str] = &["between", "shift", "thickness", "area"];
+pub(crate) const ELEMENT_KEYS: &[&str] = &["between", "shift", "thickness", "area", "layers"];
 
 /// Reads the elements into `network`.
 pub(crate) fn read_elements<'d>(
@@ -42,6 +42,13 @@ fn read_element<'d>(
     let table = reading.table(entry, "element")?;
     let example = "between = [\"head\", \"ground\"]";
     let between = table.require("between", example).and_then(|own| ends(reading, own));
+    if let Some(own) = table.take("layers") {
+        let layers = read_layers(reading, models, &table, own);
+        table.finish();
+        let ([from, to], layers) = between.zip(layers)?;
+        network.connect_layers(&*entry.key, from, to, layers);
+        return Some(());
+    }
     let thickness = table.take("thickness").map(|own| {
         let check = |thickness| positive("thickness", thickness);
         let quantities = reading.quantities();

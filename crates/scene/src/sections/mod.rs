@@ -3,6 +3,8 @@
 mod accuracy;
 mod effects;
 mod elements;
+mod files;
+mod layers;
 mod loads;
 mod measures;
 mod nodes;
@@ -11,6 +13,7 @@ mod run;
 pub(crate) use accuracy::read_accuracy;
 pub(crate) use effects::read_effects;
 pub(crate) use elements::{ELEMENT_KEYS, read_elements};
+pub(crate) use files::file_named;
 pub(crate) use loads::read_loads;
 pub(crate) use measures::read_measures;
 pub(crate) use nodes::read_nodes;
@@ -95,10 +98,11 @@ impl<'d> Reading<'d> {
         self.faults.error(place, Fault::UnknownName { family, name: name.to_owned(), known });
     }
 
-    /// A driving function, `{ half-sine = { … } }`, of what is measured in `driven`.
+    /// A driving function, `{ half-sine = { … } }` or `{ table = "pulse.csv" }`, of what is measured
+    /// in `driven`.
     pub(crate) fn waveform(
         &self,
-        entry: &Entry,
+        entry: &'d Entry,
         driven: Dimension,
     ) -> Option<dashpot_dae::Waveform> {
         let kinds = &registers().waveforms;
@@ -130,6 +134,9 @@ impl<'d> Reading<'d> {
             self.faults.error(entry.item.place, fault);
         }
         let (kind, own) = found?;
+        if kind.is_table() && files::names_file(&own.item) {
+            return self.read_file(kind, &own.item, own.key_place, (&entry.key, driven));
+        }
         KindReader { driven, ..KindReader::new(self.quantities()) }.read(
             kind,
             &own.item,

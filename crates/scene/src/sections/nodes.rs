@@ -1,8 +1,9 @@
 //! `[nodes]`: points with one displacement.
 
+use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{
     Network, Node, Start, Support,
-    parameters::{Dimension, non_negative},
+    parameters::{Dimension, InvalidParameter, non_negative},
 };
 
 use super::Reading;
@@ -53,12 +54,12 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         plausible::check(quantities, own, height);
         height.map(Start::Drop)
     });
-    let fixed = table.take("fixed");
-    let motion = table.take("motion");
-    if let (Some(_), Some(motion)) = (fixed, motion) {
-        let fault = Fault::Exclusive { first: "fixed", second: "motion" };
-        reading.faults.error(motion.key_place, fault);
+    let supports = ["fixed", "motion", "acceleration"].map(|key| (key, table.take(key)));
+    let mut given = supports.iter().filter_map(|(key, entry)| entry.map(|entry| (*key, entry)));
+    if let (Some((first, _)), Some((second, entry))) = (given.next(), given.next()) {
+        reading.faults.error(entry.key_place, Fault::Exclusive { first, second });
     }
+    let [fixed, motion, acceleration] = supports.map(|(_, entry)| entry);
     let is_fixed = fixed.map(|own| {
         let on = matches!(own.item.value, Content::Switch(true));
         if !on {
@@ -67,8 +68,9 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         on
     });
     let motion = motion.map(|own| reading.waveform(own, Dimension::LENGTH));
+    let shaken = acceleration.map(|own| displacement(reading, own));
     table.finish();
-    let support = match (is_fixed, motion) {
+    let support = match (is_fixed, motion.or(shaken)) {
         (Some(_), _) => Support::Fixed,
         (None, Some(motion)) => Support::Prescribed(motion?),
         (None, None) => Support::Free,
@@ -79,4 +81,28 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         support,
         start: velocity.or(drop).unwrap_or(Some(Start::Rest))?,
     })
+}
+
+/// The displacement of a node at rest at `t = 0` that has the acceleration in `entry` from then on.
+fn displacement<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Waveform> {
+    let acceleration = reading.waveform(entry, Dimension::ACCELERATION)?;
+    let twice = acceleration.integral().and_then(|velocity| velocity.integral());
+    if twice.is_none() {
+        let is_swept = acceleration.pieces().iter().any(Piece::is_swept);
+        let (range, found) = if is_swept {
+            ("such that its displacement has a closed form", "a chirp")
+        } else {
+            ("such that its displacement fits into double precision", "too large")
+        };
+        let fault = Fault::Invalid(InvalidParameter::new("acceleration", range, found));
+        let fault = if is_swept {
+            fault.with_help(
+                "give the chirp as `motion`, a displacement, or its acceleration as a table",
+            )
+        } else {
+            fault
+        };
+        reading.faults.error(entry.item.place, fault);
+    }
+    twice
 }

@@ -86,9 +86,7 @@ fn an_acceleration_is_no_motion() {
         let base = format!("base = {{ motion = {{ {value} }} }}");
         messages(&with(&format!("{HEAD}\n{base}"), PAD, ""))
     };
-    let expected = "help: a motion is a displacement; acceleration pulses are not read yet: \
-                    integrate twice, or load the mass with the force m a and take its motion as \
-                    seen from the base";
+    let expected = "help: a motion is a displacement: write `acceleration` in place of `motion`";
     has(&motion("constant = \"5 g0\""), &["a length (m) is expected here", expected]);
     has(&motion("table = [[0, 0], [\"1 ms\", \"5 m/s^2\"]]"), &[expected]);
     has(&motion("constant = \"3 m/s\""), &["a motion is a displacement: integrate the velocity"]);

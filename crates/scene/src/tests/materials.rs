@@ -19,7 +19,7 @@ fn constants(model: &Model) -> Vec<f64> {
         if let Tree::Part(element) = tree {
             match element.law() {
                 Law::Spring(constant) | Law::Dashpot(constant) => constants.push(constant),
-                Law::Rigid => {}
+                Law::Rigid | Law::Nonlinear { .. } | Law::Phased => {}
             }
         }
         open.extend(tree.branches().iter().rev().map(|branch| &branch.tree));

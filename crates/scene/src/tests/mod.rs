@@ -1,9 +1,12 @@
 //! Tests of the whole way from text to scene.
 
+mod effects;
 mod equality;
 mod fuzz;
 mod hints;
+mod layers;
 mod limits;
+mod loads;
 mod materials;
 mod messages;
 mod models;

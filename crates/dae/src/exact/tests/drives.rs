@@ -120,7 +120,8 @@ fn a_table_of_a_thousand_rows_loses_nothing() {
 fn rates_of_a_drive_reach_equations_and_outputs() {
     // ẏ = u̇ follows u; the outputs are u, u̇ and ü.
     let omega = 7.0;
-    let piece = Piece { value: 2.0, slope: 0.5, sine: 1.0, cosine: -0.5, omega, start: 0.0 };
+    let piece =
+        Piece { value: 2.0, slope: 0.5, sine: 1.0, cosine: -0.5, omega, ..Piece::default() };
     let input = |derivative| Some(Input { waveform: 0, derivative });
     let solved = Scene::new(&[&[0.0]], &[1.5])
         .driven(0, 1.0, 1, waveform(&[piece]))
@@ -144,4 +145,109 @@ fn two_drives_of_one_frequency_stay_apart() {
         .solve(10.0);
     solved.judge(0, 1e-13, |t| 0.5 * (2.0 * t).sin());
     solved.judge(1, 1e-13, |t| -0.5 * (2.0 * t).cos());
+}
+
+/// `1 − cos t`, `t − sin t` … : what a force `tⁿ/n!` from `t = 0` on does to an oscillator at rest, by
+/// its series where its terms cancel.
+fn power_response(n: u32, t: f64) -> f64 {
+    if t <= 0.0 {
+        return 0.0;
+    }
+    if t < 1.0 {
+        let mut term = (1..=n + 2).fold(1.0, |term, k| term * t / f64::from(k));
+        let mut sum = 0.0;
+        for k in 0..12 {
+            sum += term;
+            let order = f64::from(n + 3 + 2 * k);
+            term *= -t * t / (order * (order + 1.0));
+        }
+        return sum;
+    }
+    match n {
+        0 => 1.0 - t.cos(),
+        1 => t - t.sin(),
+        2 => 0.5 * t * t - 1.0 + t.cos(),
+        _ => t * t * t / 6.0 - t + t.sin(),
+    }
+}
+
+#[test]
+fn parabolas_and_cubics_are_followed() {
+    let piece = Piece { value: 1.0, slope: -2.0, curvature: 3.0, jerk: -0.5, ..Piece::default() };
+    oscillator(waveform(&[piece])).solve(20.0).judge(0, 2e-11, |t| {
+        power_response(0, t) - 2.0 * power_response(1, t) + 3.0 * power_response(2, t)
+            - 0.5 * power_response(3, t)
+    });
+    let cubic = waveform(&[Piece { jerk: 120.0, ..Piece::default() }]);
+    free_mass(cubic).solve(10.0).judge(0, 1e-8, |t| t.powi(5));
+}
+
+#[test]
+fn the_rates_of_a_cubic_reach_equations_and_outputs() {
+    let piece = Piece { value: 2.0, slope: 0.5, curvature: -1.0, jerk: 3.0, ..Piece::default() };
+    let input = |derivative| Some(Input { waveform: 0, derivative });
+    let drive = || waveform(&[piece]);
+    for order in 1..4 {
+        // Only the derivatives from this order on are in use.
+        let begin = piece.derivative(order - 1, 0.0);
+        let solved = Scene::new(&[&[0.0]], &[begin])
+            .driven(0, 1.0, order, drive())
+            .reporting(&[0.0], input(order))
+            .solve(4.0);
+        solved.judge(0, 1e-12, |t| piece.derivative(order - 1, t));
+        solved.judge(1, 1e-12, |t| piece.derivative(order, t));
+    }
+}
+
+#[test]
+fn a_haversine_pulse() {
+    let (omega, start) = (5.0, 1.0);
+    let end = 2.0 * PI / omega;
+    let drive = waveform(&[
+        Piece::default(),
+        Piece { start, value: 0.5, cosine: -0.5, omega, ..Piece::default() },
+        Piece { start: start + end, ..Piece::default() },
+    ]);
+    let wave = |t: f64| {
+        let cosine = (t.cos() - (omega * t).cos()) / (omega * omega - 1.0);
+        if t < 0.0 { 0.0 } else { 0.5 * (1.0 - t.cos() - cosine) }
+    };
+    oscillator(drive).solve(20.0).judge(0, 1e-13, |t| wave(t - start) - wave(t - start - end));
+}
+
+#[test]
+fn a_pulse_of_acceleration_on_the_base() {
+    // x'' = −(x − u) with u'' a half-sine: the deformation y = x − u obeys y'' = −y − u''.
+    let omega = 3.0;
+    let end = PI / omega;
+    let pulse = waveform(&[
+        Piece { sine: 1.0, omega, ..Piece::default() },
+        Piece { start: end, ..Piece::default() },
+    ]);
+    let base = pulse.integral().and_then(|velocity| velocity.integral()).unwrap();
+    assert!((base.value(end + 4.0) - (end + 4.0 * 2.0) / omega).abs() < 1e-14);
+    let wave = |t: f64| {
+        if t < 0.0 { 0.0 } else { ((omega * t).sin() - omega * t.sin()) / (1.0 - omega * omega) }
+    };
+    let solved = Scene::new(&[&[0.0, 1.0], &[-1.0, 0.0]], &[0.0, 0.0])
+        .driven(1, 1.0, 0, base.clone())
+        .reporting(&[-1.0, 0.0], Some(Input { waveform: 1, derivative: 0 }));
+    let mut solved = solved;
+    solved.waveforms.push(base);
+    solved.solve(20.0).judge(2, 1e-12, |t| wave(t) + wave(t - end));
+}
+
+#[test]
+fn a_chirp_is_declined_where_it_drives_something_within_the_run() {
+    use crate::{Method, Run, Silent, SolveError, methods::Exact};
+    let drive = waveform(&[
+        Piece::default(),
+        Piece { start: 2.0, sine: 1.0, omega: 1.0, sweep: 0.5, ..Piece::default() },
+    ]);
+    let system = oscillator(drive).system();
+    let error = Exact.integrate(&system, &Run::to(3.0), &mut Silent).unwrap_err();
+    let SolveError::NotApplicable { reason, .. } = error else { panic!("{error}") };
+    assert!(reason.contains("chirp"), "{reason}");
+    let quiet = Exact.integrate(&system, &Run::to(2.0), &mut Silent).unwrap();
+    assert!(quiet.signal(&system, 0).bound() == 0.0);
 }

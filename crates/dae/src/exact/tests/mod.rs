@@ -100,6 +100,7 @@ impl Scene {
             outputs: outputs.collect(),
             inputs,
             waveforms: self.waveforms.clone(),
+            terms: Vec::new(),
             initial: self.initial.clone(),
             time_scale: 1.0,
         }

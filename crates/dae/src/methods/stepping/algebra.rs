@@ -2,7 +2,8 @@
 
 use diffsol::{
     DiffsolError, FaerSparseLU, FaerSparseMat, FaerVec, LinearSolver, Matrix, NalgebraLU,
-    NalgebraMat, NalgebraVec, Vector, VectorCommon, matrix::sparsity::MatrixSparsityRef,
+    NalgebraMat, NalgebraVec, Vector, VectorCommon,
+    matrix::{MatrixCommon, sparsity::MatrixSparsityRef},
 };
 use nalgebra_sparse::CsrMatrix;
 
@@ -41,14 +42,48 @@ impl Slice for FaerVec<f64> {
 pub(in crate::methods) trait Algebra: Matrix<T = f64, V: Slice> {
     /// Its factorisation.
     type Factor: LinearSolver<Self>;
+
+    /// The stored values.
+    fn values(&self) -> &[f64];
+
+    /// The stored values, to be written.
+    fn values_mut(&mut self) -> &mut [f64];
+
+    /// Where the entry of a row and a column is stored, if it is.
+    fn place(&self, row: usize, column: usize) -> Option<usize>;
 }
 
 impl Algebra for NalgebraMat<f64> {
     type Factor = NalgebraLU<f64>;
+
+    fn values(&self) -> &[f64] {
+        self.inner().as_slice()
+    }
+
+    fn values_mut(&mut self) -> &mut [f64] {
+        self.inner_mut().as_mut_slice()
+    }
+
+    fn place(&self, row: usize, column: usize) -> Option<usize> {
+        Some(column * self.nrows() + row)
+    }
 }
 
 impl Algebra for FaerSparseMat<f64> {
     type Factor = FaerSparseLU<f64>;
+
+    fn values(&self) -> &[f64] {
+        self.inner().first().map_or(&[], |only| only.val())
+    }
+
+    fn values_mut(&mut self) -> &mut [f64] {
+        self.inner_mut().first_mut().map_or(&mut [], |only| only.val_mut())
+    }
+
+    fn place(&self, row: usize, column: usize) -> Option<usize> {
+        let only = self.inner().first()?;
+        only.col_range(column).find(|&at| only.row_idx()[at] == row)
+    }
 }
 
 /// The matrix with the given entries `(row, column, value)`.
@@ -91,6 +126,15 @@ impl<'s> Rows<'s> {
             let place = ends[0]..ends[1];
             let terms = self.columns[place.clone()].iter().zip(&self.values[place]);
             *out = terms.map(|(&column, value)| value * x[column]).sum();
+        }
+    }
+
+    /// `y = |A| |x|`.
+    pub(super) fn magnitudes(&self, x: &[f64], y: &mut [f64]) {
+        for (ends, out) in self.offsets.windows(2).zip(y) {
+            let place = ends[0]..ends[1];
+            let terms = self.columns[place.clone()].iter().zip(&self.values[place]);
+            *out = terms.map(|(&column, value)| (value * x[column]).abs()).sum();
         }
     }
 }

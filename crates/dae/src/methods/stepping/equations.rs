@@ -7,18 +7,21 @@ use diffsol::{
     OdeEquations, OdeEquationsRef, Op, UnitCallable,
 };
 
-use super::algebra::{Algebra, Rows, Slice, entries, matrix, pattern};
-use crate::{Piece, System, UnknownKind};
+use super::{
+    algebra::{Algebra, Rows, Slice, entries, matrix, pattern},
+    terms::{self, Places, Slopes, Terms},
+};
+use crate::{Input, Piece, System, UnknownKind};
 
 /// An input that changes with time during a span, and the column of `B` that it drives.
 #[derive(Debug, Clone)]
-struct Drive {
+pub(super) struct Drive {
     piece: Piece,
     derivative: u32,
     input: usize,
 }
 
-/// `M ẏ = J y + B w` on one smooth span, in the span's own time `t − start`.
+/// `M ẏ = J y + B w + n(y, w)` on one smooth span, in the span's own time `t − start`.
 pub(in crate::methods) struct Equations<'s, M: Algebra> {
     system: &'s System,
     rows: Rows<'s>,
@@ -32,6 +35,8 @@ pub(in crate::methods) struct Equations<'s, M: Algebra> {
     /// `B w` of the inputs that are constant on the span; empty where there are none.
     constant: Vec<f64>,
     drives: Vec<Drive>,
+    /// What is not linear, and where its slopes belong in the Jacobian.
+    terms: Option<(Terms<'s>, Places)>,
     calls: Cell<usize>,
     jacobians: Cell<usize>,
 }
@@ -60,17 +65,25 @@ impl<'s, M: Algebra> Equations<'s, M> {
         for (row, input, factor) in entries(&system.input_matrix) {
             columns[input].push((row, factor));
         }
+        // Dense matrices keep the last of several entries, sparse ones add them up.
+        let room = terms::pattern(system).map(|(row, column)| (row, column, 0.0));
+        let jacobian: M = matrix(size, room.chain(entries(&system.jacobian)))?;
+        let terms = Terms::of(system).map(|terms| {
+            let places = terms.places(&jacobian, |_| true);
+            (terms, places)
+        });
         Ok(Self {
             system,
             rows: Rows::of(&system.jacobian),
             context: M::C::default(),
-            jacobian: matrix(size, entries(&system.jacobian))?,
+            jacobian,
             mass,
             start: 0.0,
             state: system.initial.clone(),
             columns,
             constant: Vec::new(),
             drives: Vec::new(),
+            terms,
             calls: Cell::new(0),
             jacobians: Cell::new(0),
         })
@@ -82,9 +95,11 @@ impl<'s, M: Algebra> Equations<'s, M> {
         self.state.copy_from_slice(state);
         self.drives.clear();
         self.constant.clear();
-        for (k, input) in self.system.inputs.iter().enumerate() {
-            let piece = *self.system.waveforms[input.waveform].piece_at(start);
-            let drive = Drive { piece, derivative: input.derivative, input: k };
+        if let Some((terms, _)) = &mut self.terms {
+            terms.enter(start);
+        }
+        for k in 0..self.system.inputs.len() {
+            let drive = Drive::of(self.system, k, start);
             if self.columns[k].is_empty() {
                 continue;
             }
@@ -97,7 +112,7 @@ impl<'s, M: Algebra> Equations<'s, M> {
         }
     }
 
-    /// `J y + B w` at the span's own time `t`.
+    /// `J y + B w + n(y, w)` at the span's own time `t`.
     pub(super) fn evaluate(&self, t: f64, y: &[f64], out: &mut [f64]) {
         self.rows.multiply(y, out);
         for (value, constant) in out.iter_mut().zip(&self.constant) {
@@ -106,9 +121,12 @@ impl<'s, M: Algebra> Equations<'s, M> {
         for drive in &self.drives {
             drive.add(0, self.start + t, &self.columns[drive.input], out);
         }
+        if let Some((terms, _)) = &self.terms {
+            terms.add_values(self.start + t, y, out);
+        }
     }
 
-    /// `B w` (`order` 0) or `B ẇ` (`order` 1) at the span's start.
+    /// The `order`-th derivative of `B w` at the span's start.
     pub(super) fn driven(&self, order: u32) -> Vec<f64> {
         let mut out = vec![0.0; self.system.len()];
         if order == 0 && !self.constant.is_empty() {
@@ -118,6 +136,70 @@ impl<'s, M: Algebra> Equations<'s, M> {
             drive.add(order, self.start, &self.columns[drive.input], &mut out);
         }
         out
+    }
+
+    /// `J slopes` and the `order`-th derivative of `B w` at the span's start: in differential rows the
+    /// next derivative where `slopes` are those of this order.
+    pub(super) fn rates(&self, order: u32, slopes: &[f64]) -> Vec<f64> {
+        let mut rates = self.product(slopes);
+        for (rate, driven) in rates.iter_mut().zip(self.driven(order)) {
+            *rate += driven;
+        }
+        rates
+    }
+
+    /// `J y`.
+    pub(super) fn product(&self, y: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; y.len()];
+        self.rows.multiply(y, &mut product);
+        product
+    }
+
+    /// `|J| unknowns + |B| inputs`.
+    pub(super) fn magnitudes(&self, unknowns: &[f64], inputs: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; unknowns.len()];
+        self.rows.magnitudes(unknowns, &mut sums);
+        for (column, input) in self.columns.iter().zip(inputs) {
+            for &(row, factor) in column {
+                sums[row] += (factor * input).abs();
+            }
+        }
+        sums
+    }
+
+    /// `Σ |terms|` of each row at the span's start, with what the rounding of the arguments of laws
+    /// makes of these, in parts of `ε`.
+    pub(super) fn sizes(&self, y: &[f64]) -> Vec<f64> {
+        let mut inputs = vec![0.0; self.system.inputs.len()];
+        self.system.inputs_at(self.start, self.start, &mut inputs);
+        let mut sizes = self.magnitudes(y, &inputs);
+        if let Some((terms, _)) = &self.terms {
+            terms.add_sizes((self.start, y), (y, &inputs), &mut sizes);
+        }
+        sizes
+    }
+
+    /// The sums of the coefficients' sizes in each row, at the span's start; one for an empty row.
+    pub(super) fn row_sums(&self, y: &[f64]) -> Vec<f64> {
+        let (ones, none) = (vec![1.0; y.len()], vec![0.0; self.system.inputs.len()]);
+        let mut sums = self.magnitudes(&ones, &none);
+        if let Some((terms, _)) = &self.terms {
+            terms.add_magnitudes((self.start, y), (&ones, &none), &mut sums);
+        }
+        for sum in &mut sums {
+            *sum = if *sum > 0.0 && sum.is_finite() { *sum } else { 1.0 };
+        }
+        sums
+    }
+
+    /// The terms that are not linear.
+    pub(super) fn terms(&self) -> Option<&Terms<'s>> {
+        self.terms.as_ref().map(|(terms, _)| terms)
+    }
+
+    /// The span's start.
+    pub(super) fn start(&self) -> f64 {
+        self.start
     }
 
     /// Evaluations of the right-hand side and of the Jacobian so far.
@@ -132,16 +214,40 @@ impl<'s, M: Algebra> Equations<'s, M> {
 }
 
 impl Drive {
+    /// An input of `system` on the span that begins at `start`.
+    pub(super) fn of(system: &System, input: usize, start: f64) -> Self {
+        let Input { waveform, derivative } = system.inputs[input];
+        Self { piece: *system.waveforms[waveform].piece_at(start), derivative, input }
+    }
+
+    /// The input.
+    pub(super) fn input(&self) -> usize {
+        self.input
+    }
+
+    /// The `order`-th derivative of the input at `t`.
+    pub(super) fn value(&self, order: u32, t: f64) -> f64 {
+        self.piece.derivative(self.derivative + order, t)
+    }
+
     fn is_constant(&self) -> bool {
-        let wave = self.piece.omega != 0.0 && (self.piece.sine != 0.0 || self.piece.cosine != 0.0);
-        !wave && (self.derivative > 0 || self.piece.slope == 0.0)
+        self.piece.is_constant(self.derivative)
     }
 
     fn add(&self, order: u32, t: f64, column: &[(usize, f64)], out: &mut [f64]) {
-        let value = self.piece.derivative(self.derivative + order, t);
+        let value = self.value(order, t);
         for &(row, factor) in column {
             out[row] += factor * value;
         }
+    }
+}
+
+/// Copies `from` into a matrix of the same pattern without making it anew.
+fn refill<M: Algebra>(into: &mut M, from: &M) {
+    if into.values().len() == from.values().len() {
+        into.values_mut().copy_from_slice(from.values());
+    } else {
+        into.copy_from(from);
     }
 }
 
@@ -176,13 +282,23 @@ impl<M: Algebra> NonLinearOp for Equations<'_, M> {
 }
 
 impl<M: Algebra> NonLinearOpJacobian for Equations<'_, M> {
-    fn jac_mul_inplace(&self, _y: &M::V, _t: f64, v: &M::V, out: &mut M::V) {
+    fn jac_mul_inplace(&self, y: &M::V, t: f64, v: &M::V, out: &mut M::V) {
         self.rows.multiply(v.slice(), out.slice_mut());
+        if let Some((terms, _)) = &self.terms {
+            let point = (self.start + t, y.slice());
+            terms.add_product(point, Slopes::Filled, v.slice(), out.slice_mut());
+        }
     }
 
-    fn jacobian_inplace(&self, _y: &M::V, _t: f64, out: &mut M) {
+    fn jacobian_inplace(&self, y: &M::V, t: f64, out: &mut M) {
         self.jacobians.set(self.jacobians.get() + 1);
-        out.copy_from(&self.jacobian);
+        let Some((terms, places)) = &self.terms else {
+            out.copy_from(&self.jacobian);
+            return;
+        };
+        refill(out, &self.jacobian);
+        let point = (self.start + t, y.slice());
+        terms.add_slopes(point, Slopes::Filled, places, out.values_mut());
     }
 
     fn jacobian_sparsity(&self) -> Option<M::Sparsity> {

@@ -2,6 +2,7 @@
 
 use diffsol::{DiffsolError, error::OdeSolverError};
 
+use super::balance::Imbalance;
 use crate::{SolveError, System};
 
 /// Where and by whom something failed.
@@ -47,6 +48,22 @@ impl Site<'_> {
     pub(super) fn too_small(self, state: &[f64], slopes: &[f64]) -> SolveError {
         let Self { method, time, .. } = self;
         SolveError::StepTooSmall { method, time, unknown: self.fastest(state, slopes) }
+    }
+
+    /// No balance can be assigned to this unknown.
+    pub(super) fn undetermined(self, unknown: usize) -> SolveError {
+        let reason = format!("no balance determines `{}`", self.name(unknown));
+        SolveError::NotApplicable { method: self.method, reason }
+    }
+
+    /// The algebraic unknowns, which came out as `state`, have no consistent values or slopes.
+    pub(super) fn imbalance(self, failure: Imbalance, state: &[f64]) -> SolveError {
+        match failure {
+            Imbalance::Singular => self.singular(state),
+            Imbalance::Unsettled { unknown } => {
+                SolveError::Inconsistent { time: self.time, unknown: self.name(unknown) }
+            }
+        }
     }
 
     /// The balances do not determine the algebraic unknowns, which came out as `state`.

@@ -11,16 +11,24 @@
 //! below one. Up to 30 unknowns `rtol` is the run's. Beyond, the mean would dilute what
 //! happens in a small part of a large system, so that `rtol` shrinks with `√(30/n)`: one unknown
 //! alone then has as much to say as in a system of 30.
+//!
+//! Terms that are not linear are under the same control: their values are unknowns of their own. A
+//! kink of a law is not located; where it matters to the tolerance, the steps across it are rejected
+//! until they are small enough. Where all laws that determine a place are flat at once, no step is.
 
 mod algebra;
 mod balance;
 mod equations;
 mod failure;
+mod newton;
+mod recursion;
 mod spans;
 mod start;
+mod terms;
 mod walk;
 
 pub(super) use algebra::Algebra;
+pub(crate) use recursion::derivatives;
 pub(super) use start::Problem;
 pub(super) use walk::{Polynomial, Walk};
 

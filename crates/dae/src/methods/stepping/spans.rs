@@ -94,6 +94,8 @@ fn integrate_in<S: Scheme>(
         outcome,
         t_end,
         events: walk.watch.into_events(),
+        first_phases: Vec::new(),
+        switches: Vec::new(),
         statistics: walk.statistics,
         dense: Box::new(walk.pieces),
     })
@@ -112,13 +114,12 @@ fn admit<S: Scheme>(system: &System, run: &Run) -> Result<(), SolveError> {
             return Err(SolveError::NotFinite { method: S::KIND, time: 0.0, unknown });
         }
     }
-    Site { method: S::KIND, time: 0.0, system }.finite(&system.initial)?;
-    if let Some(unknown) = undetermined(system) {
-        let name = &system.unknowns[unknown].name;
-        let reason = format!("no balance determines `{name}`");
-        return Err(SolveError::NotApplicable { method: S::KIND, reason });
+    let site = Site { method: S::KIND, time: 0.0, system };
+    site.finite(&system.initial)?;
+    match undetermined(system) {
+        Some(unknown) => Err(site.undetermined(unknown)),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 impl Walk<'_> {
@@ -153,10 +154,7 @@ impl Walk<'_> {
         for<'m> &'m M: MatrixRef<M>,
     {
         let mut problem = start::problem::<M>(self.system, self.run.rtol)?;
-        let balance = Balance::<M>::new(self.system)?;
-        if balance.is_some() {
-            self.statistics.factorizations += 1;
-        }
+        let mut balance = Balance::<M>::new(self.system)?;
         let mut outcome = Ok(());
         let borders = self.borders();
         for span in borders.windows(2) {
@@ -164,20 +162,22 @@ impl Walk<'_> {
             let length = span[1] - span[0];
             let time = span[0] * self.system.time_scale;
             let site = Site { method: S::KIND, time, system: self.system };
-            let balance = balance.as_ref();
             let within = (span[0], length);
-            let state = start::enter(&mut problem, balance, within, S::ORDER, &mut self.state)
-                .map_err(|_| site.singular(&self.state))?;
+            let entered =
+                start::enter(&mut problem, balance.as_mut(), within, S::ORDER, &mut self.state);
+            let state = entered.map_err(|failure| site.imbalance(failure, &self.state))?;
             if balance.is_some() && self.state.iter().any(|value| !value.is_finite()) {
                 return Err(site.singular(&self.state).into());
             }
-            self.statistics.linear_solves += 2 * usize::from(balance.is_some());
             self.pieces.begin(span[0], &self.state);
             outcome = S::span(&problem, state, self);
             if outcome.is_err() {
                 break;
             }
         }
+        let (factorizations, solves) = balance.as_ref().map_or((0, 0), Balance::work);
+        self.statistics.factorizations += factorizations;
+        self.statistics.linear_solves += solves;
         let (calls, jacobians) = problem.eqn.counts();
         self.statistics.rhs_calls = calls;
         self.statistics.jacobian_calls = jacobians;

@@ -7,7 +7,7 @@ use diffsol::{
 
 use super::{
     algebra::{Algebra, DENSE_UP_TO, Slice},
-    balance::Balance,
+    balance::{Balance, Imbalance},
     equations::Equations,
 };
 use crate::{System, UnknownKind};
@@ -71,15 +71,15 @@ fn tolerance(rtol: f64, size: usize) -> f64 {
 /// receives its values.
 pub(super) fn enter<M: Algebra>(
     problem: &mut Problem<'_, M>,
-    balance: Option<&Balance<M>>,
+    mut balance: Option<&mut Balance<M>>,
     (start, length): (f64, f64),
     order: usize,
     state: &mut [f64],
-) -> Result<StateCommon<M::V>, DiffsolError> {
+) -> Result<StateCommon<M::V>, Imbalance> {
     problem.ode_options.min_timestep = SMALLEST_STEP * length;
     problem.eqn.enter(start, state);
     let mut slopes = vec![0.0; state.len()];
-    if let Some(balance) = balance {
+    if let Some(balance) = &mut balance {
         balance.values(&problem.eqn, state)?;
         problem.eqn.enter(start, state);
     }
@@ -109,7 +109,7 @@ pub(super) fn enter<M: Algebra>(
     let mut view = StateRefMut { y, dy, g, dg, s, ds, sg, dsg, t, h };
     view.set_step_size(problem.h0, &problem.atol, problem.rtol, &problem.eqn, order);
     if let Some(balance) = balance {
-        balance.slopes(&problem.eqn, &mut slopes)?;
+        balance.slopes(1, &problem.eqn, state, &mut slopes)?;
         common.dy.slice_mut().copy_from_slice(&slopes);
     }
     // Extreme slopes make the estimate zero, or no number.

@@ -18,6 +18,7 @@ fn system(kinds: &[UnknownKind], entries: &[(usize, usize, f64)], initial: &[f64
         input_matrix: CsrMatrix::zeros(kinds.len(), 0),
         inputs: Vec::new(),
         waveforms: Vec::new(),
+        terms: Vec::new(),
         initial: initial.to_vec(),
         outputs: Vec::new(),
         time_scale: 1.0,
@@ -126,7 +127,7 @@ fn without_unknowns_the_outputs_follow_the_inputs() {
     let mut still = system(&[], &[], &[]);
     let pieces = vec![
         Piece { value: 1.0, slope: 0.5, ..Piece::default() },
-        Piece { start: 2.0, value: -1.0, sine: 2.0, cosine: 0.3, omega: 400.0, slope: 0.0 },
+        Piece { start: 2.0, value: -1.0, sine: 2.0, cosine: 0.3, omega: 400.0, ..Piece::default() },
     ];
     still.waveforms = vec![Waveform::new(pieces).unwrap()];
     still.inputs = vec![Input { waveform: 0, derivative: 0 }, Input { waveform: 0, derivative: 1 }];

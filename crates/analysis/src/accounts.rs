@@ -1,0 +1,80 @@
+//! What springs, dashpots and all other parts store and dissipate.
+
+use dashpot_network::{
+    Element, PhasedNetwork, PrimitiveOutputs,
+    elements::Law,
+    phases::{Phase, PhaseLaw},
+};
+
+use crate::Solution;
+
+/// Which entries of an energy ledger a part has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Accounts {
+    /// It stores energy.
+    pub(crate) stores: bool,
+    /// It dissipates energy.
+    pub(crate) dissipates: bool,
+}
+
+impl Accounts {
+    /// Those of an element.
+    pub(crate) fn of(element: &dyn Element) -> Self {
+        match element.law() {
+            Law::Spring(_) => Self { stores: true, dissipates: false },
+            Law::Dashpot(_) => Self { stores: false, dissipates: true },
+            Law::Rigid => Self { stores: false, dissipates: false },
+            Law::Nonlinear { stiffness, damping } => {
+                Self { stores: stiffness > 0.0, dissipates: damping > 0.0 }
+            }
+            Law::Phased => Self {
+                stores: element.phases().is_some_and(|own| {
+                    (0..own.names().len()).any(|index| {
+                        matches!(own.law(Phase { index, memory: 0.0 }), PhaseLaw::Element(_))
+                    })
+                }),
+                dissipates: true,
+            },
+        }
+    }
+}
+
+/// The energy \[J\] that a part stores at `time` \[s\] at this deformation \[m\], just before what
+/// switches then.
+pub(crate) fn stored(
+    solution: &Solution<'_>,
+    primitive: &PrimitiveOutputs,
+    time: f64,
+    deformation: f64,
+) -> f64 {
+    let phased = solution.assembly().switching.as_deref();
+    match phased.and_then(|own| Some((own, own.part_named(&primitive.name)?))) {
+        Some((own, part)) if primitive.element.law() == Law::Phased => {
+            own.stored(part, phase_at(solution, own, part, time), deformation)
+        }
+        _ => primitive.element.stored(deformation),
+    }
+}
+
+/// The phase of a part just before `time` \[s\].
+fn phase_at(solution: &Solution<'_>, own: &PhasedNetwork, part: usize, time: f64) -> Phase {
+    let trajectory = solution.trajectory();
+    let first = trajectory.first_phases.get(part);
+    let first = first.map(|&(index, memory)| Phase { index, memory });
+    let before = trajectory.switches.iter().filter(|own| own.part == part && own.time < time);
+    let last = before.last().map(|own| Phase { index: own.phase, memory: own.memory });
+    last.or(first)
+        .or_else(|| own.first_phases().get(part).copied())
+        .unwrap_or(Phase { index: 0, memory: 0.0 })
+}
+
+/// The energy \[J\] lost by impacts in a part within the window \[s\].
+pub(crate) fn lost_in_impacts(
+    solution: &Solution<'_>,
+    primitive: &PrimitiveOutputs,
+    window: (f64, f64),
+) -> f64 {
+    let switches = solution.trajectory().switches.iter();
+    let own = switches.filter(|own| own.name == primitive.name && own.impulse > 0.0);
+    own.filter(|own| window.0 <= own.time && own.time <= window.1).map(|own| own.lost).sum()
+}

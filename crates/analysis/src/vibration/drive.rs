@@ -1,0 +1,158 @@
+//! What shakes a network.
+
+use std::f64::consts::TAU;
+
+use dashpot_dae::{Piece, Waveform};
+use dashpot_network::{Assembly, Network, Node, NodeId, Support};
+
+use super::VibrationError;
+
+/// How a drive acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum DriveKind {
+    /// A node moves in a given way; its amplitude is in m.
+    Motion,
+    /// A force pushes a node; its amplitude is in N.
+    Load,
+}
+
+impl DriveKind {
+    /// SI unit of the amplitude.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Motion => "m",
+            Self::Load => "N",
+        }
+    }
+}
+
+/// What shakes a network: a load, or a node that is moved.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Drive {
+    /// Name of the load, or of the node.
+    pub name: String,
+    /// How it acts.
+    pub kind: DriveKind,
+    /// The node on which it acts.
+    pub node: String,
+}
+
+/// Whatever can drive a network: its loads, its nodes with given motions, and its fixed nodes.
+pub fn drives(network: &Network) -> Vec<Drive> {
+    let loads = network.loads().iter().map(|load| Drive {
+        name: load.name.clone(),
+        kind: DriveKind::Load,
+        node: network.node(load.node).name.clone(),
+    });
+    let held = |is_moved: bool| {
+        network.nodes().filter(move |(id, node)| {
+            let is_used = network.connections().iter().any(|own| own.between.contains(id));
+            match node.support {
+                Support::Prescribed(_) => is_moved,
+                Support::Fixed => !is_moved && is_used,
+                Support::Free => false,
+            }
+        })
+    };
+    let motions = held(true).chain(held(false)).map(|(_, node)| Drive {
+        name: node.name.clone(),
+        kind: DriveKind::Motion,
+        node: node.name.clone(),
+    });
+    loads.chain(motions).collect()
+}
+
+/// The drive of this name; without a name the only load or given motion that there is.
+pub(super) fn chosen(network: &Network, name: Option<&str>) -> Result<Drive, VibrationError> {
+    let all = drives(network);
+    let known = || all.iter().map(|own| own.name.clone()).collect();
+    if let Some(name) = name {
+        let found = all.iter().find(|own| own.name == name).cloned();
+        let unknown = || VibrationError::UnknownDrive { name: name.to_owned(), known: known() };
+        return found.ok_or_else(unknown);
+    }
+    let is_own = |drive: &&Drive| {
+        let node = network.node_named(&drive.node).map(|id| network.node(id));
+        drive.kind == DriveKind::Load
+            || node.is_some_and(|node| matches!(node.support, Support::Prescribed(_)))
+    };
+    let own: Vec<&Drive> = all.iter().filter(is_own).collect();
+    match own[..] {
+        [only] => Ok(only.clone()),
+        _ => Err(VibrationError::NoDrive { loads_and_motions: own.len(), known: known() }),
+    }
+}
+
+/// A network in which nothing but the drive acts: a sine of the amplitude 1 N or 1 m.
+pub(super) struct Driven {
+    pub(super) network: Network,
+    /// The node on which the drive acts.
+    pub(super) node: NodeId,
+}
+
+impl Driven {
+    /// The network with `drive` alone; `assembly` is what it compiles to as it is.
+    pub(super) fn new(
+        network: &Network,
+        assembly: &Assembly,
+        drive: &Drive,
+        duration: f64,
+    ) -> Result<Self, VibrationError> {
+        let wave = Piece { sine: 1.0, omega: TAU / duration, ..Piece::default() };
+        let invalid = VibrationError::InvalidSetting {
+            setting: "duration",
+            range: "positive and finite",
+            value: duration,
+        };
+        let sine = Waveform::new(vec![wave]).filter(|_| duration > 0.0).ok_or(invalid)?;
+        let known = || drives(network).into_iter().map(|own| own.name).collect();
+        let unknown = || VibrationError::UnknownDrive { name: drive.name.clone(), known: known() };
+        let node = network.node_named(&drive.node).ok_or_else(unknown)?;
+        // Nodes that are rigidly linked move as one.
+        let body = assembly.nodes[node.index()].body;
+        let is_moved = |id: NodeId| {
+            drive.kind == DriveKind::Motion
+                && assembly.nodes[id.index()].body == body
+                && network.node(id).support != Support::Free
+        };
+        let mut driven = Network::new();
+        let ground = network.ground();
+        for (id, node) in network.nodes().filter(|own| own.0 != ground) {
+            let support = match &node.support {
+                Support::Free => Support::Free,
+                _ if is_moved(id) => Support::Prescribed(sine.clone()),
+                Support::Fixed => Support::Fixed,
+                Support::Prescribed(_) => Support::Prescribed(Waveform::constant(0.0)),
+            };
+            driven.add_node(Node { support, ..node.clone() });
+        }
+        // The ground itself cannot move: another node takes its place.
+        let moved_ground = is_moved(ground)
+            .then(|| driven.add_node(Node::prescribed(unused_name(network), sine.clone())));
+        let place = |id: NodeId| match moved_ground {
+            Some(moved) if id == ground => moved,
+            _ => id,
+        };
+        for connection in network.connections() {
+            let [from, to] = connection.between.map(place);
+            driven.connect(connection.name.clone(), from, to, connection.model.clone()).thickness =
+                connection.thickness;
+        }
+        for load in network.loads().iter().filter(|_| drive.kind == DriveKind::Load) {
+            if load.name == drive.name {
+                driven.add_load(load.name.clone(), load.node, sine.clone());
+            }
+        }
+        network.effects().iter().for_each(|own| driven.add_shared_effect(own.clone()));
+        Ok(Self { network: driven, node: place(node) })
+    }
+}
+
+/// A name that no node has.
+fn unused_name(network: &Network) -> String {
+    let mut name = "moved ground".to_owned();
+    while network.node_named(&name).is_some() {
+        name.push('\'');
+    }
+    name
+}

@@ -1,0 +1,198 @@
+//! Peaks and valleys of a response on the frequency axis: found where its slope changes sign, not
+//! where a sample is the largest.
+
+use super::{Vibration, observed::Observed};
+
+/// Samples in each decade with which the search begins.
+const EACH_DECADE: f64 = 24.0;
+/// Distances from a pole, in units of its damping, at which it is looked at too.
+const FROM_POLE: [f64; 7] = [0.0, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0];
+/// An undamped pole is looked at as if it were damped with this part of its frequency.
+const LEAST_DAMPING: f64 = 1e-9;
+/// A stretch is halved until its middle is so near to the cubic through its ends, in `ln |T|²`.
+const SMOOTH: f64 = 0.05;
+/// Halvings of one stretch.
+const MOST_HALVINGS: u32 = 40;
+/// Steps to a root; each second one at least halves the bracket.
+const MOST_STEPS: usize = 200;
+/// Smaller hills, in `ln |T|²`, are what rounding makes.
+const LEAST_HILL: f64 = 1e-9;
+
+/// A relative error from which on a response is not known.
+pub(super) const UNKNOWN: f64 = 1e-3;
+
+/// The response at one frequency.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Probe {
+    /// Angular frequency \[rad/s\].
+    pub(super) omega: f64,
+    /// `ln |T|²`.
+    pub(super) level: f64,
+    /// `d ln |T|² / d ln ω`.
+    pub(super) rise: f64,
+    /// Relative error of `T`.
+    pub(super) doubt: f64,
+}
+
+/// The response as a function of the angular frequency.
+#[derive(Clone, Copy)]
+pub(super) struct Curve<'a> {
+    pub(super) vibration: &'a Vibration,
+    pub(super) observed: &'a Observed,
+}
+
+/// A valley, a peak, or an end of the range.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extremum {
+    pub(super) probe: Probe,
+    /// The response is the same to rounding over this distance to either side \[rad/s\].
+    pub(super) width: f64,
+    pub(super) is_peak: bool,
+}
+
+impl Curve<'_> {
+    /// The response at `omega` \[rad/s\]; `None` where it cannot be told, and where it is zero.
+    pub(super) fn probe(&self, omega: f64) -> Option<Probe> {
+        let found = self.observed.at(&self.vibration.at(omega)?, omega)?;
+        let size = found.value.norm();
+        let probe =
+            Probe { omega, level: 2.0 * size.ln(), rise: found.rise, doubt: found.error / size };
+        (probe.level.is_finite() && probe.rise.is_finite()).then_some(probe)
+    }
+
+    /// The ends of the range from `low` to `high` \[rad/s\], and between them valleys and peaks in
+    /// turn. Between two of them the response is monotonic, up to hills that rounding makes.
+    pub(super) fn extrema(&self, low: f64, high: f64, poles: &[(f64, f64)]) -> Vec<Extremum> {
+        let samples = self.samples(low, high, poles);
+        let end = |probe: &Probe, is_peak| Extremum { probe: *probe, width: 0.0, is_peak };
+        let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
+            return Vec::new();
+        };
+        let mut found = vec![end(first, first.rise < 0.0)];
+        for pair in samples.windows(2) {
+            let is_peak = pair[0].rise > 0.0;
+            if (pair[1].rise > 0.0) != is_peak {
+                found.push(self.turn(pair[0], pair[1], is_peak));
+            }
+        }
+        found.push(end(last, last.rise > 0.0));
+        without_noise(found)
+    }
+
+    /// Samples near enough to each other for the response to be smooth between them.
+    fn samples(&self, low: f64, high: f64, poles: &[(f64, f64)]) -> Vec<Probe> {
+        let mut places: Vec<f64> = vec![low, high];
+        let count = (EACH_DECADE * (high / low).log10()).ceil().max(1.0);
+        let mut at = 1.0;
+        while at < count {
+            places.push(low * (high / low).powf(at / count));
+            at += 1.0;
+        }
+        for &(omega, damping) in poles {
+            let width = damping.max(LEAST_DAMPING * omega);
+            places.extend(
+                FROM_POLE.iter().flat_map(|own| [omega - own * width, omega + own * width]),
+            );
+        }
+        places.retain(|own| (low..=high).contains(own));
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        let coarse: Vec<Probe> = places.iter().filter_map(|&own| self.probe(own)).collect();
+        let mut fine = Vec::with_capacity(2 * coarse.len());
+        for pair in coarse.windows(2) {
+            fine.push(pair[0]);
+            let mut open = vec![(pair[0], pair[1], MOST_HALVINGS)];
+            // The left half is taken first, so that samples come in order.
+            while let Some((left, right, halvings)) = open.pop() {
+                let middle = self.probe((left.omega * right.omega).sqrt());
+                let middle = middle.filter(|own| left.omega < own.omega && own.omega < right.omega);
+                match middle {
+                    Some(middle) if halvings > 0 && !is_smooth(&left, &middle, &right) => {
+                        open.push((middle, right, halvings - 1));
+                        open.push((left, middle, halvings - 1));
+                    }
+                    Some(middle) => fine.extend([middle, right]),
+                    None => fine.push(right),
+                }
+            }
+            fine.pop();
+        }
+        fine.extend(coarse.last());
+        fine
+    }
+
+    /// The peak or valley between two samples with slopes of different signs.
+    fn turn(&self, left: Probe, right: Probe, is_peak: bool) -> Extremum {
+        let (probe, bracket) = self.root(left, right, |probe| probe.rise);
+        // Where the slope is off by the error of the response over the width of the turn, the turn
+        // is off by that error times its width.
+        let bend = (right.rise - left.rise).abs() / (right.omega - left.omega).max(bracket);
+        let breadth =
+            if bend > 0.0 { (probe.omega / bend).sqrt().min(probe.omega) } else { probe.omega };
+        let doubt = if probe.doubt < 1.0 { probe.doubt } else { 0.0 };
+        Extremum { probe, width: bracket + 4.0 * doubt * breadth, is_peak }
+    }
+
+    /// Where `value` changes its sign between two samples, and the width of the last bracket: false
+    /// position, with a halving wherever that does not halve the bracket by itself.
+    pub(super) fn root(
+        &self,
+        left: Probe,
+        right: Probe,
+        value: impl Fn(&Probe) -> f64,
+    ) -> (Probe, f64) {
+        let (mut left, mut right) = (left, right);
+        let sign = value(&left) > 0.0;
+        let mut halve = false;
+        for _ in 0..MOST_STEPS {
+            let width = right.omega - left.omega;
+            let (a, b) = (value(&left), value(&right));
+            let share = if halve { 0.5 } else { (a / (a - b)).clamp(0.02, 0.98) };
+            let omega = left.omega + share * width;
+            if omega <= left.omega || omega >= right.omega {
+                break;
+            }
+            let Some(middle) = self.probe(omega) else { break };
+            if (value(&middle) > 0.0) == sign {
+                left = middle;
+            } else {
+                right = middle;
+            }
+            halve = right.omega - left.omega > 0.5 * width;
+        }
+        let is_left = value(&left).abs() <= value(&right).abs();
+        (if is_left { left } else { right }, right.omega - left.omega)
+    }
+}
+
+/// Whether the middle of a stretch is what its ends promise.
+fn is_smooth(left: &Probe, middle: &Probe, right: &Probe) -> bool {
+    let width = (right.omega / left.omega).ln();
+    let promised = 0.5 * (left.level + right.level) + width * (left.rise - right.rise) / 8.0;
+    (middle.level - promised).abs() <= SMOOTH
+}
+
+/// Takes out hills and dales that are no larger than what rounding makes, the smallest ones first.
+fn without_noise(mut all: Vec<Extremum>) -> Vec<Extremum> {
+    while all.len() > 2 {
+        let height = |at: usize| (all[at].probe.level - all[at + 1].probe.level).abs();
+        let noise = |at: usize| {
+            let doubt = all[at].probe.doubt + all[at + 1].probe.doubt;
+            // What is not known at all is a resonance without damping.
+            if doubt < UNKNOWN { LEAST_HILL.max(16.0 * doubt) } else { LEAST_HILL }
+        };
+        let smallest = (0..all.len() - 1)
+            .filter(|&at| height(at) <= noise(at))
+            .min_by(|&a, &b| height(a).total_cmp(&height(b)));
+        let Some(at) = smallest else { break };
+        // Of an end and its neighbour the end stays.
+        if at == 0 {
+            all.remove(1);
+        } else if at + 2 == all.len() {
+            all.remove(at);
+        } else {
+            all.drain(at..at + 2);
+        }
+    }
+    all
+}

@@ -1,0 +1,131 @@
+//! Steady periodic response: transmissibility over frequency, resonances, and the peaks of the
+//! steady oscillation at one frequency.
+//!
+//! One load or one motion of a network is a sine, all else that drives it is silent, and transients
+//! have died away. Then every quantity is a sine of the same frequency, and its complex amplitude
+//! follows from the equations of the network at `s = iω`, without time stepping. Start speeds,
+//! weights and the functions of time of the scene do not matter.
+//!
+//! # Examples
+//!
+//! ```
+//! use dashpot_analysis::vibration::{SweepSettings, Vibration};
+//! use dashpot_network::{Model, Network, Node, elements::{Dashpot, Spring}, part};
+//!
+//! let mut network = Network::new();
+//! let device = network.add_node(Node::mass("device", 2.0));
+//! let mount = Model::parallel([part(Spring { stiffness: 8e4 }), part(Dashpot { damping: 80.0 })]);
+//! network.connect("mount", device, network.ground(), mount);
+//! let vibration = Vibration::new(&network, 1.0, Some("ground"))?;
+//! let sweep = vibration.sweep(&SweepSettings::default())?;
+//! let resonance = &sweep.transmissions[0].resonances[0];
+//! assert!((resonance.frequency - 31.672).abs() < 1e-3);
+//! # Ok::<(), dashpot_analysis::vibration::VibrationError>(())
+//! ```
+
+mod drive;
+mod error;
+mod extrema;
+mod linearity;
+mod observed;
+mod resonance;
+mod steady;
+mod sweep;
+
+#[cfg(test)]
+mod tests;
+
+use dashpot_dae::frequency::{FrequencyResponse, Harmonic};
+use dashpot_network::{Assembly, Network, NodeId};
+use nalgebra::Complex;
+
+use self::drive::Driven;
+pub use self::{
+    drive::{Drive, DriveKind, drives},
+    error::VibrationError,
+    resonance::Resonance,
+    steady::{Steady, SteadyElement, SteadyNode, SteadySupport},
+    sweep::{Sweep, SweepSettings, Transmission},
+};
+
+/// A sinusoidal quantity: `amplitude · cos(ωt + phase)` where the drive is `cos(ωt)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swing {
+    /// Amplitude, ≥ 0, in the unit of the quantity.
+    pub amplitude: f64,
+    /// Phase \[rad\] in (−π, π]; negative where the quantity lags behind the drive.
+    pub phase: f64,
+    /// How wrong the amplitude may be, from rounding.
+    pub error: f64,
+}
+
+impl Swing {
+    fn of(value: Complex<f64>, error: f64) -> Self {
+        Self { amplitude: value.norm(), phase: value.arg(), error }
+    }
+}
+
+/// A network that one load or motion shakes.
+#[derive(Debug, Clone)]
+pub struct Vibration {
+    drive: Drive,
+    network: Network,
+    assembly: Assembly,
+    node: NodeId,
+    waveform: usize,
+    unit: f64,
+}
+
+impl Vibration {
+    /// The network shaken by the load or node called `drive`; without a name by its only load or
+    /// given motion. A node that is fixed, as `ground` is, may be shaken as well.
+    ///
+    /// `duration` \[s\] is that of the scene's run; it only scales the equations.
+    ///
+    /// # Errors
+    ///
+    /// [`VibrationError`] for a network that does not compile or is not linear, and for a drive
+    /// that is not there.
+    pub fn new(
+        network: &Network,
+        duration: f64,
+        drive: Option<&str>,
+    ) -> Result<Self, VibrationError> {
+        linearity::require_linear(network)?;
+        let drive = drive::chosen(network, drive)?;
+        let driven = Driven::new(network, &network.compile(duration)?, &drive, duration)?;
+        let assembly = driven.network.compile(duration)?;
+        linearity::require_linear_system(&assembly)?;
+        let node = driven.node;
+        if drive.kind == DriveKind::Load {
+            let body = assembly.nodes[node.index()].body;
+            if assembly.nodes.iter().any(|own| own.body == body && !own.free) {
+                let (load, node) = (drive.name, drive.node);
+                return Err(VibrationError::LoadOnSupport { load, node });
+            }
+        }
+        // Motions and loads come before what effects bring, and one of them only is a sine.
+        let sine = |own: &dashpot_dae::Waveform| own.pieces()[0].sine;
+        let waveforms = &assembly.system.waveforms;
+        let waveform = waveforms.iter().position(|own| sine(own) != 0.0).unwrap_or(waveforms.len());
+        let unit = waveforms.get(waveform).map_or(0.0, sine);
+        FrequencyResponse::new(&assembly.system, waveform, unit)?;
+        Ok(Self { drive, network: driven.network, assembly, node, waveform, unit })
+    }
+
+    /// What shakes the network.
+    pub fn drive(&self) -> &Drive {
+        &self.drive
+    }
+
+    /// The oscillation with the angular frequency `omega` \[rad/s\], for one unit of the drive.
+    fn at(&self, omega: f64) -> Option<Harmonic<'_>> {
+        FrequencyResponse::new(&self.assembly.system, self.waveform, self.unit).ok()?.at(omega)
+    }
+
+    /// Whether a node, by its number, is moved or held, alone or with others.
+    fn is_held(&self, node: usize) -> bool {
+        let body = self.assembly.nodes[node].body;
+        self.assembly.nodes.iter().any(|own| own.body == body && !own.free)
+    }
+}

@@ -1,0 +1,160 @@
+//! The peaks of the steady oscillation at one frequency.
+
+use std::f64::consts::TAU;
+
+use dashpot_dae::frequency::Harmonic;
+use nalgebra::Complex;
+
+use super::{
+    Drive, DriveKind, Swing, Vibration, VibrationError,
+    observed::{Observed, supports},
+};
+
+/// A network in steady oscillation under a drive of a given amplitude.
+///
+/// All amplitudes are deviations from rest; weights and other constant forces come on top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Steady {
+    /// What shakes the network.
+    pub drive: Drive,
+    /// The frequency \[Hz\].
+    pub frequency: f64,
+    /// Amplitude of the drive \[m or N\].
+    pub amplitude: f64,
+    /// The nodes that move.
+    pub nodes: Vec<SteadyNode>,
+    /// The elements.
+    pub elements: Vec<SteadyElement>,
+    /// What is held or moved.
+    pub supports: Vec<SteadySupport>,
+    /// Mean power that the drive puts in and the dashpots turn into heat \[W\], ≥ 0 up to rounding;
+    /// `None` where the force of the drive is not known.
+    pub power: Option<f64>,
+    /// What is wrong with the oscillation as a picture of the scene.
+    pub warnings: Vec<String>,
+}
+
+/// The oscillation of a node.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SteadyNode {
+    /// The node.
+    pub name: String,
+    /// Displacement \[m\].
+    pub displacement: Swing,
+    /// Acceleration \[m/s²\].
+    pub acceleration: Swing,
+}
+
+/// The oscillation of an element.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SteadyElement {
+    /// The element.
+    pub name: String,
+    /// Deformation \[m\], positive in compression.
+    pub deformation: Swing,
+    /// Force \[N\], positive in compression; `None` where it is undetermined.
+    pub force: Option<Swing>,
+    /// Its thickness \[m\], where it is a pad.
+    pub thickness: Option<f64>,
+}
+
+/// The force on a node that is held or moved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SteadySupport {
+    /// The node.
+    pub name: String,
+    /// The force of all elements on it \[N\].
+    pub force: Swing,
+}
+
+impl Vibration {
+    /// The steady oscillation at `frequency` \[Hz\] under a drive of this `amplitude` \[m or N\].
+    ///
+    /// # Errors
+    ///
+    /// [`VibrationError::InvalidSetting`] for a frequency or amplitude that is not positive, and
+    /// [`VibrationError::Unbounded`] at an undamped resonance.
+    pub fn steady(&self, frequency: f64, amplitude: f64) -> Result<Steady, VibrationError> {
+        for (setting, value) in [("frequency", frequency), ("amplitude", amplitude)] {
+            if !(value.is_normal() && value > 0.0) {
+                let range = "positive";
+                return Err(VibrationError::InvalidSetting { setting, range, value });
+            }
+        }
+        let omega = TAU * frequency;
+        let unbounded = || VibrationError::Unbounded { frequency };
+        let harmonic = self.at(omega).ok_or_else(unbounded)?;
+        let read = |observed: &Observed| {
+            let found = observed.at(&harmonic, omega)?;
+            let is_known = found.value.norm() == 0.0 || found.error < 0.5 * found.value.norm();
+            let rounding = found.error <= f64::EPSILON.sqrt();
+            (is_known || rounding).then_some((found.value * amplitude, found.error * amplitude))
+        };
+        let swing = |own: &Observed| read(own).map(|own| Swing::of(own.0, own.1));
+        let mut nodes = Vec::new();
+        for id in self.ids() {
+            let is_moved = self.drive.kind == DriveKind::Motion && id == self.node;
+            if self.is_held(id.index()) && !is_moved {
+                continue;
+            }
+            let observed = Observed::displacement(&self.assembly, id);
+            let (value, error) = read(&observed).ok_or_else(unbounded)?;
+            let twice = Complex::new(0.0, omega).powu(2);
+            nodes.push(SteadyNode {
+                name: self.name_of(&observed.name),
+                displacement: Swing::of(value, error),
+                acceleration: Swing::of(value * twice, error * omega * omega),
+            });
+        }
+        let mut elements = Vec::new();
+        for (at, own) in self.assembly.connections.iter().enumerate() {
+            let deformation = Observed::deformation(&self.assembly, at);
+            let force = Observed::force(&self.assembly, at);
+            elements.push(SteadyElement {
+                name: own.name.clone(),
+                deformation: swing(&deformation).ok_or_else(unbounded)?,
+                force: force.as_ref().and_then(swing),
+                thickness: own.thickness,
+            });
+        }
+        let mut held = Vec::new();
+        for (body, name) in supports(&self.assembly) {
+            let force = swing(&Observed::support(&self.assembly, body, &name));
+            let force = force.ok_or_else(unbounded)?;
+            held.push(SteadySupport { name: self.name_of(&name), force });
+        }
+        Ok(Steady {
+            drive: self.drive.clone(),
+            frequency,
+            amplitude,
+            warnings: warnings(&elements),
+            nodes,
+            elements,
+            supports: held,
+            power: self.power(&harmonic).map(|own| own * amplitude * amplitude),
+        })
+    }
+
+    /// The mean power of the drive \[W\] at one unit of its amplitude: `½ Re(F v*)`.
+    fn power(&self, harmonic: &Harmonic<'_>) -> Option<f64> {
+        let name = match self.drive.kind {
+            DriveKind::Load => self.drive.name.clone(),
+            DriveKind::Motion => {
+                format!("motion of {}", self.assembly.nodes[self.node.index()].name)
+            }
+        };
+        let own = self.assembly.drives.iter().find(|own| own.name == name)?;
+        let [force, velocity] =
+            [own.force, own.velocity].map(|at| harmonic.amplitude(&[(at, 1.0)]).value);
+        Some(0.5 * (force * velocity.conj()).re)
+    }
+}
+
+fn warnings(elements: &[SteadyElement]) -> Vec<String> {
+    let too_deep = elements
+        .iter()
+        .filter(|own| own.thickness.is_some_and(|thickness| own.deformation.amplitude > thickness));
+    too_deep
+        .map(|own| format!("`{}` would be pressed together by more than its thickness", own.name))
+        .collect()
+}

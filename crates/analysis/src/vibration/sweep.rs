@@ -1,0 +1,250 @@
+//! Transmissibility over a range of frequencies.
+
+use std::f64::consts::TAU;
+
+use super::{
+    Drive, DriveKind, Resonance, Swing, Vibration, VibrationError,
+    extrema::Curve,
+    observed::{Observed, selected, supports},
+    resonance::resonances,
+};
+use dashpot_dae::frequency::{MOST_UNKNOWNS, poles};
+use dashpot_network::NodeId;
+
+/// Peaks are sought so far beyond the range, lest their flanks be cut off.
+const BEYOND: f64 = 8.0;
+/// The range that is chosen reaches so far beyond the natural frequencies.
+const AROUND: f64 = 10.0;
+/// The range where there are none \[Hz\].
+const USUAL: [f64; 2] = [1.0, 200.0];
+/// Poles that are smaller than this part of the largest one are what rounding makes of zero.
+const NOISE: f64 = 1e-7;
+/// Frequencies below all others, relatively, from which the limit at rest is taken where the
+/// equations have none at rest itself.
+const SLOW: [f64; 2] = [1e-6, 1e-9];
+/// A limit is known better than this, relatively, or not at all.
+const KNOWN: f64 = 1e-6;
+
+/// What is asked of a sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepSettings {
+    /// The lowest frequency \[Hz\], positive; `None` for a tenth of the lowest natural frequency.
+    pub from: Option<f64>,
+    /// The highest frequency \[Hz\], above the lowest; `None` for ten times the highest natural one.
+    pub to: Option<f64>,
+    /// How many frequencies are listed, at equal ratios, 2 or more.
+    pub points: usize,
+    /// The nodes that are looked at, or the supports where a load drives; empty for every mass, or
+    /// every support.
+    pub of: Vec<String>,
+}
+
+impl Default for SweepSettings {
+    fn default() -> Self {
+        Self { from: None, to: None, points: 200, of: Vec::new() }
+    }
+}
+
+/// Responses over frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sweep {
+    /// What shakes the network.
+    pub drive: Drive,
+    /// The frequencies \[Hz\].
+    pub frequencies: Vec<f64>,
+    /// What arrives at each node or support.
+    pub transmissions: Vec<Transmission>,
+    /// What should be known about it.
+    pub notes: Vec<String>,
+}
+
+/// What arrives at a node or support: `X/X_drive` of displacements, velocities or accelerations
+/// where a motion drives; `F/F_drive`, the force on the support over the load, where a load does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Transmission {
+    /// The node, or the support.
+    pub name: String,
+    /// The ratio at each frequency \[1\]; `None` where it cannot be told, at an undamped resonance.
+    pub swings: Vec<Option<Swing>>,
+    /// The peaks within the range, by rising frequency. They are those of the response itself, not
+    /// of its values at the frequencies of the list.
+    pub resonances: Vec<Resonance>,
+    /// The limit at slow oscillation \[1\]; `None` where there is none.
+    pub at_rest: Option<Swing>,
+}
+
+impl Transmission {
+    /// The largest error of a ratio, relative to it.
+    pub fn worst_error(&self) -> f64 {
+        let relative =
+            |own: &Swing| if own.amplitude > 0.0 { own.error / own.amplitude } else { 0.0 };
+        self.swings.iter().flatten().map(relative).fold(0.0, f64::max)
+    }
+}
+
+impl Curve<'_> {
+    /// The ratio at `omega` \[rad/s\].
+    pub(super) fn swing(&self, omega: f64) -> Option<Swing> {
+        let found = self.observed.at(&self.vibration.at(omega)?, omega)?;
+        Some(Swing::of(found.value, found.error))
+    }
+}
+
+impl Vibration {
+    /// What arrives at the masses, or at the supports, over a range of frequencies.
+    ///
+    /// # Errors
+    ///
+    /// [`VibrationError`] for a range or a node that cannot be, and where nothing is to be seen.
+    pub fn sweep(&self, settings: &SweepSettings) -> Result<Sweep, VibrationError> {
+        let poles = self.poles();
+        let range = range(settings, poles.as_deref().unwrap_or_default())?;
+        let frequencies = frequencies(range, settings.points)?;
+        let mut notes = Vec::new();
+        if poles.is_none() {
+            notes.push(format!(
+                "the network has more than {MOST_UNKNOWNS} unknowns: resonances that are very \
+                 narrow may be missed"
+            ));
+        }
+        let poles = poles.unwrap_or_default();
+        let slowest = poles.iter().map(|own| own.0.hypot(own.1)).fold(TAU * range[0], f64::min);
+        let transmission = |observed: &Observed| {
+            let curve = Curve { vibration: self, observed };
+            let [low, high] = [TAU * range[0] / BEYOND, TAU * range[1] * BEYOND];
+            let extrema = curve.extrema(low, high, &poles);
+            Transmission {
+                name: self.name_of(&observed.name),
+                swings: frequencies
+                    .iter()
+                    .map(|own| curve.swing(TAU * own).filter(Swing::is_known))
+                    .collect(),
+                resonances: resonances(curve, &extrema, range),
+                at_rest: curve.at_rest(slowest),
+            }
+        };
+        let transmissions = self.receivers(&settings.of)?.iter().map(transmission).collect();
+        Ok(Sweep { drive: self.drive.clone(), frequencies, transmissions, notes })
+    }
+
+    /// What is looked at: masses, or supports.
+    fn receivers(&self, of: &[String]) -> Result<Vec<Observed>, VibrationError> {
+        let nodes = &self.assembly.nodes;
+        let (all, sought, missing) = match self.drive.kind {
+            DriveKind::Load => {
+                let all = supports(&self.assembly).into_iter();
+                let all = all.map(|own| Observed::support(&self.assembly, own.0, &own.1));
+                (all.collect::<Vec<_>>(), "support", "support")
+            }
+            DriveKind::Motion => {
+                let is_seen = |at: usize| {
+                    let is_first = || {
+                        let alike = |other: usize| {
+                            nodes[other].body == nodes[at].body && nodes[other].mass > 0.0
+                        };
+                        !(0..at).any(alike)
+                    };
+                    !self.is_held(at) && (!of.is_empty() || nodes[at].mass > 0.0 && is_first())
+                };
+                let seen = self.ids().filter(|id| is_seen(id.index()));
+                let all = seen.map(|id| Observed::displacement(&self.assembly, id));
+                (all.collect(), "node that can move", "mass that can move")
+            }
+        };
+        if all.is_empty() {
+            return Err(VibrationError::NothingToSee { sought: missing });
+        }
+        selected(all, of, sought)
+    }
+
+    /// The natural frequencies and dampings, or the rates of decay, of the network \[rad/s\].
+    fn poles(&self) -> Option<Vec<(f64, f64)>> {
+        let poles = poles(&self.assembly.system)?;
+        let largest = poles.iter().map(|own| own.norm()).fold(0.0, f64::max);
+        let is_own = |own: &&nalgebra::Complex<f64>| own.im >= 0.0 && own.norm() > NOISE * largest;
+        Some(poles.iter().filter(is_own).map(|own| (own.im, own.re.abs())).collect())
+    }
+}
+
+impl Swing {
+    fn is_known(&self) -> bool {
+        self.amplitude == 0.0 || self.error < 0.5 * self.amplitude
+    }
+}
+
+impl Curve<'_> {
+    /// The limit of slow oscillation, below the angular frequency `slowest` \[rad/s\].
+    fn at_rest(&self, slowest: f64) -> Option<Swing> {
+        let is_good = |own: &Swing| own.amplitude > 0.0 && own.error <= KNOWN * own.amplitude;
+        if let Some(found) = self.swing(0.0).filter(is_good) {
+            return Some(found);
+        }
+        let [early, late] = SLOW.map(|share| self.swing(share * slowest));
+        let (early, late) = (early?, late?);
+        let decades = (SLOW[0] / SLOW[1]).log10();
+        let power = (early.amplitude / late.amplitude).log10() / decades;
+        if early.amplitude == 0.0 || power > 0.5 {
+            return Some(Swing { amplitude: 0.0, phase: 0.0, error: late.amplitude });
+        }
+        let error = late.error + (early.amplitude - late.amplitude).abs();
+        (error <= KNOWN * late.amplitude).then_some(Swing { error, ..late })
+    }
+}
+
+/// The range that is asked for \[Hz\], or one around all natural frequencies.
+fn range(settings: &SweepSettings, poles: &[(f64, f64)]) -> Result<[f64; 2], VibrationError> {
+    let swinging: Vec<f64> = poles.iter().map(|own| own.0 / TAU).filter(|own| *own > 0.0).collect();
+    let chosen = if swinging.is_empty() {
+        USUAL
+    } else {
+        let low = swinging.iter().copied().fold(f64::INFINITY, f64::min) / AROUND;
+        let high = swinging.iter().copied().fold(0.0, f64::max) * AROUND;
+        [round(low, f64::floor), round(high, f64::ceil)]
+    };
+    let low = settings.from.unwrap_or(chosen[0].min(settings.to.unwrap_or(f64::INFINITY) / AROUND));
+    let high = settings.to.unwrap_or(chosen[1].max(low * AROUND));
+    let is_usable = |own: f64| own.is_normal() && own > 0.0 && (own * TAU * BEYOND).is_finite();
+    let invalid = |setting, range, value| VibrationError::InvalidSetting { setting, range, value };
+    if !is_usable(low) {
+        return Err(invalid("from", "a positive frequency", low));
+    }
+    if !is_usable(high) || high <= low {
+        return Err(invalid("to", "above the lowest frequency", high));
+    }
+    Ok([low, high])
+}
+
+/// A frequency to one digit.
+fn round(value: f64, towards: impl Fn(f64) -> f64) -> f64 {
+    let power = 10.0_f64.powf(value.log10().floor());
+    towards(value / power) * power
+}
+
+/// Frequencies at equal ratios, both ends included.
+fn frequencies([low, high]: [f64; 2], points: usize) -> Result<Vec<f64>, VibrationError> {
+    const MOST: usize = 1_000_000;
+    if !(2..=MOST).contains(&points) {
+        let (setting, range) = ("points", "from 2 to 1000000");
+        return Err(VibrationError::InvalidSetting { setting, range, value: points as f64 });
+    }
+    let last = points - 1;
+    let place = |at: usize| match at {
+        0 => low,
+        at if at == last => high,
+        at => low * (high / low).powf(at as f64 / last as f64),
+    };
+    Ok((0..points).map(place).collect())
+}
+
+impl Vibration {
+    /// All nodes of what was compiled.
+    pub(super) fn ids(&self) -> impl Iterator<Item = NodeId> + '_ {
+        self.network.nodes().map(|own| own.0)
+    }
+
+    /// The name that the reader knows: the ground is another node where it moves.
+    pub(super) fn name_of(&self, name: &str) -> String {
+        let moved = &self.assembly.nodes[self.node.index()].name;
+        if name == moved { self.drive.node.clone() } else { name.to_owned() }
+    }
+}

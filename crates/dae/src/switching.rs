@@ -1,0 +1,85 @@
+//! Runs whose equations change: legs of one system each, joined at switchings.
+//!
+//! One layer serves every method. A leg is a [`System`] with guards that end it; whoever knows what
+//! the equations stand for says which leg follows ([`Switching`]). Outputs have the same numbers in
+//! all legs, so that a run of many legs still yields each of them as one [`Signal`](crate::Signal).
+
+mod chain;
+mod drive;
+
+use std::{fmt::Debug, sync::Arc};
+
+use crate::{Guard, SolveError, System};
+
+pub use drive::integrate;
+
+/// A part of a run with one set of equations.
+#[derive(Debug, Clone)]
+pub struct Leg {
+    /// The equations, with time counted from the leg's start, and their initial values.
+    pub system: Arc<System>,
+    /// The phase of each switching part: its number, and what it remembers.
+    pub phases: Vec<(usize, f64)>,
+    /// What ends the leg.
+    pub guards: Vec<Guard>,
+    /// What switched as the leg began.
+    pub switches: Vec<Switch>,
+}
+
+/// The end of a leg at guards.
+#[derive(Debug, Clone, Copy)]
+pub struct LegEnd<'a> {
+    /// The leg.
+    pub leg: &'a Leg,
+    /// Time of its end in the run \[s\].
+    pub time: f64,
+    /// How long it lasted, in units of its system's time.
+    pub length: f64,
+    /// The unknowns at its end.
+    pub state: &'a [f64],
+    /// The guards at whose levels it ended.
+    pub fired: &'a [usize],
+    /// Size of the error of a quantity in parts of its terms: what is smaller cannot be told from
+    /// zero.
+    pub doubt: f64,
+}
+
+/// Something that switched.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Switch {
+    /// When \[s\].
+    pub time: f64,
+    /// Number of the switching part.
+    pub part: usize,
+    /// Its name.
+    pub name: String,
+    /// Number of the phase that begins; the one that ended, where an impact left it as it was.
+    pub phase: usize,
+    /// The word for that phase, or for the impact.
+    pub what: &'static str,
+    /// What the phase remembers.
+    pub memory: f64,
+    /// Impulse of an impact \[N s\]; 0 where speeds did not jump.
+    pub impulse: f64,
+    /// Kinetic energy lost by an impact \[J\].
+    pub lost: f64,
+    /// Work that a moving support does in an impact \[J\].
+    pub worked: f64,
+}
+
+/// Knows the legs of a run.
+pub trait Switching: Debug + Send + Sync {
+    /// The leg with which a run begins. `doubt` is as in [`LegEnd::doubt`].
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Switching`] where no leg is possible.
+    fn first(&self, doubt: f64) -> Result<Leg, SolveError>;
+
+    /// The leg that follows.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Switching`] where no leg is possible.
+    fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError>;
+}

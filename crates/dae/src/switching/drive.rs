@@ -1,0 +1,223 @@
+//! From leg to leg.
+
+use std::{ops::ControlFlow, time::Instant};
+
+use super::{
+    Leg, LegEnd, Switching,
+    chain::{Chain, Solved},
+};
+use crate::{
+    Event, Method, Observer, Outcome, Progress, Run, Silent, SolveError, Statistics, Trajectory,
+};
+
+/// Most legs of a run.
+const MOST_LEGS: usize = 200_000;
+/// Most legs that begin at one instant: more are a sign that no phases hold there.
+const MOST_AT_ONCE: usize = 64;
+/// Errors of stepping methods at events, in parts of their tolerance.
+const ERRORS_PER_TOLERANCE: f64 = 1e2;
+/// Roundings of a method that has no other error.
+const ROUNDINGS: f64 = 1e3;
+
+/// Solves a run leg by leg with one method.
+///
+/// A method without an error of its own solves a run of several legs twice, the second time with the
+/// state at the end of each leg shaken in its last digits: by what comes of that the errors of its
+/// signals are estimated, see [`Shaken`].
+///
+/// # Errors
+///
+/// What the method says of a leg; [`SolveError::Switching`] where no leg can follow, or too many do.
+pub fn integrate(
+    method: &dyn Method,
+    switching: &dyn Switching,
+    run: &Run,
+    observer: &mut dyn Observer,
+) -> Result<Trajectory, SolveError> {
+    let begin = Instant::now();
+    let doubt = if method.is_exact() {
+        ROUNDINGS * f64::EPSILON
+    } else {
+        ERRORS_PER_TOLERANCE * run.rtol
+    };
+    let Solution { mut chain, name, t_end, first_phases, mut found } =
+        solve(method, switching, run, doubt, observer)?;
+    if method.is_exact() && chain.legs.len() > 1 {
+        let shaken = Shaken { inner: switching };
+        let unwatched = Run { guards: Vec::new(), t_end, ..run.clone() };
+        let other = solve(method, &shaken, &unwatched, doubt, &mut Silent);
+        chain.doubled = Some(other.map_or_else(|_| Vec::new(), |other| other.chain.legs));
+    }
+    found.statistics.wall = begin.elapsed();
+    let outcome = found.outcome.map_or(Outcome::Finished, |guard| Outcome::Stopped { guard });
+    Ok(Trajectory {
+        method: name,
+        outcome,
+        t_end,
+        events: found.events,
+        first_phases,
+        switches: found.switches,
+        statistics: found.statistics,
+        dense: Box::new(chain),
+    })
+}
+
+/// All legs of a run.
+struct Solution {
+    chain: Chain,
+    name: &'static str,
+    t_end: f64,
+    first_phases: Vec<(usize, f64)>,
+    found: Found,
+}
+
+fn solve(
+    method: &dyn Method,
+    switching: &dyn Switching,
+    run: &Run,
+    doubt: f64,
+    observer: &mut dyn Observer,
+) -> Result<Solution, SolveError> {
+    let mut leg = switching.first(doubt)?;
+    let first_phases = leg.phases.clone();
+    let mut drive = Drive { start: 0.0, steps: 0, run, observer, chain: Chain::default() };
+    let mut found = Found { switches: leg.switches.clone(), ..Found::default() };
+    let mut at_once = 0;
+    loop {
+        let (trajectory, t_end) = drive.leg(method, &leg, &mut found)?;
+        let own = leg.guards.len();
+        let goes_on = match trajectory.outcome {
+            Outcome::Stopped { guard } if guard < own => t_end < run.t_end,
+            Outcome::Stopped { guard } => {
+                found.outcome = Some(guard - own);
+                false
+            }
+            Outcome::Finished => false,
+        };
+        let length = trajectory.t_end / leg.system.time_scale;
+        let state = trajectory.dense.sample(&leg.system, &[length]);
+        let at_end = |event: &&Event| event.time >= trajectory.t_end && event.guard < own;
+        let fired: Vec<usize> =
+            trajectory.events.iter().filter(at_end).map(|event| event.guard).collect();
+        let name = trajectory.method;
+        drive.chain.legs.push(Solved {
+            start: drive.start,
+            end: t_end,
+            phases: leg.phases.clone(),
+            system: leg.system.clone(),
+            dense: trajectory.dense,
+        });
+        if !goes_on {
+            return Ok(Solution { chain: drive.chain, name, t_end, first_phases, found });
+        }
+        at_once = if t_end > drive.start { 0 } else { at_once + 1 };
+        if at_once > MOST_AT_ONCE || drive.chain.legs.len() >= MOST_LEGS {
+            return Err(found.endless(t_end, drive.chain.legs.len()));
+        }
+        let end = LegEnd { leg: &leg, time: t_end, length, state: &state, fired: &fired, doubt };
+        leg = switching.next(&end)?;
+        found.switches.extend(leg.switches.iter().cloned());
+        drive.start = t_end;
+    }
+}
+
+/// The same legs, each of which begins where the one before ended but for its last digits.
+#[derive(Debug)]
+struct Shaken<'s> {
+    inner: &'s dyn Switching,
+}
+
+/// By how many roundings a state is shaken: more than a leg's own errors leave in it.
+const SHAKES: f64 = 64.0;
+
+impl Switching for Shaken<'_> {
+    fn first(&self, doubt: f64) -> Result<Leg, SolveError> {
+        self.inner.first(doubt)
+    }
+
+    fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError> {
+        let shake = |(at, value): (usize, &f64)| {
+            // The signs follow the places, so that a run repeats to the bit.
+            let sign = if (at * at + at / 2) % 3 == 0 { 1.0 } else { -1.0 };
+            value * (1.0 + sign * SHAKES * f64::EPSILON)
+        };
+        let state: Vec<f64> = end.state.iter().enumerate().map(shake).collect();
+        self.inner.next(&LegEnd { state: &state, ..*end })
+    }
+}
+
+/// Where a run is.
+struct Drive<'r> {
+    /// Start of the leg \[s\].
+    start: f64,
+    /// Steps of the legs before.
+    steps: usize,
+    run: &'r Run,
+    observer: &'r mut dyn Observer,
+    chain: Chain,
+}
+
+/// What a run has met.
+#[derive(Default)]
+struct Found {
+    events: Vec<Event>,
+    switches: Vec<super::Switch>,
+    statistics: Statistics,
+    outcome: Option<usize>,
+}
+
+impl Found {
+    /// The error of a run that does not come on.
+    fn endless(&self, time: f64, legs: usize) -> SolveError {
+        let mut names: Vec<String> =
+            self.switches.iter().rev().take(4).map(|own| format!("`{}`", own.name)).collect();
+        names.dedup();
+        let reason = format!("{} switches without end ({legs} times)", names.join(", "));
+        SolveError::Switching { time, reason }
+    }
+}
+
+impl Drive<'_> {
+    /// Solves one leg; returns it and the time of its end in the run.
+    fn leg(
+        &mut self,
+        method: &dyn Method,
+        leg: &Leg,
+        found: &mut Found,
+    ) -> Result<(Trajectory, f64), SolveError> {
+        let own = leg.guards.len();
+        let run = Run {
+            t_end: self.run.t_end - self.start,
+            rtol: self.run.rtol,
+            guards: leg.guards.iter().chain(&self.run.guards).cloned().collect(),
+        };
+        let mut shifted =
+            Shifted { start: self.start, steps: self.steps, observer: &mut *self.observer };
+        let trajectory = method.integrate(&leg.system, &run, &mut shifted)?;
+        let finished = trajectory.outcome == Outcome::Finished;
+        let t_end = if finished { self.run.t_end } else { self.start + trajectory.t_end };
+        let users = trajectory.events.iter().filter(|event| event.guard >= own);
+        found.events.extend(users.map(|event| Event {
+            time: self.start + event.time,
+            guard: event.guard - own,
+            rising: event.rising,
+        }));
+        self.steps += trajectory.statistics.accepted;
+        found.statistics.add(&trajectory.statistics);
+        Ok((trajectory, t_end))
+    }
+}
+
+/// Tells an observer of the whole run.
+struct Shifted<'r> {
+    start: f64,
+    steps: usize,
+    observer: &'r mut dyn Observer,
+}
+
+impl Observer for Shifted<'_> {
+    fn progress(&mut self, progress: Progress) -> ControlFlow<()> {
+        let Progress { time, steps } = progress;
+        self.observer.progress(Progress { time: self.start + time, steps: self.steps + steps })
+    }
+}

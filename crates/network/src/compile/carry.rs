@@ -1,0 +1,164 @@
+//! What leads from one phase of a network to another: the state, whatever the unknowns are.
+//!
+//! The state is the deformation of every primitive, the place of every joint, and the velocity of
+//! every joint that has mass or a given motion. Each phase knows how to read it off its own unknowns,
+//! and what its own unknowns are in terms of it.
+
+use dashpot_dae::{LinearForm, System, UnknownKind};
+
+use super::{
+    Parts,
+    bodies::Role,
+    row::{Combination, Row},
+    unknowns::Inputs,
+};
+
+/// The state of a network, SI.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct State {
+    /// Deformation of each primitive \[m\].
+    pub(super) deformation: Vec<f64>,
+    /// Place of each joint \[m\].
+    pub(super) position: Vec<f64>,
+    /// Velocity of each joint \[m/s\]; of no meaning for one that has neither mass nor a given
+    /// motion.
+    pub(super) velocity: Vec<f64>,
+}
+
+/// A quantity in SI units over the dimensionless unknowns and inputs.
+#[derive(Debug, Clone)]
+struct Reading {
+    unknowns: LinearForm,
+    inputs: LinearForm,
+}
+
+/// What an unknown is in terms of the state.
+#[derive(Debug, Clone)]
+enum Origin {
+    /// The velocity of a joint.
+    Velocity(usize),
+    /// The place of a body, that of a joint less its offset.
+    Place(usize, f64),
+    /// The place of one joint less that of another, less a difference of offsets.
+    Between([usize; 2], f64),
+    /// The deformation of a primitive times a sign, less an offset.
+    Along(usize, f64, f64),
+    /// It follows from a balance.
+    Balance,
+}
+
+/// The way between the unknowns of a phase and the state.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Carry {
+    deformation: Vec<Reading>,
+    position: Vec<Reading>,
+    velocity: Vec<Option<Reading>>,
+    origins: Vec<Origin>,
+    scales: Vec<f64>,
+}
+
+impl Carry {
+    pub(super) fn of(
+        parts: &Parts<'_>,
+        inputs: &Inputs,
+        system: &System,
+        duration: f64,
+    ) -> Self {
+        let columns: Vec<f64> = system.unknowns.iter().map(|unknown| unknown.scale).collect();
+        let input_columns = inputs.columns(system.time_scale, duration);
+        let reading = |row: &Row| Reading {
+            unknowns: row.unknowns.scaled(&columns),
+            inputs: row.inputs.scaled(&input_columns),
+        };
+        let place = |joint: usize| {
+            let body = parts.bodies.of_joint[joint];
+            parts.motion.position[body].plus(1.0, &parts.offsets[joint])
+        };
+        let primitives = &parts.expansion.primitives;
+        let deformation = primitives.iter().enumerate().map(|(at, own)| {
+            match &parts.motion.deformation[at] {
+                Some(row) => reading(row),
+                None => reading(&place(own.ends[0]).plus(-1.0, &place(own.ends[1]))),
+            }
+        });
+        let joints = 0..parts.expansion.joints;
+        let velocity = joints.clone().map(|joint| {
+            let body = parts.bodies.of_joint[joint];
+            let moves = parts.bodies.all[body].role != Role::Massless;
+            parts.motion.velocity[body].as_ref().filter(|_| moves).map(reading)
+        });
+        Self {
+            deformation: deformation.collect(),
+            position: joints.map(|joint| reading(&place(joint))).collect(),
+            velocity: velocity.collect(),
+            origins: origins(parts, system),
+            scales: columns,
+        }
+    }
+
+    /// The state where the unknowns are `y` and the inputs `w`; velocities that the phase does not
+    /// know stay as they were.
+    pub(super) fn read(&self, y: &[f64], w: &[f64], before: &State) -> State {
+        let at = |own: &Reading| own.unknowns.at(y) + own.inputs.at(w);
+        let velocities = self.velocity.iter().zip(&before.velocity);
+        State {
+            deformation: self.deformation.iter().map(at).collect(),
+            position: self.position.iter().map(at).collect(),
+            velocity: velocities.map(|(own, &old)| own.as_ref().map_or(old, at)).collect(),
+        }
+    }
+
+    /// The unknowns in this state; those that follow from balances are left at zero.
+    pub(super) fn unknowns(&self, state: &State) -> Vec<f64> {
+        let value = |origin: &Origin| match *origin {
+            Origin::Velocity(joint) => state.velocity[joint],
+            Origin::Place(joint, offset) => state.position[joint] - offset,
+            Origin::Between([a, b], offset) => state.position[a] - state.position[b] - offset,
+            Origin::Along(primitive, sign, offset) => sign * (state.deformation[primitive] - offset),
+            Origin::Balance => 0.0,
+        };
+        self.origins.iter().zip(&self.scales).map(|(origin, scale)| value(origin) / scale).collect()
+    }
+}
+
+fn origins(parts: &Parts<'_>, system: &System) -> Vec<Origin> {
+    let mut origins = vec![Origin::Balance; system.len()];
+    let offset = |joint: usize| parts.bodies.offset[joint];
+    for (at, body) in parts.bodies.all.iter().enumerate() {
+        let first = body.joints[0];
+        if let Some(unknown) = parts.places.velocity[at] {
+            let massive = body.joints.iter().find(|&&joint| parts.masses[joint] > 0.0);
+            origins[unknown] = Origin::Velocity(*massive.unwrap_or(&first));
+        }
+        let Some(unknown) = parts.places.unknown[at] else { continue };
+        origins[unknown] = match parts.places.parent[at] {
+            None => Origin::Place(first, offset(first)),
+            Some(parent) => along(parts, at, parent).unwrap_or_else(|| {
+                let other = parts.bodies.all[parent].joints[0];
+                Origin::Between([first, other], offset(first) - offset(other))
+            }),
+        };
+    }
+    for (origin, unknown) in origins.iter_mut().zip(&system.unknowns) {
+        if unknown.kind == UnknownKind::Algebraic {
+            *origin = Origin::Balance;
+        }
+    }
+    origins
+}
+
+/// The distance of a body from its parent as the deformation of a primitive between them.
+fn along(parts: &Parts<'_>, body: usize, parent: usize) -> Option<Origin> {
+    let edges = parts.structure.springs.iter().chain(&parts.structure.dashpots);
+    edges
+        .filter_map(|edge| match edge.ends {
+            [a, b] if (a, b) == (body, parent) => {
+                Some(Origin::Along(edge.primitive, 1.0, edge.offset))
+            }
+            [a, b] if (b, a) == (body, parent) => {
+                Some(Origin::Along(edge.primitive, -1.0, edge.offset))
+            }
+            _ => None,
+        })
+        .next()
+}

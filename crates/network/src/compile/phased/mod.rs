@@ -1,0 +1,277 @@
+//! Networks whose laws switch: one system for each combination of phases.
+//!
+//! Each combination is compiled as a network of its own when it is first met, and kept. The
+//! [state](super::carry) leads from one to the next: deformations, places and velocities, not
+//! unknowns.
+
+mod choice;
+mod impacts;
+mod start;
+
+use std::{
+    collections::HashMap,
+    fmt,
+    sync::{Arc, Mutex},
+};
+
+use dashpot_dae::{Direction, Guard, Leg, LegEnd, SolveError, Switch, Switching, System};
+
+use self::choice::Choice;
+use super::{
+    Compiled,
+    bodies::Bodies,
+    carry::{Carry, State},
+    expand::Expansion,
+};
+use crate::{
+    Assembly, Network, NetworkErrors,
+    phases::{Exit, Phase, Phases, Watched},
+};
+
+/// A network whose laws switch, ready to be run.
+pub struct PhasedNetwork {
+    network: Network,
+    expansion: Expansion,
+    /// The primitives that switch.
+    parts: Vec<usize>,
+    duration: f64,
+    start: State,
+    first: Vec<Phase>,
+    /// The bodies where nothing that switches joins any.
+    apart: Bodies,
+    modes: Mutex<HashMap<Vec<(usize, u64)>, Arc<Mode>>>,
+}
+
+/// One combination of phases.
+pub(super) struct Mode {
+    pub(super) system: Arc<System>,
+    pub(super) carry: Carry,
+    pub(super) bodies: Bodies,
+    /// For each part that switches its ways out.
+    pub(super) exits: Vec<Vec<Exit>>,
+    guards: Vec<Guard>,
+    /// Part and exit of each guard.
+    of_guard: Vec<(usize, usize)>,
+}
+
+/// A part that switches, as it is reported.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PhasedPart {
+    /// Its path, for instance `padding.contact`.
+    pub name: String,
+    /// Its phases.
+    pub phases: &'static [&'static str],
+}
+
+/// Compiles a network in which the primitives `parts` of `expansion` switch.
+pub(super) fn compile(
+    network: Network,
+    expansion: Expansion,
+    parts: Vec<usize>,
+    duration: f64,
+) -> Result<Assembly, NetworkErrors> {
+    let apart = start::bodies_apart(&network, &expansion, &parts, duration)?;
+    let (start, first) = start::state(&network, &expansion, &parts, &apart, duration)?;
+    let mut phased = PhasedNetwork {
+        network,
+        expansion,
+        parts,
+        duration,
+        start,
+        first,
+        apart,
+        modes: Mutex::default(),
+    };
+    let Compiled { mut assembly, .. } = phased.compiled(&phased.first)?;
+    phased.join_bodies(&mut assembly);
+    phased.modes = Mutex::default();
+    assembly.switching = Some(Arc::new(phased));
+    Ok(assembly)
+}
+
+impl PhasedNetwork {
+    /// The parts that switch.
+    pub fn parts(&self) -> Vec<PhasedPart> {
+        let part = |&at: &usize| PhasedPart {
+            name: self.expansion.primitives[at].name.clone(),
+            phases: self.phases_of(at).map_or(&[][..], Phases::names),
+        };
+        self.parts.iter().map(part).collect()
+    }
+
+    /// The law of the part that is the number `part` in a phase: the energy that it stores \[J\] at
+    /// a deformation \[m\].
+    pub fn stored(&self, part: usize, phase: Phase, deformation: f64) -> f64 {
+        let own = self.parts.get(part).and_then(|&at| self.phases_of(at));
+        match own.map(|own| own.law(phase)) {
+            Some(crate::phases::PhaseLaw::Element(element)) => element.stored(deformation),
+            _ => 0.0,
+        }
+    }
+
+    /// Number of the part of this path.
+    pub fn part_named(&self, name: &str) -> Option<usize> {
+        self.parts.iter().position(|&at| self.expansion.primitives[at].name == name)
+    }
+
+    /// The phases in which parts begin, as far as the network alone tells.
+    pub fn first_phases(&self) -> &[Phase] {
+        &self.first
+    }
+
+    fn phases_of(&self, primitive: usize) -> Option<&dyn Phases> {
+        self.expansion.primitives[primitive].origin.phases()
+    }
+
+    fn compiled(&self, phases: &[Phase]) -> Result<Compiled, NetworkErrors> {
+        let expansion = self.expansion.in_phases(&self.parts, phases);
+        self.network.assemble(&expansion, self.duration)
+    }
+
+    /// The mode of these phases; compiled when it is first asked for.
+    fn mode(&self, phases: &[Phase]) -> Result<Arc<Mode>, NetworkErrors> {
+        let key: Vec<(usize, u64)> =
+            phases.iter().map(|phase| (phase.index, phase.memory.to_bits())).collect();
+        if let Ok(modes) = self.modes.lock()
+            && let Some(mode) = modes.get(&key)
+        {
+            return Ok(Arc::clone(mode));
+        }
+        let mode = Arc::new(self.build(phases)?);
+        if let Ok(mut modes) = self.modes.lock() {
+            // What slides to and fro remembers another place each time.
+            if modes.len() >= MOST_KEPT {
+                modes.clear();
+            }
+            modes.insert(key, Arc::clone(&mode));
+        }
+        Ok(mode)
+    }
+
+    fn build(&self, phases: &[Phase]) -> Result<Mode, NetworkErrors> {
+        let Compiled { assembly, carry, bodies } = self.compiled(phases)?;
+        let (mut guards, mut of_guard) = (Vec::new(), Vec::new());
+        let exits: Vec<Vec<Exit>> = self
+            .parts
+            .iter()
+            .zip(phases)
+            .map(|(&at, &phase)| self.phases_of(at).map_or_else(Vec::new, |own| own.exits(phase)))
+            .collect();
+        for (part, exits) in exits.iter().enumerate() {
+            let name = &self.expansion.primitives[self.parts[part]].name;
+            let Some(outputs) = assembly.primitives.iter().find(|own| own.name == *name) else {
+                continue;
+            };
+            for (at, exit) in exits.iter().enumerate() {
+                let output = match exit.watched {
+                    Watched::Deformation => Some(outputs.deformation),
+                    Watched::Rate => outputs.rate,
+                    Watched::Force => Some(outputs.force),
+                };
+                let Some(output) = output else { continue };
+                guards.push(Guard {
+                    name: name.clone(),
+                    output,
+                    level: exit.level,
+                    direction: if exit.rising { Direction::Rising } else { Direction::Falling },
+                    stops: true,
+                    begins: Some(!exit.rising),
+                });
+                of_guard.push((part, at));
+            }
+        }
+        let carry = carry.unwrap_or_default();
+        Ok(Mode { system: Arc::new(assembly.system), carry, bodies, exits, guards, of_guard })
+    }
+
+    /// Numbers the bodies as if every contact with a massless side were closed, so that what is
+    /// struck through one belongs to the body that strikes, whichever phase the run begins in.
+    fn join_bodies(&self, assembly: &mut Assembly) {
+        let mut groups = super::bodies::Groups::new(self.apart.all.len());
+        for &part in &self.parts {
+            let primitive = &self.expansion.primitives[part];
+            let ends = primitive.ends.map(|joint| self.apart.of_joint[joint]);
+            let is_direct = primitive.ends.iter().all(|&joint| joint < self.network.nodes.len());
+            let is_face = ends.iter().any(|&end| self.apart.all[end].is_massless());
+            if is_direct && is_face && self.phases_of(part).is_some_and(|own| is_contact(own)) {
+                groups.join(ends[0], ends[1]);
+            }
+        }
+        for (at, node) in assembly.nodes.iter_mut().enumerate() {
+            node.body = groups.of(self.apart.of_joint[at]);
+        }
+        for connection in &mut assembly.connections {
+            let [a, b] = connection.between.map(|id| groups.of(self.apart.of_joint[id.index()]));
+            connection.is_rigid = a == b;
+        }
+    }
+
+    /// The leg that begins at `time` in this state.
+    fn leg(&self, choice: Choice, time: f64, switches: Vec<Switch>) -> Leg {
+        let Choice { mode, phases, unknowns, levels } = choice;
+        let mut system = System::clone(&mode.system);
+        let start = time / system.time_scale;
+        if start > 0.0 {
+            system.waveforms = system.waveforms.iter().map(|own| own.since(start)).collect();
+        }
+        system.initial = unknowns;
+        Leg {
+            system: Arc::new(system),
+            phases: phases.iter().map(|phase| (phase.index, phase.memory)).collect(),
+            guards: mode
+                .guards
+                .iter()
+                .zip(levels)
+                .map(|(guard, level)| Guard { level, ..guard.clone() })
+                .collect(),
+            switches,
+        }
+    }
+
+    fn failure(time: f64, errors: &NetworkErrors) -> SolveError {
+        SolveError::Switching { time, reason: errors.to_string() }
+    }
+}
+
+/// Most modes that are kept.
+const MOST_KEPT: usize = 4096;
+
+/// Whether a part begins to hold where its deformation reaches a level, and pushes without limit
+/// then.
+pub(super) fn is_contact(own: &dyn Phases) -> bool {
+    (0..own.names().len()).any(|index| {
+        let phase = Phase { index, memory: 0.0 };
+        matches!(own.law(phase), crate::phases::PhaseLaw::Held(_))
+            && own.exits(phase).iter().all(|exit| !exit.rising)
+    })
+}
+
+impl fmt::Debug for PhasedNetwork {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("PhasedNetwork").field("parts", &self.parts()).finish_non_exhaustive()
+    }
+}
+
+impl Switching for PhasedNetwork {
+    fn first(&self, doubt: f64) -> Result<Leg, SolveError> {
+        let mut state = self.start.clone();
+        let (choice, switches) = self.choose(&mut state, 0.0, &self.first, &[], doubt)?;
+        // Phases that hold from the start are no switchings.
+        let switches = switches.into_iter().filter(|own| own.impulse > 0.0).collect();
+        Ok(self.leg(choice, 0.0, switches))
+    }
+
+    fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError> {
+        let phases: Vec<Phase> =
+            end.leg.phases.iter().map(|&(index, memory)| Phase { index, memory }).collect();
+        let mode = self.mode(&phases).map_err(|errors| Self::failure(end.time, &errors))?;
+        let mut inputs = vec![0.0; end.leg.system.inputs.len()];
+        end.leg.system.inputs_at(end.length, end.length, &mut inputs);
+        let mut state = mode.carry.read(end.state, &inputs, &self.start);
+        let fired: Vec<(usize, usize)> =
+            end.fired.iter().filter_map(|&guard| mode.of_guard.get(guard).copied()).collect();
+        let (choice, switches) =
+            self.choose(&mut state, end.time, &phases, &fired, end.doubt)?;
+        Ok(self.leg(choice, end.time, switches))
+    }
+}

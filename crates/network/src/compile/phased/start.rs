@@ -1,0 +1,183 @@
+//! The state in which a run begins.
+
+use super::{
+    super::{
+        balance,
+        bodies::{Bodies, Role, start_velocity},
+        carry::State,
+        expand::Expansion,
+        structure::Structure,
+    },
+    is_contact,
+};
+use crate::{
+    Network, NetworkErrors, Start, Support,
+    phases::{Phase, PhaseLaw},
+};
+
+/// The phase of each part in which it does not hold: the network in its loosest state.
+///
+/// # Errors
+///
+/// What is undetermined then, for instance a massless pad that can part on both sides.
+pub(super) fn bodies_apart(
+    network: &Network,
+    expansion: &Expansion,
+    parts: &[usize],
+    duration: f64,
+) -> Result<Bodies, NetworkErrors> {
+    let loose: Vec<Phase> = parts
+        .iter()
+        .map(|&at| {
+            let own = expansion.primitives[at].origin.phases();
+            let holds = |index: usize| {
+                let phase = Phase { index, memory: 0.0 };
+                own.is_some_and(|own| matches!(own.law(phase), PhaseLaw::Held(_)))
+            };
+            let count = own.map_or(0, |own| own.names().len());
+            let index = (0..count).find(|&index| !holds(index)).unwrap_or(0);
+            Phase { index, memory: 0.0 }
+        })
+        .collect();
+    let expansion = expansion.in_phases(parts, &loose);
+    let bodies = Bodies::of(network, &expansion).map_err(NetworkErrors)?;
+    Structure::of(network, &expansion, &bodies, duration).map_err(NetworkErrors)?;
+    Ok(bodies)
+}
+
+/// The state at the start and the phases that go with it, as far as places tell.
+pub(super) fn state(
+    network: &Network,
+    expansion: &Expansion,
+    parts: &[usize],
+    apart: &Bodies,
+    duration: f64,
+) -> Result<(State, Vec<Phase>), NetworkErrors> {
+    let mut position = vec![0.0; expansion.joints];
+    let mut velocity = vec![0.0; expansion.joints];
+    for (at, node) in network.nodes.iter().enumerate() {
+        if let Support::Prescribed(motion) = &node.support {
+            position[at] = motion.value(0.0);
+            velocity[at] = motion.piece_at(0.0).derivative(1, 0.0);
+        }
+    }
+    for body in &apart.all {
+        let given = body.joints.iter().copied().find(|&joint| {
+            network.nodes.get(joint).is_some_and(|node| node.support != Support::Free)
+        });
+        let speed = body
+            .joints
+            .iter()
+            .filter_map(|&joint| network.nodes.get(joint))
+            .find(|node| node.mass > 0.0)
+            .map_or(0.0, |node| start_velocity(network, node.start));
+        let height = flight(network, expansion, body.joints.as_slice());
+        for &joint in &body.joints {
+            match given {
+                Some(given) => {
+                    position[joint] = position[given];
+                    velocity[joint] = velocity[given];
+                }
+                None => {
+                    position[joint] = -height.unwrap_or(0.0);
+                    velocity[joint] = if height.is_some() { 0.0 } else { speed };
+                }
+            }
+        }
+    }
+    let deformations = |position: &[f64]| -> Vec<f64> {
+        let ends = expansion.primitives.iter().map(|own| own.ends);
+        ends.map(|[a, b]| position[a] - position[b]).collect()
+    };
+    let mut deformation = deformations(&position);
+    let phases = |deformation: &[f64]| -> Vec<Phase> {
+        let first = |&at: &usize| match expansion.primitives[at].origin.phases() {
+            Some(own) => own.first(deformation[at]),
+            None => Phase { index: 0, memory: 0.0 },
+        };
+        parts.iter().map(first).collect()
+    };
+    let mut first = phases(&deformation);
+    if network.effects.iter().any(|effect| effect.starts_in_balance()) {
+        for _ in 0..=parts.len() {
+            let settled = expansion.in_phases(parts, &first);
+            position = balanced(network, &settled, &position, duration)?;
+            deformation = deformations(&position);
+            let reached = phases(&deformation);
+            let mut changed = false;
+            for (at, (own, reached)) in first.iter_mut().zip(&reached).enumerate() {
+                let holds = expansion.primitives[parts[at]]
+                    .origin
+                    .phases()
+                    .is_some_and(|phases| is_contact(phases) && own.index < reached.index);
+                if holds {
+                    *own = *reached;
+                    changed = true;
+                }
+            }
+            if !changed {
+                break;
+            }
+        }
+        let remembered = phases(&deformation);
+        for (own, remembered) in first.iter_mut().zip(remembered) {
+            if own.index == remembered.index {
+                own.memory = remembered.memory;
+            }
+        }
+    }
+    Ok((State { deformation, position, velocity }, first))
+}
+
+/// Places of all joints in balance under the weight of what has no start speed.
+fn balanced(
+    network: &Network,
+    expansion: &Expansion,
+    given: &[f64],
+    duration: f64,
+) -> Result<Vec<f64>, NetworkErrors> {
+    let bodies = Bodies::of(network, expansion).map_err(NetworkErrors)?;
+    let structure =
+        Structure::of(network, expansion, &bodies, duration).map_err(NetworkErrors)?;
+    let mut weights = vec![0.0; bodies.all.len()];
+    let forces = network.effects.iter().flat_map(|effect| effect.body_forces(network));
+    for (node, weight) in forces {
+        if !network.node(node).is_impactor() {
+            weights[bodies.of_joint[node.index()]] += weight.value(0.0);
+        }
+    }
+    let places: Vec<f64> = bodies
+        .all
+        .iter()
+        .map(|body| match body.role {
+            Role::Prescribed(_) => given[body.joints[0]] - bodies.offset[body.joints[0]],
+            _ => 0.0,
+        })
+        .collect();
+    let places = balance::positions(network, expansion, &bodies, &structure, &weights, &places)
+        .map_err(NetworkErrors)?;
+    let place = |joint: usize| {
+        let body = bodies.of_joint[joint];
+        let is_free = bodies.all[body].is_impactor;
+        if is_free { given[joint] } else { places[body] + bodies.offset[joint] }
+    };
+    Ok((0..expansion.joints).map(place).collect())
+}
+
+/// The height \[m\] from which a body begins to fall freely: it is dropped under gravity, and nothing
+/// but contacts touches it.
+fn flight(network: &Network, expansion: &Expansion, joints: &[usize]) -> Option<f64> {
+    let gravity = network.effects.iter().find_map(|effect| effect.gravity())?;
+    let nodes = joints.iter().filter_map(|&joint| network.nodes.get(joint));
+    let height = nodes
+        .filter_map(|node| match node.start {
+            Start::Drop(height) => Some(height),
+            _ => None,
+        })
+        .next()?;
+    let mut touching = expansion.primitives.iter().filter(|own| {
+        !own.is_link && own.ends.iter().any(|joint| joints.contains(joint))
+    });
+    let is_free = touching.all(|own| own.origin.phases().is_some_and(is_contact));
+    is_free.then_some(height * gravity.signum())
+}

@@ -1,0 +1,94 @@
+//! Separation at one end of an element.
+
+use super::{
+    Effect, EffectKind,
+    site::{AT, Site, at_of, at_value, face_of},
+};
+use crate::{
+    Network, NetworkError, Node,
+    elements::{Contact, number},
+    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value},
+    part,
+};
+
+/// An element that pushes at one of its ends and never pulls there.
+///
+/// | symbol | field         | unit | range |
+/// |--------|---------------|------|-------|
+/// | `e`    | `restitution` | 1    | 0 … 1 |
+///
+/// The end gets a face of its own, the node `<element>.face`, and between the node that was there
+/// and the face stands a [`Contact`], `<element>.contact`, whose force is that on the node. It lets
+/// go where this force falls to zero. After that the face, which has no mass unless
+/// [`Face`](super::Face) gives it one, moves by itself, and contact comes back where the node meets
+/// it again.
+///
+/// A restitution acts between masses, so it needs a face with mass. A massless face takes the speed
+/// of what strikes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Separation {
+    /// Name of the element.
+    pub element: String,
+    /// Name of the node at which it opens; the end on the impactor's side where there is none.
+    pub at: Option<String>,
+    /// Coefficient of restitution `e` of the touch.
+    pub restitution: f64,
+}
+
+impl Separation {
+    fn contact(&self) -> Contact {
+        Contact { gap: 0.0, restitution: self.restitution }
+    }
+}
+
+impl Effect for Separation {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn target(&self) -> Option<&str> {
+        Some(&self.element)
+    }
+
+    fn rewrite(&self, network: &mut Network) -> Result<(), NetworkError> {
+        let site = Site::of(network, Self::KIND, &self.element, self.at.as_deref())?;
+        site.put_face(network, Node::massless(face_of(&self.element)), part(self.contact()));
+        Ok(())
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        crate::Element::validate(&self.contact())
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![at_value(self.at.as_ref()), Value::Number(self.restitution)]
+    }
+}
+
+impl EffectKind for Separation {
+    const KIND: &'static str = "separation";
+    const SUMMARY: &'static str = "the element pushes and never pulls: one of its ends opens";
+    const PARAMETERS: &'static [Parameter] = &[
+        AT,
+        Parameter::optional(
+            "restitution",
+            ParameterKind::Quantity(Dimension::NUMBER),
+            "0",
+            "restitution e of the touch [1], 0 to 1; acts where the face has mass",
+        ),
+    ];
+    const PER_ELEMENT: bool = true;
+
+    fn from_values(target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {
+        let separation = Self {
+            element: target.to_owned(),
+            at: at_of(values.first())?,
+            restitution: number(values, 1, "restitution")?,
+        };
+        separation.validate().map(|()| separation)
+    }
+
+    fn sample() -> Self {
+        Self { element: "padding".to_owned(), at: Some("head".to_owned()), restitution: 0.0 }
+    }
+}

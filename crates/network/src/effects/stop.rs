@@ -1,0 +1,168 @@
+//! Stop at a given deformation of an element.
+
+use dashpot_rheology::{Branch, Tree};
+
+use super::{Effect, EffectKind, site::connection_of};
+use crate::{
+    Element, Model, Network, NetworkError,
+    elements::{Contact, Dashpot, ElementKind, Spring, number},
+    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative},
+    part,
+};
+
+/// Bottoming out: beyond the deformation `at` a stop beside the element pushes and never pulls.
+///
+/// | symbol | field         | unit  | range |
+/// |--------|---------------|-------|-------|
+/// | `d`    | `at`          | m     | ≥ 0   |
+/// | `e`    | `restitution` | 1     | 0 … 1, of a rigid stop |
+/// | `k`    | `stiffness`   | N/m   | ≥ 0; a rigid stop where there is none |
+/// | `c`    | `damping`     | N s/m | ≥ 0, of a stop with stiffness |
+///
+/// The stop is the connection `<element>.stop` between the ends of the element. A rigid one is a
+/// [`Contact`] with the gap `d`, `y ≤ d`: masses that meet on it have an impact. One with stiffness
+/// has the force `max(0, k (y − d) + c ẏ)` in contact: the contact in series with a spring and a
+/// dashpot side by side, which lets go where the force falls to zero and then returns by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stop {
+    /// Name of the element.
+    pub element: String,
+    /// Deformation `d` at which it is met \[m\]; the element's thickness where there is none.
+    pub at: Option<f64>,
+    /// Coefficient of restitution `e` of a rigid stop.
+    pub restitution: f64,
+    /// Stiffness `k` \[N/m\]; rigid where there is none.
+    pub stiffness: Option<f64>,
+    /// Damping `c` \[N s/m\].
+    pub damping: f64,
+}
+
+/// Says that `parameter` has no place beside what else was given.
+fn needless(parameter: &'static str, range: &'static str, value: f64) -> InvalidParameter {
+    InvalidParameter::new(parameter, range, value)
+}
+
+impl Stop {
+    fn contact(&self, gap: f64) -> Contact {
+        Contact { gap, restitution: self.restitution }
+    }
+
+    /// The model of a stop at `gap` \[m\]; `None` where it takes no force.
+    fn model(&self, gap: f64) -> Option<Model> {
+        let contact = part(self.contact(gap));
+        let Some(stiffness) = self.stiffness else { return Some(contact) };
+        let spring = (stiffness > 0.0).then(|| part(Spring { stiffness }));
+        let dashpot = (self.damping > 0.0).then(|| part(Dashpot { damping: self.damping }));
+        let named = |word: &'static str| move |tree| Branch::new(word, tree);
+        let mut parts: Vec<_> =
+            [spring.map(named(Spring::KIND)), dashpot.map(named(Dashpot::KIND))]
+                .into_iter()
+                .flatten()
+                .collect();
+        let resistance = match parts.len() {
+            0 | 1 => parts.pop()?,
+            _ => Branch::new("parallel", Tree::Parallel(parts)),
+        };
+        Some(Tree::Series(vec![Branch::new(Contact::KIND, contact), resistance]))
+    }
+}
+
+impl Effect for Stop {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn target(&self) -> Option<&str> {
+        Some(&self.element)
+    }
+
+    fn rewrite(&self, network: &mut Network) -> Result<(), NetworkError> {
+        let element = &network.connections[connection_of(network, Self::KIND, &self.element)?];
+        let gap = self.at.or(element.thickness);
+        let gap = gap.ok_or_else(|| NetworkError::NoDepth { element: self.element.clone() })?;
+        let [from, to] = element.between;
+        if let Some(model) = self.model(gap) {
+            network.connect(format!("{}.stop", self.element), from, to, model);
+        }
+        Ok(())
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.at.map_or(Ok(()), |at| non_negative("at", at))?;
+        self.contact(0.0).validate()?;
+        non_negative("damping", self.damping)?;
+        match self.stiffness {
+            None if self.damping > 0.0 => {
+                Err(needless("damping", "zero without `stiffness`: a rigid stop", self.damping))
+            }
+            None => Ok(()),
+            Some(_) if self.restitution > 0.0 => {
+                let range = "zero beside `stiffness`: only masses on a rigid stop are reflected";
+                Err(needless("restitution", range, self.restitution))
+            }
+            Some(stiffness) => non_negative("stiffness", stiffness),
+        }
+    }
+
+    fn values(&self) -> Vec<Value> {
+        let maybe = |value: Option<f64>| value.map_or(Value::LeftOut, Value::Number);
+        vec![
+            maybe(self.at),
+            Value::Number(self.restitution),
+            maybe(self.stiffness),
+            Value::Number(self.damping),
+        ]
+    }
+}
+
+impl EffectKind for Stop {
+    const KIND: &'static str = "stop";
+    const SUMMARY: &'static str = "the element bottoms out at a deformation; the stop never pulls";
+    const PARAMETERS: &'static [Parameter] = &[
+        Parameter::following(
+            "at",
+            ParameterKind::Quantity(Dimension::LENGTH),
+            "the thickness of the element",
+            "deformation at which the stop is met [m], zero or positive",
+        ),
+        Parameter::optional(
+            "restitution",
+            ParameterKind::Quantity(Dimension::NUMBER),
+            "0",
+            "restitution e of masses that meet on a rigid stop [1], 0 to 1",
+        ),
+        Parameter::following(
+            "stiffness",
+            ParameterKind::Quantity(Dimension::STIFFNESS),
+            "rigid",
+            "stiffness k of the stop [N/m], zero or positive",
+        ),
+        Parameter::optional(
+            "damping",
+            ParameterKind::Quantity(Dimension::DAMPING),
+            "0 N s/m",
+            "damping c of a stop with stiffness [N s/m], zero or positive",
+        ),
+    ];
+    const PER_ELEMENT: bool = true;
+
+    fn from_values(target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {
+        let maybe = |at: usize, parameter: &'static str| match values.get(at) {
+            Some(Value::LeftOut) => Ok(None),
+            _ => number(values, at, parameter).map(Some),
+        };
+        let stop = Self {
+            element: target.to_owned(),
+            at: maybe(0, "at")?,
+            restitution: number(values, 1, "restitution")?,
+            stiffness: maybe(2, "stiffness")?,
+            damping: number(values, 3, "damping")?,
+        };
+        stop.validate().map(|()| stop)
+    }
+
+    fn sample() -> Self {
+        let (element, at, stiffness) = ("padding".to_owned(), Some(0.015), Some(2e8));
+        Self { element, at, restitution: 0.0, stiffness, damping: 1e4 }
+    }
+}

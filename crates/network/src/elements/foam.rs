@@ -1,0 +1,311 @@
+//! Foam with a plateau and densification.
+
+use super::{
+    Element, ElementKind, Law, Tangent, number,
+    power::{at_least_one, in_range},
+    quadrature::integral,
+};
+use crate::parameters::{
+    Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative, positive,
+};
+
+/// A block of foam with a plateau and densification: `F = A σ(ε)` with `ε = y/h` and
+/// `σ = σ_p (1 − e^(−E ε/σ_p)) + B (ε/(1 − ε))^n` in compression.
+///
+/// | symbol | field           | unit | range |
+/// |--------|-----------------|------|-------|
+/// | `E`    | `modulus`       | Pa   | > 0   |
+/// | `σ_p`  | `plateau`       | Pa   | > 0   |
+/// | `B`    | `densification` | Pa   | ≥ 0   |
+/// | `n`    | `exponent`      | 1    | ≥ 1   |
+/// | `h`    | `thickness`     | m    | > 0   |
+/// | `A`    | `area`          | m²   | > 0   |
+///
+/// `σ_p` is the stress of the plateau, and `B` is what densification adds to it at half the
+/// thickness. The law is that of Avalle, Belingardi and Ibba with their exponent `m = 0`: so it
+/// rises everywhere, while for `m > 0` it may fall at the end of the plateau. In tension the foam
+/// is linear, with the slope that it has at rest. Strain and stress are those of the undeformed
+/// block.
+///
+/// The foam stores `h A ∫ σ dε` and dissipates none; foam that does is
+/// [`HystereticFoam`](super::HystereticFoam).
+///
+/// # Limits
+///
+/// Beyond the strain 0.99 the law goes on as a straight line with the slope that it has there, so
+/// that it has a value everywhere.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{Element, elements::Foam};
+///
+/// let foam = Foam {
+///     modulus: 2e6,
+///     plateau: 1e5,
+///     densification: 2e4,
+///     exponent: 3.0,
+///     thickness: 0.02,
+///     area: 0.01,
+/// };
+/// // At half the thickness: the plateau, and what densification adds.
+/// assert!((foam.force(0.01, 0.0) - 1200.0).abs() < 0.1);
+/// ```
+///
+/// # References
+///
+/// `avalle2007` in `docs/references.bib`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foam {
+    /// Modulus `E` of the plateau's part at rest \[Pa\].
+    pub modulus: f64,
+    /// Stress of the plateau `σ_p` \[Pa\].
+    pub plateau: f64,
+    /// Stress `B` that densification adds at half the thickness \[Pa\].
+    pub densification: f64,
+    /// Exponent `n` of densification.
+    pub exponent: f64,
+    /// Thickness `h` \[m\].
+    pub thickness: f64,
+    /// Area `A` \[m²\].
+    pub area: f64,
+}
+
+/// Strain up to which the law holds; a straight line follows.
+const LAST: f64 = 0.99;
+
+impl Foam {
+    /// Stress and its slope over the strain, for strains from 0 to [`LAST`].
+    fn curve(&self, strain: f64) -> (f64, f64) {
+        let (n, void) = (self.exponent, 1.0 - strain);
+        let decay = -self.modulus * strain / self.plateau;
+        let ratio = strain / void;
+        let stress = self.densification * ratio.powf(n) - self.plateau * decay.exp_m1();
+        let dense = self.densification * n * ratio.powf(n - 1.0) / (void * void);
+        (stress, self.modulus * decay.exp() + dense)
+    }
+
+    /// Stress \[Pa\] and its slope \[Pa\] at a strain.
+    fn stress(&self, strain: f64) -> (f64, f64) {
+        if strain < 0.0 {
+            let slope = self.curve(0.0).1;
+            (slope * strain, slope)
+        } else if strain > LAST {
+            let (stress, slope) = self.curve(LAST);
+            (stress + slope * (strain - LAST), slope)
+        } else {
+            self.curve(strain)
+        }
+    }
+
+    /// Energy per volume \[J/m³\] at a strain.
+    fn energy(&self, strain: f64) -> f64 {
+        if strain < 0.0 {
+            return 0.5 * self.curve(0.0).1 * strain * strain;
+        }
+        let (within, beyond) = (strain.min(LAST), (strain - LAST).max(0.0));
+        let plateau = self.plateau * self.plateau / self.modulus
+            * above_tangent(self.modulus * within / self.plateau);
+        let dense = |part: f64| (part / (1.0 - part)).powf(self.exponent);
+        let densification = if self.densification > 0.0 {
+            self.densification * integral(dense, 0.0, within)
+        } else {
+            0.0
+        };
+        let line = if beyond > 0.0 {
+            let (stress, slope) = self.curve(LAST);
+            (stress + 0.5 * slope * beyond) * beyond
+        } else {
+            0.0
+        };
+        plateau + densification + line
+    }
+
+    /// Slope of the force at rest \[N/m\].
+    pub(super) fn stiffness(&self) -> f64 {
+        self.curve(0.0).1 * self.area / self.thickness
+    }
+
+    /// The foam of the first six of an element's values.
+    pub(super) fn of(values: &[Value]) -> Result<Self, InvalidParameter> {
+        Ok(Self {
+            modulus: number(values, 0, MODULUS.name)?,
+            plateau: number(values, 1, PLATEAU.name)?,
+            densification: number(values, 2, DENSIFICATION.name)?,
+            exponent: number(values, 3, DENSIFICATION_EXPONENT.name)?,
+            thickness: number(values, 4, THICKNESS.name)?,
+            area: number(values, 5, AREA.name)?,
+        })
+    }
+}
+
+/// `x − (1 − e^(−x))` for `x ≥ 0`.
+fn above_tangent(x: f64) -> f64 {
+    if x > 0.5 {
+        return x + (-x).exp_m1();
+    }
+    // The difference of two nearly equal numbers: its series, whose terms fall at least by 6.
+    let mut term = 0.5 * x * x;
+    let mut sum = term;
+    let mut order = 2.0;
+    while term.abs() > f64::EPSILON * sum {
+        order += 1.0;
+        term *= -x / order;
+        sum += term;
+    }
+    sum
+}
+
+impl Element for Foam {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn force(&self, deformation: f64, _rate: f64) -> f64 {
+        self.area * self.stress(deformation / self.thickness).0
+    }
+
+    fn tangent(&self, deformation: f64, _rate: f64) -> Tangent {
+        let slope = self.stress(deformation / self.thickness).1;
+        Tangent { stiffness: slope * self.area / self.thickness, damping: 0.0 }
+    }
+
+    fn stored(&self, deformation: f64) -> f64 {
+        self.area * self.thickness * self.energy(deformation / self.thickness)
+    }
+
+    fn law(&self) -> Law {
+        Law::Nonlinear { stiffness: self.stiffness(), damping: 0.0 }
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        positive(MODULUS.name, self.modulus)?;
+        positive(PLATEAU.name, self.plateau)?;
+        non_negative(DENSIFICATION.name, self.densification)?;
+        at_least_one(DENSIFICATION_EXPONENT.name, self.exponent)?;
+        positive(THICKNESS.name, self.thickness)?;
+        positive(AREA.name, self.area)?;
+        in_range(MODULUS.name, self.modulus, self.stiffness())?;
+        in_range(PLATEAU.name, self.plateau, self.plateau * self.plateau / self.modulus)?;
+        let scale = self.area / self.thickness;
+        let steepest =
+            self.densification * self.exponent * (LAST / (1.0 - LAST)).powf(self.exponent);
+        if (steepest * scale / (1.0 - LAST)).is_finite() {
+            Ok(())
+        } else {
+            in_range(DENSIFICATION_EXPONENT.name, self.exponent, steepest * scale / (1.0 - LAST))
+        }
+    }
+
+    fn values(&self) -> Vec<Value> {
+        [self.modulus, self.plateau, self.densification, self.exponent, self.thickness, self.area]
+            .map(Value::Number)
+            .to_vec()
+    }
+}
+
+pub(super) const MODULUS: Parameter = Parameter::required(
+    "modulus",
+    ParameterKind::Quantity(Dimension::PRESSURE),
+    "modulus E at rest [Pa], positive",
+);
+pub(super) const PLATEAU: Parameter = Parameter::required(
+    "plateau",
+    ParameterKind::Quantity(Dimension::PRESSURE),
+    "stress of the plateau sigma_p [Pa], positive",
+);
+pub(super) const DENSIFICATION: Parameter = Parameter::required(
+    "densification",
+    ParameterKind::Quantity(Dimension::PRESSURE),
+    "stress B that densification adds at half the thickness [Pa], zero or positive",
+);
+pub(super) const DENSIFICATION_EXPONENT: Parameter = Parameter::required(
+    "exponent",
+    ParameterKind::Quantity(Dimension::NUMBER),
+    "exponent n of densification [1], 1 or more",
+);
+pub(super) const THICKNESS: Parameter = Parameter::required(
+    "thickness",
+    ParameterKind::Quantity(Dimension::LENGTH),
+    "thickness h [m], positive",
+);
+pub(super) const AREA: Parameter = Parameter::required(
+    "area",
+    ParameterKind::Quantity(Dimension::new(0, 2, 0)),
+    "area A [m^2], positive",
+);
+
+impl ElementKind for Foam {
+    const KIND: &'static str = "foam";
+    const SUMMARY: &'static str = "block of foam with plateau and densification, elastic";
+    const PARAMETERS: &'static [Parameter] =
+        &[MODULUS, PLATEAU, DENSIFICATION, DENSIFICATION_EXPONENT, THICKNESS, AREA];
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        let foam = Self::of(values)?;
+        foam.validate().map(|()| foam)
+    }
+
+    fn sample() -> Self {
+        Self {
+            modulus: 2e6,
+            plateau: 1e5,
+            densification: 2e4,
+            exponent: 3.0,
+            thickness: 0.02,
+            area: 0.01,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn energies_are_the_closed_forms_of_whole_exponents() {
+        let foam = Foam::sample();
+        let dense = |exponent: f64, strain: f64| {
+            let own = Foam { modulus: 1e-20, densification: 1.0, exponent, ..foam };
+            own.energy(strain)
+        };
+        for strain in [0.3, 0.6, 0.9, 0.99_f64] {
+            let w: f64 = 1.0 - strain;
+            let first = -w.ln() - strain;
+            let third = 1.5 + 0.5 / (w * w) - 3.0 / w - 3.0 * w.ln() + w;
+            assert!((dense(1.0, strain) / first - 1.0).abs() < 1e-13, "{strain}");
+            assert!((dense(3.0, strain) - third).abs() < 1e-13 * (1.0 + 3.0 / w + third));
+        }
+    }
+
+    #[test]
+    fn the_excess_over_the_tangent_keeps_its_digits() {
+        // The two ways that are used agree where one takes over from the other.
+        let direct = |x: f64| x + (-x).exp_m1();
+        for x in [0.3, 0.45, 0.5, 0.500_001] {
+            assert!((above_tangent(x) / direct(x) - 1.0).abs() < 2e-15, "{x}");
+        }
+        assert!((above_tangent(1e-9) / 5e-19 - 1.0).abs() < 4e-10);
+        assert!(above_tangent(0.0).abs() <= 0.0);
+    }
+
+    #[test]
+    fn it_rises_from_its_modulus_over_the_plateau_to_the_wall() {
+        let foam = Foam::sample();
+        let (area, height) = (foam.area, foam.thickness);
+        assert!((foam.tangent(0.0, 0.0).stiffness / (2e6 * area / height) - 1.0).abs() < 1e-14);
+        assert!((foam.force(-0.001, 0.0) / (-2e6 * area * 0.05) - 1.0).abs() < 1e-14);
+        let plain = Foam { densification: 0.0, ..foam };
+        assert!((plain.force(0.9 * height, 0.0) / (1e5 * area) - 1.0).abs() < 1e-7);
+        let border = LAST * height;
+        let steepest = foam.tangent(border, 0.0).stiffness;
+        let beyond = foam.force(border, 0.0) + 0.1 * height * steepest;
+        assert!((foam.force(border + 0.1 * height, 0.0) / beyond - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_wall_beyond_double_precision_is_refused() {
+        let foam = Foam { exponent: 200.0, ..Foam::sample() };
+        assert_eq!(foam.validate().unwrap_err().parameter, "exponent");
+    }
+}

@@ -1,0 +1,120 @@
+//! Coulomb friction.
+
+use super::{Element, ElementKind, Law, Tangent, number};
+use crate::{
+    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative},
+    phases::{Exit, Phase, PhaseLaw, Phases, Watched},
+};
+
+/// A slider with dry friction, `F = F_c sgn ẏ` while it slides and `|F| ≤ F_c` while it sticks
+/// (Coulomb).
+///
+/// | symbol | field   | unit | range |
+/// |--------|---------|------|-------|
+/// | `F_c`  | `force` | N    | ≥ 0   |
+///
+/// It sticks where its rate comes to zero, and slides again where the force that holds it would
+/// exceed `F_c`: sticking is exact, not a creep. It stores no energy and dissipates `F_c |ẏ|`. Static
+/// and kinetic friction are the same. `F_c = 0` is no slider at all.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// Force at which it slides `F_c` \[N\].
+    pub force: f64,
+}
+
+const STUCK: usize = 0;
+const FORWARD: usize = 1;
+const BACKWARD: usize = 2;
+
+impl Phases for Friction {
+    fn names(&self) -> &'static [&'static str] {
+        &["stuck", "sliding forward", "sliding backward"]
+    }
+
+    fn first(&self, deformation: f64) -> Phase {
+        Phase { index: STUCK, memory: deformation }
+    }
+
+    fn law(&self, phase: Phase) -> PhaseLaw {
+        match phase.index {
+            FORWARD => PhaseLaw::Force(self.force),
+            BACKWARD => PhaseLaw::Force(-self.force),
+            _ => PhaseLaw::Held(phase.memory),
+        }
+    }
+
+    fn exits(&self, phase: Phase) -> Vec<Exit> {
+        let stop = |rising| Exit {
+            watched: Watched::Rate,
+            level: 0.0,
+            rising,
+            to: STUCK,
+            remembers: true,
+        };
+        let slip = |level, rising, to| Exit {
+            watched: Watched::Force,
+            level,
+            rising,
+            to,
+            remembers: false,
+        };
+        match phase.index {
+            FORWARD => vec![stop(false)],
+            BACKWARD => vec![stop(true)],
+            _ => vec![slip(self.force, true, FORWARD), slip(-self.force, false, BACKWARD)],
+        }
+    }
+}
+
+impl Element for Friction {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn force(&self, _deformation: f64, rate: f64) -> f64 {
+        if rate == 0.0 { 0.0 } else { self.force.copysign(rate) }
+    }
+
+    fn tangent(&self, _deformation: f64, _rate: f64) -> Tangent {
+        Tangent::default()
+    }
+
+    fn stored(&self, _deformation: f64) -> f64 {
+        0.0
+    }
+
+    fn law(&self) -> Law {
+        if self.force > 0.0 { Law::Phased } else { Law::Dashpot(0.0) }
+    }
+
+    fn phases(&self) -> Option<&dyn Phases> {
+        (self.force > 0.0).then_some(self as &dyn Phases)
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        non_negative("friction", self.force)
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Number(self.force)]
+    }
+}
+
+impl ElementKind for Friction {
+    const KIND: &'static str = "friction";
+    const SUMMARY: &'static str = "dry friction, F = F_c sgn ẏ, with true stick";
+    const PARAMETERS: &'static [Parameter] = &[Parameter::required(
+        "friction",
+        ParameterKind::Quantity(Dimension::FORCE),
+        "force F_c at which it slides [N], zero or positive",
+    )];
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        let friction = Self { force: number(values, 0, "friction")? };
+        friction.validate().map(|()| friction)
+    }
+
+    fn sample() -> Self {
+        Self { force: 50.0 }
+    }
+}

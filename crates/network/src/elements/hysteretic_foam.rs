@@ -1,0 +1,409 @@
+//! Foam that unloads on another curve.
+
+use std::sync::Arc;
+
+use super::{
+    Element, ElementKind, Foam, Law, Tangent,
+    foam::{AREA, DENSIFICATION, DENSIFICATION_EXPONENT, MODULUS, PLATEAU, THICKNESS},
+    number,
+    power::at_least_one,
+    quadrature::integral,
+};
+use crate::{
+    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value},
+    phases::{Exit, Phase, PhaseLaw, Phases, Watched},
+};
+
+/// A block of foam that unloads on another curve than it was loaded on, and keeps a set.
+///
+/// While it is pressed deeper than ever before, the force is that of a [`Foam`], `F = f(y)`. Where
+/// the deformation turns back at `y_m`, it remembers that depth and follows
+/// `F = f(y) s^q`, `s = (y − y_p)/(y_m − y_p)`, with the set `y_p = r y_m`. It is loaded again on
+/// the same curve, up to `y_m`, where the first one goes on. Below the set it is slack, `F = 0`: it
+/// pushes and never pulls, also when it is new.
+///
+/// | symbol | field                | unit | range |
+/// |--------|----------------------|------|-------|
+/// | `f`    | `foam`               | N    | see [`Foam`] |
+/// | `r`    | `set`                | 1    | 0 ≤ r < 1 |
+/// | `q`    | `unloading-exponent` | 1    | ≥ 1   |
+///
+/// The curve of unloading is the first one times a factor from 0 to 1, as in the codes for crash
+/// simulation. So it never lies above the first one, whatever its shape: no cycle creates energy.
+/// (A chord or power of `y` alone would lie above it in the densification.)
+///
+/// # Energy
+///
+/// It stores what it would give back, `W = ∫ f s^q dy` from `y_p` to `y` on the curve of unloading;
+/// on the first curve, that for `y_m = y`. All else that was put in is dissipated, and at once: with
+/// `y_m` the store rises by less than `f dy`, since `s` falls.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{Element, elements::{Foam, HystereticFoam}};
+///
+/// let foam = Foam {
+///     modulus: 2e6,
+///     plateau: 1e5,
+///     densification: 2e4,
+///     exponent: 3.0,
+///     thickness: 0.02,
+///     area: 0.01,
+/// };
+/// let crushed = HystereticFoam { foam, set: 0.2, unloading_exponent: 2.0 };
+/// assert_eq!(crushed.force(0.01, 1.0), foam.force(0.01, 1.0));
+/// assert!(crushed.stored(0.01) < 0.4 * foam.stored(0.01));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HystereticFoam {
+    /// The foam as it is loaded for the first time.
+    pub foam: Foam,
+    /// Part `r` of the greatest deformation that remains.
+    pub set: f64,
+    /// Exponent `q` of the curve of unloading.
+    pub unloading_exponent: f64,
+}
+
+const SET: &str = "set";
+const UNLOADING_EXPONENT: &str = "unloading-exponent";
+
+const SLACK: usize = 0;
+const LOADING: usize = 1;
+const UNLOADING: usize = 2;
+
+impl HystereticFoam {
+    /// Energy that unloading from `deepest` gives back from `deformation` on \[J\].
+    fn recoverable(&self, deformation: f64, deepest: f64) -> f64 {
+        let from = self.set * deepest;
+        if deformation <= from {
+            return 0.0;
+        }
+        let length = deepest - from;
+        let force = |part: f64| {
+            self.foam.force(from + length * part, 0.0) * part.powf(self.unloading_exponent)
+        };
+        length * integral(force, 0.0, (deformation - from) / length)
+    }
+}
+
+impl Phases for HystereticFoam {
+    fn names(&self) -> &'static [&'static str] {
+        &["slack", "loading", "unloading"]
+    }
+
+    fn first(&self, deformation: f64) -> Phase {
+        let index = if deformation < 0.0 { SLACK } else { LOADING };
+        Phase { index, memory: 0.0 }
+    }
+
+    fn law(&self, phase: Phase) -> PhaseLaw {
+        match phase.index {
+            LOADING => PhaseLaw::Element(Arc::new(Curve { foam: *self, deepest: None })),
+            UNLOADING if phase.memory > 0.0 => {
+                PhaseLaw::Element(Arc::new(Curve { foam: *self, deepest: Some(phase.memory) }))
+            }
+            _ => PhaseLaw::Open,
+        }
+    }
+
+    fn exits(&self, phase: Phase) -> Vec<Exit> {
+        let kept = self.set * phase.memory;
+        let pass = |level, rising, to| Exit {
+            watched: Watched::Deformation,
+            level,
+            rising,
+            to,
+            remembers: false,
+        };
+        match phase.index {
+            LOADING => vec![Exit {
+                watched: Watched::Rate,
+                level: 0.0,
+                rising: false,
+                to: UNLOADING,
+                remembers: true,
+            }],
+            UNLOADING => vec![pass(phase.memory, true, LOADING), pass(kept, false, SLACK)],
+            _ => vec![pass(kept, true, if phase.memory > 0.0 { UNLOADING } else { LOADING })],
+        }
+    }
+}
+
+/// One curve of the foam.
+#[derive(Debug)]
+struct Curve {
+    foam: HystereticFoam,
+    /// The deformation from which it unloads \[m\]; none while it is loaded for the first time.
+    deepest: Option<f64>,
+}
+
+impl Curve {
+    /// `s` and its slope over the deformation; 1 on the first curve.
+    fn part(&self, deformation: f64) -> (f64, f64) {
+        let Some(deepest) = self.deepest else { return (1.0, 0.0) };
+        let from = self.foam.set * deepest;
+        let slope = (deepest - from).recip();
+        (((deformation - from) * slope).max(0.0), slope)
+    }
+}
+
+impl Element for Curve {
+    fn kind(&self) -> &'static str {
+        HystereticFoam::KIND
+    }
+
+    fn force(&self, deformation: f64, rate: f64) -> f64 {
+        if deformation <= 0.0 {
+            return 0.0;
+        }
+        let factor = self.part(deformation).0.powf(self.foam.unloading_exponent);
+        self.foam.foam.force(deformation, rate) * factor
+    }
+
+    fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
+        let (part, slope) = self.part(deformation);
+        if deformation <= 0.0 || part <= 0.0 {
+            return Tangent::default();
+        }
+        let q = self.foam.unloading_exponent;
+        let foam = &self.foam.foam;
+        let stiffness = foam.tangent(deformation, rate).stiffness * part.powf(q)
+            + foam.force(deformation, rate) * q * part.powf(q - 1.0) * slope;
+        Tangent { stiffness, damping: 0.0 }
+    }
+
+    fn stored(&self, deformation: f64) -> f64 {
+        self.foam.recoverable(deformation, self.deepest.unwrap_or(deformation))
+    }
+
+    fn law(&self) -> Law {
+        Law::Nonlinear { stiffness: self.foam.foam.stiffness(), damping: 0.0 }
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.foam.validate()
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.foam.values()
+    }
+}
+
+impl Element for HystereticFoam {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn force(&self, deformation: f64, rate: f64) -> f64 {
+        if deformation > 0.0 { self.foam.force(deformation, rate) } else { 0.0 }
+    }
+
+    fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
+        if deformation > 0.0 { self.foam.tangent(deformation, rate) } else { Tangent::default() }
+    }
+
+    fn stored(&self, deformation: f64) -> f64 {
+        self.recoverable(deformation, deformation)
+    }
+
+    fn law(&self) -> Law {
+        Law::Phased
+    }
+
+    fn phases(&self) -> Option<&dyn Phases> {
+        Some(self)
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.foam.validate()?;
+        if !(0.0..1.0).contains(&self.set) {
+            let range = "zero or positive, and below 1";
+            return Err(InvalidParameter::new(SET, range, self.set));
+        }
+        at_least_one(UNLOADING_EXPONENT, self.unloading_exponent)
+    }
+
+    fn values(&self) -> Vec<Value> {
+        let mut values = self.foam.values();
+        values.extend([self.set, self.unloading_exponent].map(Value::Number));
+        values
+    }
+}
+
+impl ElementKind for HystereticFoam {
+    const KIND: &'static str = "hysteretic-foam";
+    const SUMMARY: &'static str = "foam that unloads on a lower curve and keeps a set; never pulls";
+    const PARAMETERS: &'static [Parameter] = &[
+        MODULUS,
+        PLATEAU,
+        DENSIFICATION,
+        DENSIFICATION_EXPONENT,
+        THICKNESS,
+        AREA,
+        Parameter::required(
+            SET,
+            ParameterKind::Quantity(Dimension::NUMBER),
+            "part r of the greatest deformation that remains [1], from 0, below 1",
+        ),
+        Parameter::required(
+            UNLOADING_EXPONENT,
+            ParameterKind::Quantity(Dimension::NUMBER),
+            "exponent q of the curve of unloading [1], 1 or more",
+        ),
+    ];
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        let foam = Self {
+            foam: Foam::of(values)?,
+            set: number(values, 6, SET)?,
+            unloading_exponent: number(values, 7, UNLOADING_EXPONENT)?,
+        };
+        foam.validate().map(|()| foam)
+    }
+
+    fn sample() -> Self {
+        Self { foam: Foam::sample(), set: 0.2, unloading_exponent: 2.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A foam that is linear as it is loaded, to 1e-9.
+    fn linear(set: f64, unloading_exponent: f64) -> HystereticFoam {
+        let foam = Foam {
+            modulus: 1e3,
+            plateau: 1e12,
+            densification: 0.0,
+            exponent: 1.0,
+            thickness: 1.0,
+            area: 1.0,
+        };
+        HystereticFoam { foam, set, unloading_exponent }
+    }
+
+    fn curve(foam: &HystereticFoam, deepest: f64) -> Arc<dyn Element> {
+        let phase = Phase { index: UNLOADING, memory: deepest };
+        match Phases::law(foam, phase) {
+            PhaseLaw::Element(element) => element,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_linear_foam_gives_back_what_its_exponent_says() {
+        // ∫ k y (y/y_m)^q dy = k y_m²/(q + 2).
+        for q in [1.0, 2.0, 3.7] {
+            let foam = linear(0.0, q);
+            assert!((foam.stored(0.5) / (250.0 / (q + 2.0)) - 1.0).abs() < 1e-8);
+            let back = curve(&foam, 0.5);
+            let part = 0.6_f64.powf(q + 2.0);
+            assert!((back.stored(0.3) / (250.0 / (q + 2.0) * part) - 1.0).abs() < 1e-8);
+        }
+        // With a set r: ∫₀¹ (r + (1 − r) s) s^q ds (1 − r) k y_m².
+        let (r, q) = (0.25, 2.0);
+        let exact = 250.0 * (1.0 - r) * (r / (q + 1.0) + (1.0 - r) / (q + 2.0));
+        assert!((linear(r, q).stored(0.5) / exact - 1.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn force_and_store_are_continuous_at_every_exit() {
+        let foam = HystereticFoam::sample();
+        for deepest in [1e-6, 0.001, 0.0123, 0.0199, 0.025] {
+            let back = curve(&foam, deepest);
+            let force = foam.force(deepest, 0.0);
+            assert!((back.force(deepest, 0.0) / force - 1.0).abs() < 1e-13);
+            assert!((back.stored(deepest) / foam.stored(deepest) - 1.0).abs() < 1e-12);
+            let kept = 0.2 * deepest;
+            assert!(back.force(kept, 0.0).abs() <= 1e-13 * force);
+            assert!(back.stored(kept).abs() <= 1e-13 * foam.stored(deepest));
+            assert!(back.force(0.9 * kept, 0.0).abs() <= 0.0);
+            for part in [0.25, 0.5, 0.75, 0.99] {
+                let y = kept + part * (deepest - kept);
+                assert!(back.force(y, 0.0) <= foam.force(y, 0.0), "it lies above the first curve");
+            }
+        }
+    }
+
+    /// Follows the exits as a run would, in small steps, on a way through these turning points.
+    fn travelled(foam: &HystereticFoam, turns: &[f64]) -> (f64, Phase, f64) {
+        let mut phase = foam.first(turns[0]);
+        let mut work = 0.0;
+        let mut lowest = f64::INFINITY;
+        let steps = 4000;
+        for pair in turns.windows(2) {
+            let step = (pair[1] - pair[0]) / f64::from(steps);
+            for at in 0..steps {
+                let from = pair[0] + step * f64::from(at);
+                let middle = from + 0.5 * step;
+                // Several exits may follow one another at one instant.
+                for _ in 0..3 {
+                    let left = foam.exits(phase).into_iter().find(|exit| {
+                        let now = if exit.watched == Watched::Rate { step } else { middle };
+                        if exit.rising { now > exit.level } else { now < exit.level }
+                    });
+                    let Some(exit) = left else { break };
+                    let memory = if exit.remembers { from } else { phase.memory };
+                    phase = Phase { index: exit.to, memory };
+                }
+                let force = match Phases::law(foam, phase) {
+                    PhaseLaw::Element(element) => element.force(middle, step),
+                    _ => 0.0,
+                };
+                work += force * step;
+                lowest = lowest.min(work);
+            }
+        }
+        (work, phase, lowest)
+    }
+
+    #[test]
+    fn it_follows_its_curves_from_phase_to_phase() {
+        let foam = linear(0.2, 1.0);
+        let (_, phase, _) = travelled(&foam, &[0.0, 0.5]);
+        assert_eq!(phase.index, LOADING);
+        let (_, phase, _) = travelled(&foam, &[0.0, 0.5, 0.3]);
+        assert_eq!((phase.index, phase.memory), (UNLOADING, 0.5));
+        let (work, phase, _) = travelled(&foam, &[0.0, 0.5, -0.1]);
+        assert_eq!((phase.index, phase.memory), (SLACK, 0.5));
+        // The first curve's ½ k y², less what it gives back, to the second order of the steps.
+        let lost = 125.0 - foam.stored(0.5);
+        assert!((work / lost - 1.0).abs() < 1e-5);
+        // A second round up to the same depth takes and gives the same: nothing more is lost.
+        let (again, phase, _) = travelled(&foam, &[0.0, 0.5, -0.1, 0.5, -0.1]);
+        assert_eq!((phase.index, phase.memory), (SLACK, 0.5));
+        assert!((again / lost - 1.0).abs() < 1e-5);
+        // Deeper than before, the first curve goes on as if it had never been left.
+        let (deeper, phase, _) = travelled(&foam, &[0.0, 0.5, 0.3, 0.8]);
+        assert_eq!(phase.index, LOADING);
+        assert!((deeper / (0.5 * 1e3 * 0.64) - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn no_history_takes_out_more_than_was_put_in() {
+        let mut state = 11_u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for set in [0.0, 0.3, 0.9] {
+            for q in [1.0, 4.0] {
+                let foam = HystereticFoam { foam: Foam::sample(), set, unloading_exponent: q };
+                let turns: Vec<f64> = (0..24).map(|_| 0.0215 * next() - 0.002).collect();
+                let begin = [&[-0.001][..], &turns].concat();
+                let (work, _, lowest) = travelled(&foam, &begin);
+                assert!(work > 0.0 && lowest >= 0.0, "{set} {q}: {work} {lowest}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_set_of_the_whole_depth_is_refused() {
+        let foam = HystereticFoam { set: 1.0, ..HystereticFoam::sample() };
+        assert_eq!(foam.validate().unwrap_err().parameter, SET);
+        let foam = HystereticFoam { unloading_exponent: 0.5, ..HystereticFoam::sample() };
+        assert_eq!(foam.validate().unwrap_err().parameter, UNLOADING_EXPONENT);
+    }
+}

@@ -1,0 +1,137 @@
+//! The law that elements of impact damping share.
+
+use super::{Element, Law, Tangent, power::PowerLaw};
+use crate::{
+    parameters::{InvalidParameter, Value, finite, non_negative},
+    phases::{Exit, Phase, Watched},
+};
+
+/// `F = F_r (z/y_r)^n max(0, 1 + c ẏ) + c₀ ẏ` for `z = y − gap > 0`, else 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ImpactLaw {
+    /// The force at rest over `z`.
+    pub(super) power: PowerLaw,
+    /// `c` \[s/m\].
+    pub(super) dissipation: f64,
+    /// Deformation at which it engages \[m\].
+    pub(super) gap: f64,
+}
+
+/// `c₀` in units of `F_r c`: the slope over the rate that the law has where it engages.
+const SMALL: f64 = 1e-9;
+
+pub(super) const FREE: usize = 0;
+pub(super) const ENGAGED: usize = 1;
+pub(super) const PHASES: &[&str] = &["free", "engaged"];
+
+impl ImpactLaw {
+    /// Slope over the rate at the reference deformation \[N s/m\].
+    fn damping(&self) -> f64 {
+        self.power.force * self.dissipation
+    }
+
+    fn depth(&self, deformation: f64) -> f64 {
+        (deformation - self.gap).max(0.0)
+    }
+
+    /// The force while it is engaged.
+    fn engaged_force(&self, deformation: f64, rate: f64) -> f64 {
+        let factor = (1.0 + self.dissipation * rate).max(0.0);
+        self.power.value(self.depth(deformation)) * factor + SMALL * self.damping() * rate
+    }
+
+    fn engaged_tangent(&self, deformation: f64, rate: f64) -> Tangent {
+        let depth = self.depth(deformation);
+        let factor = 1.0 + self.dissipation * rate;
+        let least = SMALL * self.damping();
+        if factor <= 0.0 {
+            return Tangent { stiffness: 0.0, damping: least };
+        }
+        Tangent {
+            stiffness: if deformation > self.gap { self.power.slope(depth) * factor } else { 0.0 },
+            damping: self.power.value(depth) * self.dissipation + least,
+        }
+    }
+
+    pub(super) fn force(&self, deformation: f64, rate: f64) -> f64 {
+        if deformation > self.gap { self.engaged_force(deformation, rate) } else { 0.0 }
+    }
+
+    pub(super) fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
+        if deformation > self.gap {
+            self.engaged_tangent(deformation, rate)
+        } else {
+            Tangent::default()
+        }
+    }
+
+    pub(super) fn stored(&self, deformation: f64) -> f64 {
+        self.power.integral(self.depth(deformation))
+    }
+
+    pub(super) fn first(&self, deformation: f64) -> Phase {
+        Phase { index: if deformation < self.gap { FREE } else { ENGAGED }, memory: 0.0 }
+    }
+
+    pub(super) fn exits(&self, phase: Phase) -> Vec<Exit> {
+        let is_free = phase.index != ENGAGED;
+        vec![Exit {
+            watched: Watched::Deformation,
+            level: self.gap,
+            rising: is_free,
+            to: if is_free { ENGAGED } else { FREE },
+            remembers: false,
+        }]
+    }
+
+    pub(super) fn validate(&self) -> Result<(), InvalidParameter> {
+        self.power.validate()?;
+        non_negative("dissipation", self.dissipation)?;
+        finite("gap", self.gap)?;
+        if self.dissipation > 0.0 && !(SMALL * self.damping()).is_normal() {
+            let range = "such that the slope of the law fits into double precision";
+            return Err(InvalidParameter::new("dissipation", range, self.dissipation));
+        }
+        Ok(())
+    }
+}
+
+/// An element of this law while it is engaged.
+#[derive(Debug)]
+pub(super) struct Engaged {
+    pub(super) impact: ImpactLaw,
+    /// Word of the element.
+    pub(super) kind: &'static str,
+    /// Values of the element.
+    pub(super) values: Vec<Value>,
+}
+
+impl Element for Engaged {
+    fn kind(&self) -> &'static str {
+        self.kind
+    }
+
+    fn force(&self, deformation: f64, rate: f64) -> f64 {
+        self.impact.engaged_force(deformation, rate)
+    }
+
+    fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
+        self.impact.engaged_tangent(deformation, rate)
+    }
+
+    fn stored(&self, deformation: f64) -> f64 {
+        self.impact.stored(deformation)
+    }
+
+    fn law(&self) -> Law {
+        Law::Nonlinear { stiffness: self.impact.power.secant(), damping: self.impact.damping() }
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.impact.validate()
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.values.clone()
+    }
+}

@@ -1,0 +1,162 @@
+//! Dashpot whose force is a power of its rate.
+
+use super::{
+    Element, ElementKind, Law, Tangent, number,
+    power::{AT, EXPONENT, FORCE, in_range},
+};
+use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, positive};
+
+/// A dashpot whose force is a power of its rate, `F = F_r (|ẏ|/v_r)^p sgn ẏ`.
+///
+/// | symbol | field      | unit | range |
+/// |--------|------------|------|-------|
+/// | `F_r`  | `force`    | N    | > 0   |
+/// | `v_r`  | `at`       | m/s  | > 0   |
+/// | `p`    | `exponent` | 1    | > 0   |
+///
+/// The force is `F_r` at the rate `v_r`. `p = 1` is the linear dashpot, `p = 2` an orifice in
+/// turbulent flow, `p < 1` a fluid that thins by shear. The dashpot stores nothing and dissipates
+/// the power `F ẏ ≥ 0`. True dry friction is [`Friction`](super::Friction), not a small `p`.
+///
+/// # Limits
+///
+/// The power has an infinite slope at rest for `p < 1`, and none for `p > 1`. Below 10⁻⁹ `v_r` the
+/// law for `p < 1` is the straight line through zero that meets it there. The law for `p > 1` has
+/// the linear part 10⁻⁹ `F_r ẏ/v_r` besides.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{Element, elements::PowerDashpot};
+///
+/// let thinning = PowerDashpot { force: 200.0, at: 1.0, exponent: 0.5 };
+/// assert_eq!(thinning.force(0.0, 1.0), 200.0);
+/// assert_eq!(thinning.force(0.0, -4.0), -400.0);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PowerDashpot {
+    /// Force `F_r` at the reference rate \[N\].
+    pub force: f64,
+    /// Reference rate `v_r` \[m/s\].
+    pub at: f64,
+    /// Exponent `p`.
+    pub exponent: f64,
+}
+
+/// The part of the reference rate below which a law of `p < 1` is linear, and the part of the
+/// reference slope that a law of `p > 1` has at rest.
+const SMALL: f64 = 1e-9;
+
+impl PowerDashpot {
+    /// Force and slope over the rate, both in units of the reference, at the part `rate ≥ 0` of it.
+    fn parts(&self, rate: f64) -> (f64, f64) {
+        let p = self.exponent;
+        if p > 1.0 {
+            (rate.powf(p) + SMALL * rate, p * rate.powf(p - 1.0) + SMALL)
+        } else if rate < SMALL {
+            let slope = SMALL.powf(p - 1.0);
+            (slope * rate, slope)
+        } else {
+            (rate.powf(p), p * rate.powf(p - 1.0))
+        }
+    }
+}
+
+impl Element for PowerDashpot {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn force(&self, _deformation: f64, rate: f64) -> f64 {
+        (self.force * self.parts(rate.abs() / self.at).0).copysign(rate)
+    }
+
+    fn tangent(&self, _deformation: f64, rate: f64) -> Tangent {
+        let damping = self.force / self.at * self.parts(rate.abs() / self.at).1;
+        Tangent { stiffness: 0.0, damping }
+    }
+
+    fn stored(&self, _deformation: f64) -> f64 {
+        0.0
+    }
+
+    fn law(&self) -> Law {
+        let damping = self.force / self.at;
+        if (self.exponent - 1.0).abs() > 0.0 {
+            Law::Nonlinear { stiffness: 0.0, damping }
+        } else {
+            Law::Dashpot(damping)
+        }
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        positive(FORCE, self.force)?;
+        positive(AT, self.at)?;
+        positive(EXPONENT, self.exponent)?;
+        in_range(AT, self.at, self.force / self.at * self.parts(0.0).1)?;
+        in_range(AT, self.at, self.force / self.at * self.exponent)
+    }
+
+    fn values(&self) -> Vec<Value> {
+        [self.force, self.at, self.exponent].map(Value::Number).to_vec()
+    }
+}
+
+impl ElementKind for PowerDashpot {
+    const KIND: &'static str = "power-dashpot";
+    const SUMMARY: &'static str = "dashpot of a power law, F = F_r (|y'|/v_r)^p sgn y'";
+    const PARAMETERS: &'static [Parameter] = &[
+        Parameter::required(
+            FORCE,
+            ParameterKind::Quantity(Dimension::FORCE),
+            "force F_r at the rate `at` [N], positive",
+        ),
+        Parameter::required(
+            AT,
+            ParameterKind::Quantity(Dimension::VELOCITY),
+            "reference rate v_r [m/s], positive",
+        ),
+        Parameter::required(
+            EXPONENT,
+            ParameterKind::Quantity(Dimension::NUMBER),
+            "exponent p [1], positive",
+        ),
+    ];
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        let dashpot = Self {
+            force: number(values, 0, FORCE)?,
+            at: number(values, 1, AT)?,
+            exponent: number(values, 2, EXPONENT)?,
+        };
+        dashpot.validate().map(|()| dashpot)
+    }
+
+    fn sample() -> Self {
+        Self { force: 200.0, at: 1.0, exponent: 0.5 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_continuous_where_its_core_ends_and_has_a_slope_at_rest() {
+        let thinning = PowerDashpot { force: 200.0, at: 2.0, exponent: 0.5 };
+        let border = 2.0 * SMALL;
+        let (within, beyond) = (border * (1.0 - 1e-12), border * (1.0 + 1e-12));
+        let both = [within, beyond].map(|rate| thinning.force(0.0, rate));
+        assert!((both[0] / both[1] - 1.0).abs() < 1e-11);
+        let thickening = PowerDashpot { force: 200.0, at: 2.0, exponent: 2.0 };
+        assert!((thickening.tangent(0.0, 0.0).damping / 1e-7 - 1.0).abs() < 1e-12);
+        assert!((thickening.force(0.0, -4.0) + 800.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_exponent_one_is_the_linear_dashpot() {
+        let linear = PowerDashpot { force: 200.0, at: 2.0, exponent: 1.0 };
+        assert_eq!(linear.law(), Law::Dashpot(100.0));
+        assert!((linear.force(0.0, 1e-12) / 1e-10 - 1.0).abs() < 1e-12);
+    }
+}

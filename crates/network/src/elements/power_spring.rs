@@ -1,0 +1,104 @@
+//! Spring whose force is a power of its deformation.
+
+use super::{
+    Element, ElementKind, Law, Tangent,
+    power::{AT_PARAMETER, EXPONENT, FORCE_PARAMETER, PowerLaw},
+};
+use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
+
+/// A spring whose force is a power of its deformation, `F = F_r (|y|/y_r)^n sgn y`.
+///
+/// | symbol | field      | unit | range |
+/// |--------|------------|------|-------|
+/// | `F_r`  | `force`    | N    | > 0   |
+/// | `y_r`  | `at`       | m    | > 0   |
+/// | `n`    | `exponent` | 1    | ≥ 1   |
+///
+/// The force is `F_r` at the deformation `y_r`, where the slope is `n F_r/y_r`. Tension mirrors
+/// compression. The spring stores `F_r y_r (|y|/y_r)^(n+1)/(n+1)` and dissipates none. `n = 1` is
+/// the linear spring; `n = 3/2` is the contact of two elastic spheres (Hertz 1882). For `n > 1` the
+/// slope is zero at rest, so two such springs do not determine a massless node between them there.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{Element, elements::PowerSpring};
+///
+/// let spring = PowerSpring { force: 2000.0, at: 0.01, exponent: 1.5 };
+/// assert_eq!(spring.force(0.01, 0.0), 2000.0);
+/// assert!((spring.force(-0.04, 0.0) + 16_000.0).abs() < 1e-9);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PowerSpring {
+    /// Force `F_r` at the reference deformation \[N\].
+    pub force: f64,
+    /// Reference deformation `y_r` \[m\].
+    pub at: f64,
+    /// Exponent `n`.
+    pub exponent: f64,
+}
+
+impl PowerSpring {
+    fn power(&self) -> PowerLaw {
+        PowerLaw { force: self.force, at: self.at, exponent: self.exponent }
+    }
+}
+
+impl Element for PowerSpring {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn force(&self, deformation: f64, _rate: f64) -> f64 {
+        self.power().value(deformation.abs()).copysign(deformation)
+    }
+
+    fn tangent(&self, deformation: f64, _rate: f64) -> Tangent {
+        Tangent { stiffness: self.power().slope(deformation.abs()), damping: 0.0 }
+    }
+
+    fn stored(&self, deformation: f64) -> f64 {
+        self.power().integral(deformation.abs())
+    }
+
+    fn law(&self) -> Law {
+        let stiffness = self.power().secant();
+        if self.exponent > 1.0 {
+            Law::Nonlinear { stiffness, damping: 0.0 }
+        } else {
+            Law::Spring(stiffness)
+        }
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.power().validate()
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.power().values()
+    }
+}
+
+impl ElementKind for PowerSpring {
+    const KIND: &'static str = "power-spring";
+    const SUMMARY: &'static str = "spring of a power law, F = F_r (|y|/y_r)^n sgn y";
+    const PARAMETERS: &'static [Parameter] = &[
+        FORCE_PARAMETER,
+        AT_PARAMETER,
+        Parameter::required(
+            EXPONENT,
+            ParameterKind::Quantity(Dimension::NUMBER),
+            "exponent n [1], 1 or more",
+        ),
+    ];
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        let PowerLaw { force, at, exponent } = PowerLaw::from_values(values)?;
+        let spring = Self { force, at, exponent };
+        spring.validate().map(|()| spring)
+    }
+
+    fn sample() -> Self {
+        Self { force: 2000.0, at: 0.01, exponent: 1.5 }
+    }
+}

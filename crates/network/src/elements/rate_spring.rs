@@ -1,0 +1,233 @@
+//! Spring that is stiffer the faster it is loaded.
+
+use super::{
+    Element, ElementKind, Law, Tangent, number,
+    power::{AT_PARAMETER, EXPONENT, FORCE_PARAMETER, PowerLaw, in_range},
+};
+use crate::parameters::{
+    Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative, positive,
+};
+
+/// A spring that is stiffer the faster it is loaded: a modulus that depends on strain and on rate,
+/// `F = F_s(y)·(1 + φ(ẏ))` with `F_s = F_r (|y|/y_r)^n sgn y`, and `φ = a ln(1 + |ẏ|/v_r)` while it
+/// is loaded, `y ẏ > 0`, else 0.
+///
+/// | symbol | field            | unit | range |
+/// |--------|------------------|------|-------|
+/// | `F_r`  | `force`          | N    | > 0   |
+/// | `y_r`  | `at`             | m    | > 0   |
+/// | `n`    | `exponent`       | 1    | ≥ 1, 1 where left out |
+/// | `a`    | `gain`           | 1    | ≥ 0   |
+/// | `v_r`  | `reference-rate` | m/s  | > 0   |
+///
+/// Well above the rate `v_r`, ten times the rate raises the force of loading by `2.3 a F_s`.
+///
+/// # Energy
+///
+/// The spring stores `W(y) = ∫ F_s dy`. A product `E1(rate)·E2(strain)` that works in unloading, too,
+/// creates energy: what is loaded slowly and unloaded fast returns more than it took up. Here
+/// `F ẏ = F_s ẏ + F_s ẏ φ` while `F_s ẏ > 0`, and `F ẏ = F_s ẏ` else. So `F ẏ − dW/dt ≥ 0` at every
+/// instant, and no closed cycle creates energy. Because `φ = 0` at rest, the force is continuous
+/// where loading ends; its slope over the rate is not.
+///
+/// # Limits
+///
+/// In unloading the force would not depend on the rate at all. So that a massless node finds its
+/// rate there, the term 10⁻⁹ `a F_r ln(1 + |ẏ|/v_r) sgn ẏ` is added to all phases; it dissipates.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{Element, elements::RateSpring};
+///
+/// let spring =
+///     RateSpring { force: 1000.0, at: 0.01, exponent: 1.0, gain: 0.1, reference_rate: 0.01 };
+/// assert!((spring.force(0.01, 0.99) - 1000.0 * (1.0 + 0.1 * 100_f64.ln())).abs() < 1e-5);
+/// assert!((spring.force(0.01, -0.99) - 1000.0).abs() < 1e-5);
+/// ```
+///
+/// # References
+///
+/// `johnson1983` in `docs/references.bib` for the logarithm of the rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RateSpring {
+    /// Force `F_r` at the reference deformation, at rest \[N\].
+    pub force: f64,
+    /// Reference deformation `y_r` \[m\].
+    pub at: f64,
+    /// Exponent `n` of the deformation.
+    pub exponent: f64,
+    /// Gain `a` of the force with the logarithm of the rate.
+    pub gain: f64,
+    /// Rate `v_r` above which the rate matters \[m/s\].
+    pub reference_rate: f64,
+}
+
+/// Part of the reference force that depends on the rate in all phases.
+const SMALL: f64 = 1e-9;
+
+impl RateSpring {
+    fn power(&self) -> PowerLaw {
+        PowerLaw { force: self.force, at: self.at, exponent: self.exponent }
+    }
+
+    /// `φ` and its slope over `|ẏ|`, as if it were loaded.
+    fn gained(&self, rate: f64) -> (f64, f64) {
+        let speed = rate.abs();
+        (
+            self.gain * (speed / self.reference_rate).ln_1p(),
+            self.gain / (self.reference_rate + speed),
+        )
+    }
+
+    /// The slope over the rate that a spring under the reference force has at rest.
+    fn damping(&self) -> f64 {
+        self.force * self.gain / self.reference_rate
+    }
+}
+
+impl Element for RateSpring {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn force(&self, deformation: f64, rate: f64) -> f64 {
+        let (gain, _) = self.gained(rate);
+        let steady = self.power().value(deformation.abs()).copysign(deformation);
+        let loading = if deformation * rate > 0.0 { gain } else { 0.0 };
+        steady * (1.0 + loading) + (SMALL * self.force * gain).copysign(rate)
+    }
+
+    fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
+        let (gain, slope) = self.gained(rate);
+        let steady = self.power().value(deformation.abs());
+        let (loading, of_rate) =
+            if deformation * rate > 0.0 { (gain, steady * slope) } else { (0.0, 0.0) };
+        Tangent {
+            stiffness: self.power().slope(deformation.abs()) * (1.0 + loading),
+            damping: of_rate + SMALL * self.force * slope,
+        }
+    }
+
+    fn stored(&self, deformation: f64) -> f64 {
+        self.power().integral(deformation.abs())
+    }
+
+    fn law(&self) -> Law {
+        let stiffness = self.power().secant();
+        if self.gain > 0.0 || self.exponent > 1.0 {
+            Law::Nonlinear { stiffness, damping: self.damping() }
+        } else {
+            Law::Spring(stiffness)
+        }
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.power().validate()?;
+        non_negative("gain", self.gain)?;
+        positive("reference-rate", self.reference_rate)?;
+        if self.gain > 0.0 {
+            in_range("reference-rate", self.reference_rate, SMALL * self.damping())?;
+        }
+        Ok(())
+    }
+
+    fn values(&self) -> Vec<Value> {
+        [self.force, self.at, self.gain, self.reference_rate, self.exponent]
+            .map(Value::Number)
+            .to_vec()
+    }
+}
+
+impl ElementKind for RateSpring {
+    const KIND: &'static str = "rate-spring";
+    const SUMMARY: &'static str =
+        "spring stiffer under fast loading, F = F_s(y) (1 + a ln(1 + |y'|/v_r))";
+    const PARAMETERS: &'static [Parameter] = &[
+        FORCE_PARAMETER,
+        AT_PARAMETER,
+        Parameter::required(
+            "gain",
+            ParameterKind::Quantity(Dimension::NUMBER),
+            "gain a of the force with the logarithm of the rate [1], zero or positive",
+        ),
+        Parameter::required(
+            "reference-rate",
+            ParameterKind::Quantity(Dimension::VELOCITY),
+            "rate v_r above which the rate matters [m/s], positive",
+        ),
+        Parameter::optional(
+            EXPONENT,
+            ParameterKind::Quantity(Dimension::NUMBER),
+            "1",
+            "exponent n of the deformation [1], 1 or more",
+        ),
+    ];
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        let spring = Self {
+            force: number(values, 0, "force")?,
+            at: number(values, 1, "at")?,
+            gain: number(values, 2, "gain")?,
+            reference_rate: number(values, 3, "reference-rate")?,
+            exponent: number(values, 4, EXPONENT)?,
+        };
+        spring.validate().map(|()| spring)
+    }
+
+    fn sample() -> Self {
+        Self { force: 1000.0, at: 0.01, exponent: 1.5, gain: 0.1, reference_rate: 0.01 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_closed_cycle_creates_energy() {
+        let spring = RateSpring::sample();
+        // Cycles with any speeds on the way in and out: polygons in the plane of y and ẏ, the rate
+        // constant between corners. The work of a corner's stretch is F at its rate over its way.
+        let mut state = 7_u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for _ in 0..200 {
+            let corners: Vec<f64> = (0..6).map(|_| 0.04 * (next() - 0.5)).collect();
+            let mut work = 0.0;
+            let mut size = 0.0;
+            for at in 0..corners.len() {
+                let (from, to) = (corners[at], corners[(at + 1) % corners.len()]);
+                let rate = (to - from).signum() * 10_f64.powf(6.0 * next() - 4.0);
+                let own = work_between(&spring, from, to, rate);
+                work += own;
+                size += own.abs();
+            }
+            assert!(work >= -1e-12 * size, "{work}");
+        }
+        // Slowly in, fast out: nothing is gained; fast in, slowly out: much is lost.
+        let cycle = |inward: f64, outward: f64| {
+            work_between(&spring, 0.0, 0.01, inward) + work_between(&spring, 0.01, 0.0, -outward)
+        };
+        assert!(cycle(1e-6, 10.0) < 1e-4 * spring.stored(0.01));
+        let lost = 0.1 * 1001_f64.ln() * spring.stored(0.01);
+        assert!((cycle(10.0, 1e-6) / lost - 1.0).abs() < 1e-3);
+    }
+
+    /// Work on a way at one rate, by the closed integral of the power law on either side of zero.
+    fn work_between(spring: &RateSpring, from: f64, to: f64, rate: f64) -> f64 {
+        let (low, high) = (from.min(to), from.max(to));
+        let sides = [(low.min(0.0), high.min(0.0)), (low.max(0.0), high.max(0.0))];
+        let work = sides.iter().map(|&(low, high)| {
+            super::super::quadrature::integral(
+                // The integrand is to be positive: the sign is that of the side.
+                |y| spring.force(y, rate).abs(),
+                low,
+                high,
+            ) * if high > 0.0 { 1.0 } else { -1.0 }
+        });
+        work.sum::<f64>() * rate.signum()
+    }
+}

@@ -1,0 +1,168 @@
+//! What holds for every element of the register, and for each of its phases.
+
+use std::sync::Arc;
+
+use super::*;
+use crate::phases::{Phase, PhaseLaw};
+
+/// Deformations \[m\] at which laws are looked at, none of them at a kink of a sample.
+const DEFORMATIONS: [f64; 12] = [
+    -0.031, -0.0123, -0.0037, -0.000_41, -2.3e-5, 2.3e-5, 0.000_41, 0.0037, 0.0087, 0.0123, 0.0191,
+    0.031,
+];
+/// Rates \[m/s\].
+const RATES: [f64; 8] = [-30.0, -1.7, -0.02, -1e-4, 1e-4, 0.02, 1.7, 30.0];
+/// How far elements with a memory have been pressed \[m\].
+const DEEPEST: [f64; 3] = [-0.001, 0.006, 0.0185];
+
+/// Every law that an element may follow: its own, and those of its phases.
+fn laws(element: &Arc<dyn Element>) -> Vec<Arc<dyn Element>> {
+    let mut laws = vec![Arc::clone(element)];
+    for (index, _) in element.phases().map_or(&[][..], |own| own.names()).iter().enumerate() {
+        for memory in DEEPEST {
+            let phase = Phase { index, memory };
+            if let Some(PhaseLaw::Element(own)) = element.phases().map(|own| own.law(phase)) {
+                laws.push(own);
+            }
+        }
+    }
+    laws
+}
+
+struct Each<F>(F);
+
+impl<F: FnMut(Arc<dyn Element>)> ElementVisitor for Each<F> {
+    fn visit<E: ElementKind>(&mut self) {
+        (self.0)(Arc::new(E::sample()));
+    }
+}
+
+fn for_each_law(mut look: impl FnMut(&dyn Element)) {
+    visit_elements(&mut Each(|element: Arc<dyn Element>| {
+        laws(&element).iter().for_each(|law| look(law.as_ref()));
+    }));
+}
+
+/// Slope of a function by central differences, and how wrong it may be: the difference of two step
+/// widths, and the rounding of the values.
+fn slope(f: impl Fn(f64) -> f64, at: f64) -> (f64, f64) {
+    let by = |step: f64| (f(at + step) - f(at - step)) / (2.0 * step);
+    let step = 1e-5 * at.abs();
+    let (coarse, fine) = (by(2.0 * step), by(step));
+    let rounding = 16.0 * f64::EPSILON * f(at).abs().max(f(at + 2.0 * step).abs()) / step;
+    (fine, (coarse - fine).abs() + rounding)
+}
+
+#[test]
+fn tangents_are_the_slopes_of_the_force() {
+    for_each_law(|law| {
+        for y in DEFORMATIONS {
+            for v in RATES {
+                let tangent = law.tangent(y, v);
+                for (found, (slope, error)) in [
+                    (tangent.stiffness, slope(|y| law.force(y, v), y)),
+                    (tangent.damping, slope(|v| law.force(y, v), v)),
+                ] {
+                    let off = (found - slope).abs();
+                    assert!(off <= error, "{law:?} at {y}, {v}: {found} {slope} ± {error}");
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn forces_never_fall_with_the_deformation_nor_with_the_rate() {
+    for_each_law(|law| {
+        for y in DEFORMATIONS {
+            for v in RATES {
+                let Tangent { stiffness, damping } = law.tangent(y, v);
+                assert!(stiffness >= 0.0 && damping >= 0.0, "{law:?} at {y}, {v}");
+            }
+        }
+    });
+}
+
+#[test]
+fn what_is_stored_rises_by_no_more_than_the_work_done() {
+    for_each_law(|law| {
+        assert!(law.stored(0.0).abs() <= 0.0, "{law:?}");
+        for y in DEFORMATIONS {
+            let (stored, error) = slope(|y| law.stored(y), y);
+            for v in RATES {
+                let excess = (stored - law.force(y, v)) * v.signum();
+                // While it is pressed for the first time, foam with a set loses energy for good.
+                let is_first = law.kind() == HystereticFoam::KIND
+                    && law.force(y, v).to_bits() == HystereticFoam::sample().force(y, v).to_bits();
+                assert!(is_first && v < 0.0 || excess <= error, "{law:?} at {y}, {v}: {excess}");
+                assert!(law.stored(y) >= 0.0, "{law:?} at {y}");
+            }
+        }
+    });
+}
+
+#[test]
+fn at_rest_the_force_is_the_slope_of_what_is_stored() {
+    for_each_law(|law| {
+        if law.kind() == HystereticFoam::KIND {
+            return;
+        }
+        for y in DEFORMATIONS {
+            let (stored, error) = slope(|y| law.stored(y), y);
+            let force = law.force(y, 0.0);
+            assert!((force - stored).abs() <= error, "{law:?} at {y}: {force} {stored} ± {error}");
+        }
+    });
+}
+
+#[test]
+fn what_stands_for_a_law_has_slopes_of_its_size() {
+    for_each_law(|law| {
+        let Law::Nonlinear { stiffness, damping } = law.law() else { return };
+        assert!(stiffness >= 0.0 && damping >= 0.0 && stiffness + damping > 0.0, "{law:?}");
+        let all = || DEFORMATIONS.into_iter().flat_map(|y| RATES.map(|v| law.tangent(y, v)));
+        let between = |own: f64, of: fn(Tangent) -> f64| {
+            let (least, most) =
+                (all().map(of).fold(f64::INFINITY, f64::min), all().map(of).fold(0.0, f64::max));
+            own >= 0.5 * least && own <= 1.000_001 * most
+        };
+        assert!(between(stiffness, |own| own.stiffness), "{law:?}");
+        assert!(between(damping, |own| own.damping), "{law:?}");
+    });
+}
+
+#[test]
+fn samples_are_valid_and_come_back_from_their_values() {
+    struct Again;
+    impl ElementVisitor for Again {
+        fn visit<E: ElementKind>(&mut self) {
+            let sample = E::sample();
+            assert!(sample.validate().is_ok(), "{}", E::KIND);
+            assert_eq!(sample.values().len(), E::PARAMETERS.len(), "{}", E::KIND);
+            let again = E::from_values(&sample.values()).unwrap();
+            assert_eq!(again.values(), sample.values());
+            assert_eq!(format!("{again:?}"), format!("{sample:?}"));
+            for at in 0..E::PARAMETERS.len() {
+                let mut values = sample.values();
+                values[at] = Value::Number(f64::NAN);
+                if E::PARAMETERS[at].kind != crate::parameters::ParameterKind::Flag {
+                    assert!(E::from_values(&values).is_err(), "{}.{at}", E::KIND);
+                }
+            }
+        }
+    }
+    visit_elements(&mut Again);
+}
+
+#[test]
+fn laws_of_numbers_without_size_are_finite() {
+    for_each_law(|law| {
+        for y in [0.0, -0.0, 1e-300, -1e-300, 1e3, -1e3] {
+            for v in [0.0, -0.0, 1e-300, -1e-300, 1e3, -1e3] {
+                let Tangent { stiffness, damping } = law.tangent(y, v);
+                let all = [law.force(y, v), stiffness, damping, law.stored(y)];
+                assert!(all.iter().all(|own| own.is_finite()), "{law:?} at {y}, {v}: {all:?}");
+            }
+        }
+    });
+}

@@ -1,0 +1,123 @@
+//! A part of a layer, as a model.
+
+use std::sync::Arc;
+
+use dashpot_rheology::{Branch, Tree};
+
+use crate::{
+    Element, Model,
+    elements::{Dashpot, Law, Spring, Tangent},
+    parameters::{InvalidParameter, Value},
+    phases::{Exit, Phase, PhaseLaw, Phases, Watched},
+};
+
+/// The model of one of `count` equal slices of a layer, of which `count` in series have the law of
+/// the layer, `F(y) = layer(count · y)`.
+pub(super) fn slice(layer: &Model, count: f64) -> Model {
+    layer.fold(
+        |element| Tree::Part(slice_of(element, count)),
+        |tree, parts| {
+            let named = tree.branches().iter().zip(parts);
+            let branches = named.map(|(own, tree)| Branch::new(&own.name, tree)).collect();
+            if tree.is_series() { Tree::Series(branches) } else { Tree::Parallel(branches) }
+        },
+    )
+}
+
+fn slice_of(element: &Arc<dyn Element>, count: f64) -> Arc<dyn Element> {
+    match element.law() {
+        Law::Spring(stiffness) => Arc::new(Spring { stiffness: stiffness * count }),
+        Law::Dashpot(damping) => Arc::new(Dashpot { damping: damping * count }),
+        Law::Rigid => Arc::clone(element),
+        Law::Nonlinear { .. } | Law::Phased => Arc::new(Slice { of: Arc::clone(element), count }),
+    }
+}
+
+/// A slice of an element that is no spring and no dashpot: `F(y, ẏ) = f(n y, n ẏ)`.
+#[derive(Debug, Clone)]
+struct Slice {
+    of: Arc<dyn Element>,
+    /// The number `n` of slices in series that have the law of the element.
+    count: f64,
+}
+
+impl Element for Slice {
+    fn kind(&self) -> &'static str {
+        self.of.kind()
+    }
+
+    fn force(&self, deformation: f64, rate: f64) -> f64 {
+        self.of.force(self.count * deformation, self.count * rate)
+    }
+
+    fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
+        let whole = self.of.tangent(self.count * deformation, self.count * rate);
+        Tangent { stiffness: self.count * whole.stiffness, damping: self.count * whole.damping }
+    }
+
+    fn stored(&self, deformation: f64) -> f64 {
+        self.of.stored(self.count * deformation) / self.count
+    }
+
+    fn law(&self) -> Law {
+        match self.of.law() {
+            Law::Nonlinear { stiffness, damping } => {
+                Law::Nonlinear { stiffness: stiffness * self.count, damping: damping * self.count }
+            }
+            other => other,
+        }
+    }
+
+    fn phases(&self) -> Option<&dyn Phases> {
+        self.of.phases().map(|_| self as &dyn Phases)
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.of.validate()
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.of.values()
+    }
+}
+
+impl Slice {
+    /// A phase of the slice as one of the element.
+    fn whole(&self, phase: Phase) -> Phase {
+        Phase { memory: phase.memory * self.count, ..phase }
+    }
+}
+
+impl Phases for Slice {
+    fn names(&self) -> &'static [&'static str] {
+        self.of.phases().map_or(&[], Phases::names)
+    }
+
+    fn first(&self, deformation: f64) -> Phase {
+        let whole = self.of.phases().map(|own| own.first(self.count * deformation));
+        let whole = whole.unwrap_or(Phase { index: 0, memory: 0.0 });
+        Phase { memory: whole.memory / self.count, ..whole }
+    }
+
+    fn law(&self, phase: Phase) -> PhaseLaw {
+        match self.of.phases().map(|own| own.law(self.whole(phase))) {
+            Some(PhaseLaw::Held(deformation)) => PhaseLaw::Held(deformation / self.count),
+            Some(PhaseLaw::Element(element)) => PhaseLaw::Element(slice_of(&element, self.count)),
+            Some(law) => law,
+            None => PhaseLaw::Open,
+        }
+    }
+
+    fn exits(&self, phase: Phase) -> Vec<Exit> {
+        let exits = self.of.phases().map(|own| own.exits(self.whole(phase))).unwrap_or_default();
+        let scaled = exits.into_iter().map(|exit| match exit.watched {
+            Watched::Force => exit,
+            Watched::Deformation | Watched::Rate => Exit { level: exit.level / self.count, ..exit },
+        });
+        scaled.collect()
+    }
+
+    fn restitution(&self) -> f64 {
+        self.of.phases().map_or(0.0, Phases::restitution)
+    }
+}

@@ -1,0 +1,118 @@
+//! Trapezoidal pulse.
+
+use dashpot_dae::{Piece, Waveform};
+
+use super::{WaveformKind, before, pieces};
+use crate::{
+    elements::number,
+    parameters::{
+        Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite, non_negative,
+    },
+};
+
+/// A pulse with a flat top: from 0 at `start` in a straight line to `peak` within `rise`, `peak` for
+/// `hold`, and in a straight line back to 0 within `fall`.
+///
+/// A rise or fall of zero is a jump: a rectangular pulse has both, a sawtooth one of them and no
+/// `hold`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trapezoid {
+    /// The flat top \[N, m or m/s²\].
+    pub peak: f64,
+    /// How long it rises \[s\], zero or positive.
+    pub rise: f64,
+    /// How long it stays at the top \[s\], zero or positive.
+    pub hold: f64,
+    /// How long it falls \[s\], zero or positive; the three are not all zero.
+    pub fall: f64,
+    /// When it begins \[s\].
+    pub start: f64,
+}
+
+impl Trapezoid {
+    fn check(&self) -> Result<(), InvalidParameter> {
+        let parts = [("rise", self.rise), ("hold", self.hold), ("fall", self.fall)];
+        parts.into_iter().try_for_each(|(name, length)| non_negative(name, length))?;
+        if parts.iter().all(|part| part.1 == 0.0) {
+            return Err(InvalidParameter::new("hold", "positive where `rise` and `fall` are 0", 0));
+        }
+        Ok(())
+    }
+}
+
+impl WaveformKind for Trapezoid {
+    const KIND: &'static str = "trapezoid";
+    const SUMMARY: &'static str =
+        "linear from 0 to `peak` within `rise`, constant for `hold`, back to 0 within `fall`";
+    const PARAMETERS: &'static [Parameter] = &[
+        Parameter::required("peak", ParameterKind::Amplitude, "flat top [N, m or m/s^2]"),
+        Parameter::required(
+            "rise",
+            ParameterKind::Quantity(Dimension::TIME),
+            "rise time [s]; zero is a jump",
+        ),
+        Parameter::required(
+            "hold",
+            ParameterKind::Quantity(Dimension::TIME),
+            "time at the top [s], zero or positive",
+        ),
+        Parameter::required(
+            "fall",
+            ParameterKind::Quantity(Dimension::TIME),
+            "fall time [s]; zero is a jump",
+        ),
+        Parameter::optional(
+            "start",
+            ParameterKind::Quantity(Dimension::TIME),
+            "0 s",
+            "when the pulse begins [s]",
+        ),
+    ];
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        let pulse = Self {
+            peak: number(values, 0, "peak")?,
+            rise: number(values, 1, "rise")?,
+            hold: number(values, 2, "hold")?,
+            fall: number(values, 3, "fall")?,
+            start: number(values, 4, "start")?,
+        };
+        pulse.check().map(|()| pulse)
+    }
+
+    fn values(&self) -> Vec<Value> {
+        [self.peak, self.rise, self.hold, self.fall, self.start].map(Value::Number).into()
+    }
+
+    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
+        finite("peak", self.peak)?;
+        finite("start", self.start)?;
+        self.check()?;
+        let mut parts = vec![Piece { start: before(self.start), ..Piece::default() }];
+        let mut start = self.start;
+        // The lengths are those that the rounded times have, so that the lines meet.
+        for (length, from, to) in [
+            (self.rise, 0.0, self.peak),
+            (self.hold, self.peak, self.peak),
+            (self.fall, self.peak, 0.0),
+        ] {
+            if length == 0.0 {
+                continue;
+            }
+            let end = start + length;
+            let slope = (to - from) / (end - start);
+            parts.push(Piece { start, value: from, slope, ..Piece::default() });
+            start = end;
+        }
+        parts.push(Piece { start, ..Piece::default() });
+        let lengths = [("rise", self.rise), ("hold", self.hold), ("fall", self.fall)];
+        let shortest =
+            lengths.into_iter().filter(|own| own.1 > 0.0).min_by(|a, b| a.1.total_cmp(&b.1));
+        let (name, length) = shortest.unwrap_or(("hold", self.hold));
+        pieces(name, length, parts)
+    }
+
+    fn sample() -> Self {
+        Self { peak: 2.0, rise: 0.125, hold: 0.25, fall: 0.375, start: 0.25 }
+    }
+}

@@ -1,0 +1,227 @@
+//! Driving functions from files: `table = "pulse.csv"`.
+
+use std::ops::Range;
+
+use dashpot_dae::Waveform;
+use dashpot_network::parameters::{Dimension, Value};
+
+use super::Reading;
+use crate::{
+    csv::{Csv, CsvFault, Field},
+    document::{Content, Item},
+    fault::Fault,
+    kinds::Kind,
+    library::TableFile,
+    quantity::Quantities,
+    source::Place,
+    table::{Table, text_of, wrong_type},
+    units::{parse_quantity, si_unit},
+};
+
+/// What a scene says of a file beside its name.
+#[derive(Default)]
+struct Wishes<'d> {
+    columns: Option<[&'d Item; 2]>,
+    units: Option<[&'d Item; 2]>,
+}
+
+impl<'d> Reading<'d> {
+    /// The function of `kind`, which takes a table, from the file that `item` names; `place` is that
+    /// of its word. `key` is what it drives, in `driven`.
+    pub(super) fn read_file(
+        &self,
+        kind: &Kind<Waveform>,
+        item: &'d Item,
+        place: Place,
+        (key, driven): (&str, Dimension),
+    ) -> Option<Waveform> {
+        let (name, wishes) = self.file_and_wishes(kind.word, item, place)?;
+        let path = text_of(name, "`file`", self.faults)?;
+        // Where there is none, a fault has been noted.
+        let file = self.library.table_file(path)?;
+        let note = format!(
+            "the scene's `{key}`, {}, is read from this file",
+            self.faults.origin(name.place)
+        );
+        let tell = |span: Range<usize>, fault: Fault| {
+            self.faults.error(Place::new(file.number, &span), fault.with_note(&*note));
+        };
+        let is_empty = || Fault::Csv(CsvFault::Empty { path: path.to_owned() });
+        let Some(csv) = Csv::new(&file.source.text) else {
+            self.faults.error(name.place, is_empty());
+            return None;
+        };
+        if csv.columns < 2 {
+            tell(0..0, Fault::Csv(CsvFault::OneColumn));
+            return None;
+        }
+        let columns = self.columns(&csv, &wishes, name.place)?;
+        let dimensions = [Dimension::TIME, driven];
+        let quantities = Quantities { is_motion: driven == Dimension::LENGTH, ..self.quantities() };
+        let [time, value] = [0, 1].map(|at| {
+            let header = csv.header.as_ref().and_then(|header| header.get(columns[at]));
+            let header = header.and_then(|field| field.name_and_unit().1);
+            let given = wishes.units.map(|units| units[at]);
+            self.unit(file, header, given, dimensions[at], quantities)
+        });
+        let units = [time?, value?];
+        let factors = units.map(|factor| factor.unwrap_or(1.0));
+        let points = csv.points(columns, factors, |span, fault| tell(span, Fault::Csv(fault)))?;
+        if points.is_empty() {
+            self.faults.error(name.place, is_empty());
+            return None;
+        }
+        if points.len() == 1 {
+            let message = "a table with one point is a constant for ever";
+            let help = "give at least two rows, or write `constant`";
+            self.faults.warning(name.place, Fault::odd(message, help));
+        }
+        self.without_units(units.map(|factor| factor.is_none()), dimensions, name.place);
+        match (kind.make)(&[Value::Table(points)]) {
+            Ok(waveform) => Some(waveform),
+            Err(invalid) => {
+                tell(0..0, Fault::Invalid(invalid));
+                None
+            }
+        }
+    }
+
+    /// Warns of numbers whose unit nothing says, so that they are read in SI units.
+    fn without_units(&self, missing: [bool; 2], dimensions: [Dimension; 2], place: Place) {
+        let [time, value] = dimensions.map(si_unit);
+        let read = match missing {
+            [false, false] => return,
+            [true, true] => format!("times are read in {time}, values in {value}"),
+            [true, false] => format!("times are read in {time}"),
+            [false, true] => format!("values are read in {value}"),
+        };
+        let message = format!("the file does not say all its units: {read}");
+        let help = format!(
+            "write a header line `time [{time}], value [{value}]`, or \
+             `table = {{ file = \"…\", units = [\"{time}\", \"{value}\"] }}`"
+        );
+        self.faults.warning(place, Fault::odd(message, help));
+    }
+
+    /// The columns of time and value, counted from 0; `place` is that of the file's name.
+    fn columns(&self, csv: &Csv<'_>, wishes: &Wishes<'_>, place: Place) -> Option<[usize; 2]> {
+        match wishes.columns {
+            None if csv.columns > 2 => {
+                let fault = CsvFault::WhichColumns { count: csv.columns };
+                self.faults.error(place, Fault::Csv(fault));
+                None
+            }
+            None => Some([0, 1]),
+            Some(wanted) => {
+                let [time, value] = wanted.map(|wanted| self.column(csv, wanted));
+                Some([time?, value?])
+            }
+        }
+    }
+
+    /// The name of the file, and what is said of it.
+    fn file_and_wishes(
+        &self,
+        word: &str,
+        item: &'d Item,
+        place: Place,
+    ) -> Option<(&'d Item, Wishes<'d>)> {
+        if item.table().is_none() {
+            return Some((item, Wishes::default()));
+        }
+        let table = Table::new(item, format!("`{word}`"), place, self.faults)?;
+        let file = table.require("file", "file = \"pulse.csv\"");
+        let pair = |key: &'static str, expected: &str| {
+            let Some(entry) = table.take(key) else { return Some(None) };
+            if let Content::List(items) = &entry.item.value
+                && let [time, value] = items.as_slice()
+            {
+                return Some(Some([time, value]));
+            }
+            wrong_type(&entry.item, &format!("`{key}`"), expected, self.faults);
+            None
+        };
+        let columns = pair("columns", "a pair of numbers or names, for example `[1, 2]`");
+        let units = pair("units", "a pair of units, for example `[\"ms\", \"kN\"]`");
+        table.finish();
+        Some((&file?.item, Wishes { columns: columns?, units: units? }))
+    }
+
+    /// The column that `wanted` names or counts from 1.
+    fn column(&self, csv: &Csv<'_>, wanted: &Item) -> Option<usize> {
+        match &wanted.value {
+            Content::Number(digits) => {
+                let number = digits.parse::<usize>().ok().and_then(|own| own.checked_sub(1));
+                let found = number.filter(|own| *own < csv.columns);
+                if found.is_none() {
+                    let (wanted_text, count) = (digits.clone(), csv.columns);
+                    let fault = CsvFault::NoColumn { wanted: wanted_text, count };
+                    self.faults.error(wanted.place, Fault::Csv(fault));
+                }
+                found
+            }
+            Content::Text(name) => {
+                let header = csv.header.as_deref().unwrap_or(&[]);
+                let names = || header.iter().map(|field| field.name_and_unit().0);
+                let found = names().position(|own| own == name.trim());
+                if found.is_none() {
+                    let known = names().map(str::to_owned).collect();
+                    let (family, name) = ("column", name.clone());
+                    self.faults.error(wanted.place, Fault::UnknownName { family, name, known });
+                }
+                found
+            }
+            _ => {
+                wrong_type(wanted, "a column", "a number from 1, or a name", self.faults);
+                None
+            }
+        }
+    }
+
+    /// What the numbers of a column are multiplied by: the unit in the scene or else in the header,
+    /// `Some(None)` where there is neither.
+    #[expect(clippy::option_option, reason = "a fault, no unit, or the factor of one")]
+    fn unit(
+        &self,
+        file: &TableFile,
+        header: Option<Field<'_>>,
+        given: Option<&Item>,
+        expected: Dimension,
+        reader: Quantities<'_>,
+    ) -> Option<Option<f64>> {
+        let one = |unit: &str, place| {
+            let item = Item { value: Content::Text(format!("1 {unit}")), place };
+            reader.read(&item, expected)
+        };
+        let Some(given) = given else {
+            let Some(header) = header else { return Some(None) };
+            return one(header.text, Place::new(file.number, &header.span())).map(Some);
+        };
+        let text = text_of(given, "a unit", self.faults)?;
+        let factor = one(text, given.place)?;
+        if let Some(header) = header
+            && let Ok(said) = parse_quantity(&format!("1 {}", header.text))
+            && said.dimension == Some(expected)
+            && (said.value - factor).abs() > 1e-12 * factor.abs()
+        {
+            let (header, text) = (header.text.to_owned(), text.to_owned());
+            let fault = CsvFault::Contradiction { header, given: text };
+            self.faults.error(given.place, Fault::Csv(fault));
+            return None;
+        }
+        Some(Some(factor))
+    }
+}
+
+/// Whether a table is given by `item` as a file.
+pub(super) fn names_file(item: &Item) -> bool {
+    matches!(item.value, Content::Text(_) | Content::Table(_))
+}
+
+/// The file that a table is read from, where `item` names one.
+pub(crate) fn file_named(item: &Item) -> Option<&Item> {
+    let named = item.table().map_or(Some(item), |entries| {
+        entries.iter().find(|entry| entry.key == "file").map(|entry| &entry.item)
+    });
+    named.filter(|item| item.text().is_some())
+}
