@@ -74,7 +74,10 @@ pub(crate) fn lost_in_impacts(
     primitive: &PrimitiveOutputs,
     window: (f64, f64),
 ) -> f64 {
+    if primitive.element.law() != Law::Phased {
+        return 0.0;
+    }
     let switches = solution.trajectory().switches.iter();
-    let own = switches.filter(|own| own.name == primitive.name && own.impulse > 0.0);
+    let own = switches.filter(|own| own.impulse > 0.0 && own.name == primitive.name);
     own.filter(|own| window.0 <= own.time && own.time <= window.1).map(|own| own.lost).sum()
 }

@@ -3,12 +3,15 @@
 use dashpot_dae::{Crossing, Panel, Signal};
 use dashpot_network::parameters::WindowWish;
 
+use crate::blows::Blow;
+
 /// How the contact of an impact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Contact {
     /// The contact force falls to zero and would turn to tension.
     Released,
-    /// The contact opens: its force falls to zero and stays there.
+    /// The contact opens: its force falls to zero and stays there, or the impulse with which masses
+    /// meet parts them again at once.
     Parted,
     /// The contact force pushes until the run ends.
     Lasting,
@@ -22,7 +25,7 @@ pub enum Contact {
 
 /// The time from first contact to the first zero of the contact force.
 ///
-/// A force that is zero at the start and then pushes (a Maxwell element's) has its first zero
+/// Masses that meet and part at once have an impact of no length. A force that is zero at the start and then pushes (a Maxwell element's) has its first zero
 /// later; a force that decays towards zero from above has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
@@ -47,8 +50,32 @@ impl Impact {
         match force.departure(0.0, 0.0) {
             None => Self { contact: Contact::Unloaded, ..run },
             Some(false) => Self { end: 0.0, contact: Contact::Pulling, ..run },
-            Some(true) => Self::of_push(force, Self { start: first_push(force), ..run }, doubt),
+            Some(true) => Self::of_push(force, Self { start: first_load(force).unwrap_or(0.0), ..run }, doubt),
         }
+    }
+
+    /// The impact of a contact force with the impulses that act beside it.
+    pub(crate) fn of_contact(force: &Signal, blows: &[Blow], run_end: f64, doubt: f64) -> Self {
+        let Some(first) = blows.first().filter(|blow| Self::begins_with(blow, force)) else {
+            return Self::of_force(force, run_end, doubt);
+        };
+        let run = Self {
+            start: first.time,
+            end: run_end,
+            end_error: Some(0.0),
+            contact: Contact::Lasting,
+        };
+        let stays = force.panels.get(force.panel_at(first.time)).is_some_and(|own| !rests(own));
+        if stays && force.departure(0.0, first.time) == Some(true) {
+            return Self::of_push(force, run, doubt);
+        }
+        let end_error = force.error.map(|_| 4.0 * f64::EPSILON * first.time);
+        Self { end: first.time, end_error, contact: Contact::Parted, ..run }
+    }
+
+    /// Whether nothing acts before the blow.
+    pub(crate) fn begins_with(blow: &Blow, force: &Signal) -> bool {
+        first_load(force).is_none_or(|loaded| blow.time <= loaded)
     }
 
     /// The impact of a force that pushes first.
@@ -143,10 +170,9 @@ impl Impact {
     }
 }
 
-/// When a force that is zero at first begins to push \[s\].
-fn first_push(force: &Signal) -> f64 {
-    let loaded = force.panels.iter().find(|panel| !rests(panel));
-    loaded.map_or(0.0, |panel| panel.start)
+/// When a force that is zero at first begins to act \[s\].
+fn first_load(force: &Signal) -> Option<f64> {
+    force.panels.iter().find(|panel| !rests(panel)).map(|panel| panel.start)
 }
 
 /// When the force comes to rest on zero after `start` \[s\], as it does where a contact opens.

@@ -198,15 +198,15 @@ fn dissipation(
     let force = solution.signal(primitive.force);
     let rate = &solution.rate(primitive.rate, primitive.deformation);
     let lost = accounts::lost_in_impacts(solution, primitive, window);
-    if primitive.element.law() == Law::Phased && !does_work(primitive) {
+    if !does_work(primitive) {
         return lost;
     }
     balance.work(force, rate, window) + lost
 }
 
-/// Whether the force of a part that switches can do work: that of a contact cannot.
-fn does_work(primitive: &PrimitiveOutputs) -> bool {
-    primitive.element.phases().is_some_and(|own| {
+/// Whether the force of a part can do work: that of a contact cannot.
+pub(crate) fn does_work(primitive: &PrimitiveOutputs) -> bool {
+    primitive.element.law() != Law::Phased || primitive.element.phases().is_some_and(|own| {
         (0..own.names().len()).any(|index| {
             matches!(
                 own.law(Phase { index, memory: 0.0 }),
@@ -306,3 +306,6 @@ fn jump(signal: &Signal, time: f64) -> Option<(f64, f64)> {
     let values = (left.value(left.end), right.value(right.start));
     ((values.1 - values.0).abs() > signal.noise).then_some(values)
 }
+
+#[cfg(test)]
+mod tests;

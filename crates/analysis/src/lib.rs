@@ -6,9 +6,12 @@
 
 mod accounts;
 mod accuracy;
+mod blows;
 mod bodies;
+mod contacts;
 mod difference;
 mod error;
+mod events;
 mod hic_search;
 mod impact;
 pub mod ledger;

@@ -117,6 +117,8 @@ pub struct ContactReport {
     pub element: String,
     /// Its impact.
     pub impact: Impact,
+    /// How often it meets again, after the impact, what it has parted from.
+    pub again: usize,
 }
 
 /// Something that happened.

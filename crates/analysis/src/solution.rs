@@ -6,6 +6,7 @@ use dashpot_dae::{Signal, Trajectory};
 use dashpot_network::{Assembly, ConnectionOutputs, NodeOutputs};
 
 use crate::{
+    blows::{self, Blow},
     bodies,
     impact::{Impact, first_pull},
 };
@@ -31,6 +32,7 @@ pub struct Solution<'a> {
     signals: Vec<OnceCell<Signal>>,
     element_impacts: Vec<OnceCell<Impact>>,
     body_impacts: Vec<OnceCell<Impact>>,
+    blows: OnceCell<Vec<Vec<Blow>>>,
     has_impactor: Vec<bool>,
     doubt: f64,
     scene_impact: OnceCell<Impact>,
@@ -46,6 +48,7 @@ impl<'a> Solution<'a> {
             signals: (0..assembly.system.outputs.len()).map(|_| OnceCell::new()).collect(),
             element_impacts: cells(assembly.connections.len()),
             body_impacts: cells(bodies::count(assembly)),
+            blows: OnceCell::new(),
             has_impactor: bodies::with_impactor(assembly),
             doubt: 0.0,
             scene_impact: OnceCell::new(),
@@ -96,15 +99,52 @@ impl<'a> Solution<'a> {
         }
     }
 
+    /// The speed at which the ends of an element approach each other \[m/s\], as that of the bodies
+    /// that they belong to, where those have velocities: a massless face has that of what it
+    /// touches while it does. Else the rate of the deformation.
+    pub(crate) fn approach(&self, connection: &ConnectionOutputs) -> Cow<'_, Signal> {
+        let [a, b] = connection.between.map(|end| self.velocity_of_body(end.index()));
+        match (connection.rate, a, b) {
+            (None, Some(a), Some(b)) => Cow::Owned(self.signal(a).plus(self.signal(b), -1.0)),
+            _ => self.rate(connection.rate, connection.deformation),
+        }
+    }
+
+    /// The speed at which the ends of an element approach each other just before `time` \[m/s\]:
+    /// before the run that of the start speeds.
+    pub(crate) fn approach_before(&self, connection: &ConnectionOutputs, time: f64) -> f64 {
+        if time > 0.0 {
+            return self.approach(connection).left_value(time);
+        }
+        let [a, b] = connection.between.map(|end| {
+            let body = self.assembly.nodes[end.index()].body;
+            let of_body = || self.assembly.nodes.iter().filter(|node| node.body == body);
+            match of_body().find(|node| !node.free) {
+                Some(held) => held.velocity.map_or(0.0, |own| self.signal(own).value(0.0)),
+                None => of_body().find_map(|node| node.start_velocity).unwrap_or(0.0),
+            }
+        });
+        a - b
+    }
+
+    fn velocity_of_body(&self, node: usize) -> Option<usize> {
+        let nodes = &self.assembly.nodes;
+        let of_body = || nodes.iter().filter(|own| own.body == nodes[node].body);
+        nodes[node].velocity.or_else(|| of_body().find_map(|own| own.velocity))
+    }
+
     /// The impact as the element number `element` feels it: that of its own force if it touches an
     /// impactor, that of the body if it is a rigid link within one, else that of the scene.
     pub fn element_impact(&self, element: usize) -> Impact {
         *self.element_impacts[element].get_or_init(|| {
             let connection = &self.assembly.connections[element];
             match connection.force {
-                Some(force) if self.touches_impactor(connection) => {
-                    self.impact_of(self.signal(force))
-                }
+                Some(force) if self.touches_impactor(connection) => Impact::of_contact(
+                    self.signal(force),
+                    self.element_blows(element),
+                    self.end(),
+                    self.doubt,
+                ),
                 _ if connection.is_rigid => self.node_impact(connection.between[0].index()),
                 _ => self.scene_impact(),
             }
@@ -123,9 +163,41 @@ impl<'a> Solution<'a> {
             return self.scene_impact();
         }
         *self.body_impacts[body].get_or_init(|| match self.push_on(body) {
-            Some(force) => self.impact_of(&force),
+            Some(force) => {
+                Impact::of_contact(&force, &self.body_blows(body), self.end(), self.doubt)
+            }
             None => Impact::unloaded(self.end()),
         })
+    }
+
+    /// The impulses in the element number `element`.
+    pub(crate) fn element_blows(&self, element: usize) -> &[Blow] {
+        self.all_blows().get(element).map_or(&[], Vec::as_slice)
+    }
+
+    /// The impulses at which the speed of the node number `node` jumps.
+    pub(crate) fn node_blows(&self, node: usize) -> Vec<Blow> {
+        self.body_blows(self.assembly.nodes[node].body)
+    }
+
+    fn body_blows(&self, body: usize) -> Vec<Blow> {
+        blows::on_body(self.assembly, self.all_blows(), body)
+    }
+
+    fn all_blows(&self) -> &[Vec<Blow>] {
+        self.blows.get_or_init(|| blows::by_connection(self.assembly, self.trajectory))
+    }
+
+    /// Bound of the error of the velocity of a node \[m/s\], where it has one.
+    pub(crate) fn velocity_error(&self, node: usize) -> Option<f64> {
+        self.signal(self.assembly.nodes[node].velocity?).error
+    }
+
+    /// The mass of the body that a node belongs to \[kg\].
+    pub(crate) fn body_mass(&self, node: usize) -> f64 {
+        let body = self.assembly.nodes[node].body;
+        let own = self.assembly.nodes.iter().filter(|node| node.body == body);
+        own.map(|node| node.mass).sum()
     }
 
     /// How deep each contact force first pulls, in parts of its largest magnitude: those of the
@@ -141,10 +213,11 @@ impl<'a> Solution<'a> {
         own.chain(sums).collect()
     }
 
-    /// The force on a body with the sign with which it begins; `None` if nothing touches it.
+    /// The force on a body with the sign with which what acts on it begins; `None` if nothing
+    /// touches it.
     fn push_on(&self, body: usize) -> Option<Signal> {
         let force = self.force_on(body)?;
-        let pushes = force.departure(0.0, 0.0) != Some(false);
+        let pushes = first_pushes(&force, &self.body_blows(body));
         Some(if pushes { force } else { force.scaled(-1.0) })
     }
 
@@ -187,6 +260,14 @@ impl<'a> Solution<'a> {
     /// one of its ends.
     pub fn touches_impactor(&self, connection: &ConnectionOutputs) -> bool {
         bodies::is_touching(self.assembly, connection, &self.has_impactor)
+    }
+}
+
+/// Whether the first force or impulse is positive; so is none.
+fn first_pushes(force: &Signal, blows: &[Blow]) -> bool {
+    match blows.first().filter(|blow| Impact::begins_with(blow, force)) {
+        Some(blow) => blow.impulse > 0.0,
+        None => force.departure(0.0, 0.0) != Some(false),
     }
 }
 

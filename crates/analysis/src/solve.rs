@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use dashpot_dae::{
-    Direction, Guard, Method, Observer, Run, SolveError, Switch, Trajectory, methods,
+    Direction, Guard, Method, Observer, Run, SolveError, methods,
 };
 use dashpot_network::{
     Assembly, Network,
@@ -11,10 +11,11 @@ use dashpot_network::{
 };
 
 use crate::{
-    ContactReport, EventReport, MeasureReport, Reading, RunError, RunReport, Solution,
-    SolveSettings, SolverReport, SystemReport,
+    ContactReport, MeasureReport, Reading, RunError, RunReport, Solution, SolveSettings,
+    SolverReport, SystemReport,
     accuracy::excess,
-    impact::Contact,
+    contacts::meetings_after,
+    events,
     ledger::ledger,
     refinement::{MOST_LOST, Outcome, Solved, Task},
     selection::{Selected, select},
@@ -112,14 +113,24 @@ fn choose(
     assembly: &Assembly,
     run: &Run,
 ) -> Result<(Box<dyn Method>, String), RunError> {
+    let phrase = |method: &dyn Method, why: String| match assembly.switching {
+        Some(_) if method.is_exact() => {
+            let states = assembly.system.states();
+            format!("between switchings the scene is linear, with {states} states at first")
+        }
+        _ => why,
+    };
     if name == "auto" {
-        return Ok(methods::Auto::choose(&assembly.system, run));
+        let (method, why) = methods::Auto::choose(&assembly.system, run);
+        let why = phrase(method.as_ref(), why);
+        return Ok((method, why));
     }
     let Some(method) = methods::by_name(name) else {
         let known = methods::all().iter().map(|method| method.name()).collect();
         return Err(RunError::UnknownMethod { name: name.to_owned(), known });
     };
     let why = method.applies(&assembly.system, run)?;
+    let why = phrase(method.as_ref(), why);
     Ok((method, why))
 }
 
@@ -191,7 +202,7 @@ fn report(
     let contacts = contacts(&solution);
     let impact = solution.scene_impact();
     let energy_after_impact = impact.has_ended().then(|| ledger(&solution, impact.end));
-    let events = events(run, &trajectory, &contacts);
+    let events = events::collect(run, assembly, &trajectory, &contacts);
     let warnings = warnings::collect(&warnings::Findings {
         solution: &solution,
         accuracy: &task.settings.accuracy,
@@ -280,43 +291,13 @@ fn contacts(solution: &Solution<'_>) -> Vec<ContactReport> {
         .filter(|(_, connection)| {
             connection.force.is_some() && solution.touches_impactor(connection)
         })
-        .map(|(at, connection)| ContactReport {
-            element: connection.name.clone(),
-            impact: solution.element_impact(at),
+        .map(|(at, connection)| {
+            let impact = solution.element_impact(at);
+            let (assembly, trajectory) = (solution.assembly(), solution.trajectory());
+            let again = meetings_after(assembly, trajectory, &connection.name, impact.end);
+            ContactReport { element: connection.name.clone(), impact, again }
         })
         .collect()
-}
-
-fn events(run: &Run, trajectory: &Trajectory, contacts: &[ContactReport]) -> Vec<EventReport> {
-    let guards = trajectory.events.iter().filter_map(|event| {
-        let guard = run.guards.get(event.guard)?;
-        Some(EventReport { time: event.time, what: guard.name.clone(), stops: guard.stops })
-    });
-    let releases = contacts.iter().filter(|contact| contact.impact.contact == Contact::Released);
-    let releases = releases.map(|contact| EventReport {
-        time: contact.impact.end,
-        what: format!("{} force turns to tension", contact.element),
-        stops: false,
-    });
-    let switches = trajectory.switches.iter().map(|own| EventReport {
-        time: own.time,
-        what: switched(own),
-        stops: false,
-    });
-    let mut events: Vec<EventReport> = releases.chain(guards).chain(switches).collect();
-    events.sort_by(|one, other| one.time.total_cmp(&other.time));
-    events
-}
-
-/// What has switched, in words.
-fn switched(own: &Switch) -> String {
-    if own.impulse > 0.0 {
-        let impulse = quantity(own.impulse, "N s");
-        let lost = quantity(own.lost, "J");
-        format!("{}: impact of {impulse}, which loses {lost}", own.name)
-    } else {
-        format!("{}: {}", own.name, own.what)
-    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use dashpot_dae::{Direction, Guard, SolveError};
 
 use crate::{
-    Accuracy, ContactReport, Ledger, MeasureReport, Solution,
+    Accuracy, ContactReport, Ledger, MeasureReport, Solution, contacts,
     impact::{Contact, Impact},
     wording::{percent, quantity},
 };
@@ -45,11 +45,18 @@ fn pulling(findings: &Findings<'_>) -> Vec<String> {
         Contact::Pulling => Some("from the start".to_owned()),
         _ => None,
     };
+    let assembly = findings.solution.assembly();
+    let is_glued = |element: &&str| {
+        assembly.connection(element).is_some_and(|connection| {
+            !contacts::separates(assembly, connection) && !contacts::is_slider(assembly, connection)
+        })
+    };
     let contacts = findings.contacts.iter().map(|own| (own.element.as_str(), own.impact));
     let warning = |(element, impact): (&str, Impact)| {
         since(&impact).map(|since| format!("{since} the {element} pulls: separation is off"))
     };
-    contacts.chain(pads(findings.solution)).filter_map(warning).collect()
+    let all = contacts.chain(pads(findings.solution));
+    all.filter(|(element, _)| is_glued(element)).filter_map(warning).collect()
 }
 
 /// How the pads between parts that are no impactors are pressed: what has a thickness lies between

@@ -61,6 +61,9 @@ pub(crate) struct CompositeEntry {
     pub(crate) amplitude: Dimension,
 }
 
+/// Makes an effect on an element of its values.
+type MakeEffect = fn(&str, &[Value]) -> Result<Arc<dyn Effect>, InvalidParameter>;
+
 /// An effect kind.
 pub(crate) struct EffectEntry {
     /// Its word.
@@ -72,7 +75,7 @@ pub(crate) struct EffectEntry {
     /// Whether it acts on one element.
     pub(crate) is_per_element: bool,
     /// Makes the effect on an element, whose name is empty for one that acts on the network.
-    pub(crate) make: fn(&str, &[Value]) -> Result<Arc<dyn Effect>, InvalidParameter>,
+    pub(crate) make: MakeEffect,
 }
 
 /// A measure kind.

@@ -1,7 +1,6 @@
 //! Energies over time.
 
 use dashpot_dae::Signal;
-use dashpot_network::elements::Law;
 
 use super::{does_work, steps};
 use crate::{
@@ -56,8 +55,7 @@ pub fn energy_series(solution: &Solution<'_>, times: &[f64]) -> EnergySeries {
         if own.dissipates {
             let start = solution.signal(primitive.deformation).value(0.0);
             let start = accounts::stored(solution, primitive, 0.0, start);
-            let does_work = does_work(primitive) || primitive.element.law() != Law::Phased;
-            if does_work {
+            if does_work(primitive) {
                 accumulate(
                     &mut series.dissipated,
                     times,

@@ -2,11 +2,15 @@
 
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
-use super::{Family, MASSLESS, MeasureKind, Reading, reading::integral, window};
-use crate::Solution;
+use super::{
+    Family, MASSLESS, MeasureKind, Reading,
+    reading::{infinite, integral, with_blows},
+    window,
+};
+use crate::{Solution, blows};
 
 /// The magnitude of the mean of what an accelerometer on a body reads, `|∫ a dt| / T` \[m/s²\]:
-/// without gravity the change of velocity over the time `T` that it takes.
+/// without gravity the change of velocity over the time `T` that it takes, jumps included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AverageDeceleration {
     /// The part of the run that it looks at.
@@ -42,10 +46,19 @@ impl MeasureKind for AverageDeceleration {
             Err(note) => return Reading::undefined(note),
         };
         let length = span.length();
+        let blows = solution.node_blows(target);
         if length <= 0.0 {
-            return Reading::undefined("the window has no length");
+            let none = || Reading::undefined("the window has no length");
+            return infinite(&span, &blows).unwrap_or_else(none);
         }
+        let blows = blows::within(&blows, span.window());
+        let mass = solution.body_mass(target);
+        let jump: f64 = blows.iter().map(|own| own.impulse / mass).sum();
+        let jumps: f64 = blows.iter().map(|own| own.impulse.abs() / mass).sum();
+        let error = solution.velocity_error(target).map(|error| 2.0 * error);
+        let error = error.map(|each| blows.iter().map(|_| each).sum());
         let impulse = integral(solution.signal(acceleration), &span);
+        let impulse = with_blows(impulse, jump, jumps, error);
         let value = impulse.value.map_or(f64::NAN, |value| value.abs() / length);
         // A longer window adds to the integral, and divides it by more.
         let stretch = span.to_error.map(|shift| value * shift / length);

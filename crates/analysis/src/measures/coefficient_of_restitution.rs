@@ -4,12 +4,16 @@ use dashpot_network::parameters::{InvalidParameter, Parameter, Value, WindowWish
 
 use super::{Family, MeasureKind, Reading, reading::end_value};
 use crate::{
-    Solution,
+    Solution, blows,
     impact::{Contact, STILL_IN_CONTACT},
 };
 
 /// The speed at which an element's ends part at release over that at which they met,
 /// `e = −ẏ(release)/ẏ(contact)` \[1\], for elements that touch an impactor.
+///
+/// A massless face has the speed of what strikes it, from the touch until it is let go. Where masses
+/// meet, the speeds are those before and after the impulse; an impact of masses that stay together
+/// has ended when they part, without speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct CoefficientOfRestitution;
 
@@ -41,13 +45,21 @@ impl MeasureKind for CoefficientOfRestitution {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
-        let rate = solution.rate(connection.rate, connection.deformation);
-        let meeting = rate.value(span.from);
+        let rate = solution.approach(connection);
+        let blows = solution.element_blows(target);
+        let is_struck = |time: f64| !blows::within(blows, (time, time)).is_empty();
+        let meeting = if is_struck(span.from) {
+            solution.approach_before(connection, span.from)
+        } else {
+            rate.value(span.from)
+        };
         if meeting.abs() <= rate.noise {
             return Reading::undefined("the ends meet without speed");
         }
         let parting = end_value(&rate, &span);
-        let value = -parting.value.unwrap_or(f64::NAN) / meeting;
+        // What jumps at the end has jumped.
+        let speed = if is_struck(span.to) { Some(rate.value(span.to)) } else { parting.value };
+        let value = -speed.unwrap_or(f64::NAN) / meeting;
         let error = parting.error.zip(rate.error);
         let error = error.map(|(end, start)| (end + value.abs() * start) / meeting.abs());
         let end_rate = parting.end_rate / meeting.abs();

@@ -11,7 +11,7 @@ use crate::{
 /// The time from first contact to the first zero of an element's force \[s\], for elements that
 /// touch an impactor.
 ///
-/// It is 0 where the element pulls from the start, and undefined where it still pushes at the end
+/// It is 0 where the element pulls from the start or masses meet and part at once, and undefined where it still pushes at the end
 /// of the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ContactTime;
@@ -41,13 +41,14 @@ impl MeasureKind for ContactTime {
         match impact.contact {
             Contact::Released | Contact::Parted => {
                 let length = impact.end - impact.start;
-                Reading {
+                let reading = Reading {
                     value: Some(length),
                     size: length,
                     time: Some(impact.end),
                     error: impact.end_error,
                     ..Reading::default()
-                }
+                };
+                if length > 0.0 { reading } else { reading.noting("masses meet and part at once") }
             }
             Contact::Pulling => Reading {
                 value: Some(0.0),

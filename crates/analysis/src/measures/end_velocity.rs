@@ -3,10 +3,11 @@
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
 use super::{Family, MeasureKind, NO_VELOCITY, Reading, reading::end_value, window};
-use crate::Solution;
+use crate::{Solution, blows};
 
 /// A node's velocity at the end of the window, `v(t_end)` \[m/s\], positive towards the support:
-/// at the end of its impact an impactor's rebound speed, negative.
+/// at the end of its impact an impactor's rebound speed, negative. Where the speed jumps at the end,
+/// it is that after the jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndVelocity {
     /// The part of the run that it looks at.
@@ -42,7 +43,13 @@ impl MeasureKind for EndVelocity {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
-        let reading = end_value(solution.signal(velocity), &span);
+        let velocity = solution.signal(velocity);
+        let reading = end_value(velocity, &span);
+        // What jumps at the end has jumped.
+        let reading = match blows::within(&solution.node_blows(target), (span.to, span.to)) {
+            [] => reading,
+            _ => Reading { value: Some(velocity.value(span.to)), ..reading },
+        };
         // The velocity is what the acceleration has added up to, though it may have cancelled.
         let summed = solution.assembly().nodes[target].acceleration.map_or(0.0, |acceleration| {
             let window = (0.0, span.to);

@@ -8,7 +8,8 @@ use crate::Solution;
 /// The energy that an element takes up, `∫ F ẏ dt` \[J\]: at the end of an impact what it has not
 /// given back, be it stored or dissipated.
 ///
-/// Where a prescribed motion or a load jumps, the jump of the stored energy is counted.
+/// Where a prescribed motion or a load jumps, the jump of the stored energy is counted; where masses
+/// meet in the element, the energy that the impact loses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energy {
     /// The part of the run that it looks at.
@@ -44,6 +45,6 @@ impl MeasureKind for Energy {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
-        work(solution, connection, &span)
+        work(solution, target, &span)
     }
 }

@@ -4,12 +4,15 @@ use dashpot_network::parameters::{
     Dimension, InvalidParameter, Parameter, ParameterKind, Value, WindowWish,
 };
 
-use super::{Family, MASSLESS, MeasureKind, Reading, STANDARD_GRAVITY, WINDOW, window};
+use super::{
+    Family, MASSLESS, MeasureKind, Reading, STANDARD_GRAVITY, WINDOW, reading::infinite, window,
+};
 use crate::{Solution, hic_search::optimum};
 
 /// The head injury criterion of what an accelerometer on a body reads,
 /// `HIC = max (t2 − t1) [∫ |a|/g0 dt / (t2 − t1)]^2.5` \[s\] over all intervals `[t1, t2]` no
-/// longer than a cap. The window reported is the interval found.
+/// longer than a cap. The window reported is the interval found. Where the speed jumps, it is
+/// infinite.
 ///
 /// | symbol | field | unit | range    |
 /// |--------|-------|------|----------|
@@ -70,6 +73,9 @@ impl MeasureKind for Hic {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
+        if let Some(reading) = infinite(&span, &solution.node_blows(target)) {
+            return reading;
+        }
         let acceleration = solution.signal(acceleration).scaled(1.0 / STANDARD_GRAVITY);
         let found = optimum(&acceleration, span.window(), self.cap);
         let length = found.interval.1 - found.interval.0;

@@ -2,10 +2,15 @@
 
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
-use super::{Family, MeasureKind, Reading, UNDETERMINED_FORCE, reading::integral, window};
-use crate::Solution;
+use super::{
+    Family, MeasureKind, Reading, UNDETERMINED_FORCE,
+    reading::{integral, with_blows},
+    window,
+};
+use crate::{Solution, blows};
 
-/// The integral of an element's force over time, `∫ F dt` \[N s\], positive in compression.
+/// The integral of an element's force over time, `∫ F dt` \[N s\], positive in compression, and the
+/// impulses with which masses meet in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impulse {
     /// The part of the run that it looks at.
@@ -42,6 +47,16 @@ impl MeasureKind for Impulse {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
-        integral(force, &span)
+        let blows = blows::within(solution.element_blows(target), span.window());
+        let sum: f64 = blows.iter().map(|own| own.impulse).sum();
+        // An impulse is the lighter side's mass times no more than twice the speed of approach.
+        let mass = connection.between.map(|end| {
+            let at = end.index();
+            let is_free = solution.assembly().nodes[at].free;
+            if is_free { solution.body_mass(at) } else { f64::INFINITY }
+        });
+        let each = solution.approach(connection).error.map(|error| 2.0 * mass[0].min(mass[1]) * error);
+        let error = each.map(|each| each * blows.iter().map(|_| 1.0).sum::<f64>());
+        with_blows(integral(force, &span), sum, sum.abs(), error)
     }
 }

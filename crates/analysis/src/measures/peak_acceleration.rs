@@ -2,11 +2,15 @@
 
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
-use super::{Family, MASSLESS, MeasureKind, Reading, reading::peak, window};
+use super::{
+    Family, MASSLESS, MeasureKind, Reading,
+    reading::{infinite, peak},
+    window,
+};
 use crate::Solution;
 
 /// The largest magnitude of what an accelerometer on a body reads, `max |Σ F_contact|/m` \[m/s²\],
-/// with its time; free fall is 0.
+/// with its time; free fall is 0. Where the speed jumps, it is infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PeakAcceleration {
     /// The part of the run that it looks at.
@@ -41,6 +45,7 @@ impl MeasureKind for PeakAcceleration {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
-        peak(solution.signal(acceleration), &span)
+        infinite(&span, &solution.node_blows(target))
+            .unwrap_or_else(|| peak(solution.signal(acceleration), &span))
     }
 }

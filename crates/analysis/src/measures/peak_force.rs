@@ -4,14 +4,15 @@ use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
 use super::{
     Family, MeasureKind, Reading, UNDETERMINED_FORCE,
-    reading::{peak, peaks_below_zero},
+    reading::{infinite, peak, peaks_below_zero},
     window,
 };
 use crate::Solution;
 
 /// The largest magnitude of an element's force, `max |F(t)|` \[N\], with its time.
 ///
-/// In an impact the force pushes throughout; in other windows a peak in tension is noted.
+/// In an impact the force pushes throughout; in other windows a peak in tension is noted. Where masses
+/// meet in the element and speeds jump, it is infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PeakForce {
     /// The part of the run that it looks at.
@@ -48,6 +49,9 @@ impl MeasureKind for PeakForce {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
+        if let Some(reading) = infinite(&span, solution.element_blows(target)) {
+            return reading;
+        }
         let reading = peak(force, &span);
         if peaks_below_zero(force, &span) { reading.noting("in tension") } else { reading }
     }

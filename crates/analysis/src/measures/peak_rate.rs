@@ -3,7 +3,7 @@
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
 use super::{Family, MeasureKind, Reading, reading::peak, window};
-use crate::Solution;
+use crate::{Solution, blows};
 
 /// The largest magnitude of an element's deformation rate, `max |ẏ(t)|` \[m/s\], with its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +38,15 @@ impl MeasureKind for PeakRate {
             Err(note) => return Reading::undefined(note),
         };
         let connection = &solution.assembly().connections[target];
-        peak(&solution.rate(connection.rate, connection.deformation), &span)
+        let reading = peak(&solution.rate(connection.rate, connection.deformation), &span);
+        // At a jump the rates on both sides count, also that before the span.
+        let blows = blows::within(solution.element_blows(target), (span.from, span.from));
+        let before = blows.first().map_or(0.0, |own| {
+            solution.approach_before(connection, own.time).abs()
+        });
+        if reading.value.is_none_or(|value| value >= before) {
+            return reading;
+        }
+        Reading { value: Some(before), ..reading }.of_size(before).at(span.from)
     }
 }

@@ -3,7 +3,14 @@
 use dashpot_dae::Signal;
 use dashpot_network::ConnectionOutputs;
 
-use crate::{Solution, impact::Span, ledger};
+use crate::{
+    Solution,
+    accounts::{self, Accounts},
+    blows::{self, Blow},
+    impact::Span,
+    ledger,
+    wording::quantity,
+};
 
 /// A number read off a solution.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -89,6 +96,14 @@ impl Reading {
     }
 }
 
+/// No value, where masses meet within the span so that what is measured is infinite there.
+pub(crate) fn infinite(span: &Span, blows: &[Blow]) -> Option<Reading> {
+    let first = blows::within(blows, span.window()).first()?;
+    let reading = Reading { value: None, size: 0.0, ..Reading::over(span, 0.0, None) };
+    let note = format!("infinite (speed jumps at {})", quantity(first.time, "s"));
+    Some(reading.at(first.time).noting(&note))
+}
+
 /// The largest magnitude of a signal over a span.
 pub(crate) fn peak(signal: &Signal, span: &Span) -> Reading {
     let peak = signal.absolute_maximum(span.window());
@@ -132,31 +147,90 @@ fn moved(rate: f64, shift: f64) -> f64 {
     if shift > 0.0 { rate * shift } else { 0.0 }
 }
 
-/// The work that an element takes up over a span, `∫ F ẏ dt` and what jumps of its deformation
-/// store.
-pub(crate) fn work(
-    solution: &Solution<'_>,
-    connection: &ConnectionOutputs,
-    span: &Span,
-) -> Reading {
+/// The reading with what impulses add to it: `amount` is their sum, `size` that of their
+/// magnitudes.
+pub(crate) fn with_blows(reading: Reading, amount: f64, size: f64, error: Option<f64>) -> Reading {
+    if size == 0.0 {
+        return reading;
+    }
+    Reading {
+        value: reading.value.map(|value| value + amount),
+        size: reading.size + size,
+        error: reading.error.zip(error).map(|(one, other)| one + other),
+        ..reading
+    }
+}
+
+/// The work that an element takes up over a span, `∫ F ẏ dt`, what jumps of its deformation store,
+/// and what impacts in it lose.
+pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Reading {
+    let connection = &solution.assembly().connections[target];
     let Some(force) = connection.force.map(|force| solution.signal(force)) else {
         return Reading::undefined("the force is undetermined");
     };
     let rate = solution.rate(connection.rate, connection.deformation);
-    let primitives = connection.primitives.clone();
-    let value = force.integral_of_product(&rate, span.window())
-        + ledger::steps(solution, primitives, span.window());
-    let magnitude = |signal: &Signal| signal.absolute_maximum(span.window()).value;
-    let most_force = magnitude(force);
+    let window = span.window();
     let last = (force.left_value(span.to) * rate.left_value(span.to)).abs();
-    let error = ledger::work_error(force, &rate, span.window()).zip(span.to_error);
-    let error = error.map(|(error, shift)| error + moved(last, shift));
+    let (value, error) = if connection.rate.is_none() && span.length() > 0.0 {
+        work_of_parts(solution, connection, window)
+    } else {
+        let steps = ledger::steps(solution, connection.primitives.clone(), window);
+        let work = force.integral_of_product(&rate, window) + steps;
+        (work, ledger::work_error(force, &rate, window))
+    };
+    let error = error.zip(span.to_error).map(|(error, shift)| error + moved(last, shift));
+    let magnitude = |signal: &Signal| signal.absolute_maximum(window).value;
+    let most_force = magnitude(force);
     // What a spring of this peak force and deformation takes up, and may give back.
     let deformation = magnitude(solution.signal(connection.deformation));
-    let area = |signal: &Signal| signal.integral_of(span.window(), &[0.0], f64::abs);
+    let area = |signal: &Signal| signal.integral_of(window, &[0.0], f64::abs);
     let noise = force.noise * area(&rate) + rate.noise * area(force);
-    Reading::over(span, value, error)
+    let blows = blows::within(solution.element_blows(target), window);
+    let lost: f64 = blows.iter().map(|own| own.lost).sum();
+    let push: f64 = blows.iter().map(|own| own.impulse).sum();
+    // What is lost changes with the speeds by no more than the impulse.
+    let error_of_lost = solution.approach(connection).error.map(|error| push * error);
+    let reading = Reading::over(span, value, error)
         .of_size(0.5 * most_force * deformation)
         .above(noise)
-        .changing(last)
+        .changing(last);
+    with_blows(reading, lost, lost.abs(), error_of_lost)
+}
+
+/// The work \[J\] that an element takes up as the sum over its parts, and a bound of its error: in
+/// networks that switch, where elements have no rate of their own.
+fn work_of_parts(
+    solution: &Solution<'_>,
+    connection: &ConnectionOutputs,
+    window: (f64, f64),
+) -> (f64, Option<f64>) {
+    let primitives = solution.assembly().primitives.get(connection.primitives.clone());
+    let (mut work, mut bound) = (0.0, Some(0.0));
+    for primitive in primitives.unwrap_or(&[]) {
+        let own = Accounts::of(primitive.element.as_ref());
+        let force = solution.signal(primitive.force);
+        let error = if own.dissipates {
+            let rate = solution.rate(primitive.rate, primitive.deformation);
+            if ledger::does_work(primitive) {
+                work += force.integral_of_product(&rate, window);
+                ledger::work_error(force, &rate, window)
+            } else {
+                Some(0.0)
+            }
+        } else if own.stores {
+            let deformation = solution.signal(primitive.deformation);
+            let stored = |time, y| accounts::stored(solution, primitive, time, y);
+            let (from, to) = (deformation.value(window.0), deformation.left_value(window.1));
+            work += stored(window.1, to) - stored(window.0, from);
+            let at = |y: f64, error: f64| {
+                let slope = primitive.element.tangent(y, 0.0).stiffness.abs();
+                slope * error * (y.abs() + error)
+            };
+            deformation.error.map(|error| at(from, error) + at(to, error))
+        } else {
+            Some(0.0)
+        };
+        bound = bound.zip(error).map(|(sum, error)| sum + error);
+    }
+    (work, bound)
 }

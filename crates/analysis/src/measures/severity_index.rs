@@ -4,8 +4,12 @@ use dashpot_network::parameters::{
     Dimension, InvalidParameter, Parameter, ParameterKind, Value, WindowWish,
 };
 
-use super::{Family, MASSLESS, MeasureKind, Reading, STANDARD_GRAVITY, WINDOW, window};
-use crate::Solution;
+use super::{
+    Family, MASSLESS, MeasureKind, Reading, STANDARD_GRAVITY, WINDOW,
+    reading::{infinite, with_blows},
+    window,
+};
+use crate::{Solution, blows};
 
 /// Gadd's severity index, `SI = ∫ (|a|/g0)^n dt` \[s\], of what an accelerometer on a body reads.
 ///
@@ -14,6 +18,7 @@ use crate::Solution;
 /// | `n`    | `exponent` | 1    | positive         |
 /// | `g0`   | [`STANDARD_GRAVITY`] | m/s² |        |
 ///
+/// Where the speed jumps by `Δv`, it is infinite for `n > 1`, and `Δv/g0` is added for `n = 1`.
 /// A half-sine of height `A g0` and length `T` has `SI = 0.45765586 A^2.5 T` at `n = 2.5`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeverityIndex {
@@ -69,6 +74,12 @@ impl MeasureKind for SeverityIndex {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
+        let blows = solution.node_blows(target);
+        if self.exponent > 1.0
+            && let Some(reading) = infinite(&span, &blows)
+        {
+            return reading;
+        }
         let acceleration = solution.signal(acceleration);
         let severity = |a: f64| (a.abs() / STANDARD_GRAVITY).powf(self.exponent);
         let value = acceleration.integral_of(span.window(), &[0.0], severity);
@@ -86,6 +97,15 @@ impl MeasureKind for SeverityIndex {
             };
             acceleration.integral_of(span.window(), &[0.0], growth) + last * shift + 1e-13 * value
         });
-        Reading::over(&span, value, error).changing(last)
+        let reading = Reading::over(&span, value, error).changing(last);
+        if self.exponent < 1.0 {
+            return reading;
+        }
+        let unit = solution.body_mass(target) * STANDARD_GRAVITY;
+        let blows = blows::within(&blows, span.window());
+        let jumps = blows.iter().map(|own| own.impulse.abs() / unit).sum();
+        let error = solution.velocity_error(target).map(|error| 2.0 * error / STANDARD_GRAVITY);
+        let error = error.map(|each| blows.iter().map(|_| each).sum());
+        with_blows(reading, jumps, jumps, error)
     }
 }

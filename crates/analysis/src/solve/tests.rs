@@ -8,7 +8,7 @@ use dashpot_network::{
 
 use super::*;
 use crate::{
-    MeasureWish, differences,
+    Contact, MeasureWish, differences,
     measures::{EndVelocity, Energy, Hic15, PeakForce},
 };
 

@@ -24,7 +24,7 @@ const ZERO: f64 = 1e-9;
 /// A force elsewhere is larger if it is so by this part.
 const MARGIN: f64 = 1e-3;
 /// What follows the release.
-const GLUED: &str = ", then it pulls as if glued (separation does not exist yet)";
+const GLUED: &str = ", then it pulls as if glued (separation is off)";
 
 /// One line of the verdict.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -189,7 +189,7 @@ fn contact(answer: &Answer, run: &RunReport) -> Option<String> {
         let end = quantity(contact.impact.end, "s", TIME_DIGITS);
         return Some(format!("{} still pushes at the end of the run ({end})", contact.element));
     }
-    if of(Contact::Released).is_none() {
+    if !run.contacts.iter().any(|own| own.impact.has_ended()) {
         let pulling =
             |own: &ContactReport| format!("{}: it pulls from the start", never(&own.element));
         let unloaded =
@@ -198,14 +198,23 @@ fn contact(answer: &Answer, run: &RunReport) -> Option<String> {
         return found.or_else(|| of(Contact::Unloaded).map(unloaded));
     }
     let (measure, value) = largest(run, ContactTime::KIND)?;
-    let pulls = run.contacts.iter().any(|own| {
-        own.element == measure.target
-            && own.impact.contact == Contact::Released
-            && own.impact.end < run.trajectory.t_end
+    let contact = run.contacts.iter().find(|own| own.element == measure.target);
+    let pulls = contact.is_some_and(|own| {
+        own.impact.contact == Contact::Released && own.impact.end < run.trajectory.t_end
     });
     let pulls = if pulls { GLUED } else { "" };
     let leaving = leaving(run).map_or(String::new(), |text| format!("; {text}"));
-    Some(format!("{} in {}{pulls}{leaving}", shown(answer, measure, value), measure.target))
+    let again = contact.map_or(String::new(), again);
+    Some(format!("{} in {}{pulls}{leaving}{again}", shown(answer, measure, value), measure.target))
+}
+
+/// How often they meet again.
+fn again(contact: &ContactReport) -> String {
+    match contact.again {
+        0 => String::new(),
+        1 => "; they meet once more".to_owned(),
+        count => format!("; they meet {count} times more"),
+    }
 }
 
 fn never(element: &str) -> String {

@@ -8,7 +8,7 @@ use std::{
 
 use dashpot_analysis::reported_measures;
 use dashpot_dae::{Run, UnknownKind, methods::Auto};
-use dashpot_network::{Node, Start, Support, elements::Law};
+use dashpot_network::{Node, Start, Support, elements::Law, layers::resolved};
 use dashpot_plot::Table;
 use dashpot_scene::{Scene, write_effect};
 
@@ -46,7 +46,7 @@ pub(crate) fn explain(
         let _ = writeln!(text, "{}", terminal.toned(Tone::Heading, &line));
     }
     let _ = write!(text, "\n{}", indented(&drawing.text(WIDTH - 4)));
-    let tables = [nodes(&scene), elements(&scene), parts(&scene), loads(&scene)];
+    let tables = [nodes(&scene), elements(&scene), layers(&scene), parts(&scene), loads(&scene)];
     for content in tables.iter().filter(|content| !content.rows.is_empty()) {
         text += &section(content, terminal);
     }
@@ -118,6 +118,28 @@ fn elements(scene: &Scene) -> Table {
     rows("Elements", described.collect())
 }
 
+fn layers(scene: &Scene) -> Table {
+    let network = &scene.network;
+    let rows_of = |connection| {
+        let all = resolved(network, connection).unwrap_or_default().into_iter();
+        all.map(|layer| {
+            let mut row = vec![format!("{}, {}", connection.name, layer.name)];
+            row.push(match layer.segments {
+                0 => "no mass".to_owned(),
+                1 => "1 segment".to_owned(),
+                count => format!("{count} segments"),
+            });
+            if let Some(wave) = layer.wave {
+                row.push(format!("waves at {}", quantity(wave.speed, "m/s", 4)));
+                row.push(format!("cross it in {}", quantity(wave.transit, "s", 4)));
+                row.push(format!("impedance {}", quantity(wave.impedance, "N s/m", 4)));
+            }
+            row
+        })
+    };
+    rows("Layers", network.connections().iter().flat_map(rows_of).collect())
+}
+
 fn parts(scene: &Scene) -> Table {
     let described = scene.assembly.primitives.iter().map(|primitive| {
         let own = match primitive.element.law() {
@@ -158,9 +180,9 @@ fn unknowns(scene: &Scene) -> Table {
 fn effects(scene: &Scene) -> Table {
     let described = entries(Family::Effects).into_iter().flat_map(|entry| {
         let all = scene.network.effects().iter();
-        let on = all.filter(|effect| effect.kind() == entry.name).map(|effect| {
-            vec![entry.name.clone(), "on".to_owned(), write_effect(effect.as_ref())]
-        });
+        let on = all
+            .filter(|effect| effect.kind() == entry.name)
+            .map(|effect| vec![entry.name.clone(), "on".to_owned(), write_effect(effect.as_ref())]);
         let mut on = on.collect::<Vec<_>>();
         if on.is_empty() {
             on.push(vec![entry.name, "off".to_owned(), entry.summary]);

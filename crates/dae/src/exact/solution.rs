@@ -29,7 +29,7 @@ const GOOD: f64 = 1e-11;
 const UNIFORM: f64 = 1e-14;
 
 /// `y(t)` on `[0, end]`. Nothing is computed before it is asked for.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Solution {
     system: Augmented,
     /// The end of the run \[s\], which the last panel shall meet exactly.
@@ -83,6 +83,12 @@ impl Solution {
             last.end = end;
         }
         self.t_end = t_end;
+        self
+    }
+
+    /// The same solution with its modes found, so that its copies need not find them again.
+    pub(crate) fn decomposed(self) -> Self {
+        self.modal();
         self
     }
 

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::check;
 use crate::{
-    Method, MethodKind, Observer, Outcome, Progress, Run, SolveError, Statistics, System,
+    Guard, Method, MethodKind, Observer, Outcome, Progress, Run, SolveError, Statistics, System,
     Trajectory, Waveform,
     events::scan,
     exact::{Augmented, Solution},
@@ -22,6 +22,9 @@ const QUICK: f64 = 6e6;
 const RADIANS: f64 = 6e6;
 /// Lifetimes after which a mode is forgotten.
 const LIFETIMES: f64 = 45.0;
+
+/// Parts of a run that are searched for a stop one after the other.
+const SHARES: [f64; 4] = [1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0];
 
 /// The solution by the matrix exponential: no steps, and no error but rounding.
 ///
@@ -175,16 +178,20 @@ impl Method for Exact {
         }
         let (mut t_end, mut outcome, mut events) = (run.t_end, Outcome::Finished, Vec::new());
         if !run.guards.is_empty() {
-            let signals: Vec<_> = run
-                .guards
-                .iter()
-                .map(|guard| crate::Dense::signal(&solution, system, guard.output))
-                .collect();
-            let (found, stop) = scan(&run.guards, &signals);
-            events = found;
-            if let Some(stop) = stop {
-                (t_end, outcome) = (stop.time, Outcome::Stopped { guard: stop.guard });
-                solution = solution.until(t_end);
+            solution = solution.decomposed();
+            let stops = run.guards.iter().any(|guard| guard.stops);
+            // Where a run may stop, the first part of it is looked at first.
+            for share in if stops { &SHARES[..] } else { &SHARES[3..] } {
+                let part = solution.clone().until(share * run.t_end);
+                let signal = |guard: &Guard| crate::Dense::signal(&part, system, guard.output);
+                let signals: Vec<_> = run.guards.iter().map(signal).collect();
+                let (found, stop) = scan(&run.guards, &signals);
+                events = found;
+                if let Some(stop) = stop {
+                    (t_end, outcome) = (stop.time, Outcome::Stopped { guard: stop.guard });
+                    solution = solution.until(t_end);
+                    break;
+                }
             }
         }
         if observer.progress(Progress { time: t_end, steps: 0 }).is_break() {

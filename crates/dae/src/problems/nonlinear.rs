@@ -156,6 +156,10 @@ pub fn springs_in_series() -> Problem {
 
 /// A spring `f = z|z|` and a dashpot `f = x′` in series, pulled by `u = 2 t` until `t = 1`, held, and
 /// pulled by 1 more at `t = 2`: `z′ = u′ − z²`.
+///
+/// It is not in the list of [`all`](super::all) problems: between the ends of its steps
+/// [`Esdirk34`](crate::methods::Esdirk34) follows an algebraic unknown that is driven with a lower
+/// order than its own, linear or not.
 pub fn pulled_spring() -> Problem {
     let stretch = waveform(vec![
         Piece { slope: 2.0, ..Piece::default() },
@@ -205,10 +209,37 @@ fn quadratic_maxwell(compliance: f64, stretch: Waveform) -> System {
 mod tests {
     use super::*;
     use crate::{
-        Run, SolveError,
-        methods::{Auto, Exact, Method, Tsit45},
+        Run, Silent, SolveError,
+        methods::{Auto, Bdf, Esdirk34, Exact, Method, TrBdf2, Tsit45},
         problems::solitary_wave,
     };
+
+    #[test]
+    fn a_law_is_driven_through_kinks_and_jumps() {
+        let problem = pulled_spring();
+        let end = problem.t_end / problem.system.time_scale;
+        let times: Vec<f64> = (0..=400).map(|k| end * f64::from(k) / 400.0).collect();
+        let error = |method: &dyn Method, rtol: f64, unknown: usize| {
+            let run = Run::to(problem.t_end).with_rtol(rtol);
+            let trajectory = method.integrate(&problem.system, &run, &mut Silent).unwrap();
+            let samples = trajectory.dense.sample(&problem.system, &times);
+            let rows = samples.chunks_exact(2).zip(&times);
+            rows.map(|(row, t)| (row[unknown] - problem.exact(t * TIME_SCALE)[unknown]).abs())
+                .fold(0.0, f64::max)
+        };
+        // A method of order q has a global error like the power q/(q + 1) of the tolerance; see the
+        // problem for the last one.
+        let slopes: [(&dyn Method, [f64; 2]); 3] =
+            [(&Bdf, [0.7, 0.7]), (&TrBdf2, [0.62, 0.62]), (&Esdirk34, [0.7, 0.5])];
+        for (method, slopes) in slopes {
+            for (unknown, least) in slopes.into_iter().enumerate() {
+                let [coarse, fine] = [1e-5, 1e-9].map(|rtol| error(method, rtol, unknown));
+                let slope = (coarse / fine).log10() / 4.0;
+                let what = format!("{} {unknown}: {coarse:e} {fine:e} {slope}", method.name());
+                assert!(coarse < 2e-3 && slope > least, "{what}");
+            }
+        }
+    }
 
     #[test]
     fn methods_that_cannot_follow_laws_say_so() {

@@ -4,16 +4,17 @@ use std::collections::BTreeMap;
 
 use super::{
     bodies::{Bodies, Groups, Role, joint_name},
-    expand::Expansion,
+    expand::{Expansion, Primitive},
     mesh::Mesh,
-    structure::Structure,
+    structure::{Edge, Structure},
 };
 use crate::{Network, NetworkError};
 
 /// Displacement of each body \[m\] at the start, counted from unloaded.
 ///
-/// Springs carry `weights` \[N\] (one for each body); dashpots carry nothing, and keep the place
-/// of what only they hold. `given` is the displacement of bodies whose motion is prescribed.
+/// Springs carry `weights` \[N\] (one for each body), linear or not; dashpots carry nothing, and keep
+/// the place of what only they hold. `given` is the displacement of bodies whose motion is
+/// prescribed.
 ///
 /// # Errors
 ///
@@ -28,20 +29,17 @@ pub(super) fn positions(
 ) -> Result<Vec<f64>, Vec<NetworkError>> {
     let count = bodies.all.len();
     let is_given = |body: usize| matches!(bodies.all[body].role, Role::Fixed | Role::Prescribed(_));
+    let name = |body: &usize| joint_name(network, expansion, bodies.all[*body].joints[0]);
     let mut groups = Groups::new(count);
-    let mut mesh = Mesh::<f64>::new(count);
     for spring in &structure.springs {
         groups.join(spring.ends[0], spring.ends[1]);
-        mesh.link(spring.ends[0], spring.ends[1], spring.constant, &spring.offset);
     }
     let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for body in 0..count {
-        mesh.load(body, 1.0, &weights[body]);
         members.entry(groups.of(body)).or_default().push(body);
     }
     let mut errors = Vec::new();
     let mut free = Vec::new();
-    let mut values = given.to_vec();
     let mut is_placed = vec![false; count];
     for group in members.values() {
         let is_anchored = group.iter().any(|&body| is_given(body));
@@ -49,22 +47,165 @@ pub(super) fn positions(
             free.extend(group.iter().copied().filter(|&body| !is_given(body)));
             group.iter().for_each(|&body| is_placed[body] = true);
         } else if group.iter().any(|&body| weights[body] != 0.0) {
-            let sinking = group
-                .iter()
-                .filter(|&&body| weights[body] != 0.0)
-                .map(|&body| joint_name(network, expansion, bodies.all[body].joints[0]));
+            let sinking = group.iter().filter(|&&body| weights[body] != 0.0).map(name);
             errors.push(NetworkError::NoBalance { nodes: sinking.collect() });
         }
     }
     if !errors.is_empty() {
         return Err(errors);
     }
-    let solution = mesh.eliminate(&free, usize::MAX).solve(values.clone());
-    for &body in &free {
-        values[body] = *solution.value(body);
-    }
+    let load = Load { structure, primitives: &expansion.primitives, free: &free, weights };
+    let values = load.carried(given.to_vec());
+    let mut values = values.map_err(|sinking| {
+        vec![NetworkError::NoBalance { nodes: sinking.iter().map(name).collect() }]
+    })?;
     place_by_dashpots(structure, &mut groups, &members, &mut values, &mut is_placed);
     Ok(values)
+}
+
+/// Springs under weights.
+struct Load<'a> {
+    structure: &'a Structure,
+    primitives: &'a [Primitive],
+    /// The bodies that springs hold.
+    free: &'a [usize],
+    /// Force on each body \[N\].
+    weights: &'a [f64],
+}
+
+/// Most steps of Newton's iteration.
+const SWEEPS: usize = 400;
+/// Most times that a step is halved.
+const HALVINGS: usize = 200;
+/// Slopes are taken to be no smaller than this part of a law's typical slope; a law that begins
+/// without a slope would send the first step to infinity.
+const FLATTEST: f64 = 1e-9;
+/// What the forces on a body may sum up to, in parts of their magnitudes, where rounding ends the
+/// iteration.
+const UNBALANCED: f64 = 1e-9;
+
+impl Load<'_> {
+    /// The places of all bodies in balance, from those of the bodies that are given; else the bodies
+    /// that would sink.
+    ///
+    /// Linear springs need one elimination. Others need Newton's iteration from the unloaded
+    /// network: each step solves the mesh of tangents, and is halved as long as it goes beyond the
+    /// lowest point along its way.
+    fn carried(&self, given: Vec<f64>) -> Result<Vec<f64>, Vec<usize>> {
+        let springs = &self.structure.springs;
+        let as_it_is = |spring: &Edge| (spring.constant, spring.offset);
+        if springs.iter().all(|spring| !self.primitives[spring.primitive].is_nonlinear()) {
+            return Ok(self.solved(given, 1.0, as_it_is));
+        }
+        let mut places = self.solved(given, 0.0, as_it_is);
+        for _ in 0..SWEEPS {
+            let tangent = |spring: &Edge| {
+                let (deformation, element) = self.at(spring, &places);
+                let slope = element.tangent(deformation, 0.0).stiffness;
+                // What has no slope in numbers is as flat as can be.
+                let slope = slope.max(FLATTEST * spring.constant).min(f64::MAX);
+                let force = self.force(spring, &places);
+                (slope, spring.offset - deformation + force / slope)
+            };
+            let next = self.solved(places.clone(), 1.0, tangent);
+            let way: Vec<f64> = next.iter().zip(&places).map(|(to, from)| to - from).collect();
+            let largest = way.iter().fold(0.0, |most: f64, own| most.max(own.abs()));
+            let size = places.iter().fold(largest, |most, own| most.max(own.abs()));
+            if !size.is_finite() || largest <= 2.0 * f64::EPSILON * size {
+                break;
+            }
+            let Some(reached) = self.along(&places, &way) else { break };
+            places = reached;
+        }
+        let sinking = self.sinking(&places);
+        if sinking.is_empty() { Ok(places) } else { Err(sinking) }
+    }
+
+    /// The places where springs of the slopes and offsets that `line` gives carry `part` of the
+    /// weights.
+    fn solved(
+        &self,
+        values: Vec<f64>,
+        part: f64,
+        line: impl Fn(&Edge) -> (f64, f64),
+    ) -> Vec<f64> {
+        let mut mesh = Mesh::<f64>::new(values.len());
+        for spring in &self.structure.springs {
+            let (slope, offset) = line(spring);
+            mesh.link(spring.ends[0], spring.ends[1], slope, &offset);
+        }
+        for (body, weight) in self.weights.iter().enumerate() {
+            mesh.load(body, part, weight);
+        }
+        let mut values = values;
+        let solution = mesh.eliminate(self.free, usize::MAX).solve(values.clone());
+        for &body in self.free {
+            values[body] = *solution.value(body);
+        }
+        values
+    }
+
+    fn at(&self, spring: &Edge, places: &[f64]) -> (f64, &dyn crate::Element) {
+        let [p, q] = spring.ends;
+        let deformation = places[p] - places[q] + spring.offset;
+        (deformation, self.primitives[spring.primitive].element.as_ref())
+    }
+
+    fn force(&self, spring: &Edge, places: &[f64]) -> f64 {
+        let (deformation, element) = self.at(spring, places);
+        element.force(deformation, 0.0)
+    }
+
+    /// The places at the end of a step that goes this way, or no further than it should; `None` where
+    /// rounding leaves no way down.
+    fn along(&self, places: &[f64], way: &[f64]) -> Option<Vec<f64>> {
+        let at = |part: f64| -> Vec<f64> {
+            places.iter().zip(way).map(|(from, step)| from + part * step).collect()
+        };
+        // The slope of the potential energy along the way.
+        let slope = |places: &[f64]| -> f64 {
+            let springs = self.structure.springs.iter().map(|spring| {
+                let [p, q] = spring.ends;
+                self.force(spring, places) * (way[p] - way[q])
+            });
+            let weights = self.free.iter().map(|&body| self.weights[body] * way[body]);
+            springs.sum::<f64>() - weights.sum::<f64>()
+        };
+        let first = slope(places);
+        if first.is_nan() || first >= 0.0 {
+            return None;
+        }
+        let mut part = 1.0;
+        for _ in 0..HALVINGS {
+            let reached = at(part);
+            if slope(&reached) <= -0.5 * first {
+                return Some(reached);
+            }
+            part *= 0.5;
+        }
+        None
+    }
+
+    /// The bodies on which the forces are not in balance.
+    fn sinking(&self, places: &[f64]) -> Vec<usize> {
+        let mut sums = vec![(0.0, 0.0); places.len()];
+        let mut add = |body: usize, force: f64| {
+            let (sum, size) = sums[body];
+            sums[body] = (sum + force, size + f64::abs(force));
+        };
+        for spring in &self.structure.springs {
+            let force = self.force(spring, places);
+            add(spring.ends[0], -force);
+            add(spring.ends[1], force);
+        }
+        self.free.iter().for_each(|&body| add(body, self.weights[body]));
+        let most = sums.iter().map(|own| own.1).fold(0.0, f64::max);
+        let is_unbalanced = |&&body: &&usize| {
+            let (sum, size) = sums[body];
+            sum.is_nan() || sum.abs() > UNBALANCED * size.max(f64::EPSILON * most)
+        };
+        self.free.iter().filter(is_unbalanced).copied().collect()
+    }
 }
 
 /// Puts groups that no spring anchors where their dashpots are undeformed.

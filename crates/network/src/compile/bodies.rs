@@ -77,7 +77,7 @@ pub(crate) fn start_velocity(network: &Network, start: Start) -> f64 {
 }
 
 /// Standard acceleration of gravity \[m/s²\] (3rd CGPM, 1901).
-const STANDARD_GRAVITY: f64 = 9.806_65;
+pub(crate) const STANDARD_GRAVITY: f64 = 9.806_65;
 
 impl Bodies {
     /// Merges the joints at the ends of rigid links.

@@ -7,7 +7,7 @@ use dashpot_rheology::Tree;
 use crate::{
     Network,
     elements::{Element, Law},
-    network::Model,
+    network::{Connection, Model},
     phases::{Phase, PhaseLaw, Watched},
 };
 
@@ -74,6 +74,8 @@ pub(crate) enum Shape {
     Leaf(usize),
     Series(Vec<usize>),
     Parallel(Vec<usize>),
+    /// In a row with masses between them, so that their forces differ.
+    Row(Vec<usize>),
 }
 
 impl Shape {
@@ -112,11 +114,7 @@ impl Expansion {
         let nodes = network.nodes.len();
         let mut expansion = Self { joints: nodes, owners: vec![None; nodes], ..Self::default() };
         for connection in &network.connections {
-            let shape = expansion.expand(
-                &connection.name,
-                &connection.model,
-                connection.between.map(|id| id.0),
-            );
+            let shape = expansion.expand(connection);
             expansion.shapes.push(shape);
         }
         expansion
@@ -156,9 +154,11 @@ impl Expansion {
     }
 
     /// Without recursion, because nesting has no limit.
-    fn expand(&mut self, connection: &str, model: &Model, ends: [usize; 2]) -> Vec<Shape> {
+    fn expand(&mut self, whole: &Connection) -> Vec<Shape> {
+        let Connection { name: connection, model, between, through, .. } = whole;
+        let ends = between.map(|id| id.0);
         let mut shapes = vec![Shape::Series(Vec::new())];
-        let root = Pending { model, ends, path: connection.to_owned(), shape: 0 };
+        let root = Pending { model, ends, path: connection.clone(), shape: 0 };
         let mut stack = vec![root];
         while let Some(Pending { model, ends, path, shape }) = stack.pop() {
             match model {
@@ -187,8 +187,11 @@ impl Expansion {
                     let last = branches.len().saturating_sub(1);
                     let mut pending = Vec::with_capacity(branches.len());
                     for (at, branch) in branches.iter().enumerate() {
-                        let right =
-                            if in_series && at < last { self.joint(connection) } else { ends[1] };
+                        let right = match through.get(at) {
+                            _ if !in_series || at == last => ends[1],
+                            Some(node) if shape == 0 => node.0,
+                            _ => self.joint(connection),
+                        };
                         pending.push(Pending {
                             model: &branch.tree,
                             ends: if in_series { [left, right] } else { ends },
@@ -198,8 +201,11 @@ impl Expansion {
                         left = right;
                     }
                     stack.extend(pending.into_iter().rev());
-                    shapes[shape] =
-                        if in_series { Shape::Series(children) } else { Shape::Parallel(children) };
+                    shapes[shape] = match in_series {
+                        true if shape == 0 && !through.is_empty() => Shape::Row(children),
+                        true => Shape::Series(children),
+                        false => Shape::Parallel(children),
+                    };
                 }
             }
         }

@@ -327,6 +327,10 @@ fn composed(
                 .map(|&child| (found[child].0.clone(), found[child].1))
                 .min_by(|a, b| a.0.is_none().cmp(&b.0.is_none()).then(a.1.total_cmp(&b.1)))
                 .unwrap_or((None, f64::INFINITY)),
+            // The force on the impactor's side.
+            Shape::Row(children) => {
+                children.first().map_or((None, f64::INFINITY), |&child| found[child].clone())
+            }
             Shape::Parallel(children) => {
                 let rows: Option<Vec<&Row>> =
                     children.iter().map(|&child| found[child].0.as_ref()).collect();
@@ -344,7 +348,7 @@ fn summed(shapes: &[Shape], row: &impl Fn(usize) -> Option<Row>) -> Option<Row> 
     for (at, shape) in shapes.iter().enumerate().rev() {
         found[at] = match shape {
             Shape::Leaf(primitive) => row(*primitive),
-            Shape::Series(children) => children
+            Shape::Series(children) | Shape::Row(children) => children
                 .iter()
                 .map(|&child| found[child].as_ref())
                 .collect::<Option<Vec<&Row>>>()

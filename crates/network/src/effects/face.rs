@@ -5,7 +5,7 @@ use super::{
     site::{AT, Site, at_of, at_value, contact_of, face_of},
 };
 use crate::{
-    Network, NetworkError, Node, NodeId, Start, Support,
+    Influence, Network, NetworkError, Node, NodeId, Situation, Start, Support,
     elements::{Rigid, number},
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative},
     part,
@@ -106,6 +106,14 @@ impl Effect for Face {
         Ok(())
     }
 
+    fn influences(&self, situation: &Situation<'_>) -> Vec<Influence> {
+        let network = situation.network;
+        let site = Site::of(network, Self::KIND, &self.element, self.at.as_deref());
+        let mass = site.map_or(0.0, |site| network.node(site.node(network)).mass);
+        let found = (mass > 0.0).then(|| Influence::new("1/B − 1 = m2/m1", self.mass / mass));
+        found.into_iter().collect()
+    }
+
     fn validate(&self) -> Result<(), InvalidParameter> {
         non_negative("mass", self.mass)
     }
@@ -125,7 +133,12 @@ impl EffectKind for Face {
             ParameterKind::Quantity(Dimension::MASS),
             "mass m2 on the face [kg], zero or positive",
         ),
-        AT,
+        Parameter::following(
+            "at",
+            ParameterKind::Node,
+            "where it separates, or the first of `between`",
+            AT.help,
+        ),
         Parameter::optional(
             "touch",
             ParameterKind::Choice(&["impact", "moving"]),

@@ -4,7 +4,8 @@ use dashpot_dae::Waveform;
 
 use super::{Effect, EffectKind};
 use crate::{
-    Network, NodeId,
+    Influence, Network, NodeId, Situation, Start,
+    compile::bodies::{STANDARD_GRAVITY, start_velocity},
     elements::number,
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite},
 };
@@ -61,6 +62,38 @@ impl Effect for Gravity {
         Some(self.acceleration)
     }
 
+    fn influences(&self, situation: &Situation<'_>) -> Vec<Influence> {
+        if situation.falls {
+            return vec![Influence::new("the fall is its work", 1.0)];
+        }
+        let g = self.acceleration.abs();
+        if let Some(impact) = &situation.impact {
+            let of_impactor = impact.mass / (impact.mass + impact.face_mass);
+            let length = if impact.thickness.is_some() { "δ" } else { "y" };
+            let formula = format!("A = B g {length}/V0², B = m1/(m1 + m2)");
+            let value = of_impactor * g * impact.length() / impact.speed.powi(2);
+            return vec![Influence::new(formula, value)];
+        }
+        let network = situation.network;
+        let drive = network.connections().iter().map(|own| situation.drive_without_weight(own));
+        let drive = drive.fold(0.0, f64::max);
+        let weight = network.nodes().map(|(_, node)| node.mass * g).sum::<f64>();
+        if drive > 0.0 && drive.is_finite() {
+            vec![Influence::new("Σ m g/F, F of loads and motions", weight / drive)]
+        } else {
+            vec![Influence::new("nothing else acts", 1.0)]
+        }
+    }
+
+    fn leave(&self, network: &mut Network) {
+        for at in 0..network.nodes.len() {
+            let start = network.nodes[at].start;
+            if matches!(start, Start::Drop(_)) {
+                network.nodes[at].start = Start::Velocity(start_velocity(network, start));
+            }
+        }
+    }
+
     fn validate(&self) -> Result<(), InvalidParameter> {
         finite("value", self.acceleration)
     }
@@ -87,6 +120,10 @@ impl EffectKind for Gravity {
             "whether parts without start speed begin in balance or unloaded",
         ),
     ];
+
+    fn would_be(_situation: &Situation<'_>) -> Vec<Self> {
+        vec![Self { acceleration: STANDARD_GRAVITY, start: GravityStart::Equilibrium }]
+    }
 
     fn from_values(_target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {
         let start = match values.get(1) {

@@ -1,7 +1,6 @@
 //! The register of effects: what acts on a network besides its elements, and only if asked for.
 
 mod face;
-mod flight;
 mod gravity;
 mod separation;
 mod site;
@@ -19,7 +18,7 @@ pub use separation::Separation;
 pub use stop::Stop;
 
 use crate::{
-    Network, NetworkError, NodeId, layers,
+    Influence, Network, NetworkError, NodeId, Situation, layers,
     parameters::{InvalidParameter, Parameter, Value},
 };
 
@@ -65,6 +64,15 @@ pub trait Effect: Debug + Send + Sync {
         Ok(())
     }
 
+    /// The dimensionless numbers that measure how much it matters; none where the scales do not
+    /// tell. The effect need not be one of the network.
+    fn influences(&self, _situation: &Situation<'_>) -> Vec<Influence> {
+        Vec::new()
+    }
+
+    /// Keeps what else of the network rests on the effect, which is about to be left out of it.
+    fn leave(&self, _network: &mut Network) {}
+
     /// Checks the parameters.
     ///
     /// # Errors
@@ -86,6 +94,12 @@ pub trait EffectKind: Effect + Sized + 'static {
     const PARAMETERS: &'static [Parameter];
     /// Whether it acts on one element, `effects.<kind>.<element>` in scenes; else on the network.
     const PER_ELEMENT: bool = false;
+
+    /// What it would be with its defaults in a network in which it is off: on each element that an
+    /// impactor strikes, where it acts on one. None where nothing about it is known.
+    fn would_be(_situation: &Situation<'_>) -> Vec<Self> {
+        Vec::new()
+    }
 
     /// The effect on `target`, the element's name where it acts on one, with these values, one for
     /// each of [`PARAMETERS`](Self::PARAMETERS).
@@ -121,7 +135,7 @@ pub(crate) fn rewrites(network: &Network) -> bool {
 }
 
 /// Puts into a network the masses of its layers and all that its effects are made of, in the order
-/// of the register, and lets what is dropped fall.
+/// of the register.
 ///
 /// # Errors
 ///
@@ -143,6 +157,5 @@ pub(crate) fn rewrite(network: &mut Network) -> Result<(), NetworkError> {
     for effect in effects {
         effect.rewrite(network)?;
     }
-    flight::begin(network);
     Ok(())
 }

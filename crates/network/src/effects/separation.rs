@@ -1,11 +1,13 @@
 //! Separation at one end of an element.
 
+use std::f64::consts::PI;
+
 use super::{
     Effect, EffectKind,
-    site::{AT, Site, at_of, at_value, face_of},
+    site::{AT, Site, at_of, at_value, connection_of, face_of},
 };
 use crate::{
-    Network, NetworkError, Node,
+    Influence, Network, NetworkError, Node, Situation,
     elements::{Contact, number},
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value},
     part,
@@ -56,6 +58,17 @@ impl Effect for Separation {
         Ok(())
     }
 
+    fn influences(&self, situation: &Situation<'_>) -> Vec<Influence> {
+        let found = connection_of(situation.network, Self::KIND, &self.element);
+        let struck = situation.impact.as_ref().zip(found.ok());
+        let Some((impact, _)) = struck.filter(|(own, at)| own.struck.contains(at)) else {
+            return Vec::new();
+        };
+        let contact = PI * impact.time();
+        let formula = "1 − t/T, run T beyond contact t = π √(m1/K)";
+        vec![Influence::beyond(formula, situation.duration, contact)]
+    }
+
     fn validate(&self) -> Result<(), InvalidParameter> {
         crate::Element::validate(&self.contact())
     }
@@ -78,6 +91,11 @@ impl EffectKind for Separation {
         ),
     ];
     const PER_ELEMENT: bool = true;
+
+    fn would_be(situation: &Situation<'_>) -> Vec<Self> {
+        let on = |element: &str| Self { element: element.to_owned(), at: None, restitution: 0.0 };
+        situation.struck().map(|own| on(&own.name)).collect()
+    }
 
     fn from_values(target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {
         let separation = Self {

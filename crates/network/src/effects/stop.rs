@@ -4,7 +4,7 @@ use dashpot_rheology::{Branch, Tree};
 
 use super::{Effect, EffectKind, site::connection_of};
 use crate::{
-    Element, Model, Network, NetworkError,
+    Element, Influence, Model, Network, NetworkError, Situation,
     elements::{Contact, Dashpot, ElementKind, Spring, number},
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative},
     part,
@@ -87,6 +87,20 @@ impl Effect for Stop {
         Ok(())
     }
 
+    fn influences(&self, situation: &Situation<'_>) -> Vec<Influence> {
+        let network = situation.network;
+        let found = connection_of(network, Self::KIND, &self.element);
+        let Some(connection) = found.ok().and_then(|at| network.connections.get(at)) else {
+            return Vec::new();
+        };
+        let limit = self.at.or(connection.thickness);
+        let Some((limit, depth)) = limit.zip(situation.depth(connection)) else {
+            return Vec::new();
+        };
+        let formula = "1 − d/y, depth y = V0 √(m1/K) beyond the stop";
+        vec![Influence::beyond(formula, depth, limit)]
+    }
+
     fn validate(&self) -> Result<(), InvalidParameter> {
         self.at.map_or(Ok(()), |at| non_negative("at", at))?;
         self.contact(0.0).validate()?;
@@ -145,6 +159,18 @@ impl EffectKind for Stop {
         ),
     ];
     const PER_ELEMENT: bool = true;
+
+    fn would_be(situation: &Situation<'_>) -> Vec<Self> {
+        let on = |element: &str| Self {
+            element: element.to_owned(),
+            at: None,
+            restitution: 0.0,
+            stiffness: None,
+            damping: 0.0,
+        };
+        let pads = situation.struck().filter(|own| own.thickness.is_some());
+        pads.map(|own| on(&own.name)).collect()
+    }
 
     fn from_values(target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {
         let maybe = |at: usize, parameter: &'static str| match values.get(at) {

@@ -14,7 +14,7 @@
 
 mod resolve;
 mod slice;
-mod stiffness;
+pub(crate) mod stiffness;
 
 #[cfg(test)]
 mod tests;
@@ -24,7 +24,7 @@ use dashpot_rheology::{Branch, Tree};
 pub(crate) use self::resolve::resolve;
 use self::stiffness::Stiffness;
 use crate::{
-    Model,
+    Connection, Model, Network,
     parameters::{InvalidParameter, non_negative, positive},
 };
 
@@ -222,4 +222,42 @@ fn share_out(counts: &mut [usize], transits: &[f64]) {
     if let Some((count, _)) = with_mass.max_by(|a, b| time(a).total_cmp(&time(b))) {
         *count += 1;
     }
+}
+
+/// What becomes of one layer of a network.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolved<'l> {
+    /// Name of the layer.
+    pub name: &'l str,
+    /// Number of its segments.
+    pub segments: usize,
+    /// The wave of the highest frequency that is resolved; `None` where none travels.
+    pub wave: Option<Wave>,
+}
+
+/// The layers of a connection as they are resolved.
+///
+/// # Errors
+///
+/// [`InvalidParameter`] where they cannot be resolved as asked.
+pub fn resolved<'l>(
+    network: &Network,
+    connection: &'l Connection,
+) -> Result<Vec<Resolved<'l>>, InvalidParameter> {
+    let Some(layers) = &connection.layers else { return Ok(Vec::new()) };
+    let struck = struck_mass(network, connection);
+    let counts = layers.segments(struck)?;
+    let omega = layers.frequency(struck);
+    let all = layers.all.iter().zip(counts).map(|(layer, segments)| Resolved {
+        name: &layer.name,
+        segments,
+        wave: omega.and_then(|omega| layer.wave(omega)),
+    });
+    Ok(all.collect())
+}
+
+/// The smaller mass \[kg\] of those at the ends of a connection, where there is one.
+fn struck_mass(network: &Network, connection: &Connection) -> Option<f64> {
+    let masses = connection.between.map(|id| network.node(id).mass).into_iter();
+    masses.filter(|mass| *mass > 0.0).reduce(f64::min)
 }

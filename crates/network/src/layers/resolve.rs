@@ -2,7 +2,7 @@
 
 use dashpot_rheology::{Branch, Tree};
 
-use super::{Layers, slice::slice};
+use super::{Layers, slice::slice, struck_mass};
 use crate::{Model, Network, NetworkError, Node, NodeId, Subject};
 
 /// Puts the masses of all layers into the network.
@@ -15,8 +15,7 @@ pub(crate) fn resolve(network: &mut Network) -> Result<(), NetworkError> {
         let connection = &network.connections[at];
         let Some(layers) = connection.layers.clone() else { continue };
         let name = connection.name.clone();
-        let masses = connection.between.map(|id| network.node(id).mass).into_iter();
-        let struck = masses.filter(|mass| *mass > 0.0).reduce(f64::min);
+        let struck = struck_mass(network, connection);
         let counts = layers.validate().and_then(|()| layers.segments(struck));
         let counts = counts.map_err(|invalid| NetworkError::Invalid {
             subject: Subject::Element { name: name.clone(), path: Vec::new() },

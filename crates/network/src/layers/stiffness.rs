@@ -4,7 +4,7 @@ use crate::{Element, Model, elements::Law, phases::PhaseLaw};
 
 /// Complex stiffness `K* = K′ + i K″` \[N/m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stiffness {
+pub(crate) struct Stiffness {
     /// In phase with the deformation, `K′`.
     storage: f64,
     /// In phase with its rate, `K″`.
@@ -17,7 +17,7 @@ impl Stiffness {
 
     /// That of a model at the angular frequency `omega` \[rad/s\]. Elements that are not linear
     /// count with their typical slopes, those that switch with their first phase.
-    pub(super) fn of(model: &Model, omega: f64) -> Self {
+    pub(crate) fn of(model: &Model, omega: f64) -> Self {
         model.fold(
             |element| Self::of_element(element.as_ref(), omega),
             |tree, parts| {
@@ -51,7 +51,7 @@ impl Stiffness {
     }
 
     /// `|K*|` \[N/m\].
-    pub(super) fn size(self) -> f64 {
+    pub(crate) fn size(self) -> f64 {
         self.storage.hypot(self.loss)
     }
 

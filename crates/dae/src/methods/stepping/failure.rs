@@ -2,8 +2,8 @@
 
 use diffsol::{DiffsolError, error::OdeSolverError};
 
-use super::balance::Imbalance;
-use crate::{SolveError, System};
+use super::balance::{Imbalance, undetermined};
+use crate::{SolveError, System, UnknownKind};
 
 /// Where and by whom something failed.
 #[derive(Debug, Clone, Copy)]
@@ -50,10 +50,19 @@ impl Site<'_> {
         SolveError::StepTooSmall { method, time, unknown: self.fastest(state, slopes) }
     }
 
-    /// No balance can be assigned to this unknown.
-    pub(super) fn undetermined(self, unknown: usize) -> SolveError {
-        let reason = format!("no balance determines `{}`", self.name(unknown));
-        SolveError::NotApplicable { method: self.method, reason }
+    /// Whether the structure of the system is one that has a solution.
+    pub(super) fn structure(self) -> Result<(), SolveError> {
+        let Self { method, system, .. } = self;
+        let moves = |row: usize| system.unknowns[row].kind == UnknownKind::Differential;
+        let reason = if let Some(term) = system.terms.iter().find(|term| moves(term.row)) {
+            let name = self.name(term.row);
+            format!("a term that is not linear stands in the row of `{name}`, which is no balance")
+        } else if let Some(unknown) = undetermined(system) {
+            format!("no balance determines `{}`", self.name(unknown))
+        } else {
+            return Ok(());
+        };
+        Err(SolveError::NotApplicable { method, reason })
     }
 
     /// The algebraic unknowns, which came out as `state`, have no consistent values or slopes.

@@ -4,7 +4,7 @@ use diffsol::{FaerSparseMat, NalgebraMat};
 
 use super::{
     algebra::{Algebra, DENSE_UP_TO},
-    balance::{Balance, undetermined},
+    balance::Balance,
     equations::Equations,
     failure::Site,
 };
@@ -33,9 +33,7 @@ fn derivatives_in<M: Algebra>(
 ) -> Result<Derivatives, SolveError> {
     let site = Site { method: NAME, time: 0.0, system };
     site.finite(state)?;
-    if let Some(unknown) = undetermined(system) {
-        return Err(site.undetermined(unknown));
-    }
+    site.structure()?;
     let mut recursion = Recursion::<M>::start(site, state)?;
     for order in (1..).take(order) {
         recursion.next(order)?;

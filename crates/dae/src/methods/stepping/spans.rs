@@ -5,11 +5,7 @@ use std::time::Instant;
 use diffsol::{DefaultDenseMatrix, FaerSparseMat, NalgebraMat, VectorRef, matrix::MatrixRef};
 
 use super::{
-    Algebra, Scheme, Stop, Walk,
-    algebra::DENSE_UP_TO,
-    balance::{Balance, undetermined},
-    failure::Site,
-    start,
+    Algebra, Scheme, Stop, Walk, algebra::DENSE_UP_TO, balance::Balance, failure::Site, start,
 };
 use crate::{
     Observer, Outcome, Run, SolveError, Statistics, System, Trajectory, events::Watch,
@@ -116,10 +112,7 @@ fn admit<S: Scheme>(system: &System, run: &Run) -> Result<(), SolveError> {
     }
     let site = Site { method: S::KIND, time: 0.0, system };
     site.finite(&system.initial)?;
-    match undetermined(system) {
-        Some(unknown) => Err(site.undetermined(unknown)),
-        None => Ok(()),
-    }
+    site.structure()
 }
 
 impl Walk<'_> {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dashpot_dae::{Derivatives, Output, SolveError, Switch, derivatives};
+use dashpot_dae::{Derivatives, Output, SolveError, Switch, System, derivatives};
 
 use super::{
     super::{
@@ -16,6 +16,8 @@ use crate::phases::{Exit, Phase, PhaseLaw, Watched};
 /// Phases that hold, and the unknowns of their system.
 pub(super) struct Choice {
     pub(super) mode: Arc<Mode>,
+    /// The mode's system, with time counted from the instant.
+    pub(super) system: Arc<System>,
     pub(super) phases: Vec<Phase>,
     pub(super) unknowns: Vec<f64>,
     /// The levels of the mode's guards: where rounding or the method's error has left a quantity on
@@ -25,6 +27,8 @@ pub(super) struct Choice {
 
 /// Derivatives that are looked at to see which way a quantity leaves its level.
 const ORDERS: usize = 6;
+/// By how much more than its scale rounding is thought to have grown, one attempt after the other.
+const COARSER: [f64; 3] = [1.0, 64.0, 4096.0];
 /// Most combinations of phases that are tried at one instant.
 const MOST_TRIED: usize = 4096;
 
@@ -46,20 +50,30 @@ impl PhasedNetwork {
         let options: Vec<Vec<Phase>> = (0..self.parts.len())
             .map(|part| self.options(part, state, phases[part], fired, touching[part]))
             .collect();
-        let on_level: Vec<(usize, Watched)> = fired
+        let reached: Vec<(usize, Exit)> = fired
             .iter()
             .filter_map(|&(part, exit)| {
                 let own = self.phases_of(self.parts[part])?;
-                Some((part, own.exits(phases[part]).get(exit)?.watched))
+                Some((part, *own.exits(phases[part]).get(exit)?))
             })
+            .collect();
+        let on_level: Vec<(usize, Watched)> =
+            reached.iter().map(|(part, exit)| (*part, exit.watched)).collect();
+        let at_level: Vec<(usize, f64)> = reached
+            .iter()
+            .filter(|(_, exit)| exit.watched == Watched::Deformation)
+            .map(|(part, exit)| (*part, exit.level))
             .collect();
         let mut refusal = None;
         let before = state.clone();
         // What would part by less than can be seen rests; only if nothing else holds may it part.
-        for (rebound, graze) in [(true, false), (false, false), (true, true), (false, true)] {
+        // Rounding may have grown beyond its scale: then the next coarser judgement may tell.
+        let ways = [(true, false), (false, false), (true, true), (false, true)];
+        let attempts = COARSER.iter().flat_map(|factor| ways.map(|way| (factor * doubt, way)));
+        for (doubt, (rebound, graze)) in attempts {
             state.clone_from(&before);
             let impacts = self.impacts(state, phases, &touching, doubt, rebound);
-            let judge = Judge { state, doubt, on_level: &on_level, graze };
+            let judge = Judge { time, state, doubt, on_level: &on_level, at_level: &at_level, graze };
             for choice in combinations(&options).take(MOST_TRIED) {
                 let tried: Vec<Phase> =
                     choice.iter().zip(&options).map(|(&at, options)| options[at]).collect();
@@ -141,9 +155,12 @@ impl PhasedNetwork {
     /// The mode of these phases in this state, if no part is on its way out.
     fn admit(&self, phases: &[Phase], judge: &Judge<'_>) -> Result<Option<Choice>, String> {
         let Judge { state, doubt, .. } = *judge;
-        for (&at, &phase) in self.parts.iter().zip(phases) {
+        for (part, (&at, &phase)) in self.parts.iter().zip(phases).enumerate() {
             let law = self.phases_of(at).map(|own| own.law(phase));
             if let Some(PhaseLaw::Held(level)) = law {
+                if judge.at_level.contains(&(part, level)) {
+                    continue;
+                }
                 let deformation = state.deformation[at];
                 let [a, b] = self.expansion.primitives[at].ends;
                 let size = state.position[a].abs().max(state.position[b].abs());
@@ -158,8 +175,9 @@ impl PhasedNetwork {
             return Ok(None);
         }
         let unknowns = mode.carry.unknowns(state);
+        let system = mode.system_from(judge.time);
         let motion =
-            derivatives(&mode.system, &unknowns, ORDERS).map_err(|error| error.to_string())?;
+            derivatives(&system, &unknowns, ORDERS + 1).map_err(|error| error.to_string())?;
         let holds = mode.of_guard.iter().zip(mode.of_guard_exits()).all(
             |(&(part, _), (output, exit))| {
                 judge.stays(part, &motion, &mode.system.outputs[output], exit)
@@ -173,7 +191,7 @@ impl PhasedNetwork {
             if exit.rising { value.max(exit.level) } else { value.min(exit.level) }
         });
         let levels = levels.collect();
-        Ok(Some(Choice { mode, phases: phases.to_vec(), unknowns, levels }))
+        Ok(Some(Choice { mode, system, phases: phases.to_vec(), unknowns, levels }))
     }
 
     /// Whether masses that the phases join move together.
@@ -241,6 +259,20 @@ impl PhasedNetwork {
 }
 
 impl Mode {
+    /// The system with time counted from `time` \[s\].
+    fn system_from(&self, time: f64) -> Arc<System> {
+        let moves = |own: &dashpot_dae::Waveform| {
+            own.pieces().len() > 1 || !own.pieces().iter().all(|piece| piece.is_constant(0))
+        };
+        if time == 0.0 || !self.system.waveforms.iter().any(moves) {
+            return Arc::clone(&self.system);
+        }
+        let mut system = System::clone(&self.system);
+        let start = time / system.time_scale;
+        system.waveforms = system.waveforms.iter().map(|own| own.since(start)).collect();
+        Arc::new(system)
+    }
+
     /// Each exit with the output that it watches.
     fn of_guard_exits(&self) -> impl Iterator<Item = (usize, &Exit)> {
         self.guards.iter().zip(&self.of_guard).map(|(guard, &(part, exit))| {
@@ -251,11 +283,15 @@ impl Mode {
 
 /// By what it is judged whether phases hold.
 struct Judge<'a> {
+    /// The instant \[s\].
+    time: f64,
     state: &'a State,
     /// What is smaller than this part of its terms cannot be told from zero.
     doubt: f64,
     /// What is at its level by the event that ended the leg.
     on_level: &'a [(usize, Watched)],
+    /// Parts whose deformation has reached a level \[m\] by that event.
+    at_level: &'a [(usize, f64)],
     /// Whether a way inwards counts that turns back before it can be told from the level.
     graze: bool,
 }
@@ -271,7 +307,10 @@ impl Judge<'_> {
             return gap > 0.0;
         }
         let derivative = |order: usize| {
-            let (value, size) = motion.output(output, order);
+            let (value, own) = motion.output(output, order);
+            // The state is rounded, and its rounding grows from one derivative to the next.
+            let before = motion.output(output, order - 1).1;
+            let size = own.max((before * motion.output(output, order + 1).1).sqrt());
             if value.abs() > self.doubt * size { inward * value } else { 0.0 }
         };
         let Some(order) = (1..=ORDERS).find(|&order| derivative(order) != 0.0) else { return true };

@@ -22,8 +22,10 @@ pub(super) struct Impact {
 /// A contact that may take part in impacts.
 struct Candidate {
     part: usize,
-    /// Bodies of its sides.
+    /// Bodies of its sides; of a massless one that which it lies on.
     ends: [usize; 2],
+    /// The contacts between massless sides and what they lie on, which pass the impulse on.
+    through: Vec<usize>,
     restitution: f64,
     /// Speed of approach before \[m/s\].
     approach: f64,
@@ -117,14 +119,18 @@ impl PhasedNetwork {
                 state.velocity[joint] = after[*body];
             }
         }
-        let met = contacts.iter().zip(&impulses).filter(|(_, impulse)| **impulse > 0.0);
-        met.map(|(own, &impulse)| Impact {
-            part: own.part,
-            impulse,
-            lost: (lost + work) * impulse / total,
-            worked: work * impulse / total,
-        })
-        .collect()
+        let mut met: Vec<Impact> = Vec::new();
+        for (own, &impulse) in contacts.iter().zip(&impulses).filter(|own| *own.1 > 0.0) {
+            let (lost, worked) = ((lost + work) * impulse / total, work * impulse / total);
+            met.push(Impact { part: own.part, impulse, lost, worked });
+            for &part in &own.through {
+                match met.iter_mut().find(|impact| impact.part == part) {
+                    Some(passed) => passed.impulse += impulse,
+                    None => met.push(Impact { part, impulse, lost: 0.0, worked: 0.0 }),
+                }
+            }
+        }
+        met
     }
 
     fn candidates(
@@ -141,9 +147,23 @@ impl PhasedNetwork {
             if !closed && !touching[part] {
                 continue;
             }
-            let ends = self.expansion.primitives[at].ends.map(|joint| self.apart.of_joint[joint]);
-            let is_massless = |body: usize| self.apart.all[body].is_massless();
-            if ends.iter().any(|&end| is_massless(end)) {
+            let mut through = Vec::new();
+            let mut ends = self.sides(at);
+            let mut is_borne = true;
+            for side in 0..2 {
+                if !self.apart.all[ends[side]].is_massless() {
+                    continue;
+                }
+                match self.carrier(ends[side], side, phases) {
+                    Some((carrier, contact)) => {
+                        ends[side] = carrier;
+                        through.push(contact);
+                    }
+                    None => is_borne = false,
+                }
+            }
+            // What is massless and lies on nothing takes no impulse.
+            if !is_borne || ends[0] == ends[1] {
                 continue;
             }
             let is_moved = ends.iter().any(|&end| {
@@ -156,9 +176,27 @@ impl PhasedNetwork {
             let restitution = own.restitution();
             let rebounds = restitution * approach > slowest;
             let restitution = if rebounds { restitution } else { 0.0 };
-            found.push(Candidate { part, ends, restitution, approach });
+            found.push(Candidate { part, ends, through, restitution, approach });
         }
         found
+    }
+
+    /// The bodies on both sides of a primitive.
+    fn sides(&self, primitive: usize) -> [usize; 2] {
+        self.expansion.primitives[primitive].ends.map(|joint| self.apart.of_joint[joint])
+    }
+
+    /// The body with mass or a given motion on which a massless one lies, behind it as seen from its
+    /// contact on the given side, and the closed contact between the two.
+    fn carrier(&self, massless: usize, side: usize, phases: &[Phase]) -> Option<(usize, usize)> {
+        self.parts.iter().enumerate().find_map(|(part, &at)| {
+            let own = self.phases_of(at).filter(|own| is_contact(*own))?;
+            let is_closed = matches!(own.law(phases[part]), PhaseLaw::Held(_));
+            let ends = self.sides(at);
+            let other = ends[side];
+            let bears = ends[1 - side] == massless && !self.apart.all[other].is_massless();
+            (is_closed && bears).then_some((other, part))
+        })
     }
 
     fn velocity(&self, state: &State, body: usize) -> f64 {

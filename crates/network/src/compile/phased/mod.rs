@@ -206,14 +206,10 @@ impl PhasedNetwork {
         }
     }
 
-    /// The leg that begins at `time` in this state.
-    fn leg(&self, choice: Choice, time: f64, switches: Vec<Switch>) -> Leg {
-        let Choice { mode, phases, unknowns, levels } = choice;
-        let mut system = System::clone(&mode.system);
-        let start = time / system.time_scale;
-        if start > 0.0 {
-            system.waveforms = system.waveforms.iter().map(|own| own.since(start)).collect();
-        }
+    /// The leg that begins with these phases.
+    fn leg(choice: Choice, switches: Vec<Switch>) -> Leg {
+        let Choice { mode, system, phases, unknowns, levels } = choice;
+        let mut system = System::clone(&system);
         system.initial = unknowns;
         Leg {
             system: Arc::new(system),
@@ -258,7 +254,7 @@ impl Switching for PhasedNetwork {
         let (choice, switches) = self.choose(&mut state, 0.0, &self.first, &[], doubt)?;
         // Phases that hold from the start are no switchings.
         let switches = switches.into_iter().filter(|own| own.impulse > 0.0).collect();
-        Ok(self.leg(choice, 0.0, switches))
+        Ok(Self::leg(choice, switches))
     }
 
     fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError> {
@@ -272,6 +268,6 @@ impl Switching for PhasedNetwork {
             end.fired.iter().filter_map(|&guard| mode.of_guard.get(guard).copied()).collect();
         let (choice, switches) =
             self.choose(&mut state, end.time, &phases, &fired, end.doubt)?;
-        Ok(self.leg(choice, end.time, switches))
+        Ok(Self::leg(choice, switches))
     }
 }

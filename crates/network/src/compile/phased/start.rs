@@ -164,20 +164,22 @@ fn balanced(
     Ok((0..expansion.joints).map(place).collect())
 }
 
-/// The height \[m\] from which a body begins to fall freely: it is dropped under gravity, and nothing
-/// but contacts touches it.
+/// The height \[m\] from which a body begins to fall freely: it is dropped, gravity pulls it towards
+/// the support, and only contacts touch it, each of them between it and something that does not begin
+/// with a speed. All others begin at touch, with the speed of the fall.
 fn flight(network: &Network, expansion: &Expansion, joints: &[usize]) -> Option<f64> {
     let gravity = network.effects.iter().find_map(|effect| effect.gravity())?;
-    let nodes = joints.iter().filter_map(|&joint| network.nodes.get(joint));
-    let height = nodes
-        .filter_map(|node| match node.start {
-            Start::Drop(height) => Some(height),
-            _ => None,
-        })
-        .next()?;
-    let mut touching = expansion.primitives.iter().filter(|own| {
+    let mut nodes = joints.iter().filter_map(|&joint| network.nodes.get(joint));
+    let height = nodes.find_map(|node| match node.start {
+        Start::Drop(height) => Some(height),
+        _ => None,
+    })?;
+    let touching = expansion.primitives.iter().filter(|own| {
         !own.is_link && own.ends.iter().any(|joint| joints.contains(joint))
     });
-    let is_free = touching.all(|own| own.origin.phases().is_some_and(is_contact));
-    is_free.then_some(height * gravity.signum())
+    let mut contacts = touching.map(|own| {
+        let rests = network.nodes.get(own.ends[1]).is_none_or(|below| !below.is_impactor());
+        joints.contains(&own.ends[0]) && rests && own.origin.phases().is_some_and(is_contact)
+    });
+    (gravity > 0.0 && contacts.all(|is_below| is_below)).then_some(height)
 }

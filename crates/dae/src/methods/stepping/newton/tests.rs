@@ -223,3 +223,11 @@ fn a_law_counts_for_what_it_determines() {
     let own = system(1, &[(1, 0, -1.0)], &[(1, CUBE, &[(1, 1.0)])], &[8.0, 0.0]);
     assert!((settled(&own).unwrap()[1] - 2.0).abs() < 1e-15);
 }
+
+#[test]
+fn a_law_in_a_row_with_a_rate_is_refused() {
+    let own = system(1, &[(1, 1, 1.0)], &[(0, CUBE, &[(1, 1.0)])], &[1.0, 0.0]);
+    let error = Bdf.integrate(&own, &Run::to(1.0), &mut Silent).unwrap_err();
+    assert!(error.to_string().contains("row of `x`"), "{error}");
+    assert!(derivatives(&own, &own.initial, 1).is_err());
+}

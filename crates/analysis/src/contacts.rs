@@ -1,0 +1,157 @@
+//! Which elements can part, and what happens at their contacts in words.
+
+use dashpot_dae::{Switch, Trajectory};
+use dashpot_network::{
+    Assembly, ConnectionOutputs, PrimitiveOutputs,
+    elements::{Contact, ElementKind, Law},
+};
+
+use crate::{accounts::Accounts, wording::quantity};
+
+/// The parts of a connection.
+fn parts<'a>(
+    assembly: &'a Assembly,
+    connection: &ConnectionOutputs,
+) -> &'a [PrimitiveOutputs] {
+    assembly.primitives.get(connection.primitives.clone()).unwrap_or(&[])
+}
+
+fn is_contact(primitive: &PrimitiveOutputs) -> bool {
+    primitive.element.kind() == Contact::KIND
+}
+
+fn has_contact(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
+    parts(assembly, connection).iter().any(is_contact)
+}
+
+/// Word for what leaves a phase as it was.
+const IMPACT: &str = "impact";
+
+/// Name of the contact that opens an element, where an effect has put it there.
+fn contact_of(element: &str) -> String {
+    format!("{element}.contact")
+}
+
+/// Whether an element can part from what lies at one of its ends: it has a contact of its own there,
+/// or nothing but contacts holds a massless end of it.
+pub(crate) fn separates(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
+    let own = assembly.connection(&contact_of(&connection.name));
+    if own.is_some_and(|own| has_contact(assembly, own)) {
+        return true;
+    }
+    connection.between.iter().any(|end| {
+        let node = &assembly.nodes[end.index()];
+        let mut others = assembly
+            .connections
+            .iter()
+            .filter(|other| other.between.contains(end) && other.name != connection.name)
+            .peekable();
+        node.mass == 0.0
+            && node.free
+            && others.peek().is_some()
+            && others.all(|other| has_contact(assembly, other))
+    })
+}
+
+/// Whether the force of an element only resists: the sign of a slider's is the way it slides, not
+/// whether it pushes or pulls.
+pub(crate) fn is_slider(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
+    let parts = parts(assembly, connection);
+    let slides = |own: &PrimitiveOutputs| {
+        own.element.law() == Law::Phased
+            && !is_contact(own)
+            && !Accounts::of(own.element.as_ref()).stores
+    };
+    !parts.is_empty() && parts.iter().all(slides)
+}
+
+/// What switches, in words, with the time of each \[s\].
+pub(crate) fn switchings(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, String)> {
+    let mut met: Vec<usize> = Vec::new();
+    let closed = |index: usize| index > 0;
+    let first = trajectory.first_phases.iter().enumerate();
+    met.extend(first.filter(|(_, phase)| closed(phase.0)).map(|(part, _)| part));
+    let mut found = Vec::with_capacity(trajectory.switches.len());
+    for own in &trajectory.switches {
+        let is_again = met.contains(&own.part);
+        let is_contact = assembly
+            .primitives
+            .iter()
+            .find(|primitive| primitive.name == own.name)
+            .is_some_and(is_contact);
+        let what = if is_contact {
+            if !is_again {
+                met.push(own.part);
+            }
+            of_contact(assembly, own, is_again)
+        } else {
+            format!("{}: {}", own.name, own.what)
+        };
+        found.push((own.time, what));
+    }
+    found
+}
+
+fn of_contact(assembly: &Assembly, own: &Switch, is_again: bool) -> String {
+    // A contact that is all of its connection ends in the word for it.
+    let name = own.name.strip_suffix(&format!(".{}", Contact::KIND)).unwrap_or(&own.name);
+    let (impulse, lost) = (quantity(own.impulse, "N s"), quantity(own.lost.max(0.0), "J"));
+    if is_passed_on(own) {
+        return format!("{name} passes on {impulse}");
+    }
+    let meets = is_meeting(own);
+    let again = if is_again { " again" } else { "" };
+    let told = match sides(assembly, name) {
+        Some((node, element)) if meets => format!("{node} meets the {element}{again}"),
+        Some((node, element)) => format!("{node} leaves the {element}"),
+        None if meets => format!("{name} closes{again}"),
+        None => format!("{name} opens"),
+    };
+    if own.impulse == 0.0 {
+        return told;
+    }
+    format!("{told}: impact of {impulse}, which loses {lost}")
+}
+
+/// Whether a contact is met: it closes, or an impulse parts it again at once.
+fn is_meeting(own: &Switch) -> bool {
+    own.impulse > 0.0 || own.phase > 0
+}
+
+/// Whether an impulse acts in a contact that was closed and stays so: of an impact elsewhere.
+fn is_passed_on(own: &Switch) -> bool {
+    own.impulse > 0.0 && own.phase > 0 && own.what == IMPACT
+}
+
+/// The node and the element between which the contact of this name is, where an effect has put it
+/// there.
+fn sides<'a>(assembly: &'a Assembly, contact: &'a str) -> Option<(&'a str, &'a str)> {
+    let element = contact.strip_suffix(&format!(".{}", Contact::KIND))?;
+    assembly.connection(element)?;
+    let face = format!("{element}.face");
+    let mut ends = assembly.connection(contact)?.between.iter();
+    let node = ends.find(|end| assembly.nodes[end.index()].name != face)?;
+    Some((assembly.nodes[node.index()].name.as_str(), element))
+}
+
+/// How often an element meets something again after `time` \[s\], at its own contact or, where it is
+/// one, in itself.
+pub(crate) fn meetings_after(
+    assembly: &Assembly,
+    trajectory: &Trajectory,
+    element: &str,
+    time: f64,
+) -> usize {
+    let contact = contact_of(element);
+    let names = [element, contact.as_str()].into_iter().filter_map(|name| assembly.connection(name));
+    let names: Vec<&str> = names
+        .flat_map(|connection| parts(assembly, connection))
+        .filter(|primitive| is_contact(primitive))
+        .map(|primitive| primitive.name.as_str())
+        .collect();
+    let later = trajectory.switches.iter().filter(|own| own.time > time);
+    later
+        .filter(|own| is_meeting(own) && !is_passed_on(own))
+        .filter(|own| names.contains(&own.name.as_str()))
+        .count()
+}

@@ -1,0 +1,9 @@
+//! Effects on demand: right where they are on, and nothing where they are off.
+//!
+//! Each case of `effects_reference.csv` is written as a scene, solved through the public interface by
+//! the exact method, where it is linear between switchings, and by stepping methods, and held against
+//! the 20 digits of the table.
+
+mod reference;
+mod separation;
+mod trial;

@@ -1,0 +1,77 @@
+//! Bouncing on rigid and springy ground, from a fall to rest.
+
+use super::{
+    reference::Case,
+    trial::{ALL, Side, judge},
+};
+
+#[test]
+fn a_ball_bounces_on_rigid_ground_until_it_rests_in_finite_time() {
+    let case = Case::of("bounce-rigid");
+    let text = "
+        [nodes]
+        ball = { mass = <m>, drop = <h> }
+        [elements]
+        floor = { between = [\"ball\", \"ground\"], contact = { restitution = <e> } }
+        [effects]
+        gravity = { value = <g> }
+        [run]
+        duration = 6
+        ";
+    judge(case, ALL, text, |trial| {
+        for touch in 1..=20 {
+            let label = format!("touch-{touch}");
+            let time = trial.touch("floor", touch, &format!("{label}.time"));
+            let speed = trial.case.get(&format!("{label}.velocity-before"));
+            trial.value_is("ball.velocity", time, Side::Before, speed);
+            trial.value_is("ball.velocity", time, Side::After, -speed * case.param("e"));
+            if touch == 20 {
+                trial.loss("floor", time, "touch-20.energy-lost-so-far");
+            }
+        }
+        let rest = trial.switches("floor", Some("closed"));
+        assert_eq!(rest.len(), 1, "it rests once");
+        let (time, end) = (rest[0].time, trial.end());
+        // It rests as soon as its speed is lost in that of the start, and has fallen short of the
+        // limit by what is left of the series.
+        trial.number("time of rest", time, case.get("rest.time"), 1.0);
+        trial.value_is("ball.position", end, Side::Before, 0.0);
+        trial.value_is("ball.velocity", end, Side::Before, 0.0);
+        let weight = case.param("m") * case.param("g");
+        trial.value_is("floor.force", end, Side::Before, weight);
+        trial.loss("floor", end, "rest.energy-lost");
+    });
+}
+
+#[test]
+fn a_ball_bounces_on_a_spring_for_ever() {
+    let case = Case::of("bounce-spring");
+    let text = "
+        [nodes]
+        ball = { mass = <m>, drop = <h> }
+        [elements]
+        pad = { between = [\"ball\", \"ground\"], spring = <K> }
+        [effects]
+        gravity = { value = <g> }
+        separation.pad = { at = \"ball\" }
+        [run]
+        duration = 3.2
+        ";
+    judge(case, ALL, text, |trial| {
+        let (deepest, force) = (case.get("peak-deformation"), case.get("peak-force"));
+        trial.count("pad.contact", "closed", 5);
+        for nth in 1..=5 {
+            let touch =
+                trial.switch(["pad.contact", "closed"], nth, &format!("touch-{nth}.time"));
+            let release =
+                trial.switch(["pad.contact", "open"], nth, &format!("release-{nth}.time"));
+            let speed = case.get("touch.velocity");
+            trial.value_is("ball.velocity", touch, Side::Before, speed);
+            trial.value_is("ball.velocity", release, Side::Before, -speed);
+            let peak = |output: &str| trial.signal(output).maximum((touch, release)).value;
+            trial.number("deformation", peak("pad.deformation"), deepest, deepest);
+            trial.number("force", peak("pad.force"), force, force);
+        }
+        trial.number("loss", trial.dissipated("pad", trial.end()), 0.0, case.get("energy"));
+    });
+}

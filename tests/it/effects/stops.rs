@@ -1,0 +1,109 @@
+//! Bottoming out: rigid stops with restitution, chatter to rest on them, and stops that give.
+
+use super::{
+    reference::Case,
+    trial::{ALL, Side, judge},
+};
+
+fn scene(stop: &str, others: &str, duration: &str) -> String {
+    format!(
+        "[nodes]\nhead = {{ mass = <m>, velocity = <V> }}\n\
+         [elements]\n\
+         pad = {{ between = [\"head\", \"ground\"], kelvin-voigt = {{ spring = <K>, dashpot = <C> }} }}\n\
+         [effects]\nseparation.pad = {{ at = \"head\" }}\nstop.pad = {stop}\n\
+         {others}\n[run]\nduration = {duration}\n"
+    )
+}
+
+#[test]
+fn a_rigid_stop_throws_the_head_back() {
+    for variant in ["", "-release-at-once"] {
+        let case = Case::of(&format!("stop-rigid{variant}"));
+        let text = scene("{ at = <d>, restitution = <e> }", "", "0.04");
+        judge(case, ALL, &text, |trial| {
+            let hit = trial.touch("pad.stop", 1, "stop-1.time");
+            assert_eq!(trial.switches("pad.stop", None).len(), 1);
+            trial.value("head.velocity", hit, Side::Before, "stop-1.velocity-before");
+            trial.value("head.velocity", hit, Side::After, "stop-1.velocity-after");
+            let own = trial.switches("pad.stop", None)[0];
+            for (what, found, quantity) in
+                [("impulse", own.impulse, "stop-1.impulse"), ("loss", own.lost, "stop-1.energy-lost")]
+            {
+                let expected = case.get(quantity);
+                // They are quadratic in the speed at the most.
+                trial.number(what, found, expected, 2.0 * expected);
+            }
+            trial.value("pad.force", hit, Side::Before, "stop-1.pad-force-before");
+            // The force before the hit is that of a pad that is let go then.
+            let after = case.get("stop-1.pad-force-after");
+            if after > 0.0 {
+                trial.value("pad.force", hit, Side::After, "stop-1.pad-force-after");
+            } else {
+                trial.value_is("pad.force", hit, Side::After, 0.0);
+            }
+            let release = trial.switch(["pad.contact", "open"], 1, "release.time");
+            trial.value("head.velocity", release, Side::After, "release.velocity");
+            trial.value("pad.deformation", release, Side::Before, "release.deformation");
+            trial.loss("pad", release, "dissipated-in-pad");
+            trial.peak("pad.force", (0.0, hit), "peak-force");
+        });
+    }
+}
+
+#[test]
+fn a_pressed_head_chatters_on_the_stop_to_rest() {
+    let case = Case::of("stop-chatter");
+    let load = "[loads]\npush = { on = \"head\", force = { constant = <load> } }";
+    let text = scene("{ at = <d>, restitution = <e> }", load, "0.04");
+    judge(case, ALL, &text, |trial| {
+        for touch in 1..=8 {
+            let time = trial.touch("pad.stop", touch, &format!("stop-{touch}.time"));
+            let quantity = format!("stop-{touch}.velocity-before");
+            trial.value("head.velocity", time, Side::Before, &quantity);
+        }
+        trial.count("pad.contact", "open", 0);
+        trial.count("pad.stop", "closed", 1);
+        let (rest, end) = (trial.switches("pad.stop", Some("closed"))[0].time, trial.end());
+        trial.number("time of rest", rest, case.get("rest.time"), case.get("rest.time"));
+        trial.value("pad.force", end, Side::Before, "rest.pad-force");
+        trial.value("pad.stop.force", end, Side::Before, "rest.stop-force");
+        trial.value_is("head.velocity", end, Side::Before, 0.0);
+        trial.loss("pad.stop", end, "lost-at-stop");
+        let pad = trial.dissipated("pad", end) - trial.dissipated("pad.stop", end);
+        let scale = case.get("lost-at-stop");
+        trial.number("loss in the pad", pad, case.get("dissipated-in-pad"), scale);
+    });
+}
+
+#[test]
+fn a_stop_that_gives_lets_go_before_the_pad() {
+    let case = Case::of("stop-stiff");
+    let text = scene("{ at = <d>, stiffness = <Ks>, damping = <Cs> }", "", "<horizon>");
+    judge(case, ALL, &text, |trial| {
+        for name in trial.report.assembly.primitives.iter().map(|own| &own.name) {
+            eprintln!("{name}");
+        }
+        let end = trial.end();
+        trial.count("pad.contact", "open", 1);
+        let touch = trial.switch(["pad.stop", "closed"], 1, "stop-touch.time");
+        let left = trial.switch(["pad.stop", "open"], 1, "stop-release.time");
+        let release = trial.switch(["pad.contact", "open"], 1, "pad-release.time");
+        for (time, label) in
+            [(touch, "stop-touch"), (left, "stop-release"), (release, "pad-release")]
+        {
+            trial.value("head.velocity", time, Side::Before, &format!("{label}.velocity"));
+            trial.value("head.position", time, Side::Before, &format!("{label}.deformation"));
+        }
+        trial.value("pad.stop.force", touch, Side::After, "stop-touch.stop-force-after");
+        trial.peak("pad.stop.force", (0.0, end), "stop.peak-force");
+        trial.peak("pad.force", (0.0, end), "pad.peak-force");
+        let total = trial.signal("pad.force").plus(trial.signal("pad.stop.force"), 1.0);
+        trial.extremum(&total, "total force", (0.0, end), "total.peak-force");
+        trial.peak("pad.deformation", (0.0, end), "peak-deformation");
+        trial.loss("pad.stop", end, "stop.dissipated");
+        let pad = trial.dissipated("pad", end) - trial.dissipated("pad.stop", end);
+        let expected = case.get("pad.dissipated");
+        trial.number("loss in the pad", pad, expected, expected);
+        trial.value("pad.deformation", end, Side::Before, "horizon.pad-deformation");
+    });
+}

@@ -1,0 +1,123 @@
+//! The scenes of the gallery: each is solved as its file says, its methods agree within the errors
+//! that they report, its energy is all there, and something that is not a stored result judges it.
+//!
+//! The judges are closed forms, balances of momentum and energy, and equations of motion written
+//! out by hand here and solved by the classical Runge–Kutta method with fixed steps.
+
+mod by_hand;
+mod drops;
+mod machines;
+mod pads;
+mod thesis;
+mod waves;
+
+use std::fs;
+
+use dashpot::{
+    analysis::{RunReport, solve},
+    dae::{Signal, Silent},
+    scene::{ReadOptions, Scene, read},
+};
+
+/// Standard gravity \[m/s²\].
+pub(crate) const G0: f64 = 9.806_65;
+
+/// A scene of the gallery, solved by the methods that it names.
+pub(crate) struct Solved {
+    pub(crate) runs: Vec<RunReport>,
+}
+
+/// Reads a scene of the folder `scenes`; `change` makes another text of it.
+fn scene(name: &str, change: impl Fn(String) -> String) -> Scene {
+    let path = format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = change(fs::read_to_string(&path).unwrap());
+    let options = ReadOptions { file: Some(&path), ..ReadOptions::default() };
+    let checked = read(&text, &options).unwrap_or_else(|faults| panic!("{name}: {faults}"));
+    assert!(checked.warnings.is_empty(), "{name}: {}", checked.warnings);
+    checked.value
+}
+
+/// Solves a scene of the gallery by all its methods, and holds these against each other.
+fn solved(name: &str) -> Solved {
+    changed(name, |text| text)
+}
+
+/// The same with another text.
+fn changed(name: &str, change: impl Fn(String) -> String) -> Solved {
+    let scene = scene(name, change);
+    assert!(scene.run.methods.len() >= 2, "{name}: a second method is missing");
+    let runs: Vec<RunReport> = scene
+        .run
+        .methods
+        .iter()
+        .map(|method| {
+            let settings = scene.settings(method);
+            solve(&scene.network, &settings, &mut Silent)
+                .unwrap_or_else(|error| panic!("{name} by {method}: {error}"))
+        })
+        .collect();
+    let first = &runs[0];
+    for run in &runs {
+        let method = run.solver.method;
+        assert!(run.warnings.is_empty(), "{name} by {method}: {:?}", run.warnings);
+        // The ledger is a quadrature of products of two signals, each good to the tolerance.
+        let allowed = run.solver.rtol.map_or(1e-9, |rtol| 100.0 * rtol);
+        let closure = run.energy.closure().abs();
+        assert!(closure <= allowed, "{name} by {method}: {closure:e} of the energy is missing");
+        for measure in &run.measures {
+            let other = first.measure(&measure.key).unwrap();
+            let (Some(one), Some(two)) = (measure.value, other.value) else {
+                assert_eq!(measure.value, other.value, "{name}: {}", measure.key);
+                continue;
+            };
+            let errors = [measure.error, other.error]
+                .map(|error| error.unwrap_or_else(|| panic!("{name}: {} has none", measure.key)));
+            let (apart, allowed) = ((one - two).abs(), errors[0] + errors[1]);
+            assert!(
+                apart <= allowed,
+                "{name} by {method}: {} {one} and {two} are {apart:e} apart, allowed {allowed:e}",
+                measure.key
+            );
+        }
+    }
+    Solved { runs }
+}
+
+impl Solved {
+    /// The run by the first method.
+    fn first(&self) -> &RunReport {
+        &self.runs[0]
+    }
+
+    /// An output of the first run over time.
+    fn signal(&self, output: &str) -> Signal {
+        let run = self.first();
+        let number = run.assembly.output(output).unwrap_or_else(|| panic!("no output {output}"));
+        run.trajectory.signal(&run.assembly.system, number)
+    }
+
+    /// Value and reported error of a measure of the first run.
+    fn measure(&self, key: &str) -> (f64, f64) {
+        let measure = self.first().measure(key).unwrap_or_else(|| panic!("no measure {key}"));
+        (measure.value.unwrap(), measure.error.unwrap())
+    }
+
+    /// When the switching part `name` went into `phase` \[s\], in order.
+    fn times(&self, name: &str, phase: &str) -> Vec<f64> {
+        let switches = self.first().trajectory.switches.iter();
+        let own = switches.filter(|own| own.name == name && own.what == phase);
+        own.map(|own| own.time).collect()
+    }
+
+    /// Holds a measure against what a judge says, who is right to `tolerance`.
+    fn is(&self, key: &str, expected: f64, tolerance: f64) {
+        let (value, error) = self.measure(key);
+        close(key, value, expected, tolerance + error);
+    }
+}
+
+/// Holds a value against what a judge says.
+fn close(what: &str, value: f64, expected: f64, tolerance: f64) {
+    let apart = (value - expected).abs();
+    assert!(apart <= tolerance, "{what}: {value} is not {expected}, {apart:e} > {tolerance:e}");
+}

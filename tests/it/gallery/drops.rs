@@ -1,0 +1,182 @@
+//! Things that fall and are thrown back.
+
+use super::{G0, Solved, by_hand, changed, close, solved};
+
+/// The stress of the foam's law at a strain.
+fn foam(strain: f64, [modulus, plateau, densification, exponent]: [f64; 4]) -> f64 {
+    plateau * (1.0 - (-modulus * strain / plateau).exp())
+        + densification * (strain / (1.0 - strain)).powf(exponent)
+}
+
+/// Speed before minus speed after is what the force and the weight make of the mass.
+fn keeps_momentum(solved: &Solved, mass: f64, force: &str, body: &str, window: (f64, f64)) {
+    let (force, velocity) = (solved.signal(force), solved.signal(body));
+    let gained = mass * (velocity.left_value(window.1) - velocity.value(window.0));
+    let given = mass * G0 * (window.1 - window.0) - force.integral(window);
+    close("momentum", given, gained, 1e-6 * gained.abs().max(mass * velocity.bound()));
+}
+
+#[test]
+fn a_helmet_drop_flies_touches_bottoms_and_rebounds_as_by_hand() {
+    let solved = solved("helmet-drop");
+    let (mass, height) = (5.0, 1.5);
+    let touch = solved.times("liner.contact.contact", "closed")[0];
+    let fall = f64::sqrt(2.0 * height / G0);
+    close("time of the fall, √(2 h/g)", touch, fall, 1e-9 * fall);
+    close("speed", solved.signal("head.velocity").value(touch), G0 * fall, 1e-8 * G0 * fall);
+
+    // Spring k beside a Maxwell element, and the stop while its force pushes.
+    let (k, k1, c1) = (60e3, 60e3, 300.0);
+    let (gap, stop, damping) = (0.02, 5e6, 1e3);
+    let judge = by_hand::refined(1e-6, |h| {
+        let pad = |state: &[f64; 3]| k * state[0] + k1 * (state[0] - state[2]);
+        let bottom = |state: &[f64; 3], held: bool| {
+            if held { stop * (state[0] - gap) + damping * state[1] } else { 0.0 }
+        };
+        let (mut t, mut state) = (0.0, [0.0, G0 * fall, 0.0]);
+        let (mut held, mut let_go) = (false, false);
+        let (mut peak, mut deepest, mut impulse) = (0.0_f64, 0.0_f64, 0.0);
+        while pad(&state) + bottom(&state, held) > 0.0 || t < 1e-3 {
+            let rates = |_: f64, own: &[f64; 3]| {
+                let force = pad(own) + bottom(own, held);
+                [own[1], G0 - force / mass, k1 * (own[0] - own[2]) / c1]
+            };
+            let before = pad(&state) + bottom(&state, held);
+            state = by_hand::step(t, h, state, &rates);
+            t += h;
+            if state[0] >= gap && !let_go {
+                held = true;
+            }
+            if held && bottom(&state, held) < 0.0 {
+                (held, let_go) = (false, true);
+            }
+            let after = pad(&state) + bottom(&state, held);
+            impulse += 0.5 * h * (before + after);
+            peak = peak.max(after);
+            deepest = deepest.max(state[0]);
+        }
+        [peak / mass, deepest, t, impulse, -state[1]]
+    });
+    solved.is("head.peak-acceleration", judge[0].0, judge[0].1);
+    solved.is("liner.peak-deformation", judge[1].0, judge[1].1);
+    let leaves = solved.times("liner.contact.contact", "open")[0];
+    close("contact", leaves - touch, judge[2].0, judge[2].1);
+    let force = solved.signal("liner.contact.force");
+    close("impulse", force.integral((touch, leaves)), judge[3].0, judge[3].1);
+    let speed = -solved.signal("head.velocity").value(leaves);
+    close("speed of rebound", speed, judge[4].0, judge[4].1);
+    assert!(judge[1].0 > gap, "it must bottom out");
+    keeps_momentum(&solved, mass, "liner.contact.force", "head.velocity", (0.0, 0.7));
+}
+
+#[test]
+fn a_ball_bounces_at_the_times_of_the_series_and_rests_at_its_limit() {
+    let solved = solved("bouncing-ball");
+    let (mass, height, e): (f64, f64, f64) = (0.1, 0.3, 0.7);
+    let fall = f64::sqrt(2.0 * height / G0);
+    // Touch n, counted from 0, is at fall (1 + 2 (e + … + e^n)).
+    let touch = |n: i32| fall * (1.0 + 2.0 * e * (1.0 - e.powi(n)) / (1.0 - e));
+    let found: Vec<f64> = {
+        let switches = solved.first().trajectory.switches.iter();
+        switches.filter(|own| own.impulse > 0.0).map(|own| own.time).collect()
+    };
+    for (n, time) in found.iter().take(15).enumerate() {
+        close("touch", *time, touch(n as i32), 1e-9);
+    }
+    assert!(found.len() >= 15, "{}", found.len());
+    let rest = fall * (1.0 + e) / (1.0 - e);
+    let (position, force) = (solved.signal("ball.position"), solved.signal("floor.force"));
+    // The peak of flight n is e^(2n) of the height; positions count from the start, downwards.
+    for n in 1..6 {
+        let top = 0.5 * (touch(n - 1) + touch(n));
+        let expected = height * (1.0 - e.powi(2 * n));
+        close("height", position.value(top), expected, 1e-9);
+    }
+    for t in [rest + 1e-3, 1.7, 2.0] {
+        close("it rests on the floor", position.value(t), height, 1e-9);
+        close("with its weight", force.value(t), mass * G0, 1e-9);
+    }
+    // All that gravity gave in 2 s, the floor took.
+    solved.is("floor.impulse", mass * G0 * 2.0, 1e-9);
+}
+
+#[test]
+fn crushed_polystyrene_takes_the_energy_and_gives_back_what_its_curve_says() {
+    let solved = solved("eps-helmet");
+    let (mass, height) = (5.0, 1.5);
+    let (thickness, area, set, power) = (0.03, 40e-4, 0.5, 2.0);
+    let force = |y: f64| area * foam(y / thickness, [20e6, 0.7e6, 0.2e6, 2.0]);
+    // At the deepest point all that the fall gave is in the foam.
+    let left = |y: f64| mass * G0 * (height + y) - by_hand::integral(0.0, y, force);
+    let deepest = by_hand::zero(0.001, 0.029, left);
+    solved.is("liner.peak-deformation", deepest, 1e-9);
+    solved.is("liner.peak-force", force(deepest), 1e-9 * force(deepest));
+    // What it gives back is under the curve of unloading, from the set to the deepest point.
+    let (from, length) = (set * deepest, deepest * (1.0 - set));
+    let back = by_hand::integral(from, deepest, |y| force(y) * ((y - from) / length).powf(power));
+    let speed = f64::sqrt(2.0 * (back / mass - G0 * length));
+    let e = speed / f64::sqrt(2.0 * G0 * height);
+    solved.is("liner.coefficient-of-restitution", e, 1e-6 * e);
+}
+
+#[test]
+fn an_instrument_on_corner_foam_is_thrown_back_as_by_hand() {
+    let solved = solved("instrument-drop");
+    let (mass, height) = (8.0, 0.8);
+    let fall = f64::sqrt(2.0 * height / G0);
+    let touch = solved.times("corners.contact.contact", "closed")[0];
+    close("time of the fall", touch, fall, 1e-5 * fall);
+    let (thickness, area, damping) = (0.05, 144e-4, 40.0);
+    let spring = |y: f64| area * foam(y / thickness, [1.2e6, 120e3, 30e3, 2.0]);
+    let judge = by_hand::refined(4e-6, |h| {
+        let force = |own: &[f64; 2]| spring(own[0]) + damping * own[1];
+        let rates = |_: f64, own: &[f64; 2]| [own[1], G0 - force(own) / mass];
+        let (mut t, mut state) = (0.0, [0.0, G0 * fall]);
+        let (mut peak, mut deepest) = (0.0_f64, 0.0_f64);
+        while force(&state) > 0.0 {
+            state = by_hand::step(t, h, state, &rates);
+            t += h;
+            peak = peak.max(force(&state));
+            deepest = deepest.max(state[0]);
+        }
+        [peak, deepest, t]
+    });
+    for (key, own) in ["peak-force", "peak-deformation", "contact-time"].iter().zip(judge) {
+        solved.is(&format!("corners.{key}"), own.0, own.1);
+    }
+    // Without its loss, the foam gives all back: peak force by energy alone.
+    let elastic = changed("instrument-drop", |text| text.replace("\"40 N s/m\"", "\"1e-3 N s/m\""));
+    let left = |y: f64| mass * G0 * (height + y) - by_hand::integral(0.0, y, spring);
+    let deepest = by_hand::zero(0.001, 0.049, left);
+    elastic.is("corners.peak-deformation", deepest, 1e-5 * deepest);
+    assert!(deepest > solved.measure("corners.peak-deformation").0);
+}
+
+#[test]
+fn a_landing_on_a_crash_mat_loses_what_the_law_of_hunt_and_crossley_says() {
+    let (mass, height, d) = (60.0, 1.2, 0.5);
+    let speed = f64::sqrt(2.0 * G0 * height);
+    let mat = |y: f64| 3e3 * (y.max(0.0) / 0.1).powf(1.5);
+    let solved = solved("crash-mat");
+    let judge = by_hand::refined(1e-5, |h| {
+        let force = |own: &[f64; 2]| mat(own[0]) * (1.0 + d * own[1]);
+        let rates = |_: f64, own: &[f64; 2]| [own[1], G0 - force(own) / mass];
+        let (mut t, mut state) = (0.0, [0.0, speed]);
+        let (mut peak, mut deepest) = (0.0_f64, 0.0_f64);
+        while state[0] >= 0.0 {
+            state = by_hand::step(t, h, state, &rates);
+            t += h;
+            peak = peak.max(force(&state));
+            deepest = deepest.max(state[0]);
+        }
+        [peak, deepest, -state[1] / speed]
+    });
+    solved.is("mat.peak-force", judge[0].0, judge[0].1);
+    solved.is("mat.peak-deformation", judge[1].0, judge[1].1);
+    solved.is("mat.coefficient-of-restitution", judge[2].0, judge[2].1);
+    // Without gravity the restitution follows from d v alone: x (1 + e) = ln((1 + x)/(1 − e x)).
+    let flat = changed("crash-mat", |text| text.replace("gravity = ", "# gravity = "));
+    let x = d * speed;
+    let e = by_hand::zero(1e-3, 0.999 / x, |e| x * (1.0 + e) - ((1.0 + x) / (1.0 - e * x)).ln());
+    flat.is("mat.coefficient-of-restitution", e, 1e-6);
+}
