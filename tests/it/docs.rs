@@ -1,8 +1,8 @@
 //! The documents say what is true: tables follow from the registers, links lead somewhere, and
 //! scenes in them can be read.
 //!
-//! `UPDATE_DOCS=1 cargo test docs` rewrites the generated parts: the tables of the scene format, and
-//! the verdict, the JSON and the pictures of the README.
+//! `UPDATE_DOCS=1 cargo test docs` rewrites the generated parts: the tables of the scene format, the
+//! verdict, the JSON and the pictures of the README, and texts, tables and pictures of the chapters.
 
 use std::{
     collections::BTreeSet,
@@ -16,8 +16,11 @@ use dashpot::{
 };
 
 mod equivalent_models;
+mod gallery;
 mod readme;
 mod registers;
+mod separation;
+mod shown;
 
 /// Said of what the program has left behind.
 const OUTDATED: &str = "out of date; run UPDATE_DOCS=1 cargo test docs, and look at the changes";

@@ -20,11 +20,11 @@ use dashpot::{
 };
 
 /// Standard gravity \[m/s²\].
-pub(crate) const G0: f64 = 9.806_65;
+const G0: f64 = 9.806_65;
 
 /// A scene of the gallery, solved by the methods that it names.
-pub(crate) struct Solved {
-    pub(crate) runs: Vec<RunReport>,
+struct Solved {
+    runs: Vec<RunReport>,
 }
 
 /// Reads a scene of the folder `scenes`; `change` makes another text of it.
@@ -42,26 +42,27 @@ fn solved(name: &str) -> Solved {
     changed(name, |text| text)
 }
 
+/// The runs of a scene by all its methods.
+pub(crate) fn runs(name: &str, change: impl Fn(String) -> String) -> Vec<RunReport> {
+    let scene = scene(name, change);
+    let by = |method: &String| {
+        let settings = scene.settings(method);
+        solve(&scene.network, &settings, &mut Silent)
+            .unwrap_or_else(|error| panic!("{name} by {method}: {error}"))
+    };
+    scene.run.methods.iter().map(by).collect()
+}
+
 /// The same with another text.
 fn changed(name: &str, change: impl Fn(String) -> String) -> Solved {
-    let scene = scene(name, change);
-    assert!(scene.run.methods.len() >= 2, "{name}: a second method is missing");
-    let runs: Vec<RunReport> = scene
-        .run
-        .methods
-        .iter()
-        .map(|method| {
-            let settings = scene.settings(method);
-            solve(&scene.network, &settings, &mut Silent)
-                .unwrap_or_else(|error| panic!("{name} by {method}: {error}"))
-        })
-        .collect();
+    let runs = runs(name, change);
+    assert!(runs.len() >= 2, "{name}: a second method is missing");
     let first = &runs[0];
     for run in &runs {
         let method = run.solver.method;
         assert!(run.warnings.is_empty(), "{name} by {method}: {:?}", run.warnings);
-        // The ledger is a quadrature of products of two signals, each good to the tolerance.
-        let allowed = run.solver.rtol.map_or(1e-9, |rtol| 100.0 * rtol);
+        // As good as the numbers are said to be, among them energies; and rounding.
+        let allowed = run.worst_relative_error().unwrap().max(1e-12);
         let closure = run.energy.closure().abs();
         assert!(closure <= allowed, "{name} by {method}: {closure:e} of the energy is missing");
         for measure in &run.measures {

@@ -61,8 +61,8 @@ fn phase_at(solution: &Solution<'_>, own: &PhasedNetwork, part: usize, time: f64
     let trajectory = solution.trajectory();
     let first = trajectory.first_phases.get(part);
     let first = first.map(|&(index, memory)| Phase { index, memory });
-    let before = trajectory.switches.iter().filter(|own| own.part == part && own.time < time);
-    let last = before.last().map(|own| Phase { index: own.phase, memory: own.memory });
+    let mut before = trajectory.switches.iter().filter(|own| own.part == part && own.time < time);
+    let last = before.next_back().map(|own| Phase { index: own.phase, memory: own.memory });
     last.or(first)
         .or_else(|| own.first_phases().get(part).copied())
         .unwrap_or(Phase { index: 0, memory: 0.0 })

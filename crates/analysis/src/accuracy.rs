@@ -11,19 +11,22 @@ pub struct Accuracy {
     pub default: f64,
     /// That of single measures, by key such as `padding.peak-force`, positive.
     pub by_measure: BTreeMap<String, f64>,
+    /// What moves no measure by more than this part of its size may be left out, from more than 0
+    /// to 1; `None` leaves nothing out.
+    pub neglect_below: Option<f64>,
 }
 
 impl Default for Accuracy {
     /// 0.1 % in every measure.
     fn default() -> Self {
-        Self { default: 1e-3, by_measure: BTreeMap::new() }
+        Self::of_all(1e-3)
     }
 }
 
 impl Accuracy {
     /// The same accuracy in every measure.
     pub fn of_all(relative: f64) -> Self {
-        Self { default: relative, by_measure: BTreeMap::new() }
+        Self { default: relative, by_measure: BTreeMap::new(), neglect_below: None }
     }
 
     /// The strictest of all wishes.

@@ -9,10 +9,7 @@ use dashpot_network::{
 use crate::{accounts::Accounts, wording::quantity};
 
 /// The parts of a connection.
-fn parts<'a>(
-    assembly: &'a Assembly,
-    connection: &ConnectionOutputs,
-) -> &'a [PrimitiveOutputs] {
+fn parts<'a>(assembly: &'a Assembly, connection: &ConnectionOutputs) -> &'a [PrimitiveOutputs] {
     assembly.primitives.get(connection.primitives.clone()).unwrap_or(&[])
 }
 
@@ -20,7 +17,8 @@ fn is_contact(primitive: &PrimitiveOutputs) -> bool {
     primitive.element.kind() == Contact::KIND
 }
 
-fn has_contact(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
+/// Whether a connection has a contact in it.
+pub(crate) fn has_contact(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
     parts(assembly, connection).iter().any(is_contact)
 }
 
@@ -34,7 +32,7 @@ fn contact_of(element: &str) -> String {
 
 /// Whether an element can part from what lies at one of its ends: it has a contact of its own there,
 /// or nothing but contacts holds a massless end of it.
-pub(crate) fn separates(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
+fn separates(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
     let own = assembly.connection(&contact_of(&connection.name));
     if own.is_some_and(|own| has_contact(assembly, own)) {
         return true;
@@ -55,7 +53,7 @@ pub(crate) fn separates(assembly: &Assembly, connection: &ConnectionOutputs) -> 
 
 /// Whether the force of an element only resists: the sign of a slider's is the way it slides, not
 /// whether it pushes or pulls.
-pub(crate) fn is_slider(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
+fn is_slider(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
     let parts = parts(assembly, connection);
     let slides = |own: &PrimitiveOutputs| {
         own.element.law() == Law::Phased
@@ -65,12 +63,19 @@ pub(crate) fn is_slider(assembly: &Assembly, connection: &ConnectionOutputs) -> 
     !parts.is_empty() && parts.iter().all(slides)
 }
 
+/// Whether an element pulls where its force turns to tension.
+pub(crate) fn is_glued(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
+    !separates(assembly, connection) && !is_slider(assembly, connection)
+}
+
 /// What switches, in words, with the time of each \[s\].
 pub(crate) fn switchings(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, String)> {
     let mut met: Vec<usize> = Vec::new();
-    let closed = |index: usize| index > 0;
-    let first = trajectory.first_phases.iter().enumerate();
-    met.extend(first.filter(|(_, phase)| closed(phase.0)).map(|(part, _)| part));
+    let begins_struck =
+        |part: usize| trajectory.switches.iter().any(|own| own.part == part && own.time <= 0.0);
+    let first = trajectory.first_phases.iter().enumerate().map(|(part, phase)| (part, phase.0));
+    let lies = |&(part, phase): &(usize, usize)| phase > 0 && !begins_struck(part);
+    met.extend(first.filter(lies).map(|(part, _)| part));
     let mut found = Vec::with_capacity(trajectory.switches.len());
     for own in &trajectory.switches {
         let is_again = met.contains(&own.part);
@@ -95,22 +100,24 @@ pub(crate) fn switchings(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f
 fn of_contact(assembly: &Assembly, own: &Switch, is_again: bool) -> String {
     // A contact that is all of its connection ends in the word for it.
     let name = own.name.strip_suffix(&format!(".{}", Contact::KIND)).unwrap_or(&own.name);
-    let (impulse, lost) = (quantity(own.impulse, "N s"), quantity(own.lost.max(0.0), "J"));
-    if is_passed_on(own) {
-        return format!("{name} passes on {impulse}");
-    }
-    let meets = is_meeting(own);
     let again = if is_again { " again" } else { "" };
+    let (impulse, lost) = (quantity(own.impulse, "N s"), quantity(own.lost.max(0.0), "J"));
+    let blow = format!("impact of {impulse}, which loses {lost}");
+    if stays_closed(own) {
+        return if own.lost > 0.0 {
+            format!("{name}: {blow}")
+        } else {
+            format!("{name} passes on {impulse}")
+        };
+    }
     let told = match sides(assembly, name) {
-        Some((node, element)) if meets => format!("{node} meets the {element}{again}"),
+        Some((node, element)) if is_meeting(own) => format!("{node} meets the {element}{again}"),
         Some((node, element)) => format!("{node} leaves the {element}"),
-        None if meets => format!("{name} closes{again}"),
+        None if own.phase > 0 => format!("{name} closes{again}"),
+        None if own.impulse > 0.0 => return format!("{name}: {blow}"),
         None => format!("{name} opens"),
     };
-    if own.impulse == 0.0 {
-        return told;
-    }
-    format!("{told}: impact of {impulse}, which loses {lost}")
+    if own.impulse > 0.0 { format!("{told}: {blow}") } else { told }
 }
 
 /// Whether a contact is met: it closes, or an impulse parts it again at once.
@@ -118,9 +125,9 @@ fn is_meeting(own: &Switch) -> bool {
     own.impulse > 0.0 || own.phase > 0
 }
 
-/// Whether an impulse acts in a contact that was closed and stays so: of an impact elsewhere.
-fn is_passed_on(own: &Switch) -> bool {
-    own.impulse > 0.0 && own.phase > 0 && own.what == IMPACT
+/// Whether an impulse acts in a contact that was closed and stays so.
+fn stays_closed(own: &Switch) -> bool {
+    own.time > 0.0 && own.phase > 0 && own.what == IMPACT
 }
 
 /// The node and the element between which the contact of this name is, where an effect has put it
@@ -143,7 +150,8 @@ pub(crate) fn meetings_after(
     time: f64,
 ) -> usize {
     let contact = contact_of(element);
-    let names = [element, contact.as_str()].into_iter().filter_map(|name| assembly.connection(name));
+    let names =
+        [element, contact.as_str()].into_iter().filter_map(|name| assembly.connection(name));
     let names: Vec<&str> = names
         .flat_map(|connection| parts(assembly, connection))
         .filter(|primitive| is_contact(primitive))
@@ -151,7 +159,7 @@ pub(crate) fn meetings_after(
         .collect();
     let later = trajectory.switches.iter().filter(|own| own.time > time);
     later
-        .filter(|own| is_meeting(own) && !is_passed_on(own))
+        .filter(|own| is_meeting(own) && !stays_closed(own))
         .filter(|own| names.contains(&own.name.as_str()))
         .count()
 }

@@ -20,16 +20,10 @@ pub(crate) fn collect(
         Some(EventReport { time: event.time, what: guard.name.clone(), stops: guard.stops })
     });
     let told = |time: f64, what: String| EventReport { time, what, stops: false };
-    let pulls = contacts.iter().filter(|own| {
-        let connection = assembly.connection(&own.element);
-        own.impact.contact == Contact::Released
-            && connection.is_some_and(|connection| {
-                !contacts::separates(assembly, connection)
-                    && !contacts::is_slider(assembly, connection)
-            })
-    });
-    let pulls = pulls
-        .map(|own| told(own.impact.end, format!("{} force turns to tension", own.element)));
+    let pulls =
+        contacts.iter().filter(|own| own.is_glued && own.impact.contact == Contact::Released);
+    let pulls =
+        pulls.map(|own| told(own.impact.end, format!("{} force turns to tension", own.element)));
     let switchings = contacts::switchings(assembly, trajectory);
     let rest = switchings.get(LISTED..).unwrap_or(&[]);
     let summary = rest.first().zip(rest.last()).map(|(first, last)| {

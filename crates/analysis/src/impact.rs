@@ -50,7 +50,9 @@ impl Impact {
         match force.departure(0.0, 0.0) {
             None => Self { contact: Contact::Unloaded, ..run },
             Some(false) => Self { end: 0.0, contact: Contact::Pulling, ..run },
-            Some(true) => Self::of_push(force, Self { start: first_load(force).unwrap_or(0.0), ..run }, doubt),
+            Some(true) => {
+                Self::of_push(force, Self { start: first_load(force).unwrap_or(0.0), ..run }, doubt)
+            }
         }
     }
 
@@ -101,7 +103,12 @@ impl Impact {
                 None => run,
                 Some(release) => {
                     let rounding = 4.0 * f64::EPSILON * release.time;
-                    let shift = |error: f64| (error / release.slope.abs()).min(run_end) + rounding;
+                    let (before, after) =
+                        (force.left_value(release.time), force.value(release.time));
+                    // Where the force jumps, a switch rules the time, which is found to rounding.
+                    let jumps = (after - before).abs() > force.noise.max(0.5 * before.abs());
+                    let rate = if jumps { f64::INFINITY } else { release.slope.abs() };
+                    let shift = |error: f64| (error / rate).min(run_end) + rounding;
                     let end_error = force.error.map(shift);
                     Self { end: release.time, end_error, contact: Contact::Released, ..run }
                 }

@@ -17,6 +17,7 @@ mod impact;
 pub mod ledger;
 mod magnitude;
 pub mod measures;
+pub mod partial;
 mod refinement;
 mod report;
 pub mod rheometer;
@@ -35,6 +36,7 @@ pub use error::RunError;
 pub use impact::{Contact, Impact, Span};
 pub use ledger::{EnergySeries, Ledger};
 pub use measures::{Family, Measure, MeasureKind, MeasureVisitor, Reading, visit_measures};
+pub use partial::{Partial, solve_partial};
 pub use report::{
     ContactReport, EventReport, MeasureReport, RunReport, SolverReport, SystemReport,
 };

@@ -8,7 +8,7 @@ use dashpot_network::{
     parameters::{Value, WindowWish},
 };
 
-use crate::{Impact, Ledger, Solution, solution::is_impactor};
+use crate::{Impact, Ledger, Partial, Solution, solution::is_impactor};
 
 /// In networks of more elements than this nobody looks for the largest force of all.
 const MOST_ELEMENTS: usize = 200;
@@ -30,6 +30,8 @@ pub struct RunReport {
     pub energy_after_impact: Option<Ledger>,
     /// What happened, in order of time.
     pub events: Vec<EventReport>,
+    /// What was left out, where that was allowed.
+    pub partial: Option<Partial>,
     /// What the reader must know, the most important first.
     pub warnings: Vec<String>,
     /// The equations.
@@ -117,6 +119,8 @@ pub struct ContactReport {
     pub element: String,
     /// Its impact.
     pub impact: Impact,
+    /// Whether it can pull: nothing lets it part at either end.
+    pub is_glued: bool,
     /// How often it meets again, after the impact, what it has parted from.
     pub again: usize,
 }
@@ -155,7 +159,7 @@ impl RunReport {
     }
 
     /// The element with the largest magnitude of the force in the whole run, and that extremum in
-    /// newtons and seconds. `None` where there is no force, or where there are too many elements to
+    /// newtons and seconds; it is infinite where masses meet in the element. `None` where there is no force, or where there are too many elements to
     /// look at each.
     pub fn largest_force(&self) -> Option<(&str, Extremum)> {
         if self.assembly.connections.len() > MOST_ELEMENTS {
@@ -163,9 +167,14 @@ impl RunReport {
         }
         let solution = self.solution();
         let window = (0.0, solution.end());
-        let forces = self.assembly.connections.iter().filter_map(|connection| {
+        let connections = self.assembly.connections.iter().enumerate();
+        let forces = connections.filter_map(|(at, connection)| {
             let force = solution.signal(connection.force?);
-            Some((connection.name.as_str(), force.absolute_maximum(window)))
+            let peak = match solution.element_blows(at).first() {
+                Some(blow) => Extremum { time: blow.time, value: f64::INFINITY },
+                None => force.absolute_maximum(window),
+            };
+            Some((connection.name.as_str(), peak))
         });
         forces.max_by(|one, other| one.1.value.total_cmp(&other.1.value))
     }

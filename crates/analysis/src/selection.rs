@@ -9,7 +9,7 @@ use dashpot_network::{
 
 use crate::{
     RunError, bodies,
-    measures::{Family, Measure, by_default},
+    measures::{Family, Measure, by_default, of_layers},
     solution::is_impactor,
 };
 
@@ -53,6 +53,12 @@ pub(crate) fn select(
     let of_elements = by_default(Family::Element, has_impactor);
     for at in reported_elements(assembly) {
         add_defaults(&mut selected, &of_elements, &assembly.connections[at].name, at);
+    }
+    let of_layers = of_layers();
+    for (at, connection) in assembly.connections.iter().enumerate() {
+        if connection.has_layers {
+            add_defaults(&mut selected, &of_layers, &connection.name, at);
+        }
     }
     let of_nodes = by_default(Family::Node, has_impactor);
     for at in reported_nodes(assembly) {

@@ -81,6 +81,11 @@ impl SolveSettings {
                 return invalid(key, "positive and finite", wish);
             }
         }
-        Ok(())
+        match self.accuracy.neglect_below {
+            Some(bound) if !(bound > 0.0 && bound <= 1.0) => {
+                invalid("neglect-below", "more than 0 and at most 1", bound)
+            }
+            _ => Ok(()),
+        }
     }
 }

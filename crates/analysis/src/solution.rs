@@ -7,7 +7,7 @@ use dashpot_network::{Assembly, ConnectionOutputs, NodeOutputs};
 
 use crate::{
     blows::{self, Blow},
-    bodies,
+    bodies, contacts,
     impact::{Impact, first_pull},
 };
 
@@ -99,6 +99,16 @@ impl<'a> Solution<'a> {
         }
     }
 
+    /// The deformation rate of an element \[m/s\]: the output where there is one, else the difference
+    /// of the velocities of its ends where both have one, else the derivative of the deformation.
+    pub(crate) fn rate_of(&self, connection: &ConnectionOutputs) -> Cow<'_, Signal> {
+        let [a, b] = connection.between.map(|end| self.assembly.nodes[end.index()].velocity);
+        match (connection.rate, a, b) {
+            (None, Some(a), Some(b)) => Cow::Owned(self.signal(a).plus(self.signal(b), -1.0)),
+            _ => self.rate(connection.rate, connection.deformation),
+        }
+    }
+
     /// The speed at which the ends of an element approach each other \[m/s\], as that of the bodies
     /// that they belong to, where those have velocities: a massless face has that of what it
     /// touches while it does. Else the rate of the deformation.
@@ -168,6 +178,11 @@ impl<'a> Solution<'a> {
             }
             None => Impact::unloaded(self.end()),
         })
+    }
+
+    /// Whether the element number `element` has a contact in it.
+    pub(crate) fn has_contact(&self, element: usize) -> bool {
+        contacts::has_contact(self.assembly, &self.assembly.connections[element])
     }
 
     /// The impulses in the element number `element`.

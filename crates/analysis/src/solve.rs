@@ -14,9 +14,10 @@ use crate::{
     ContactReport, MeasureReport, Reading, RunError, RunReport, Solution, SolveSettings,
     SolverReport, SystemReport,
     accuracy::excess,
-    contacts::meetings_after,
+    contacts::{self, meetings_after},
     events,
     ledger::ledger,
+    partial::solve_partial,
     refinement::{MOST_LOST, Outcome, Solved, Task},
     selection::{Selected, select},
     warnings,
@@ -43,8 +44,7 @@ pub fn solve(
 ) -> Result<RunReport, RunError> {
     settings.validate()?;
     let assembly = Arc::new(network.compile(settings.duration)?);
-    let effects: Vec<_> = network.effects().iter().map(|effect| effect.kind()).collect();
-    solve_assembly(&assembly, &effects, settings, observer)
+    solve_partial(network, &assembly, settings, observer)
 }
 
 /// Integrates a network that is compiled already, and reports; otherwise as [`solve`]. `effects`
@@ -199,7 +199,7 @@ fn report(
             measure_report(entry, reading, error, wish)
         })
         .collect();
-    let contacts = contacts(&solution);
+    let contacts = contact_reports(&solution);
     let impact = solution.scene_impact();
     let energy_after_impact = impact.has_ended().then(|| ledger(&solution, impact.end));
     let events = events::collect(run, assembly, &trajectory, &contacts);
@@ -234,6 +234,7 @@ fn report(
         energy,
         energy_after_impact,
         events,
+        partial: None,
         warnings,
         assembly: Arc::clone(assembly),
         trajectory,
@@ -285,7 +286,7 @@ fn window_wish(entry: &Selected) -> Option<WindowWish> {
     })
 }
 
-fn contacts(solution: &Solution<'_>) -> Vec<ContactReport> {
+fn contact_reports(solution: &Solution<'_>) -> Vec<ContactReport> {
     let connections = solution.assembly().connections.iter().enumerate();
     connections
         .filter(|(_, connection)| {
@@ -295,12 +296,15 @@ fn contacts(solution: &Solution<'_>) -> Vec<ContactReport> {
             let impact = solution.element_impact(at);
             let (assembly, trajectory) = (solution.assembly(), solution.trajectory());
             let again = meetings_after(assembly, trajectory, &connection.name, impact.end);
-            ContactReport { element: connection.name.clone(), impact, again }
+            let is_glued = contacts::is_glued(assembly, connection);
+            ContactReport { element: connection.name.clone(), impact, is_glued, again }
         })
         .collect()
 }
 
 #[cfg(test)]
 mod random;
+#[cfg(test)]
+mod rest;
 #[cfg(test)]
 mod tests;

@@ -47,9 +47,8 @@ fn pulling(findings: &Findings<'_>) -> Vec<String> {
     };
     let assembly = findings.solution.assembly();
     let is_glued = |element: &&str| {
-        assembly.connection(element).is_some_and(|connection| {
-            !contacts::separates(assembly, connection) && !contacts::is_slider(assembly, connection)
-        })
+        let connection = assembly.connection(element);
+        connection.is_some_and(|connection| contacts::is_glued(assembly, connection))
     };
     let contacts = findings.contacts.iter().map(|own| (own.element.as_str(), own.impact));
     let warning = |(element, impact): (&str, Impact)| {

@@ -89,9 +89,10 @@ pub(crate) struct ValueArguments {
     dashpot run pad.toml --set \"K=25 MN/m\"           with another stiffness\n  \
     dashpot run pad.toml --method exact,bdf          two methods side by side\n  \
     dashpot run pad.toml --accuracy 0.01%            more digits\n  \
+    dashpot run pad.toml --neglect 0.5%              without what matters less\n  \
     dashpot run pad.toml --out results               CSV, JSON, SVG and HTML\n  \
     dashpot run pad.toml --json | jq .runs[0].measures\n\n\
-    Units: --accuracy is relative (0.1%, 1e-3), --rtol a number; all values of --json are SI.")]
+    Units: --accuracy and --neglect are relative (0.1%, 1e-3), --rtol a number; all values of --json are SI.")]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
@@ -101,6 +102,10 @@ pub(crate) struct RunArguments {
     /// Accuracy of every measure, relative, such as 0.1% [default: the scene's, else 0.1 %].
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub(crate) accuracy: Option<f64>,
+    /// Leaves out what moves no measure by more than this, relative, such as 0.5%; verified by a
+    /// solution with it [default: the scene's, else nothing].
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub(crate) neglect: Option<f64>,
     /// The method's own relative tolerance, 1e-13 to 1e-3, in place of the search for one.
     #[arg(long, value_name = "NUMBER", conflicts_with = "accuracy")]
     pub(crate) rtol: Option<f64>,

@@ -20,6 +20,7 @@ pub(crate) struct Changes {
     pub(crate) set: Vec<(String, String)>,
     methods: Vec<String>,
     accuracy: Option<f64>,
+    neglect: Option<f64>,
     rtol: Option<f64>,
     unestimated: bool,
 }
@@ -39,6 +40,7 @@ impl Changes {
             set,
             methods: arguments.method.clone(),
             accuracy: arguments.accuracy,
+            neglect: arguments.neglect,
             rtol: arguments.rtol,
             unestimated: arguments.estimate == Switch::Off,
         }
@@ -59,6 +61,7 @@ impl Changes {
             options.push(format!("--method {}", self.methods.join(",")));
         }
         options.extend(self.accuracy.map(|own| format!("--accuracy {own:?}")));
+        options.extend(self.neglect.map(|own| format!("--neglect {own:?}")));
         options.extend(self.rtol.map(|own| format!("--rtol {own:?}")));
         if self.unestimated {
             options.push("--estimate off".to_owned());
@@ -106,8 +109,8 @@ fn written(scene: &Scene, changes: &Changes) -> Option<(String, Changes)> {
     if changes.rtol.is_some_and(|rtol| edits.put_in_run("rtol", &format!("{rtol:?}"))) {
         rest.rtol = None;
     }
-    if changes.accuracy.is_some_and(|accuracy| edits.append_accuracy(accuracy)) {
-        rest.accuracy = None;
+    if edits.append_accuracy(changes.accuracy, changes.neglect) {
+        (rest.accuracy, rest.neglect) = (None, None);
     }
     let text = edits.applied();
     let options = ReadOptions { file: scene.file.as_deref(), set: &rest.set, loader: Some(&load) };
@@ -158,17 +161,23 @@ impl Edits<'_> {
         is_free
     }
 
-    /// Adds one accuracy for all measures where the scene says nothing that it would override.
-    fn append_accuracy(&mut self, accuracy: f64) -> bool {
+    /// Adds one accuracy for all measures, and a bound for what may be left out, where the scene
+    /// says nothing that they would override.
+    fn append_accuracy(&mut self, accuracy: Option<f64>, neglect: Option<f64>) -> bool {
         let has_tolerance = matches!(
             self.table.get("run").map(Spanned::get_ref),
             Some(DeValue::Table(entries)) if entries.contains_key("rtol")
         );
-        if has_tolerance || self.table.contains_key("accuracy") {
+        if accuracy.is_some() && has_tolerance || self.table.contains_key("accuracy") {
             return false;
         }
-        let end = self.text.len();
-        self.list.push((end..end, format!("\n[accuracy]\ndefault = {accuracy:?}\n")));
+        let default = accuracy.map(|own| format!("default = {own:?}\n"));
+        let neglect = neglect.map(|own| format!("neglect-below = {own:?}\n"));
+        let lines: String = default.into_iter().chain(neglect).collect();
+        if !lines.is_empty() {
+            let end = self.text.len();
+            self.list.push((end..end, format!("\n[accuracy]\n{lines}")));
+        }
         true
     }
 
@@ -205,17 +214,19 @@ mod tests {
             set: set_k("80 kN/m"),
             methods: vec!["exact".to_owned(), "bdf".to_owned()],
             accuracy: Some(1e-4),
+            neglect: Some(5e-3),
             ..Changes::default()
         };
         let text = as_run(&SCENE.replace("K = '", "  K='"), &changes);
         let first: Vec<&str> = text.lines().take(2).collect();
-        let comment = "# as run with --set \"K=80 kN/m\" --method exact,bdf --accuracy 0.0001";
+        let comment = "# as run with --set \"K=80 kN/m\" --method exact,bdf --accuracy 0.0001 --neglect 0.005";
         assert_eq!(first, ["#:schema ./scene.schema.json", comment]);
         assert!(text.contains("  K=\"80 kN/m\" # soft\n") && !text.contains("add:"), "{text}");
         let scene = read(&text, &ReadOptions::default()).unwrap().value;
         assert_eq!(scene.run.methods, ["exact", "bdf"]);
         assert!((scene.values[0].value - 8e4).abs() < 1e-9);
         assert!((scene.accuracy.default - 1e-4).abs() < 1e-18);
+        assert_eq!(scene.accuracy.neglect_below, Some(5e-3));
     }
 
     #[test]

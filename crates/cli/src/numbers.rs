@@ -157,7 +157,8 @@ fn shown_percent(percent: f64, digits: usize) -> String {
     format!("{} %", significant(percent, digits))
 }
 
-fn significant(value: f64, digits: usize) -> String {
+/// A number to so many significant digits.
+pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { "–".to_owned() };
     }

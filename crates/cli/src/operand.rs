@@ -6,7 +6,9 @@ use dashpot_network::{
     Model, Network, NodeId, driving_point::Response, first_nonlinear, linear_model, model_of,
 };
 use dashpot_rheology::{Canonical, LinearModel};
-use dashpot_scene::{ModelNote, NamedModel, read_named_model, read_network, references};
+use dashpot_scene::{
+    ModelNote, NamedModel, ReadOptions, read_named_model, read_network, references,
+};
 
 use crate::{
     error::CliError,
@@ -59,6 +61,7 @@ impl Operand {
                 read_named_model(input.text()?, name, &options).map_err(CliError::Scene)?;
             terminal.diagnose(&checked.warnings);
             tell(&checked.value.notes);
+            tell_effects(&checked.value, input.text()?, &options);
             if let Some(element) = first_nonlinear(&checked.value.model) {
                 return Err(CliError::NotLinear { word: word.to_owned(), kind: element.kind() });
             }
@@ -119,6 +122,22 @@ pub(crate) fn canonical_model(operand: &Operand) -> Result<Model, CliError> {
 pub(crate) fn tell(notes: &[ModelNote]) {
     for ModelNote { subject, text, .. } in notes {
         note(&format!("note: {subject}: {text}"));
+    }
+}
+
+/// Says which effects of the scene act on the element that a model was taken from: the model is that
+/// without them.
+fn tell_effects(named: &NamedModel, text: &str, options: &ReadOptions<'_>) {
+    if named.section != "elements" {
+        return;
+    }
+    // A text that is no scene as a whole has no effects either.
+    let Ok(scene) = read_network(text, options) else { return };
+    let effects = scene.value.effects().iter().filter(|own| own.target() == Some(&named.name));
+    let kinds: Vec<&str> = effects.map(|own| own.kind()).collect();
+    if !kinds.is_empty() {
+        let name = &named.name;
+        note(&format!("note: {name}: its model is taken without {}", kinds.join(", ")));
     }
 }
 

@@ -6,11 +6,12 @@ use dashpot_analysis::{
     measures::{PeakDeformation, PeakForce},
     regular_times, table_at,
 };
+use dashpot_network::elements::{Contact, ElementKind};
 use dashpot_plot::{ElementSeries, EnergySeries, RunMarker, RunMarkerKind, RunSeries};
 
 use crate::numbers::{digits, quantity};
 
-/// Points that are closer than this part of the run are one.
+/// Points that are closer than this part of the run are one, and forces than this of the largest.
 const SAME: f64 = 1e-4;
 /// Digits in a marker's text.
 const DIGITS: usize = 3;
@@ -26,18 +27,47 @@ pub(crate) fn curves(report: &RunReport, count: usize) -> RunSeries {
         column.map_or_else(Vec::new, |column| column.values.clone())
     };
     let connections = report.assembly.connections.iter();
-    let elements = connections.map(|connection| ElementSeries {
-        name: connection.name.clone(),
-        force: values(connection.force),
-        deformation: values(Some(connection.deformation)),
-        thickness: connection.thickness,
-    });
+    let mut elements: Vec<ElementSeries> = connections
+        .map(|connection| ElementSeries {
+            name: connection.name.clone(),
+            force: values(connection.force),
+            deformation: values(Some(connection.deformation)),
+            thickness: connection.thickness,
+            is_contact: is_contact(report, &connection.name),
+        })
+        .collect();
+    leave_out_repetitions(&mut elements);
     RunSeries {
         method: report.solver.method.to_owned(),
-        elements: elements.collect(),
+        elements,
         energy: Vec::new(),
         markers: markers(report),
         time: table.times,
+    }
+}
+
+/// Whether the element `name` is nothing but a rigid contact.
+fn is_contact(report: &RunReport, name: &str) -> bool {
+    let assembly = &report.assembly;
+    let own = assembly.connections.iter().find(|connection| connection.name == name);
+    let parts = own.and_then(|own| assembly.primitives.get(own.primitives.clone()));
+    matches!(parts, Some([part]) if part.element.kind() == Contact::KIND)
+}
+
+/// Leaves out the force of a contact that has, all the time, that of the element to which it belongs.
+fn leave_out_repetitions(elements: &mut [ElementSeries]) {
+    for at in 0..elements.len() {
+        let (contact, others) = (&elements[at], &*elements);
+        let owner = others.iter().find(|own| {
+            let rest = contact.name.strip_prefix(own.name.as_str());
+            contact.is_contact && rest.is_some_and(|rest| rest.starts_with('.'))
+        });
+        let Some(owner) = owner else { continue };
+        let largest = owner.force.iter().fold(0.0_f64, |largest, force| largest.max(force.abs()));
+        let mut pairs = contact.force.iter().zip(&owner.force);
+        if pairs.all(|(one, other)| (one - other).abs() <= SAME * largest) {
+            elements[at].force.clear();
+        }
     }
 }
 
@@ -69,7 +99,10 @@ fn markers(report: &RunReport) -> Vec<RunMarker> {
         marked.collect()
     };
     let mut markers = peak(PeakForce::KIND, RunMarkerKind::PeakForce, "peak");
-    markers.extend(peak(PeakDeformation::KIND, RunMarkerKind::DeepestPoint, "deepest"));
+    let mut deepest = peak(PeakDeformation::KIND, RunMarkerKind::DeepestPoint, "deepest");
+    // Nothing gets deeper into a rigid contact than its gap.
+    deepest.retain(|marker| !is_contact(report, &marker.element));
+    markers.append(&mut deepest);
     // Two measures of one kind may have found the same point.
     let mut known: Vec<RunMarker> = Vec::new();
     markers.retain(|marker| {
@@ -83,7 +116,9 @@ fn markers(report: &RunReport) -> Vec<RunMarker> {
     });
     let end = report.trajectory.t_end;
     let released = report.contacts.iter().filter(|contact| {
-        contact.impact.contact == dashpot_analysis::Contact::Released && contact.impact.end < end
+        contact.is_glued
+            && contact.impact.contact == dashpot_analysis::Contact::Released
+            && contact.impact.end < end
     });
     markers.extend(released.map(|contact| RunMarker {
         element: contact.element.clone(),

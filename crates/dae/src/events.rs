@@ -6,8 +6,8 @@
 //!
 //! A value that cannot be told from the level is neither above nor below it. With the exact method
 //! that is a matter of rounding; a method with a tolerance `rtol` does not tell apart what is closer
-//! than `rtol` times the largest value so far, so that its error makes no events of an output that
-//! decays to its level.
+//! than `rtol` times the largest terms of the output so far, so that its error makes no events of an
+//! output that decays to its level, or of two bodies that move together.
 //!
 //! What counts as a crossing is told by [`Signal::crossings`](crate::Signal::crossings): a guard
 //! that starts on its level, up to rounding, is armed by the way in which its output leaves the

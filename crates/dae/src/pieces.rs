@@ -8,7 +8,7 @@ use lagrange::Lagrange;
 
 /// Roundings of the largest term that a value of an output may be off by: those of the
 /// interpolation, and of its coefficients.
-const ROUNDING: f64 = 16.0;
+pub(crate) const ROUNDING: f64 = 16.0;
 
 /// One step: where it lies, and the rows that its polynomial passes through. Times are counted from
 /// `origin`, so that steps far below the resolution of the time of day are told apart.

@@ -64,12 +64,37 @@ pub struct ConnectionOutputs {
     /// Force \[N\], positive in compression. `None` for a rigid link in a loop of rigid links,
     /// where it is undetermined.
     pub force: Option<usize>,
+    /// Force \[N\] that it passes on at its second end: [`force`](Self::force), but for what the
+    /// masses of its layers take or give.
+    pub transmitted: Option<usize>,
     /// Deformation \[m\], positive in compression.
     pub deformation: usize,
     /// Deformation rate \[m/s\]; `None` where it follows from algebraic unknowns that are kept.
     pub rate: Option<usize>,
     /// Its primitives in [`Assembly::primitives`].
     pub primitives: Range<usize>,
+    /// The segments of a pad from its first face to the second: all parts of its layers that
+    /// deform, or the whole pad where its thickness is known. None for other elements.
+    pub segments: Vec<SegmentOutputs>,
+    /// Whether it is made of layers.
+    pub has_layers: bool,
+}
+
+/// Outputs of a part of a pad in which force and strain are the same all over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SegmentOutputs {
+    /// Name of its layer; `None` where it is a whole pad that is not made of layers.
+    pub layer: Option<String>,
+    /// Depth of its middle below the first face of the pad \[m\].
+    pub depth: f64,
+    /// Thickness \[m\], > 0.
+    pub thickness: f64,
+    /// Area \[m²\], > 0, where it is known.
+    pub area: Option<f64>,
+    /// Force \[N\], positive in compression. `None` where it is undetermined.
+    pub force: Option<usize>,
+    /// Deformation \[m\], positive in compression.
+    pub deformation: usize,
 }
 
 /// Outputs of a spring or dashpot.

@@ -22,7 +22,9 @@ pub mod phases;
 pub mod shifts;
 pub mod waveforms;
 
-pub use assembly::{Assembly, ConnectionOutputs, DriveOutputs, NodeOutputs, PrimitiveOutputs};
+pub use assembly::{
+    Assembly, ConnectionOutputs, DriveOutputs, NodeOutputs, PrimitiveOutputs, SegmentOutputs,
+};
 pub use compile::phased::{PhasedNetwork, PhasedPart};
 pub use effects::Effect;
 pub use elements::Element;

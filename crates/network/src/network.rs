@@ -5,7 +5,11 @@ use std::sync::Arc;
 use dashpot_dae::Waveform;
 use dashpot_rheology::Tree;
 
-use crate::{effects::Effect, elements::Element, layers::Layers};
+use crate::{
+    effects::Effect,
+    elements::Element,
+    layers::{Layers, Piece},
+};
 
 /// A two-terminal model composed of elements.
 pub type Model = Tree<Arc<dyn Element>>;
@@ -114,12 +118,17 @@ pub struct Connection {
     /// Thickness \[m\] of the pad that it stands for, where it is one: deformation beyond it is
     /// warned of.
     pub thickness: Option<f64>,
+    /// Area \[m²\] of the pad that it stands for, where it is known.
+    pub area: Option<f64>,
     /// The layers with mass that it is made of, where it is; its model is that of the pad as if it
     /// had no mass. They are cut into segments when the network is compiled.
     pub layers: Option<Layers>,
     /// Nodes between the branches of the model, one fewer than branches of a series; none where
     /// nothing hangs on the places between them.
     pub(crate) through: Vec<NodeId>,
+    /// The pieces of layers that each branch of the model stands for, or of the model itself where
+    /// nothing hangs between its branches; none before the layers are resolved.
+    pub(crate) pieces: Vec<Vec<Piece>>,
 }
 
 /// A force on a node.
@@ -199,8 +208,10 @@ impl Network {
             between: [from, to],
             model,
             thickness: None,
+            area: None,
             layers: None,
             through: Vec::new(),
+            pieces: Vec::new(),
         });
         &mut self.connections[at]
     }
@@ -219,13 +230,16 @@ impl Network {
         connection
     }
 
-    /// Puts another model in the place of that of a connection, by its position.
+    /// Puts another model in the place of that of a connection, by its position. A pad of layers
+    /// becomes one that has no mass.
     ///
     /// # Panics
     ///
     /// When there are not so many connections.
     pub fn set_model(&mut self, connection: usize, model: Model) {
-        self.connections[connection].model = model;
+        let connection = &mut self.connections[connection];
+        connection.model = model;
+        connection.layers = None;
     }
 
     /// Lets a force \[N\] act on a node.

@@ -157,10 +157,14 @@ fn measure() -> Value {
 
 fn accuracy() -> Value {
     let wish = reference("number");
+    let below = "what moves no measure by more may be left out; nothing is";
     json!({
         "description": "how accurate the measures are to be, relative to their size",
         "type": "object",
-        "properties": { "default": described_as(wish.clone(), "for all measures; 0.1 %") },
+        "properties": {
+            "default": described_as(wish.clone(), "for all measures; 0.1 %"),
+            "neglect-below": described_as(wish.clone(), below),
+        },
         "additionalProperties": {
             "anyOf": [wish.clone(), { "type": "object", "additionalProperties": wish }],
         },

@@ -4,7 +4,7 @@ use std::{fs, path::Path, process::Command};
 
 use serde_json::Value;
 
-use super::{OUTDATED, arguments, blocks, is_update, root, text};
+use super::{OUTDATED, arguments, blocks, is_update, root, shown::labels, text};
 
 fn printed(arguments: &[&str], folder: &Path) -> String {
     let command =
@@ -33,12 +33,6 @@ fn replace(document: &mut String, kind: &str, block: &str) {
     let (before, rest) = document.split_once(&fence).unwrap();
     let (_, after) = rest.split_once("\n```\n").unwrap();
     *document = format!("{before}{fence}{}\n```\n{after}", block.trim_end());
-}
-
-/// The texts in a drawing.
-fn labels(drawing: &str) -> Vec<&str> {
-    let texts = drawing.split("<text ").skip(1).filter_map(|text| text.split_once('>'));
-    texts.filter_map(|(_, rest)| rest.split_once('<')).map(|(label, _)| label.trim()).collect()
 }
 
 #[test]

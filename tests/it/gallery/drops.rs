@@ -1,6 +1,10 @@
 //! Things that fall and are thrown back.
 
-use super::{G0, Solved, by_hand, changed, close, solved};
+use super::{
+    G0, Solved,
+    by_hand::{self, Peak},
+    changed, close, solved,
+};
 
 /// The stress of the foam's law at a strain.
 fn foam(strain: f64, [modulus, plateau, densification, exponent]: [f64; 4]) -> f64 {
@@ -28,34 +32,30 @@ fn a_helmet_drop_flies_touches_bottoms_and_rebounds_as_by_hand() {
     // Spring k beside a Maxwell element, and the stop while its force pushes.
     let (k, k1, c1) = (60e3, 60e3, 300.0);
     let (gap, stop, damping) = (0.02, 5e6, 1e3);
-    let judge = by_hand::refined(1e-6, |h| {
-        let pad = |state: &[f64; 3]| k * state[0] + k1 * (state[0] - state[2]);
-        let bottom = |state: &[f64; 3], held: bool| {
-            if held { stop * (state[0] - gap) + damping * state[1] } else { 0.0 }
-        };
-        let (mut t, mut state) = (0.0, [0.0, G0 * fall, 0.0]);
-        let (mut held, mut let_go) = (false, false);
-        let (mut peak, mut deepest, mut impulse) = (0.0_f64, 0.0_f64, 0.0);
-        while pad(&state) + bottom(&state, held) > 0.0 || t < 1e-3 {
-            let rates = |_: f64, own: &[f64; 3]| {
-                let force = pad(own) + bottom(own, held);
-                [own[1], G0 - force / mass, k1 * (own[0] - own[2]) / c1]
+    let judge = by_hand::refined(4e-6, |h| {
+        let pad = |own: &[f64; 4]| k * own[0] + k1 * (own[0] - own[2]);
+        let bottom = |own: &[f64; 4]| stop * (own[0] - gap) + damping * own[1];
+        let (mut t, mut state) = (0.0, [0.0, G0 * fall, 0.0, 0.0]);
+        let [mut peak, mut depth] = [Peak::NONE; 2];
+        // Pressed, pressed against the stop, pressed again: each ends where its guard falls.
+        for phase in 0..3 {
+            let force = |own: &[f64; 4]| pad(own) + if phase == 1 { bottom(own) } else { 0.0 };
+            let rates = |_: f64, own: &[f64; 4]| {
+                [own[1], G0 - force(own) / mass, k1 * (own[0] - own[2]) / c1, force(own)]
             };
-            let before = pad(&state) + bottom(&state, held);
-            state = by_hand::step(t, h, state, &rates);
-            t += h;
-            if state[0] >= gap && !let_go {
-                held = true;
+            let guard = |own: &[f64; 4]| match phase {
+                0 => gap - own[0],
+                1 => bottom(own),
+                _ => pad(own),
+            };
+            let mut is_over = false;
+            while !is_over {
+                (t, state, is_over) = by_hand::guarded(t, h, state, &rates, guard);
+                peak.see(t, force(&state));
+                depth.see(t, state[0]);
             }
-            if held && bottom(&state, held) < 0.0 {
-                (held, let_go) = (false, true);
-            }
-            let after = pad(&state) + bottom(&state, held);
-            impulse += 0.5 * h * (before + after);
-            peak = peak.max(after);
-            deepest = deepest.max(state[0]);
         }
-        [peak / mass, deepest, t, impulse, -state[1]]
+        [peak.value / mass, depth.value, t, state[3], -state[1]]
     });
     solved.is("head.peak-acceleration", judge[0].0, judge[0].1);
     solved.is("liner.peak-deformation", judge[1].0, judge[1].1);
@@ -66,7 +66,7 @@ fn a_helmet_drop_flies_touches_bottoms_and_rebounds_as_by_hand() {
     let speed = -solved.signal("head.velocity").value(leaves);
     close("speed of rebound", speed, judge[4].0, judge[4].1);
     assert!(judge[1].0 > gap, "it must bottom out");
-    keeps_momentum(&solved, mass, "liner.contact.force", "head.velocity", (0.0, 0.7));
+    keeps_momentum(&solved, mass, "liner.contact.force", "head.velocity", (0.0, 0.6));
 }
 
 #[test]
@@ -131,15 +131,14 @@ fn an_instrument_on_corner_foam_is_thrown_back_as_by_hand() {
     let judge = by_hand::refined(4e-6, |h| {
         let force = |own: &[f64; 2]| spring(own[0]) + damping * own[1];
         let rates = |_: f64, own: &[f64; 2]| [own[1], G0 - force(own) / mass];
-        let (mut t, mut state) = (0.0, [0.0, G0 * fall]);
-        let (mut peak, mut deepest) = (0.0_f64, 0.0_f64);
-        while force(&state) > 0.0 {
-            state = by_hand::step(t, h, state, &rates);
-            t += h;
-            peak = peak.max(force(&state));
-            deepest = deepest.max(state[0]);
+        let (mut t, mut state, mut is_over) = (0.0, [0.0, G0 * fall], false);
+        let [mut peak, mut depth] = [Peak::NONE; 2];
+        while !is_over {
+            (t, state, is_over) = by_hand::guarded(t, h, state, &rates, force);
+            peak.see(t, force(&state));
+            depth.see(t, state[0]);
         }
-        [peak, deepest, t]
+        [peak.value, depth.value, t]
     });
     for (key, own) in ["peak-force", "peak-deformation", "contact-time"].iter().zip(judge) {
         solved.is(&format!("corners.{key}"), own.0, own.1);
@@ -161,15 +160,14 @@ fn a_landing_on_a_crash_mat_loses_what_the_law_of_hunt_and_crossley_says() {
     let judge = by_hand::refined(1e-5, |h| {
         let force = |own: &[f64; 2]| mat(own[0]) * (1.0 + d * own[1]);
         let rates = |_: f64, own: &[f64; 2]| [own[1], G0 - force(own) / mass];
-        let (mut t, mut state) = (0.0, [0.0, speed]);
-        let (mut peak, mut deepest) = (0.0_f64, 0.0_f64);
-        while state[0] >= 0.0 {
-            state = by_hand::step(t, h, state, &rates);
-            t += h;
-            peak = peak.max(force(&state));
-            deepest = deepest.max(state[0]);
+        let (mut t, mut state, mut is_over) = (0.0, [0.0, speed], false);
+        let [mut peak, mut depth] = [Peak::NONE; 2];
+        while !is_over {
+            (t, state, is_over) = by_hand::guarded(t, h, state, &rates, |own| own[0]);
+            peak.see(t, force(&state));
+            depth.see(t, state[0]);
         }
-        [peak, deepest, -state[1] / speed]
+        [peak.value, depth.value, -state[1] / speed]
     });
     solved.is("mat.peak-force", judge[0].0, judge[0].1);
     solved.is("mat.peak-deformation", judge[1].0, judge[1].1);

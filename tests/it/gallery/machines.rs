@@ -39,10 +39,8 @@ impl Oscillator {
     /// Deflection and rate.
     fn at(&self, t: f64) -> [f64; 2] {
         let own = f64::sqrt(self.square - self.decay * self.decay);
-        let ([s, c], [sine, cosine]) = (
-            [(self.omega * t).sin(), (self.omega * t).cos()],
-            [(own * t).sin(), (own * t).cos()],
-        );
+        let ([s, c], [sine, cosine]) =
+            ([(self.omega * t).sin(), (self.omega * t).cos()], [(own * t).sin(), (own * t).cos()]);
         let fading = (-self.decay * t).exp();
         let ([a, b], [first, second]) = (self.steady, self.free);
         [

@@ -2,7 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{by_hand, close, solved};
+use super::{
+    by_hand::{self, Peak},
+    close, solved,
+};
 
 /// Spring `k` beside a Maxwell element of spring `k1` and dashpot `c1`.
 struct Zener {
@@ -50,15 +53,14 @@ fn a_puck_on_two_layers_keeps_momentum_and_follows_the_equations_by_hand() {
                 foam.dashpot_rate(own[0] - own[2] - y, own[5]),
             ]
         };
-        let (mut t, mut state) = (0.0, [0.0, speed, 0.0, 0.0, 0.0, 0.0]);
-        let (mut peak, mut deepest) = (0.0_f64, 0.0_f64);
-        while force(&state) > 0.0 || t < 1e-5 {
-            state = by_hand::step(t, h, state, &rates);
-            t += h;
-            peak = peak.max(force(&state));
-            deepest = deepest.max(state[0] - state[2]);
+        let (mut t, mut state, mut is_over) = (0.0, [0.0, speed, 0.0, 0.0, 0.0, 0.0], false);
+        let [mut peak, mut depth] = [Peak::NONE; 2];
+        while !is_over {
+            (t, state, is_over) = by_hand::guarded(t, h, state, &rates, force);
+            peak.see(t, force(&state));
+            depth.see(t, state[0] - state[2]);
         }
-        [peak, deepest, t, (state[3] - state[1]) / speed]
+        [peak.value, depth.value, t, (state[3] - state[1]) / speed]
     });
     for (key, own) in
         ["peak-force", "peak-deformation", "contact-time", "coefficient-of-restitution"]
@@ -78,7 +80,8 @@ fn a_puck_on_two_layers_keeps_momentum_and_follows_the_equations_by_hand() {
 fn a_hammer_on_felt_follows_twelve_maxwell_elements_by_hand() {
     let solved = solved("felt-hammer");
     let (hammer, string, speed, tension, rest) = (9e-3, 8e-3, 3.0, 6e3, 12e3);
-    let times = [1e-6, 3e-6, 8e-6, 23e-6, 66e-6, 0.19e-3, 0.53e-3, 1.5e-3, 4.3e-3, 12e-3, 35e-3, 0.1];
+    let times =
+        [1e-6, 3e-6, 8e-6, 23e-6, 66e-6, 0.19e-3, 0.53e-3, 1.5e-3, 4.3e-3, 12e-3, 35e-3, 0.1];
     let springs = [9e3, 9e3, 8e3, 8e3, 7e3, 7e3, 6e3, 5e3, 4e3, 3e3, 2e3, 2e3];
     // At the first instant no element has relaxed: F' = (K_e + Σ K_j) V.
     let all = rest + springs.iter().sum::<f64>();
@@ -96,15 +99,14 @@ fn a_hammer_on_felt_follows_twelve_maxwell_elements_by_hand() {
                 _ => springs[at - 4] * (own[1] - own[3]) - own[at] / times[at - 4],
             })
         };
-        let (mut t, mut state) = (0.0, [0.0; 16]);
+        let (mut t, mut state, mut is_over) = (0.0, [0.0; 16], false);
         state[1] = speed;
-        let mut peak = 0.0_f64;
-        while force(&state) > 0.0 || t < 1e-5 {
-            state = by_hand::step(t, h, state, &rates);
-            t += h;
-            peak = peak.max(force(&state));
+        let mut peak = Peak::NONE;
+        while !is_over {
+            (t, state, is_over) = by_hand::guarded(t, h, state, &rates, force);
+            peak.see(t, force(&state));
         }
-        [peak, t, state[1]]
+        [peak.value, t, state[1]]
     });
     solved.is("felt.peak-force", judge[0].0, judge[0].1);
     solved.is("felt.contact-time", judge[1].0, judge[1].1);
@@ -120,47 +122,45 @@ fn a_head_on_a_bonnet_meets_the_engine_as_by_hand() {
     let (k, c) = (45e3, 350.0);
     let (gap, stop, damping) = (55e-3, 2e6, 2e3);
     let judge = by_hand::refined(1e-6, |h| {
+        // State: head, panel, dashpot of the skin. While it is glued to nothing, the skin has no
+        // force, and is as thick as its dashpot leaves it.
+        let free = |own: &[f64; 5]| skin.k1 * own[4] / (skin.k + skin.k1);
+        let push = |own: &[f64; 5]| skin.force(own[0] - own[2], own[4]);
+        let bottom = |own: &[f64; 5]| stop * (own[2] - gap) + damping * own[3];
         let (mut touches, mut bottomed) = (true, false);
         let (mut t, mut state) = (0.0, [0.0, speed, 0.0, 0.0, 0.0]);
-        let (mut peak, mut deepest) = (0.0_f64, 0.0_f64);
-        let mut stopped = 0.0_f64;
+        let [mut peak, mut depth, mut engine] = [Peak::NONE; 3];
         while t < 25e-3 {
-            let push = |own: &[f64; 5], touches: bool| {
-                if touches { skin.force(own[0] - own[2], own[4]) } else { 0.0 }
-            };
-            let bottom = |own: &[f64; 5], bottomed: bool| {
-                if bottomed { stop * (own[2] - gap) + damping * own[3] } else { 0.0 }
+            let forces = |own: &[f64; 5]| {
+                [if touches { push(own) } else { 0.0 }, if bottomed { bottom(own) } else { 0.0 }]
             };
             let rates = |_: f64, own: &[f64; 5]| {
-                let push = push(own, touches);
-                let y = if touches { own[0] - own[2] } else { skin.k1 * own[4] / (skin.k + skin.k1) };
-                let held = k * own[2] + c * own[3] + bottom(own, bottomed);
-                [
-                    own[1],
-                    -push / head,
-                    own[3],
-                    (push - held) / bonnet,
-                    skin.dashpot_rate(y, own[4]),
-                ]
+                let ([push, bottom], (head_v, panel_v)) = (forces(own), (own[1], own[3]));
+                let way = if touches { own[0] - own[2] } else { free(own) };
+                let held = k * own[2] + c * own[3] + bottom;
+                let dashpot = skin.dashpot_rate(way, own[4]);
+                [head_v, -push / head, panel_v, (push - held) / bonnet, dashpot]
             };
-            state = by_hand::step(t, h, state, &rates);
-            t += h;
-            if touches {
-                touches = push(&state, true) >= 0.0;
-            } else {
-                // The skin is at rest in itself, and as thick as its Maxwell element leaves it.
-                let free = skin.k1 * state[4] / (skin.k + skin.k1);
-                touches = state[0] - state[2] > free;
+            let touch = |own: &[f64; 5]| {
+                if touches { push(own) } else { free(own) - (own[0] - own[2]) }
+            };
+            let meet = |own: &[f64; 5]| if bottomed { bottom(own) } else { gap - own[2] };
+            let first = by_hand::guarded(t, h, state, &rates, touch);
+            let second = by_hand::guarded(t, h, state, &rates, meet);
+            let is_touch = first.0 < second.0;
+            let hit;
+            (t, state, hit) = if is_touch { first } else { second };
+            let [push, bottom] = forces(&state);
+            peak.see(t, push);
+            engine.see(t, bottom);
+            depth.see(t, state[2]);
+            if hit && is_touch {
+                touches = !touches;
+            } else if hit {
+                bottomed = !bottomed;
             }
-            if bottomed {
-                bottomed = bottom(&state, true) >= 0.0;
-            } else {
-                bottomed = state[2] > gap && state[3] > 0.0;
-            }
-            peak = peak.max(push(&state, touches));
-            stopped = stopped.max(bottom(&state, bottomed));
-            deepest = deepest.max(state[2]);
         }
+        let (peak, deepest, stopped) = (peak.value, depth.value, engine.value);
         [peak / head, deepest, stopped]
     });
     let (peak, error) = judge[0];
@@ -190,16 +190,16 @@ fn a_hip_protector_stiffens_with_depth_and_rate_as_by_hand() {
         let rates = |_: f64, own: &[f64; 4]| {
             [own[1], -push(own) / body, own[3], (push(own) - tissue(own)) / bone]
         };
-        let (mut t, mut state) = (0.0, [0.0, speed, 0.0, 0.0]);
-        let (mut peak, mut deepest, mut below) = (0.0_f64, 0.0_f64, 0.0_f64);
-        while state[0] - state[2] > 0.0 || t < 1e-3 {
-            state = by_hand::step(t, h, state, &rates);
-            t += h;
-            peak = peak.max(push(&state));
-            deepest = deepest.max(state[0] - state[2]);
-            below = below.max(tissue(&state));
+        let (mut t, mut state, mut is_over) = (0.0, [0.0, speed, 0.0, 0.0], false);
+        let [mut peak, mut depth, mut below] = [Peak::NONE; 3];
+        while !is_over {
+            let way = |own: &[f64; 4]| own[0] - own[2];
+            (t, state, is_over) = by_hand::guarded(t, h, state, &rates, way);
+            peak.see(t, push(&state));
+            depth.see(t, way(&state));
+            below.see(t, tissue(&state));
         }
-        [peak, deepest, t, below]
+        [peak.value, depth.value, t, below.value]
     });
     for (key, own) in
         ["pad.peak-force", "pad.peak-deformation", "pad.contact-time", "tissue.peak-force"]

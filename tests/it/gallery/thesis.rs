@@ -1,12 +1,20 @@
 //! The thesis' example with what it lacks: separation, a stop, mass on the face.
 
-use std::fs;
+use std::{f64::consts::FRAC_PI_2, fs};
 
-use super::{by_hand, close, solved};
-use crate::thesis::{burgers, impact, reference, solve};
+use super::{
+    by_hand::{self, Peak},
+    close, solved,
+};
+use crate::{
+    independent::Groups,
+    thesis::{burgers, from_groups, impact, reference, solve},
+};
 
 /// The constants of the thesis' padding, K1, C1, K2, C2.
 const PAD: [f64; 4] = [20e6, 4e3, 20e6, 6e3];
+/// The same of a softer padding, from the groups with d = 60.
+const SOFT: [f64; 4] = [14.688_601_65e6, 3.916_960_439e3, 20e6, 4.500_450_045e3];
 
 #[test]
 fn the_head_lets_go_at_zero_force_and_flies_and_the_padding_returns_by_itself() {
@@ -40,8 +48,7 @@ fn the_head_lets_go_at_zero_force_and_flies_and_the_padding_returns_by_itself() 
 #[test]
 fn the_softer_padding_goes_beyond_its_thickness_unless_it_bottoms_out() {
     // Bonded and without a stop it is the thesis' family, d = 60: 1.1411 of the thickness.
-    let pad = [14.688_601_65e6, 3.916_960_439e3, 20e6, 4.500_450_045e3];
-    let [k1, c1, k2, c2] = pad;
+    let [k1, c1, k2, c2] = SOFT;
     let bonded = solve(
         &impact(10.0, 10.0, burgers(k1, c1, k2, c2), [100.0, 50e6, 10e3]),
         "exact",
@@ -54,17 +61,16 @@ fn the_softer_padding_goes_beyond_its_thickness_unless_it_bottoms_out() {
     let stopped = solved("thesis-stop");
     assert!(stopped.measure("padding.peak-deformation").0 < 0.02);
     let (gap, stop, damping) = (18e-3, 200e6, 10e3);
-    let judge = by_hand::refined(1e-7, |h| {
+    let judge = by_hand::refined(1e-6, |h| {
         // State: head, panel, Kelvin element, dashpot C2; the spring K2 has the force.
         let pad = |own: &[f64; 6]| k2 * (own[0] - own[2] - own[4] - own[5]);
-        let bottom = |own: &[f64; 6], held: bool| {
-            if held { stop * (own[0] - own[2] - gap) + damping * (own[1] - own[3]) } else { 0.0 }
-        };
+        let bottom = |own: &[f64; 6]| stop * (own[0] - own[2] - gap) + damping * (own[1] - own[3]);
         let (mut t, mut state) = (0.0, [0.0, 10.0, 0.0, 0.0, 0.0, 0.0]);
-        let (mut held, mut peak, mut deepest) = (false, 0.0_f64, 0.0_f64);
-        while pad(&state) + bottom(&state, held) > 0.0 || t < 1e-5 {
+        let [mut peak, mut depth] = [Peak::NONE; 2];
+        for phase in 0..3 {
+            let all = |own: &[f64; 6]| pad(own) + if phase == 1 { bottom(own) } else { 0.0 };
             let rates = |_: f64, own: &[f64; 6]| {
-                let (force, push) = (pad(own), pad(own) + bottom(own, held));
+                let (force, push) = (pad(own), all(own));
                 [
                     own[1],
                     -push / 10.0,
@@ -74,19 +80,71 @@ fn the_softer_padding_goes_beyond_its_thickness_unless_it_bottoms_out() {
                     force / c2,
                 ]
             };
-            state = by_hand::step(t, h, state, &rates);
-            t += h;
-            let (way, rate) = (state[0] - state[2], state[1] - state[3]);
-            held = if held { bottom(&state, true) >= 0.0 } else { way > gap && rate > 0.0 };
-            peak = peak.max(pad(&state) + bottom(&state, held));
-            deepest = deepest.max(way);
+            let guard = |own: &[f64; 6]| match phase {
+                0 => gap - (own[0] - own[2]),
+                1 => bottom(own),
+                _ => pad(own),
+            };
+            let mut is_over = false;
+            while !is_over {
+                (t, state, is_over) = by_hand::guarded(t, h, state, &rates, guard);
+                peak.see(t, all(&state));
+                depth.see(t, state[0] - state[2]);
+            }
         }
-        [peak / 10.0, deepest, t]
+        [peak.value / 10.0, depth.value, t]
     });
     stopped.is("head.peak-acceleration", judge[0].0, judge[0].1);
     stopped.is("padding.peak-deformation", judge[1].0, judge[1].1);
     let release = stopped.times("padding.contact.contact", "open")[0];
     close("release", release, judge[2].0, judge[2].1);
+}
+
+#[test]
+fn a_padding_that_stiffens_keeps_within_its_thickness_as_by_hand() {
+    let [k1, c1, k2, c2] = SOFT;
+    let (stiffness, limit) = (0.3e6, 0.02);
+    let solved = solved("thesis-stiffening");
+    let judge = by_hand::refined(1e-6, |h| {
+        // State: head, panel, Kelvin element, dashpot C2; the spring K2 has the force.
+        let inner = |own: &[f64; 6]| k2 * (own[0] - own[2] - own[4] - own[5]);
+        let beside = |y: f64| stiffness * limit / FRAC_PI_2 * (FRAC_PI_2 * y / limit).tan();
+        let push = |own: &[f64; 6]| inner(own) + beside(own[0] - own[2]);
+        let rates = |_: f64, own: &[f64; 6]| {
+            let (force, push) = (inner(own), push(own));
+            [
+                own[1],
+                -push / 10.0,
+                own[3],
+                (push - 50e6 * own[2] - 10e3 * own[3]) / 100.0,
+                (force - k1 * own[4]) / c1,
+                force / c2,
+            ]
+        };
+        let (mut t, mut state, mut is_over) = (0.0, [0.0, 10.0, 0.0, 0.0, 0.0, 0.0], false);
+        let [mut peak, mut depth] = [Peak::NONE; 2];
+        while !is_over {
+            (t, state, is_over) = by_hand::guarded(t, h, state, &rates, push);
+            peak.see(t, push(&state));
+            depth.see(t, state[0] - state[2]);
+        }
+        [peak.value, depth.value, t]
+    });
+    for (key, own) in ["peak-force", "peak-deformation", "contact-time"].iter().zip(judge) {
+        solved.is(&format!("padding.{key}"), own.0, own.1);
+    }
+    assert!(judge[1].0 < limit);
+}
+
+#[test]
+fn the_groups_beyond_which_the_padding_is_pressed_in_by_its_thickness_are_those_of_the_chapter() {
+    let base = Groups::printed(0.2);
+    // At these groups the deepest point is the thickness; the digits are all that is printed.
+    for groups in [Groups { b: 77.24, ..base }, Groups { d: 69.43, ..base }] {
+        let solved = solve(&from_groups(&groups), "exact", 10.0, 1e-6);
+        let deepest = solved.signal("padding.deformation").maximum((0.0, 10.0)).value;
+        close("deepest point", deepest, 1.0, 1e-4);
+    }
 }
 
 #[test]
@@ -104,7 +162,8 @@ fn the_values_in_the_scene_are_those_of_the_groups() {
     let text = fs::read_to_string(path).unwrap();
     for (name, value) in ["K1", "C1", "K2", "C2"].iter().zip(values) {
         let line = text.lines().find(|line| line.starts_with(&format!("{name} = "))).unwrap();
-        let written: f64 = line.split('"').nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+        let written: f64 =
+            line.split('"').nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
         close(name, written, value, 1e-8 * value);
     }
 }
@@ -129,8 +188,7 @@ fn a_face_with_mass_is_taken_along_and_both_forces_are_those_of_one_body() {
     let inner = one.signal("padding.force");
     let release = inner.first_crossing(0.0, (1e-4, 0.02), Some(false)).unwrap().time;
     close("release", solved.times("padding.contact.contact", "open")[0], release, 1e-9);
-    let (first, second) =
-        (solved.signal("padding.contact.force"), solved.signal("padding.force"));
+    let (first, second) = (solved.signal("padding.contact.force"), solved.signal("padding.force"));
     for at in 1..100 {
         let t = release * f64::from(at) / 100.0;
         let force = inner.value(t);

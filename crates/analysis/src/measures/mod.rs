@@ -12,13 +12,17 @@ mod hic;
 mod hic15;
 mod hic36;
 mod impulse;
+mod of_segments;
 mod peak_acceleration;
 mod peak_deformation;
 mod peak_displacement;
 mod peak_force;
 mod peak_rate;
+mod peak_strain;
+mod peak_stress;
 mod reading;
 mod severity_index;
+mod transmitted_force;
 
 use std::{fmt::Debug, sync::Arc};
 
@@ -41,8 +45,11 @@ pub use peak_deformation::PeakDeformation;
 pub use peak_displacement::PeakDisplacement;
 pub use peak_force::PeakForce;
 pub use peak_rate::PeakRate;
+pub use peak_strain::PeakStrain;
+pub use peak_stress::PeakStress;
 pub use reading::Reading;
 pub use severity_index::SeverityIndex;
+pub use transmitted_force::TransmittedForce;
 
 use crate::Solution;
 
@@ -102,6 +109,8 @@ pub trait MeasureKind: Debug + Default + Send + Sync + Sized + 'static {
     /// Whether every run without an impactor reports it: for elements that touch a mass, or for
     /// free masses that an element touches. What needs an impact to be defined is left out.
     const WITHOUT_IMPACTOR: bool = Self::BY_DEFAULT;
+    /// Whether every run reports it for the elements that are made of layers.
+    const OF_LAYERS: bool = false;
 
     /// The measure with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
     ///
@@ -174,27 +183,51 @@ pub fn visit_measures(visitor: &mut impl MeasureVisitor) {
     visitor.visit::<EndVelocity>();
     visitor.visit::<EndPosition>();
     visitor.visit::<PeakDisplacement>();
+    visitor.visit::<PeakStress>();
+    visitor.visit::<PeakStrain>();
+    visitor.visit::<TransmittedForce>();
 }
 
 /// The measures of a family that every run reports, with or without an impactor, in the order of
 /// the register.
 pub fn by_default(family: Family, has_impactor: bool) -> Vec<Arc<dyn Measure>> {
-    struct Collect {
-        family: Family,
-        has_impactor: bool,
-        found: Vec<Arc<dyn Measure>>,
-    }
-    impl MeasureVisitor for Collect {
-        fn visit<M: MeasureKind>(&mut self) {
-            let reported = if self.has_impactor { M::BY_DEFAULT } else { M::WITHOUT_IMPACTOR };
-            if reported && M::APPLIES_TO == self.family {
-                self.found.push(Arc::new(M::default()));
-            }
-        }
-    }
-    let mut collect = Collect { family, has_impactor, found: Vec::new() };
+    let mut collect =
+        Collect { wanted: Wanted::Always { family, has_impactor }, found: Vec::new() };
     visit_measures(&mut collect);
     collect.found
+}
+
+/// The measures that every run reports for elements made of layers, besides those of all elements.
+pub fn of_layers() -> Vec<Arc<dyn Measure>> {
+    let mut collect = Collect { wanted: Wanted::OfLayers, found: Vec::new() };
+    visit_measures(&mut collect);
+    collect.found
+}
+
+/// Which measures are collected.
+enum Wanted {
+    Always { family: Family, has_impactor: bool },
+    OfLayers,
+}
+
+struct Collect {
+    wanted: Wanted,
+    found: Vec<Arc<dyn Measure>>,
+}
+
+impl MeasureVisitor for Collect {
+    fn visit<M: MeasureKind>(&mut self) {
+        let is_wanted = match self.wanted {
+            Wanted::Always { family, has_impactor } => {
+                let reported = if has_impactor { M::BY_DEFAULT } else { M::WITHOUT_IMPACTOR };
+                reported && M::APPLIES_TO == family
+            }
+            Wanted::OfLayers => M::OF_LAYERS,
+        };
+        if is_wanted {
+            self.found.push(Arc::new(M::default()));
+        }
+    }
 }
 
 /// Note on a measure of the force of a rigid link in a loop of rigid links.

@@ -44,7 +44,11 @@ impl MeasureKind for PeakDeformation {
             Err(note) => return Reading::undefined(note),
         };
         let deformation = solution.signal(solution.assembly().connections[target].deformation);
-        let reading = peak(deformation, &span);
+        let mut reading = peak(deformation, &span);
+        if solution.has_contact(target) {
+            // At a contact it is the remainder of the way that its ends have come to meet.
+            reading = reading.of_size(deformation.bound());
+        }
         if peaks_below_zero(deformation, &span) { reading.noting("in elongation") } else { reading }
     }
 }

@@ -38,12 +38,11 @@ impl MeasureKind for PeakRate {
             Err(note) => return Reading::undefined(note),
         };
         let connection = &solution.assembly().connections[target];
-        let reading = peak(&solution.rate(connection.rate, connection.deformation), &span);
+        let reading = peak(&solution.rate_of(connection), &span);
         // At a jump the rates on both sides count, also that before the span.
         let blows = blows::within(solution.element_blows(target), (span.from, span.from));
-        let before = blows.first().map_or(0.0, |own| {
-            solution.approach_before(connection, own.time).abs()
-        });
+        let before =
+            blows.first().map_or(0.0, |own| solution.approach_before(connection, own.time).abs());
         if reading.value.is_none_or(|value| value >= before) {
             return reading;
         }

@@ -168,10 +168,12 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     let Some(force) = connection.force.map(|force| solution.signal(force)) else {
         return Reading::undefined("the force is undetermined");
     };
-    let rate = solution.rate(connection.rate, connection.deformation);
+    let rate = solution.rate_of(connection);
     let window = span.window();
     let last = (force.left_value(span.to) * rate.left_value(span.to)).abs();
-    let (value, error) = if connection.rate.is_none() && span.length() > 0.0 {
+    let (value, error) = if span.length() <= 0.0 {
+        (0.0, Some(0.0))
+    } else if rate.error.is_none() {
         work_of_parts(solution, connection, window)
     } else {
         let steps = ledger::steps(solution, connection.primitives.clone(), window);

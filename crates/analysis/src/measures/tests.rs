@@ -1,7 +1,9 @@
+mod blows;
+
 use std::f64::consts::PI;
 
 use dashpot_dae::{
-    Dense, Outcome, Output, Panel, Signal, Statistics, System, Trajectory, chebyshev::Interpolation,
+    Dense, Outcome, Panel, Signal, Statistics, System, Trajectory, chebyshev::Interpolation,
 };
 use dashpot_network::{Assembly, Network, Node, elements::Spring, part};
 
@@ -192,7 +194,9 @@ fn every_kind_rebuilds_from_its_values_and_reads() {
             assert_eq!(MeasureKind::values(&again), values, "{}", M::KIND);
             assert!(M::SUMMARY.ends_with(&format!("[{}]", M::UNIT)), "{}", M::KIND);
             let reading = read(sample, 1.6, half_sine);
-            assert!(reading.value.is_some(), "{}", M::KIND);
+            // The pad of these tests has no thickness and no area.
+            let asks_for_sizes = [PeakStrain::KIND, PeakStress::KIND].contains(&M::KIND);
+            assert!(reading.value.is_some() || asks_for_sizes, "{}", M::KIND);
             self.0 += 1;
         }
     }

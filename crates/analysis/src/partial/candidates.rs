@@ -14,17 +14,11 @@ pub(super) struct Candidate {
     pub(super) influence: Influence,
     /// What it costs by itself, once that is known.
     pub(super) alone: Option<Cost>,
-    /// Why it cannot be left out at all.
-    pub(super) obstacle: Option<RunError>,
 }
 
 /// The candidates of a network, the largest influence first.
-pub(super) fn candidates(
-    network: &Network,
-    settings: &SolveSettings,
-    bound: f64,
-) -> Vec<Candidate> {
-    let situation = Situation::of(network, settings.duration);
+pub(super) fn candidates(network: &Network, duration: f64, bound: f64) -> Vec<Candidate> {
+    let situation = Situation::of(network, duration);
     let small = |detail: Detail| {
         let influences = detail.influences(&situation);
         let largest =
@@ -34,7 +28,6 @@ pub(super) fn candidates(
             name: detail.name(network),
             influence: largest,
             alone: None,
-            obstacle: obstacle(network, detail, settings),
         })
     };
     let mut found: Vec<Candidate> = Detail::all(network).into_iter().filter_map(small).collect();
@@ -52,10 +45,14 @@ fn obstacle(network: &Network, detail: Detail, settings: &SolveSettings) -> Opti
 }
 
 impl Candidate {
-    /// Takes those out that cannot be left out, and says why.
-    pub(super) fn needed(found: &mut Vec<Self>) -> Vec<PutBack> {
+    /// Takes those out that cannot be left out of a run of the network, and says why.
+    pub(super) fn needed(
+        found: &mut Vec<Self>,
+        network: &Network,
+        settings: &SolveSettings,
+    ) -> Vec<PutBack> {
         let mut needed = Vec::new();
-        found.retain_mut(|own| match own.obstacle.take() {
+        found.retain(|own| match obstacle(network, own.detail, settings) {
             Some(error) => {
                 needed.push(own.put_back(Why::Fails(error)));
                 false

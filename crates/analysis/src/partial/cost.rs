@@ -19,6 +19,11 @@ impl Cost {
     pub fn most(&self) -> f64 {
         self.relative + self.uncertainty
     }
+
+    /// The one of both that is larger.
+    pub(super) fn larger(self, other: Self) -> Self {
+        if other.most() > self.most() { other } else { self }
+    }
 }
 
 /// A network's measures with and without something.
@@ -89,10 +94,7 @@ fn cost(full: &MeasureReport, reduced: &MeasureReport) -> Cost {
         (None, None) => (0.0, 0.0),
         _ => return infinite(full),
     };
-    let over_size = |amount: f64| match amount {
-        0.0 => 0.0,
-        amount => amount / size,
-    };
+    let over_size = |amount: f64| if amount > 0.0 { amount / size } else { 0.0 };
     Cost {
         measure: full.key.clone(),
         relative: over_size(difference),

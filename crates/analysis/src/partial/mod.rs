@@ -118,10 +118,11 @@ pub fn solve_partial(
         return solve_assembly(assembly, &words(network), settings, observer);
     };
     settings.validate()?;
-    let mut found = candidates(network, settings, bound);
+    let mut found = candidates(network, settings.duration, bound);
     let mut trial = Trial::of(network, assembly, settings, observer)?;
-    let mut put_back = Candidate::needed(&mut found);
-    let settled = settle(&mut found, &mut put_back, std::slice::from_mut(&mut trial), bound, observer)?;
+    let mut put_back = Candidate::needed(&mut found, network, settings);
+    let trials = std::slice::from_mut(&mut trial);
+    let settled = settle(&mut found, &mut put_back, trials, bound, observer)?;
     let mut partial = Partial {
         bound,
         left_out: found.into_iter().map(Neglected::from).collect(),

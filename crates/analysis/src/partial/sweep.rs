@@ -1,6 +1,7 @@
 //! Partial modelling of many networks that are much alike.
 
 use std::{
+    collections::BTreeMap,
     sync::Arc,
     time::{Duration, Instant},
 };
@@ -11,9 +12,8 @@ use dashpot_network::{Detail, Network};
 use super::{
     Candidate, Cost, Neglected, PutBack, candidates,
     trial::{Trial, is_cancelled, settle, solve_without},
-    words,
 };
-use crate::{RunError, RunReport, SolveSettings, solve_assembly};
+use crate::{RunError, RunReport, SolveSettings};
 
 /// The least number of points at which a sweep is checked, if it has as many.
 const LEAST: usize = 3;
@@ -57,8 +57,8 @@ pub struct Saving {
 ///
 /// # Errors
 ///
-/// What is wrong with the settings, and the failure of a full run at a point of the verification.
-/// Failures at other points stand among the runs.
+/// What is wrong with the settings, and that the observer has cancelled a run. Other failures stand
+/// among the runs.
 pub fn sweep(
     networks: &[Network],
     settings: &SolveSettings,
@@ -66,86 +66,91 @@ pub fn sweep(
 ) -> Result<PartialSweep, RunError> {
     settings.validate()?;
     let started = Instant::now();
-    let bound = settings.accuracy.neglect_below;
-    let mut found = bound.map_or_else(Vec::new, |bound| common(networks, settings, bound));
-    let mut put_back = Candidate::needed(&mut found);
-    let checked = if found.is_empty() { Vec::new() } else { spread(networks.len()) };
-    let mut trials = Vec::new();
-    for &at in &checked {
-        let assembly = Arc::new(networks[at].compile(settings.duration)?);
-        trials.push(Trial::of(&networks[at], &assembly, settings, observer)?);
+    let bound = settings.accuracy.neglect_below.unwrap_or(0.0);
+    let mut found = common(networks, settings.duration, bound);
+    let mut put_back = match networks.first() {
+        Some(network) => Candidate::needed(&mut found, network, settings),
+        None => Vec::new(),
+    };
+    let (mut checked, mut trials, mut runs) = (Vec::new(), Vec::new(), BTreeMap::new());
+    for at in if found.is_empty() { Vec::new() } else { spread(networks.len()) } {
+        match trial(&networks[at], settings, observer) {
+            Ok(trial) => {
+                checked.push(at);
+                trials.push(trial);
+            }
+            Err(error) if is_cancelled(&error) => return Err(error),
+            Err(error) => {
+                runs.insert(at, Err(error));
+            }
+        }
     }
-    let bound = bound.unwrap_or(0.0);
+    if trials.is_empty() {
+        found.clear();
+    }
     let settled = settle(&mut found, &mut put_back, &mut trials, bound, observer)?;
     let worst = settled.iter().filter_map(|own| own.2.worst()).cloned();
     let worst = worst.reduce(Cost::larger);
 
-    let mut solves: usize = trials.iter().map(|trial| trial.solves).sum();
+    let mut solves = runs.len() + trials.iter().map(|trial| trial.solves).sum::<usize>();
     let mut in_full: Vec<Duration> = trials.iter().map(|trial| trial.own).collect();
-    let mut known = Vec::new();
-    if settled.is_empty() {
-        known.extend(trials.into_iter().map(|trial| trial.full));
-    } else {
-        let pairs = settled.into_iter().zip(trials);
-        known.extend(pairs.map(|((run, _, compared), trial)| compared.charged(run, &trial.full)));
+    let mut settled = settled.into_iter();
+    for (&at, Trial { full, .. }) in checked.iter().zip(trials) {
+        let run = match settled.next() {
+            Some((run, _, compared)) => compared.charged(run, &full),
+            None => full,
+        };
+        runs.insert(at, Ok(run));
     }
     let details: Vec<Detail> = found.iter().map(|own| own.detail).collect();
-    let mut known = checked.iter().copied().zip(known).peekable();
-    let mut runs = Vec::with_capacity(networks.len());
     for (at, network) in networks.iter().enumerate() {
-        if let Some((_, run)) = known.next_if(|own| own.0 == at) {
-            runs.push(Ok(run));
+        if runs.contains_key(&at) {
             continue;
         }
         let begun = Instant::now();
-        let run = if details.is_empty() {
-            in_one(network, settings, observer)
-        } else {
-            solve_without(network, &details, settings, observer)
-        };
+        let run = solve_without(network, &details, settings, observer);
         solves += 1;
         if details.is_empty() {
             in_full.push(begun.elapsed());
         }
         match run {
             Err(error) if is_cancelled(&error) => return Err(error),
-            run => runs.push(run),
-        }
+            run => runs.insert(at, run),
+        };
     }
-    let saving = Saving {
-        solves,
-        wall: started.elapsed(),
-        wall_in_full: mean(&in_full).mul_f64(networks.len() as f64),
-    };
+    let wall_in_full = of_all(&in_full, networks.len());
+    let saving = Saving { solves, wall: started.elapsed(), wall_in_full };
     let left_out = found.into_iter().map(Neglected::from).collect();
+    let runs = runs.into_values().collect();
     Ok(PartialSweep { runs, left_out, put_back, checked, worst, saving })
 }
 
-fn in_one(
-    network: &Network,
-    settings: &SolveSettings,
+/// Solves a network in full.
+fn trial<'n>(
+    network: &'n Network,
+    settings: &'n SolveSettings,
     observer: &mut dyn Observer,
-) -> Result<RunReport, RunError> {
+) -> Result<Trial<'n>, RunError> {
     let assembly = Arc::new(network.compile(settings.duration)?);
-    solve_assembly(&assembly, &words(network), settings, observer)
+    Trial::of(network, &assembly, settings, observer)
 }
 
-fn mean(times: &[Duration]) -> Duration {
+/// What `count` runs take that last as long as these on average.
+fn of_all(times: &[Duration], count: usize) -> Duration {
+    let number = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
     let sum: Duration = times.iter().sum();
-    sum.checked_div(u32::try_from(times.len()).unwrap_or(u32::MAX)).unwrap_or_default()
+    sum.saturating_mul(number(count)).checked_div(number(times.len())).unwrap_or_default()
 }
 
 /// What is a candidate in every network, with its influence in the first one.
-fn common(networks: &[Network], settings: &SolveSettings, bound: f64) -> Vec<Candidate> {
-    let mut all = networks.iter().map(|network| candidates(network, settings, bound));
-    let Some(mut common) = all.next() else { return Vec::new() };
+fn common(networks: &[Network], duration: f64, bound: f64) -> Vec<Candidate> {
+    let mut all = networks.iter().map(|network| candidates(network, duration, bound));
+    let mut common = all.next().unwrap_or_default();
     for others in all {
-        common.retain_mut(|own| {
-            let is_same = |other: &&Candidate| other.detail == own.detail && other.name == own.name;
-            let Some(other) = others.iter().find(is_same) else { return false };
-            own.obstacle = own.obstacle.take().or_else(|| other.obstacle.clone());
-            true
-        });
+        let is_same = |own: &Candidate, other: &Candidate| {
+            other.detail == own.detail && other.name == own.name
+        };
+        common.retain(|own| others.iter().any(|other| is_same(own, other)));
     }
     common
 }

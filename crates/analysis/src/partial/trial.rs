@@ -125,7 +125,8 @@ pub(super) fn settle(
             continue 'again;
         }
         if let [only] = candidates.as_mut_slice() {
-            only.alone = passed.iter().filter_map(|own| own.2.worst()).cloned().reduce(Cost::larger);
+            only.alone =
+                passed.iter().filter_map(|own| own.2.worst()).cloned().reduce(Cost::larger);
         }
         return Ok(passed);
     }
@@ -166,11 +167,5 @@ impl Candidate {
     /// What it moves by itself, or as long as that is not known what is estimated.
     fn known_cost(&self) -> f64 {
         self.alone.as_ref().map_or(self.influence.value, Cost::most)
-    }
-}
-
-impl Cost {
-    fn larger(self, other: Self) -> Self {
-        if other.most() > self.most() { other } else { self }
     }
 }

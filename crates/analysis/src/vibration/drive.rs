@@ -135,8 +135,11 @@ impl Driven {
         };
         for connection in network.connections() {
             let [from, to] = connection.between.map(place);
-            driven.connect(connection.name.clone(), from, to, connection.model.clone()).thickness =
-                connection.thickness;
+            let (name, model) = (connection.name.clone(), connection.model.clone());
+            let copy = driven.connect(name, from, to, model);
+            copy.thickness = connection.thickness;
+            copy.area = connection.area;
+            copy.layers.clone_from(&connection.layers);
         }
         for load in network.loads().iter().filter(|_| drive.kind == DriveKind::Load) {
             if load.name == drive.name {

@@ -93,7 +93,9 @@ impl Vibration {
     ) -> Result<Self, VibrationError> {
         linearity::require_linear(network)?;
         let drive = drive::chosen(network, drive)?;
-        let driven = Driven::new(network, &network.compile(duration)?, &drive, duration)?;
+        let still = network.compile(duration)?;
+        linearity::require_linear_system(&still)?;
+        let driven = Driven::new(network, &still, &drive, duration)?;
         let assembly = driven.network.compile(duration)?;
         linearity::require_linear_system(&assembly)?;
         let node = driven.node;

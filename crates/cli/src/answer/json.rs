@@ -2,7 +2,10 @@
 
 use std::time::Duration;
 
-use dashpot_analysis::{Ledger, MeasureReport, RunReport, SolveSettings};
+use dashpot_analysis::{
+    Ledger, MeasureReport, Partial, RunReport, SolveSettings,
+    partial::{Cost, Why},
+};
 use dashpot_network::parameters::{Dimension, Value};
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
@@ -35,6 +38,7 @@ struct Settings<'a> {
     rtol: Option<f64>,
     estimate: bool,
     accuracy: Pairs<&'a str, f64>,
+    neglect_below: Option<f64>,
     stop: Vec<Stop<'a>>,
     values: Pairs<&'a str, Named>,
 }
@@ -65,6 +69,8 @@ struct Run<'a> {
     measures: Pairs<&'a str, Measure<'a>>,
     energy: Energy<'a>,
     events: Vec<Event<'a>>,
+    /// What was left out; null where nothing was allowed to be.
+    partial: Option<Left<'a>>,
     warnings: &'a [String],
 }
 
@@ -94,6 +100,44 @@ struct System<'a> {
 }
 
 struct Measure<'a>(&'a MeasureReport);
+
+#[derive(Serialize)]
+struct Left<'a> {
+    below: f64,
+    left_out: Vec<Neglected<'a>>,
+    put_back: Vec<PutBack<'a>>,
+    worst: Option<Moved<'a>>,
+    /// How far each measure is moved, relative.
+    moved: Pairs<&'a str, f64>,
+    unreported: &'a [String],
+    further_runs: usize,
+    wall_of_further_runs_s: f64,
+}
+
+#[derive(Serialize)]
+struct Neglected<'a> {
+    effect: &'a str,
+    formula: &'a str,
+    estimate: f64,
+    /// The measure that it moves the most by itself, where that is known.
+    alone: Option<Moved<'a>>,
+}
+
+#[derive(Serialize)]
+struct PutBack<'a> {
+    effect: &'a str,
+    formula: &'a str,
+    estimate: f64,
+    moves: Option<Moved<'a>>,
+    error: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Moved<'a> {
+    measure: &'a str,
+    relative: f64,
+    uncertainty: f64,
+}
 
 #[derive(Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -187,6 +231,7 @@ fn settings<'a>(answer: &'a Answer, asked: &'a SolveSettings) -> Settings<'a> {
         rtol: asked.rtol,
         estimate: asked.estimate,
         accuracy: Pairs([("default", asked.accuracy.default)].into_iter().chain(single).collect()),
+        neglect_below: asked.accuracy.neglect_below,
         stop: stops
             .map(|own| Stop { output: &own.output, level: own.level, direction: direction(own) })
             .collect(),
@@ -227,7 +272,40 @@ fn run(report: &RunReport, elapsed: Duration) -> Run<'_> {
             after_impact: report.energy_after_impact.as_ref().map(balance),
         },
         events: report.events.iter().map(|own| Event { time: own.time, what: &own.what }).collect(),
+        partial: report.partial.as_ref().map(left),
         warnings: &report.warnings,
+    }
+}
+
+fn moved(cost: &Cost) -> Moved<'_> {
+    Moved { measure: &cost.measure, relative: cost.relative, uncertainty: cost.uncertainty }
+}
+
+fn left(partial: &Partial) -> Left<'_> {
+    let left_out = partial.left_out.iter().map(|own| Neglected {
+        effect: &own.effect,
+        formula: &own.influence.formula,
+        estimate: own.influence.value,
+        alone: own.alone.as_ref().map(moved),
+    });
+    let put_back = partial.put_back.iter().map(|own| {
+        let (moves, error) = match &own.why {
+            Why::Moves(cost) => (Some(moved(cost)), None),
+            Why::Fails(error) => (None, Some(error.to_string())),
+        };
+        let (formula, estimate) = (own.influence.formula.as_str(), own.influence.value);
+        PutBack { effect: &own.effect, formula, estimate, moves, error }
+    });
+    let costs = partial.costs.iter().map(|own| (own.measure.as_str(), own.relative));
+    Left {
+        below: partial.bound,
+        left_out: left_out.collect(),
+        put_back: put_back.collect(),
+        worst: partial.worst().map(moved),
+        moved: Pairs(costs.collect()),
+        unreported: &partial.unreported,
+        further_runs: partial.verification.solves,
+        wall_of_further_runs_s: partial.verification.wall.as_secs_f64(),
     }
 }
 

@@ -1,6 +1,9 @@
 //! All measures, one column for each method.
 
-use dashpot_analysis::{MeasureReport, RunReport, measures::STANDARD_GRAVITY};
+use dashpot_analysis::{
+    MeasureKind, MeasureReport, RunReport,
+    measures::{PeakStrain, STANDARD_GRAVITY},
+};
 use dashpot_network::parameters::{Value, WindowWish};
 use dashpot_plot::Table;
 
@@ -158,6 +161,7 @@ fn units<'r>(
     match first.unit {
         "m/s^2" => vec![Unit::new("g", STANDARD_GRAVITY), Unit::plain(first.unit)],
         "s" if is_index(first.kind) => vec![Unit::plain("s")],
+        "1" if first.kind == PeakStrain::KIND => vec![Unit::new("%", 0.01)],
         si if largest > 0.0 => vec![Unit::suiting(largest, si)],
         _ => vec![zeros.unit(first)],
     }

@@ -5,6 +5,7 @@ mod energy;
 mod json;
 mod measures;
 mod page;
+mod partial;
 pub(crate) mod rheometer;
 mod settings;
 mod solving;

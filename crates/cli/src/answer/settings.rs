@@ -34,6 +34,7 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
             .iter()
             .map(|(key, own)| (format!("accuracy of {key}"), share(*own))),
     );
+    rows.extend(asked.accuracy.neglect_below.map(|own| ("neglect below".to_owned(), share(own))));
     rows.extend(
         asked.stops.iter().map(|stop| (format!("stop at {}", stop.output), stop_text(stop))),
     );

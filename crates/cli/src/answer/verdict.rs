@@ -8,7 +8,11 @@ use dashpot_analysis::{
     },
 };
 
-use super::{Answer, zero::Zeros};
+use super::{
+    Answer,
+    partial::{left_out, put_back},
+    zero::Zeros,
+};
 use crate::numbers::{self, Unit, bound, constant, quantity, rounded, share};
 
 /// Digits of a number that is read in passing.
@@ -47,6 +51,8 @@ pub(crate) fn verdict(answer: &Answer) -> Vec<Line> {
         ("energy", energy(answer, run)),
         ("contact", contact(answer, run)),
         ("injury", injury(run)),
+        ("left out", left_out(run)),
+        ("put back", put_back(run)),
         ("how wrong", how_wrong(answer, run)),
         ("next digit", next_digit(answer, run)),
     ];
@@ -58,6 +64,15 @@ fn largest<'r>(run: &'r RunReport, kind: &str) -> Option<(&'r MeasureReport, f64
     let of_kind = run.measures.iter().filter(|measure| measure.kind == kind);
     let valued = of_kind.filter_map(|measure| measure.value.map(|value| (measure, value)));
     valued.max_by(|one, other| one.1.total_cmp(&other.1))
+}
+
+/// The first measure of this kind that is infinite: it has a time, and no value there.
+fn infinite<'r>(run: &'r RunReport, kind: &str) -> Option<(&'r MeasureReport, String)> {
+    let of_kind = run.measures.iter().filter(|measure| measure.kind == kind);
+    let found = of_kind.filter(|measure| measure.value.is_none()).find_map(|measure| {
+        Some((measure, quantity(measure.time?, "s", TIME_DIGITS)))
+    });
+    found
 }
 
 fn shown(answer: &Answer, measure: &MeasureReport, value: f64) -> String {
@@ -80,11 +95,17 @@ fn whereabouts(answer: &Answer, measure: &MeasureReport) -> String {
 }
 
 fn peak_force(answer: &Answer, run: &RunReport) -> Option<String> {
+    if let Some((measure, time)) = infinite(run, PeakForce::KIND) {
+        return Some(format!("infinite in {} at {time}, where the speed jumps", measure.target));
+    }
     let (measure, value) = largest(run, PeakForce::KIND)?;
     Some(format!("{}{}", shown(answer, measure, value), whereabouts(answer, measure)))
 }
 
 fn peak_g(answer: &Answer, run: &RunReport) -> Option<String> {
+    if let Some((measure, time)) = infinite(run, PeakAcceleration::KIND) {
+        return Some(format!("infinite on {} at {time}, where the speed jumps", measure.target));
+    }
     let (measure, value) = largest(run, PeakAcceleration::KIND)?;
     let digits = numbers::digits(value, measure.error, DIGITS);
     let in_g = Unit::new("g", STANDARD_GRAVITY).text(value, digits);
@@ -164,8 +185,15 @@ fn work_in(run: &RunReport, until: f64) -> f64 {
 
 /// The element with the largest force, where that is none of those that are reported.
 fn elsewhere(run: &RunReport) -> Option<String> {
+    if infinite(run, PeakForce::KIND).is_some() {
+        return None;
+    }
     let (headline, most) = largest(run, PeakForce::KIND)?;
     let (element, peak) = run.largest_force()?;
+    if peak.value.is_infinite() {
+        let time = quantity(peak.time, "s", TIME_DIGITS);
+        return Some(format!("infinite in {element} at {time}, where the speed jumps"));
+    }
     let margin = headline.error.filter(|error| error.is_finite()).unwrap_or(0.0);
     let is_larger = peak.value > most + margin.max(MARGIN * most);
     (element != headline.target && is_larger).then(|| {
@@ -200,7 +228,9 @@ fn contact(answer: &Answer, run: &RunReport) -> Option<String> {
     let (measure, value) = largest(run, ContactTime::KIND)?;
     let contact = run.contacts.iter().find(|own| own.element == measure.target);
     let pulls = contact.is_some_and(|own| {
-        own.impact.contact == Contact::Released && own.impact.end < run.trajectory.t_end
+        own.is_glued
+            && own.impact.contact == Contact::Released
+            && own.impact.end < run.trajectory.t_end
     });
     let pulls = if pulls { GLUED } else { "" };
     let leaving = leaving(run).map_or(String::new(), |text| format!("; {text}"));
@@ -248,10 +278,13 @@ pub(super) fn is_index(kind: &str) -> bool {
 fn injury(run: &RunReport) -> Option<String> {
     let indices = run.measures.iter().filter(|measure| is_index(measure.kind));
     let texts = indices.filter_map(|measure| {
-        let value = measure.value?;
+        let name = format!("{} of {}", measure.kind.replace('-', " "), measure.target);
+        let Some(value) = measure.value else {
+            return measure.time.map(|_| format!("{name} is infinite"));
+        };
         let digits = numbers::digits(value, measure.error, DIGITS);
         let number = Unit::plain(measure.unit).text(value, digits);
-        Some(format!("{} of {} {number}", measure.kind.replace('-', " "), measure.target))
+        Some(format!("{name} {number}"))
     });
     let texts: Vec<String> = texts.take(3).collect();
     (!texts.is_empty()).then(|| texts.join(", "))
@@ -269,11 +302,13 @@ fn how_wrong(answer: &Answer, run: &RunReport) -> Option<String> {
             "some figures come and go with the tolerance; see the table".to_owned()
         }
         Some(worst) if run.solver.rtol.is_none() => {
-            format!("every figure is good to {}: a bound of `{method}`", bound(worst))
+            let method = format!("a bound of `{method}`");
+            format!("every figure is good to {}: {method}{}", bound(worst), and_left_out(run))
         }
         Some(worst) => {
             let solves = run.solver.solves_for_error + 1;
-            format!("every figure is good to {}, by {solves} solutions of `{method}`", bound(worst))
+            let solves = format!("by {solves} solutions of `{method}`");
+            format!("every figure is good to {}, {solves}{}", bound(worst), and_left_out(run))
         }
     };
     let apart = answer.differences().iter().map(|entry| entry.relative).reduce(f64::max);
@@ -287,11 +322,21 @@ fn how_wrong(answer: &Answer, run: &RunReport) -> Option<String> {
     Some(own + &apart.unwrap_or_default())
 }
 
+/// That errors include what was left out, where anything was.
+fn and_left_out(run: &RunReport) -> &'static str {
+    let is_less = run.partial.as_ref().is_some_and(|own| !own.left_out.is_empty());
+    if is_less { " and what was left out" } else { "" }
+}
+
 /// What to ask for to get a digit more, where that is not to be had for nothing.
 fn next_digit(answer: &Answer, run: &RunReport) -> Option<String> {
     let worst = run.worst_relative_error().filter(|worst| worst.is_finite() && *worst > 0.0)?;
     // The exact method has no tolerance, and no digit to gain.
     run.solver.rtol?;
+    // No tolerance brings back what was left out.
+    if run.partial.as_ref().is_some_and(|own| !own.left_out.is_empty()) {
+        return None;
+    }
     let wished = answer.asked.first().map_or(worst, |asked| asked.accuracy.default);
     let next = 0.1 * wished.min(worst);
     let text = bound(next).replace(' ', "");

@@ -2,7 +2,7 @@
 
 use std::{fmt::Write as _, fs, path::Path, sync::Arc, time::Instant};
 
-use dashpot_analysis::{RunReport, SolveSettings, solve_assembly};
+use dashpot_analysis::{Accuracy, RunReport, SolveSettings, solve_partial};
 use dashpot_plot::{
     Table,
     figures::{Figure, ForceTime},
@@ -80,14 +80,12 @@ fn solve_all(scene: Scene, arguments: &RunArguments, terminal: Terminal) -> Answ
         }
     }
     let assembly = Arc::new(scene.assembly.clone());
-    let effects: Vec<&'static str> =
-        scene.network.effects().iter().map(|effect| effect.kind()).collect();
     let (mut runs, mut failed) = (Vec::<RunReport>::new(), Vec::new());
     let mut elapsed = Vec::new();
     for own in &asked {
         let mut bar = Bar::new(&own.method, own.duration, terminal.error.attended);
         let started = Instant::now();
-        match solve_assembly(&assembly, &effects, own, &mut bar) {
+        match solve_partial(&scene.network, &assembly, own, &mut bar) {
             // `auto` may choose what is asked for by name as well.
             Ok(report) if is_new(&runs, &report) => {
                 runs.push(report);
@@ -109,10 +107,12 @@ fn settings(scene: &Scene, method: &str, arguments: &RunArguments) -> SolveSetti
     settings.estimate = arguments.estimate == Switch::On;
     settings.rtol = arguments.rtol.or(settings.rtol);
     if let Some(accuracy) = arguments.accuracy {
-        settings.accuracy = dashpot_analysis::Accuracy::of_all(accuracy);
+        let neglect_below = settings.accuracy.neglect_below;
+        settings.accuracy = Accuracy { neglect_below, ..Accuracy::of_all(accuracy) };
         // A tolerance of the scene would keep the accuracy from being sought.
         settings.rtol = None;
     }
+    settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
     settings
 }
 

@@ -48,8 +48,9 @@ impl Dense for Chain {
             }
             let last = own.panels.len().saturating_sub(1);
             panels.extend(own.panels.into_iter().enumerate().map(|(at, panel)| Panel {
-                start: leg.start + panel.start,
-                end: if at == last { leg.end } else { leg.start + panel.end },
+                // The sums may be rounded beyond the end of the leg.
+                start: (leg.start + panel.start).min(leg.end),
+                end: if at == last { leg.end } else { (leg.start + panel.end).min(leg.end) },
                 coefficients: panel.coefficients,
             }));
         }

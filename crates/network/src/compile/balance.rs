@@ -123,12 +123,7 @@ impl Load<'_> {
 
     /// The places where springs of the slopes and offsets that `line` gives carry `part` of the
     /// weights.
-    fn solved(
-        &self,
-        values: Vec<f64>,
-        part: f64,
-        line: impl Fn(&Edge) -> (f64, f64),
-    ) -> Vec<f64> {
+    fn solved(&self, values: Vec<f64>, part: f64, line: impl Fn(&Edge) -> (f64, f64)) -> Vec<f64> {
         let mut mesh = Mesh::<f64>::new(values.len());
         for spring in &self.structure.springs {
             let (slope, offset) = line(spring);

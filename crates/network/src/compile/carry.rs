@@ -149,16 +149,12 @@ fn origins(parts: &Parts<'_>, system: &System) -> Vec<Origin> {
 
 /// The distance of a body from its parent as the deformation of a primitive between them.
 fn along(parts: &Parts<'_>, body: usize, parent: usize) -> Option<Origin> {
-    let edges = parts.structure.springs.iter().chain(&parts.structure.dashpots);
-    edges
-        .filter_map(|edge| match edge.ends {
-            [a, b] if (a, b) == (body, parent) => {
-                Some(Origin::Along(edge.primitive, 1.0, edge.offset))
-            }
-            [a, b] if (b, a) == (body, parent) => {
-                Some(Origin::Along(edge.primitive, -1.0, edge.offset))
-            }
-            _ => None,
-        })
-        .next()
+    let mut edges = parts.structure.springs.iter().chain(&parts.structure.dashpots);
+    edges.find_map(|edge| match edge.ends {
+        [a, b] if (a, b) == (body, parent) => Some(Origin::Along(edge.primitive, 1.0, edge.offset)),
+        [a, b] if (b, a) == (body, parent) => {
+            Some(Origin::Along(edge.primitive, -1.0, edge.offset))
+        }
+        _ => None,
+    })
 }

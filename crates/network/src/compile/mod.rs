@@ -22,6 +22,7 @@ mod reactions;
 mod review;
 mod row;
 mod scales;
+mod segments;
 mod springs;
 mod structure;
 mod system;
@@ -109,7 +110,7 @@ impl Network {
     }
 
     /// The network with what its effects put into it.
-    fn rewritten(&self) -> Result<Cow<'_, Self>, NetworkErrors> {
+    pub(crate) fn rewritten(&self) -> Result<Cow<'_, Self>, NetworkErrors> {
         if !effects::rewrites(self) {
             return Ok(Cow::Borrowed(self));
         }

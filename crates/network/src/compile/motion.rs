@@ -122,7 +122,7 @@ fn pushed(
         let ends = primitive.ends.map(|joint| given.bodies.of_joint[joint]);
         let [a, b] = primitive.ends.map(|joint| given.bodies.offset[joint]);
         let offset = inputs.constant(a - b);
-        if ends[0] == ends[1] && a != b && primitive.law != Law::Rigid {
+        if ends[0] == ends[1] && (a - b).abs() > 0.0 && primitive.law != Law::Rigid {
             // Held at a deformation, it pushes all the same.
             let [stiffness, _] = primitive.slopes();
             let force = if primitive.is_nonlinear() {

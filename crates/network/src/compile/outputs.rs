@@ -10,6 +10,7 @@ use super::{
     expand::Shape,
     reactions::rigid_forces,
     row::{Combination, Row, RowSum},
+    segments::Listed,
 };
 use crate::{
     ConnectionOutputs, DriveOutputs, Network, NetworkError, Node, NodeOutputs, PrimitiveOutputs,
@@ -38,7 +39,7 @@ impl Outputs {
         Ok(outputs)
     }
 
-    fn add(&mut self, name: String, unit: &'static str, row: Row) -> usize {
+    pub(super) fn add(&mut self, name: String, unit: &'static str, row: Row) -> usize {
         self.list.push((
             Output {
                 name,
@@ -91,8 +92,13 @@ impl Outputs {
         };
         for (connection, shapes) in network.connections.iter().zip(&parts.expansion.shapes) {
             let first = self.primitives.len();
+            let mut listed = Listed::new();
             for at in shapes.iter().filter_map(Shape::leaf) {
+                let place = self.primitives.len();
                 self.add_primitive(parts, &reactions, at)?;
+                if self.primitives.len() > place {
+                    listed.insert(at, place);
+                }
             }
             let deformation = |at: usize| Some(deformation(parts, at));
             let rate = |at: usize| match parts.motion.deformation[at] {
@@ -101,7 +107,7 @@ impl Outputs {
             };
             let name = &connection.name;
             let ends = connection.between.map(|id| parts.bodies.of_joint[id.0]);
-            let whole = composed(shapes, &force, &softest(parts));
+            let forces = composed(shapes, &force, &softest(parts));
             let is_placed = |body: usize| parts.structure.algebraic_cluster(body).is_none();
             let [a, b] = ends;
             let position = if ends.iter().all(|&end| is_placed(end)) || parts.expansion.switches {
@@ -120,16 +126,21 @@ impl Outputs {
                 }
                 _ => summed(shapes, &rate),
             };
-            let outputs = ConnectionOutputs {
+            let force = forces[0].clone().map(|row| self.add(format!("{name}.force"), "N", row));
+            let mut outputs = ConnectionOutputs {
                 name: name.clone(),
                 between: connection.between,
                 thickness: connection.thickness,
                 is_rigid: a == b,
-                force: whole.map(|row| self.add(format!("{name}.force"), "N", row)),
+                force,
+                transmitted: force,
                 deformation: self.add(format!("{name}.deformation"), "m", position),
                 rate: velocity.map(|row| self.add(format!("{name}.rate"), "m/s", row)),
                 primitives: first..self.primitives.len(),
+                segments: Vec::new(),
+                has_layers: connection.layers.is_some(),
             };
+            self.add_segments(parts, connection, (shapes, &forces, &listed), &mut outputs);
             self.connections.push(outputs);
         }
         Ok(())
@@ -311,13 +322,13 @@ fn resting(parts: &Parts<'_>, node: usize, mass: f64) -> Option<Row> {
     Some(sum.total())
 }
 
-/// Combines the rows of the parts from the leaves to the root: in parallel they are added, in
-/// series the one that `prefer` ranks lowest stands for all.
+/// Combines the rows of the parts from the leaves to the root, one for each shape: in parallel they
+/// are added, in series the one that `prefer` ranks lowest stands for all.
 fn composed(
     shapes: &[Shape],
     row: &impl Fn(usize) -> Option<Row>,
     prefer: &impl Fn(usize) -> f64,
-) -> Option<Row> {
+) -> Vec<Option<Row>> {
     let mut found: Vec<(Option<Row>, f64)> = vec![(None, f64::INFINITY); shapes.len()];
     for (at, shape) in shapes.iter().enumerate().rev() {
         found[at] = match shape {
@@ -339,7 +350,7 @@ fn composed(
             }
         };
     }
-    found.swap_remove(0).0
+    found.into_iter().map(|(row, _)| row).collect()
 }
 
 /// Sums the rows of parts in series; in parallel the first one stands for all.
@@ -359,7 +370,7 @@ fn summed(shapes: &[Shape], row: &impl Fn(usize) -> Option<Row>) -> Option<Row> 
     found.swap_remove(0)
 }
 
-fn total(rows: &[&Row]) -> Row {
+pub(super) fn total(rows: &[&Row]) -> Row {
     let mut sum = RowSum::default();
     rows.iter().for_each(|row| sum.add(1.0, row));
     sum.total()

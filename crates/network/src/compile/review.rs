@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use super::{Parts, expand::Shape};
-use crate::{Network, elements::Law};
+use super::{Parts, bodies::Groups, expand::Shape};
+use crate::{Network, Support, elements::Law};
 
 /// All oddities, one sentence each.
 pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
@@ -14,7 +14,7 @@ pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
         let [a, b] = connection.between.map(|id| parts.bodies.of_joint[id.0]);
         let name = &connection.name;
         if a == b {
-            if !is_rigid(parts, at) {
+            if !is_rigid(parts, at) && is_linked(parts, connection.between.map(|id| id.0)) {
                 warnings.push(format!(
                     "rigid links join both ends of `{name}`: it never deforms and carries no force"
                 ));
@@ -28,6 +28,40 @@ pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
             ));
         }
     }
+    warnings.extend(idle_restitutions(network, parts));
+    warnings
+}
+
+/// Restitutions that do nothing: they act between masses, and a part without mass takes the speed of
+/// what it meets.
+fn idle_restitutions(network: &Network, parts: &Parts<'_>) -> Vec<String> {
+    let mut groups = Groups::new(parts.expansion.joints);
+    for primitive in parts.expansion.primitives.iter().filter(|own| own.is_link) {
+        groups.join(primitive.ends[0], primitive.ends[1]);
+    }
+    let mut has_inertia = vec![false; parts.expansion.joints];
+    for (joint, node) in network.nodes.iter().enumerate() {
+        let group = groups.of(joint);
+        has_inertia[group] |= node.mass > 0.0 || node.support != Support::Free;
+    }
+    let mut warnings = Vec::new();
+    for (connection, shapes) in network.connections.iter().zip(&parts.expansion.shapes) {
+        for primitive in shapes.iter().filter_map(Shape::leaf) {
+            let primitive = &parts.expansion.primitives[primitive];
+            let restitution = primitive.origin.phases().map_or(0.0, |own| own.restitution());
+            let light = primitive.ends.into_iter().find(|&end| !has_inertia[groups.of(end)]);
+            let Some(light) = light.filter(|_| restitution > 0.0) else { continue };
+            let owner = &connection.name;
+            let what = match network.nodes.get(light) {
+                Some(node) => format!("`{}` has no mass", node.name),
+                None => "what it meets has no mass".to_owned(),
+            };
+            warnings.push(format!(
+                "the restitution {restitution} of `{owner}` does nothing: it acts between masses, \
+                 and {what}"
+            ));
+        }
+    }
     warnings
 }
 
@@ -37,6 +71,16 @@ fn direction(parts: &Parts<'_>) -> Option<bool> {
         parts.bodies.all.iter().filter(|body| body.is_impactor).map(|b| b.velocity >= 0.0);
     let first = ways.next()?;
     ways.all(|way| way == first).then_some(first)
+}
+
+/// Whether rigid links make one body of two joints; in a network that switches, parts that hold for
+/// the moment may do so as well.
+fn is_linked(parts: &Parts<'_>, joints: [usize; 2]) -> bool {
+    let mut groups = Groups::new(parts.expansion.joints);
+    for link in parts.expansion.primitives.iter().filter(|own| own.is_link) {
+        groups.join(link.ends[0], link.ends[1]);
+    }
+    !parts.expansion.switches || groups.of(joints[0]) == groups.of(joints[1])
 }
 
 /// Whether a connection consists of rigid links only.

@@ -54,7 +54,12 @@ pub(super) fn dimensionless(
         let (own, given) = scaled(&draft.row, &columns, &input_columns);
         let factor = match draft.kind {
             UnknownKind::Differential => time / draft.scale,
-            UnknownKind::Algebraic => 1.0 / power_of_two(largest(&own).max(f64::MIN_POSITIVE)),
+            UnknownKind::Algebraic => {
+                // A law alone in its balance is as large as the force that it is solved for.
+                let alone = draft.term.is_some() && own.terms().is_empty();
+                let size = if alone { draft.scale } else { largest(&own) };
+                1.0 / power_of_two(size.max(f64::MIN_POSITIVE))
+            }
         };
         if let Some(primitive) = draft.term {
             let argument = |row: &Option<Row>| {

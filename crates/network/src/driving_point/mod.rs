@@ -2,8 +2,8 @@
 //!
 //! A pair of forces `F` pushes two nodes *a* and *b* against each other, as an element between them
 //! would be loaded: `+F` on *a*, `−F` on *b*. They approach each other by `y = x_a − x_b`, and the
-//! receptance is `H(s) = y/F`. All that is fixed or prescribed is held; loads, effects and start
-//! speeds do not matter.
+//! receptance is `H(s) = y/F`. All that is fixed or prescribed is held; loads, weights and start
+//! speeds do not matter. What effects put into the network does, as do the masses of layers.
 //!
 //! Without masses the response is that of a linear model: [`Massless`]. With masses it is a sum over
 //! complex poles: [`Receptance`]. Both are computed in twice the digits of a double, twice, with
@@ -150,7 +150,7 @@ impl Network {
     /// # Ok::<(), dashpot_network::driving_point::DrivingPointError>(())
     /// ```
     pub fn driving_point(&self, a: NodeId, b: NodeId) -> Result<Response, DrivingPointError> {
-        let Some(circuit) = Circuit::of(self, a, b)? else {
+        let Some(circuit) = Circuit::of(&*self.rewritten()?, a, b)? else {
             let model = LinearModel::primitive(Primitive::Rigid);
             return Ok(Response::Massless(Massless { model, hidden: Vec::new(), error: 0.0 }));
         };

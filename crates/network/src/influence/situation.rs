@@ -115,7 +115,8 @@ impl<'n> Situation<'n> {
     /// The largest force \[N\] that loads and given motions make in a connection, as far as scales
     /// tell.
     pub fn drive_without_weight(&self, connection: &Connection) -> f64 {
-        let pressed = if self.motion > 0.0 { self.stiffness(connection) * self.motion } else { 0.0 };
+        let pressed =
+            if self.motion > 0.0 { self.stiffness(connection) * self.motion } else { 0.0 };
         self.load + pressed
     }
 
@@ -150,9 +151,8 @@ fn impact(network: &Network, rewritten: &Network) -> Option<ImpactScales> {
         let node = network.node(id);
         node.mass * start_velocity(network, node.start).powi(2)
     };
-    let strikes = |id: &NodeId| {
-        network.node(*id).support == Support::Free && energy(*id).is_normal()
-    };
+    let strikes =
+        |id: &NodeId| network.node(*id).support == Support::Free && energy(*id).is_normal();
     let impactors = network.nodes().map(|(id, _)| id).filter(strikes);
     let node = impactors.max_by(|one, other| energy(*one).total_cmp(&energy(*other)))?;
     let (mass, speed) =
@@ -164,9 +164,10 @@ fn impact(network: &Network, rewritten: &Network) -> Option<ImpactScales> {
     let thickness = connections().filter_map(|own| own.thickness).reduce(f64::min);
     let is_face = |id: &NodeId| {
         id.0 >= network.nodes.len()
-            && rewritten.connections.iter().any(|own| {
-                own.between.contains(id) && own.between.contains(&node)
-            })
+            && rewritten
+                .connections
+                .iter()
+                .any(|own| own.between.contains(id) && own.between.contains(&node))
     };
     let faces = rewritten.nodes().filter(|(id, _)| is_face(id));
     let face_mass = faces.map(|(_, face)| face.mass).sum();
@@ -200,7 +201,6 @@ fn struck_by(network: &Network, node: NodeId) -> Vec<usize> {
 
 /// Whether a model passes motion on as it is, in the one direction at least.
 fn joins(model: &Model) -> bool {
-    let is_contact =
-        matches!(model, Tree::Part(element) if element.kind() == Contact::KIND);
+    let is_contact = matches!(model, Tree::Part(element) if element.kind() == Contact::KIND);
     is_contact || Stiffness::of(model, 1.0).size().is_infinite()
 }

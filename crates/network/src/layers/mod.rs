@@ -63,6 +63,20 @@ pub enum Resolution {
     Accuracy(f64),
 }
 
+/// A part of a layer that carries one force: what stands between two masses of a pad, or between a
+/// mass and a face.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Piece {
+    /// Name of the layer.
+    pub(crate) layer: String,
+    /// Depth of its beginning below the first face of the pad \[m\].
+    pub(crate) from: f64,
+    /// Thickness \[m\].
+    pub(crate) thickness: f64,
+    /// Area \[m²\].
+    pub(crate) area: f64,
+}
+
 /// A wave in a layer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wave {

@@ -2,7 +2,7 @@
 
 use dashpot_rheology::{Branch, Tree};
 
-use super::{Layers, slice::slice, struck_mass};
+use super::{Layer, Layers, Piece, slice::slice, struck_mass};
 use crate::{Model, Network, NetworkError, Node, NodeId, Subject};
 
 /// Puts the masses of all layers into the network.
@@ -21,7 +21,8 @@ pub(crate) fn resolve(network: &mut Network) -> Result<(), NetworkError> {
             subject: Subject::Element { name: name.clone(), path: Vec::new() },
             invalid,
         })?;
-        let Cut { masses, models } = cut(&layers, &counts);
+        let Cut { masses, models, pieces } = cut(&layers, &counts);
+        network.connections[at].pieces = pieces;
         if masses.is_empty() {
             continue;
         }
@@ -35,33 +36,59 @@ pub(crate) fn resolve(network: &mut Network) -> Result<(), NetworkError> {
     Ok(())
 }
 
-/// Masses in a row, and the models before, between and behind them.
+/// Masses in a row, the models before, between and behind them, and what these are pieces of.
 pub(super) struct Cut {
     pub(super) masses: Vec<f64>,
     pub(super) models: Vec<Model>,
+    pub(super) pieces: Vec<Vec<Piece>>,
+}
+
+/// What stands between the last mass and the next one.
+#[derive(Default)]
+struct Open {
+    models: Vec<Model>,
+    pieces: Vec<Piece>,
+    /// Depth of its end below the face of the pad \[m\].
+    depth: f64,
+}
+
+impl Open {
+    /// Adds the part `1/count` of a layer.
+    fn add(&mut self, layer: &Layer, count: f64) {
+        let whole = count <= 1.0;
+        self.models.push(if whole { layer.model.clone() } else { slice(&layer.model, count) });
+        let thickness = layer.thickness / count;
+        let (name, area, from) = (layer.name.clone(), layer.area, self.depth);
+        self.pieces.push(Piece { layer: name, from, thickness, area });
+        self.depth += thickness;
+    }
+
+    /// What has been added since the last time.
+    fn take(&mut self) -> (Model, Vec<Piece>) {
+        (joined(std::mem::take(&mut self.models)), std::mem::take(&mut self.pieces))
+    }
 }
 
 /// Layers of which each is cut into so many segments; those of none have no mass.
 pub(super) fn cut(layers: &Layers, counts: &[usize]) -> Cut {
-    let (mut masses, mut models) = (Vec::new(), Vec::new());
-    // What stands between the last mass and the next one.
-    let mut open: Vec<Model> = Vec::new();
+    let (mut masses, mut between) = (Vec::new(), Vec::new());
+    let mut open = Open::default();
     for (layer, &count) in layers.all.iter().zip(counts) {
         if count == 0 {
-            open.push(layer.model.clone());
+            open.add(layer, 1.0);
             continue;
         }
         let segments = count as f64;
-        let half = slice(&layer.model, 2.0 * segments);
-        open.push(half.clone());
+        open.add(layer, 2.0 * segments);
         for at in 0..count {
-            models.push(joined(std::mem::take(&mut open)));
+            between.push(open.take());
             masses.push(layer.mass() / segments);
-            open.push(if at + 1 < count { slice(&layer.model, segments) } else { half.clone() });
+            open.add(layer, if at + 1 < count { segments } else { 2.0 * segments });
         }
     }
-    models.push(joined(open));
-    Cut { masses, models }
+    between.push(open.take());
+    let (models, pieces) = between.into_iter().unzip();
+    Cut { masses, models, pieces }
 }
 
 /// One model, or several in series.

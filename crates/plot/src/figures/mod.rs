@@ -113,6 +113,7 @@ pub(crate) mod tests {
             force: time.iter().map(|t| force * pulse(t) - 2e3).collect(),
             deformation: time.iter().map(|t| 17.5e-3 * pulse(&(t / 5.0))).collect(),
             thickness,
+            is_contact: false,
         };
         RunSeries {
             method: method.into(),
@@ -200,6 +201,19 @@ pub(crate) mod tests {
         assert_eq!(lines.len(), 1);
         assert_eq!(lines[0].label, "thickness of padding, mount <&>: 20 mm");
         assert_eq!(lines[0].colour, None);
+    }
+
+    #[test]
+    fn the_gap_of_a_contact_is_drawn_over_time_but_has_no_force_over_it() {
+        let mut run = run("exact");
+        run.elements[1].is_contact = true;
+        let names = |chart: Chart| {
+            chart.series.iter().map(|series| series.name.clone()).collect::<Vec<_>>()
+        };
+        let runs = [run];
+        assert_eq!(names(ForceDeformation.chart(&runs)), ["padding"]);
+        assert_eq!(names(DeformationTime.chart(&runs)), ["padding", "mount <&>"]);
+        assert_eq!(names(ForceTime.chart(&runs)), ["padding", "mount <&>"]);
     }
 
     #[test]

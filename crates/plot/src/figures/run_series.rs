@@ -30,6 +30,9 @@ pub struct ElementSeries {
     pub deformation: Vec<f64>,
     /// Thickness \[m\] of a pad, drawn as a limit of the deformation.
     pub thickness: Option<f64>,
+    /// Whether it is a rigid contact: its force does not belong to its deformation, which is the
+    /// width of a gap.
+    pub is_contact: bool,
 }
 
 /// One part of the energy ledger at the sample times.
@@ -87,7 +90,8 @@ impl RunSeries {
 pub(super) fn element_curves(runs: &[RunSeries], x: Of, y: Of) -> Vec<Quantity> {
     let Some(first) = runs.first() else { return Vec::new() };
     let curve = |run: &RunSeries, name: &str| {
-        let element = run.elements.iter().find(|e| e.name == name);
+        let is_drawn = |e: &&ElementSeries| !(e.is_contact && x == Of::Deformation);
+        let element = run.elements.iter().find(|e| e.name == name).filter(is_drawn);
         element.map_or_else(Vec::new, |e| zip(run.signal(e, x), run.signal(e, y)))
     };
     let of_all = |name: &String| runs.iter().map(|run| curve(run, name)).collect();

@@ -1,4 +1,4 @@
-//! `[accuracy]`: how accurate the measures are to be.
+//! `[accuracy]`: how accurate the measures are to be, and what may be left out.
 
 use dashpot_analysis::Accuracy;
 use dashpot_network::parameters::{Dimension, InvalidParameter};
@@ -15,6 +15,10 @@ pub(crate) fn read_accuracy(reading: &Reading<'_>) -> Accuracy {
     for entry in reading.section("accuracy") {
         if entry.key == "default" {
             accuracy.default = wish(reading, entry).unwrap_or(accuracy.default);
+            continue;
+        }
+        if entry.key == "neglect-below" {
+            accuracy.neglect_below = wish(reading, entry);
             continue;
         }
         if let Content::Table(measures) = &entry.item.value {

@@ -7,6 +7,7 @@ use dashpot_network::{
 
 use super::{Reading, layers::read_layers};
 use crate::{
+    basis::AREA,
     document::{Content, Entry},
     fault::Fault,
     models::ModelReader,
@@ -56,12 +57,19 @@ fn read_element<'d>(
         plausible::check(quantities, own, thickness);
         thickness
     });
+    // The model reader tells what is wrong with it.
+    let area = table.take("area").and_then(|own| {
+        let check = |area| positive("area", area);
+        reading.quantities().read_checked(&own.item, AREA, check)
+    });
     // The model reader looks at the other keys.
     table.finish_missing();
     let Table { owner, place, .. } = table;
     let model = models.element(&entry.item, owner, place, ELEMENT_KEYS);
     let ([from, to], model) = between.zip(model)?;
-    network.connect(&*entry.key, from, to, model).thickness = thickness.unwrap_or_default();
+    let pad = network.connect(&*entry.key, from, to, model);
+    pad.thickness = thickness.unwrap_or_default();
+    pad.area = area;
     Some(())
 }
 

@@ -7,7 +7,7 @@ use crate::{
     Observer, Progress, Run, SolveError, Statistics, System,
     chebyshev::Interpolation,
     events::Watch,
-    pieces::{Pieces, between},
+    pieces::{self, Pieces, between},
 };
 
 /// Steps after which a run is given up.
@@ -20,7 +20,7 @@ pub(in crate::methods) struct Walk<'r> {
     pub(super) run: &'r Run,
     pub(super) observer: &'r mut dyn Observer,
     pub(super) watch: Watch,
-    /// The largest absolute value of each guard's output so far.
+    /// The largest terms of each guard's output so far.
     pub(super) largest: Vec<f64>,
     pub(super) pieces: Pieces,
     pub(super) statistics: Statistics,
@@ -135,10 +135,8 @@ impl Walk<'_> {
         for (guard, largest) in self.run.guards.iter().zip(&mut self.largest) {
             let output = &self.system.outputs[guard.output];
             let mut signal = self.pieces.signal_from(self.system, output, steps - 1);
-            for panel in &signal.panels {
-                *largest =
-                    largest.max(panel.value(panel.start).abs()).max(panel.value(panel.end).abs());
-            }
+            // A small difference of large terms is known no better than they are.
+            *largest = largest.max(signal.noise / (pieces::ROUNDING * f64::EPSILON));
             signal.noise = signal.noise.max(self.run.rtol * *largest);
             signals.push(signal);
         }

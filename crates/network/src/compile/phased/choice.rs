@@ -29,6 +29,8 @@ pub(super) struct Choice {
 const ORDERS: usize = 6;
 /// By how much more than its scale rounding is thought to have grown, one attempt after the other.
 const COARSER: [f64; 3] = [1.0, 64.0, 4096.0];
+/// What turns back before it is so far from its level is not seen to leave it, in parts of the doubt.
+const SEEN: f64 = 0.02;
 /// Most combinations of phases that are tried at one instant.
 const MOST_TRIED: usize = 4096;
 
@@ -79,6 +81,7 @@ impl PhasedNetwork {
                     choice.iter().zip(&options).map(|(&at, options)| options[at]).collect();
                 match self.admit(&tried, &judge) {
                     Ok(Some(choice)) => {
+                        if std::env::var("SHOWC").is_ok() { eprintln!("{time:e} {:?} fired {fired:?} -> {:?} doubt {doubt:e} rebound {rebound} graze {graze} levels {:?} def {:?}", phases, choice.phases, choice.levels, state.deformation); }
                         let switches = self.switches(time, phases, &choice.phases, &impacts);
                         return Ok((choice, switches));
                     }
@@ -212,7 +215,7 @@ impl PhasedNetwork {
                 .map(|&joint| state.velocity[joint])
                 .collect();
             let size = speeds.iter().fold(self.own_speed(state), |most, own| most.max(own.abs()));
-            let near = doubt.max(1e-9) * size;
+            let near = (doubt.max(1e-9) * size).max(doubt * self.speed);
             speeds.windows(2).all(|pair| (pair[0] - pair[1]).abs() <= near)
         })
     }
@@ -318,7 +321,8 @@ impl Judge<'_> {
         if first < 0.0 || self.graze || order > 1 || derivative(2) >= 0.0 {
             return first > 0.0;
         }
-        first * first > 2.0 * noise * -derivative(2)
+        let seen = SEEN * self.doubt * (size + exit.level.abs());
+        first * first > 2.0 * seen * -derivative(2)
     }
 }
 

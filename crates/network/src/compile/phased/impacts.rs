@@ -229,7 +229,11 @@ impl PhasedNetwork {
                     && (fired.contains(&(part, number))
                         || (deformation - exit.level).abs()
                             <= doubt * (size + exit.level.abs())
-                        || (deformation > exit.level) == exit.rising && deformation != exit.level)
+                        || if exit.rising {
+                            deformation > exit.level
+                        } else {
+                            deformation < exit.level
+                        })
             })
         };
         (0..self.parts.len()).map(at_level).collect()

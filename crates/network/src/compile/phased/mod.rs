@@ -25,7 +25,7 @@ use super::{
 };
 use crate::{
     Assembly, Network, NetworkErrors,
-    phases::{Exit, Phase, Phases, Watched},
+    phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
 /// A network whose laws switch, ready to be run.
@@ -39,6 +39,8 @@ pub struct PhasedNetwork {
     first: Vec<Phase>,
     /// The bodies where nothing that switches joins any.
     apart: Bodies,
+    /// The scale of all speeds \[m/s\], by which their errors are judged.
+    speed: f64,
     modes: Mutex<HashMap<Vec<(usize, u64)>, Arc<Mode>>>,
 }
 
@@ -80,9 +82,13 @@ pub(super) fn compile(
         start,
         first,
         apart,
+        speed: 0.0,
         modes: Mutex::default(),
     };
     let Compiled { mut assembly, .. } = phased.compiled(&phased.first)?;
+    let speeds = assembly.nodes.iter().filter_map(|node| node.velocity);
+    let speeds = speeds.map(|at| assembly.system.outputs[at].scale.abs());
+    phased.speed = speeds.fold(0.0, f64::max);
     phased.join_bodies(&mut assembly);
     phased.modes = Mutex::default();
     assembly.switching = Some(Arc::new(phased));
@@ -104,7 +110,7 @@ impl PhasedNetwork {
     pub fn stored(&self, part: usize, phase: Phase, deformation: f64) -> f64 {
         let own = self.parts.get(part).and_then(|&at| self.phases_of(at));
         match own.map(|own| own.law(phase)) {
-            Some(crate::phases::PhaseLaw::Element(element)) => element.stored(deformation),
+            Some(PhaseLaw::Element(element)) => element.stored(deformation),
             _ => 0.0,
         }
     }
@@ -185,16 +191,26 @@ impl PhasedNetwork {
     }
 
     /// Numbers the bodies as if every contact with a massless side were closed, so that what is
-    /// struck through one belongs to the body that strikes, whichever phase the run begins in.
+    /// struck through one belongs to the body that strikes, whichever phase the run begins in. A massless
+    /// side of several belongs to one body only.
     fn join_bodies(&self, assembly: &mut Assembly) {
         let mut groups = super::bodies::Groups::new(self.apart.all.len());
-        for &part in &self.parts {
-            let primitive = &self.expansion.primitives[part];
+        let is_held = |part: &usize| {
+            let law = self.phases_of(self.parts[*part]).map(|own| own.law(self.first[*part]));
+            matches!(law, Some(PhaseLaw::Held(_)))
+        };
+        // What lies on something from the start belongs to that, whatever else it meets later.
+        let (held, open): (Vec<usize>, Vec<usize>) = (0..self.parts.len()).partition(is_held);
+        let mut has_joined = vec![false; self.apart.all.len()];
+        for part in held.into_iter().chain(open) {
+            let primitive = &self.expansion.primitives[self.parts[part]];
             let ends = primitive.ends.map(|joint| self.apart.of_joint[joint]);
             let is_direct = primitive.ends.iter().all(|&joint| joint < self.network.nodes.len());
-            let is_face = ends.iter().any(|&end| self.apart.all[end].is_massless());
-            if is_direct && is_face && self.phases_of(part).is_some_and(|own| is_contact(own)) {
+            let face = ends.into_iter().find(|&end| self.apart.all[end].is_massless());
+            let Some(face) = face.filter(|&face| is_direct && !has_joined[face]) else { continue };
+            if self.phases_of(self.parts[part]).is_some_and(is_contact) {
                 groups.join(ends[0], ends[1]);
+                has_joined[face] = true;
             }
         }
         for (at, node) in assembly.nodes.iter_mut().enumerate() {
@@ -237,7 +253,7 @@ const MOST_KEPT: usize = 4096;
 pub(super) fn is_contact(own: &dyn Phases) -> bool {
     (0..own.names().len()).any(|index| {
         let phase = Phase { index, memory: 0.0 };
-        matches!(own.law(phase), crate::phases::PhaseLaw::Held(_))
+        matches!(own.law(phase), PhaseLaw::Held(_))
             && own.exits(phase).iter().all(|exit| !exit.rising)
     })
 }

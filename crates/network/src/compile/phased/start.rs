@@ -12,37 +12,40 @@ use super::{
 };
 use crate::{
     Network, NetworkErrors, Start, Support,
-    phases::{Phase, PhaseLaw},
+    phases::{Phase, PhaseLaw, Phases},
 };
 
-/// The phase of each part in which it does not hold: the network in its loosest state.
+/// The bodies of the network in its loosest state, in which no part that switches holds anything.
 ///
 /// # Errors
 ///
-/// What is undetermined then, for instance a massless pad that can part on both sides.
+/// What is undetermined where nothing touches, for instance a massless pad that can part on both
+/// sides. Sliders count as stuck there: one that no force can move does not slide.
 pub(super) fn bodies_apart(
     network: &Network,
     expansion: &Expansion,
     parts: &[usize],
     duration: f64,
 ) -> Result<Bodies, NetworkErrors> {
-    let loose: Vec<Phase> = parts
-        .iter()
-        .map(|&at| {
+    let phases = |is_loose: fn(&dyn Phases) -> bool| -> Vec<Phase> {
+        let phase = |&at: &usize| {
             let own = expansion.primitives[at].origin.phases();
-            let holds = |index: usize| {
-                let phase = Phase { index, memory: 0.0 };
-                own.is_some_and(|own| matches!(own.law(phase), PhaseLaw::Held(_)))
-            };
-            let count = own.map_or(0, |own| own.names().len());
-            let index = (0..count).find(|&index| !holds(index)).unwrap_or(0);
-            Phase { index, memory: 0.0 }
-        })
-        .collect();
-    let expansion = expansion.in_phases(parts, &loose);
-    let bodies = Bodies::of(network, &expansion).map_err(NetworkErrors)?;
-    Structure::of(network, &expansion, &bodies, duration).map_err(NetworkErrors)?;
-    Ok(bodies)
+            let index = own.and_then(|own| {
+                let holds = |&index: &usize| {
+                    matches!(own.law(Phase { index, memory: 0.0 }), PhaseLaw::Held(_))
+                };
+                let mut all = 0..own.names().len();
+                if is_loose(own) { all.find(|index| !holds(index)) } else { all.find(holds) }
+            });
+            Phase { index: index.unwrap_or(0), memory: 0.0 }
+        };
+        parts.iter().map(phase).collect()
+    };
+    let untouched = expansion.in_phases(parts, &phases(is_contact));
+    let bodies = Bodies::of(network, &untouched).map_err(NetworkErrors)?;
+    Structure::of(network, &untouched, &bodies, duration).map_err(NetworkErrors)?;
+    let loosest = expansion.in_phases(parts, &phases(|_| true));
+    Bodies::of(network, &loosest).map_err(NetworkErrors)
 }
 
 /// The state at the start and the phases that go with it, as far as places tell.

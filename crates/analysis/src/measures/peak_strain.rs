@@ -1,0 +1,69 @@
+//! Peak strain.
+
+use dashpot_network::{
+    SegmentOutputs,
+    parameters::{InvalidParameter, Value, WindowWish},
+};
+
+use super::{Family, MeasureKind, Reading, of_segments::largest, window};
+use crate::Solution;
+
+/// Note on the strain of an element whose thickness is not known.
+const NO_THICKNESS: &str = "its thickness is not known: give it a `thickness` or `layers`";
+
+/// The largest magnitude of the strain in any segment of a pad, `max |y(t)|/h` \[1\], with its time and
+/// its layer; a peak in elongation is noted.
+///
+/// `y` is the deformation of the segment and `h` its thickness at rest. Pads of layers have segments;
+/// another element with a `thickness` is a single one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PeakStrain {
+    /// The part of the run that it looks at.
+    pub window: WindowWish,
+}
+
+impl Default for PeakStrain {
+    fn default() -> Self {
+        Self { window: WindowWish::Impact }
+    }
+}
+
+impl MeasureKind for PeakStrain {
+    const KIND: &'static str = "peak-strain";
+    const SUMMARY: &'static str =
+        "largest strain in any segment of a pad, deformation over thickness [1]";
+    const UNIT: &'static str = "1";
+    const APPLIES_TO: Family = Family::Element;
+    const OF_LAYERS: bool = true;
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        window(values, 0).map(|window| Self { window })
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Window(self.window)]
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        let connection = &solution.assembly().connections[target];
+        if connection.segments.is_empty() {
+            return Reading::undefined(NO_THICKNESS);
+        }
+        let span = match solution.element_impact(target).span(self.window, solution.end()) {
+            Ok(span) => span,
+            Err(note) => return Reading::undefined(note),
+        };
+        let segments = connection.segments.iter();
+        let deformations = segments.map(|own| (own, own.deformation, own.thickness));
+        let Some(reading) = largest(solution, &span, deformations, "in elongation") else {
+            return Reading::undefined(NO_THICKNESS);
+        };
+        let signal = |own: &SegmentOutputs| solution.signal(own.deformation);
+        let is_crushed =
+            |own: &SegmentOutputs| signal(own).maximum(span.window()).value > own.thickness;
+        if connection.segments.iter().any(is_crushed) {
+            return reading.noting("pressed in by more than its thickness");
+        }
+        reading
+    }
+}

@@ -1,0 +1,66 @@
+//! Peak stress.
+
+use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+
+use super::{
+    Family, MeasureKind, Reading, UNDETERMINED_FORCE, of_segments::largest, reading::infinite,
+    window,
+};
+use crate::Solution;
+
+/// Note on the stress in an element whose area is not known.
+const NO_AREA: &str = "its area is not known: make it a `material` with `thickness` and `area`, or \
+                       of `layers`";
+
+/// The largest magnitude of the stress in any segment of a pad, `max |F(t)|/A` \[Pa\], with its time
+/// and its layer; a peak in tension is noted.
+///
+/// `F` is the force in the segment and `A` the area of its layer: the stress is that on the undeformed
+/// area. Pads of layers have segments; a pad of one material is a single one. Without an area there
+/// is no stress, and where masses meet in the element and speeds jump, it is infinite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PeakStress {
+    /// The part of the run that it looks at.
+    pub window: WindowWish,
+}
+
+impl Default for PeakStress {
+    fn default() -> Self {
+        Self { window: WindowWish::Impact }
+    }
+}
+
+impl MeasureKind for PeakStress {
+    const KIND: &'static str = "peak-stress";
+    const SUMMARY: &'static str = "largest stress in any segment of a pad, force over area [Pa]";
+    const UNIT: &'static str = "Pa";
+    const APPLIES_TO: Family = Family::Element;
+    const OF_LAYERS: bool = true;
+
+    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
+        window(values, 0).map(|window| Self { window })
+    }
+
+    fn values(&self) -> Vec<Value> {
+        vec![Value::Window(self.window)]
+    }
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+        let connection = &solution.assembly().connections[target];
+        let segments = connection.segments.iter();
+        let with_area = segments.filter_map(|own| Some((own, own.area?)));
+        if with_area.clone().next().is_none() {
+            return Reading::undefined(NO_AREA);
+        }
+        let span = match solution.element_impact(target).span(self.window, solution.end()) {
+            Ok(span) => span,
+            Err(note) => return Reading::undefined(note),
+        };
+        if let Some(reading) = infinite(&span, solution.element_blows(target)) {
+            return reading;
+        }
+        let forces = with_area.filter_map(|(own, area)| Some((own, own.force?, area)));
+        largest(solution, &span, forces, "in tension")
+            .unwrap_or_else(|| Reading::undefined(UNDETERMINED_FORCE))
+    }
+}

@@ -1,0 +1,65 @@
+//! What was left out of a run, in words.
+
+use dashpot_analysis::{
+    Partial, RunReport,
+    partial::{Cost, Verification, Why},
+};
+
+use crate::numbers::{apart, duration, significant};
+
+/// Digits of an estimate.
+const DIGITS: usize = 2;
+
+/// What was left out, what that cost, and what the proof of it took.
+pub(super) fn left_out(run: &RunReport) -> Option<String> {
+    let partial = run.partial.as_ref()?;
+    let checked = verification(partial.verification);
+    let names = partial.left_out.iter().map(|own| {
+        format!("{} ({})", own.effect, estimate(&own.influence.formula, own.influence.value))
+    });
+    let names: Vec<String> = names.collect();
+    if names.is_empty() {
+        return Some(format!("nothing{checked}"));
+    }
+    let cost = partial.worst().map_or(String::new(), |worst| format!(": {}", moved(worst)));
+    Some(format!("{}{cost}, the most of all{checked}", names.join(", ")))
+}
+
+/// What stayed although its estimate was small.
+pub(super) fn put_back(run: &RunReport) -> Option<String> {
+    let partial = run.partial.as_ref()?;
+    let texts = partial.put_back.iter().map(|own| {
+        let estimate = estimate(&own.influence.formula, own.influence.value);
+        format!("{} ({estimate}): {}", own.effect, why(partial, &own.why))
+    });
+    let texts: Vec<String> = texts.collect();
+    (!texts.is_empty()).then(|| texts.join("; "))
+}
+
+fn why(partial: &Partial, why: &Why) -> String {
+    match why {
+        Why::Moves(cost) => {
+            format!("without it {}, more than {}", moved(cost), apart(partial.bound))
+        }
+        Why::Fails(error) => format!("without it {error}"),
+    }
+}
+
+/// An estimate with its formula: the number behind the symbol that it defines, if any.
+pub(crate) fn estimate(formula: &str, value: f64) -> String {
+    let number = if value > 0.0 { significant(value, DIGITS) } else { "0".to_owned() };
+    format!("{formula}: {number}")
+}
+
+fn moved(cost: &Cost) -> String {
+    let size = if cost.most().is_finite() { apart(cost.most()) } else { "all of it".to_owned() };
+    format!("`{}` moves by {size}", cost.measure)
+}
+
+fn verification(own: Verification) -> String {
+    match own.solves {
+        0 => "; by estimate nothing else is below the bound".to_owned(),
+        1 => format!("; checked by 1 further run in {}", duration(own.wall)),
+        solves => format!("; checked by {solves} further runs in {}", duration(own.wall)),
+    }
+}

@@ -1,0 +1,171 @@
+//! Dry friction with true stick: sliders alone, on springs, driven, in series, and on a belt.
+
+use std::f64::consts::TAU;
+
+use super::{
+    reference::Case,
+    trial::{ALL, Side, Trial, judge},
+};
+
+const STUCK: [&str; 2] = ["slider", "stuck"];
+const FORWARD: [&str; 2] = ["slider", "sliding forward"];
+
+/// A body on a spring and a slider, with what else there is.
+fn scene(body: &str, slider: &str, others: &str) -> String {
+    format!(
+        "[nodes]\nbody = {{ mass = <m>{body} }}\n{slider}\n\
+         spring = {{ between = [\"body\", \"ground\"], spring = <k> }}\n{others}\n"
+    )
+}
+
+const GROUND: &str =
+    "[elements]\nslider = { between = [\"body\", \"ground\"], friction = <Fc> }";
+
+/// The belt runs at vb for 1 s.
+const BELT: &str = "belt = { motion = { table = [[0, 0], [1, <vb>]] } }\n\
+     [elements]\nslider = { between = [\"belt\", \"body\"], friction = <Fc> }";
+
+#[test]
+fn a_body_that_sticks_on_a_belt_slips_and_grazes_its_speed_once_a_period() {
+    let case = Case::of("belt-stuck");
+    let text = scene(", velocity = <vb>", BELT, "[run]\nduration = 0.75");
+    judge(case, ALL, &text, |trial| {
+        let slip = trial.switch(FORWARD, 1, "slip.time");
+        trial.value("body.position", slip, Side::Before, "slip.position");
+        for fraction in [0.2, 0.4, 0.7, 1.3] {
+            let time = case.get("slip.time") + fraction * case.get("period");
+            for of in ["position", "velocity"] {
+                let quantity = format!("after-{fraction}-periods.{of}");
+                trial.value(&format!("body.{of}"), time, Side::Before, &quantity);
+            }
+        }
+        let rate = trial.signal("slider.friction.rate");
+        for graze in ["graze-1.time", "graze-2.time"] {
+            // The rate touches zero there.
+            let least = rate.minimum((case.get(graze) - 0.01, case.get(graze) + 0.01));
+            trial.number("rate at the graze", least.value, 0.0, 2.0 * case.param("vb"));
+        }
+    });
+}
+
+#[test]
+fn a_body_at_rest_is_taken_along_by_a_belt() {
+    let case = Case::of("belt-from-rest");
+    judge(case, ALL, &scene("", BELT, "[run]\nduration = 0.3"), |trial| {
+        let stick = trial.switch(STUCK, 1, "stick.time");
+        trial.value("body.position", stick, Side::Before, "stick.position");
+        trial.value("slider.force", stick, Side::After, "stick.friction-force-after");
+        let slip = trial.switch(FORWARD, 1, "slip.time");
+        trial.value("body.position", slip, Side::Before, "slip.position");
+    });
+}
+
+#[test]
+fn friction_stops_a_body_and_holds_it() {
+    let case = Case::of("slider-free");
+    let text = format!("[nodes]\nbody = {{ mass = <m>, velocity = <V> }}\n{GROUND}\n[run]\nduration = 1");
+    judge(case, ALL, &text, |trial| {
+        let time = trial.switch(STUCK, 1, "stop.time");
+        let end = trial.end();
+        trial.value("body.position", time, Side::Before, "stop.position");
+        trial.value("body.position", end, Side::Before, "stop.position");
+        // It sticks truly: it does not creep.
+        let velocity = trial.signal("body.velocity");
+        let creep = velocity.absolute_maximum((0.5 * (time + end), end));
+        trial.number("creep", creep.value, 0.0, 0.0);
+        trial.loss("slider", end, "dissipated");
+    });
+}
+
+#[test]
+fn a_body_on_a_spring_turns_at_ever_smaller_ways_and_sticks() {
+    let displaced = "[nodes]\nbody = { mass = <m> }\nanchor = { motion = { constant = -<x0> } }\n\
+         [elements]\nslider = { between = [\"body\", \"ground\"], friction = <Fc> }\n\
+         spring = { between = [\"body\", \"anchor\"], spring = <k> }\n[run]\nduration = 1.5\n";
+    let struck = scene(", velocity = <V>", GROUND, "[run]\nduration = 1.5");
+    for (variant, text) in [("displaced", displaced), ("struck", &struck)] {
+        let case = Case::of(&format!("slider-spring-{variant}"));
+        judge(case, ALL, text, |trial| {
+            let turns = case.count("turns");
+            let own = trial.switches("slider", None);
+            let expected = turns - usize::from(variant == "displaced");
+            assert_eq!(own.len(), turns, "{expected}: {own:#?}");
+            let from = case.param("x0");
+            for (turn, own) in own.iter().enumerate() {
+                let label = format!("turn-{}", turn + 1);
+                let time = trial.instant(own, &format!("{label}.time"));
+                let place = case.get(&format!("{label}.position")) - from;
+                trial.value_is("body.position", time, Side::Before, place);
+            }
+            let end = trial.end();
+            let rest = case.get("rest.position");
+            trial.value_is("body.position", end, Side::Before, rest - from);
+            // The force of the slider on the body is the negative of that in it.
+            let force = -case.get("rest.friction-force");
+            trial.value_is("slider.force", end, Side::Before, -force.abs() * rest.signum());
+            trial.loss("slider", end, "dissipated");
+        });
+    }
+}
+
+#[test]
+fn a_driven_slider_sticks_and_slips() {
+    let case = Case::of("slider-driven");
+    let frequency = case.param("Omega") / TAU;
+    let load = format!(
+        "[loads]\npush = {{ on = \"body\", force = {{ sine = {{ amplitude = <P>, frequency = {frequency:?} }} }} }}\n\
+         [run]\nduration = <horizon>"
+    );
+    judge(case, ALL, &scene("", GROUND, &load), |trial| {
+        let events = case.count("events");
+        let own = trial.switches("slider", None);
+        assert_eq!(own.len(), events, "{own:#?}");
+        for (nth, own) in own.iter().enumerate() {
+            let label = format!("event-{}", nth + 1);
+            let time = trial.instant(own, &format!("{label}.time"));
+            trial.value("body.position", time, Side::Before, &format!("{label}.position"));
+            let expected = match case.get(&format!("{label}.code")) as i64 {
+                0 => "stuck",
+                1 => "sliding forward",
+                _ => "sliding backward",
+            };
+            assert_eq!(own.what, expected);
+        }
+        let end = trial.end();
+        trial.value("body.position", end, Side::Before, "horizon.position");
+        trial.value("body.velocity", end, Side::Before, "horizon.velocity");
+        trial.loss("slider", end, "horizon.dissipated");
+        let work: f64 = trial.report.energy.work_in.iter().map(|entry| entry.1).sum();
+        trial.number("work", work, case.get("horizon.work"), case.get("horizon.work"));
+    });
+}
+
+fn yields(trial: &Trial<'_>) {
+    let part = "pad.friction";
+    let time = trial.switch([part, "sliding forward"], 1, "yield.time");
+    trial.value("head.velocity", time, Side::Before, "yield.velocity");
+    trial.value("pad.deformation", time, Side::Before, "yield.deformation");
+    trial.switch([part, "stuck"], 1, "stick.time");
+    let release = trial.switch(["pad.contact", "open"], 1, "release.time");
+    trial.value("head.velocity", release, Side::Before, "release.velocity");
+    let end = trial.end();
+    trial.value("pad.deformation", end, Side::Before, "permanent-set");
+    trial.peak("pad.deformation", (0.0, end), "peak-deformation");
+    trial.peak("pad.force", (0.0, end), "peak-force");
+    trial.loss("pad", end, "dissipated");
+}
+
+#[test]
+fn a_spring_and_a_slider_in_series_are_elastic_and_perfectly_plastic() {
+    let text = "
+        [nodes]
+        head = { mass = <m>, velocity = <V> }
+        [elements]
+        pad = { between = [\"head\", \"ground\"], series = [{ spring = <K> }, { friction = <Fc> }] }
+        [effects]
+        separation.pad = { at = \"head\" }
+        [run]
+        duration = 0.03
+        ";
+    judge(Case::of("slider-in-series"), ALL, text, yields);
+}
