@@ -124,7 +124,7 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
         let Some(velocity) = node.velocity else { continue };
         let velocity = solution.signal(velocity);
         let energy = |v: f64| 0.5 * node.mass * v * v;
-        let last = velocity.left_value(time);
+        let last = velocity.value(time);
         start += energy(velocity.value(0.0));
         kinetic += energy(last);
         balance.add_error(velocity.error.map(|error| node.mass * error * (last.abs() + error)));

@@ -100,8 +100,15 @@ fn markers(report: &RunReport) -> Vec<RunMarker> {
     };
     let mut markers = peak(PeakForce::KIND, RunMarkerKind::PeakForce, "peak");
     let mut deepest = peak(PeakDeformation::KIND, RunMarkerKind::DeepestPoint, "deepest");
-    // Nothing gets deeper into a rigid contact than its gap.
-    deepest.retain(|marker| !is_contact(report, &marker.element));
+    // Nothing gets deeper into a rigid contact than its gap, and a stop is as deep as its element.
+    let all = deepest.clone();
+    deepest.retain(|marker| {
+        let is_repeated = all.iter().any(|own| {
+            let rest = marker.element.strip_prefix(own.element.as_str());
+            rest.is_some_and(|rest| rest.starts_with('.')) && own.label == marker.label
+        });
+        !is_repeated && !is_contact(report, &marker.element)
+    });
     markers.append(&mut deepest);
     // Two measures of one kind may have found the same point.
     let mut known: Vec<RunMarker> = Vec::new();

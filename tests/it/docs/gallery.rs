@@ -67,7 +67,8 @@ fn costs() -> String {
                 0 => format!("`{name}` | {effects} | {size} | {modes} | {switchings}"),
                 _ => " | | | |".to_owned(),
             };
-            table += &format!("| {first} | `{method}` | {steps} | {solves} |\n");
+            let row = [first, format!("`{method}`"), steps, solves].join(" | ");
+            table.extend(["| ", &row, " |\n"]);
         }
     }
     table

@@ -36,7 +36,7 @@ fn signal(run: &RunReport, output: &str, time: f64) -> (f64, f64) {
 fn table(names: &[&str], rows: &[(&str, Vec<String>)]) -> String {
     let mut all = format!("| | {} |\n|---{}|\n", names.join(" | "), "|---".repeat(names.len()));
     for (what, cells) in rows {
-        all += &format!("| {what} | {} |\n", cells.join(" | "));
+        all.extend(["| ", what, " | ", &cells.join(" | "), " |\n"]);
     }
     all
 }

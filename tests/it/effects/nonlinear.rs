@@ -2,8 +2,11 @@
 
 use super::{
     reference::Case,
-    trial::{STEPPING, Side, Trial, judge},
+    trial::{Side, Trial, judge},
 };
+
+/// A method of second order is of no use for the six digits that are wanted here.
+const STEPPING: &[&str] = &["bdf", "esdirk34"];
 
 /// The deformation at which power laws are given.
 const AT: f64 = 0.01;
@@ -27,7 +30,14 @@ fn power(k: f64, n: f64) -> String {
 /// What the case has of an impact that ends in a release.
 fn impact(trial: &Trial<'_>) {
     let case = trial.case;
-    let release = trial.switch(["pad.contact", "open"], 1, "release.time");
+    let opened = trial.switches("pad.contact", Some("open"));
+    // A force y^p comes to zero without slope: an error of it is one of y, which has the speed V. The
+    // law has no smooth second slope there, which costs methods an order, and twice the error.
+    let late = case.find("param.p").map_or(0.0, |p| {
+        let error = 2.0 * trial.part_of(case.get("peak-force")) / case.param("k");
+        error.powf(p.recip()) / case.param("V")
+    });
+    let release = trial.late_instant(opened[0], "release.time", late);
     ends(trial, release);
     if case.find("release.deformation").is_some() {
         trial.value("pad.deformation", release, Side::Before, "release.deformation");
@@ -97,9 +107,11 @@ fn power_springs_of_each_exponent() {
 fn hunt_crossley_impacts_from_nearly_elastic_to_nearly_plastic() {
     for d in ["0.2", "1", "5", "50"] {
         let case = Case::of(&format!("hunt-crossley-d-{d}"));
+        // The law has a part of the force at the reference depth that does not vanish at touch.
+        let at = case.get("peak-deformation");
         let pad = format!(
-            "hunt-crossley = {{ force = {:?}, at = {AT:?}, dissipation = <c>, exponent = <n> }}",
-            case.param("k") * AT.powf(case.param("n"))
+            "hunt-crossley = {{ force = {:?}, at = {at:?}, dissipation = <c>, exponent = <n> }}",
+            case.param("k") * at.powf(case.param("n"))
         );
         judge(case, STEPPING, &scene(&pad, false, 1.2 * case.get("release.time")), |trial| {
             let release = trial.switch(["pad", "free"], 1, "release.time");
@@ -164,7 +176,8 @@ fn nonlinear_springs_in_series_share_the_deformation() {
         let shares = ["peak-deformation.of-cubic", "peak-deformation.of-stiffening"];
         let pad = trial.report.assembly.connection("pad").expect("the pad").primitives.clone();
         for (primitive, quantity) in trial.report.assembly.primitives[pad].iter().zip(shares) {
-            let found = trial.solution.signal(primitive.deformation).bound();
+            let found = trial.solution.signal(primitive.deformation);
+            let found = found.absolute_maximum((0.0, trial.end())).value;
             let expected = case.get(quantity);
             trial.number(quantity, found, expected, case.get("peak-deformation"));
         }
@@ -181,6 +194,10 @@ fn a_modulus_that_grows_with_the_rate_takes_energy() {
     judge(case, STEPPING, &scene(&pad, true, 1.2 * case.get("release.time")), |trial| {
         impact(trial);
         let top = case.get("peak-deformation.time");
-        trial.value("pad.force", top, Side::After, "force-at-peak-deformation");
+        // The slope of the force over the rate is a k y/v_ref there.
+        let force = case.get("force-at-peak-deformation");
+        let slope = case.param("a") / case.param("v_ref") * force;
+        let found = trial.signal("pad.force").value(top);
+        trial.number("force at the top", found, force, force + slope * case.param("V"));
     });
 }

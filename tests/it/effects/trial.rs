@@ -165,7 +165,7 @@ impl Trial<'_> {
         let way = if watched == part.deformation { self.longest_way() } else { 0.0 };
         let error = self.error(signal.error, signal.bound().max(way));
         let late = if self.is_exact() { 0.0 } else { self.error(None, own.time) };
-        late + (error / left_slope(signal, own.time).abs()).min(self.end())
+        late + within(signal, own.time, error)
     }
 
     fn longest_way(&self) -> f64 {
@@ -193,9 +193,36 @@ impl Trial<'_> {
 
     /// The time of a switching, held against the case.
     pub(super) fn instant(&self, own: &Switch, quantity: &str) -> f64 {
+        self.late_instant(own, quantity, 0.0)
+    }
+
+    /// The same of one that may be `late` \[s\] for a reason of its own.
+    pub(super) fn late_instant(&self, own: &Switch, quantity: &str, late: f64) -> f64 {
         let name = format!("time of {} {} ({quantity})", own.name, own.what);
-        self.within(&name, own.time, self.case.get(quantity), self.shift(own.time));
+        self.within(&name, own.time, self.case.get(quantity), late + self.shift(own.time));
         own.time
+    }
+
+    /// The time at which a series of ever shorter flights ends, of which a run leaves out those that
+    /// cannot be told from rest: at most as long as the last two together.
+    pub(super) fn rests(&self, own: &Switch, quantity: &str) {
+        let impacts = self.impacts(&own.name);
+        let times: Vec<f64> =
+            impacts.iter().map(|own| own.time).filter(|time| *time < own.time).collect();
+        let [.., before, last] = times[..] else { panic!("{times:?}") };
+        let (first, second) = (last - before, own.time - last);
+        // The flights are a geometric series.
+        let left = second * second / (first - second);
+        let slack = 0.02 * left;
+        self.late_instant(&Switch { time: own.time + left, ..own.clone() }, quantity, slack);
+        if self.is_exact() {
+            assert!(left < 1e-6 * own.time, "{left:e} s are left out");
+        }
+    }
+
+    /// The error of a method of a quantity as large as `scale`.
+    pub(super) fn part_of(&self, scale: f64) -> f64 {
+        self.error(Some(f64::INFINITY), scale)
     }
 
     /// The impacts of a part.
@@ -296,7 +323,8 @@ impl Trial<'_> {
         let energy = &self.report.energy;
         let allowed = match self.report.solver.rtol {
             None => EXACT,
-            Some(rtol) => self.errors_per_tolerance() * rtol,
+            // Many short steps add up their roundings.
+            Some(rtol) => self.errors_per_tolerance() * rtol.max(1e-11),
         };
         let closure = energy.closure().abs();
         if closure.is_nan() || closure > allowed {
@@ -342,6 +370,16 @@ impl Trial<'_> {
 /// Whether a path is that of a part or of something in it.
 fn belongs_to(path: &str, part: &str) -> bool {
     path.strip_prefix(part).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+/// How long before `time` a signal is as close to its value there as its error.
+fn within(signal: &Signal, time: f64, error: f64) -> f64 {
+    let end = signal.left_value(time);
+    let mut span = 4.0 * f64::EPSILON * time;
+    while span < time && (signal.left_value(time - span) - end).abs() < error {
+        span *= 1.25;
+    }
+    span.min(time)
 }
 
 /// The slope on the way to an instant, at which there may be a kink.

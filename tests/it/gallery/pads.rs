@@ -182,7 +182,7 @@ fn a_hip_protector_stiffens_with_depth_and_rate_as_by_hand() {
     let (force, at, gain, rate) = (800.0, 8e-3, 0.25, 5e-3);
     let pad = |y: f64, v: f64| {
         let loaded = if v > 0.0 { 1.0 + gain * (v / rate).ln_1p() } else { 1.0 };
-        spring(y) + force * (y.max(0.0) / at).powf(1.5) * loaded
+        spring(y) + force * (y.max(0.0) / at).powf(1.5) * loaded + 60.0 * v
     };
     let judge = by_hand::refined(4e-6, |h| {
         let push = |own: &[f64; 4]| pad(own[0] - own[2], own[1] - own[3]);
@@ -193,10 +193,9 @@ fn a_hip_protector_stiffens_with_depth_and_rate_as_by_hand() {
         let (mut t, mut state, mut is_over) = (0.0, [0.0, speed, 0.0, 0.0], false);
         let [mut peak, mut depth, mut below] = [Peak::NONE; 3];
         while !is_over {
-            let way = |own: &[f64; 4]| own[0] - own[2];
-            (t, state, is_over) = by_hand::guarded(t, h, state, &rates, way);
+            (t, state, is_over) = by_hand::guarded(t, h, state, &rates, push);
             peak.see(t, push(&state));
-            depth.see(t, way(&state));
+            depth.see(t, state[0] - state[2]);
             below.see(t, tissue(&state));
         }
         [peak.value, depth.value, t, below.value]

@@ -173,7 +173,7 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     let last = (force.left_value(span.to) * rate.left_value(span.to)).abs();
     let (value, error) = if span.length() <= 0.0 {
         (0.0, Some(0.0))
-    } else if rate.error.is_none() {
+    } else if connection.has_layers || rate.error.is_none() {
         work_of_parts(solution, connection, window)
     } else {
         let steps = ledger::steps(solution, connection.primitives.clone(), window);
@@ -200,7 +200,8 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
 }
 
 /// The work \[J\] that an element takes up as the sum over its parts, and a bound of its error: in
-/// networks that switch, where elements have no rate of their own.
+/// networks that switch, where elements have no rate of their own, and of layers with masses between
+/// them, which do not all feel one force.
 fn work_of_parts(
     solution: &Solution<'_>,
     connection: &ConnectionOutputs,

@@ -202,7 +202,7 @@ fn every_kind_rebuilds_from_its_values_and_reads() {
     }
     let mut check = Check(0);
     visit_measures(&mut check);
-    assert_eq!(check.0, 18);
+    assert_eq!(check.0, 21);
 }
 
 #[test]

@@ -20,9 +20,7 @@ pub(super) struct Candidate {
 pub(super) fn candidates(network: &Network, duration: f64, bound: f64) -> Vec<Candidate> {
     let situation = Situation::of(network, duration);
     let small = |detail: Detail| {
-        let influences = detail.influences(&situation);
-        let largest =
-            influences.into_iter().max_by(|one, other| one.value.total_cmp(&other.value))?;
+        let largest = Influence::largest(detail.influences(&situation))?;
         (largest.value < bound).then(|| Candidate {
             detail,
             name: detail.name(network),
@@ -35,9 +33,9 @@ pub(super) fn candidates(network: &Network, duration: f64, bound: f64) -> Vec<Ca
     found
 }
 
-/// What keeps a run from being asked of the network without a detail.
-fn obstacle(network: &Network, detail: Detail, settings: &SolveSettings) -> Option<RunError> {
-    let assembly = match network.without(&[detail]).compile(settings.duration) {
+/// What keeps a run from being asked of the network without these details.
+fn obstacle(network: &Network, details: &[Detail], settings: &SolveSettings) -> Option<RunError> {
+    let assembly = match network.without(details).compile(settings.duration) {
         Ok(assembly) => assembly,
         Err(errors) => return Some(errors.into()),
     };
@@ -52,7 +50,11 @@ impl Candidate {
         settings: &SolveSettings,
     ) -> Vec<PutBack> {
         let mut needed = Vec::new();
-        found.retain(|own| match obstacle(network, own.detail, settings) {
+        let all: Vec<Detail> = found.iter().map(|own| own.detail).collect();
+        if obstacle(network, &all, settings).is_none() {
+            return needed;
+        }
+        found.retain(|own| match obstacle(network, &[own.detail], settings) {
             Some(error) => {
                 needed.push(own.put_back(Why::Fails(error)));
                 false

@@ -41,6 +41,17 @@ pub(super) struct Curve<'a> {
     pub(super) observed: &'a Observed,
 }
 
+/// Where something changes its sign.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Root {
+    /// Angular frequency \[rad/s\].
+    pub(super) omega: f64,
+    /// The response there; `None` where it has a pole or vanishes.
+    probe: Option<Probe>,
+    /// Width of the last bracket \[rad/s\].
+    width: f64,
+}
+
 /// A valley, a peak, or an end of the range.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Extremum {
@@ -123,24 +134,22 @@ impl Curve<'_> {
 
     /// The peak or valley between two samples with slopes of different signs.
     fn turn(&self, left: Probe, right: Probe, is_peak: bool) -> Extremum {
-        let (probe, bracket) = self.root(left, right, |probe| probe.rise);
-        // Where the slope is off by the error of the response over the width of the turn, the turn
-        // is off by that error times its width.
-        let bend = (right.rise - left.rise).abs() / (right.omega - left.omega).max(bracket);
-        let breadth =
-            if bend > 0.0 { (probe.omega / bend).sqrt().min(probe.omega) } else { probe.omega };
-        let doubt = if probe.doubt < 1.0 { probe.doubt } else { 0.0 };
-        Extremum { probe, width: bracket + 4.0 * doubt * breadth, is_peak }
+        let root = self.root(left, right, |probe| probe.rise);
+        let Some(probe) = root.probe else {
+            let level = if is_peak { f64::INFINITY } else { f64::NEG_INFINITY };
+            let probe = Probe { omega: root.omega, level, rise: 0.0, doubt: f64::INFINITY };
+            return Extremum { probe, width: 0.0, is_peak };
+        };
+        // Where the response is off by its error, a turn is off by about that part of its breadth.
+        let bend = (right.rise - left.rise).abs() / (right.omega - left.omega);
+        let breadth = (root.omega / bend).sqrt().min(root.omega);
+        let doubt = if probe.doubt < UNKNOWN { probe.doubt } else { 0.0 };
+        Extremum { probe, width: root.width + 4.0 * doubt * breadth, is_peak }
     }
 
-    /// Where `value` changes its sign between two samples, and the width of the last bracket: false
-    /// position, with a halving wherever that does not halve the bracket by itself.
-    pub(super) fn root(
-        &self,
-        left: Probe,
-        right: Probe,
-        value: impl Fn(&Probe) -> f64,
-    ) -> (Probe, f64) {
+    /// Where `value` changes its sign between two samples: false position, with a halving wherever
+    /// that does not halve the bracket by itself.
+    pub(super) fn root(&self, left: Probe, right: Probe, value: impl Fn(&Probe) -> f64) -> Root {
         let (mut left, mut right) = (left, right);
         let sign = value(&left) > 0.0;
         let mut halve = false;
@@ -152,7 +161,9 @@ impl Curve<'_> {
             if omega <= left.omega || omega >= right.omega {
                 break;
             }
-            let Some(middle) = self.probe(omega) else { break };
+            let Some(middle) = self.probe(omega) else {
+                return Root { omega, probe: None, width: 0.0 };
+            };
             if (value(&middle) > 0.0) == sign {
                 left = middle;
             } else {
@@ -160,8 +171,8 @@ impl Curve<'_> {
             }
             halve = right.omega - left.omega > 0.5 * width;
         }
-        let is_left = value(&left).abs() <= value(&right).abs();
-        (if is_left { left } else { right }, right.omega - left.omega)
+        let nearer = if value(&left).abs() <= value(&right).abs() { left } else { right };
+        Root { omega: nearer.omega, probe: Some(nearer), width: right.omega - left.omega }
     }
 }
 

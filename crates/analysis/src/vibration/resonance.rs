@@ -49,7 +49,7 @@ fn of(curve: Curve<'_>, three: &[Extremum]) -> Resonance {
     let side = |far: &Extremum| {
         let (left, right) = if far.probe.omega < omega { (far, &peak) } else { (&peak, far) };
         (far.probe.level < level)
-            .then(|| curve.root(left.probe, right.probe, |own| own.level - level).0.omega / TAU)
+            .then(|| curve.root(left.probe, right.probe, |own| own.level - level).omega / TAU)
     };
     let band = swing.and_then(|_| Some([side(&three[0])?, side(&three[2])?]));
     Resonance {

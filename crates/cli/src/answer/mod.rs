@@ -23,6 +23,7 @@ pub(crate) use energy::energy_table;
 pub(crate) use json::document;
 pub(crate) use measures::{measures_table, measures_tables, notes};
 pub(crate) use page::page;
+pub(crate) use partial::estimate;
 pub(crate) use solving::{reasons, solving_table};
 pub(crate) use verdict::verdict;
 

@@ -45,10 +45,10 @@ fn why(partial: &Partial, why: &Why) -> String {
     }
 }
 
-/// An estimate with its formula: the number behind the symbol that it defines, if any.
+/// An estimate with its formula.
 pub(crate) fn estimate(formula: &str, value: f64) -> String {
     let number = if value > 0.0 { significant(value, DIGITS) } else { "0".to_owned() };
-    format!("{formula}: {number}")
+    format!("{formula} = {number}")
 }
 
 fn moved(cost: &Cost) -> String {

@@ -1,5 +1,7 @@
 //! `dashpot explain`.
 
+mod effects;
+
 use std::fmt::Write as _;
 use std::{
     fs,
@@ -8,19 +10,18 @@ use std::{
 
 use dashpot_analysis::reported_measures;
 use dashpot_dae::{Run, UnknownKind, methods::Auto};
-use dashpot_network::{Node, Start, Support, elements::Law, layers::resolved};
+use dashpot_network::{Node, Situation, Start, Support, elements::Law, layers::resolved};
 use dashpot_plot::Table;
-use dashpot_scene::{Scene, write_effect};
+use dashpot_scene::Scene;
 
 use crate::{
-    answer::title,
-    args::{ExplainArguments, Family},
+    answer::{estimate, title},
+    args::ExplainArguments,
     entanglement::notes,
     error::{CliError, Status},
     folder::unwritable,
     input::read_scene,
     numbers::{constant, quantity},
-    registers::entries,
     sketch::{element, sketch, waveform},
     terminal::{Terminal, Tone, WIDTH, print},
     text::{indented, labelled, table, wrapped},
@@ -57,7 +58,7 @@ pub(crate) fn explain(
             let _ = writeln!(text, "  {line}");
         }
     }
-    text += &section(&effects(&scene), terminal);
+    text += &effects::section(&scene, terminal);
     let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, "Solving"));
     for (label, words) in solving(&scene)? {
         text += &labelled(label, 10, &words, WIDTH);
@@ -143,21 +144,28 @@ fn layers(scene: &Scene) -> Table {
 fn parts(scene: &Scene) -> Table {
     let described = scene.assembly.primitives.iter().map(|primitive| {
         let own = match primitive.element.law() {
-            Law::Rigid => "rigid".to_owned(),
-            _ => element(primitive.element.as_ref()),
+            Law::Spring(_) | Law::Dashpot(_) => element(primitive.element.as_ref()),
+            Law::Rigid | Law::Nonlinear { .. } | Law::Phased => primitive.element.kind().to_owned(),
         };
-        vec![own, primitive.name.clone()]
+        let phases = primitive.element.phases().map(|own| own.names().join(" / "));
+        vec![own, primitive.name.clone(), phases.unwrap_or_default()]
     });
     rows("Parts that take part", described.collect())
 }
 
 fn loads(scene: &Scene) -> Table {
+    let situation = Situation::of(&scene.network, scene.run.duration);
     let described = scene.network.loads().iter().map(|load| {
         let node = &scene.network.node(load.node).name;
+        let share = situation.impact.as_ref().map(|impact| {
+            let share = load.force.bound(scene.run.duration) / impact.force();
+            estimate("F/(V0 √(K m1))", share)
+        });
         vec![
             load.name.clone(),
             format!("on {node}"),
             waveform(&load.force, "N", scene.run.duration),
+            share.unwrap_or_default(),
         ]
     });
     rows("Loads", described.collect())
@@ -175,21 +183,6 @@ fn unknowns(scene: &Scene) -> Table {
     });
     let scale = quantity(system.time_scale, "s", 4);
     rows(&format!("Unknowns with their units (that of time is {scale})"), described.collect())
-}
-
-fn effects(scene: &Scene) -> Table {
-    let described = entries(Family::Effects).into_iter().flat_map(|entry| {
-        let all = scene.network.effects().iter();
-        let on = all
-            .filter(|effect| effect.kind() == entry.name)
-            .map(|effect| vec![entry.name.clone(), "on".to_owned(), write_effect(effect.as_ref())]);
-        let mut on = on.collect::<Vec<_>>();
-        if on.is_empty() {
-            on.push(vec![entry.name, "off".to_owned(), entry.summary]);
-        }
-        on
-    });
-    rows("Effects", described.collect())
 }
 
 fn solving(scene: &Scene) -> Result<Vec<(&'static str, String)>, CliError> {

@@ -29,7 +29,11 @@ struct Found {
 impl Watch {
     /// A watch over these guards from the start of a run.
     pub fn new(guards: &[Guard]) -> Self {
-        let track = |guard: &Guard| Track { side: guard.begins, ..Track::default() };
+        let track = |guard: &Guard| Track {
+            side: guard.begins,
+            leaves: guard.begins.is_some(),
+            ..Track::default()
+        };
         Self { tracks: guards.iter().map(track).collect(), ..Self::default() }
     }
 
@@ -125,6 +129,8 @@ impl Direction {
 struct Track {
     /// The side of the level on which it was last, `true` above.
     side: Option<bool>,
+    /// Whether the run has just begun, on a side that is known.
+    leaves: bool,
     /// Its panels since it has come onto the level, while it stays there.
     open: Vec<Panel>,
     /// Crossings of the open panels that have been told.
@@ -147,7 +153,9 @@ impl Track {
         panels.extend_from_slice(&signal.panels);
         let all = Signal::new(panels, signal.error, noise);
         let crossings = all.crossings(level, (all.start(), all.end()));
-        for &crossing in crossings.iter().skip(self.told) {
+        let bent = if self.leaves { bent_at_start(&crossings, signal) } else { 0 };
+        self.leaves = false;
+        for &crossing in crossings.iter().skip(self.told.max(bent)) {
             let rounding = 4.0 * f64::EPSILON * crossing.time.abs();
             let spread = noise / crossing.slope.abs();
             visit(crossing, rounding + if spread.is_finite() { spread } else { 0.0 });
@@ -177,6 +185,17 @@ impl Track {
         }
         self.told = told;
     }
+}
+
+/// How many crossings at the begin of a run are none. An output that leaves its level without slope
+/// to the side that is known bends the other way first in the polynomial of the first step, and comes
+/// back within it.
+fn bent_at_start(crossings: &[Crossing], signal: &Signal) -> usize {
+    let (Some(first), [out, back, ..]) = (signal.panels.first(), crossings) else { return 0 };
+    let is_bent = out.time <= first.start
+        && back.time < first.end
+        && out.rising.zip(back.rising).is_some_and(|(out, back)| out != back);
+    if is_bent { 2 } else { 0 }
 }
 
 #[cfg(test)]

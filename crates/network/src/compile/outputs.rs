@@ -170,7 +170,14 @@ impl Outputs {
         let rate = if switches {
             let ends = primitive.ends.map(|joint| parts.bodies.of_joint[joint]);
             let is_still = ends[0] == ends[1] || !is_taking_part && !primitive.is_phased();
-            let known = if is_still { Some(Row::default()) } else { parts.motion.rate[at].clone() };
+            let is_open = !is_taking_part && !is_still;
+            let known = match ends.map(|end| parts.motion.velocity[end].as_ref()) {
+                _ if is_still => Some(Row::default()),
+                _ if !is_open => parts.motion.rate[at].clone(),
+                [Some(a), Some(b)] => Some(a.plus(-1.0, b)),
+                // Without force no work is done at whatever rate.
+                _ => Some(Row::default()),
+            };
             known.filter(|_| primitive.needs_rate())
         } else {
             parts.motion.rate[at].clone()

@@ -110,7 +110,7 @@ impl Effect for Face {
         let network = situation.network;
         let site = Site::of(network, Self::KIND, &self.element, self.at.as_deref());
         let mass = site.map_or(0.0, |site| network.node(site.node(network)).mass);
-        let found = (mass > 0.0).then(|| Influence::new("1/B − 1 = m2/m1", self.mass / mass));
+        let found = (mass > 0.0).then(|| Influence::new("m2/m1", self.mass / mass));
         found.into_iter().collect()
     }
 

@@ -64,13 +64,13 @@ impl Effect for Gravity {
 
     fn influences(&self, situation: &Situation<'_>) -> Vec<Influence> {
         if situation.falls {
-            return vec![Influence::new("the fall is its work", 1.0)];
+            return vec![Influence::new("its share of the fall", 1.0)];
         }
         let g = self.acceleration.abs();
         if let Some(impact) = &situation.impact {
             let of_impactor = impact.mass / (impact.mass + impact.face_mass);
             let length = if impact.thickness.is_some() { "δ" } else { "y" };
-            let formula = format!("A = B g {length}/V0², B = m1/(m1 + m2)");
+            let formula = format!("A = m1/(m1 + m2) · g {length}/V0²");
             let value = of_impactor * g * impact.length() / impact.speed.powi(2);
             return vec![Influence::new(formula, value)];
         }
@@ -79,9 +79,9 @@ impl Effect for Gravity {
         let drive = drive.fold(0.0, f64::max);
         let weight = network.nodes().map(|(_, node)| node.mass * g).sum::<f64>();
         if drive > 0.0 && drive.is_finite() {
-            vec![Influence::new("Σ m g/F, F of loads and motions", weight / drive)]
+            vec![Influence::new("Σ m g/F", weight / drive)]
         } else {
-            vec![Influence::new("nothing else acts", 1.0)]
+            vec![Influence::new("its share of what acts", 1.0)]
         }
     }
 

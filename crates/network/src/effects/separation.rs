@@ -65,7 +65,7 @@ impl Effect for Separation {
             return Vec::new();
         };
         let contact = PI * impact.time();
-        let formula = "1 − t/T, run T beyond contact t = π √(m1/K)";
+        let formula = "max(0, 1 − π √(m1/K)/T)";
         vec![Influence::beyond(formula, situation.duration, contact)]
     }
 

@@ -97,7 +97,7 @@ impl Effect for Stop {
         let Some((limit, depth)) = limit.zip(situation.depth(connection)) else {
             return Vec::new();
         };
-        let formula = "1 − d/y, depth y = V0 √(m1/K) beyond the stop";
+        let formula = "max(0, 1 − d/y)";
         vec![Influence::beyond(formula, depth, limit)]
     }
 

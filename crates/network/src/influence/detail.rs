@@ -124,18 +124,22 @@ fn inertia(situation: &Situation<'_>, connection: &Connection) -> Vec<Influence>
     let omega = impact.time().recip();
     let transits = layers.all.iter().filter_map(|layer| layer.wave(omega));
     let transit: f64 = transits.map(|wave| wave.transit).sum();
-    vec![Influence::new("Σ L/c / √(m1/K), passage of a wave", transit * omega)]
+    vec![Influence::new("Σ L/c · √(K/m1)", transit * omega)]
 }
 
-/// The displacement of the support over that of the impactor, `γ/(1 + α + β)` in the groups of the
+/// The displacement of a support that is struck over that of the impactor, `γ/(1 + α + β)` in the groups of the
 /// thesis.
 fn compliance(situation: &Situation<'_>, id: NodeId) -> Vec<Influence> {
     let Some(impact) = &situation.impact else { return Vec::new() };
     let (network, passage) = (situation.network, impact.passage());
+    let is_struck = situation.struck().any(|own| own.between.contains(&id));
+    if !is_struck {
+        return Vec::new();
+    }
     let mass = network.node(id).mass;
     let at_impact = |own: &Connection| Stiffness::of(&own.model, passage.recip()).size();
     let held: f64 = supports(network, id).map(at_impact).sum();
     let (gamma, held) = (impact.mass / mass, passage * passage * held / mass);
-    let formula = "γ/(1 + J²|K3*|/m3), γ = m1/m3, J = δ/V0, K3* of the support at 1/J";
+    let formula = "γ/(1 + J² |K3*|/m3)";
     vec![Influence::new(formula, gamma / (1.0 + held))]
 }

@@ -17,7 +17,7 @@ pub use self::{
 /// A dimensionless number that measures how much a detail of a network matters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Influence {
-    /// What it is, as a formula, for instance `A = B g δ/V0², B = m1/(m1 + m2)`.
+    /// What it is, as a formula, for instance `A = m1/(m1 + m2) · g δ/V0²`.
     pub formula: String,
     /// Its value \[1\], ≥ 0; the detail matters little where it is far below 1.
     pub value: f64,
@@ -27,6 +27,11 @@ impl Influence {
     /// The number of this formula.
     pub fn new(formula: impl Into<String>, value: f64) -> Self {
         Self { formula: formula.into(), value }
+    }
+
+    /// The largest of several.
+    pub fn largest(all: Vec<Self>) -> Option<Self> {
+        all.into_iter().max_by(|one, other| one.value.total_cmp(&other.value))
     }
 
     /// The part of `reach` that lies beyond `limit`, both ≥ 0: `1 − limit/reach`, 0 where the limit

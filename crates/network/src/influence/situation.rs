@@ -59,6 +59,11 @@ impl ImpactScales {
         (self.mass / self.stiffness).sqrt()
     }
 
+    /// The force `V0 √(K m1)` \[N\].
+    pub fn force(&self) -> f64 {
+        self.speed * (self.stiffness * self.mass).sqrt()
+    }
+
     /// The length `δ` \[m\], or without a thickness the depth `V0 √(m1/K)`.
     pub fn length(&self) -> f64 {
         self.thickness.unwrap_or_else(|| self.speed * self.time())

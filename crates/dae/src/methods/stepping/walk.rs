@@ -4,7 +4,7 @@ use diffsol::{OdeSolverMethod, OdeSolverStopReason, Vector};
 
 use super::{Algebra, Stop, algebra::Slice, equations::Equations, failure::Site};
 use crate::{
-    Observer, Progress, Run, SolveError, Statistics, System,
+    Observer, Progress, Run, SolveError, Statistics, System, UnknownKind,
     chebyshev::Interpolation,
     events::Watch,
     pieces::{self, Pieces, between},
@@ -135,8 +135,14 @@ impl Walk<'_> {
         for (guard, largest) in self.run.guards.iter().zip(&mut self.largest) {
             let output = &self.system.outputs[guard.output];
             let mut signal = self.pieces.signal_from(self.system, output, steps - 1);
-            // A small difference of large terms is known no better than they are.
-            *largest = largest.max(signal.noise / (pieces::ROUNDING * f64::EPSILON));
+            // A small difference of large terms is known no better than they are, and what balances
+            // determine no better than the absolute tolerance.
+            let is_algebraic = |unknown: usize| {
+                self.system.unknowns[unknown].kind == UnknownKind::Algebraic
+            };
+            let algebraic = output.unknowns.terms().iter().filter(|term| is_algebraic(term.0));
+            let least = output.scale.abs() * algebraic.map(|term| term.1.abs()).sum::<f64>();
+            *largest = largest.max(signal.noise / (pieces::ROUNDING * f64::EPSILON)).max(least);
             signal.noise = signal.noise.max(self.run.rtol * *largest);
             signals.push(signal);
         }

@@ -309,7 +309,12 @@ impl Judge<'_> {
         if gap.abs() > noise && !self.on_level.contains(&(part, exit.watched)) {
             return gap > 0.0;
         }
+        let is_still =
+            exit.watched == Watched::Deformation && self.on_level.contains(&(part, Watched::Rate));
         let derivative = |order: usize| {
+            if order == 1 && is_still {
+                return 0.0;
+            }
             let (value, own) = motion.output(output, order);
             // The state is rounded, and its rounding grows from one derivative to the next.
             let before = motion.output(output, order - 1).1;
