@@ -20,6 +20,8 @@ mod examples;
 mod gallery;
 mod independent;
 mod order;
+mod partial;
 mod random_networks;
 mod signs;
 mod thesis;
+mod vibration;

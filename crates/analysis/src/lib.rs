@@ -44,4 +44,4 @@ pub use sample::{Column, Table, regular_times, table, table_at};
 pub use selection::MeasureWish;
 pub use settings::{SolveSettings, Stop};
 pub use solution::{Solution, doubt_at, is_impactor};
-pub use solve::{reported_measures, solve, solve_assembly};
+pub use solve::{choice, reported_measures, solve, solve_assembly};

@@ -4,7 +4,7 @@ use std::{sync::Arc, time::Duration};
 
 use dashpot_dae::{Extremum, Statistics, Trajectory};
 use dashpot_network::{
-    Assembly,
+    Assembly, NodeOutputs,
     parameters::{Value, WindowWish},
 };
 
@@ -147,10 +147,12 @@ impl RunReport {
         Solution::new(&self.assembly, &self.trajectory).doubting(self.solver.doubt)
     }
 
-    /// Kinetic energy of the impactors at the start \[J\]; 0 without any.
+    /// Kinetic energy of the impactors at the start \[J\]; 0 without any, and for those that are
+    /// dropped from above and have none yet.
     pub fn impact_energy(&self) -> f64 {
         let impactors = self.assembly.nodes.iter().filter(|node| is_impactor(node));
-        impactors.map(|node| 0.5 * node.mass * node.start_velocity.unwrap_or(0.0).powi(2)).sum()
+        let energy = |node: &NodeOutputs| 0.5 * node.mass * node.start_velocity.unwrap_or(0.0).powi(2);
+        impactors.map(energy).sum::<f64>().min(self.energy.start)
     }
 
     /// The condition that ended the run early, if one did.

@@ -127,7 +127,11 @@ fn reported_elements(assembly: &Assembly) -> Vec<usize> {
     };
     let impactors = bodies::with_impactor(assembly);
     if impactors.contains(&true) {
-        return touching(&impactors);
+        let mut found = touching(&impactors);
+        found.extend(behind_contacts(assembly, &found));
+        found.sort_unstable();
+        found.dedup();
+        return found;
     }
     let mut masses = vec![false; bodies::count(assembly)];
     for node in assembly.nodes.iter().filter(|node| node.mass > 0.0) {
@@ -135,6 +139,14 @@ fn reported_elements(assembly: &Assembly) -> Vec<usize> {
     }
     let found = touching(&masses);
     if found.is_empty() { touching(&vec![true; masses.len()]) } else { found }
+}
+
+/// The elements whose face has mass and is struck through one of the elements `struck`, which is the
+/// contact that an effect has put there.
+fn behind_contacts(assembly: &Assembly, struck: &[usize]) -> Vec<usize> {
+    let named = |name: &str| assembly.connections.iter().position(|own| own.name == name);
+    let contact = |&at: &usize| assembly.connections[at].name.strip_suffix(".contact");
+    struck.iter().filter_map(contact).filter_map(named).collect()
 }
 
 /// The impactors; without one the free masses that an element touches.

@@ -108,21 +108,29 @@ pub fn reported_measures(
     Ok(selected.into_iter().map(|entry| entry.key).collect())
 }
 
+/// The method that `auto` chooses for a run of `duration` \[s\], and why.
+pub fn choice(assembly: &Assembly, duration: f64) -> (&'static str, String) {
+    let (method, why) = methods::Auto::choose(&assembly.system, &Run::to(duration));
+    (method.name(), reason(assembly, method.as_ref(), why))
+}
+
+/// Why a method fits, of what switches said for all of the run.
+fn reason(assembly: &Assembly, method: &dyn Method, why: String) -> String {
+    if assembly.switching.is_none() || !method.is_exact() {
+        return why;
+    }
+    let states = assembly.system.states();
+    format!("between switchings the scene is linear, with {states} states at first")
+}
+
 fn choose(
     name: &str,
     assembly: &Assembly,
     run: &Run,
 ) -> Result<(Box<dyn Method>, String), RunError> {
-    let phrase = |method: &dyn Method, why: String| match assembly.switching {
-        Some(_) if method.is_exact() => {
-            let states = assembly.system.states();
-            format!("between switchings the scene is linear, with {states} states at first")
-        }
-        _ => why,
-    };
     if name == "auto" {
         let (method, why) = methods::Auto::choose(&assembly.system, run);
-        let why = phrase(method.as_ref(), why);
+        let why = reason(assembly, method.as_ref(), why);
         return Ok((method, why));
     }
     let Some(method) = methods::by_name(name) else {
@@ -130,7 +138,7 @@ fn choose(
         return Err(RunError::UnknownMethod { name: name.to_owned(), known });
     };
     let why = method.applies(&assembly.system, run)?;
-    let why = phrase(method.as_ref(), why);
+    let why = reason(assembly, method.as_ref(), why);
     Ok((method, why))
 }
 

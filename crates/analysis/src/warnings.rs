@@ -74,8 +74,10 @@ fn beyond_thickness(solution: &Solution<'_>) -> Vec<String> {
     connections
         .filter_map(|connection| {
             let thickness = connection.thickness?;
-            let deepest = solution.signal(connection.deformation).maximum((0.0, solution.end()));
-            (deepest.value > thickness).then(|| {
+            let deformation = solution.signal(connection.deformation);
+            let deepest = deformation.maximum((0.0, solution.end()));
+            let noise = deformation.error.unwrap_or(0.0).max(ROUNDING * thickness);
+            (deepest.value > thickness + noise).then(|| {
                 format!(
                     "the {} is pressed in by {} at {}: {} more than its thickness of {}",
                     connection.name,

@@ -50,6 +50,8 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Tests a model alone: creep, relaxation, oscillation, in closed form and by simulation.
     Rheometer(RheometerArguments),
+    /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
+    Vibrate(VibrateArguments),
     /// Lists every kind that a scene may contain, with its parameters.
     List(ListArguments),
     /// Writes a commented scene to start from.
@@ -248,6 +250,51 @@ pub(crate) struct RheometerArguments {
     pub(crate) plot: When,
 }
 
+/// `vibrate`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot vibrate crate.toml\n  \
+    dashpot vibrate crate.toml --from \"1 Hz\" --to \"200 Hz\" --out crate-vibration\n  \
+    dashpot vibrate crate.toml --at \"20 Hz\" --amplitude \"0.5 g0\"\n  \
+    dashpot vibrate reference --drive ground --of head\n\n\
+    One load or motion is a sine of any small size, all others are silent: the functions of \
+    time in the scene, weights and start speeds do not matter. A fixed node such as `ground` may \
+    be shaken too. Scenes that switch or are not linear are refused.")]
+pub(crate) struct VibrateArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// The load that pushes or the node that is moved [default: the only one of the scene].
+    #[arg(long, value_name = "NAME")]
+    pub(crate) drive: Option<String>,
+    /// Lowest frequency [default: a tenth of the lowest natural frequency].
+    #[arg(long, value_name = "FREQUENCY", value_parser = frequency)]
+    pub(crate) from: Option<f64>,
+    /// Highest frequency [default: ten times the highest natural frequency].
+    #[arg(long, value_name = "FREQUENCY", value_parser = frequency)]
+    pub(crate) to: Option<f64>,
+    /// How many frequencies, at equal ratios; resonances are found between them.
+    #[arg(long, value_name = "NUMBER", default_value_t = 200)]
+    pub(crate) points: usize,
+    /// Nodes to look at, or supports where a load drives [default: all masses, all supports].
+    #[arg(long, value_name = "NODE,…", value_delimiter = ',')]
+    pub(crate) of: Vec<String>,
+    /// Peaks of the steady state at this frequency, in place of the table over frequency.
+    #[arg(long, value_name = "FREQUENCY", value_parser = frequency, requires = "amplitude")]
+    pub(crate) at: Option<f64>,
+    /// Amplitude of the drive there: of a force, or of a displacement or an acceleration.
+    #[arg(long, value_name = "QUANTITY", requires = "at")]
+    pub(crate) amplitude: Option<String>,
+    /// Folder for CSV, JSON and SVG; it is made if need be.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// A plot in the text; `auto` draws it on terminals.
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    pub(crate) plot: When,
+}
+
 /// `list`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  dashpot list\n  dashpot list measures\n  dashpot list zener")]
@@ -391,5 +438,19 @@ fn share(text: &str) -> Result<f64, String> {
         Ok(quantity.value)
     } else {
         Err("it must be more than 0 and at most 1 (100%), such as 0.1% or 1e-3".to_owned())
+    }
+}
+
+fn frequency(text: &str) -> Result<f64, String> {
+    use dashpot_network::parameters::Dimension;
+    let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
+    let is_frequency = quantity.dimension.is_none_or(|own| own == Dimension::FREQUENCY);
+    if quantity.angle != 0 {
+        let frequency = quantity.value / std::f64::consts::TAU;
+        Err(format!("that is an angular frequency; write \"{frequency:.6} Hz\""))
+    } else if is_frequency && quantity.value > 0.0 {
+        Ok(quantity.value)
+    } else {
+        Err("it must be a positive frequency, such as \"20 Hz\"".to_owned())
     }
 }

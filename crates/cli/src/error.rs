@@ -2,7 +2,7 @@
 
 use std::{io, path::PathBuf, process::ExitCode};
 
-use dashpot_analysis::{RunError, rheometer::RheometerError};
+use dashpot_analysis::{RunError, rheometer::RheometerError, vibration::VibrationError};
 use dashpot_dae::SolveError;
 use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
@@ -113,6 +113,17 @@ pub(crate) enum CliError {
     /// A test that cannot be made.
     #[error(transparent)]
     Rheometer(#[from] RheometerError),
+    /// A scene that cannot be shaken.
+    #[error(transparent)]
+    Vibration(#[from] VibrationError),
+    /// An amplitude that does not suit the drive.
+    #[error("`--amplitude` of `{drive}`: {reason}")]
+    WrongAmplitude {
+        /// The drive.
+        drive: String,
+        /// Why.
+        reason: String,
+    },
     /// A parameter that no test has.
     #[error("no test has a `{name}`; there are {}", .known.join(", "))]
     UnknownSetting {
@@ -200,6 +211,7 @@ impl CliError {
             | Self::Unfit { .. }
             | Self::UnknownElement { .. }
             | Self::Rheometer(_)
+            | Self::WrongAmplitude { .. }
             | Self::UnknownSetting { .. }
             | Self::WrongSetting { .. }
             | Self::MaterialAndPad
@@ -221,6 +233,8 @@ impl CliError {
                 ) => Status::InputWrong,
                 _ => Status::RunFailed,
             },
+            Self::Vibration(VibrationError::Unbounded { .. }) => Status::RunFailed,
+            Self::Vibration(_) => Status::InputWrong,
             Self::Undecided { .. }
             | Self::Unwritable { .. }
             | Self::Output(_)
@@ -260,6 +274,12 @@ impl CliError {
             Self::NotReplaced { .. } => Some(
                 "give the model a table of its own, [models.NAME], and convert that".to_owned(),
             ),
+            Self::Vibration(VibrationError::NoDrive { .. }) => {
+                Some("`--drive NAME` says what is shaken".to_owned())
+            }
+            Self::Vibration(VibrationError::NotLinear { .. }) => {
+                Some("`dashpot run` solves it in time, with a sine as its load or motion".to_owned())
+            }
             Self::Run(RunError::Solve(error)) => match error {
                 SolveError::NotApplicable { .. } => {
                     Some("`--method auto` chooses one that can".to_owned())

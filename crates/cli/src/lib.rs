@@ -20,6 +20,7 @@ mod series;
 mod sketch;
 mod terminal;
 mod text;
+mod vibration_folder;
 
 use std::process::ExitCode;
 
@@ -48,6 +49,7 @@ pub fn main() -> ExitCode {
         Command::Convert(arguments) => commands::convert(&arguments, terminal),
         Command::Compare(arguments) => commands::compare(&arguments, terminal),
         Command::Rheometer(arguments) => commands::rheometer(&arguments, terminal),
+        Command::Vibrate(arguments) => commands::vibrate(&arguments, terminal),
         Command::List(arguments) => commands::list(&arguments, terminal),
         Command::New(arguments) => commands::new(&arguments),
         Command::Schema => commands::schema(),

@@ -83,3 +83,6 @@ pub trait Switching: Debug + Send + Sync {
     /// [`SolveError::Switching`] where no leg is possible.
     fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError>;
 }
+
+#[cfg(test)]
+mod tests;

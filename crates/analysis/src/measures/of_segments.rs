@@ -16,12 +16,15 @@ pub(super) fn largest<'s>(
     segments: impl Iterator<Item = (&'s SegmentOutputs, usize, f64)>,
     negative: &str,
 ) -> Option<Reading> {
+    // There may be thousands of segments, so signals are not kept.
+    let system = &solution.assembly().system;
+    let signal = |output: usize| solution.trajectory().signal(system, output);
     let mut most: Option<(Reading, &SegmentOutputs, usize)> = None;
     // The largest of several values is as wrong as the worst of them may be.
     let mut error = Some(0.0);
     let mut noise = 0.0_f64;
     for (segment, output, size) in segments {
-        let own = over(peak(solution.signal(output), span), size);
+        let own = over(peak(&signal(output), span), size);
         if own.value.is_none() {
             return Some(own);
         }
@@ -37,7 +40,7 @@ pub(super) fn largest<'s>(
         let depth = quantity(segment.depth, "m");
         reading = reading.noting(&format!("in the layer {layer}, {depth} below the first face"));
     }
-    if peaks_below_zero(solution.signal(output), span) {
+    if peaks_below_zero(&signal(output), span) {
         reading = reading.noting(negative);
     }
     Some(reading)

@@ -1,15 +1,15 @@
 //! Peak strain.
 
-use dashpot_network::{
-    SegmentOutputs,
-    parameters::{InvalidParameter, Value, WindowWish},
-};
+use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
 use super::{Family, MeasureKind, Reading, of_segments::largest, window};
 use crate::Solution;
 
 /// Note on the strain of an element whose thickness is not known.
 const NO_THICKNESS: &str = "its thickness is not known: give it a `thickness` or `layers`";
+
+/// Note on a strain that is one in elongation.
+const STRETCHED: &str = "in elongation";
 
 /// The largest magnitude of the strain in any segment of a pad, `max |y(t)|/h` \[1\], with its time and
 /// its layer; a peak in elongation is noted.
@@ -55,13 +55,12 @@ impl MeasureKind for PeakStrain {
         };
         let segments = connection.segments.iter();
         let deformations = segments.map(|own| (own, own.deformation, own.thickness));
-        let Some(reading) = largest(solution, &span, deformations, "in elongation") else {
+        let Some(reading) = largest(solution, &span, deformations, STRETCHED) else {
             return Reading::undefined(NO_THICKNESS);
         };
-        let signal = |own: &SegmentOutputs| solution.signal(own.deformation);
-        let is_crushed =
-            |own: &SegmentOutputs| signal(own).maximum(span.window()).value > own.thickness;
-        if connection.segments.iter().any(is_crushed) {
+        // The note is on the largest strain, unless that is one in elongation.
+        let is_crushed = reading.value.is_some_and(|value| value > 1.0);
+        if is_crushed && !reading.note.as_ref().is_some_and(|note| note.contains(STRETCHED)) {
             return reading.noting("pressed in by more than its thickness");
         }
         reading

@@ -59,20 +59,20 @@ impl Comparison {
     pub(super) fn is_within(&self, bound: f64) -> bool {
         self.costs.iter().all(|cost| cost.most() <= bound)
     }
+}
 
-    /// The reduced run with the errors of its measures widened by what was left out.
-    pub(super) fn charged(&self, mut reduced: RunReport, full: &RunReport) -> RunReport {
-        for measure in &mut reduced.measures {
-            let Some(opposite) = full.measure(&measure.key) else { continue };
-            if let (Some(value), Some(right), Some(error)) =
-                (measure.value, opposite.value, opposite.error)
-            {
-                // The difference from the value that is known to be this good.
-                measure.error = Some((value - right).abs() + error);
-            }
+/// The reduced run with the errors of its measures widened by what was left out.
+pub(super) fn charged(mut reduced: RunReport, full: &RunReport) -> RunReport {
+    for measure in &mut reduced.measures {
+        let Some(opposite) = full.measure(&measure.key) else { continue };
+        if let (Some(value), Some(right), Some(error)) =
+            (measure.value, opposite.value, opposite.error)
+        {
+            // The difference from the value that is known to be this good.
+            measure.error = Some((value - right).abs() + error);
         }
-        reduced
     }
+    reduced
 }
 
 /// Whether the network of a run has a node or element of this name.

@@ -30,7 +30,7 @@ pub use self::{
 };
 use self::{
     candidates::{Candidate, candidates},
-    cost::Comparison,
+    cost::{Comparison, charged},
     trial::{Trial, settle},
 };
 use crate::{RunError, RunReport, SolveSettings, solve_assembly};
@@ -134,7 +134,7 @@ pub fn solve_partial(
     let (solves, wall) = (trial.solves, trial.wall);
     let (mut report, own) = match settled.into_iter().next() {
         Some((reduced, own, comparison)) => {
-            let report = comparison.charged(reduced, &trial.full);
+            let report = charged(reduced, &trial.full);
             (partial.costs, partial.unreported) = (comparison.costs, comparison.unreported);
             (report, own)
         }

@@ -11,6 +11,7 @@ use dashpot_network::{Detail, Network};
 
 use super::{
     Candidate, Cost, Neglected, PutBack, candidates,
+    cost::charged,
     trial::{Trial, is_cancelled, settle, solve_without},
 };
 use crate::{RunError, RunReport, SolveSettings};
@@ -97,7 +98,7 @@ pub fn sweep(
     let mut settled = settled.into_iter();
     for (&at, Trial { full, .. }) in checked.iter().zip(trials) {
         let run = match settled.next() {
-            Some((run, _, compared)) => compared.charged(run, &full),
+            Some((run, ..)) => charged(run, &full),
             None => full,
         };
         runs.insert(at, Ok(run));
@@ -157,7 +158,8 @@ fn common(networks: &[Network], duration: f64, bound: f64) -> Vec<Candidate> {
 
 /// Positions that are spread evenly over `count`.
 fn spread(count: usize) -> Vec<usize> {
-    let wanted = (1..).find(|root| root * root >= count).unwrap_or(count);
+    let root = count.isqrt();
+    let wanted = if root * root < count { root + 1 } else { root };
     let wanted = wanted.max(LEAST).min(count);
     let last = wanted.saturating_sub(1).max(1);
     (0..wanted).map(|at| at * count.saturating_sub(1) / last).collect()

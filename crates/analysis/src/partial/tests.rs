@@ -212,12 +212,12 @@ fn those_that_together_exceed_the_bound_are_put_back_one_by_one() {
 fn an_innocent_effect_is_not_put_back_with_the_culprit() {
     let stop = Stop {
         element: "padding".to_owned(),
-        at: Some(0.03),
+        at: Some(0.05),
         restitution: 0.0,
         stiffness: None,
         damping: 0.0,
     };
-    let network = with(with(reference(), Push::new(1e3, 1e-9)), stop);
+    let network = with(with(reference(), Push::new(100.0, 1e-9)), stop);
     let report = run(&network, Some(0.01));
     let partial = report.partial.as_ref().unwrap();
     assert_eq!(left_out(partial), ["stop.padding"]);

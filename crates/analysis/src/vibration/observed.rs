@@ -66,8 +66,11 @@ impl Observed {
         let mut sum = Vec::new();
         for connection in &assembly.connections {
             let [a, b] = connection.between.map(|id| assembly.nodes[id.index()].body == body);
-            if let Some(force) = connection.force.filter(|_| a != b) {
-                sum.push((force, if b { 1.0 } else { -1.0 }));
+            // The masses of layers take their part of the force on the way to the second end.
+            let (force, sign) =
+                if b { (connection.transmitted, 1.0) } else { (connection.force, -1.0) };
+            if let Some(force) = force.filter(|_| a != b) {
+                sum.push((force, sign));
             }
         }
         Self { name: name.to_owned(), readings: vec![Reading { sum, order: 0 }] }

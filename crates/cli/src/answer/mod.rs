@@ -10,6 +10,7 @@ pub(crate) mod rheometer;
 mod settings;
 mod solving;
 mod verdict;
+pub(crate) mod vibration;
 mod zero;
 
 use std::time::Duration;

@@ -149,11 +149,18 @@ fn energy(answer: &Answer, run: &RunReport) -> Option<String> {
     let impact = run.impact_energy();
     let amount = shown(answer, measure, value);
     let name = &measure.target;
-    if impact <= 0.0 {
+    let has_impactor = run.assembly.nodes.iter().any(is_impactor);
+    if !has_impactor {
         return Some(format!("{name} takes up {amount}"));
     }
     let until = measure.window.map_or(run.energy.time, |(_, end)| end);
     let work = work_in(run, until);
+    if impact <= ZERO * run.energy.turned_over {
+        // What falls begins without energy.
+        let whole = rounded(work, "J", TIME_DIGITS);
+        let part = if value <= work { format!(" ({})", share(value / work)) } else { String::new() };
+        return Some(format!("{name} takes up {amount} of {whole} put in{part}"));
+    }
     let whole = rounded(impact, "J", DIGITS);
     let added = if work > LITTLE * impact {
         format!(" and {} put in", rounded(work, "J", TIME_DIGITS))

@@ -42,10 +42,16 @@ fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<
     notes(&scene).iter().for_each(|text| note(&format!("note: {text}")));
     let system = &scene.assembly.system;
     let nodes = scene.network.nodes().count() - 1;
-    let structure = if system.linear().is_some() {
-        "linear".to_owned()
+    let structure = match (system.is_linear(), system.algebraic()) {
+        (true, 0) => "linear".to_owned(),
+        (true, count) => format!("linear with {count} algebraic"),
+        (false, count) => format!("not linear, {count} algebraic"),
+    };
+    let parts = scene.assembly.switching.as_ref().map_or(0, |own| own.parts().len());
+    let structure = if parts > 0 {
+        format!("{structure} at first; {} that can switch", counted(parts, "part"))
     } else {
-        format!("linear with {} algebraic", system.algebraic())
+        structure
     };
     Ok(format!(
         "{}, {}, {}, {structure}",

@@ -8,8 +8,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use dashpot_analysis::reported_measures;
-use dashpot_dae::{Run, UnknownKind, methods::Auto};
+use dashpot_analysis::{choice, reported_measures};
+use dashpot_dae::UnknownKind;
 use dashpot_network::{Node, Situation, Start, Support, elements::Law, layers::resolved};
 use dashpot_plot::Table;
 use dashpot_scene::Scene;
@@ -187,7 +187,7 @@ fn unknowns(scene: &Scene) -> Table {
 
 fn solving(scene: &Scene) -> Result<Vec<(&'static str, String)>, CliError> {
     let system = &scene.assembly.system;
-    let (method, why) = Auto::choose(system, &Run::to(scene.run.duration));
+    let (method, why) = choice(&scene.assembly, scene.run.duration);
     let first = scene.run.methods.first().map_or("auto", String::as_str);
     let measures = reported_measures(&scene.assembly, &scene.settings(first))?;
     let algebraic = match system.algebraic() {
@@ -198,7 +198,7 @@ fn solving(scene: &Scene) -> Result<Vec<(&'static str, String)>, CliError> {
         ("system", format!("{} states; {algebraic}", system.states())),
         ("duration", constant(scene.run.duration, "s")),
         ("methods", scene.run.methods.join(", ")),
-        ("auto", format!("would choose `{}`: {why}", method.name())),
+        ("auto", format!("would choose `{method}`: {why}")),
         ("measures", measures.join(", ")),
     ])
 }

@@ -10,6 +10,7 @@ mod new;
 mod rheometer;
 mod run;
 mod schema;
+mod vibrate;
 
 pub(crate) use check::check;
 pub(crate) use compare::compare;
@@ -21,3 +22,4 @@ pub(crate) use new::new;
 pub(crate) use rheometer::rheometer;
 pub(crate) use run::run;
 pub(crate) use schema::schema;
+pub(crate) use vibrate::vibrate;

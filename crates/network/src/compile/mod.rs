@@ -48,7 +48,7 @@ use self::{
     structure::Structure,
     unknowns::{Inputs, Places},
 };
-use crate::{Assembly, effects, Network, NetworkErrors, Support};
+use crate::{Assembly, Network, NetworkErrors, Support, effects, layers};
 
 /// What acts on a body from outside.
 #[derive(Debug, Clone)]
@@ -103,10 +103,13 @@ impl Network {
             return Err(NetworkErrors(faults));
         }
         let parts = expansion.phased();
-        if parts.is_empty() {
-            return Ok(network.assemble(&expansion, duration)?.assembly);
-        }
-        phased::compile(network.into_owned(), expansion, parts, duration)
+        let mut assembly = if parts.is_empty() {
+            network.assemble(&expansion, duration)?.assembly
+        } else {
+            phased::compile(network.into_owned(), expansion, parts, duration)?
+        };
+        assembly.warnings.extend(layers::warnings(self, duration));
+        Ok(assembly)
     }
 
     /// The network with what its effects put into it.

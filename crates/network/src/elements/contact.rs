@@ -2,9 +2,7 @@
 
 use super::{Element, ElementKind, Law, Tangent, number};
 use crate::{
-    parameters::{
-        Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite, non_negative,
-    },
+    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative},
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
@@ -13,7 +11,7 @@ use crate::{
 ///
 /// | symbol | field         | unit | range |
 /// |--------|---------------|------|-------|
-/// | `gap`  | `gap`         | m    | finite; ≥ 0 is free travel, < 0 begins overlapped and pushed apart |
+/// | `gap`  | `gap`         | m    | ≥ 0, the free travel |
 /// | `e`    | `restitution` | 1    | 0 … 1 |
 ///
 /// It closes where the deformation reaches the gap and opens where the force falls to zero. Where
@@ -97,7 +95,7 @@ impl Element for Contact {
     }
 
     fn validate(&self) -> Result<(), InvalidParameter> {
-        finite("gap", self.gap)?;
+        non_negative("gap", self.gap)?;
         non_negative("restitution", self.restitution)?;
         if self.restitution > 1.0 {
             let found = self.restitution.to_string();
@@ -119,7 +117,7 @@ impl ElementKind for Contact {
             "gap",
             ParameterKind::Quantity(Dimension::LENGTH),
             "0 m",
-            "deformation at which it closes [m]",
+            "deformation at which it closes [m], zero or positive",
         ),
         Parameter::optional(
             "restitution",

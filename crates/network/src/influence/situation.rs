@@ -8,7 +8,7 @@ use crate::{
     Connection, Model, Network, NodeId, Start, Support,
     compile::bodies::start_velocity,
     effects,
-    elements::{Contact, ElementKind},
+    elements::{Contact, ElementKind, Law},
     layers::stiffness::Stiffness,
 };
 
@@ -88,9 +88,6 @@ impl<'n> Situation<'n> {
             Support::Prescribed(motion) => Some(motion.bound(duration)),
             _ => None,
         });
-        let dropped = |(one, other): (&crate::Node, &crate::Node)| {
-            matches!(one.start, Start::Drop(_)) && !matches!(other.start, Start::Drop(_))
-        };
         Self {
             network,
             duration,
@@ -98,7 +95,7 @@ impl<'n> Situation<'n> {
             load: loads.sum(),
             weight: body_forces.sum(),
             motion: motions.sum(),
-            falls: network.nodes.iter().zip(&rewritten.nodes).any(dropped),
+            falls: network.nodes().any(|(id, _)| falls(rewritten, id)),
         }
     }
 
@@ -180,32 +177,52 @@ fn impact(network: &Network, rewritten: &Network) -> Option<ImpactScales> {
     Some(ImpactScales { node, mass, face_mass, speed, struck, stiffness, thickness })
 }
 
+/// Whether a mass falls before it touches: it is dropped, gravity pulls it towards the support, and
+/// it is joined to nothing but by contacts.
+fn falls(network: &Network, node: NodeId) -> bool {
+    let pulls = network.effects.iter().find_map(|own| own.gravity()).is_some_and(|own| own > 0.0);
+    let is_dropped = matches!(network.node(node).start, Start::Drop(_));
+    pulls
+        && is_dropped
+        && reached(network, node, is_rigid)
+            .into_iter()
+            .all(|at| is_contact(&network.connections[at].model))
+}
+
 /// Positions of the connections that a node strikes: those that touch it, or what rigid links and
 /// contacts join to it, and are neither.
 fn struck_by(network: &Network, node: NodeId) -> Vec<usize> {
+    reached(network, node, |model| is_rigid(model) || is_contact(model))
+}
+
+/// Positions of the connections that touch a node, or what `joins` lets count as a part of it, and
+/// do not join themselves.
+fn reached(network: &Network, node: NodeId, joins: impl Fn(&Model) -> bool) -> Vec<usize> {
     let mut joined = vec![node];
-    let mut struck = Vec::new();
+    let mut found = Vec::new();
     let mut at = 0;
     while let Some(&own) = joined.get(at) {
         at += 1;
         for (position, connection) in network.connections.iter().enumerate() {
             let [a, b] = connection.between;
             let other = if a == own { b } else { a };
-            if !connection.between.contains(&own) || struck.contains(&position) {
+            if !connection.between.contains(&own) || found.contains(&position) {
                 continue;
             }
             if !joins(&connection.model) {
-                struck.push(position);
+                found.push(position);
             } else if !joined.contains(&other) && network.node(other).support == Support::Free {
                 joined.push(other);
             }
         }
     }
-    struck
+    found
 }
 
-/// Whether a model passes motion on as it is, in the one direction at least.
-fn joins(model: &Model) -> bool {
-    let is_contact = matches!(model, Tree::Part(element) if element.kind() == Contact::KIND);
-    is_contact || Stiffness::of(model, 1.0).size().is_infinite()
+fn is_rigid(model: &Model) -> bool {
+    matches!(model, Tree::Part(element) if element.law() == Law::Rigid)
+}
+
+fn is_contact(model: &Model) -> bool {
+    matches!(model, Tree::Part(element) if element.kind() == Contact::KIND)
 }

@@ -12,6 +12,7 @@
 //!
 //! `1 − sin(x)/x ≈ (ω Δt)²/24`, with `x = ω Δt/2` and the time of passage `Δt` of one segment.
 
+mod front;
 mod resolve;
 mod slice;
 pub(crate) mod stiffness;
@@ -21,7 +22,7 @@ mod tests;
 
 use dashpot_rheology::{Branch, Tree};
 
-pub(crate) use self::resolve::resolve;
+pub(crate) use self::{front::warnings, resolve::resolve};
 use self::stiffness::Stiffness;
 use crate::{
     Connection, Model, Network,

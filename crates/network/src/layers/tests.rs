@@ -96,7 +96,7 @@ fn the_chain_has_the_dispersion_that_the_accuracy_is_chosen_by() {
     // Standing waves of a chain whose faces are held, ω_j = (2/Δt) sin(jπ/2n), have the shape
     // sin(jπ(i − ½)/n) at the centres of the segments.
     let count = 9;
-    let Cut { masses, models } = cut(&pad(vec![elastic()], Resolution::Segments(9)), &[count]);
+    let Cut { masses, models, .. } = cut(&pad(vec![elastic()], Resolution::Segments(9)), &[count]);
     let stiffness: Vec<f64> = models.iter().map(|own| Stiffness::of(own, 1.0).size()).collect();
     assert_eq!((masses.len(), stiffness.len()), (count, count + 1));
     close(masses.iter().sum(), elastic().mass(), EPSILON);

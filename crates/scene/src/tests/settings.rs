@@ -43,6 +43,20 @@ fn wishes_are_read_in_both_forms() {
 }
 
 #[test]
+fn what_may_be_left_out_is_a_share() {
+    let read = |value: &str| {
+        read_text(&format!("{}[accuracy]\nneglect-below = {value}\n", on_model("spring = 1")))
+    };
+    let bound = |value: &str| read(value).unwrap().value.accuracy.neglect_below;
+    assert_eq!(scene(&on_model("spring = 1")).accuracy.neglect_below, None);
+    assert!(is_close(bound("\"0.5 %\"").unwrap(), 0.005));
+    assert!(is_close(bound("1").unwrap(), 1.0));
+    for value in ["0", "\"-1 %\"", "1.5", "\"2 mm\"", "true"] {
+        assert!(read(value).is_err(), "{value}");
+    }
+}
+
+#[test]
 fn named_values_are_overridden_from_outside() {
     let text = format!("[values]\nK = \"20 MN/m\"\nL = \"K\"\n{}", on_model("spring = \"L\""));
     let set = |name: &str, value: &str| {

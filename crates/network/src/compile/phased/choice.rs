@@ -81,7 +81,6 @@ impl PhasedNetwork {
                     choice.iter().zip(&options).map(|(&at, options)| options[at]).collect();
                 match self.admit(&tried, &judge) {
                     Ok(Some(choice)) => {
-                        if std::env::var("SHOWC").is_ok() { eprintln!("{time:e} {:?} fired {fired:?} -> {:?} doubt {doubt:e} rebound {rebound} graze {graze} levels {:?} def {:?}", phases, choice.phases, choice.levels, state.deformation); }
                         let switches = self.switches(time, phases, &choice.phases, &impacts);
                         return Ok((choice, switches));
                     }

@@ -287,3 +287,6 @@ impl Switching for PhasedNetwork {
         Ok(Self::leg(choice, switches))
     }
 }
+
+#[cfg(test)]
+mod tests;

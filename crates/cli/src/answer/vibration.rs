@@ -1,0 +1,352 @@
+//! What a shaken scene has to say, as one JSON object and as tables.
+
+use std::f64::consts::PI;
+
+use dashpot_analysis::vibration::{
+    Drive, DriveKind, Resonance, Steady, Sweep, Swing, Transmission,
+};
+use dashpot_plot::Table;
+use dashpot_scene::Scene;
+use serde::Serialize;
+
+use crate::{
+    numbers::{Unit, bound, quantity},
+    text::width,
+};
+
+/// Digits of what is computed.
+const DIGITS: usize = 4;
+/// More rows of the table over frequency are left out, at regular distances.
+const MOST_ROWS: usize = 25;
+/// Standard gravity \[m/s²\].
+const GRAVITY: f64 = 9.806_65;
+/// What does not exist.
+const NONE: &str = "–";
+
+/// The object that `vibrate --json` prints, in SI units. What is infinite or missing is null.
+#[derive(Serialize)]
+pub(crate) struct Document<'a> {
+    dashpot: &'static str,
+    title: Option<&'a str>,
+    file: Option<&'a str>,
+    drive: Driver<'a>,
+    frequencies: &'a [f64],
+    responses: Vec<Response<'a>>,
+    steady: Option<State<'a>>,
+    notes: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Driver<'a> {
+    name: &'a str,
+    kind: &'static str,
+    node: &'a str,
+    unit: &'static str,
+}
+
+#[derive(Serialize)]
+struct Response<'a> {
+    name: &'a str,
+    ratio: Vec<Option<f64>>,
+    phase: Vec<Option<f64>>,
+    error: Vec<Option<f64>>,
+    resonances: Vec<Peak>,
+    at_rest: Option<Wave>,
+}
+
+#[derive(Serialize)]
+struct Peak {
+    frequency: f64,
+    frequency_error: f64,
+    response: Option<Wave>,
+    band: Option<[f64; 2]>,
+    quality: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Wave {
+    amplitude: f64,
+    phase: f64,
+    error: f64,
+}
+
+#[derive(Serialize)]
+struct State<'a> {
+    frequency: f64,
+    amplitude: f64,
+    nodes: Vec<Node<'a>>,
+    elements: Vec<Element<'a>>,
+    supports: Vec<Support<'a>>,
+    power: Option<f64>,
+    warnings: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Node<'a> {
+    name: &'a str,
+    displacement: Wave,
+    acceleration: Wave,
+}
+
+#[derive(Serialize)]
+struct Element<'a> {
+    name: &'a str,
+    deformation: Wave,
+    force: Option<Wave>,
+}
+
+#[derive(Serialize)]
+struct Support<'a> {
+    name: &'a str,
+    force: Wave,
+}
+
+impl From<Swing> for Wave {
+    fn from(own: Swing) -> Self {
+        Self { amplitude: own.amplitude, phase: own.phase, error: own.error }
+    }
+}
+
+impl<'a> Document<'a> {
+    /// All that was found.
+    pub(crate) fn of(scene: &'a Scene, sweep: &'a Sweep, steady: Option<&'a Steady>) -> Self {
+        let Drive { name, kind, node } = &sweep.drive;
+        Self {
+            dashpot: env!("CARGO_PKG_VERSION"),
+            title: scene.title.as_deref(),
+            file: scene.file.as_deref(),
+            drive: Driver { name, kind: word(*kind), node, unit: kind.unit() },
+            frequencies: &sweep.frequencies,
+            responses: sweep.transmissions.iter().map(Response::of).collect(),
+            steady: steady.map(State::of),
+            notes: &sweep.notes,
+        }
+    }
+}
+
+impl<'a> Response<'a> {
+    fn of(own: &'a Transmission) -> Self {
+        let all = |value: fn(Swing) -> f64| own.swings.iter().map(|own| own.map(value)).collect();
+        let peak = |own: &Resonance| Peak {
+            frequency: own.frequency,
+            frequency_error: own.frequency_error,
+            response: own.swing.map(Wave::from),
+            band: own.band,
+            quality: own.quality(),
+        };
+        Self {
+            name: &own.name,
+            ratio: all(|own| own.amplitude),
+            phase: all(|own| own.phase),
+            error: all(|own| own.error),
+            resonances: own.resonances.iter().map(peak).collect(),
+            at_rest: own.at_rest.map(Wave::from),
+        }
+    }
+}
+
+impl<'a> State<'a> {
+    fn of(own: &'a Steady) -> Self {
+        let nodes = own.nodes.iter().map(|own| Node {
+            name: &own.name,
+            displacement: own.displacement.into(),
+            acceleration: own.acceleration.into(),
+        });
+        let elements = own.elements.iter().map(|own| Element {
+            name: &own.name,
+            deformation: own.deformation.into(),
+            force: own.force.map(Wave::from),
+        });
+        let supports =
+            own.supports.iter().map(|own| Support { name: &own.name, force: own.force.into() });
+        Self {
+            frequency: own.frequency,
+            amplitude: own.amplitude,
+            nodes: nodes.collect(),
+            elements: elements.collect(),
+            supports: supports.collect(),
+            power: own.power,
+            warnings: &own.warnings,
+        }
+    }
+}
+
+fn word(kind: DriveKind) -> &'static str {
+    match kind {
+        DriveKind::Motion => "motion",
+        DriveKind::Load => "load",
+    }
+}
+
+/// A phase in degrees.
+pub(crate) fn degrees(phase: f64) -> f64 {
+    phase * (180.0 / PI)
+}
+
+/// What is driven, and what the ratio is.
+pub(crate) fn drive(drive: &Drive) -> String {
+    let name = &drive.name;
+    match drive.kind {
+        DriveKind::Motion => format!(
+            "The motion of `{name}` is a sine, all else that drives is silent. Transmissibility: \
+             amplitude of a node over that of `{name}`."
+        ),
+        DriveKind::Load => format!(
+            "The load `{name}` on `{}` is a sine, all else that drives is silent. \
+             Transmissibility: amplitude of the force on a support over that of `{name}`.",
+            drive.node
+        ),
+    }
+}
+
+fn table(caption: impl Into<String>, header: &[&str], rows: Vec<Vec<String>>) -> Table {
+    let header = header.iter().map(|own| (*own).to_owned()).collect();
+    Table { caption: caption.into(), header, rows }
+}
+
+fn ratio(value: f64) -> String {
+    Unit::plain("1").number(value, DIGITS)
+}
+
+fn angle(phase: f64) -> String {
+    Unit::plain("1").decimal(degrees(phase), 1)
+}
+
+fn hertz(value: f64) -> String {
+    quantity(value, "Hz", DIGITS)
+}
+
+fn watts(value: f64) -> String {
+    let units = [("kW", 1e3), ("W", 1.0), ("mW", 1e-3)];
+    let (symbol, factor) = units.into_iter().find(|own| value >= own.1).unwrap_or(("µW", 1e-6));
+    Unit::new(symbol, factor).text(value, DIGITS)
+}
+
+/// The resonances of every response.
+pub(crate) fn resonances(sweep: &Sweep) -> Table {
+    let rows = sweep.transmissions.iter().flat_map(|transmission| {
+        transmission.resonances.iter().map(|own| {
+            let none = || NONE.to_owned();
+            let swing = |text: fn(f64) -> String, value: fn(Swing) -> f64| {
+                own.swing.map_or_else(none, |own| text(value(own)))
+            };
+            let band = own.band.map(|[low, high]| format!("{} to {}", hertz(low), hertz(high)));
+            vec![
+                transmission.name.clone(),
+                hertz(own.frequency),
+                swing(ratio, |own| own.amplitude),
+                swing(angle, |own| own.phase),
+                own.quality().map_or_else(none, ratio),
+                band.unwrap_or_else(none),
+            ]
+        })
+    });
+    let header = ["", "frequency", "ratio", "phase °", "Q", "half power"];
+    table("Resonances", &header, rows.collect())
+}
+
+/// What is to be known beside the tables, in whole sentences.
+pub(crate) fn remarks(sweep: &Sweep) -> Vec<String> {
+    let all = || sweep.transmissions.iter();
+    let mut remarks = Vec::new();
+    let still: Vec<&str> =
+        all().filter(|own| own.resonances.is_empty()).map(|own| own.name.as_str()).collect();
+    if !still.is_empty() {
+        remarks.push(format!("no resonance of {} in this range", still.join(", ")));
+    }
+    if all().flat_map(|own| &own.resonances).any(|own| own.swing.is_none()) {
+        remarks.push("a resonance without a ratio is not damped: it has no limit".to_owned());
+    }
+    let limits = all().map(|own| match own.at_rest {
+        Some(swing) => format!("{} of {}", ratio(swing.amplitude), own.name),
+        None => format!("none of {}", own.name),
+    });
+    remarks.push(format!("limit at slow oscillation: {}", limits.collect::<Vec<_>>().join(", ")));
+    let worst = all().map(Transmission::worst_error).fold(0.0, f64::max);
+    remarks.push(format!("every ratio is good to {}, by rounding", bound(worst)));
+    remarks
+}
+
+/// Ratios and phases over frequency, as many responses as fit into so many columns, and a word on
+/// what is left out.
+pub(crate) fn response(sweep: &Sweep, columns: usize) -> (Table, Option<String>) {
+    let total = sweep.frequencies.len();
+    let count = total.min(MOST_ROWS);
+    let places: Vec<usize> =
+        (0..count).map(|at| (at * (total - 1) + (count - 1) / 2) / (count - 1).max(1)).collect();
+    let whole = |shown: &[Transmission]| {
+        let mut header = vec!["frequency"];
+        header.extend(shown.iter().flat_map(|own| [own.name.as_str(), "phase °"]));
+        let row = |&at: &usize| {
+            let mut row = vec![hertz(sweep.frequencies[at])];
+            for own in shown {
+                match own.swings[at] {
+                    Some(own) => row.extend([ratio(own.amplitude), angle(own.phase)]),
+                    None => row.extend([NONE, NONE].map(str::to_owned)),
+                }
+            }
+            row
+        };
+        table("Transmissibility", &header, places.iter().map(row).collect())
+    };
+    let all = &sweep.transmissions;
+    let fitting = (1..=all.len()).rev().find(|&own| width(&whole(&all[..own])) <= columns);
+    let shown = fitting.unwrap_or(1);
+    let mut left_out = Vec::new();
+    if count < total {
+        left_out.push(format!("{count} of {total} frequencies"));
+    }
+    if shown < all.len() {
+        left_out.push(format!("{shown} of {} responses; `--of` chooses others", all.len()));
+    }
+    let remark = (!left_out.is_empty()).then(|| left_out.join(", "));
+    (whole(&all[..shown]), remark)
+}
+
+/// The peaks of the steady state.
+pub(crate) fn steady(steady: &Steady) -> Vec<Table> {
+    let unit = steady.drive.kind.unit();
+    let amplitude = quantity(steady.amplitude, unit, DIGITS);
+    let name = &steady.drive.name;
+    let caption = format!("Peaks at {} with {amplitude} of {name}", hertz(steady.frequency));
+    let nodes = steady.nodes.iter().map(|own| {
+        let acceleration = own.acceleration.amplitude;
+        vec![
+            own.name.clone(),
+            quantity(own.displacement.amplitude, "m", DIGITS),
+            quantity(acceleration, "m/s^2", DIGITS),
+            format!("{} g", ratio(acceleration / GRAVITY)),
+            angle(own.displacement.phase),
+        ]
+    });
+    let elements = steady.elements.iter().map(|own| {
+        let force =
+            |text: &dyn Fn(Swing) -> String| own.force.map_or_else(|| NONE.to_owned(), text);
+        vec![
+            own.name.clone(),
+            force(&|own| quantity(own.amplitude, "N", DIGITS)),
+            force(&|own| angle(own.phase)),
+            quantity(own.deformation.amplitude, "m", DIGITS),
+            angle(own.deformation.phase),
+        ]
+    });
+    let supports = steady.supports.iter().map(|own| {
+        vec![own.name.clone(), quantity(own.force.amplitude, "N", DIGITS), angle(own.force.phase)]
+    });
+    let header = ["node", "displacement", "acceleration", "", "phase °"];
+    let nodes = table(caption, &header, nodes.collect());
+    let header = ["element", "force", "phase °", "deformation", "phase °"];
+    let elements = table("", &header, elements.collect());
+    let supports = table("", &["support", "force", "phase °"], supports.collect());
+    vec![nodes, elements, supports]
+}
+
+/// What is to be known beside them.
+pub(crate) fn steady_remarks(steady: &Steady) -> Vec<String> {
+    let power = steady.power.map(|own| {
+        // A power that only rounding makes is none.
+        format!("the drive puts in {} on average", watts(own.max(0.0)))
+    });
+    let note = "weights and other constant forces come on top; elements pull as they push";
+    power.into_iter().chain([note.to_owned()]).collect()
+}
