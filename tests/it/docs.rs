@@ -21,6 +21,7 @@ mod readme;
 mod registers;
 mod separation;
 mod shown;
+mod vibration;
 
 /// Said of what the program has left behind.
 const OUTDATED: &str = "out of date; run UPDATE_DOCS=1 cargo test docs, and look at the changes";

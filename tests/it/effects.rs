@@ -4,6 +4,15 @@
 //! the exact method, where it is linear between switchings, and by stepping methods, and held against
 //! the 20 digits of the table.
 
+mod bouncing;
+mod claims;
+mod faces;
+mod friction;
+mod neutral;
+mod nonlinear;
+mod off;
 mod reference;
 mod separation;
+mod stops;
 mod trial;
+mod waves;

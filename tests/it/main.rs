@@ -19,6 +19,7 @@ mod error_bars;
 mod examples;
 mod gallery;
 mod independent;
+mod layers;
 mod order;
 mod partial;
 mod random_networks;

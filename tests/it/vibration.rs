@@ -111,7 +111,7 @@ fn by_poles(receptance: &Receptance, omega: f64) -> ([f64; 2], f64) {
         let far = pole.at[0].hypot(omega - pole.at[1]);
         least = least.min(far / pole.at[0].hypot(pole.at[1]).max(f64::MIN_POSITIVE));
         for (at, strength) in pole.strengths.iter().enumerate() {
-            size += strength[0].hypot(strength[1]) / far.powi(at as i32 + 1);
+            size += strength[0].hypot(strength[1]) / far.powi(i32::try_from(at).unwrap() + 1);
         }
     }
     (receptance.at([0.0, omega]), receptance.error() * size * (1.0 + 1.0 / least))
@@ -123,7 +123,8 @@ fn amplitudes_are_within_their_errors_of_what_poles_and_strengths_give() {
     let mut count = 0;
     for _ in 0..300 {
         let mut network = Recipe::draw(&mut dice, 8.0).build();
-        let head = network.nodes().map(|own| own.0).find(|id| network.node(*id).mass > 0.0).unwrap();
+        let head =
+            network.nodes().map(|own| own.0).find(|id| network.node(*id).mass > 0.0).unwrap();
         let ground = network.ground();
         let Ok(Response::Massive(receptance)) = network.driving_point(head, ground) else {
             continue;
@@ -166,8 +167,7 @@ fn a_pad_with_mass_passes_forces_on_as_it_passes_motions_on() {
     network.add_load("ram", device, Waveform::constant(1.0));
     let swings = |drive: &str| {
         let vibration = Vibration::new(&network, 1.0, Some(drive)).unwrap();
-        let settings =
-            SweepSettings { from: Some(1.0), to: Some(2e3), points: 40, of: Vec::new() };
+        let settings = SweepSettings { from: Some(1.0), to: Some(2e3), points: 40, of: Vec::new() };
         vibration.sweep(&settings).unwrap().transmissions.remove(0).swings
     };
     for (force, motion) in swings("ram").into_iter().zip(swings("ground")) {
@@ -189,7 +189,11 @@ fn what_is_not_linear_is_refused_by_name() {
     assert_eq!(part, "the element `snubber`");
     let output = run(&["vibrate", "scenes/truck-parcel.toml"]);
     assert_eq!(code(&output), 2);
-    assert!(err(&output).contains("the element `cushion.contact` is not linear"), "{}", err(&output));
+    assert!(
+        err(&output).contains("the element `cushion.contact` is not linear"),
+        "{}",
+        err(&output)
+    );
 }
 
 #[test]

@@ -91,7 +91,10 @@ impl Impact {
                 let slope = force.panels[..force.panels.partition_point(|own| own.end <= parted)]
                     .last()
                     .map_or(0.0, |panel| panel.slope(parted).abs());
-                let shift = |error: f64| if slope > 0.0 { error / slope } else { 0.0 };
+                // A force that ends with a jump is ended by something else, found to rounding.
+                let jumps = force.left_value(parted).abs() > 1e-6 * force.bound();
+                let rate = if jumps { f64::INFINITY } else { slope };
+                let shift = |error: f64| if slope > 0.0 { error / rate } else { 0.0 };
                 let rounding = 4.0 * f64::EPSILON * parted;
                 let end_error = force.error.map(|error| shift(error).min(run_end) + rounding);
                 Self { end: parted, end_error, contact: Contact::Parted, ..run }

@@ -5,6 +5,7 @@ use dashpot_dae::{Direction, Guard, SolveError};
 use crate::{
     Accuracy, ContactReport, Ledger, MeasureReport, Solution, contacts,
     impact::{Contact, Impact},
+    solution::is_impactor,
     wording::{percent, quantity},
 };
 
@@ -30,6 +31,7 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
     warnings.extend(beyond_thickness(findings.solution));
     warnings.extend(energy(findings));
     warnings.extend(stops_that_hold(findings));
+    warnings.extend(still_falling(findings.solution));
     warnings.extend(still_in_contact(findings.contacts));
     warnings.extend(accuracy(findings));
     warnings.extend(findings.solution.assembly().warnings.iter().cloned());
@@ -130,6 +132,25 @@ fn stops_that_hold(findings: &Findings<'_>) -> Vec<String> {
 
 fn worst(measures: &[MeasureReport]) -> Option<f64> {
     measures.iter().filter_map(MeasureReport::relative_error).reduce(f64::max)
+}
+
+/// What was dropped and has not arrived when the run ends.
+fn still_falling(solution: &Solution<'_>) -> Vec<String> {
+    let falling = solution.assembly().nodes.iter().filter(|node| is_impactor(node)).filter_map(|node| {
+        let speed = node.start_velocity.filter(|speed| *speed != 0.0)?;
+        let (velocity, height) = (node.velocity?, -solution.signal(node.position).value(0.0));
+        let fall = 2.0 * height / speed.abs();
+        let begins_at_rest = solution.signal(velocity).value(0.0) == 0.0;
+        (begins_at_rest && fall > solution.end()).then(|| {
+            let (end, fall) = (quantity(solution.end(), "s"), quantity(fall, "s"));
+            format!(
+                "{} is still falling at the end of the run at {end}: its fall takes {fall}; make \
+                 `duration` longer",
+                node.name
+            )
+        })
+    });
+    falling.collect()
 }
 
 fn still_in_contact(contacts: &[ContactReport]) -> Vec<String> {

@@ -73,6 +73,17 @@ pub enum NetworkError {
         /// The nodes, by name.
         nodes: Vec<String>,
     },
+    /// Massless nodes whose place follows from nothing while contacts are open.
+    #[error(
+        "while its contacts are open, the place of {} is undetermined: it has no mass, and nothing \
+         else tells where it is; let the pad part at one end only, give it a `face` with mass, or \
+         put a dashpot beside what may go slack",
+        quoted(.nodes)
+    )]
+    Loose {
+        /// The nodes, by name.
+        nodes: Vec<String>,
+    },
     /// A mass is asked to start with a speed that it cannot have.
     #[error("`{node}` has a start speed but {reason}")]
     StartSpeed {
@@ -216,7 +227,9 @@ impl NetworkError {
             | Self::ContradictingMotions { second: name, .. }
             | Self::MotionOfMass { node: name, .. }
             | Self::StepAcrossDashpots { node: name, .. } => node(name),
-            Self::Undetermined { nodes } | Self::NoBalance { nodes } => {
+            Self::Undetermined { nodes }
+            | Self::Loose { nodes }
+            | Self::NoBalance { nodes } => {
                 nodes.first().and_then(node)
             }
             Self::NoElement { effect, element } | Self::NotAnEnd { effect, element, .. } => {

@@ -61,8 +61,7 @@ fn a_ball_bounces_on_a_spring_for_ever() {
         let (deepest, force) = (case.get("peak-deformation"), case.get("peak-force"));
         trial.count("pad.contact", "closed", 5);
         for nth in 1..=5 {
-            let touch =
-                trial.switch(["pad.contact", "closed"], nth, &format!("touch-{nth}.time"));
+            let touch = trial.switch(["pad.contact", "closed"], nth, &format!("touch-{nth}.time"));
             let release =
                 trial.switch(["pad.contact", "open"], nth, &format!("release-{nth}.time"));
             let speed = case.get("touch.velocity");

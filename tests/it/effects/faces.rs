@@ -38,7 +38,12 @@ fn a_plastic_touch_joins_head_and_face_until_f1_is_zero() {
                     start = trial.touch("pad.contact", touch, &format!("{label}.time"));
                     trial.value("head.position", start, Side::Before, &format!("{label}.position"));
                 }
-                trial.value("head.velocity", start, Side::After, &format!("{label}.velocity-after"));
+                trial.value(
+                    "head.velocity",
+                    start,
+                    Side::After,
+                    &format!("{label}.velocity-after"),
+                );
                 // Energies are quadratic in the speed: what is lost is known to the first loss.
                 let of = case.get("touch-1.energy-lost");
                 trial.number("loss", own.lost, case.get(&format!("{label}.energy-lost")), of);
@@ -53,8 +58,7 @@ fn a_plastic_touch_joins_head_and_face_until_f1_is_zero() {
                 trial.peak("pad.force", (start, last), &format!("peak-F2-{touch}"));
                 let pull = format!("largest-pull-of-pad-{touch}");
                 if case.find(&pull).is_some() {
-                    let until =
-                        trial.impacts("pad.contact").get(touch).map_or(end, |own| own.time);
+                    let until = trial.impacts("pad.contact").get(touch).map_or(end, |own| own.time);
                     trial.trough("pad.force", (last, until), &pull);
                 }
                 start = last;

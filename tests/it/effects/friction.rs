@@ -18,8 +18,7 @@ fn scene(body: &str, slider: &str, others: &str) -> String {
     )
 }
 
-const GROUND: &str =
-    "[elements]\nslider = { between = [\"body\", \"ground\"], friction = <Fc> }";
+const GROUND: &str = "[elements]\nslider = { between = [\"body\", \"ground\"], friction = <Fc> }";
 
 /// The belt runs at vb for 1 s.
 const BELT: &str = "belt = { motion = { table = [[0, 0], [1, <vb>]] } }\n\
@@ -63,7 +62,8 @@ fn a_body_at_rest_is_taken_along_by_a_belt() {
 #[test]
 fn friction_stops_a_body_and_holds_it() {
     let case = Case::of("slider-free");
-    let text = format!("[nodes]\nbody = {{ mass = <m>, velocity = <V> }}\n{GROUND}\n[run]\nduration = 1");
+    let text =
+        format!("[nodes]\nbody = {{ mass = <m>, velocity = <V> }}\n{GROUND}\n[run]\nduration = 1");
     judge(case, ALL, &text, |trial| {
         let time = trial.switch(STUCK, 1, "stop.time");
         let end = trial.end();

@@ -83,8 +83,7 @@ fn cubic_springs_give_back_all() {
     });
 
     let case = Case::of("pure-cubic-spring");
-    let text =
-        scene("cubic-spring = { stiffness = 0, cubic = <k3> }", false, case.get("period"));
+    let text = scene("cubic-spring = { stiffness = 0, cubic = <k3> }", false, case.get("period"));
     judge(case, STEPPING, &text, |trial| {
         trial.peak("pad.deformation", (0.0, trial.end()), "peak-deformation");
         trial.peak("pad.force", (0.0, trial.end()), "peak-force");
@@ -124,7 +123,9 @@ fn hunt_crossley_impacts_from_nearly_elastic_to_nearly_plastic() {
 
 #[test]
 fn power_dashpots_that_thin_stop_a_mass_and_orifices_do_not() {
-    let pad = |exponent: f64| format!("power-dashpot = {{ force = <c>, at = 1, exponent = {exponent:?} }}");
+    let pad = |exponent: f64| {
+        format!("power-dashpot = {{ force = <c>, at = 1, exponent = {exponent:?} }}")
+    };
     for variant in ["unit", "si"] {
         let case = Case::of(&format!("dashpot-power-0.5-{variant}"));
         let text = scene(&pad(0.5), false, 1.5 * case.get("stop.time"));
@@ -152,14 +153,16 @@ fn power_dashpots_that_thin_stop_a_mass_and_orifices_do_not() {
 #[test]
 fn springs_and_power_dashpots_beside_and_behind_each_other() {
     let case = Case::of("spring-and-dashpot-power-2");
-    let pad = "parallel = [{ spring = <K> }, { power-dashpot = { force = <c>, at = 1, exponent = 2 } }]";
+    let pad =
+        "parallel = [{ spring = <K> }, { power-dashpot = { force = <c>, at = 1, exponent = 2 } }]";
     judge(case, STEPPING, &scene(pad, true, 1.2 * case.get("release.time")), |trial| {
         impact(trial);
         trial.value("pad.force", 0.0, Side::After, "force-at-touch");
     });
 
     let case = Case::of("spring-dashpot-power-0.5-in-series");
-    let pad = "series = [{ spring = <K> }, { power-dashpot = { force = <c>, at = 1, exponent = 0.5 } }]";
+    let pad =
+        "series = [{ spring = <K> }, { power-dashpot = { force = <c>, at = 1, exponent = 0.5 } }]";
     judge(case, STEPPING, &scene(pad, true, 1.2 * case.get("release.time")), impact);
 }
 

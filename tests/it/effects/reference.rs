@@ -53,14 +53,8 @@ impl Case {
         let mut filled = parts.next().unwrap_or_default().to_owned();
         for part in parts {
             let (name, rest) = part.split_once('>').expect("a closing bracket");
-            filled += &format!("{:?}", self.param(name));
-            filled += rest;
+            filled.extend([&*format!("{:?}", self.param(name)), rest]);
         }
         filled
     }
-}
-
-/// The names of all cases.
-pub(super) fn names() -> impl Iterator<Item = &'static str> {
-    CASES.keys().copied()
 }

@@ -159,8 +159,8 @@ fn zener_pad_lets_go_with_a_jump_of_the_speed_of_its_face() {
         let face = trial.signal("pad.face.position");
         let panel = face.panel_at(release);
         let speeds = [face.panels[panel - 1].slope(release), face.panels[panel].slope(release)];
-        let expected = ["before", "after"]
-            .map(|side| case.get(&format!("release-1.face-velocity-{side}")));
+        let expected =
+            ["before", "after"].map(|side| case.get(&format!("release-1.face-velocity-{side}")));
         // A slope has the error of the value over the length of a panel.
         trial.if_exact(|| {
             for (found, expected) in speeds.into_iter().zip(expected) {

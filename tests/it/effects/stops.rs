@@ -26,9 +26,10 @@ fn a_rigid_stop_throws_the_head_back() {
             trial.value("head.velocity", hit, Side::Before, "stop-1.velocity-before");
             trial.value("head.velocity", hit, Side::After, "stop-1.velocity-after");
             let own = trial.switches("pad.stop", None)[0];
-            for (what, found, quantity) in
-                [("impulse", own.impulse, "stop-1.impulse"), ("loss", own.lost, "stop-1.energy-lost")]
-            {
+            for (what, found, quantity) in [
+                ("impulse", own.impulse, "stop-1.impulse"),
+                ("loss", own.lost, "stop-1.energy-lost"),
+            ] {
                 let expected = case.get(quantity);
                 // They are quadratic in the speed at the most.
                 trial.number(what, found, expected, 2.0 * expected);

@@ -6,11 +6,11 @@
 //! quantities must stay within 1000, or 10 000. An instant at which a quantity passes a level is known
 //! as well as the quantity, divided by its slope there, and as the time that has passed.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 
 use dashpot::{
-    analysis::{RunReport, Solution, ledger::ledger, solve},
-    dae::{Signal, Silent, Switch},
+    analysis::{RunReport, Solution, solve},
+    dae::{Signal, Silent},
     scene::{ReadOptions, Scene, read},
 };
 
@@ -33,9 +33,7 @@ pub(super) struct Trial<'a> {
     pub(super) case: &'a Case,
     pub(super) report: &'a RunReport,
     pub(super) solution: Solution<'a>,
-    /// The largest error in parts of what is allowed.
-    worst: Cell<f64>,
-    faults: RefCell<Vec<String>>,
+    pub(super) faults: RefCell<Vec<String>>,
 }
 
 /// The side of an instant.
@@ -67,7 +65,6 @@ pub(super) fn judge(case: &Case, methods: &[&str], text: &str, claims: impl Fn(&
             case,
             report: &report,
             solution: report.solution(),
-            worst: Cell::new(0.0),
             faults: RefCell::default(),
         };
         claims(&trial);
@@ -75,7 +72,6 @@ pub(super) fn judge(case: &Case, methods: &[&str], text: &str, claims: impl Fn(&
         if let Some(first) = &first {
             trial.agrees_with(first);
         }
-        println!("{} by {method}: {:.1e} of what is allowed", case.name, trial.worst.get());
         let found = trial.faults.take();
         faults.extend(found.into_iter().map(|fault| format!("{} by {method}: {fault}", case.name)));
         drop(trial);
@@ -85,7 +81,7 @@ pub(super) fn judge(case: &Case, methods: &[&str], text: &str, claims: impl Fn(&
 }
 
 impl Trial<'_> {
-    fn is_exact(&self) -> bool {
+    pub(super) fn is_exact(&self) -> bool {
         self.report.solver.rtol.is_none()
     }
 
@@ -103,7 +99,7 @@ impl Trial<'_> {
     }
 
     /// The error of a quantity that is as large as `scale` and of which the run states an error.
-    fn error(&self, stated: Option<f64>, scale: f64) -> f64 {
+    pub(super) fn error(&self, stated: Option<f64>, scale: f64) -> f64 {
         match self.report.solver.rtol {
             None => stated.expect("`exact` states its error").min(EXACT * scale),
             Some(rtol) => self.errors_per_tolerance() * rtol * scale,
@@ -115,204 +111,14 @@ impl Trial<'_> {
         if is_second_order { 10.0 * ERRORS_PER_TOLERANCE } else { ERRORS_PER_TOLERANCE }
     }
 
-    fn within(&self, what: &str, found: f64, expected: f64, allowed: f64) {
+    pub(super) fn within(&self, what: &str, found: f64, expected: f64, allowed: f64) {
         let error = (found - expected).abs();
         let allowed = allowed + ROUNDING * expected.abs();
-        self.worst.set(self.worst.get().max(error / allowed));
         if error.is_nan() || error > allowed {
             self.faults.borrow_mut().push(format!(
                 "{what} is {found:.17e}, not {expected:.17e}: {error:.1e} > {allowed:.1e}"
             ));
         }
-    }
-
-    /// All switchings of a part, into the phase `what` if that is given.
-    pub(super) fn switches(&self, part: &str, what: Option<&str>) -> Vec<&Switch> {
-        let switches = self.report.trajectory.switches.iter();
-        switches
-            .filter(|own| belongs_to(&own.name, part))
-            .filter(|own| what.is_none_or(|what| own.what == what))
-            .collect()
-    }
-
-    pub(super) fn count(&self, part: &str, what: &str, expected: usize) {
-        let found = self.switches(part, Some(what)).len();
-        if found != expected {
-            let fault = format!("{part} is {what} {found} times, not {expected}");
-            self.faults.borrow_mut().push(fault);
-        }
-    }
-
-    /// How well the instant of a switching is known: an error of what is watched, over its slope.
-    fn time_error(&self, own: &Switch) -> f64 {
-        let primitives = &self.report.assembly.primitives;
-        let Some(part) = primitives.iter().find(|part| part.name == own.name) else { return 0.0 };
-        let watched = match own.what {
-            "open" | "sliding forward" | "sliding backward" => part.force,
-            "stuck" => part.rate.unwrap_or(part.deformation),
-            _ => part.deformation,
-        };
-        let signal = self.solution.signal(watched);
-        // A gap is a small difference of the ways of its sides.
-        let way = if watched == part.deformation { self.longest_way() } else { 0.0 };
-        let error = self.error(signal.error, signal.bound().max(way));
-        let late = if self.is_exact() { 0.0 } else { self.error(None, own.time) };
-        late + within(signal, own.time, error)
-    }
-
-    fn longest_way(&self) -> f64 {
-        let places = self.report.assembly.nodes.iter().map(|node| node.position);
-        places.map(|place| self.solution.signal(place).bound()).fold(0.0, f64::max)
-    }
-
-    /// By how much all is shifted in time at `time`: by the errors of the switchings until then.
-    fn shift(&self, time: f64) -> f64 {
-        let switches = self.report.trajectory.switches.iter();
-        let until = switches.filter(|own| own.time > 0.0 && own.time <= time);
-        until.map(|own| self.time_error(own)).sum()
-    }
-
-    /// The time of the switching number `nth` (from 1) of a part into a phase, held against the case.
-    pub(super) fn switch(&self, [part, what]: [&str; 2], nth: usize, quantity: &str) -> f64 {
-        let switches = self.switches(part, Some(what));
-        let Some(own) = switches.get(nth - 1) else {
-            let count = switches.len();
-            let method = self.report.solver.method;
-            panic!("{} by {method}: {part} is {what} {count} times only", self.case.name)
-        };
-        self.instant(own, quantity)
-    }
-
-    /// The time of a switching, held against the case.
-    pub(super) fn instant(&self, own: &Switch, quantity: &str) -> f64 {
-        self.late_instant(own, quantity, 0.0)
-    }
-
-    /// The same of one that may be `late` \[s\] for a reason of its own.
-    pub(super) fn late_instant(&self, own: &Switch, quantity: &str, late: f64) -> f64 {
-        let name = format!("time of {} {} ({quantity})", own.name, own.what);
-        self.within(&name, own.time, self.case.get(quantity), late + self.shift(own.time));
-        own.time
-    }
-
-    /// The time at which a series of ever shorter flights ends, of which a run leaves out those that
-    /// cannot be told from rest: at most as long as the last two together.
-    pub(super) fn rests(&self, own: &Switch, quantity: &str) {
-        let impacts = self.impacts(&own.name);
-        let times: Vec<f64> =
-            impacts.iter().map(|own| own.time).filter(|time| *time < own.time).collect();
-        let [.., before, last] = times[..] else { panic!("{times:?}") };
-        let (first, second) = (last - before, own.time - last);
-        // The flights are a geometric series.
-        let left = second * second / (first - second);
-        let slack = 0.02 * left;
-        self.late_instant(&Switch { time: own.time + left, ..own.clone() }, quantity, slack);
-        if self.is_exact() {
-            assert!(left < 1e-6 * own.time, "{left:e} s are left out");
-        }
-    }
-
-    /// The error of a method of a quantity as large as `scale`.
-    pub(super) fn part_of(&self, scale: f64) -> f64 {
-        self.error(Some(f64::INFINITY), scale)
-    }
-
-    /// The impacts of a part.
-    pub(super) fn impacts(&self, part: &str) -> Vec<&Switch> {
-        self.switches(part, None).into_iter().filter(|own| own.impulse > 0.0).collect()
-    }
-
-    /// The time of the impact number `nth` (from 1) of a part, held against the case.
-    pub(super) fn touch(&self, part: &str, nth: usize, quantity: &str) -> f64 {
-        let impacts = self.impacts(part);
-        let Some(own) = impacts.get(nth - 1) else {
-            let (count, method) = (impacts.len(), self.report.solver.method);
-            panic!("{} by {method}: {part} has {count} impacts only", self.case.name)
-        };
-        self.instant(own, quantity)
-    }
-
-    /// A value at an instant that was found, or is given.
-    pub(super) fn value(&self, output: &str, time: f64, side: Side, quantity: &str) {
-        self.value_is(output, time, side, self.case.get(quantity));
-    }
-
-    pub(super) fn value_is(&self, output: &str, time: f64, side: Side, expected: f64) {
-        let signal = self.signal(output);
-        let (found, slope) = match side {
-            Side::Before => (signal.left_value(time), left_slope(signal, time)),
-            Side::After => (signal.value(time), signal.slope(time)),
-        };
-        let shifted = if self.is_exact() { 0.0 } else { slope.abs() * self.shift(time) };
-        let error = self.error(signal.error, signal.bound()) + shifted;
-        self.within(&format!("{output} {side:?} {time}"), found, expected, error);
-    }
-
-    /// The largest value in a window, and its time where the case has it.
-    pub(super) fn peak(&self, output: &str, window: (f64, f64), quantity: &str) {
-        self.extremum(&self.signal(output).clone(), output, window, quantity);
-    }
-
-    /// The same of the negative of an output.
-    pub(super) fn trough(&self, output: &str, window: (f64, f64), quantity: &str) {
-        self.extremum(&self.signal(output).scaled(-1.0), output, window, quantity);
-    }
-
-    pub(super) fn extremum(&self, signal: &Signal, name: &str, window: (f64, f64), quantity: &str) {
-        let peak = signal.maximum(window);
-        let error = self.error(signal.error, signal.bound());
-        self.within(&format!("peak of {name}"), peak.value, self.case.get(quantity), error);
-        let Some(time) = self.case.find(&format!("{quantity}.time")) else { return };
-        // A top is flat: an error of its height moves it by the root of that, over its curvature.
-        let curvature = signal.derivative().slope(peak.time).abs();
-        let flat = (4.0 * error / curvature).sqrt();
-        let steep = 2.0 * error / left_slope(signal, peak.time).abs();
-        let allowed = if flat.is_finite() { flat } else { 0.0 };
-        let at_border = peak.time <= window.0 || peak.time >= window.1;
-        let allowed = allowed.max(if at_border && steep.is_finite() { steep } else { 0.0 });
-        let allowed = allowed + self.shift(peak.time);
-        self.within(&format!("time of the peak of {name}"), peak.time, time, allowed);
-    }
-
-    /// The energy that an element has dissipated until `time`.
-    pub(super) fn dissipated(&self, element: &str, time: f64) -> f64 {
-        let ledger = ledger(&self.solution, time);
-        let assembly = &self.report.assembly;
-        let own = assembly.connection(element).expect("an element").primitives.clone();
-        let names: Vec<&str> =
-            assembly.primitives[own].iter().map(|own| own.name.as_str()).collect();
-        let own = ledger.dissipated.iter().filter(|entry| names.contains(&entry.0.as_str()));
-        own.map(|entry| entry.1).sum()
-    }
-
-    pub(super) fn loss(&self, element: &str, time: f64, quantity: &str) {
-        let found = self.dissipated(element, time);
-        let ledger = ledger(&self.solution, time);
-        let error = self.error(ledger.error, ledger.turned_over);
-        self.within(&format!("loss in {element}"), found, self.case.get(quantity), error);
-    }
-
-    /// A measure of the report, within the error that it states.
-    pub(super) fn measure(&self, key: &str, quantity: &str) {
-        self.measure_within(1.0, key, quantity);
-    }
-
-    /// A measure within so many of the errors that it states.
-    pub(super) fn measure_within(&self, bars: f64, key: &str, quantity: &str) {
-        let Some(own) = self.report.measure(key) else {
-            let known: Vec<&str> = self.report.measures.iter().map(|own| &*own.key).collect();
-            panic!("no {key} in {known:?}")
-        };
-        let (Some(value), Some(error)) = (own.value, own.error) else {
-            self.faults.borrow_mut().push(format!("{own:?}"));
-            return;
-        };
-        self.within(key, value, self.case.get(quantity), bars * error);
-    }
-
-    /// A number that was made of others, of the size `scale`, without an error of its own.
-    pub(super) fn number(&self, what: &str, found: f64, expected: f64, scale: f64) {
-        self.within(what, found, expected, self.error(Some(f64::INFINITY), scale));
     }
 
     /// Energy is conserved: to 1e-10 by `exact`, within its errors by the others.
@@ -364,28 +170,4 @@ impl Trial<'_> {
             claim();
         }
     }
-}
-
-/// Whether a path is that of a part or of something in it.
-fn belongs_to(path: &str, part: &str) -> bool {
-    path.strip_prefix(part).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-}
-
-/// How long before `time` a signal is as close to its value there as its error.
-fn within(signal: &Signal, time: f64, error: f64) -> f64 {
-    let end = signal.left_value(time);
-    let mut span = 4.0 * f64::EPSILON * time;
-    while span < time && (signal.left_value(time - span) - end).abs() < error {
-        span *= 1.25;
-    }
-    span.min(time)
-}
-
-/// The slope on the way to an instant, at which there may be a kink.
-fn left_slope(signal: &Signal, time: f64) -> f64 {
-    let mut at = signal.panel_at(time);
-    if signal.panels[at].start >= time && at > 0 {
-        at -= 1;
-    }
-    signal.panels[at].slope(time)
 }

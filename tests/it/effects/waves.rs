@@ -54,8 +54,13 @@ fn the_front_arrives_at_the_time_of_the_continuum_and_doubles_at_the_free_end() 
     let report = super::trial::run(&text, "exact");
     let solution = report.solution();
     let signal = |name: &str| solution.signal(report.assembly.output(name).unwrap());
-    let ends: Vec<&str> =
-        report.assembly.nodes.iter().filter(|own| own.mass > 0.0).map(|own| own.name.as_str()).collect();
+    let ends: Vec<&str> = report
+        .assembly
+        .nodes
+        .iter()
+        .filter(|own| own.mass > 0.0)
+        .map(|own| own.name.as_str())
+        .collect();
     // The front of a chain is as wide as the cube root of the segments that it has passed, and is at
     // half its height where that of the continuum is: Airy's integral is 1/3 there.
     let free = signal(&format!("{}.velocity", ends[49]));
@@ -137,7 +142,11 @@ fn transmissibility_of_two_masses_in_a_row() {
             close(ratio, swing.phase, quantity("phase"));
         }
         let lower = found.elements.iter().find(|own| own.name == "lower").unwrap();
-        close(ratio, lower.deformation.amplitude, case.get(&format!("r-{ratio}.deformation-ratio")));
+        close(
+            ratio,
+            lower.deformation.amplitude,
+            case.get(&format!("r-{ratio}.deformation-ratio")),
+        );
     }
 }
 

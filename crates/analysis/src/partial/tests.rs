@@ -10,6 +10,7 @@ use dashpot_network::{
     Effect, Influence, Network, Node, NodeId, Situation,
     effects::{Face, Gravity, GravityStart, Stop, Touch},
     elements::{Dashpot, Spring},
+    layers::{Layer, Layers, Resolution},
     parameters::{InvalidParameter, Value},
     part,
 };
@@ -303,4 +304,35 @@ fn a_run_of_a_sweep_that_fails_stands_among_the_others() {
     let failed: Vec<bool> = found.runs.iter().map(Result::is_err).collect();
     assert_eq!(failed, [false, false, true, false, false]);
     assert_eq!(found.checked, [0, 4]);
+}
+
+/// The reference impact on a pad of a light material, cut into segments.
+fn layered(speed: f64) -> Network {
+    let mut network = at_speed(speed);
+    let model = network.connections()[0].model.clone();
+    let (name, resolution) = ("felt".to_owned(), Resolution::Segments(10));
+    let layer = Layer { name, thickness: 0.02, area: 0.01, density: 0.25, model };
+    let [from, to] = network.connections()[0].between;
+    let mut again = Network::new();
+    for (_, node) in network.nodes().skip(1) {
+        again.add_node(node.clone());
+    }
+    again.connect_layers("padding", from, to, Layers { all: vec![layer], resolution });
+    let mount = network.connections()[1].clone();
+    again.connect("mount", mount.between[0], mount.between[1], mount.model);
+    network = again;
+    network
+}
+
+#[test]
+fn a_sweep_saves_the_work_of_layers_whose_mass_is_little() {
+    let networks: Vec<Network> = (0..9).map(|at| layered(5.0 + 0.5 * f64::from(at))).collect();
+    let found = sweep(&networks, &below(Some(0.01)), &mut Silent).unwrap();
+    assert_eq!(found.left_out.len(), 1, "{:?}", found.put_back);
+    assert_eq!((found.checked.len(), found.saving.solves), (3, 9 + 3));
+    let states = |run: &Result<RunReport, RunError>| run.as_ref().unwrap().system.states;
+    assert!(found.runs.iter().all(|run| states(run) == 6));
+    println!("{:?} {:?}", found.worst, found.saving);
+    let in_full = sweep(&networks, &below(None), &mut Silent).unwrap();
+    println!("{:?} {}", in_full.saving, states(&in_full.runs[0]));
 }

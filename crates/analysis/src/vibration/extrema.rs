@@ -15,6 +15,8 @@ const SMOOTH: f64 = 0.05;
 const MOST_HALVINGS: u32 = 40;
 /// Steps to a root; each second one at least halves the bracket.
 const MOST_STEPS: usize = 200;
+/// Steps by which the flattest place of a shoulder is looked for: to a hundred thousandth.
+const SHOULDER_STEPS: usize = 24;
 /// Smaller hills, in `ln |T|²`, are what rounding makes.
 const LEAST_HILL: f64 = 1e-9;
 
@@ -74,7 +76,7 @@ impl Curve<'_> {
     /// The ends of the range from `low` to `high` \[rad/s\], and between them valleys and peaks in
     /// turn. Between two of them the response is monotonic, up to hills that rounding makes.
     pub(super) fn extrema(&self, low: f64, high: f64, poles: &[(f64, f64)]) -> Vec<Extremum> {
-        let samples = self.samples(low, high, poles);
+        let samples = self.with_shoulders(&self.samples(low, high, poles));
         let end = |probe: &Probe, is_peak| Extremum { probe: *probe, width: 0.0, is_peak };
         let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
             return Vec::new();
@@ -130,6 +132,49 @@ impl Curve<'_> {
         }
         fine.extend(coarse.last());
         fine
+    }
+
+    /// The same samples, and one beyond each shoulder: where the slope nearly changes its sign, it
+    /// may do so twice between two samples.
+    fn with_shoulders(&self, samples: &[Probe]) -> Vec<Probe> {
+        let mut all = Vec::with_capacity(samples.len());
+        all.extend(samples.first());
+        for three in samples.windows(3) {
+            let [left, middle, right] = [three[0], three[1], three[2]];
+            let sign = middle.rise.signum();
+            let slopes = [left.rise, middle.rise, right.rise].map(|rise| sign * rise);
+            let is_shoulder = slopes[1] < slopes[0] && slopes[1] <= slopes[2];
+            let beyond = (is_shoulder && slopes[1] > LEAST_HILL)
+                .then(|| self.beyond(left, right, |probe| sign * probe.rise))
+                .flatten();
+            match beyond {
+                Some(probe) if probe.omega < middle.omega => all.extend([probe, middle]),
+                Some(probe) if probe.omega > middle.omega => all.extend([middle, probe]),
+                _ => all.push(middle),
+            }
+        }
+        all.extend(samples.last().filter(|_| samples.len() > 1));
+        all
+    }
+
+    /// A sample between two others at which `value` is negative, by golden section; `None` where
+    /// none is found.
+    fn beyond(&self, left: Probe, right: Probe, value: impl Fn(&Probe) -> f64) -> Option<Probe> {
+        let share = 0.5 * (5.0_f64.sqrt() - 1.0);
+        let (mut low, mut high) = (left.omega, right.omega);
+        for _ in 0..SHOULDER_STEPS {
+            let width = share * (high - low);
+            let [one, other] = [self.probe(high - width)?, self.probe(low + width)?];
+            if let Some(found) = [one, other].into_iter().find(|own| value(own) < 0.0) {
+                return Some(found);
+            }
+            if value(&one) < value(&other) {
+                high = other.omega;
+            } else {
+                low = one.omega;
+            }
+        }
+        None
     }
 
     /// The peak or valley between two samples with slopes of different signs.

@@ -372,6 +372,46 @@ fn a_long_chain_is_that_of_its_recursion() {
 }
 
 #[test]
+fn all_resonances_of_a_chain_are_found_down_to_the_faintest() {
+    let count = 80;
+    let mut network = Network::new();
+    let mut below = network.ground();
+    for at in 0..count {
+        let own = network.add_node(Node::mass(format!("mass-{at}"), 0.5));
+        let link = Model::parallel([spring(1e6), dashpot(2.0)]);
+        network.connect(format!("link-{at}"), own, below, link);
+        below = own;
+    }
+    let (from, to) = (1.0_f64, 1000.0_f64);
+    let settings = SweepSettings { of: vec!["mass-79".into()], ..range(from, to, 2) };
+    let sweep = shaken(&network).sweep(&settings).unwrap();
+    let level = |frequency: f64| {
+        let s = C::new(0.0, TAU * frequency);
+        let step = s * s * 0.5 / (s * 2.0 + 1e6);
+        let (mut place, mut force) = (C::from(1.0), C::default());
+        for _ in 0..count {
+            force += step * place;
+            place += force;
+        }
+        -place.norm().ln()
+    };
+    // The faintest peak is 0.001 high and a thousandth of its frequency away from its valley.
+    let places = 300_000;
+    let ratio = (to / from).powf(1.0 / f64::from(places));
+    let places: Vec<f64> = (0..=places).map(|at| from * ratio.powi(at)).collect();
+    let levels: Vec<f64> = places.iter().map(|own| level(*own)).collect();
+    let tops: Vec<f64> = (1..places.len() - 1)
+        .filter(|&at| levels[at] > levels[at - 1] && levels[at] >= levels[at + 1])
+        .map(|at| places[at])
+        .collect();
+    let found = &sweep.transmissions[0].resonances;
+    assert_eq!(found.len(), tops.len());
+    for (own, top) in found.iter().zip(tops) {
+        assert!((own.frequency / top).ln().abs() <= ratio.ln(), "{} {top}", own.frequency);
+    }
+}
+
+#[test]
 fn what_cannot_be_is_refused_by_name() {
     let mut network = mount(kelvin_voigt(0.1));
     let refused = |network: &Network, drive| Vibration::new(network, 1.0, drive).unwrap_err();

@@ -19,7 +19,11 @@ pub(super) fn left_out(run: &RunReport) -> Option<String> {
     });
     let names: Vec<String> = names.collect();
     if names.is_empty() {
-        return Some(format!("nothing{checked}"));
+        let all = if partial.put_back.is_empty() { "all" } else { "all else" };
+        return Some(match partial.verification.solves {
+            0 => format!("nothing: by estimate {all} is above the bound"),
+            _ => format!("nothing{checked}"),
+        });
     }
     let cost = partial.worst().map_or(String::new(), |worst| format!(": {}", moved(worst)));
     Some(format!("{}{cost}, the most of all{checked}", names.join(", ")))
@@ -58,7 +62,6 @@ fn moved(cost: &Cost) -> String {
 
 fn verification(own: Verification) -> String {
     match own.solves {
-        0 => "; by estimate nothing else is below the bound".to_owned(),
         1 => format!("; checked by 1 further run in {}", duration(own.wall)),
         solves => format!("; checked by {solves} further runs in {}", duration(own.wall)),
     }

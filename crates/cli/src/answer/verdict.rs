@@ -45,6 +45,7 @@ pub(crate) fn verdict(answer: &Answer) -> Vec<Line> {
     let lines = [
         ("stopped", stopped(run)),
         ("peak force", peak_force(answer, run)),
+        ("of it", of_it(answer, run)),
         ("elsewhere", elsewhere(run)),
         ("peak g", peak_g(answer, run)),
         ("deepest point", deepest(answer, run)),
@@ -94,7 +95,31 @@ fn whereabouts(answer: &Answer, measure: &MeasureReport) -> String {
     format!(" in {}{}{}", measure.target, time.unwrap_or_default(), note.unwrap_or_default())
 }
 
+/// The contact of an element and its stop, which carries more than each of them, with its peak force.
+fn whole_contact(run: &RunReport) -> Option<String> {
+    let (headline, most) = largest(run, PeakForce::KIND)?;
+    let (element, peak) = run.largest_force()?;
+    let pad = element.strip_suffix(".contact")?;
+    let is_part = headline.target.strip_prefix(pad).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+    let is_whole = is_part && headline.target != element && peak.value.is_finite();
+    (is_whole && peak.value > most * (1.0 + MARGIN)).then(|| {
+        let (force, time) =
+            (quantity(peak.value, "N", TIME_DIGITS), quantity(peak.time, "s", TIME_DIGITS));
+        format!("{force} in {element} at {time}")
+    })
+}
+
+/// The largest force of one element, where the headline is that of a whole contact.
+fn of_it(answer: &Answer, run: &RunReport) -> Option<String> {
+    whole_contact(run)?;
+    let (measure, value) = largest(run, PeakForce::KIND)?;
+    Some(format!("{}{}", shown(answer, measure, value), whereabouts(answer, measure)))
+}
+
 fn peak_force(answer: &Answer, run: &RunReport) -> Option<String> {
+    if let Some(whole) = whole_contact(run) {
+        return Some(whole);
+    }
     if let Some((measure, time)) = infinite(run, PeakForce::KIND) {
         return Some(format!("infinite in {} at {time}, where the speed jumps", measure.target));
     }
@@ -192,6 +217,9 @@ fn work_in(run: &RunReport, until: f64) -> f64 {
 
 /// The element with the largest force, where that is none of those that are reported.
 fn elsewhere(run: &RunReport) -> Option<String> {
+    if whole_contact(run).is_some() {
+        return None;
+    }
     if infinite(run, PeakForce::KIND).is_some() {
         return None;
     }
@@ -217,7 +245,8 @@ fn stopped(run: &RunReport) -> Option<String> {
 
 fn contact(answer: &Answer, run: &RunReport) -> Option<String> {
     if !run.assembly.nodes.iter().any(is_impactor) {
-        return Some("no impactor: the measures are those of the whole run".to_owned());
+        let opened = opened(run).map_or(String::new(), |text| format!("; {text}"));
+        return Some(format!("no impactor: the measures are those of the whole run{opened}"));
     }
     let of = |contact: Contact| run.contacts.iter().find(|own| own.impact.contact == contact);
     if let Some(contact) = of(Contact::Lasting) {
@@ -243,6 +272,20 @@ fn contact(answer: &Answer, run: &RunReport) -> Option<String> {
     let leaving = leaving(run).map_or(String::new(), |text| format!("; {text}"));
     let again = contact.map_or(String::new(), again);
     Some(format!("{} in {}{pulls}{leaving}{again}", shown(answer, measure, value), measure.target))
+}
+
+/// How often contacts let go in a run without impactors.
+fn opened(run: &RunReport) -> Option<String> {
+    let of_contact = |own: &&dashpot_dae::Switch| own.what == "open";
+    let mut opened = run.trajectory.switches.iter().filter(of_contact);
+    let first = opened.next()?;
+    let name = first.name.trim_end_matches(".contact");
+    let more = opened.filter(|own| own.name == first.name).count();
+    let time = quantity(first.time, "s", TIME_DIGITS);
+    Some(match more {
+        0 => format!("{name} lets go at {time}"),
+        count => format!("{name} lets go {} times, first at {time}", count + 1),
+    })
 }
 
 /// How often they meet again.

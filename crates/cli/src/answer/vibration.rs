@@ -16,7 +16,7 @@ use crate::{
 
 /// Digits of what is computed.
 const DIGITS: usize = 4;
-/// More rows of the table over frequency are left out, at regular distances.
+/// More rows of a table are left out; of frequencies at regular distances.
 const MOST_ROWS: usize = 25;
 /// Standard gravity \[m/s²\].
 const GRAVITY: f64 = 9.806_65;
@@ -222,7 +222,7 @@ fn watts(value: f64) -> String {
     Unit::new(symbol, factor).text(value, DIGITS)
 }
 
-/// The resonances of every response.
+/// The resonances of every response, up to a number of them.
 pub(crate) fn resonances(sweep: &Sweep) -> Table {
     let rows = sweep.transmissions.iter().flat_map(|transmission| {
         transmission.resonances.iter().map(|own| {
@@ -242,7 +242,7 @@ pub(crate) fn resonances(sweep: &Sweep) -> Table {
         })
     });
     let header = ["", "frequency", "ratio", "phase °", "Q", "half power"];
-    table("Resonances", &header, rows.collect())
+    table("Resonances", &header, rows.take(MOST_ROWS).collect())
 }
 
 /// What is to be known beside the tables, in whole sentences.
@@ -254,17 +254,34 @@ pub(crate) fn remarks(sweep: &Sweep) -> Vec<String> {
     if !still.is_empty() {
         remarks.push(format!("no resonance of {} in this range", still.join(", ")));
     }
+    let count = all().map(|own| own.resonances.len()).sum::<usize>();
+    if count > MOST_ROWS {
+        remarks
+            .push(format!("{MOST_ROWS} of {count} resonances; `--of` chooses, `--json` has all"));
+    }
     if all().flat_map(|own| &own.resonances).any(|own| own.swing.is_none()) {
         remarks.push("a resonance without a ratio is not damped: it has no limit".to_owned());
     }
-    let limits = all().map(|own| match own.at_rest {
-        Some(swing) => format!("{} of {}", ratio(swing.amplitude), own.name),
-        None => format!("none of {}", own.name),
-    });
-    remarks.push(format!("limit at slow oscillation: {}", limits.collect::<Vec<_>>().join(", ")));
+    remarks.push(format!("limit at slow oscillation: {}", limits(&sweep.transmissions)));
     let worst = all().map(Transmission::worst_error).fold(0.0, f64::max);
     remarks.push(format!("every ratio is good to {}, by rounding", bound(worst)));
     remarks
+}
+
+/// The limits of slow oscillation; one that all have in common is said once.
+fn limits(all: &[Transmission]) -> String {
+    let text =
+        |own: &Transmission| own.at_rest.map_or("none".to_owned(), |own| ratio(own.amplitude));
+    match all {
+        [first, _, ..] if all.iter().all(|own| text(own) == text(first)) => {
+            format!("{} of all", text(first))
+        }
+        _ => {
+            let each: Vec<String> =
+                all.iter().map(|own| format!("{} of {}", text(own), own.name)).collect();
+            each.join(", ")
+        }
+    }
 }
 
 /// Ratios and phases over frequency, as many responses as fit into so many columns, and a word on

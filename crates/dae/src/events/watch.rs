@@ -153,7 +153,7 @@ impl Track {
         panels.extend_from_slice(&signal.panels);
         let all = Signal::new(panels, signal.error, noise);
         let crossings = all.crossings(level, (all.start(), all.end()));
-        let bent = if self.leaves { bent_at_start(&crossings, signal) } else { 0 };
+        let bent = if self.leaves { bent_at_start(&crossings, signal, level) } else { 0 };
         self.leaves = false;
         for &crossing in crossings.iter().skip(self.told.max(bent)) {
             let rounding = 4.0 * f64::EPSILON * crossing.time.abs();
@@ -190,9 +190,10 @@ impl Track {
 /// How many crossings at the begin of a run are none. An output that leaves its level without slope
 /// to the side that is known bends the other way first in the polynomial of the first step, and comes
 /// back within it.
-fn bent_at_start(crossings: &[Crossing], signal: &Signal) -> usize {
+fn bent_at_start(crossings: &[Crossing], signal: &Signal, level: f64) -> usize {
     let (Some(first), [out, back, ..]) = (signal.panels.first(), crossings) else { return 0 };
-    let is_bent = out.time <= first.start
+    let way = (out.time - first.start) * out.slope.abs();
+    let is_bent = way <= signal.noise.max(8.0 * f64::EPSILON * level.abs())
         && back.time < first.end
         && out.rising.zip(back.rising).is_some_and(|(out, back)| out != back);
     if is_bent { 2 } else { 0 }

@@ -87,7 +87,16 @@ fn solve(
         let (trajectory, t_end) = drive.leg(method, &leg, &mut found)?;
         let own = leg.guards.len();
         let goes_on = match trajectory.outcome {
-            Outcome::Stopped { guard } if guard < own => t_end < run.t_end,
+            Outcome::Stopped { guard } if guard < own => {
+                // A condition of the run's own may be met at the same instant.
+                let met = |event: &&Event| {
+                    event.time >= trajectory.t_end
+                        && event.guard >= own
+                        && run.guards[event.guard - own].stops
+                };
+                found.outcome = trajectory.events.iter().find(met).map(|event| event.guard - own);
+                found.outcome.is_none() && t_end < run.t_end
+            }
             Outcome::Stopped { guard } => {
                 found.outcome = Some(guard - own);
                 false

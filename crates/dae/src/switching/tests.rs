@@ -173,10 +173,8 @@ fn a_stop_in_a_later_leg_ends_the_run_there() {
     let unit = problems::free_motion().system.outputs[0].scale;
     for method in methods() {
         let walls = Walls { restitution: 0.5 };
-        let guards = vec![Guard {
-            direction: Direction::Falling,
-            ..crossing(0, 0.75 * unit, true)
-        }];
+        let guards =
+            vec![Guard { direction: Direction::Falling, ..crossing(0, 0.75 * unit, true) }];
         let run = Run { guards, ..Run::to(90.0 * scale()) };
         let found = integrate(&*method, &walls, &run, &mut Silent).unwrap();
         // Hits at 1/2 and 9/2, and then a quarter of the way down at the speed 1/8.
@@ -249,8 +247,7 @@ fn the_same_run_twice_is_the_same_to_the_last_bit() {
     for method in methods() {
         let run = Run::to(30.0 * scale());
         let walls = Walls { restitution: 0.83 };
-        let [one, two] =
-            [0, 1].map(|_| integrate(&*method, &walls, &run, &mut Silent).unwrap());
+        let [one, two] = [0, 1].map(|_| integrate(&*method, &walls, &run, &mut Silent).unwrap());
         assert_eq!(one.switches, two.switches);
         assert_eq!(one.signal(&system, 0), two.signal(&system, 0));
     }

@@ -15,7 +15,10 @@ use super::{
     scales::power_of_two,
     unknowns::{Inputs, Places},
 };
-use crate::{NetworkError, elements::{Element, Tangent}};
+use crate::{
+    NetworkError,
+    elements::{Element, Tangent},
+};
 
 /// The force of an element as a law of the equations.
 #[derive(Debug)]

@@ -45,13 +45,7 @@ impl Phases for Contact {
 
     fn exits(&self, phase: Phase) -> Vec<Exit> {
         let exit = if phase.index == CLOSED {
-            Exit {
-                watched: Watched::Force,
-                level: 0.0,
-                rising: false,
-                to: OPEN,
-                remembers: false,
-            }
+            Exit { watched: Watched::Force, level: 0.0, rising: false, to: OPEN, remembers: false }
         } else {
             Exit {
                 watched: Watched::Deformation,
@@ -128,10 +122,8 @@ impl ElementKind for Contact {
     ];
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let contact = Self {
-            gap: number(values, 0, "gap")?,
-            restitution: number(values, 1, "restitution")?,
-        };
+        let contact =
+            Self { gap: number(values, 0, "gap")?, restitution: number(values, 1, "restitution")? };
         contact.validate().map(|()| contact)
     }
 

@@ -20,8 +20,8 @@ use crate::{
 
 /// What the columns mean.
 const MEANING: &str = "What each adds, or would add with its defaults: unknowns, modes as a \
-                       factor, entries of the matrices, guards that are armed at the start. \
-                       `number` measures how much it matters: little where it is far below 1.";
+                       factor, and at the start entries of the matrices and guards. `number` \
+                       measures how much it matters: little where it is far below 1.";
 
 /// What compiling a network gives, in numbers.
 #[derive(Debug, Clone, Copy)]

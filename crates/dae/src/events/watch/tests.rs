@@ -155,3 +155,24 @@ fn without_guards_there_is_nothing_to_do() {
     assert!(Watch::new(&[]).is_idle());
     assert_eq!(scan(&[], &[]), (Vec::new(), None));
 }
+
+#[test]
+fn a_bend_of_the_first_step_over_a_level_that_is_left_is_no_event() {
+    // It leaves zero downwards with its second derivative; the first step bends it up by 1e-5 first.
+    let bent = signal(|t| 1e-2 * t * (0.004 - t), &[0.0, 0.1, 1.0]);
+    let known = Guard { begins: Some(false), ..guard(0.0, Direction::Rising, true) };
+    let alone = std::slice::from_ref(&bent);
+    assert!(look(std::slice::from_ref(&known), alone).0.is_empty());
+
+    // It comes back in truth, later.
+    let back = signal(|t| 1e-2 * t * (0.004 - t) + 0.1 * t.powi(4), &[0.0, 0.1, 0.5, 1.0]);
+    let (events, stop) = look(std::slice::from_ref(&known), std::slice::from_ref(&back));
+    assert_eq!(events.len(), 1);
+    let time = stop.unwrap().time;
+    assert!((1e-2 * (0.004 - time) + 0.1 * time.powi(3)).abs() < 1e-12, "{time}");
+
+    // A way out from which it does not come back within the step is an event.
+    let out = signal(|t| 1e-2 * t * (0.4 - t), &[0.0, 0.1, 1.0]);
+    let (events, _) = look(&[known], std::slice::from_ref(&out));
+    assert_eq!(times(&events), [0.0]);
+}

@@ -137,9 +137,8 @@ impl Walk<'_> {
             let mut signal = self.pieces.signal_from(self.system, output, steps - 1);
             // A small difference of large terms is known no better than they are, and what balances
             // determine no better than the absolute tolerance.
-            let is_algebraic = |unknown: usize| {
-                self.system.unknowns[unknown].kind == UnknownKind::Algebraic
-            };
+            let is_algebraic =
+                |unknown: usize| self.system.unknowns[unknown].kind == UnknownKind::Algebraic;
             let algebraic = output.unknowns.terms().iter().filter(|term| is_algebraic(term.0));
             let least = output.scale.abs() * algebraic.map(|term| term.1.abs()).sum::<f64>();
             *largest = largest.max(signal.noise / (pieces::ROUNDING * f64::EPSILON)).max(least);

@@ -75,7 +75,8 @@ impl PhasedNetwork {
         for (doubt, (rebound, graze)) in attempts {
             state.clone_from(&before);
             let impacts = self.impacts(state, phases, &touching, doubt, rebound);
-            let judge = Judge { time, state, doubt, on_level: &on_level, at_level: &at_level, graze };
+            let judge =
+                Judge { time, state, doubt, on_level: &on_level, at_level: &at_level, graze };
             for choice in combinations(&options).take(MOST_TRIED) {
                 let tried: Vec<Phase> =
                     choice.iter().zip(&options).map(|(&at, options)| options[at]).collect();
@@ -93,7 +94,8 @@ impl PhasedNetwork {
             .filter(|&part| options[part].len() > 1)
             .map(|part| format!("`{}`", self.expansion.primitives[self.parts[part]].name))
             .collect();
-        let names = if names.is_empty() { "the parts that switch".to_owned() } else { names.join(", ") };
+        let names =
+            if names.is_empty() { "the parts that switch".to_owned() } else { names.join(", ") };
         let why = refusal.map_or(String::new(), |reason| format!("; {reason}"));
         let reason = format!("there are no phases that {names} could go on in{why}");
         Err(SolveError::Switching { time, reason })
@@ -132,11 +134,8 @@ impl PhasedNetwork {
         // A phase that was left may lead on at once, and one that was not may end with the others.
         let in_reach = |exit: &Exit| exit.watched != Watched::Deformation || touching;
         let mut at = 0;
-        let mut reached: Vec<Phase> = exits
-            .iter()
-            .filter(|exit| in_reach(exit))
-            .map(|exit| next(phase, exit))
-            .collect();
+        let mut reached: Vec<Phase> =
+            exits.iter().filter(|exit| in_reach(exit)).map(|exit| next(phase, exit)).collect();
         while at < reached.len() && at < own.names().len() {
             let from = reached[at];
             add(from);
@@ -180,11 +179,10 @@ impl PhasedNetwork {
         let system = mode.system_from(judge.time);
         let motion =
             derivatives(&system, &unknowns, ORDERS + 1).map_err(|error| error.to_string())?;
-        let holds = mode.of_guard.iter().zip(mode.of_guard_exits()).all(
-            |(&(part, _), (output, exit))| {
+        let holds =
+            mode.of_guard.iter().zip(mode.of_guard_exits()).all(|(&(part, _), (output, exit))| {
                 judge.stays(part, &motion, &mode.system.outputs[output], exit)
-            },
-        );
+            });
         if !holds {
             return Ok(None);
         }
@@ -200,9 +198,10 @@ impl PhasedNetwork {
     fn velocities_agree(&self, bodies: &Bodies, state: &State, doubt: f64) -> bool {
         bodies.all.iter().all(|body| {
             let ruled = |&joint: &usize| {
-                self.network.nodes.get(joint).is_some_and(|node| {
-                    node.mass > 0.0 || node.support != crate::Support::Free
-                })
+                self.network
+                    .nodes
+                    .get(joint)
+                    .is_some_and(|node| node.mass > 0.0 || node.support != crate::Support::Free)
             };
             if body.role == Role::Massless {
                 return true;
@@ -221,9 +220,11 @@ impl PhasedNetwork {
 
     /// A speed of the network's own \[m/s\]: the largest that it begins with, or has.
     pub(super) fn own_speed(&self, state: &State) -> f64 {
-        let starts = self.network.nodes.iter().map(|node| {
-            super::super::bodies::start_velocity(&self.network, node.start).abs()
-        });
+        let starts = self
+            .network
+            .nodes
+            .iter()
+            .map(|node| super::super::bodies::start_velocity(&self.network, node.start).abs());
         let now = state.velocity.iter().map(|own| own.abs());
         starts.chain(now).filter(|own| own.is_finite()).fold(0.0, f64::max)
     }
@@ -277,9 +278,10 @@ impl Mode {
 
     /// Each exit with the output that it watches.
     fn of_guard_exits(&self) -> impl Iterator<Item = (usize, &Exit)> {
-        self.guards.iter().zip(&self.of_guard).map(|(guard, &(part, exit))| {
-            (guard.output, &self.exits[part][exit])
-        })
+        self.guards
+            .iter()
+            .zip(&self.of_guard)
+            .map(|(guard, &(part, exit))| (guard.output, &self.exits[part][exit]))
     }
 }
 

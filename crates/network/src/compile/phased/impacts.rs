@@ -51,11 +51,8 @@ impl PhasedNetwork {
         doubt: f64,
         rebound: bool,
     ) -> Vec<Impact> {
-        let slowest = if rebound {
-            self.own_speed(state) * RESTING.max(4.0 * doubt)
-        } else {
-            f64::INFINITY
-        };
+        let slowest =
+            if rebound { self.own_speed(state) * RESTING.max(4.0 * doubt) } else { f64::INFINITY };
         let contacts = self.candidates(state, phases, touching, slowest);
         let noise = doubt.max(1e-14);
         let scale = contacts
@@ -97,9 +94,8 @@ impl PhasedNetwork {
             _ => 0.0,
         };
         let total: f64 = impulses.iter().sum();
-        let lost: f64 = (0..count)
-            .map(|body| energy(body, before[body]) - energy(body, after[body]))
-            .sum();
+        let lost: f64 =
+            (0..count).map(|body| energy(body, before[body]) - energy(body, after[body])).sum();
         // What a moving support gives or takes is work from outside, not a loss.
         let work: f64 = contacts
             .iter()
@@ -166,9 +162,8 @@ impl PhasedNetwork {
             if !is_borne || ends[0] == ends[1] {
                 continue;
             }
-            let is_moved = ends.iter().any(|&end| {
-                matches!(self.apart.all[end].role, Role::Mass(_))
-            });
+            let is_moved =
+                ends.iter().any(|&end| matches!(self.apart.all[end].role, Role::Mass(_)));
             if !is_moved {
                 continue;
             }
@@ -202,9 +197,10 @@ impl PhasedNetwork {
     fn velocity(&self, state: &State, body: usize) -> f64 {
         let joints = &self.apart.all[body].joints;
         let rules = |joint: usize| {
-            self.network.nodes.get(joint).is_some_and(|node| {
-                node.mass > 0.0 || node.support != crate::Support::Free
-            })
+            self.network
+                .nodes
+                .get(joint)
+                .is_some_and(|node| node.mass > 0.0 || node.support != crate::Support::Free)
         };
         let joint = joints.iter().copied().find(|&joint| rules(joint)).unwrap_or(joints[0]);
         state.velocity[joint]
@@ -227,8 +223,7 @@ impl PhasedNetwork {
             own.exits(phases[part]).iter().enumerate().any(|(number, exit)| {
                 exit.watched == Watched::Deformation
                     && (fired.contains(&(part, number))
-                        || (deformation - exit.level).abs()
-                            <= doubt * (size + exit.level.abs())
+                        || (deformation - exit.level).abs() <= doubt * (size + exit.level.abs())
                         || if exit.rising {
                             deformation > exit.level
                         } else {

@@ -24,7 +24,7 @@ use super::{
     expand::Expansion,
 };
 use crate::{
-    Assembly, Network, NetworkErrors,
+    Assembly, Network, NetworkError, NetworkErrors,
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
@@ -41,8 +41,11 @@ pub struct PhasedNetwork {
     apart: Bodies,
     /// The scale of all speeds \[m/s\], by which their errors are judged.
     speed: f64,
-    modes: Mutex<HashMap<Vec<(usize, u64)>, Arc<Mode>>>,
+    modes: Mutex<HashMap<Key, Arc<Mode>>>,
 }
+
+/// What tells combinations of phases apart: numbers of phases, and the bits of what they remember.
+type Key = Vec<(usize, u64)>;
 
 /// One combination of phases.
 pub(super) struct Mode {
@@ -72,7 +75,7 @@ pub(super) fn compile(
     parts: Vec<usize>,
     duration: f64,
 ) -> Result<Assembly, NetworkErrors> {
-    let apart = start::bodies_apart(&network, &expansion, &parts, duration)?;
+    let apart = start::bodies_apart(&network, &expansion, &parts, duration).map_err(loose)?;
     let (start, first) = start::state(&network, &expansion, &parts, &apart, duration)?;
     let mut phased = PhasedNetwork {
         network,
@@ -93,6 +96,15 @@ pub(super) fn compile(
     phased.modes = Mutex::default();
     assembly.switching = Some(Arc::new(phased));
     Ok(assembly)
+}
+
+/// The same errors, with the reason why something is undetermined.
+fn loose(errors: NetworkErrors) -> NetworkErrors {
+    let loose = |error: NetworkError| match error {
+        NetworkError::Undetermined { nodes } => NetworkError::Loose { nodes },
+        other => other,
+    };
+    NetworkErrors(errors.0.into_iter().map(loose).collect())
 }
 
 impl PhasedNetwork {
@@ -136,8 +148,7 @@ impl PhasedNetwork {
 
     /// The mode of these phases; compiled when it is first asked for.
     fn mode(&self, phases: &[Phase]) -> Result<Arc<Mode>, NetworkErrors> {
-        let key: Vec<(usize, u64)> =
-            phases.iter().map(|phase| (phase.index, phase.memory.to_bits())).collect();
+        let key: Key = phases.iter().map(|phase| (phase.index, phase.memory.to_bits())).collect();
         if let Ok(modes) = self.modes.lock()
             && let Some(mode) = modes.get(&key)
         {
@@ -260,7 +271,10 @@ pub(super) fn is_contact(own: &dyn Phases) -> bool {
 
 impl fmt::Debug for PhasedNetwork {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("PhasedNetwork").field("parts", &self.parts()).finish_non_exhaustive()
+        formatter
+            .debug_struct("PhasedNetwork")
+            .field("parts", &self.parts())
+            .finish_non_exhaustive()
     }
 }
 
@@ -282,8 +296,7 @@ impl Switching for PhasedNetwork {
         let mut state = mode.carry.read(end.state, &inputs, &self.start);
         let fired: Vec<(usize, usize)> =
             end.fired.iter().filter_map(|&guard| mode.of_guard.get(guard).copied()).collect();
-        let (choice, switches) =
-            self.choose(&mut state, end.time, &phases, &fired, end.doubt)?;
+        let (choice, switches) = self.choose(&mut state, end.time, &phases, &fired, end.doubt)?;
         Ok(Self::leg(choice, switches))
     }
 }

@@ -76,15 +76,12 @@ pub(super) fn state(
             .map_or(0.0, |node| start_velocity(network, node.start));
         let height = flight(network, expansion, body.joints.as_slice());
         for &joint in &body.joints {
-            match given {
-                Some(given) => {
-                    position[joint] = position[given];
-                    velocity[joint] = velocity[given];
-                }
-                None => {
-                    position[joint] = -height.unwrap_or(0.0);
-                    velocity[joint] = if height.is_some() { 0.0 } else { speed };
-                }
+            if let Some(given) = given {
+                position[joint] = position[given];
+                velocity[joint] = velocity[given];
+            } else {
+                position[joint] = -height.unwrap_or(0.0);
+                velocity[joint] = if height.is_some() { 0.0 } else { speed };
             }
         }
     }
@@ -140,8 +137,7 @@ fn balanced(
     duration: f64,
 ) -> Result<Vec<f64>, NetworkErrors> {
     let bodies = Bodies::of(network, expansion).map_err(NetworkErrors)?;
-    let structure =
-        Structure::of(network, expansion, &bodies, duration).map_err(NetworkErrors)?;
+    let structure = Structure::of(network, expansion, &bodies, duration).map_err(NetworkErrors)?;
     let mut weights = vec![0.0; bodies.all.len()];
     let forces = network.effects.iter().flat_map(|effect| effect.body_forces(network));
     for (node, weight) in forces {
@@ -177,9 +173,10 @@ fn flight(network: &Network, expansion: &Expansion, joints: &[usize]) -> Option<
         Start::Drop(height) => Some(height),
         _ => None,
     })?;
-    let touching = expansion.primitives.iter().filter(|own| {
-        !own.is_link && own.ends.iter().any(|joint| joints.contains(joint))
-    });
+    let touching = expansion
+        .primitives
+        .iter()
+        .filter(|own| !own.is_link && own.ends.iter().any(|joint| joints.contains(joint)));
     let mut contacts = touching.map(|own| {
         let rests = network.nodes.get(own.ends[1]).is_none_or(|below| !below.is_impactor());
         joints.contains(&own.ends[0]) && rests && own.origin.phases().is_some_and(is_contact)

@@ -1,4 +1,4 @@
-use dashpot_dae::{Run, Silent, Switch, Trajectory, methods, switching};
+use dashpot_dae::{Run, Silent, Switch, Trajectory, Waveform, methods, switching};
 use dashpot_rheology::Tree;
 
 use crate::{
@@ -97,7 +97,10 @@ fn face_of_a_spring_parts_with_a_jump_of_its_speed() {
 #[test]
 fn force_that_decays_to_zero_never_lets_go() {
     // A dashpot alone, and a Maxwell pad that is damped critically: F > 0 for all times.
-    for pad in [part(Dashpot { damping: 50.0 }), Tree::series([spring(1e4), part(Dashpot { damping: 50.0 })])] {
+    for pad in [
+        part(Dashpot { damping: 50.0 }),
+        Tree::series([spring(1e4), part(Dashpot { damping: 50.0 })]),
+    ] {
         for method in ["exact", "bdf"] {
             let solved = solve_by(method, &impact(10.0, pad.clone()), 0.5);
             assert!(solved.switches().is_empty(), "{method}: {:?}", solved.switches());
@@ -133,19 +136,24 @@ fn what_hangs_on_the_ground_falls_off_at_once() {
     assert!((solved.at("ball.position", 3.0) + 9.0).abs() < 1e-13);
 }
 
-#[test]
-fn what_begins_within_a_wall_is_refused_by_name() {
-    // The wall stands 1 cm inside of the ball: no speed or force of finite size parts them.
+/// A ball of 1 kg at 1 m/s and a wall that is held at a place.
+fn towards_a_wall(place: f64) -> Network {
     let mut network = Network::new();
-    let ball = network.add_node(Node::mass("ball", 1.0));
-    let wall = network.add_node(Node::prescribed("wall", dashpot_dae::Waveform::constant(-0.01)));
-    network.connect("touch", ball, wall, contact(0.0, 0.0));
-    let assembly = network.compile(1.0).unwrap();
-    let switching = assembly.switching.clone().unwrap();
-    let run = Run::to(1.0);
-    let refusal = switching::integrate(&methods::Exact, switching.as_ref(), &run, &mut Silent);
-    let refusal = refusal.unwrap_err().to_string();
-    assert!(refusal.contains("`touch.contact`"), "{refusal}");
+    let ball = network.add_node(Node::mass("ball", 1.0).moving(1.0));
+    let wall = network.add_node(Node::prescribed("wall", Waveform::constant(place)));
+    network.connect("touch", ball, wall, contact(0.0, 0.5));
+    network
+}
+
+#[test]
+fn what_begins_within_a_wall_is_refused_by_name_and_before_it_is_thrown_back() {
+    // No speed or force of finite size parts what overlaps by 1 cm.
+    let refusal = towards_a_wall(-0.01).compile(1.0).unwrap_err().to_string();
+    assert!(refusal.contains("`wall`"), "{refusal}");
+    let solved = solve(&towards_a_wall(0.05), 0.1);
+    let [impact] = solved.switches() else { panic!("{:?}", solved.switches()) };
+    assert!((impact.time - 0.05).abs() < 1e-15 && (impact.lost - 0.375).abs() < 1e-15);
+    assert!((solved.at("ball.position", 0.1) - 0.025).abs() < 1e-15);
 }
 
 #[test]
@@ -245,7 +253,7 @@ fn a_pull_of_rounding_is_none() {
         let ball = network.add_node(Node::mass("ball", 1.0).moving(0.0));
         network.connect("floor", ball, network.ground(), contact(0.0, 0.5));
         network.connect("spring", ball, network.ground(), spring(100.0));
-        network.add_load("push", ball, dashpot_dae::Waveform::constant(pull));
+        network.add_load("push", ball, Waveform::constant(pull));
         let solved = solve(&network, 1.0);
         assert!(solved.switches().len() <= 1, "{:?}", solved.switches());
         assert!(solved.at("ball.position", 1.0).abs() < 1e-17);

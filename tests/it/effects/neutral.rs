@@ -1,0 +1,189 @@
+//! Effects and elements at the values at which they do nothing: the result is that without them.
+
+use dashpot::{
+    analysis::{RunError, RunReport, SolveSettings, solve},
+    dae::{Silent, SolveError},
+    network::{
+        effects::{EffectKind, EffectVisitor, visit_effects},
+        elements::{ElementKind, ElementVisitor, visit_elements},
+    },
+};
+
+use super::trial::{run, scene};
+
+/// A head on a pad, with lines in its sections.
+fn text(effects: &str, elements: &str, nodes: &str) -> String {
+    format!(
+        "[nodes]\nhead = {{ mass = 5, velocity = 4 }}\n{nodes}\n\
+         [elements]\npad = {{ between = [\"head\", \"ground\"], parallel = [{{ spring = 2e5 }}, {{ dashpot = 600 }}] }}\n\
+         {elements}\n{effects}\n[run]\nduration = 0.008\n"
+    )
+}
+
+/// The largest difference of the outputs that two runs have in common, in parts of the largest value
+/// of their unit.
+fn difference(one: &RunReport, two: &RunReport) -> f64 {
+    let (first, second) = (one.solution(), two.solution());
+    let outputs = &one.assembly.system.outputs;
+    let scale = |unit: &str| {
+        let own = outputs.iter().enumerate().filter(|(_, own)| own.unit == unit);
+        own.map(|(at, _)| first.signal(at).bound()).fold(0.0, f64::max)
+    };
+    let mut worst = 0.0_f64;
+    let mut common = 0;
+    for (at, output) in outputs.iter().enumerate() {
+        let Some(other) = two.assembly.output(&output.name) else { continue };
+        common += 1;
+        let (a, b) = (first.signal(at), second.signal(other));
+        let size = scale(output.unit);
+        for step in 0..=200 {
+            let time = one.trajectory.t_end * f64::from(step) / 200.0;
+            let gap = (a.value(time) - b.value(time)).abs();
+            if gap > 0.0 {
+                worst = worst.max(gap / size);
+            }
+        }
+    }
+    assert!(common >= 6, "{common} outputs in common");
+    worst
+}
+
+/// Holds a run against one in which something is off or linear: to rounding by `exact`, and where that
+/// does not apply within 1000 `rtol` by `bdf`.
+fn same(what: &str, neutral: &str, off: &str) {
+    let own = scene(neutral);
+    match solve(&own.network, &own.settings("exact"), &mut Silent) {
+        Ok(report) => {
+            let gap = difference(&run(off, "exact"), &report);
+            assert!(gap <= 1e-12, "{what} makes a difference of {gap:e}");
+        }
+        Err(RunError::Solve(SolveError::NotApplicable { .. })) => {
+            let tight = |text: &str| {
+                let read = scene(text);
+                let settings = SolveSettings { rtol: Some(1e-9), ..read.settings("bdf") };
+                solve(&read.network, &settings, &mut Silent).unwrap()
+            };
+            let gap = difference(&tight(off), &tight(neutral));
+            assert!(gap <= 1e3 * 1e-9, "{what} makes a difference of {gap:e}");
+        }
+        Err(error) => panic!("{what}: {error}\n{neutral}"),
+    }
+}
+
+/// The lines that switch an effect on at its neutral values.
+fn neutral_effect(kind: &str) -> &'static [&'static str] {
+    match kind {
+        "gravity" => &["gravity = { value = 0 }", "gravity = { value = 0, start = \"unloaded\" }"],
+        // Within 8 ms the pad is not let go.
+        "separation" => &["separation.pad = {}", "separation.pad = { at = \"ground\" }"],
+        "face" => &["face.pad = { mass = 0 }", "face.pad = { mass = 0 }\nseparation.pad = true"],
+        "stop" => &[
+            "stop.pad = { at = 1 }",
+            "stop.pad = { at = 1, stiffness = 1e9, damping = 1e3 }",
+            "stop.pad = { at = 0, stiffness = 0 }",
+        ],
+        kind => panic!("what is the neutral value of `{kind}`?"),
+    }
+}
+
+struct Effects(usize);
+
+impl EffectVisitor for Effects {
+    fn visit<E: EffectKind>(&mut self) {
+        for lines in neutral_effect(E::KIND) {
+            let neutral = text(&format!("[effects]\n{lines}"), "", "");
+            same(lines, &neutral, &text("", "", ""));
+            self.0 += 1;
+        }
+    }
+}
+
+#[test]
+fn every_effect_at_its_neutral_value_gives_the_result_of_the_effect_off() {
+    let mut effects = Effects(0);
+    visit_effects(&mut effects);
+    assert!(effects.0 > 4);
+}
+
+/// Elements that are nothing, or a spring of 1e4 N/m or a dashpot of 100 N s/m: their law, and that of
+/// what they are.
+fn neutral_element(kind: &str) -> (&'static str, &'static str) {
+    let spring = "spring = 1e4";
+    match kind {
+        "spring" => ("spring = 0", ""),
+        "dashpot" => ("dashpot = 0", ""),
+        "rigid" => ("rigid = true", ""),
+        "contact" => ("contact = { gap = 1, restitution = 0.5 }", ""),
+        "friction" => ("friction = 0", ""),
+        "power-spring" => ("power-spring = { force = 100, at = 0.01, exponent = 1 }", spring),
+        "cubic-spring" => ("cubic-spring = { stiffness = 1e4, cubic = 0 }", spring),
+        "stiffening-spring" => ("stiffening-spring = { stiffness = 1e4, limit = 1e6 }", spring),
+        "table-spring" => ("table-spring = [[-1, -1e4], [0, 0], [1, 1e4]]", spring),
+        "foam" => (
+            "foam = { modulus = 1e6, plateau = 1e20, densification = 0, exponent = 3, thickness = 1, area = 0.01 }",
+            spring,
+        ),
+        // In tension it is slack.
+        "hysteretic-foam" => (
+            "hysteretic-foam = { modulus = 1e6, plateau = 1e5, densification = 1e4, exponent = 3, thickness = 1, area = 0.01, set = 0.1, unloading-exponent = 2 }",
+            "",
+        ),
+        "rate-spring" => (
+            "rate-spring = { force = 100, at = 0.01, exponent = 1, gain = 0, reference-rate = 0.1 }",
+            spring,
+        ),
+        "power-dashpot" => {
+            ("power-dashpot = { force = 100, at = 1, exponent = 1 }", "dashpot = 100")
+        }
+        "hunt-crossley" => {
+            ("hunt-crossley = { force = 100, at = 0.01, dissipation = 0.2, gap = 1 }", "")
+        }
+        "bumper" => {
+            ("bumper = { force = 100, at = 0.01, restitution = 0.5, speed = 1, gap = 1 }", "")
+        }
+        kind => panic!("what is the neutral value of `{kind}`?"),
+    }
+}
+
+struct Elements(usize);
+
+impl ElementVisitor for Elements {
+    fn visit<E: ElementKind>(&mut self) {
+        let (law, linear) = neutral_element(E::KIND);
+        let ends = match E::KIND {
+            "rigid" => "\"head\", \"tip\"",
+            "hysteretic-foam" => "\"ground\", \"head\"",
+            _ => "\"head\", \"ground\"",
+        };
+        let element = |law: &str| {
+            let line = format!("extra = {{ between = [{ends}], {law} }}");
+            if law.is_empty() { String::new() } else { line }
+        };
+        let nodes = if E::KIND == "rigid" { "tip = {}" } else { "" };
+        same(E::KIND, &text("", &element(law), nodes), &text("", &element(linear), ""));
+        self.0 += 1;
+    }
+}
+
+#[test]
+fn every_element_at_its_neutral_value_is_nothing_or_its_linear_relative() {
+    let mut elements = Elements(0);
+    visit_elements(&mut elements);
+    assert!(elements.0 > 10);
+}
+
+#[test]
+fn a_load_of_zero_and_a_motion_of_zero_are_none() {
+    let off = text("", "", "");
+    let loaded = text(
+        "[loads]\npush = { on = \"head\", force = { sine = { amplitude = 0, frequency = 50 } } }",
+        "",
+        "",
+    );
+    same("a load of zero", &loaded, &off);
+    let moved = off.replace("\"ground\"", "\"floor\"").replace(
+        "[elements]",
+        "floor = { motion = { table = [[0, 0], [0.004, 0], [0.008, 0]] } }\n[elements]",
+    );
+    same("a motion of zero", &moved, &off);
+}
