@@ -48,7 +48,7 @@ fn reference(quantity: &str) -> f64 {
     line.unwrap_or_else(|| panic!("no {quantity}")).parse().unwrap()
 }
 
-/// 2 m of 10 cm², 2 GPa and 1280 kg/m³: c = 1250 m/s, Z = 1600 N s/m, 1.6 ms from end to end.
+/// 2 m of 10 cm², `E = 2 GPa` and 1280 kg/m³: c = 1250 m/s, Z = 1600 N s/m, 1.6 ms from end to end.
 const BAR: &str = "[materials]\nglass = { spring = 2e9 }\n[elements.bar]\n\
      layers = [{ material = \"glass\", thickness = 2.0, area = 1e-3, density = 1280.0 }]\n";
 const IMPEDANCE: f64 = 1600.0;
@@ -198,7 +198,7 @@ fn a_body_that_strikes_a_bar_makes_the_stress_of_its_speed() {
         );
         let report = run(&text, "exact");
         let solution = report.solution();
-        let step = PASSAGE / segments as f64;
+        let step = PASSAGE / f64::from(segments);
         let (velocity, force) =
             (signal(&solution, "hammer.velocity"), signal(&solution, "bar.force"));
         for at in 1..=20 {

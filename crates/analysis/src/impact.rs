@@ -47,7 +47,7 @@ impl Impact {
     pub(crate) fn of_force(force: &Signal, run_end: f64, doubt: f64) -> Self {
         let run =
             Self { start: 0.0, end: run_end, end_error: Some(0.0), contact: Contact::Lasting };
-        match force.departure(0.0, 0.0) {
+        match begins(force, doubt) {
             None => Self { contact: Contact::Unloaded, ..run },
             Some(false) => Self { end: 0.0, contact: Contact::Pulling, ..run },
             Some(true) => {
@@ -177,6 +177,28 @@ impl Impact {
                 Contact::Unloaded => Err(NEVER_LOADED),
             },
         }
+    }
+}
+
+/// Part of its largest magnitude below which a force is as good as zero where it begins.
+const LEAST: f64 = 1e-9;
+
+/// Which way a contact force first goes, `true` if it pushes: beyond what it cannot be told from zero,
+/// if it ever goes there.
+fn begins(force: &Signal, doubt: f64) -> Option<bool> {
+    let floor = (doubt.max(LEAST) * force.bound()).max(force.noise);
+    let first = force.value(0.0);
+    if first.abs() > floor {
+        return Some(first > 0.0);
+    }
+    let window = (0.0, force.end());
+    let push = force.first_crossing(floor, window, Some(true)).map(|own| own.time);
+    let pull = force.first_crossing(-floor, window, Some(false)).map(|own| own.time);
+    match (push, pull) {
+        (Some(push), Some(pull)) => Some(push < pull),
+        (Some(_), None) => Some(true),
+        (None, Some(_)) => Some(false),
+        (None, None) => force.departure(0.0, 0.0),
     }
 }
 

@@ -233,8 +233,10 @@ impl CliError {
                 ) => Status::InputWrong,
                 _ => Status::RunFailed,
             },
-            Self::Vibration(VibrationError::Unbounded { .. }) => Status::RunFailed,
-            Self::Vibration(_) => Status::InputWrong,
+            Self::Vibration(error) => match error {
+                VibrationError::Unbounded { .. } => Status::RunFailed,
+                _ => Status::InputWrong,
+            },
             Self::Undecided { .. }
             | Self::Unwritable { .. }
             | Self::Output(_)

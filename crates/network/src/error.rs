@@ -115,6 +115,17 @@ pub enum NetworkError {
         /// When \[s\].
         time: f64,
     },
+    /// A prescribed displacement jumps in a network with contacts.
+    #[error(
+        "the motion of `{node}` jumps at {time} s, and it may jump through a contact: give the jump a \
+         rise time"
+    )]
+    StepThroughContact {
+        /// The node that jumps.
+        node: String,
+        /// When \[s\].
+        time: f64,
+    },
     /// The prescribed motion of a mass asks for an infinite force.
     #[error(
         "the motion of `{node}` {fault} at {time} s, and {node} has mass: the force would be \
@@ -226,6 +237,7 @@ impl NetworkError {
             | Self::StartSpeed { node: name, .. }
             | Self::ContradictingMotions { second: name, .. }
             | Self::MotionOfMass { node: name, .. }
+            | Self::StepThroughContact { node: name, .. }
             | Self::StepAcrossDashpots { node: name, .. } => node(name),
             Self::Undetermined { nodes }
             | Self::Loose { nodes }

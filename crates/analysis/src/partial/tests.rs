@@ -306,21 +306,16 @@ fn a_run_of_a_sweep_that_fails_stands_among_the_others() {
     assert_eq!(found.checked, [0, 4]);
 }
 
-/// The reference impact on a pad of a light material, cut into segments.
+/// 10 kg on a fixed pad of a light and damped material, cut into segments.
 fn layered(speed: f64) -> Network {
-    let mut network = at_speed(speed);
-    let model = network.connections()[0].model.clone();
+    let mut network = Network::new();
+    let head = network.add_node(Node::mass("head", 10.0).moving(speed));
+    let model =
+        Tree::parallel([part(Spring { stiffness: 5e6 }), part(Dashpot { damping: 2e3 })]);
     let (name, resolution) = ("felt".to_owned(), Resolution::Segments(10));
-    let layer = Layer { name, thickness: 0.02, area: 0.01, density: 0.25, model };
-    let [from, to] = network.connections()[0].between;
-    let mut again = Network::new();
-    for (_, node) in network.nodes().skip(1) {
-        again.add_node(node.clone());
-    }
-    again.connect_layers("padding", from, to, Layers { all: vec![layer], resolution });
-    let mount = network.connections()[1].clone();
-    again.connect("mount", mount.between[0], mount.between[1], mount.model);
-    network = again;
+    let layer = Layer { name, thickness: 0.02, area: 0.01, density: 2.0, model };
+    let layers = Layers { all: vec![layer], resolution };
+    network.connect_layers("padding", head, network.ground(), layers);
     network
 }
 
@@ -331,7 +326,7 @@ fn a_sweep_saves_the_work_of_layers_whose_mass_is_little() {
     assert_eq!(found.left_out.len(), 1, "{:?}", found.put_back);
     assert_eq!((found.checked.len(), found.saving.solves), (3, 9 + 3));
     let states = |run: &Result<RunReport, RunError>| run.as_ref().unwrap().system.states;
-    assert!(found.runs.iter().all(|run| states(run) == 6));
+    assert!(found.runs.iter().all(|run| states(run) == 2));
     println!("{:?} {:?}", found.worst, found.saving);
     let in_full = sweep(&networks, &below(None), &mut Silent).unwrap();
     println!("{:?} {}", in_full.saving, states(&in_full.runs[0]));

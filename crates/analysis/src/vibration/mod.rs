@@ -19,7 +19,8 @@
 //! let vibration = Vibration::new(&network, 1.0, Some("ground"))?;
 //! let sweep = vibration.sweep(&SweepSettings::default())?;
 //! let resonance = &sweep.transmissions[0].resonances[0];
-//! assert!((resonance.frequency - 31.672).abs() < 1e-3);
+//! // A little below the natural frequency of 31.83 Hz, as the damping is a tenth of critical.
+//! assert!((resonance.frequency - 31.523).abs() < 1e-3);
 //! # Ok::<(), dashpot_analysis::vibration::VibrationError>(())
 //! ```
 

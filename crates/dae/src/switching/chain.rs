@@ -24,6 +24,8 @@ pub(super) struct Chain {
     pub(super) doubled: Option<Vec<Solved>>,
 }
 
+/// Places within a panel at which two solutions are compared.
+const INSIDE: [f64; 3] = [-0.9, 0.0, 0.9];
 /// The error of a chain in parts of the difference that shaking makes.
 const CAUTION: f64 = 8.0;
 
@@ -74,8 +76,9 @@ impl Chain {
             return None;
         }
         let double = other.dense.signal(&other.system, output);
+        // Inside of panels only: where an input jumps, both may jump a rounding apart.
         let places = own.panels.iter().flat_map(|panel| {
-            [panel.start, 0.5 * (panel.start + panel.end), panel.end].map(|t| (t, panel.value(t)))
+            INSIDE.map(|x| panel.time(x)).map(|t| (t, panel.value(t)))
         });
         // A leg that ends earlier by a rounding is not followed beyond its end.
         let end = double.end();

@@ -1,6 +1,7 @@
 //! Deformations, forces and velocities, and from them the rate of every unknown.
 
 use dashpot_dae::UnknownKind;
+use dashpot_twofold::Twofold;
 
 use super::{
     bodies::{Bodies, Role},
@@ -206,7 +207,7 @@ fn unknown_rates(
             };
         }
         if let (Some(unknown), Role::Mass(mass)) = (places.velocity[at], body.role) {
-            places.drafts[unknown].row = net[at].total().times(1.0 / mass);
+            places.drafts[unknown].row = net[at].total().times(Twofold::ONE / mass);
         }
     }
 }

@@ -2,8 +2,12 @@
 
 use std::collections::VecDeque;
 
-use super::{Parts, bodies::Groups, expand::Shape};
-use crate::{Network, Support, elements::Law};
+use super::{
+    Parts,
+    bodies::Groups,
+    expand::{Primitive, Shape},
+};
+use crate::{Network, Support, elements::Law, phases::Phases};
 
 /// All oddities, one sentence each.
 pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
@@ -36,7 +40,11 @@ pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
 /// what it meets.
 fn idle_restitutions(network: &Network, parts: &Parts<'_>) -> Vec<String> {
     let mut groups = Groups::new(parts.expansion.joints);
-    for primitive in parts.expansion.primitives.iter().filter(|own| own.is_link) {
+    // What is between two contacts moves with what it touches, and is struck with it.
+    let passes = |own: &&Primitive| {
+        own.is_link || own.origin.phases().is_some_and(|phases| phases.restitution() == 0.0)
+    };
+    for primitive in parts.expansion.primitives.iter().filter(passes) {
         groups.join(primitive.ends[0], primitive.ends[1]);
     }
     let mut has_inertia = vec![false; parts.expansion.joints];
@@ -48,7 +56,7 @@ fn idle_restitutions(network: &Network, parts: &Parts<'_>) -> Vec<String> {
     for (connection, shapes) in network.connections.iter().zip(&parts.expansion.shapes) {
         for primitive in shapes.iter().filter_map(Shape::leaf) {
             let primitive = &parts.expansion.primitives[primitive];
-            let restitution = primitive.origin.phases().map_or(0.0, |own| own.restitution());
+            let restitution = primitive.origin.phases().map_or(0.0, Phases::restitution);
             let light = primitive.ends.into_iter().find(|&end| !has_inertia[groups.of(end)]);
             let Some(light) = light.filter(|_| restitution > 0.0) else { continue };
             let owner = &connection.name;

@@ -13,7 +13,7 @@ pub enum Detail {
     /// effect is off.
     Effect(usize),
     /// The mass of the layers of the connection of this position in [`Network::connections`].
-    /// Without it the pad has the same law and no mass.
+    /// Without it they have no density.
     Inertia(usize),
     /// The motion of this mass, which fixed nodes hold. Without it the support is rigid.
     Compliance(NodeId),
@@ -71,7 +71,10 @@ impl Network {
         for detail in details {
             match *detail {
                 Detail::Effect(at) => self.effects[at].leave(&mut network),
-                Detail::Inertia(at) => network.connections[at].layers = None,
+                Detail::Inertia(at) => {
+                    let layers = network.connections[at].layers.iter_mut();
+                    layers.flat_map(|own| &mut own.all).for_each(|layer| layer.density = 0.0);
+                }
                 Detail::Compliance(id) => {
                     let holds = |own: &&mut Connection| is_held_by(self, own, id);
                     if let Some(own) = network.connections.iter_mut().find(holds) {

@@ -11,6 +11,9 @@
 //! `ω` travel too slowly in such a chain, by the part
 //!
 //! `1 − sin(x)/x ≈ (ω Δt)²/24`, with `x = ω Δt/2` and the time of passage `Δt` of one segment.
+//!
+//! That is an accuracy of what is smooth. Steps, as a body sends them into a layer that it strikes at
+//! once, keep ripples however many segments there are; the network warns of them.
 
 mod front;
 mod resolve;

@@ -75,6 +75,7 @@ pub(super) fn compile(
     parts: Vec<usize>,
     duration: f64,
 ) -> Result<Assembly, NetworkErrors> {
+    jumps_through(&network, &expansion, &parts, duration)?;
     let apart = start::bodies_apart(&network, &expansion, &parts, duration).map_err(loose)?;
     let (start, first) = start::state(&network, &expansion, &parts, &apart, duration)?;
     let mut phased = PhasedNetwork {
@@ -96,6 +97,26 @@ pub(super) fn compile(
     phased.modes = Mutex::default();
     assembly.switching = Some(Arc::new(phased));
     Ok(assembly)
+}
+
+/// Refuses motions that jump where there are contacts: what a jump passes through cannot be told.
+fn jumps_through(
+    network: &Network,
+    expansion: &Expansion,
+    parts: &[usize],
+    duration: f64,
+) -> Result<(), NetworkErrors> {
+    let has_contact =
+        parts.iter().any(|&at| expansion.primitives[at].origin.phases().is_some_and(is_contact));
+    let jumping = network.nodes.iter().filter_map(|node| match &node.support {
+        crate::Support::Prescribed(motion) if has_contact => {
+            let time = super::structure::jumps(network, motion, duration).first().copied()?;
+            Some(NetworkError::StepThroughContact { node: node.name.clone(), time })
+        }
+        _ => None,
+    });
+    let errors: Vec<NetworkError> = jumping.collect();
+    if errors.is_empty() { Ok(()) } else { Err(NetworkErrors(errors)) }
 }
 
 /// The same errors, with the reason why something is undetermined.
