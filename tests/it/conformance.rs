@@ -3,7 +3,7 @@
 use dashpot::{
     analysis::{
         SolveSettings,
-        measures::{Family, MeasureKind, MeasureVisitor, visit_measures},
+        measures::{Family, MeasureKind, MeasureVisitor, PeakStrain, PeakStress, visit_measures},
         solve,
     },
     dae::{
@@ -324,6 +324,11 @@ impl MeasureVisitor for Measures {
             Family::Node => 1,
         };
         let reading = sample.read(&solution, target);
+        // The padding of the thesis has no area; it may have no thickness.
+        if [PeakStrain::KIND, PeakStress::KIND].contains(&M::KIND) && reading.value.is_none() {
+            assert!(reading.note.is_some_and(|note| note.contains("is not known")));
+            return;
+        }
         assert!(reading.value.is_some_and(f64::is_finite), "{}: {reading:?}", M::KIND);
         assert!(
             reading.error.is_some_and(|error| error >= 0.0 && error.is_finite()),

@@ -180,13 +180,37 @@ impl Impact {
     }
 }
 
-/// Part of its largest magnitude below which a force is as good as zero where it begins.
-const LEAST: f64 = 1e-9;
+/// Part of its largest push that a force may pull with before, as a pad does that was left unloaded
+/// between parts that sag.
+const SLIGHT: f64 = 1e-2;
 
-/// Which way a contact force first goes, `true` if it pushes: beyond what it cannot be told from zero,
-/// if it ever goes there.
+/// The sign, `true` for positive, with which a force first reaches a share of its largest magnitude that
+/// is not slight.
+pub(crate) fn first_way(force: &Signal) -> Option<bool> {
+    let floor = (SLIGHT * force.bound()).max(force.noise);
+    let first = force.value(0.0);
+    if first.abs() > floor {
+        return Some(first > 0.0);
+    }
+    let window = (0.0, force.end());
+    let up = force.first_crossing(floor, window, Some(true)).map(|own| own.time);
+    let down = force.first_crossing(-floor, window, Some(false)).map(|own| own.time);
+    match (up, down) {
+        (Some(up), Some(down)) => Some(up < down),
+        (Some(_), None) => Some(true),
+        (None, Some(_)) => Some(false),
+        (None, None) => force.departure(0.0, 0.0),
+    }
+}
+
+/// Which way a contact force first goes, `true` if it pushes; a pull that is slight beside the push that
+/// follows does not count.
 fn begins(force: &Signal, doubt: f64) -> Option<bool> {
-    let floor = (doubt.max(LEAST) * force.bound()).max(force.noise);
+    let most = force.maximum((0.0, force.end())).value;
+    let floor = (SLIGHT.max(doubt) * most).max(force.noise);
+    if most <= force.noise {
+        return force.departure(0.0, 0.0);
+    }
     let first = force.value(0.0);
     if first.abs() > floor {
         return Some(first > 0.0);

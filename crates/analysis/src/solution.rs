@@ -8,7 +8,7 @@ use dashpot_network::{Assembly, ConnectionOutputs, NodeOutputs};
 use crate::{
     blows::{self, Blow},
     bodies, contacts,
-    impact::{Impact, first_pull},
+    impact::{Impact, first_pull, first_way},
 };
 
 /// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
@@ -282,7 +282,7 @@ impl<'a> Solution<'a> {
 fn first_pushes(force: &Signal, blows: &[Blow]) -> bool {
     match blows.first().filter(|blow| Impact::begins_with(blow, force)) {
         Some(blow) => blow.impulse > 0.0,
-        None => force.departure(0.0, 0.0) != Some(false),
+        None => first_way(force) != Some(false),
     }
 }
 

@@ -70,7 +70,7 @@ struct Run<'a> {
     energy: Energy<'a>,
     events: Vec<Event<'a>>,
     /// What was left out; null where nothing was allowed to be.
-    partial: Option<Left<'a>>,
+    partial: Option<Reduced<'a>>,
     warnings: &'a [String],
 }
 
@@ -102,7 +102,7 @@ struct System<'a> {
 struct Measure<'a>(&'a MeasureReport);
 
 #[derive(Serialize)]
-struct Left<'a> {
+struct Reduced<'a> {
     below: f64,
     left_out: Vec<Neglected<'a>>,
     put_back: Vec<PutBack<'a>>,
@@ -272,7 +272,7 @@ fn run(report: &RunReport, elapsed: Duration) -> Run<'_> {
             after_impact: report.energy_after_impact.as_ref().map(balance),
         },
         events: report.events.iter().map(|own| Event { time: own.time, what: &own.what }).collect(),
-        partial: report.partial.as_ref().map(left),
+        partial: report.partial.as_ref().map(reduced),
         warnings: &report.warnings,
     }
 }
@@ -281,7 +281,7 @@ fn moved(cost: &Cost) -> Moved<'_> {
     Moved { measure: &cost.measure, relative: cost.relative, uncertainty: cost.uncertainty }
 }
 
-fn left(partial: &Partial) -> Left<'_> {
+fn reduced(partial: &Partial) -> Reduced<'_> {
     let left_out = partial.left_out.iter().map(|own| Neglected {
         effect: &own.effect,
         formula: &own.influence.formula,
@@ -297,7 +297,7 @@ fn left(partial: &Partial) -> Left<'_> {
         PutBack { effect: &own.effect, formula, estimate, moves, error }
     });
     let costs = partial.costs.iter().map(|own| (own.measure.as_str(), own.relative));
-    Left {
+    Reduced {
         below: partial.bound,
         left_out: left_out.collect(),
         put_back: put_back.collect(),

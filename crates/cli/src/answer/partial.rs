@@ -19,9 +19,9 @@ pub(super) fn left_out(run: &RunReport) -> Option<String> {
     });
     let names: Vec<String> = names.collect();
     if names.is_empty() {
-        let all = if partial.put_back.is_empty() { "all" } else { "all else" };
+        let other = if partial.put_back.is_empty() { "" } else { " other" };
         return Some(match partial.verification.solves {
-            0 => format!("nothing: by estimate {all} is above the bound"),
+            0 => format!("nothing: no{other} estimate is below the bound"),
             _ => format!("nothing{checked}"),
         });
     }

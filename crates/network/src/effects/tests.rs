@@ -238,7 +238,7 @@ fn dropped(effects: Vec<Arc<dyn Effect>>) -> [f64; 2] {
 #[test]
 fn a_drop_is_a_flight_where_gravity_and_separation_are_on() {
     let gravity = |acceleration| -> Arc<dyn Effect> {
-        Arc::new(Gravity { acceleration, start: GravityStart::Equilibrium })
+        Arc::new(Gravity { acceleration, start: GravityStart::Unloaded })
     };
     let speed = |gravity: f64| (2.0 * gravity * 1.5).sqrt();
     let case = |effects: Vec<Arc<dyn Effect>>, expected: [f64; 2]| {

@@ -110,7 +110,9 @@ fn jumps_through(
         parts.iter().any(|&at| expansion.primitives[at].origin.phases().is_some_and(is_contact));
     let jumping = network.nodes.iter().filter_map(|node| match &node.support {
         crate::Support::Prescribed(motion) if has_contact => {
-            let time = super::structure::jumps(network, motion, duration).first().copied()?;
+            let mut times = super::structure::jumps(network, motion, duration).into_iter();
+            // Where it begins away from zero, the state begins there as well.
+            let time = times.find(|&time| time > 0.0)?;
             Some(NetworkError::StepThroughContact { node: node.name.clone(), time })
         }
         _ => None,

@@ -141,8 +141,9 @@ fn balanced(
     let mut weights = vec![0.0; bodies.all.len()];
     let forces = network.effects.iter().flat_map(|effect| effect.body_forces(network));
     for (node, weight) in forces {
-        if !network.node(node).is_impactor() {
-            weights[bodies.of_joint[node.index()]] += weight.value(0.0);
+        let body = bodies.of_joint[node.index()];
+        if !bodies.all[body].is_impactor {
+            weights[body] += weight.value(0.0);
         }
     }
     let places: Vec<f64> = bodies
