@@ -364,7 +364,7 @@ fn explain_draws_and_names_all_that_was_built() {
         "20 MN/m",
         "padding.maxwell.dashpot",
         "velocity of panel",
-        "gravity     on",
+        "gravity              on",
         "would choose `exact`",
         "head.severity-index",
     ] {

@@ -70,8 +70,12 @@ fn the_text_and_the_page_say_what_was_left_out() {
         assert!(said.contains(part), "{part}: {text}");
     }
     let read = |name: &str| fs::read_to_string(Path::new(results).join(name)).unwrap();
-    assert!(read("index.html").contains("left out: gravity"), "no page says it");
-    assert!(read("scene.toml").contains("neglect-below = 0.01"), "{}", read("scene.toml"));
+    assert!(read("report.html").contains("left out: gravity"), "no page says it");
+    assert!(
+        read("scene-as-run.toml").contains("neglect-below = 0.01"),
+        "{}",
+        read("scene-as-run.toml")
+    );
     let text = out(&run(&["run", GRAVITY, "--neglect", "0.5%"]));
     let says = "without it `padding.contact-time` moves by 0.77 %, more than 0.50 %";
     assert!(words(&text).contains(says), "{text}");

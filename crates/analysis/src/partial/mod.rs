@@ -24,14 +24,14 @@ use std::{sync::Arc, time::Duration};
 use dashpot_dae::Observer;
 use dashpot_network::{Assembly, Influence, Network};
 
-pub use self::{
-    cost::Cost,
-    sweep::{PartialSweep, Saving, sweep},
-};
 use self::{
     candidates::{Candidate, candidates},
     cost::{Comparison, charged},
     trial::{Trial, settle},
+};
+pub use self::{
+    cost::Cost,
+    sweep::{PartialSweep, Saving, sweep},
 };
 use crate::{RunError, RunReport, SolveSettings, solve_assembly};
 
