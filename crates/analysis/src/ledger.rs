@@ -206,14 +206,15 @@ fn dissipation(
 
 /// Whether the force of a part can do work: that of a contact cannot.
 pub(crate) fn does_work(primitive: &PrimitiveOutputs) -> bool {
-    primitive.element.law() != Law::Phased || primitive.element.phases().is_some_and(|own| {
-        (0..own.names().len()).any(|index| {
-            matches!(
-                own.law(Phase { index, memory: 0.0 }),
-                PhaseLaw::Element(_) | PhaseLaw::Force(_)
-            )
+    primitive.element.law() != Law::Phased
+        || primitive.element.phases().is_some_and(|own| {
+            (0..own.names().len()).any(|index| {
+                matches!(
+                    own.law(Phase { index, memory: 0.0 }),
+                    PhaseLaw::Element(_) | PhaseLaw::Force(_)
+                )
+            })
         })
-    })
 }
 
 /// The largest energy \[J\] that any one mass or spring holds within the window: what is driven may

@@ -151,7 +151,8 @@ impl RunReport {
     /// dropped from above and have none yet.
     pub fn impact_energy(&self) -> f64 {
         let impactors = self.assembly.nodes.iter().filter(|node| is_impactor(node));
-        let energy = |node: &NodeOutputs| 0.5 * node.mass * node.start_velocity.unwrap_or(0.0).powi(2);
+        let energy =
+            |node: &NodeOutputs| 0.5 * node.mass * node.start_velocity.unwrap_or(0.0).powi(2);
         impactors.map(energy).sum::<f64>().min(self.energy.start)
     }
 

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use dashpot_dae::{
-    Direction, Guard, Method, Observer, Run, SolveError, methods,
-};
+use dashpot_dae::{Direction, Guard, Method, Observer, Run, SolveError, methods};
 use dashpot_network::{
     Assembly, Network,
     parameters::{ParameterKind, Value, WindowWish},

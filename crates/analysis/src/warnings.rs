@@ -136,12 +136,13 @@ fn worst(measures: &[MeasureReport]) -> Option<f64> {
 
 /// What was dropped and has not arrived when the run ends.
 fn still_falling(solution: &Solution<'_>) -> Vec<String> {
-    let falling = solution.assembly().nodes.iter().filter(|node| is_impactor(node)).filter_map(|node| {
-        let speed = node.start_velocity.filter(|speed| *speed != 0.0)?;
-        let (velocity, height) = (node.velocity?, -solution.signal(node.position).value(0.0));
-        let fall = 2.0 * height / speed.abs();
-        let begins_at_rest = solution.signal(velocity).value(0.0) == 0.0;
-        (begins_at_rest && fall > solution.end()).then(|| {
+    let falling =
+        solution.assembly().nodes.iter().filter(|node| is_impactor(node)).filter_map(|node| {
+            let speed = node.start_velocity.filter(|speed| *speed != 0.0)?;
+            let (velocity, height) = (node.velocity?, -solution.signal(node.position).value(0.0));
+            let fall = 2.0 * height / speed.abs();
+            let begins_at_rest = solution.signal(velocity).value(0.0) == 0.0;
+            (begins_at_rest && fall > solution.end()).then(|| {
             let (end, fall) = (quantity(solution.end(), "s"), quantity(fall, "s"));
             format!(
                 "{} is still falling at the end of the run at {end}: its fall takes {fall}; make \
@@ -149,7 +150,7 @@ fn still_falling(solution: &Solution<'_>) -> Vec<String> {
                 node.name
             )
         })
-    });
+        });
     falling.collect()
 }
 

@@ -93,7 +93,8 @@ pub struct Linear<'a> {
 impl System {
     /// The matrices, where the system is linear and every algebraic unknown has been eliminated.
     pub fn linear(&self) -> Option<Linear<'_>> {
-        (self.is_linear() && self.algebraic() == 0).then_some(Linear { a: &self.jacobian, b: &self.input_matrix })
+        (self.is_linear() && self.algebraic() == 0)
+            .then_some(Linear { a: &self.jacobian, b: &self.input_matrix })
     }
 
     /// Whether it has no other terms than linear ones.

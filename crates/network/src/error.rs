@@ -239,9 +239,7 @@ impl NetworkError {
             | Self::MotionOfMass { node: name, .. }
             | Self::StepThroughContact { node: name, .. }
             | Self::StepAcrossDashpots { node: name, .. } => node(name),
-            Self::Undetermined { nodes }
-            | Self::Loose { nodes }
-            | Self::NoBalance { nodes } => {
+            Self::Undetermined { nodes } | Self::Loose { nodes } | Self::NoBalance { nodes } => {
                 nodes.first().and_then(node)
             }
             Self::NoElement { effect, element } | Self::NotAnEnd { effect, element, .. } => {

@@ -208,9 +208,9 @@ fn write_value(value: &Value, dimension: Dimension, beside: Dimension) -> String
     match value {
         Value::Number(number) => quantity(*number, dimension),
         Value::Table(points) => {
-            let points = points
-                .iter()
-                .map(|&(at, own)| format!("[{}, {}]", quantity(at, beside), quantity(own, dimension)));
+            let points = points.iter().map(|&(at, own)| {
+                format!("[{}, {}]", quantity(at, beside), quantity(own, dimension))
+            });
             format!("[{}]", points.collect::<Vec<_>>().join(", "))
         }
         Value::Word(word) => quoted(word),

@@ -23,8 +23,8 @@ impl Debug for Written {
 
 impl Dense for Written {
     fn signal(&self, system: &System, output: usize) -> Signal {
-        let output = &system.outputs[output];
         const PANELS: u32 = 8;
+        let output = &system.outputs[output];
         let interpolation = Interpolation::of_degree(15);
         let border = |at: u32| self.end * f64::from(at) / f64::from(PANELS);
         let panels = (0..PANELS).map(|at| {

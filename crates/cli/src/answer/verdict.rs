@@ -70,10 +70,9 @@ fn largest<'r>(run: &'r RunReport, kind: &str) -> Option<(&'r MeasureReport, f64
 /// The first measure of this kind that is infinite: it has a time, and no value there.
 fn infinite<'r>(run: &'r RunReport, kind: &str) -> Option<(&'r MeasureReport, String)> {
     let of_kind = run.measures.iter().filter(|measure| measure.kind == kind);
-    let found = of_kind.filter(|measure| measure.value.is_none()).find_map(|measure| {
-        Some((measure, quantity(measure.time?, "s", TIME_DIGITS)))
-    });
-    found
+    of_kind
+        .filter(|measure| measure.value.is_none())
+        .find_map(|measure| Some((measure, quantity(measure.time?, "s", TIME_DIGITS))))
 }
 
 fn shown(answer: &Answer, measure: &MeasureReport, value: f64) -> String {
@@ -100,7 +99,10 @@ fn whole_contact(run: &RunReport) -> Option<String> {
     let (headline, most) = largest(run, PeakForce::KIND)?;
     let (element, peak) = run.largest_force()?;
     let pad = element.strip_suffix(".contact")?;
-    let is_part = headline.target.strip_prefix(pad).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+    let is_part = headline
+        .target
+        .strip_prefix(pad)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
     let is_whole = is_part && headline.target != element && peak.value.is_finite();
     (is_whole && peak.value > most * (1.0 + MARGIN)).then(|| {
         let (force, time) =
@@ -183,7 +185,8 @@ fn energy(answer: &Answer, run: &RunReport) -> Option<String> {
     if impact <= ZERO * run.energy.turned_over {
         // What falls begins without energy.
         let whole = rounded(work, "J", TIME_DIGITS);
-        let part = if value <= work { format!(" ({})", share(value / work)) } else { String::new() };
+        let part =
+            if value <= work { format!(" ({})", share(value / work)) } else { String::new() };
         return Some(format!("{name} takes up {amount} of {whole} put in{part}"));
     }
     let whole = rounded(impact, "J", DIGITS);

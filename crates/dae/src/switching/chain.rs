@@ -77,13 +77,15 @@ impl Chain {
         }
         let double = other.dense.signal(&other.system, output);
         // Inside of panels only: where an input jumps, both may jump a rounding apart.
-        let places = own.panels.iter().flat_map(|panel| {
-            INSIDE.map(|x| panel.time(x)).map(|t| (t, panel.value(t)))
-        });
+        let places = own
+            .panels
+            .iter()
+            .flat_map(|panel| INSIDE.map(|x| panel.time(x)).map(|t| (t, panel.value(t))));
         // A leg that ends earlier by a rounding is not followed beyond its end.
         let end = double.end();
-        let differences =
-            places.filter(|(t, _)| *t <= end).map(|(t, value)| (value - double.left_value(t)).abs());
+        let differences = places
+            .filter(|(t, _)| *t <= end)
+            .map(|(t, value)| (value - double.left_value(t)).abs());
         Some(differences.fold(0.0, f64::max))
     }
 }

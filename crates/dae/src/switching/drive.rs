@@ -35,11 +35,8 @@ pub fn integrate(
     observer: &mut dyn Observer,
 ) -> Result<Trajectory, SolveError> {
     let begin = Instant::now();
-    let doubt = if method.is_exact() {
-        ROUNDINGS * f64::EPSILON
-    } else {
-        ERRORS_PER_TOLERANCE * run.rtol
-    };
+    let doubt =
+        if method.is_exact() { ROUNDINGS * f64::EPSILON } else { ERRORS_PER_TOLERANCE * run.rtol };
     let Solution { mut chain, name, t_end, first_phases, mut found } =
         solve(method, switching, run, doubt, observer)?;
     if method.is_exact() && chain.legs.len() > 1 {

@@ -99,8 +99,10 @@ impl Bodies {
         }
         let mut errors = Vec::new();
         let offset = offsets(network, expansion, &of_joint, &mut errors);
-        let all =
-            members.into_iter().map(|joints| Body::of(network, joints, expansion.switches, &mut errors)).collect();
+        let all = members
+            .into_iter()
+            .map(|joints| Body::of(network, joints, expansion.switches, &mut errors))
+            .collect();
         if errors.is_empty() { Ok(Self { all, of_joint, offset }) } else { Err(errors) }
     }
 }
@@ -124,9 +126,8 @@ fn offsets(
         neighbours[a].push((b, -link.held));
         neighbours[b].push((a, link.held));
     }
-    let is_given = |joint: usize| {
-        network.nodes.get(joint).is_some_and(|node| node.support != Support::Free)
-    };
+    let is_given =
+        |joint: usize| network.nodes.get(joint).is_some_and(|node| node.support != Support::Free);
     let mut is_placed = vec![false; expansion.joints];
     // The place of a body is that of the node that is held, where one is.
     let starts = (0..expansion.joints).filter(|&joint| is_given(joint)).chain(0..expansion.joints);
@@ -218,7 +219,8 @@ impl Body {
         }
         let massive = nodes.iter().filter(|&&node| network.nodes[node].mass > 0.0);
         let speeds = massive.map(|&node| start_velocity(network, network.nodes[node].start));
-        let velocity = speeds.fold(0.0, |most: f64, own| if own.abs() > most.abs() { own } else { most });
+        let velocity =
+            speeds.fold(0.0, |most: f64, own| if own.abs() > most.abs() { own } else { most });
         let is_impactor = impactor.is_some();
         Self { joints, role, velocity, is_impactor, whole_mass: mass }
     }

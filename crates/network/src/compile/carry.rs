@@ -58,12 +58,7 @@ pub(super) struct Carry {
 }
 
 impl Carry {
-    pub(super) fn of(
-        parts: &Parts<'_>,
-        inputs: &Inputs,
-        system: &System,
-        duration: f64,
-    ) -> Self {
+    pub(super) fn of(parts: &Parts<'_>, inputs: &Inputs, system: &System, duration: f64) -> Self {
         let columns: Vec<f64> = system.unknowns.iter().map(|unknown| unknown.scale).collect();
         let input_columns = inputs.columns(system.time_scale, duration);
         let reading = |row: &Row| Reading {
@@ -75,12 +70,11 @@ impl Carry {
             parts.motion.position[body].plus(1.0, &parts.offsets[joint])
         };
         let primitives = &parts.expansion.primitives;
-        let deformation = primitives.iter().enumerate().map(|(at, own)| {
-            match &parts.motion.deformation[at] {
+        let deformation =
+            primitives.iter().enumerate().map(|(at, own)| match &parts.motion.deformation[at] {
                 Some(row) => reading(row),
                 None => reading(&place(own.ends[0]).plus(-1.0, &place(own.ends[1]))),
-            }
-        });
+            });
         let joints = 0..parts.expansion.joints;
         let velocity = joints.clone().map(|joint| {
             let body = parts.bodies.of_joint[joint];
@@ -114,7 +108,9 @@ impl Carry {
             Origin::Velocity(joint) => state.velocity[joint],
             Origin::Place(joint, offset) => state.position[joint] - offset,
             Origin::Between([a, b], offset) => state.position[a] - state.position[b] - offset,
-            Origin::Along(primitive, sign, offset) => sign * (state.deformation[primitive] - offset),
+            Origin::Along(primitive, sign, offset) => {
+                sign * (state.deformation[primitive] - offset)
+            }
             Origin::Balance => 0.0,
         };
         self.origins.iter().zip(&self.scales).map(|(origin, scale)| value(origin) / scale).collect()

@@ -122,9 +122,7 @@ impl Expansion {
 
     /// The primitives that switch, by their numbers.
     pub(crate) fn phased(&self) -> Vec<usize> {
-        (0..self.primitives.len())
-            .filter(|&at| self.primitives[at].law == Law::Phased)
-            .collect()
+        (0..self.primitives.len()).filter(|&at| self.primitives[at].law == Law::Phased).collect()
     }
 
     /// The same expansion with each of these primitives in a phase.

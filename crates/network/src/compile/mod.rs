@@ -8,8 +8,8 @@
 //! in SI; `system` rounds them and makes them dimensionless.
 
 mod balance;
-mod carry;
 pub(crate) mod bodies;
+mod carry;
 mod dashpots;
 pub(crate) mod expand;
 mod form;
@@ -123,11 +123,7 @@ impl Network {
     }
 
     /// The system of the primitives as they stand in `expansion`; none of them switches.
-    fn assemble(
-        &self,
-        expansion: &Expansion,
-        duration: f64,
-    ) -> Result<Compiled, NetworkErrors> {
+    fn assemble(&self, expansion: &Expansion, duration: f64) -> Result<Compiled, NetworkErrors> {
         let bodies = Bodies::of(self, expansion).map_err(NetworkErrors)?;
         let structure = Structure::of(self, expansion, &bodies, duration).map_err(NetworkErrors)?;
 

@@ -322,7 +322,9 @@ fn resting(parts: &Parts<'_>, node: usize, mass: f64) -> Option<Row> {
         if drive.force.is_none() && whole > 0.0 {
             sum.add(1.0 / whole, &drive.inertia);
         }
-        if let Some(force) = drive.force.as_ref().filter(|_| drive.is_body_force && drive.node == node) {
+        if let Some(force) =
+            drive.force.as_ref().filter(|_| drive.is_body_force && drive.node == node)
+        {
             sum.add(-1.0 / mass, force);
         }
     }

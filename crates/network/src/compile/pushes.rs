@@ -54,8 +54,7 @@ pub(super) fn add(
 fn draft(at: usize, primitive: &Primitive, ends: [usize; 2], scales: &Scales) -> Draft {
     let [stiffness, damping] = primitive.slopes();
     let smaller = |of: &[f64]| ends.iter().map(|&end| of[end]).fold(f64::INFINITY, f64::min);
-    let force =
-        (stiffness * smaller(&scales.length)).max(damping * smaller(&scales.velocity));
+    let force = (stiffness * smaller(&scales.length)).max(damping * smaller(&scales.velocity));
     Draft {
         name: format!("force of {} beyond its linear part", primitive.name),
         kind: UnknownKind::Algebraic,

@@ -68,9 +68,8 @@ impl Inputs {
     /// SI value of the dimensionless value 1 of each entry, with `time` \[s\] as the unit of time.
     pub(super) fn columns(&self, time: f64, duration: f64) -> Vec<f64> {
         let heights = self.heights(duration);
-        let column = |input: &Input| {
-            heights[input.waveform] / time.powi(input.derivative.cast_signed())
-        };
+        let column =
+            |input: &Input| heights[input.waveform] / time.powi(input.derivative.cast_signed());
         self.entries.iter().map(column).collect()
     }
 

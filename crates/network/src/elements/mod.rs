@@ -40,8 +40,8 @@ pub use spring::Spring;
 pub use stiffening_spring::StiffeningSpring;
 pub use table_spring::TableSpring;
 
-use crate::phases::Phases;
 use crate::parameters::{InvalidParameter, Parameter, Value};
+use crate::phases::Phases;
 
 /// A massless two-terminal element: a law giving the force in the element from its deformation
 /// and deformation rate.

@@ -25,8 +25,8 @@ mod tests;
 
 use dashpot_rheology::{Branch, Tree};
 
-pub(crate) use self::{front::warnings, resolve::resolve};
 use self::stiffness::Stiffness;
+pub(crate) use self::{front::warnings, resolve::resolve};
 use crate::{
     Connection, Model, Network,
     parameters::{InvalidParameter, non_negative, positive},

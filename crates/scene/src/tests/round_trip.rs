@@ -15,10 +15,8 @@ use dashpot_rheology::{Branch, Form, FormVisitor, Role, Tree, forms::build, visi
 
 use super::{on_model, scene, shape};
 use crate::{
-    basis::fits_material,
-    kinds::registers,
-    NamedModel, ReadOptions, read_named_model, read_network, write_effect, write_kind,
-    write_material_table, write_model, write_model_table,
+    NamedModel, ReadOptions, basis::fits_material, kinds::registers, read_named_model,
+    read_network, write_effect, write_kind, write_material_table, write_model, write_model_table,
 };
 
 fn read_back(model: &Model) -> Model {

@@ -171,7 +171,8 @@ fn a_guard_ends_the_run_at_the_crossing() {
         output: 1,
         level: 0.0,
         direction: Direction::Falling,
-        stops: true, begins: None,
+        stops: true,
+        begins: None,
     };
     let run = Run { guards: vec![guard], ..Run::to(10.0) };
     let trajectory = Exact.integrate(&system, &run, &mut Silent).unwrap();
