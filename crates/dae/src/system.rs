@@ -136,6 +136,25 @@ impl System {
         times
     }
 
+    /// The shortest dimensionless time in which a driving function changes within `[0, end]`: a period,
+    /// or the length of a piece that is not constant. `None` where none changes.
+    pub fn shortest_time(&self, end: f64) -> Option<f64> {
+        let of_pieces = self.waveforms.iter().flat_map(|waveform| {
+            let pieces = waveform.pieces();
+            pieces.iter().enumerate().filter_map(move |(at, piece)| {
+                let until = pieces.get(at + 1).map_or(end, |next| next.start).min(end);
+                let from = piece.start.max(0.0);
+                if piece.is_constant(0) || until <= from {
+                    return None;
+                }
+                let frequency = piece.frequency(from).max(piece.frequency(until));
+                let period = std::f64::consts::TAU / frequency;
+                Some(if period.is_finite() { period.min(until - from) } else { until - from })
+            })
+        });
+        of_pieces.reduce(f64::min)
+    }
+
     /// The input vector at dimensionless time `t`, on the piece that holds at `piece_time`
     /// (at a jump, the piece to take is not decided by `t`).
     pub fn inputs_at(&self, piece_time: f64, t: f64, w: &mut [f64]) {

@@ -2,7 +2,7 @@ use dashpot_dae::{Direction, Piece, Silent, Waveform};
 use dashpot_network::effects::{Gravity, GravityStart};
 use dashpot_network::{
     Model, Network, Node, NodeId,
-    elements::{Dashpot, Spring},
+    elements::{Dashpot, PowerDashpot, Spring},
     part,
 };
 
@@ -493,4 +493,25 @@ fn condition_that_holds_at_the_start_is_pointed_out() {
     };
     assert!(warned(stop(4.0, Direction::Falling)) && warned(stop(2.0, Direction::Rising)));
     assert!(!warned(stop(2.0, Direction::Falling)) && !warned(stop(2.0, Direction::Either)));
+}
+
+#[test]
+fn one_step_methods_follow_what_drives_a_law_without_any_state() {
+    // A dashpot of power 2 between a support that shakes and ground: `∮ F ẏ dt` of one period is
+    // `F_r/v_r² (A ω)³ · 8/(3 ω)`, because `∮ |cos|³ = 8/3`.
+    let (amplitude, omega) = (0.01, std::f64::consts::TAU * 10.0);
+    let mut network = Network::new();
+    let sine = Waveform::new(vec![Piece { sine: amplitude, omega, ..Piece::default() }]).unwrap();
+    let support = network.add_node(Node::prescribed("support", sine));
+    let dashpot = PowerDashpot { force: 100.0, at: 1.0, exponent: 2.0 };
+    network.connect("damper", support, network.ground(), part(dashpot));
+    let expected = 100.0 * (amplitude * omega).powi(3) * 8.0 / (3.0 * omega);
+    for method in ["bdf", "esdirk34", "tr-bdf2"] {
+        let settings = SolveSettings::lasting(0.1).by(method);
+        let report = solve(&network, &settings, &mut Silent).unwrap();
+        let energy = report.measure("damper.energy").unwrap();
+        let error = (energy.value.unwrap() - expected).abs();
+        assert!(error <= energy.error.unwrap(), "{method}: {error} of {expected}");
+        assert!(error <= 1e-3 * expected, "{method}: {error} of {expected}");
+    }
 }

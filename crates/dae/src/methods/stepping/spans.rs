@@ -12,6 +12,8 @@ use crate::{
     methods::check, pieces::Pieces,
 };
 
+/// Most spans that a driving function's own time makes of a run.
+const MOST_SPANS: f64 = 2e5;
 /// Steps for which room is set aside; more are no harm.
 const USUAL_STEPS: usize = 160;
 
@@ -116,18 +118,40 @@ fn admit<S: Scheme>(system: &System, run: &Run) -> Result<(), SolveError> {
 }
 
 impl Walk<'_> {
-    /// The borders of the smooth spans, dimensionless.
-    fn borders(&self) -> Vec<f64> {
+    /// The borders of the spans of a method that estimates its first step from this order,
+    /// dimensionless.
+    ///
+    /// A one-step method judges its steps by the differential unknowns. What follows a driving
+    /// function through a law that is not linear may need shorter ones than these, so that the spans
+    /// of such a method are parts of the function's own time, the shorter the tighter the tolerance.
+    fn borders(&self, order: usize) -> Vec<f64> {
         let end = self.run.t_end / self.system.time_scale;
         let mut borders = vec![0.0];
         borders.extend(self.system.breakpoints(end));
         borders.push(end);
-        borders
+        if order < 2 || self.system.is_linear() {
+            return borders;
+        }
+        let Some(own) = self.system.shortest_time(end) else { return borders };
+        #[expect(clippy::cast_precision_loss, reason = "an order")]
+        let parts = 8.0 * self.run.rtol.powf(-1.0 / (order as f64 + 1.0));
+        let longest = (own / parts).max(end / MOST_SPANS);
+        let mut fine = vec![0.0];
+        for span in borders.windows(2) {
+            let count = ((span[1] - span[0]) / longest).ceil().max(1.0);
+            let mut at = 1.0;
+            while at < count {
+                fine.push(span[0] + (span[1] - span[0]) * at / count);
+                at += 1.0;
+            }
+            fine.push(span[1]);
+        }
+        fine
     }
 
     /// A run in which no unknown moves: there is none, or no time.
     fn still(&mut self) -> Result<(), Stop> {
-        let borders = self.borders();
+        let borders = self.borders(1);
         for span in borders.windows(2) {
             self.span = (span[0], span[1]);
             self.pieces.begin(span[0], &self.state);
@@ -149,7 +173,7 @@ impl Walk<'_> {
         let mut problem = start::problem::<M>(self.system, self.run.rtol)?;
         let mut balance = Balance::<M>::new(self.system)?;
         let mut outcome = Ok(());
-        let borders = self.borders();
+        let borders = self.borders(S::ORDER);
         for span in borders.windows(2) {
             self.span = (span[0], span[1]);
             let length = span[1] - span[0];
