@@ -1,7 +1,7 @@
 //! Partial modelling: what matters little is left out, and what that costs is measured.
 //!
 //! An effect is a candidate where each of its dimensionless numbers
-//! ([`Influence`](dashpot_network::Influence)) is below the bound; one without a number is none. An
+//! ([`Influence`]) is below the bound; one without a number is none. An
 //! estimate proves nothing, so the network is solved with and without all candidates together, and
 //! every measure that both have is compared. Where one moves by more than the bound, each candidate
 //! is left out alone. Those that exceed the bound by themselves are put back, and where the rest

@@ -23,7 +23,7 @@ const ROUNDINGS: f64 = 1e3;
 ///
 /// A method without an error of its own solves a run of several legs twice, the second time with the
 /// state at the end of each leg shaken in its last digits: by what comes of that the errors of its
-/// signals are estimated, see [`Shaken`].
+/// signals are estimated.
 ///
 /// # Errors
 ///

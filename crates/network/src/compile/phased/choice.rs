@@ -163,8 +163,7 @@ impl PhasedNetwork {
                     continue;
                 }
                 let deformation = state.deformation[at];
-                let [a, b] = self.expansion.primitives[at].ends;
-                let size = state.position[a].abs().max(state.position[b].abs());
+                let size = self.own_length(state);
                 let near = doubt.max(1e-9) * (size + level.abs()).max(deformation.abs());
                 if (deformation - level).abs() > near {
                     return Ok(None);
@@ -227,6 +226,16 @@ impl PhasedNetwork {
             .map(|node| super::super::bodies::start_velocity(&self.network, node.start).abs());
         let now = state.velocity.iter().map(|own| own.abs());
         starts.chain(now).filter(|own| own.is_finite()).fold(0.0, f64::max)
+    }
+
+    /// A length of the network's own \[m\]: the farthest place of a joint, or that a motion leads to.
+    pub(super) fn own_length(&self, state: &State) -> f64 {
+        let motions = self.network.nodes.iter().filter_map(|node| match &node.support {
+            crate::Support::Prescribed(motion) => Some(motion.bound(self.duration)),
+            _ => None,
+        });
+        let places = state.position.iter().map(|own| own.abs());
+        motions.chain(places).filter(|own| own.is_finite()).fold(0.0, f64::max)
     }
 
     fn switches(

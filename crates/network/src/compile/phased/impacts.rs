@@ -214,12 +214,11 @@ impl PhasedNetwork {
         fired: &[(usize, usize)],
         doubt: f64,
     ) -> Vec<bool> {
+        let size = self.own_length(state);
         let at_level = |part: usize| {
             let at = self.parts[part];
             let Some(own) = self.phases_of(at) else { return false };
             let deformation = state.deformation[at];
-            let [a, b] = self.expansion.primitives[at].ends;
-            let size = state.position[a].abs().max(state.position[b].abs());
             own.exits(phases[part]).iter().enumerate().any(|(number, exit)| {
                 exit.watched == Watched::Deformation
                     && (fired.contains(&(part, number))
