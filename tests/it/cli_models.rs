@@ -62,7 +62,8 @@ impl Desk {
 #[track_caller]
 fn ends(arguments: &[&str], expected: i32) -> (String, String) {
     let output = run(arguments);
-    let streams = (out(&output), err(&output));
+    // What is told goes on in further lines.
+    let streams = (out(&output), err(&output).replace("\n  ", " "));
     assert_eq!(code(&output), expected, "{arguments:?}\n{}{}", streams.0, streams.1);
     streams
 }

@@ -4,10 +4,14 @@
 //! the exact method, where it is linear between switchings, and by stepping methods, and held against
 //! the 20 digits of the table.
 
+mod balance;
 mod bouncing;
 mod claims;
 mod faces;
+mod foam_cycles;
 mod friction;
+mod materials;
+mod near;
 mod neutral;
 mod nonlinear;
 mod off;

@@ -24,5 +24,6 @@ mod order;
 mod partial;
 mod random_networks;
 mod signs;
+mod terminal;
 mod thesis;
 mod vibration;

@@ -12,7 +12,7 @@ pub struct Accuracy {
     /// That of single measures, by key such as `padding.peak-force`, positive.
     pub by_measure: BTreeMap<String, f64>,
     /// What moves no measure by more than this part of its size may be left out, from more than 0
-    /// to 1; `None` leaves nothing out.
+    /// to [`LOOSEST`](Self::LOOSEST); `None` leaves nothing out.
     pub neglect_below: Option<f64>,
 }
 
@@ -24,6 +24,9 @@ impl Default for Accuracy {
 }
 
 impl Accuracy {
+    /// The loosest wish that makes sense: a number that is further off says nothing any more.
+    pub const LOOSEST: f64 = 0.2;
+
     /// The same accuracy in every measure.
     pub fn of_all(relative: f64) -> Self {
         Self { default: relative, by_measure: BTreeMap::new(), neglect_below: None }
@@ -92,12 +95,19 @@ pub(crate) fn rounding(reading: &Reading) -> f64 {
 
 /// Part of the largest signal of a unit up to which an error cannot be told from none.
 const NOTHING: f64 = 1e-12;
+/// The same in parts of the relative accuracy wanted.
+const LITTLE: f64 = 1e-3;
 
 /// Whether a value might be zero, and would be of no account if it were not, where the largest
-/// signal of its unit is `largest`.
-pub(crate) fn is_as_good_as_zero(reading: &Reading, error: Option<f64>, largest: f64) -> bool {
+/// signal of its unit is `largest` and the relative accuracy `wish` is wanted.
+pub(crate) fn is_as_good_as_zero(
+    reading: &Reading,
+    error: Option<f64>,
+    (largest, wish): (f64, f64),
+) -> bool {
     let is_within = |error: f64| reading.value.is_some_and(|value| value.abs() <= error);
-    error.is_some_and(|error| is_within(error) && error <= NOTHING * largest)
+    let limit = NOTHING.max(LITTLE * wish) * largest;
+    error.is_some_and(|error| is_within(error) && error <= limit)
 }
 
 /// How large an error is in parts of what the relative accuracy wanted allows; at most 1 is good
@@ -162,9 +172,12 @@ mod tests {
     #[test]
     fn zero_with_an_error_that_is_nothing_counts_as_zero() {
         let zero = reading(Some(1e-30));
-        assert!(is_as_good_as_zero(&zero, Some(1e-27), 1.0));
-        assert!(!is_as_good_as_zero(&zero, Some(1e-27), 1e-20), "the error is large here");
-        assert!(!is_as_good_as_zero(&reading(Some(1e-20)), Some(1e-27), 1.0), "it is a number");
+        assert!(is_as_good_as_zero(&zero, Some(1e-27), (1.0, 1e-3)));
+        assert!(!is_as_good_as_zero(&zero, Some(1e-27), (1e-22, 1e-3)), "it is large here");
+        // A thousandth of what is wanted of the largest one.
+        assert!(is_as_good_as_zero(&zero, Some(9e-7), (1.0, 1e-3)));
+        assert!(!is_as_good_as_zero(&zero, Some(2e-6), (1.0, 1e-3)));
+        assert!(!is_as_good_as_zero(&reading(Some(1e-20)), Some(1e-27), (1.0, 1e-3)), "it is a number");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use dashpot_dae::{Switch, Trajectory};
 use dashpot_network::{
-    Assembly, ConnectionOutputs, PrimitiveOutputs,
+    Assembly, ConnectionOutputs, NodeId, PrimitiveOutputs,
     elements::{Contact, ElementKind, Law},
 };
 
@@ -65,7 +65,7 @@ fn is_slider(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
 
 /// Whether an element pulls where its force turns to tension.
 pub(crate) fn is_glued(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
-    !separates(assembly, connection) && !is_slider(assembly, connection)
+    !connection.never_pulls && !separates(assembly, connection) && !is_slider(assembly, connection)
 }
 
 /// What switches, in words, with the time of each \[s\].
@@ -98,8 +98,10 @@ pub(crate) fn switchings(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f
 }
 
 fn of_contact(assembly: &Assembly, own: &Switch, is_again: bool) -> String {
-    // A contact that is all of its connection ends in the word for it.
-    let name = own.name.strip_suffix(&format!(".{}", Contact::KIND)).unwrap_or(&own.name);
+    // A contact that is all of an element goes by the element's name.
+    let whole = own.name.strip_suffix(&format!(".{}", Contact::KIND));
+    let is_connection = assembly.connection(&own.name).is_some();
+    let name = whole.filter(|_| !is_connection).unwrap_or(&own.name);
     let again = if is_again { " again" } else { "" };
     let (impulse, lost) = (quantity(own.impulse, "N s"), quantity(own.lost.max(0.0), "J"));
     let blow = format!("impact of {impulse}, which loses {lost}");
@@ -139,6 +141,31 @@ fn sides<'a>(assembly: &'a Assembly, contact: &'a str) -> Option<(&'a str, &'a s
     let mut ends = assembly.connection(contact)?.between.iter();
     let node = ends.find(|end| assembly.nodes[end.index()].name != face)?;
     Some((assembly.nodes[node.index()].name.as_str(), element))
+}
+
+/// Free masses that nothing but one contact touches, where it is open at the end of a run: name of the
+/// node and what it has left, with the time \[s\].
+pub(crate) fn left_for_good(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, String)> {
+    let mut found: Vec<(f64, String)> = Vec::new();
+    for connection in &assembly.connections {
+        let is_alone = |end: usize| {
+            let node = &assembly.nodes[end];
+            let touches =
+                |other: &&ConnectionOutputs| other.between.iter().any(|id| id.index() == end);
+            node.free && node.mass > 0.0 && assembly.connections.iter().filter(touches).count() == 1
+        };
+        let ends = connection.between.map(NodeId::index);
+        let Some(node) = ends.into_iter().find(|&end| is_alone(end)) else { continue };
+        let own = parts(assembly, connection).iter().filter(|own| is_contact(own));
+        let mut last = own
+            .filter_map(|own| trajectory.switches.iter().rfind(|switch| switch.name == own.name));
+        let Some(opened) = last.next_back().filter(|switch| switch.phase == 0) else { continue };
+        let suffix = format!(".{}", Contact::KIND);
+        let element = connection.name.strip_suffix(&suffix).unwrap_or(&connection.name);
+        let text = format!("{} leaves the {element}", assembly.nodes[node].name);
+        found.push((opened.time, text));
+    }
+    found
 }
 
 /// How often an element meets something again after `time` \[s\], at its own contact or, where it is

@@ -4,6 +4,8 @@ use dashpot_dae::SolveError;
 use dashpot_network::NetworkErrors;
 use thiserror::Error;
 
+use crate::Leak;
+
 /// Why a run has no report.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -71,14 +73,17 @@ pub enum RunError {
     },
     /// Energy appeared or vanished.
     #[error(
-        "the solution of `{method}` cannot be trusted: {} of the energy turned over {}",
+        "the solution of `{method}` cannot be trusted: {} of the energy turned over {}{}",
         crate::wording::percent(.closure.abs()),
-        if *.closure > 0.0 { "is missing" } else { "is too much" }
+        if *.closure > 0.0 { "is missing" } else { "is too much" },
+        .leak.as_ref().map_or(String::new(), |leak| format!(", {leak}"))
     )]
     EnergyLost {
         /// The method that was used.
         method: &'static str,
         /// The part of the energy turned over that is missing; negative if there is too much.
         closure: f64,
+        /// When and where, as far as that can be told.
+        leak: Option<Leak>,
     },
 }

@@ -43,7 +43,8 @@ impl Impact {
     /// The impact of a contact force that exists from the start of a run of `run_end` \[s\].
     ///
     /// The force pulls where it goes below zero by more than its noise and the part `doubt` of its
-    /// largest magnitude; the release is where it passes zero on the way there.
+    /// largest magnitude; the release is where it passes zero on the way there. With a doubt of
+    /// [`NO_PULL`] it never does.
     pub(crate) fn of_force(force: &Signal, run_end: f64, doubt: f64) -> Self {
         let run =
             Self { start: 0.0, end: run_end, end_error: Some(0.0), contact: Contact::Lasting };
@@ -184,6 +185,9 @@ impl Impact {
 /// between parts that sag.
 const SLIGHT: f64 = 1e-2;
 
+/// The doubt of a force that by its law never pulls: no fall below zero counts.
+pub(crate) const NO_PULL: f64 = 1.0;
+
 /// The sign, `true` for positive, with which a force first reaches a share of its largest magnitude that
 /// is not slight.
 pub(crate) fn first_way(force: &Signal) -> Option<bool> {
@@ -207,6 +211,9 @@ pub(crate) fn first_way(force: &Signal) -> Option<bool> {
 /// follows does not count.
 fn begins(force: &Signal, doubt: f64) -> Option<bool> {
     let most = force.maximum((0.0, force.end())).value;
+    if doubt >= NO_PULL {
+        return (most > force.noise).then_some(true);
+    }
     let floor = (SLIGHT.max(doubt) * most).max(force.noise);
     if most <= force.noise {
         return force.departure(0.0, 0.0);
@@ -275,7 +282,7 @@ pub(crate) fn first_pull(force: &Signal, run_end: f64) -> Option<f64> {
 fn ends_at_zero(force: &Signal, run_end: f64, doubt: f64) -> bool {
     const SOON: f64 = 1e-9;
     let slope = force.slope(run_end);
-    let falls = slope < 0.0 && -slope * run_end > doubt * force.bound();
+    let falls = slope < 0.0 && -slope * run_end > doubt.min(SLIGHT) * force.bound();
     falls && force.left_value(run_end).abs() <= SOON * run_end * slope.abs()
 }
 
@@ -378,6 +385,19 @@ mod tests {
             assert!(impact.span(WindowWish::Impact, 2.0).is_err());
             assert!(impact.span(WindowWish::Run, 2.0).is_ok());
         }
+    }
+
+    #[test]
+    fn force_that_never_pulls_is_no_pull_however_deep() {
+        let released = polygon(&[100.0, 1.0, -1.0, 0.0, 0.0]);
+        let impact = Impact::of_force(&released, 4.0, NO_PULL);
+        assert_eq!((impact.contact, impact.end), (Contact::Parted, 3.0));
+        let below = polygon(&[-1e-3, 100.0, 0.0, 0.0]);
+        assert_eq!(Impact::of_force(&below, 3.0, NO_PULL).contact, Contact::Parted);
+        let none = line(-1e-13, -1e-13);
+        assert_eq!(Impact::of_force(&none, 2.0, NO_PULL).contact, Contact::Unloaded);
+        let ends = Impact::of_force(&line(1.0, 1e-17), 2.0, NO_PULL);
+        assert_eq!((ends.contact, ends.end), (Contact::Released, 2.0));
     }
 
     #[test]

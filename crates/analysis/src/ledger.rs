@@ -1,5 +1,6 @@
 //! Where the energy of a run comes from and where it goes.
 
+mod leak;
 mod series;
 
 use std::ops::Range;
@@ -10,6 +11,7 @@ use dashpot_network::{
     elements::Law,
     phases::{Phase, PhaseLaw},
 };
+pub use leak::{Leak, Place, leak};
 pub use series::{EnergySeries, energy_series};
 
 use crate::{

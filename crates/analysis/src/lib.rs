@@ -6,12 +6,14 @@
 
 mod accounts;
 mod accuracy;
+mod bearing;
 mod blows;
 mod bodies;
 mod contacts;
 mod difference;
 mod error;
 mod events;
+mod excerpt;
 mod hic_search;
 mod impact;
 pub mod ledger;
@@ -33,8 +35,9 @@ mod wording;
 pub use accuracy::Accuracy;
 pub use difference::{Difference, differences};
 pub use error::RunError;
+pub use excerpt::{excerpt, resolving_times, touching};
 pub use impact::{Contact, Impact, Span};
-pub use ledger::{EnergySeries, Ledger};
+pub use ledger::{EnergySeries, Leak, Ledger, Place};
 pub use measures::{Family, Measure, MeasureKind, MeasureVisitor, Reading, visit_measures};
 pub use partial::{Partial, solve_partial};
 pub use report::{

@@ -207,7 +207,7 @@ impl Task<'_> {
                 continue;
             }
             let largest = largest(&solution, &solved.energy, entry.measure.unit());
-            if is_as_good_as_zero(reading, error, largest) {
+            if is_as_good_as_zero(reading, error, (largest, wish)) {
                 reading.size = reading.size.max(largest);
                 reading.noise = reading.noise.max(error.unwrap_or(0.0));
             }

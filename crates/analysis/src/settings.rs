@@ -82,8 +82,8 @@ impl SolveSettings {
             }
         }
         match self.accuracy.neglect_below {
-            Some(bound) if !(bound > 0.0 && bound <= 1.0) => {
-                invalid("neglect-below", "more than 0 and at most 1", bound)
+            Some(bound) if !(bound > 0.0 && bound <= Accuracy::LOOSEST) => {
+                invalid("neglect-below", "more than 0 and at most 0.2", bound)
             }
             _ => Ok(()),
         }

@@ -8,7 +8,7 @@ use dashpot_network::{Assembly, ConnectionOutputs, NodeOutputs};
 use crate::{
     blows::{self, Blow},
     bodies, contacts,
-    impact::{Impact, first_pull, first_way},
+    impact::{Impact, NO_PULL, first_pull, first_way},
 };
 
 /// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
@@ -153,7 +153,7 @@ impl<'a> Solution<'a> {
                     self.signal(force),
                     self.element_blows(element),
                     self.end(),
-                    self.doubt,
+                    self.doubt_of(connection),
                 ),
                 _ if connection.is_rigid => self.node_impact(connection.between[0].index()),
                 _ => self.scene_impact(),
@@ -174,7 +174,8 @@ impl<'a> Solution<'a> {
         }
         *self.body_impacts[body].get_or_init(|| match self.push_on(body) {
             Some(force) => {
-                Impact::of_contact(&force, &self.body_blows(body), self.end(), self.doubt)
+                let doubt = self.doubt_of_body(body);
+                Impact::of_contact(&force, &self.body_blows(body), self.end(), doubt)
             }
             None => Impact::unloaded(self.end()),
         })
@@ -221,10 +222,14 @@ impl<'a> Solution<'a> {
         let touching =
             self.assembly.connections.iter().filter(|connection| self.touches_impactor(connection));
         let own = touching.map(|connection| {
-            connection.force.and_then(|force| first_pull(self.signal(force), self.end()))
+            let force = connection.force.filter(|_| !connection.never_pulls)?;
+            first_pull(self.signal(force), self.end())
         });
         let bodies = (0..self.has_impactor.len()).filter(|&body| self.has_impactor[body]);
-        let sums = bodies.map(|body| first_pull(&self.push_on(body)?, self.end()));
+        let sums = bodies.map(|body| {
+            let pulls = self.doubt_of_body(body) < NO_PULL;
+            first_pull(&self.push_on(body).filter(|_| pulls)?, self.end())
+        });
         own.chain(sums).collect()
     }
 
@@ -253,9 +258,29 @@ impl<'a> Solution<'a> {
         })
     }
 
-    /// The impact of a contact force of this trajectory.
-    pub(crate) fn impact_of(&self, force: &Signal) -> Impact {
-        Impact::of_force(force, self.end(), self.doubt)
+    /// The impact of the force of a connection of this trajectory.
+    pub(crate) fn impact_of(&self, connection: &ConnectionOutputs, force: &Signal) -> Impact {
+        Impact::of_force(force, self.end(), self.doubt_of(connection))
+    }
+
+    /// The part of its largest magnitude below which a pull of a connection counts as none.
+    fn doubt_of(&self, connection: &ConnectionOutputs) -> f64 {
+        if connection.never_pulls { NO_PULL } else { self.doubt }
+    }
+
+    /// The same for the force on a body, which never pulls if all that it meets lies on one side of
+    /// it and does not.
+    fn doubt_of_body(&self, body: usize) -> f64 {
+        let mut side = None;
+        let mut touching = self.assembly.connections.iter().filter(|own| !own.is_rigid);
+        let is_one_sided = touching.all(|own| {
+            let [a, b] = bodies::between(self.assembly, own);
+            if (a == body) == (b == body) {
+                return true;
+            }
+            own.never_pulls && *side.get_or_insert(a == body) == (a == body)
+        });
+        if is_one_sided { NO_PULL } else { self.doubt }
     }
 
     /// The impact of the scene: from the first contact of any impactor until the last one is let

@@ -14,7 +14,7 @@ use crate::{
     accuracy::excess,
     contacts::{self, meetings_after},
     events,
-    ledger::ledger,
+    ledger::{leak, ledger},
     partial::solve_partial,
     refinement::{MOST_LOST, Outcome, Solved, Task},
     selection::{Selected, select},
@@ -192,7 +192,8 @@ fn report(
     let Solved { rtol, doubt, trajectory, readings, energy, .. } = solved;
     let closure = energy.closure();
     if closure.is_nan() || closure.abs() > MOST_LOST {
-        return Err(RunError::EnergyLost { method: trajectory.method, closure });
+        let leak = leak(&Solution::new(assembly, &trajectory));
+        return Err(RunError::EnergyLost { method: trajectory.method, closure, leak });
     }
     let solution = Solution::new(assembly, &trajectory).doubting(doubt);
     let measures: Vec<MeasureReport> = task
@@ -217,6 +218,7 @@ fn report(
         energy: &energy,
         obstacle: obstacle.as_ref(),
         guards: &run.guards,
+        effects,
     });
     drop(solution);
     Ok(RunReport {

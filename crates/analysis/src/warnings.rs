@@ -1,10 +1,12 @@
 //! What the reader of a report must know.
 
 use dashpot_dae::{Direction, Guard, SolveError};
+use dashpot_network::effects::{EffectKind, Gravity};
 
 use crate::{
     Accuracy, ContactReport, Ledger, MeasureReport, Solution, contacts,
     impact::{Contact, Impact},
+    ledger::leak,
     solution::is_impactor,
     wording::{percent, quantity},
 };
@@ -18,6 +20,7 @@ pub(crate) struct Findings<'a> {
     pub(crate) energy: &'a Ledger,
     pub(crate) obstacle: Option<&'a SolveError>,
     pub(crate) guards: &'a [Guard],
+    pub(crate) effects: &'a [&'static str],
 }
 
 /// Closure in parts of the energy turned over that rounding may leave.
@@ -33,6 +36,7 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
     warnings.extend(stops_that_hold(findings));
     warnings.extend(still_falling(findings.solution));
     warnings.extend(still_in_contact(findings.contacts));
+    warnings.extend(flying_away(findings));
     warnings.extend(accuracy(findings));
     warnings.extend(findings.solution.assembly().warnings.iter().cloned());
     warnings
@@ -67,7 +71,7 @@ fn pads<'a>(solution: &'a Solution<'a>) -> impl Iterator<Item = (&'a str, Impact
     connections.filter_map(|connection| {
         connection.thickness?;
         let force = connection.force.filter(|_| !solution.touches_impactor(connection))?;
-        Some((connection.name.as_str(), solution.impact_of(solution.signal(force))))
+        Some((connection.name.as_str(), solution.impact_of(connection, solution.signal(force))))
     })
 }
 
@@ -100,11 +104,12 @@ fn energy(findings: &Findings<'_>) -> Option<String> {
         _ => worst(findings.measures).unwrap_or(findings.accuracy.default),
     };
     (closure.abs() > bound.max(ROUNDING)).then(|| {
+        let way = if closure > 0.0 { "is missing" } else { "is too much" };
+        let leak = leak(findings.solution).map_or(String::new(), |leak| format!(", {leak}"));
         format!(
-            "the energy does not close: {} of the energy turned over {}, more than the errors \
-             reported",
+            "the energy does not close: {} of the energy turned over {way}{leak}; that is more than \
+             the errors reported",
             percent(closure.abs()),
-            if closure > 0.0 { "is missing" } else { "is too much" },
         )
     })
 }
@@ -164,6 +169,19 @@ fn still_in_contact(contacts: &[ContactReport]) -> Vec<String> {
         .collect()
 }
 
+/// What is shaken or pushed off without a weight that brings it back.
+fn flying_away(findings: &Findings<'_>) -> Option<String> {
+    let solution = findings.solution;
+    let is_struck = solution.assembly().nodes.iter().any(is_impactor);
+    if is_struck || findings.effects.contains(&Gravity::KIND) {
+        return None;
+    }
+    let left = contacts::left_for_good(solution.assembly(), solution.trajectory());
+    let (time, first) = left.first()?;
+    let when = quantity(*time, "s");
+    Some(format!("{first} at {when} and never comes back: gravity is off"))
+}
+
 fn accuracy(findings: &Findings<'_>) -> Vec<String> {
     let mut warnings = Vec::new();
     let undecided: Vec<String> = findings
@@ -183,7 +201,12 @@ fn accuracy(findings: &Findings<'_>) -> Vec<String> {
             let reached = measure.relative_error().filter(|error| error.is_finite())?;
             let wish = findings.accuracy.of(&measure.key);
             (measure.excess > 1.0).then(|| {
-                format!("`{}` is good to {}, not {}", measure.key, percent(reached), percent(wish))
+                let key = &measure.key;
+                // A part of what may be zero says nothing.
+                if let Some(error) = might_be_zero(measure) {
+                    return format!("`{key}` is zero within {}", quantity(error, measure.unit));
+                }
+                format!("`{key}` is good to {}, not {}", percent(reached), percent(wish))
             })
         })
         .collect();
@@ -192,6 +215,12 @@ fn accuracy(findings: &Findings<'_>) -> Vec<String> {
         warnings.push(format!("the accuracy wanted is not reached: {}{why}", listed(&missed)));
     }
     warnings
+}
+
+/// The error of a value that cannot be told from zero.
+fn might_be_zero(measure: &MeasureReport) -> Option<f64> {
+    let (value, error) = measure.value.zip(measure.error)?;
+    (value.abs() <= error).then_some(error)
 }
 
 fn listed(entries: &[String]) -> String {

@@ -7,7 +7,10 @@ use clap::{
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
 };
 use clap_complete::Shell;
-use dashpot_analysis::rheometer::{ProtocolKind, ProtocolVisitor, visit_protocols};
+use dashpot_analysis::{
+    Accuracy,
+    rheometer::{ProtocolKind, ProtocolVisitor, visit_protocols},
+};
 use dashpot_dae::methods;
 use dashpot_rheology::conversion::Target;
 use dashpot_scene::{templates, units::parse_quantity};
@@ -22,7 +25,7 @@ use dashpot_scene::{templates, units::parse_quantity};
     after_help = "Begin with:\n  \
         dashpot run                     the built-in reference impact, by two methods\n  \
         dashpot new --out pad.toml      a commented scene to start from\n  \
-        dashpot run pad.toml            solve it: forces, g, depth, and how wrong they may be\n\n\
+        dashpot run pad.toml            solve it: forces, g, depth, and their errors\n\n\
         Exit codes: 0 done (warnings included), 1 a run failed, 2 the input is wrong,\n\
         3 `compare` says that two models are not the same."
 )]
@@ -434,11 +437,17 @@ fn share(text: &str) -> Result<f64, String> {
     use dashpot_network::parameters::Dimension;
     let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
     let is_number = quantity.dimension.is_none_or(|own| own == Dimension::NUMBER);
-    if is_number && quantity.value > 0.0 && quantity.value <= 1.0 {
-        Ok(quantity.value)
-    } else {
-        Err("it must be more than 0 and at most 1 (100%), such as 0.1% or 1e-3".to_owned())
+    let value = quantity.value;
+    if is_number && value > 0.0 && value <= Accuracy::LOOSEST {
+        return Ok(value);
     }
+    let is_bare = quantity.dimension.is_none() && !text.contains('%');
+    let is_percent = (Accuracy::LOOSEST..=100.0 * Accuracy::LOOSEST).contains(&value);
+    Err(if is_bare && is_percent {
+        format!("a bare {value} is {:.0}%; write \"{value}%\"", 100.0 * value)
+    } else {
+        "\n  it must be more than 0 and at most 20%, such as 0.1% or 1e-3".to_owned()
+    })
 }
 
 fn frequency(text: &str) -> Result<f64, String> {

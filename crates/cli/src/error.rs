@@ -276,12 +276,19 @@ impl CliError {
             Self::NotReplaced { .. } => Some(
                 "give the model a table of its own, [models.NAME], and convert that".to_owned(),
             ),
-            Self::Vibration(VibrationError::NoDrive { .. }) => {
-                Some("`--drive NAME` says what is shaken".to_owned())
-            }
-            Self::Vibration(VibrationError::NotLinear { .. }) => {
-                Some("`dashpot run` solves it in time, with a sine as its load or motion".to_owned())
-            }
+            Self::Vibration(VibrationError::NoDrive { known, .. }) => match known.first() {
+                Some(name) => Some(format!("`--drive {name}` shakes `{name}`")),
+                None => Some(
+                    "hold a node with `fixed = true`, or put a load on one under [loads]".to_owned(),
+                ),
+            },
+            Self::Vibration(VibrationError::NotLinear { .. }) => Some(
+                "`dashpot run` solves it in time: give the node that shakes \
+                 `motion = { sine = { amplitude = \"1 mm\", frequency = \"20 Hz\" } }` (a load \
+                 likewise a `force`), a `duration` of many periods, and ask for its measures with \
+                 `window = \"run\"`; or leave out of [effects] what switches"
+                    .to_owned(),
+            ),
             Self::Run(RunError::Solve(error)) => match error {
                 SolveError::NotApplicable { .. } => {
                     Some("`--method auto` chooses one that can".to_owned())

@@ -6,8 +6,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use dashpot_analysis::{RunReport, regular_times, table_at};
-use dashpot_plot::{ReportFigure, RunSeries, figures::FIGURES};
+use dashpot_analysis::{RunReport, regular_times, resolving_times, table_at, touching};
+use dashpot_plot::{ReportFigure, figures::FIGURES};
+use dashpot_scene::RunSettings;
 
 use crate::{
     answer::{Answer, document, page},
@@ -79,13 +80,17 @@ pub(crate) fn write(answer: &Answer, path: &Path) -> Result<Vec<String>, CliErro
     let network = sketch(&answer.scene.network, answer.scene.run.duration).svg();
     let (low, high) = POINTS;
     let count = answer.scene.run.samples.clamp(low, high);
-    let series: Vec<RunSeries> =
-        answer.runs.iter().map(|run| curves_and_energies(run, count)).collect();
+    let series = curves_and_energies(&answer.runs, count);
     let mut figures =
         vec![ReportFigure { caption: "The network".to_owned(), svg: network.clone() }];
     texts.push((DRAWING.to_owned(), network));
     for figure in FIGURES {
-        let svg = figure.chart(&series).svg()?;
+        let chart = figure.chart(&series);
+        // Of a rigid contact alone there is no force over a deformation.
+        if chart.series.is_empty() {
+            continue;
+        }
+        let svg = chart.svg()?;
         figures.push(ReportFigure { caption: String::new(), svg: svg.clone() });
         texts.push((format!("{}.svg", figure.name()), svg));
     }
@@ -105,7 +110,8 @@ pub(crate) fn write(answer: &Answer, path: &Path) -> Result<Vec<String>, CliErro
     }
     for (name, run) in tables {
         let file = path.join(&name);
-        write_table(run, answer.scene.run.samples, &file).map_err(unwritable(&file))?;
+        let times = sample_times(run, &answer.scene.run);
+        write_table(run, &times, &file).map_err(unwritable(&file))?;
         written.push(name);
     }
     Ok(written)
@@ -140,10 +146,18 @@ fn is_folder_of_results(path: &Path) -> bool {
     read.is_ok() && start == *MARK.as_bytes()
 }
 
-/// Writes all outputs at `samples` regular times as CSV.
-fn write_table(run: &RunReport, samples: usize, file: &Path) -> std::io::Result<()> {
+/// Regular times where the scene says how many, else times closer to each other in short contacts.
+fn sample_times(run: &RunReport, settings: &RunSettings) -> Vec<f64> {
+    let (end, count) = (run.trajectory.t_end, settings.samples);
+    if settings.samples_given {
+        return regular_times(end, count);
+    }
+    resolving_times((0.0, end), &touching(&run.solution()), count)
+}
+
+/// Writes all outputs at these times \[s\] as CSV.
+fn write_table(run: &RunReport, times: &[f64], file: &Path) -> std::io::Result<()> {
     let mut writer = csv::Writer::from_writer(BufWriter::new(File::create(file)?));
-    let times = regular_times(run.trajectory.t_end, samples);
     let mut header = Some("time [s]".to_owned());
     for chunk in times.chunks(CHUNK) {
         let table = table_at(&run.assembly, &run.trajectory, chunk.to_vec());
@@ -160,4 +174,33 @@ fn write_table(run: &RunReport, samples: usize, file: &Path) -> std::io::Result<
     }
     let mut inner = writer.into_inner().map_err(csv::IntoInnerError::into_error)?;
     inner.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use dashpot_analysis::solve;
+    use dashpot_dae::Silent;
+    use dashpot_scene::{ReadOptions, read};
+
+    use super::*;
+
+    #[test]
+    fn samples_resolve_a_short_contact_unless_the_scene_says_how_many() {
+        let text = "[nodes]\nhead = { mass = \"4 kg\", drop = \"1 m\" }\n[elements]\n\
+            pad = { between = [\"head\", \"ground\"], spring = \"1 MN/m\" }\n[effects]\n\
+            separation.pad = {}\ngravity = { value = \"9.81 m/s^2\" }\n[run]\n";
+        let times = |run: &str| {
+            let scene = read(&format!("{text}{run}"), &ReadOptions::default()).unwrap().value;
+            let report = solve(&scene.network, &scene.settings("exact"), &mut Silent).unwrap();
+            sample_times(&report, &scene.run)
+        };
+        let met = (2.0_f64 / 9.81).sqrt();
+        let left = met + std::f64::consts::PI * (4.0_f64 / 1e6).sqrt();
+        let within = |times: &[f64]| times.iter().filter(|t| (met..left).contains(*t)).count();
+        let free = times("duration = \"600 ms\"\n");
+        assert_eq!((free.len(), free[0], free[500]), (501, 0.0, 0.6));
+        assert!(within(&free) > 200, "{}", within(&free));
+        let given = times("duration = \"600 ms\"\nsamples = 501\n");
+        assert_eq!(given, regular_times(0.6, 501));
+    }
 }

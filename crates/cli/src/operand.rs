@@ -13,7 +13,7 @@ use dashpot_scene::{
 use crate::{
     error::CliError,
     input::Input,
-    terminal::{Terminal, note},
+    terminal::{Terminal, remark},
 };
 
 /// What a word on the command line stands for.
@@ -121,7 +121,7 @@ pub(crate) fn canonical_model(operand: &Operand) -> Result<Model, CliError> {
 /// Says what there is to say about models.
 pub(crate) fn tell(notes: &[ModelNote]) {
     for ModelNote { subject, text, .. } in notes {
-        note(&format!("note: {subject}: {text}"));
+        remark(&format!("{subject}: {text}"));
     }
 }
 
@@ -137,7 +137,7 @@ fn tell_effects(named: &NamedModel, text: &str, options: &ReadOptions<'_>) {
     let kinds: Vec<&str> = effects.map(|own| own.kind()).collect();
     if !kinds.is_empty() {
         let name = &named.name;
-        note(&format!("note: {name}: its model is taken without {}", kinds.join(", ")));
+        remark(&format!("{name}: its model is taken without {}", kinds.join(", ")));
     }
 }
 

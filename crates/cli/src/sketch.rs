@@ -3,8 +3,13 @@
 use std::{f64::consts::TAU, sync::Arc};
 
 use dashpot_dae::{Piece, Waveform};
-use dashpot_network::{Element, Network, Node, NodeId, Start, Support, elements::Law};
-use dashpot_plot::{Sketch, SketchKind, SketchLink, SketchNode, SketchTree};
+use dashpot_network::{
+    Effect, Element, Network, Node, NodeId, Start, Support,
+    effects::{EffectKind, EffectVisitor, Separation, Stop, visit_effects},
+    elements::{Contact, ElementKind, ElementVisitor, Friction, Law, visit_elements},
+    parameters::Value,
+};
+use dashpot_plot::{Sketch, SketchGravity, SketchKind, SketchLink, SketchNode, SketchTree};
 use dashpot_rheology::Tree;
 
 use crate::numbers::{constant, rounded};
@@ -14,31 +19,87 @@ const DIGITS: usize = 4;
 /// Deeper nesting is drawn as one box: no drawing shows it, and the way down is a recursion.
 const DEEPEST: usize = 500;
 
-/// The drawing of a network; motions and loads are described over a run of `duration` \[s\].
+/// The drawing of a network with what its effects put into it; motions and loads are described over
+/// a run of `duration` \[s\].
 pub(crate) fn sketch(network: &Network, duration: f64) -> Sketch {
+    let built = Built::of(network);
+    let network = &built.network;
     let used = |id: NodeId| network.connections().iter().any(|own| own.between.contains(&id));
     // The ground is there even where nothing stands on it.
     let nodes: Vec<(NodeId, &Node)> =
         network.nodes().filter(|(id, _)| *id != network.ground() || used(*id)).collect();
     let place = |id: NodeId| nodes.iter().position(|(own, _)| *own == id).unwrap_or(usize::MAX);
-    let links = network.connections().iter().map(|connection| SketchLink {
+    let links = network.connections().iter().enumerate().map(|(at, connection)| SketchLink {
         name: connection.name.clone(),
         from: place(connection.between[0]),
         to: place(connection.between[1]),
-        tree: tree(&connection.model, 0),
+        tree: tree(&connection.model, built.effect_of_connection(at), 0),
     });
+    let gravity = network.effects().iter().find_map(|effect| effect.gravity());
     Sketch {
         links: links.collect(),
-        nodes: nodes.iter().map(|(id, own)| node(network, *id, own, duration)).collect(),
+        nodes: nodes.iter().map(|(id, own)| node(&built, *id, own, duration)).collect(),
+        gravity: gravity.map(|own| SketchGravity {
+            label: constant(own.abs(), "m/s^2"),
+            pulls_back: own < 0.0,
+        }),
     }
 }
 
-fn node(network: &Network, id: NodeId, node: &Node, duration: f64) -> SketchNode {
-    let kind = match &node.support {
-        Support::Fixed => SketchKind::Fixed,
-        Support::Prescribed(_) => SketchKind::Prescribed,
-        Support::Free if node.mass > 0.0 => SketchKind::Mass,
-        Support::Free => SketchKind::Massless,
+/// A network with what its effects put into it; layers stay models, as they are written.
+struct Built {
+    network: Network,
+    /// Words of the effects, each with the numbers of nodes and connections once it is there.
+    stages: Vec<(&'static str, usize, usize)>,
+    /// The same numbers without any effect.
+    own: (usize, usize),
+}
+
+impl Built {
+    fn of(network: &Network) -> Self {
+        struct Order(Vec<&'static str>);
+        impl EffectVisitor for Order {
+            fn visit<E: EffectKind>(&mut self) {
+                self.0.push(E::KIND);
+            }
+        }
+        let mut order = Order(Vec::new());
+        visit_effects(&mut order);
+        let mut effects: Vec<&Arc<dyn Effect>> = network.effects().iter().collect();
+        effects.sort_by_key(|effect| order.0.iter().position(|kind| *kind == effect.kind()));
+        let own = (network.nodes().count(), network.connections().len());
+        let mut built = Self { network: network.clone(), stages: Vec::new(), own };
+        for effect in effects {
+            let mut next = built.network.clone();
+            // What has no place is refused where the scene is compiled.
+            if effect.rewrite(&mut next).is_ok() {
+                built.stages.push((effect.kind(), next.nodes().count(), next.connections().len()));
+                built.network = next;
+            }
+        }
+        built
+    }
+
+    /// Whether an effect has put this node there.
+    fn is_added(&self, node: NodeId) -> bool {
+        node.index() >= self.own.0
+    }
+
+    /// The word of the effect that has put this connection there.
+    fn effect_of_connection(&self, at: usize) -> Option<&'static str> {
+        let stage = self.stages.iter().find(|(.., connections)| at < *connections)?;
+        (at >= self.own.1).then_some(stage.0)
+    }
+}
+
+fn node(built: &Built, id: NodeId, node: &Node, duration: f64) -> SketchNode {
+    let kind = match (&node.support, node.mass > 0.0) {
+        (Support::Fixed, _) => SketchKind::Fixed,
+        (Support::Prescribed(_), _) => SketchKind::Prescribed,
+        (Support::Free, true) if built.is_added(id) => SketchKind::HeavyFace,
+        (Support::Free, false) if built.is_added(id) => SketchKind::Face,
+        (Support::Free, true) => SketchKind::Mass,
+        (Support::Free, false) => SketchKind::Massless,
     };
     let mut lines = Vec::new();
     if node.mass > 0.0 {
@@ -52,17 +113,16 @@ fn node(network: &Network, id: NodeId, node: &Node, duration: f64) -> SketchNode
     if let Support::Prescribed(motion) = &node.support {
         lines.push(waveform(motion, "m", duration));
     }
-    let loads = network.loads().iter().filter(|load| load.node == id);
-    lines.extend(
-        loads.map(|load| format!("{}: {}", load.name, waveform(&load.force, "N", duration))),
-    );
-    SketchNode { name: node.name.clone(), kind, lines }
+    let loads = built.network.loads().iter().filter(|load| load.node == id);
+    let loads =
+        loads.map(|load| format!("{}: {}", load.name, waveform(&load.force, "N", duration)));
+    SketchNode { name: node.name.clone(), kind, lines, loads: loads.collect() }
 }
 
 /// A driving function in words, over a run of `duration` \[s\].
 pub(crate) fn waveform(waveform: &Waveform, si: &str, duration: f64) -> String {
     let pieces = waveform.pieces();
-    let most = || constant(waveform.bound(duration), si);
+    let most = || rounded(waveform.bound(duration), si, DIGITS);
     let is_wave_only = |piece: &Piece| {
         piece.value == 0.0 && piece.slope == 0.0 && piece.curvature == 0.0 && piece.jerk == 0.0
     };
@@ -117,23 +177,137 @@ pub(crate) fn element(element: &dyn Element) -> String {
     }
 }
 
-fn tree(model: &Tree<Arc<dyn Element>>, depth: usize) -> SketchTree {
+/// What stands above the symbol of an element: its constant, or its word where the symbol does not
+/// say which law it is, and what a contact needs to be known.
+fn label(own: &dyn Element, kind: &str) -> String {
+    let number = |name: &str| number(own, name).filter(|value| *value > 0.0);
+    let mut words: Vec<String> = match own.law() {
+        Law::Spring(_) | Law::Dashpot(_) => return element(own),
+        Law::Rigid => return String::new(),
+        Law::Phased if own.kind() == Contact::KIND => Vec::new(),
+        Law::Phased if own.kind() == Friction::KIND => {
+            let force = number(Friction::KIND).unwrap_or(0.0);
+            return format!("slides at {}", constant(force, "N"));
+        }
+        Law::Phased | Law::Nonlinear { .. } => vec![own.kind().to_owned()],
+    };
+    let gap = number("gap").map(|gap| constant(gap, "m"));
+    let word = if kind == Stop::KIND { "at" } else { "gap" };
+    words.extend(gap.map(|gap| format!("{word} {gap}")));
+    words.extend(number("restitution").map(|part| format!("e = {}", constant(part, "1"))));
+    words.join(", ")
+}
+
+/// The value of an element's parameter of this name.
+fn number(element: &dyn Element, name: &str) -> Option<f64> {
+    struct Find<'a> {
+        kind: &'a str,
+        name: &'a str,
+        at: Option<usize>,
+    }
+    impl ElementVisitor for Find<'_> {
+        fn visit<E: ElementKind>(&mut self) {
+            if E::KIND == self.kind {
+                self.at = E::PARAMETERS.iter().position(|own| own.name == self.name);
+            }
+        }
+    }
+    let mut find = Find { kind: element.kind(), name, at: None };
+    visit_elements(&mut find);
+    element.values().get(find.at?).and_then(Value::number)
+}
+
+/// The drawing of a model; contacts are drawn as what the effect makes of them that has put it
+/// there.
+fn tree(model: &Tree<Arc<dyn Element>>, effect: Option<&'static str>, depth: usize) -> SketchTree {
     if depth > DEEPEST {
-        return SketchTree::Other { word: "…".to_owned(), label: String::new() };
+        return SketchTree::element("…", "");
     }
     let parts = |branches: &[dashpot_rheology::Branch<Arc<dyn Element>>]| {
-        branches.iter().map(|branch| tree(&branch.tree, depth + 1)).collect()
+        branches.iter().map(|branch| tree(&branch.tree, effect, depth + 1)).collect()
     };
     match model {
-        Tree::Part(part) => match part.law() {
-            Law::Spring(_) => SketchTree::Spring { label: element(part.as_ref()) },
-            Law::Dashpot(_) => SketchTree::Dashpot { label: element(part.as_ref()) },
-            Law::Rigid => SketchTree::Rigid,
-            Law::Nonlinear { .. } | Law::Phased => {
-                SketchTree::Other { word: part.kind().to_owned(), label: String::new() }
-            }
-        },
+        Tree::Part(part) => {
+            let drawn = effect.filter(|own| [Separation::KIND, Stop::KIND].contains(own));
+            let kind = match drawn {
+                Some(drawn) if part.kind() == Contact::KIND => drawn,
+                _ => part.kind(),
+            };
+            SketchTree::element(kind, label(part.as_ref(), kind))
+        }
         Tree::Series(branches) => SketchTree::Series(parts(branches)),
         Tree::Parallel(branches) => SketchTree::Parallel(parts(branches)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dashpot_network::{elements::Spring, part};
+
+    use super::*;
+
+    fn on(model: Tree<Arc<dyn Element>>) -> Network {
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", 5.0).moving(4.0));
+        network.connect("padding", head, network.ground(), model).thickness = Some(0.02);
+        network
+    }
+
+    #[test]
+    fn every_registered_element_is_drawn_with_a_symbol_of_its_own_kind() {
+        struct Draw(usize);
+        impl ElementVisitor for Draw {
+            fn visit<E: ElementKind>(&mut self) {
+                let drawing = sketch(&on(part(E::sample())), 1.0);
+                let svg = drawing.svg();
+                assert!(svg.contains(&format!("<g class=\"{}\">", E::KIND)), "{}", E::KIND);
+                assert!(!drawing.text(80).contains(&format!("[{}]", E::KIND)), "{}", E::KIND);
+                self.0 += 1;
+            }
+        }
+        let mut draw = Draw(0);
+        visit_elements(&mut draw);
+        assert!(draw.0 > 0);
+    }
+
+    #[test]
+    fn every_registered_effect_is_seen_in_the_drawing() {
+        struct Draw;
+        impl EffectVisitor for Draw {
+            fn visit<E: EffectKind>(&mut self) {
+                let mut network = on(part(Spring { stiffness: 1e5 }));
+                network.add_effect(E::sample());
+                let svg = sketch(&network, 1.0).svg();
+                assert!(svg.contains(&format!("<g class=\"{}\">", E::KIND)), "{}", E::KIND);
+            }
+        }
+        visit_effects(&mut Draw);
+    }
+
+    #[test]
+    fn a_stop_has_its_distance_and_a_slider_its_force() {
+        let stop = Stop {
+            element: "padding".into(),
+            at: None,
+            restitution: 0.5,
+            stiffness: None,
+            damping: 0.0,
+        };
+        let mut network = on(part(Friction { force: 200.0 }));
+        network.add_effect(stop);
+        let svg = sketch(&network, 1.0).svg();
+        for text in ["slides at 200 N", "at 20 mm, e = 0.5"] {
+            assert!(svg.contains(&format!(">{text}</text>")), "{text} in {svg}");
+        }
+    }
+
+    #[test]
+    fn a_load_is_an_arrow_on_its_node() {
+        let mut network = on(part(Spring { stiffness: 1e5 }));
+        let head = network.node_named("head").unwrap();
+        network.add_load("push", head, Waveform::constant(30.0));
+        let drawing = sketch(&network, 1.0);
+        assert!(drawing.svg().contains("<g class=\"load\">"));
+        assert!(drawing.text(80).contains("⇒ push: constant 30 N"), "{}", drawing.text(80));
     }
 }

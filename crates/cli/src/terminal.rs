@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use clap::builder::styling::{AnsiColor, Style};
 use dashpot_scene::Diagnostics;
 
-use crate::{args::When, error::CliError};
+use crate::{args::When, error::CliError, text::hanging};
 
 /// Columns of text.
 pub(crate) const WIDTH: usize = 80;
@@ -92,16 +92,16 @@ impl Terminal {
     /// Shows faults of a text, or what is odd about it.
     pub(crate) fn diagnose(self, diagnostics: &Diagnostics) {
         if !diagnostics.is_empty() {
-            note(&diagnostics.render(self.error.colored));
+            note(&diagnostics.render_within(self.error.colored, WIDTH));
         }
     }
 
     fn labelled(self, label: &str, color: AnsiColor, text: &str) {
         let style = color.on_default().bold();
-        if self.error.colored {
-            note(&format!("{style}{label}{style:#}: {text}"));
-        } else {
-            note(&format!("{label}: {text}"));
+        let shown = hanging(&format!("{label}: {text}"), WIDTH);
+        match shown.strip_prefix(label).filter(|_| self.error.colored) {
+            Some(rest) => note(&format!("{style}{label}{style:#}{rest}")),
+            None => note(&shown),
         }
     }
 }
@@ -113,6 +113,11 @@ pub(crate) fn print(text: &str) -> Result<(), CliError> {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CliError::Output(error)),
         _ => Ok(()),
     }
+}
+
+/// Says on standard error what may be of interest.
+pub(crate) fn remark(text: &str) {
+    note(&hanging(&format!("note: {text}"), WIDTH));
 }
 
 /// Says something on standard error.

@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 
 /// Blanks between columns.
 const GAP: usize = 2;
+/// Columns that a wrapped column has at least.
+const LEAST_ROOM: usize = 20;
 
 /// The table as lines: its heading and its header, if any, and its rows; numbers are set to the
 /// right.
@@ -40,9 +42,15 @@ pub(crate) fn width(table: &Table) -> usize {
 
 /// `text` broken at blanks into lines of at most `width` columns.
 pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
+    wrapped_after(text, width, width)
+}
+
+/// The same with a first line of its own width.
+fn wrapped_after(text: &str, first: usize, others: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let last = lines.len() - 1;
+        let width = if last == 0 { first } else { others };
         if lines[last].is_empty() {
             lines[last].push_str(word);
         } else if columns(&lines[last]) + 1 + columns(word) <= width {
@@ -55,9 +63,68 @@ pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
+/// `text` as lines of at most `width` columns, all but the first indented by two.
+pub(crate) fn hanging(text: &str, width: usize) -> String {
+    wrapped_after(text, width, width.saturating_sub(GAP)).join("\n  ")
+}
+
+/// The table as tables of at most `width` columns, where its first column stands before each part of
+/// the others.
+pub(crate) fn side_by_side(table: &Table, width: usize) -> Vec<Table> {
+    let part = |columns: &[usize]| {
+        let pick = |row: &Vec<String>| -> Vec<String> {
+            let all = std::iter::once(&0).chain(columns);
+            all.filter_map(|&column| row.get(column).cloned()).collect()
+        };
+        let rows = table.rows.iter().map(pick).collect();
+        Table { caption: table.caption.clone(), header: pick(&table.header), rows }
+    };
+    let count = table.rows.iter().map(Vec::len).fold(table.header.len(), usize::max);
+    let mut parts: Vec<Vec<usize>> = vec![Vec::new()];
+    for column in 1..count {
+        let last = parts.len() - 1;
+        let mut with = parts[last].clone();
+        with.push(column);
+        if with.len() > 1 && self::width(&part(&with)) > width {
+            parts.push(vec![column]);
+        } else {
+            parts[last] = with;
+        }
+    }
+    parts.iter().map(|columns| part(columns)).collect()
+}
+
+/// The rows of a table as lines of at most `width` columns: where they do not fit, the last column is
+/// wrapped.
+pub(crate) fn fitted(table: &Table, width: usize) -> Vec<String> {
+    let (_, lines) = self::table(table);
+    let count = table.rows.iter().map(Vec::len).max().unwrap_or(0);
+    if count < 2 || lines.iter().all(|line| columns(line) <= width) {
+        return lines;
+    }
+    let last = count - 1;
+    let firsts: Vec<Vec<String>> =
+        table.rows.iter().map(|row| row[..row.len().min(last)].to_vec()).collect();
+    let lead = self::width(&Table { rows: firsts, ..Table::default() }) + GAP;
+    let room = width.saturating_sub(lead).max(LEAST_ROOM);
+    let mut rows = Vec::new();
+    for row in &table.rows {
+        let Some(text) = row.get(last).filter(|own| !own.is_empty()) else {
+            rows.push(row.clone());
+            continue;
+        };
+        for (at, line) in wrapped(text, room).into_iter().enumerate() {
+            let mut own = if at == 0 { row[..last].to_vec() } else { vec![String::new(); last] };
+            own.push(line);
+            rows.push(own);
+        }
+    }
+    self::table(&Table { rows, ..Table::default() }).1
+}
+
 /// A label and a text beside it, wrapped; both indented by two columns.
 pub(crate) fn labelled(label: &str, label_width: usize, text: &str, width: usize) -> String {
-    let room = width.saturating_sub(label_width + 2 + GAP).max(20);
+    let room = width.saturating_sub(label_width + 2 + GAP).max(LEAST_ROOM);
     let mut shown = String::new();
     for (at, line) in wrapped(text, room).iter().enumerate() {
         let label = if at == 0 { label } else { "" };
@@ -115,5 +182,30 @@ mod tests {
         assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
         assert_eq!(labelled("a", 3, "b c", 80), "  a    b c\n");
         assert_eq!(indented("x\n\ny"), "  x\n\n  y\n");
+        assert_eq!(hanging("one two three four", 7), "one two\n  three\n  four");
+    }
+
+    #[test]
+    fn columns_that_do_not_fit_stand_below() {
+        let header = ["", "one", "two", "three"].map(str::to_owned).to_vec();
+        let rows = rows(&[&["a", "1", "2", "3"], &["b", "4", "5", "6"]]);
+        let whole = Table { caption: "map".to_owned(), header, rows };
+        assert_eq!(side_by_side(&whole, 80), std::slice::from_ref(&whole));
+        let parts = side_by_side(&whole, 11);
+        let shown: Vec<_> = parts.iter().map(table).collect();
+        assert_eq!(shown[0].0, "   one  two");
+        assert_eq!(shown[1], ("   three".to_owned(), vec!["a      3".into(), "b      6".into()]));
+    }
+
+    #[test]
+    fn only_the_last_column_of_a_wide_table_is_wrapped() {
+        let rows =
+            rows(&[&["state", "position of a joint inside of pad"], &["algebraic", "force"]]);
+        let table = Table { rows, ..Table::default() };
+        let wide = ["state      position of a joint inside of pad", "algebraic  force"];
+        assert_eq!(fitted(&table, 80), wide);
+        let narrow =
+            ["state      position of a joint", "           inside of pad", "algebraic  force"];
+        assert_eq!(fitted(&table, 31), narrow);
     }
 }

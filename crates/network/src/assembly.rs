@@ -61,6 +61,8 @@ pub struct ConnectionOutputs {
     pub thickness: Option<f64>,
     /// Whether it can never deform: it is a rigid link, or rigid links join its ends.
     pub is_rigid: bool,
+    /// Whether its law has no tension, so that its force is never below zero.
+    pub never_pulls: bool,
     /// Force \[N\], positive in compression. `None` for a rigid link in a loop of rigid links,
     /// where it is undetermined.
     pub force: Option<usize>,
@@ -117,6 +119,8 @@ pub struct PrimitiveOutputs {
 pub struct DriveOutputs {
     /// What it is, for instance `gravity on head`.
     pub name: String,
+    /// Number of the node that it acts on, in [`Assembly::nodes`].
+    pub node: usize,
     /// Force that it puts on its node \[N\].
     pub force: usize,
     /// Velocity of that node \[m/s\].

@@ -203,8 +203,8 @@ pub enum NetworkError {
     },
     /// The rate of a part that switches follows from unknowns that have no rate.
     #[error(
-        "how fast `{element}` deforms does not follow from its neighbours: put a dashpot beside the \
-         spring that it is in series with"
+        "how fast `{element}` deforms does not follow from its neighbours: put a dashpot beside a \
+         part that it is in series with"
     )]
     UndeterminedRate {
         /// Path of the part.

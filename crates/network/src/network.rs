@@ -131,6 +131,27 @@ pub struct Connection {
     pub(crate) pieces: Vec<Vec<Piece>>,
 }
 
+impl Connection {
+    /// Whether its law has no tension at the end 0 or 1 of [`between`](Self::between): the force
+    /// there goes through an element that [never pulls](Element::never_pulls).
+    pub fn never_pulls(&self, end: usize) -> bool {
+        let own = self.model.branches();
+        let at_end = if end == 0 { own.first() } else { own.last() };
+        // Behind a mass the force is another one.
+        let model = at_end.filter(|_| !self.through.is_empty());
+        model.map_or(&self.model, |branch| &branch.tree).fold(
+            |element| element.never_pulls(),
+            |node, parts: Vec<bool>| {
+                if node.is_series() {
+                    parts.contains(&true)
+                } else {
+                    !parts.is_empty() && !parts.contains(&false)
+                }
+            },
+        )
+    }
+}
+
 /// A force on a node.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Load {

@@ -32,4 +32,4 @@ pub use figures::{
     VibrationSeries,
 };
 pub use report::{Report, ReportFigure, Table};
-pub use sketch::{Sketch, SketchKind, SketchLink, SketchNode, SketchTree};
+pub use sketch::{Sketch, SketchGravity, SketchKind, SketchLink, SketchNode, SketchTree};

@@ -1,4 +1,8 @@
-//! Models in N/m and N s/m, materials in Pa and Pa s.
+//! Models in N and m, materials in Pa and parts of the thickness.
+//!
+//! A law between force and deformation is one between stress and strain: `F(y) = A σ(y/h)`. So every
+//! quantity of a law, N^f m^d s^k, is written Pa^f s^k in a material, and a pad has A^f h^d times as
+//! much: moduli become stiffnesses by A/h, stresses forces by A, strains deformations by h.
 
 use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
 
@@ -8,47 +12,58 @@ pub(crate) const AREA: Dimension = Dimension::new(0, 2, 0);
 /// Density \[kg/m³\].
 pub(crate) const DENSITY: Dimension = Dimension::new(1, -3, 0);
 
+/// A pad that is made of a material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Pad {
+    /// Thickness h \[m\].
+    pub(crate) thickness: f64,
+    /// Area A \[m²\].
+    pub(crate) area: f64,
+}
+
 /// What the values of a model measure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Basis {
-    /// Force over deformation: stiffnesses in N/m.
+    /// Force over deformation: forces in N, lengths in m, stiffnesses in N/m.
     Model,
-    /// Stress over strain: moduli in Pa.
-    Material {
-        /// Area over thickness \[m\] of the pad that is made of it; 1 for the material itself.
-        area_over_thickness: f64,
-    },
+    /// Stress over strain: forces in Pa, lengths in parts of the thickness, moduli in Pa; with the
+    /// pad that is made of it.
+    Material(Pad),
 }
 
+/// The part of a strain that is out of the question, below and above; positive in compression.
+const STRAINS: [f64; 2] = [-10.0, 1.0];
+
 impl Basis {
-    /// The values of a material as they are written.
-    pub(crate) const MATERIAL: Self = Self::Material { area_over_thickness: 1.0 };
+    /// The values of a material as they are written: those of a cube of 1 m.
+    pub(crate) const MATERIAL: Self = Self::Material(Pad { thickness: 1.0, area: 1.0 });
 
     /// Whether values are those of a material.
     pub(crate) fn is_material(self) -> bool {
-        matches!(self, Self::Material { .. })
+        matches!(self, Self::Material(_))
     }
 
     /// The dimension in which a quantity is written that has the dimension `in_model` in a model:
-    /// (N/m)^e s^k is Pa^e s^k in a material.
+    /// with a stress for each force and a strain for each length, N^f m^d s^k is Pa^f s^k in a
+    /// material.
     pub(crate) fn dimension(self, in_model: Dimension) -> Dimension {
         match self {
             Self::Model => in_model,
-            Self::Material { .. } => {
-                Dimension { length: in_model.length - stiffness_power(in_model), ..in_model }
-            }
+            Self::Material(_) => Dimension { length: -in_model.mass, ..in_model },
         }
     }
 
-    /// A written value as that of the pad: times (A/h)^e.
+    /// A written value as that of the pad: times A^f h^d.
     fn of_pad(self, value: f64, in_model: Dimension) -> f64 {
-        let Self::Material { area_over_thickness } = self else { return value };
-        match stiffness_power(in_model) {
-            0 => value,
-            1 => value * area_over_thickness,
-            -1 => value / area_over_thickness,
-            power => value * area_over_thickness.powi(i32::from(power)),
-        }
+        let Self::Material(Pad { thickness, area }) = self else { return value };
+        let [forces, lengths] = powers(in_model);
+        let (times, over) = match (forces, lengths) {
+            (0, 0) => return value,
+            (1, -1) => (area, thickness),
+            (-1, 1) => (thickness, area),
+            _ => (area.powi(forces), thickness.powi(-lengths)),
+        };
+        value * (times / over)
     }
 
     /// The written `values` of `parameters` as those of the pad, with an error for the first one
@@ -68,43 +83,73 @@ impl Basis {
             let range = "such that it fits into double precision for a pad of this size";
             Err(InvalidParameter::new(name, range, value))
         };
+        let table = |name, points: &[(f64, f64)], first, second| {
+            let point = |&(at, value): &(f64, f64)| {
+                Ok((scaled(name, at, first)?, scaled(name, value, second)?))
+            };
+            points.iter().map(point).collect::<Result<_, InvalidParameter>>().map(Value::Table)
+        };
         let pairs = parameters.iter().zip(values);
         let all = pairs.map(|(parameter, value)| match (parameter.kind, value) {
+            // The size of the pad is its own.
+            _ if is_size(parameter) => Ok(value.clone()),
             (ParameterKind::Quantity(dimension), Value::Number(number)) => {
                 scaled(parameter.name, *number, dimension).map(Value::Number)
             }
             (ParameterKind::Amplitude, Value::Number(number)) => {
                 scaled(parameter.name, *number, driven).map(Value::Number)
             }
-            (_, Value::Table(points)) => {
-                let point = |&(at, value): &(f64, f64)| {
-                    scaled(parameter.name, value, driven).map(|value| (at, value))
-                };
-                points.iter().map(point).collect::<Result<_, _>>().map(Value::Table)
+            (ParameterKind::Curve(first, second), Value::Table(points)) => {
+                table(parameter.name, points, first, second)
             }
+            (_, Value::Table(points)) => table(parameter.name, points, Dimension::TIME, driven),
             (_, other) => Ok(other.clone()),
         });
         all.collect()
     }
+
+    /// Refuses strains that no pad can have: they are written where `in_model` is a length.
+    pub(crate) fn check(
+        self,
+        name: &'static str,
+        in_model: Dimension,
+        value: f64,
+    ) -> Result<(), InvalidParameter> {
+        let [least, most] = STRAINS;
+        if !self.is_material() || in_model != Dimension::LENGTH || (least..=most).contains(&value) {
+            return Ok(());
+        }
+        let range = format!("a strain from {least} to {most} (positive in compression)");
+        Err(InvalidParameter::new(name, range, value))
+    }
 }
 
-/// Whether all values of a kind become those of a pad by its area over its thickness: a force or a
-/// length of an element does not.
+/// Whether a kind may stand in a material: what acts across a gap is no material.
 pub(crate) fn fits_material(parameters: &[Parameter]) -> bool {
-    let fits = |dimension: Dimension| {
-        stiffness_power(dimension) != 0 || (dimension.mass == 0 && dimension.length == 0)
-    };
-    parameters.iter().all(|own| match own.kind {
-        ParameterKind::Quantity(dimension) => fits(dimension),
-        ParameterKind::Curve(first, second) => fits(first) && fits(second),
-        ParameterKind::Amplitude | ParameterKind::TimeTable => false,
-        _ => true,
+    parameters.iter().all(|own| {
+        own.name != "gap"
+            && !matches!(own.kind, ParameterKind::Amplitude | ParameterKind::TimeTable)
     })
 }
 
-/// The power e of the stiffness in a dimension (N/m)^e s^k; 0 for all other dimensions.
-fn stiffness_power(dimension: Dimension) -> i8 {
-    if dimension.length == 0 { dimension.mass } else { 0 }
+/// Whether a parameter is the thickness or area of the pad that an element is.
+pub(crate) fn is_size(parameter: &Parameter) -> bool {
+    parameter.follows && SIZE.contains(&parameter.name)
+}
+
+/// Whether a kind is a pad of a material, with a size of its own.
+pub(crate) fn is_sized(parameters: &[Parameter]) -> bool {
+    parameters.iter().any(is_size)
+}
+
+/// The keys of the size of a pad.
+pub(crate) const SIZE: [&str; 2] = ["thickness", "area"];
+
+/// The powers f of the force and d of the deformation in a dimension N^f m^d s^k. A pressure is a
+/// stress in a model, too, and has nothing of a pad.
+pub(crate) fn powers(dimension: Dimension) -> [i32; 2] {
+    let [mass, length] = [dimension.mass, dimension.length].map(i32::from);
+    if mass == -length { [0, 0] } else { [mass, length - mass] }
 }
 
 #[cfg(test)]
@@ -117,25 +162,34 @@ mod tests {
         assert_eq!(written(Dimension::STIFFNESS), Dimension::new(1, -1, -2));
         assert_eq!(written(Dimension::DAMPING), Dimension::new(1, -1, -1));
         assert_eq!(written(Dimension::new(-1, 0, 2)), Dimension::new(-1, 1, 2));
-        for same in [Dimension::TIME, Dimension::FREQUENCY, Dimension::NUMBER, Dimension::ENERGY] {
+        assert_eq!(written(Dimension::FORCE), Dimension::PRESSURE);
+        assert_eq!(written(Dimension::new(1, -2, -2)), Dimension::PRESSURE);
+        assert_eq!(written(Dimension::LENGTH), Dimension::NUMBER);
+        assert_eq!(written(Dimension::VELOCITY), Dimension::FREQUENCY);
+        for same in [Dimension::TIME, Dimension::NUMBER, Dimension::PRESSURE] {
             assert_eq!(written(same), same);
         }
         assert_eq!(Basis::Model.dimension(Dimension::STIFFNESS), Dimension::STIFFNESS);
     }
 
     #[test]
-    fn a_pad_has_its_stiffness_in_proportion_to_area_over_thickness() {
-        let pad = Basis::Material { area_over_thickness: 0.5 };
+    fn a_pad_has_stress_times_area_at_strain_times_thickness() {
+        let pad = Basis::Material(Pad { thickness: 0.5, area: 0.25 });
         let number = |dimension| Parameter::required("a", ParameterKind::Quantity(dimension), "");
         let parameters = [
             number(Dimension::STIFFNESS),
             number(Dimension::new(-1, 0, 2)),
             number(Dimension::TIME),
+            // A force by A, lengths by h, a cube by A/h³, a pressure by nothing.
+            number(Dimension::FORCE),
+            number(Dimension::VELOCITY),
+            number(Dimension::new(1, -2, -2)),
+            number(Dimension::PRESSURE),
         ];
-        let values = [8.0, 8.0, 8.0].map(Value::Number);
+        let values = [8.0; 7].map(Value::Number);
         let of_pad = pad.of_pad_all(&parameters, &values, Dimension::FORCE).unwrap();
-        assert_eq!(of_pad, [4.0, 16.0, 8.0].map(Value::Number));
-        let tiny = [3e-308, 1.0, 1.0].map(Value::Number);
+        assert_eq!(of_pad, [4.0, 16.0, 8.0, 2.0, 4.0, 16.0, 8.0].map(Value::Number));
+        let tiny = [3e-308, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0].map(Value::Number);
         let error = pad.of_pad_all(&parameters, &tiny, Dimension::FORCE).unwrap_err();
         assert!(error.to_string().contains("double precision for a pad of this size, but it is"));
     }

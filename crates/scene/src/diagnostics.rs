@@ -84,7 +84,13 @@ impl Diagnostics {
 
     /// The text for a terminal: message, place, the value under a caret and help for each fault.
     pub fn render(&self, color: bool) -> String {
-        render::render(self, color)
+        render::render(self, color, usize::MAX)
+    }
+
+    /// The same with messages, notes and help wrapped to `width` columns; lines of the text that is at
+    /// fault stay as they are.
+    pub fn render_within(&self, color: bool, width: usize) -> String {
+        render::render(self, color, width)
     }
 }
 
@@ -173,6 +179,15 @@ impl Faults {
             }
             None => String::new(),
         }
+    }
+
+    /// The line and file of a place, in words.
+    pub(crate) fn whereabouts(&self, place: Place) -> String {
+        let state = self.state.borrow();
+        state.sources.get(place.source as usize).map_or_else(String::new, |source| {
+            let (line, _) = source.line_and_column(place.start as usize);
+            format!("line {line} of {}", source.name)
+        })
     }
 
     /// All that was found, errors first, in the order of the text.

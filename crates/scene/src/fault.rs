@@ -198,14 +198,26 @@ pub enum Fault {
     /// A model within a material.
     #[error("`model` cannot stand in a material: models are in N/m, materials in Pa")]
     ModelInMaterial,
-    /// An element of forces and lengths within a material.
-    #[error("`{word}` cannot stand in a material: it has forces or lengths of its own")]
+    /// A contact within a material.
+    #[error("`{word}` cannot stand in a material: it acts across a gap")]
     ElementInMaterial {
         /// Word of the element.
         word: &'static str,
     },
+    /// Two sizes of one pad.
+    #[error("`{key}` is {found} here, but {expected} in {place}")]
+    SizesDiffer {
+        /// `thickness` or `area`.
+        key: &'static str,
+        /// What it is where the fault is noted.
+        found: String,
+        /// What it is elsewhere.
+        expected: String,
+        /// Where that is.
+        place: String,
+    },
     /// The size of a pad where there is none.
-    #[error("`{key}` goes with `material`, which {owner} does not have")]
+    #[error("`{key}` goes with a material or foam, which {owner} is not")]
     SizeWithoutMaterial {
         /// `thickness` or `area`.
         key: &'static str,
@@ -381,7 +393,7 @@ impl Fault {
                 "write it in [models] or [elements], with the values of the pad".to_owned(),
             ),
             Self::SizeWithoutMaterial { .. } => Some(
-                "leave it out, or name a material of [materials], in Pa: `material = \"…\"`".to_owned(),
+                "leave it out, or write it beside the material or foam whose size it is".to_owned(),
             ),
             Self::SizeInMaterial { key } => Some(format!(
                 "leave `{key}` out here, and write it beside `material = \"…\"` in [models] or [elements]"

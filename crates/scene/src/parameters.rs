@@ -5,10 +5,12 @@ use dashpot_network::parameters::{
 };
 
 use crate::{
-    basis::Basis,
+    basis::{Basis, SIZE, is_size},
     document::{Content, Entry, Item},
     fault::Fault,
     kinds::{Example, Kind},
+    pad::{Size, Surroundings, missing_size},
+    plausible,
     quantity::{Quantities, Values},
     source::Place,
     table::{Table, text_of, wrong_type},
@@ -32,6 +34,8 @@ pub(crate) struct KindReader<'d> {
     pub(crate) quantities: Quantities<'d>,
     /// Dimension of amplitudes.
     pub(crate) driven: Dimension,
+    /// What is said about the size of a pad around it.
+    pub(crate) size: Surroundings,
     /// Keys of their tables that others read.
     pub(crate) other_keys: &'static [&'static str],
 }
@@ -39,7 +43,8 @@ pub(crate) struct KindReader<'d> {
 impl<'d> KindReader<'d> {
     /// A reader for kinds that drive a force.
     pub(crate) fn new(quantities: Quantities<'d>) -> Self {
-        Self { quantities, driven: Dimension::FORCE, other_keys: &[] }
+        let size = Surroundings::default();
+        Self { quantities, driven: Dimension::FORCE, size, other_keys: &[] }
     }
 
     fn example(self) -> Example {
@@ -66,17 +71,52 @@ impl<'d> KindReader<'d> {
             Ok(made) => Some(made),
             Err(invalid) => {
                 let at = parameters.iter().position(|known| known.name == invalid.parameter);
-                let at = at.and_then(|at| places.get(at).copied());
-                let (place, item) = at.unwrap_or((item.place, Some(item)));
+                let found = at.and_then(|at| places.get(at).copied());
+                let (place, item) = found.unwrap_or((item.place, Some(item)));
+                let name = invalid.parameter;
+                let fits = |part: f64| {
+                    let mut values = values.clone();
+                    if let Some(value) = at.and_then(|at| values.get_mut(at)) {
+                        *value = Value::Number(part);
+                    }
+                    let again = self.made(parameters, make, &values);
+                    again.map_or_else(|other| other.parameter != name, |_| true)
+                };
                 let fault = Fault::Invalid(invalid);
                 let fault = match item {
-                    Some(item) => self.quantities.traced(item, self.helped(fault, item)),
+                    Some(item) => {
+                        let fault = self.helped(fault, item);
+                        self.quantities.traced(item, self.as_part(fault, item, fits))
+                    }
                     None => fault,
                 };
                 self.quantities.faults.error(place, fault);
                 None
             }
         }
+    }
+
+    /// `fault`, which is about the value `item`, with the part of one that was probably meant by a
+    /// number of percent.
+    fn as_part(self, fault: Fault, item: &Item, fits: impl Fn(f64) -> bool) -> Fault {
+        match self.quantities.peek(item) {
+            Some(value) if self.quantities.is_bare(item) && value > 1.0 && fits(value / 100.0) => {
+                let part = value / 100.0;
+                fault.with_help(format!("write {part}, or \"{value} %\""))
+            }
+            _ => fault,
+        }
+    }
+
+    /// The quantity `item` of a parameter, with an error where no pad can have it.
+    fn quantity(self, name: &'static str, item: &Item, dimension: Dimension) -> Option<f64> {
+        let basis = self.quantities.basis;
+        let value = self.quantities.read(item, dimension)?;
+        let Err(invalid) = basis.check(name, dimension, value) else { return Some(value) };
+        let fits = |part| basis.check(name, dimension, part).is_ok();
+        let fault = self.as_part(Fault::Invalid(invalid), item, fits);
+        self.quantities.faults.error(item.place, self.quantities.traced(item, fault));
+        None
     }
 
     /// `fault`, which is about the value `item`, with the unit that was probably meant.
@@ -157,14 +197,19 @@ impl<'d> KindReader<'d> {
                     let entry =
                         table.require(parameter.name, &format!("{} = {value}", parameter.name));
                     places.push(given(entry, place));
-                    values.push(entry.and_then(|entry| self.value(parameter, &entry.item)));
+                    values.push(entry.and_then(|entry| self.value_of(parameter, entry)));
                     continue;
                 }
                 Some(_) => table.take(parameter.name),
             };
             places.push(given(entry, place));
+            if is_size(parameter) {
+                let size = self.size_of(parameter, entry, (word, place));
+                values.push(size.map(Value::Number));
+                continue;
+            }
             values.push(match entry {
-                Some(entry) => self.value(parameter, &entry.item),
+                Some(entry) => self.value_of(parameter, entry),
                 None => self.default(parameter),
             });
         }
@@ -172,12 +217,18 @@ impl<'d> KindReader<'d> {
         Some((values.into_iter().collect::<Option<Vec<_>>>()?, places))
     }
 
+    fn value_of(self, parameter: &Parameter, entry: &Entry) -> Option<Value> {
+        let value = self.value(parameter, &entry.item);
+        plausible::check(self.quantities, entry, value.as_ref().and_then(Value::number));
+        value
+    }
+
     fn value(self, parameter: &Parameter, item: &Item) -> Option<Value> {
         let faults = self.quantities.faults;
         let what = || format!("`{}`", parameter.name);
         match parameter.kind {
             ParameterKind::Quantity(dimension) => {
-                self.quantities.read(item, dimension).map(Value::Number)
+                self.quantity(parameter.name, item, dimension).map(Value::Number)
             }
             ParameterKind::TemperatureDifference => {
                 self.quantities.read_difference(item).map(Value::Number)
@@ -188,8 +239,8 @@ impl<'d> KindReader<'d> {
                 .map(Value::Table),
             ParameterKind::Curve(first, second) => self
                 .points(item, &what(), parameter.kind, |[x, y]| {
-                    let at = self.quantities.read(x, first);
-                    let value = self.quantities.read(y, second);
+                    let at = self.quantity(parameter.name, x, first);
+                    let value = self.quantity(parameter.name, y, second);
                     at.zip(value)
                 })
                 .map(Value::Table),
@@ -215,6 +266,37 @@ impl<'d> KindReader<'d> {
                 text_of(item, &what(), faults).map(|name| Value::Word(name.to_owned()))
             }
         }
+    }
+
+    /// The thickness or area of the pad that the thing of the word at `place` is.
+    fn size_of(
+        self,
+        parameter: &Parameter,
+        entry: Option<&Entry>,
+        (word, place): (&str, Place),
+    ) -> Option<f64> {
+        let (key, faults) = (parameter.name, self.quantities.faults);
+        if let Basis::Material(pad) = self.quantities.basis {
+            if let Some(entry) = entry {
+                faults.error(entry.key_place, Fault::SizeInMaterial { key });
+            }
+            return Some(if key == SIZE[0] { pad.thickness } else { pad.area });
+        }
+        let size = match (entry, self.size.beside(key)) {
+            (Some(entry), _) => {
+                let value = self.value_of(parameter, entry)?.number()?;
+                Size { value, place: entry.item.place }
+            }
+            (None, Some(beside)) => beside,
+            (None, None) => {
+                if !faults.damaged() {
+                    faults.error(place, missing_size(key, &format!("`{word}`")));
+                }
+                return None;
+            }
+        };
+        self.size.check(key, size, faults);
+        Some(size.value)
     }
 
     fn amplitude(self, item: &Item) -> Option<f64> {

@@ -7,10 +7,10 @@ use crate::{document::Entry, fault::Fault, quantity::Quantities};
 /// What a bare number at a key usually is.
 struct Usual {
     key: &'static str,
-    /// The SI unit in which a bare number counts.
+    /// The SI unit in which a bare number counts; none of a pure number.
     unit: &'static str,
     range: RangeInclusive<f64>,
-    /// The units that are probably meant below and above the range.
+    /// The units that are probably meant below and above the range; none where it is just odd.
     meant: [&'static str; 2],
 }
 
@@ -21,6 +21,12 @@ const USUAL: &[Usual] = &[
     Usual { key: "drop", unit: "m", range: 1e-5..=100.0, meant: ["m", "mm"] },
     Usual { key: "temperature", unit: "K", range: 100.0..=2000.0, meant: ["degC", "degC"] },
     Usual { key: "reference", unit: "K", range: 100.0..=2000.0, meant: ["degC", "degC"] },
+    Usual { key: "limit", unit: "m", range: 1e-6..=1.0, meant: ["m", "mm"] },
+    Usual { key: "modulus", unit: "Pa", range: 1e2..=f64::INFINITY, meant: ["MPa", "Pa"] },
+    Usual { key: "plateau", unit: "Pa", range: 1e2..=f64::INFINITY, meant: ["kPa", "Pa"] },
+    Usual { key: "gain", unit: "", range: 0.0..=2.0, meant: ["", "%"] },
+    Usual { key: "exponent", unit: "", range: 0.0..=20.0, meant: ["", ""] },
+    Usual { key: "unloading-exponent", unit: "", range: 0.0..=20.0, meant: ["", ""] },
     Usual { key: "duration", unit: "s", range: 1e-7..=10.0, meant: ["s", "ms"] },
 ];
 
@@ -32,12 +38,25 @@ pub(crate) fn check(quantities: Quantities<'_>, entry: &Entry, value: Option<f64
         return;
     }
     let Usual { key, unit, meant: [below, above], .. } = usual;
-    let message = if value > *usual.range.end() {
-        format!("`{key}` is {value} {unit}: did you mean {above}?")
-    } else {
-        format!("`{key}` is {value} {unit}, which is very little")
+    let most = usual.range.end();
+    let is_more = value > *most;
+    let meant = if is_more { above } else { below };
+    // What is measured by a length in a model is a strain in a material.
+    if quantities.basis.is_material() && *unit == "m" {
+        return;
+    }
+    let written = if unit.is_empty() { value.to_string() } else { format!("{value} {unit}") };
+    let message = match (is_more, meant.is_empty()) {
+        (true, true) => format!("`{key}` is {written}, which is very much"),
+        (true, false) => format!("`{key}` is {written}: did you mean {above}?"),
+        (false, _) => format!("`{key}` is {written}, which is very little"),
     };
-    let meant = if value > *usual.range.end() { above } else { below };
-    let help = format!("a bare number is in {unit}; write it with its unit: \"{value} {meant}\"");
+    let help = match (meant.is_empty(), unit.is_empty()) {
+        (true, _) => format!("{most} is a lot already"),
+        (false, true) => format!("write \"{value} {meant}\""),
+        (false, false) => {
+            format!("a bare number is in {unit}; write it with its unit: \"{value} {meant}\"")
+        }
+    };
     quantities.faults.warning(entry.item.place, Fault::odd(message, help));
 }

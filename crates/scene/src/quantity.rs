@@ -5,7 +5,7 @@ use std::{cell::Cell, collections::HashMap};
 use dashpot_network::parameters::Dimension;
 
 use crate::{
-    basis::Basis,
+    basis::{Basis, powers},
     diagnostics::Faults,
     document::{Content, Item},
     fault::Fault,
@@ -39,17 +39,31 @@ pub(crate) struct Definition {
 /// What to do where only an acceleration is known.
 const MOTION_HELP: &str = "a motion is a displacement: write `acceleration` in place of `motion`";
 
-/// What to do with moduli in a model.
-const MODULUS_IN_MODEL_HELP: &str = "values in Pa belong in [materials]; a pad is made of one by \
-                                     `material = \"…\", thickness = \"2 cm\", area = \"100 cm^2\"`";
+/// What to do with the values of a material in a model.
+const MATERIAL_IN_MODEL_HELP: &str = "stresses and strains belong in [materials]; a pad is made of one by \
+                                      `material = \"…\", thickness = \"2 cm\", area = \"100 cm^2\"`";
 
 /// What to do with the values of a pad in a material.
-fn stiffness_in_material_help(in_model: Dimension) -> String {
-    let (one, other) =
-        if in_model.mass < 0 { ("area", "thickness") } else { ("thickness", "area") };
+fn pad_in_material_help(in_model: Dimension) -> String {
+    let [forces, lengths] = powers(in_model);
+    let factor = |power: i32, name: &str| match power.abs() {
+        0 => None,
+        1 => Some(name.to_owned()),
+        power => Some(format!("{name}^{power}")),
+    };
+    let both = [factor(forces, "area"), factor(lengths, "thickness")];
+    let [area, thickness] = both.each_ref().map(|own| own.clone().unwrap_or_default());
+    let what = match (forces.signum(), lengths.signum()) {
+        (1, -1) => format!("multiply them by {thickness} / {area}"),
+        (-1, 1) => format!("multiply them by {area} / {thickness}"),
+        (sign, other) => {
+            let verb = if sign + other > 0 { "divide" } else { "multiply" };
+            let names: Vec<String> = both.into_iter().flatten().collect();
+            format!("{verb} them by the {}", names.join(" and the "))
+        }
+    };
     format!(
-        "values in {} belong in [models]; for a material, multiply them by {one} / {other} of the \
-         specimen",
+        "values in {} belong in [models]; for a material, {what} of the specimen",
         si_unit(in_model)
     )
 }
@@ -197,9 +211,9 @@ impl Quantities<'_> {
                 Dimension::VELOCITY if self.is_motion => {
                     fault.with_help("a motion is a displacement: integrate the velocity")
                 }
-                _ if found == in_model => fault.with_help(stiffness_in_material_help(in_model)),
+                _ if found == in_model => fault.with_help(pad_in_material_help(in_model)),
                 _ if found == Basis::MATERIAL.dimension(in_model) => {
-                    fault.with_help(MODULUS_IN_MODEL_HELP)
+                    fault.with_help(MATERIAL_IN_MODEL_HELP)
                 }
                 _ => fault,
             };

@@ -16,22 +16,23 @@ const LINES: usize = 3;
 const LONG_LINE: usize = 400;
 
 /// See [`Diagnostics::render`].
-pub(crate) fn render(diagnostics: &Diagnostics, color: bool) -> String {
+pub(crate) fn render(diagnostics: &Diagnostics, color: bool, width: usize) -> String {
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     let mut texts: Vec<String> =
-        diagnostics.list.iter().map(|diagnostic| one(&renderer, diagnostic)).collect();
+        diagnostics.list.iter().map(|diagnostic| one(&renderer, diagnostic, width)).collect();
     if diagnostics.omitted > 0 {
         texts.push(format!("and {} more", diagnostics.omitted));
     }
     texts.join("\n\n")
 }
 
-fn one(renderer: &Renderer, diagnostic: &Diagnostic) -> String {
+fn one(renderer: &Renderer, diagnostic: &Diagnostic, width: usize) -> String {
+    let inner = width.saturating_sub(INNER_LEAD);
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let title = level.primary_title(diagnostic.message());
+    let title = level.primary_title(wrapped(&diagnostic.message(), width.saturating_sub(LEAD)));
     let mut group = match (&diagnostic.source, &diagnostic.span) {
         (Some(source), Some(span)) => title.element(snippet(source, span, diagnostic)),
         (Some(source), None) => {
@@ -40,12 +41,35 @@ fn one(renderer: &Renderer, diagnostic: &Diagnostic) -> String {
         _ => Group::with_title(title),
     };
     if let Some(note) = diagnostic.note() {
-        group = group.element(Level::NOTE.message(note));
+        group = group.element(Level::NOTE.message(wrapped(&note, inner)));
     }
     if let Some(help) = diagnostic.help() {
-        group = group.element(Level::HELP.message(help));
+        group = group.element(Level::HELP.message(wrapped(&help, inner)));
     }
     renderer.render(&[group])
+}
+
+/// Columns before a message.
+const LEAD: usize = "warning: ".len();
+/// Columns before its help or a note, in texts of up to 999 lines.
+const INNER_LEAD: usize = "    = help: ".len();
+
+/// The text in lines of at most `room` columns.
+fn wrapped(text: &str, room: usize) -> String {
+    let (mut shown, mut columns) = (String::with_capacity(text.len()), 0);
+    for word in text.split(' ') {
+        let own = word.chars().count();
+        if columns > 0 && columns + 1 + own > room {
+            shown.push('\n');
+            columns = 0;
+        } else if !shown.is_empty() {
+            shown.push(' ');
+            columns += 1;
+        }
+        shown.push_str(word);
+        columns += own;
+    }
+    shown
 }
 
 fn snippet<'a>(

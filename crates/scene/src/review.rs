@@ -1,13 +1,17 @@
 //! What is odd about a scene as a whole, but not wrong.
 
+use std::collections::HashMap;
+
 use dashpot_dae::Waveform;
 use dashpot_network::{
     Network, Node, Start, Support,
-    parameters::{Dimension, ParameterKind},
+    effects::{EffectKind, Stop},
+    parameters::{Dimension, ParameterKind, Value},
 };
 
 use crate::{
     document::{Content, Entry, Item},
+    driven::Driven,
     fault::Fault,
     kinds::registers,
     library::is_table,
@@ -22,14 +26,16 @@ use crate::{
 pub(crate) fn review(reading: &Reading<'_>, network: &Network, duration: f64) {
     unused_values(reading);
     still(reading, network);
+    deep_stops(reading, network);
+    let mut ends = vec![[0_usize; 2]; network.nodes().count()];
+    for own in network.connections() {
+        own.between.iter().enumerate().for_each(|(end, id)| ends[id.index()][end] += 1);
+    }
+    let entries: HashMap<&str, &Entry> =
+        reading.section("nodes").iter().map(|own| (own.key.as_str(), own)).collect();
     for (id, node) in network.nodes().filter(|(id, _)| *id != network.ground()) {
-        let Some(entry) = reading.section("nodes").iter().find(|own| own.key == node.name) else {
-            continue;
-        };
-        let ends = |end: usize| {
-            network.connections().iter().filter(move |own| own.between[end] == id).count()
-        };
-        let [starting, ending] = [ends(0), ends(1)];
+        let Some(&entry) = entries.get(node.name.as_str()) else { continue };
+        let [starting, ending] = ends[id.index()];
         if starting + ending == 0 {
             let message = format!("no element touches `{}`", node.name);
             let help = "name it in the `between` of an element, or remove it";
@@ -39,12 +45,15 @@ pub(crate) fn review(reading: &Reading<'_>, network: &Network, duration: f64) {
             moving_away(reading, entry, node);
         }
     }
+    let driving = Driving::of(network);
     for (section, key) in [("loads", "force"), ("nodes", "motion"), ("nodes", "acceleration")] {
         for own in reading.section(section) {
             let Some(driven) = value_of(own, key) else { continue };
             time_table(reading, driven, duration);
-            if let Some(waveform) = driving(network, section, &own.key) {
+            if let Some(waveform) = driving.named(section, &own.key) {
                 file(reading, driven, waveform, duration);
+                let (name, item) = (own.key.as_str(), driven);
+                Driven { name, key, item, waveform }.review(reading, duration);
             }
         }
     }
@@ -60,6 +69,52 @@ fn unused_values(reading: &Reading<'_>) {
             reading.faults.warning(entry.key_place, Fault::odd(message, help));
         }
     }
+}
+
+/// Warns of stops that are met only when the padding is used up.
+fn deep_stops(reading: &Reading<'_>, network: &Network) {
+    for effect in network.effects().iter().filter(|own| own.kind() == Stop::KIND) {
+        let Some(name) = effect.target() else { continue };
+        let element = network.connections().iter().find(|own| own.name == name);
+        let thickness = element.and_then(|own| own.thickness);
+        let Some((&Value::Number(at), thickness)) = effect.values().first().zip(thickness) else {
+            continue;
+        };
+        if at > thickness {
+            let kind = reading.section("effects").iter().find(|own| own.key == Stop::KIND);
+            let own = kind.and_then(|kind| kind.item.table()?.iter().find(|own| own.key == name));
+            let place = own.and_then(|own| value_of(own, "at")).map(|item| item.place);
+            let [at, thickness] =
+                [at, thickness].map(|own| format_short(own, Dimension::LENGTH, 4));
+            let message = format!(
+                "the stop of `{name}` at {at} lies deeper than its thickness of {thickness}"
+            );
+            let help = "the padding is used up before the stop is met: give a smaller `at`, or \
+                        leave it out for the thickness";
+            reading.faults.warning(place, Fault::odd(message, help));
+        }
+    }
+}
+
+/// What is left out of a drop where gravity is off.
+pub(crate) fn weightless(network: &Network) -> Vec<ModelNote> {
+    if network.effects().iter().any(|own| own.gravity().is_some()) {
+        return Vec::new();
+    }
+    let mut notes = Vec::new();
+    for (_, node) in network.nodes() {
+        let Start::Drop(height) = node.start else { continue };
+        if height > 0.0 && node.mass > 0.0 {
+            let height = format_short(height, Dimension::LENGTH, 4);
+            let text = format!(
+                "dropped from {height} with gravity off: it begins at touch with the speed of the \
+                 fall, weighs nothing, and never falls back on what it has left; `gravity = {{}}` \
+                 under [effects] gives it its weight"
+            );
+            notes.push(ModelNote { subject: format!("node `{}`", node.name), text, until: None });
+        }
+    }
+    notes
 }
 
 /// Warns of a network in which all that begins at rest stays at rest.
@@ -93,7 +148,9 @@ fn moving_away(reading: &Reading<'_>, entry: &Entry, node: &Node) {
         let message =
             format!("`{}` moves away from the support: positive is towards it", node.name);
         let place = value_of(entry, "velocity").map_or(entry.key_place, |item| item.place);
-        reading.faults.warning(place, Fault::Odd { message, help: None });
+        let help = "turn its sign; if it comes from the other side, turn the `between` of what it \
+                    strikes instead";
+        reading.faults.warning(place, Fault::odd(message, help));
     }
 }
 
@@ -111,13 +168,25 @@ pub(crate) fn outlasted(reading: &Reading<'_>, notes: &[ModelNote], duration: f6
     }
 }
 
-/// What drives a load or a node of this name.
-fn driving<'n>(network: &'n Network, section: &str, name: &str) -> Option<&'n Waveform> {
-    if section == "loads" {
-        return network.loads().iter().find(|load| load.name == name).map(|load| &load.force);
+/// What drives loads and nodes, by name.
+struct Driving<'n> {
+    loads: HashMap<&'n str, &'n Waveform>,
+    nodes: HashMap<&'n str, &'n Waveform>,
+}
+
+impl<'n> Driving<'n> {
+    fn of(network: &'n Network) -> Self {
+        let loads = network.loads().iter().map(|load| (load.name.as_str(), &load.force));
+        let nodes = network.nodes().filter_map(|(_, node)| match &node.support {
+            Support::Prescribed(motion) => Some((node.name.as_str(), motion)),
+            _ => None,
+        });
+        Self { loads: loads.collect(), nodes: nodes.collect() }
     }
-    let (_, node) = network.nodes().find(|(_, node)| node.name == name)?;
-    if let Support::Prescribed(motion) = &node.support { Some(motion) } else { None }
+
+    fn named(&self, section: &str, name: &str) -> Option<&'n Waveform> {
+        if section == "loads" { self.loads.get(name) } else { self.nodes.get(name) }.copied()
+    }
 }
 
 /// Warns of rows of a file that have no influence.

@@ -15,7 +15,7 @@ use crate::{
     models::ModelReader,
     network_faults::{note_errors, note_warnings},
     notes::ModelNote,
-    review::{outlasted, review},
+    review::{outlasted, review, weightless},
     sections::{
         Reading, check_stops, read_accuracy, read_effects, read_elements, read_loads,
         read_measures, read_nodes, read_run,
@@ -265,7 +265,7 @@ impl<'d> Parts<'d> {
 fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<Scene> {
     let (mut library, source) = load(text, options, faults)?;
     library.load_tables(options.loader, faults);
-    let Parts { reading, network, title, measures, accuracy, notes } =
+    let Parts { reading, network, title, measures, accuracy, mut notes } =
         Parts::read(&library, faults);
     let (mut run, stops) = read_run(&reading);
     if faults.errors() > 0 {
@@ -281,6 +281,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     note_warnings(&reading, &assembly.warnings);
     review(&reading, &network, run.duration);
     outlasted(&reading, &notes, run.duration);
+    notes.extend(weightless(&network));
     run.stops = check_stops(&reading, &stops, &assembly);
     let mut values: Vec<NamedValue> = library
         .values()

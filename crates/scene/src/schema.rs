@@ -35,7 +35,7 @@ pub fn schema() -> Value {
                 "additionalProperties": reference("model"),
             },
             "materials": {
-                "description": "models in Pa and Pa s, which become pads by thickness and area",
+                "description": "laws of stress over strain, which become pads by thickness and area",
                 "type": "object",
                 "additionalProperties": reference("material"),
             },
@@ -242,7 +242,7 @@ fn composed<'k>(
     if !is_material {
         laws.insert("model", by_name("model"));
         properties.insert("thickness".to_owned(), thickness());
-        let area = described_as(quantity(AREA), "area of a pad of a material [m^2], positive");
+        let area = described_as(quantity(AREA), "area of the pad [m^2], positive");
         properties.insert("area".to_owned(), area);
     }
     let one = laws.keys().map(|&word| match word {

@@ -8,7 +8,11 @@ use dashpot_network::{
 };
 use dashpot_rheology::{Branch, Tree};
 
-use crate::{basis::Basis, kinds::registers, units::exact_quantity};
+use crate::{
+    basis::{Basis, is_size},
+    kinds::registers,
+    units::exact_quantity,
+};
 
 /// A model as an inline table, for instance `{ parallel = [{ spring = "20 MN/m" }, …] }`.
 ///
@@ -162,7 +166,10 @@ fn write_kind_in(
     {
         return format!("{word} = {}", write_value(parameter.kind, value));
     }
-    let given = pairs.filter(|(_, value)| **value != Value::LeftOut);
+    let is_given = |parameter: &Parameter, value: &Value| {
+        *value != Value::LeftOut && !(basis.is_material() && is_size(parameter))
+    };
+    let given = pairs.filter(|(parameter, value)| is_given(parameter, value));
     let written = given.map(|(parameter, value)| {
         format!("{} = {}", parameter.name, write_value(parameter.kind, value))
     });

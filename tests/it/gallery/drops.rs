@@ -24,7 +24,7 @@ fn keeps_momentum(solved: &Solved, mass: f64, force: &str, body: &str, window: (
 fn a_helmet_drop_flies_touches_bottoms_and_rebounds_as_by_hand() {
     let solved = solved("helmet-drop");
     let (mass, height) = (5.0, 1.5);
-    let touch = solved.times("liner.contact.contact", "closed")[0];
+    let touch = solved.times("liner.contact", "closed")[0];
     let fall = f64::sqrt(2.0 * height / G0);
     close("time of the fall, √(2 h/g)", touch, fall, 1e-9 * fall);
     close("speed", solved.signal("head.velocity").value(touch), G0 * fall, 1e-8 * G0 * fall);
@@ -59,7 +59,7 @@ fn a_helmet_drop_flies_touches_bottoms_and_rebounds_as_by_hand() {
     });
     solved.is("head.peak-acceleration", judge[0].0, judge[0].1);
     solved.is("liner.peak-deformation", judge[1].0, judge[1].1);
-    let leaves = solved.times("liner.contact.contact", "open")[0];
+    let leaves = solved.times("liner.contact", "open")[0];
     close("contact", leaves - touch, judge[2].0, judge[2].1);
     let force = solved.signal("liner.contact.force");
     close("impulse", force.integral((touch, leaves)), judge[3].0, judge[3].1);
@@ -155,7 +155,7 @@ fn crushed_polystyrene_keeps_its_set_and_meets_the_second_hit_with_it_as_by_hand
     for (key, own) in keys.iter().zip(judge) {
         solved.is(&format!("liner.{key}"), own.0, own.1);
     }
-    let touches = solved.times("liner.contact.contact", "closed");
+    let touches = solved.times("liner.contact", "closed");
     let accuracy = 1e-3;
     close("second touch", touches[1], judge[4].0, judge[4].1 + accuracy * judge[4].0);
     let again = solved.signal("liner.force").maximum((touches[1], 1.2)).value;
@@ -173,7 +173,7 @@ fn an_instrument_on_corner_foam_is_thrown_back_as_by_hand() {
     let solved = solved("instrument-drop");
     let (mass, height) = (8.0, 0.8);
     let fall = f64::sqrt(2.0 * height / G0);
-    let touch = solved.times("corners.contact.contact", "closed")[0];
+    let touch = solved.times("corners.contact", "closed")[0];
     close("time of the fall", touch, fall, 1e-5 * fall);
     let (thickness, area, damping) = (0.05, 144e-4, 40.0);
     let spring = |y: f64| area * foam(y / thickness, [1.2e6, 120e3, 30e3, 2.0]);

@@ -74,7 +74,7 @@ fn a_parcel_lifts_off_flies_and_meets_the_cushion_at_the_times_in_closed_form() 
     let push = |t: f64| k * way.at(t)[0] + c * way.at(t)[1];
     let first = (1..1000).map(|at| f64::from(at) * 1e-4).find(|&t| push(t) < 0.0).unwrap();
     let lifts = by_hand::zero(first - 1e-4, first, push);
-    let contact = "cushion.contact.contact";
+    let contact = "cushion.contact";
     close("it lifts off", solved.times(contact, "open")[0], lifts, 1e-9);
     // In flight the parcel falls freely, and the cushion returns by itself.
     let [pressed, rate] = way.at(lifts);

@@ -20,7 +20,7 @@ const SOFT: [f64; 4] = [14.688_601_65e6, 3.916_960_439e3, 20e6, 4.500_450_045e3]
 fn the_head_lets_go_at_zero_force_and_flies_and_the_padding_returns_by_itself() {
     let separated = solved("thesis-separation");
     let bonded = solve(&reference(1e4), "exact", 0.02, 1e-6);
-    let release = separated.times("padding.contact.contact", "open")[0];
+    let release = separated.times("padding.contact", "open")[0];
     // Until then nothing is different; the numbers are those of the thesis page.
     close("release", release, 7.425_568_132e-3, 1e-12);
     let (own, other) = (separated.signal("padding.force"), bonded.signal("padding.force"));
@@ -96,7 +96,7 @@ fn the_softer_padding_goes_beyond_its_thickness_unless_it_bottoms_out() {
     });
     stopped.is("head.peak-acceleration", judge[0].0, judge[0].1);
     stopped.is("padding.peak-deformation", judge[1].0, judge[1].1);
-    let release = stopped.times("padding.contact.contact", "open")[0];
+    let release = stopped.times("padding.contact", "open")[0];
     close("release", release, judge[2].0, judge[2].1);
 }
 
@@ -187,7 +187,7 @@ fn a_face_with_mass_is_taken_along_and_both_forces_are_those_of_one_body() {
     let one = solve(&one, "exact", 0.02, 1e-6);
     let inner = one.signal("padding.force");
     let release = inner.first_crossing(0.0, (1e-4, 0.02), Some(false)).unwrap().time;
-    close("release", solved.times("padding.contact.contact", "open")[0], release, 1e-9);
+    close("release", solved.times("padding.contact", "open")[0], release, 1e-9);
     let (first, second) = (solved.signal("padding.contact.force"), solved.signal("padding.force"));
     for at in 1..100 {
         let t = release * f64::from(at) / 100.0;

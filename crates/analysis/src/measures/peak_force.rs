@@ -11,6 +11,11 @@ use crate::Solution;
 
 /// The largest magnitude of an element's force, `max |F(t)|` \[N\], with its time.
 ///
+/// It is the force of the element alone. Of a padding whose face has mass it is `F2`, behind the face;
+/// what strikes the face feels `F1 = F2 + m2 x1″`, the peak force of `<element>.contact`. A stop beside
+/// the element has a force of its own, `<element>.stop`;
+/// [`TransmittedForce`](super::TransmittedForce) is what comes through both.
+///
 /// In an impact the force pushes throughout; in other windows a peak in tension is noted. Where masses
 /// meet in the element and speeds jump, it is infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]

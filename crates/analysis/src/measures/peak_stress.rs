@@ -9,15 +9,15 @@ use super::{
 use crate::Solution;
 
 /// Note on the stress in an element whose area is not known.
-const NO_AREA: &str = "its area is not known: make it a `material` with `thickness` and `area`, or \
-                       of `layers`";
+const NO_AREA: &str = "its area is not known: give it `thickness` and `area`, or `layers`";
 
 /// The largest magnitude of the stress in any segment of a pad, `max |F(t)|/A` \[Pa\], with its time
 /// and its layer; a peak in tension is noted.
 ///
 /// `F` is the force in the segment and `A` the area of its layer: the stress is that on the undeformed
-/// area. Pads of layers have segments; a pad of one material is a single one. Without an area there
-/// is no stress, and where masses meet in the element and speeds jump, it is infinite.
+/// area. Pads of layers have segments; another element with a `thickness` and an `area` is a single
+/// one. Without an area there is no stress, and where masses meet in the element and speeds jump, it
+/// is infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PeakStress {
     /// The part of the run that it looks at.

@@ -1,4 +1,5 @@
 mod blows;
+mod transmitted;
 
 use std::f64::consts::PI;
 

@@ -1,5 +1,6 @@
 //! Transmitted force.
 
+use dashpot_dae::Signal;
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
 use super::{
@@ -7,13 +8,16 @@ use super::{
     reading::{infinite, peak, peaks_below_zero},
     window,
 };
-use crate::Solution;
+use crate::{Solution, bearing::on_support};
 
-/// The largest magnitude of the force that an element passes on at the second of its ends,
-/// `max |F(t)|` \[N\], with its time; a peak in tension is noted.
+/// The largest magnitude of the force of a padding on what lies behind it, `max |F(t)|` \[N\], with
+/// its time; a peak in tension is noted.
 ///
-/// It is the peak force but in pads of layers with mass, through which the force travels: there it
-/// comes later and has another size. Where masses meet in the element and speeds jump, it is infinite.
+/// It is the force on the second of the nodes in `between`, through everything of the padding: the
+/// element, its stop, and a face at that end with its mass. A stop adds to it and not to
+/// [`PeakForce`](super::PeakForce), which is that of the element alone. In pads of layers with mass,
+/// through which the force travels, it comes later and has another size. Where masses meet in any of
+/// these and speeds jump, it is infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransmittedForce {
     /// The part of the run that it looks at.
@@ -29,7 +33,7 @@ impl Default for TransmittedForce {
 impl MeasureKind for TransmittedForce {
     const KIND: &'static str = "transmitted-force";
     const SUMMARY: &'static str =
-        "largest magnitude of the force at the second end, behind all layers [N]";
+        "largest magnitude of the force on what lies behind it, its stop included [N]";
     const UNIT: &'static str = "N";
     const APPLIES_TO: Family = Family::Element;
     const OF_LAYERS: bool = true;
@@ -43,19 +47,27 @@ impl MeasureKind for TransmittedForce {
     }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
-        let connection = &solution.assembly().connections[target];
-        let Some(force) = connection.transmitted else {
-            return Reading::undefined(UNDETERMINED_FORCE);
-        };
+        let connections = &solution.assembly().connections;
+        let parts = on_support(solution.assembly(), target);
+        let mut sum: Option<Signal> = None;
+        for &(part, sign) in &parts {
+            let connection = &connections[part];
+            let force = if part == target { connection.transmitted } else { connection.force };
+            let Some(force) = force.map(|own| solution.signal(own)) else {
+                return Reading::undefined(UNDETERMINED_FORCE);
+            };
+            sum = Some(sum.map_or_else(|| force.scaled(sign), |sum| sum.plus(force, sign)));
+        }
+        let Some(force) = sum else { return Reading::undefined(UNDETERMINED_FORCE) };
         let span = match solution.element_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
-        if let Some(reading) = infinite(&span, solution.element_blows(target)) {
+        let mut blows = parts.iter().map(|&(part, _)| solution.element_blows(part));
+        if let Some(reading) = blows.find_map(|blows| infinite(&span, blows)) {
             return reading;
         }
-        let force = solution.signal(force);
-        let reading = peak(force, &span);
-        if peaks_below_zero(force, &span) { reading.noting("in tension") } else { reading }
+        let reading = peak(&force, &span);
+        if peaks_below_zero(&force, &span) { reading.noting("in tension") } else { reading }
     }
 }

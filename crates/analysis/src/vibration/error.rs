@@ -24,9 +24,9 @@ pub enum VibrationError {
     Frequency(#[from] FrequencyError),
     /// It has not been said what shakes the network.
     #[error(
-        "{} drives the network; name the drive: {}",
+        "{} drives the network; {}",
         if *.loads_and_motions == 0 { "neither a load nor a motion" } else { "more than one load or motion" },
-        .known.join(", ")
+        choices(.known)
     )]
     NoDrive {
         /// Loads and given motions that there are.
@@ -82,4 +82,13 @@ pub enum VibrationError {
         /// The frequency \[Hz\].
         frequency: f64,
     },
+}
+
+/// What can drive, in words.
+fn choices(known: &[String]) -> String {
+    if known.is_empty() {
+        "there is nothing to shake: no load, and no node that is moved or held".to_owned()
+    } else {
+        format!("name the drive: {}", known.join(", "))
+    }
 }

@@ -11,7 +11,8 @@ use crate::{
     entanglement::notes,
     error::{CliError, Status},
     input::read_scene,
-    terminal::{Terminal, note, print},
+    terminal::{Terminal, WIDTH, print, remark},
+    text::hanging,
 };
 
 /// Says of each scene whether it is valid.
@@ -21,7 +22,7 @@ pub(crate) fn check(arguments: &CheckArguments, terminal: Terminal) -> Result<St
     for path in &arguments.scenes {
         let prefix = if several { format!("{}: ", path.display()) } else { String::new() };
         match checked(path, &arguments.values.set, terminal) {
-            Ok(text) => print(&format!("{prefix}ok: {text}\n"))?,
+            Ok(text) => print(&(hanging(&format!("{prefix}ok: {text}"), WIDTH) + "\n"))?,
             Err(error) => {
                 terminal.error(&error);
                 if several {
@@ -39,7 +40,7 @@ fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
     can_run(&scene)?;
-    notes(&scene).iter().for_each(|text| note(&format!("note: {text}")));
+    notes(&scene).iter().for_each(|text| remark(text));
     let system = &scene.assembly.system;
     let nodes = scene.network.nodes().count() - 1;
     let structure = match (system.is_linear(), system.algebraic()) {

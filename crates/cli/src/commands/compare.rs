@@ -20,7 +20,7 @@ use crate::{
     numbers::{apart, bound, quantity, share},
     operand::{Operand, Subject, canonical_model, parted},
     terminal::{Terminal, Tone, WIDTH, print},
-    text::{columns, table, width, wrapped},
+    text::{columns, side_by_side, table, wrapped},
 };
 
 /// Maps of more parameters than this are in the JSON only.
@@ -212,14 +212,16 @@ fn text(found: &Comparison, terminal: Terminal) -> String {
     let small = found.map.as_ref().filter(|map| map.is_at_most(MOST_SHOWN)).map(Map::table);
     let impact = found.impact.as_ref().map(Impact::table);
     let forms = found.forms.iter().map(super::super::answer::comparison::Form::table);
-    for own in forms.chain(small.filter(|own| width(own) <= WIDTH)).chain(impact) {
+    for own in forms.chain(small).chain(impact) {
         if own.rows.is_empty() {
             continue;
         }
-        let (header, rows) = table(&own);
         let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, &own.caption));
-        for line in [header].iter().chain(&rows).filter(|line| columns(line) > 0) {
-            let _ = writeln!(text, "  {line}");
+        for part in side_by_side(&own, WIDTH - 2) {
+            let (header, rows) = table(&part);
+            for line in [header].iter().chain(&rows).filter(|line| columns(line) > 0) {
+                let _ = writeln!(text, "  {line}");
+            }
         }
     }
     text

@@ -15,7 +15,7 @@ use crate::{
     folder::write_new,
     numbers::bound,
     operand::{Operand, Subject},
-    terminal::{Terminal, note, print},
+    terminal::{Terminal, print, remark},
 };
 
 /// Name of the table for a response, which has none of its own.
@@ -59,16 +59,16 @@ pub(crate) fn convert(
             write_new(path, &text, arguments.force)?;
             let elsewhere = path.parent() != Path::new(&operand.input.file).parent();
             if elsewhere && text.contains(".toml:") {
-                note("note: models of other files are now looked for beside the new file");
+                remark("models of other files are now looked for beside the new file");
             }
             let path = path.display();
             print(&format!("wrote {path}; its model is `{path}:{name}`\n"))?;
         }
         None => print(&text)?,
     }
-    note(&format!("note: {}", said(error)));
+    remark(&said(error));
     if !with.is_empty() {
-        note(&format!("note: the model is converted{with}; the table [values] is as it was"));
+        remark(&format!("the model is converted{with}; the table [values] is as it was"));
     }
     Ok(Status::Done)
 }

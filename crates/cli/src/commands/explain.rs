@@ -24,7 +24,7 @@ use crate::{
     numbers::{constant, quantity},
     sketch::{element, sketch, waveform},
     terminal::{Terminal, Tone, WIDTH, print},
-    text::{indented, labelled, table, wrapped},
+    text::{fitted, indented, labelled, wrapped},
 };
 
 /// What stands below the unknowns.
@@ -53,7 +53,7 @@ pub(crate) fn explain(
     }
     let remarks = notes(&scene);
     if !remarks.is_empty() {
-        let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, "Models"));
+        let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, "Notes"));
         for line in remarks.iter().flat_map(|own| wrapped(own, WIDTH - 2)) {
             let _ = writeln!(text, "  {line}");
         }
@@ -131,9 +131,12 @@ fn layers(scene: &Scene) -> Table {
                 count => format!("{count} segments"),
             });
             if let Some(wave) = layer.wave {
-                row.push(format!("waves at {}", quantity(wave.speed, "m/s", 4)));
-                row.push(format!("cross it in {}", quantity(wave.transit, "s", 4)));
-                row.push(format!("impedance {}", quantity(wave.impedance, "N s/m", 4)));
+                row.push(format!(
+                    "waves at {} cross it in {}, impedance {}",
+                    quantity(wave.speed, "m/s", 4),
+                    quantity(wave.transit, "s", 4),
+                    quantity(wave.impedance, "N s/m", 4)
+                ));
             }
             row
         })
@@ -206,8 +209,7 @@ fn solving(scene: &Scene) -> Result<Vec<(&'static str, String)>, CliError> {
 fn section(content: &Table, terminal: Terminal) -> String {
     let mut text = format!("\n{}\n", terminal.toned(Tone::Heading, &content.caption));
     let rows: Vec<Vec<String>> = content.rows.iter().take(MOST).cloned().collect();
-    let (_, lines) = table(&Table { rows, ..Table::default() });
-    for line in lines {
+    for line in fitted(&Table { rows, ..Table::default() }, WIDTH - 2) {
         let _ = writeln!(text, "  {line}");
     }
     if content.rows.len() > MOST {

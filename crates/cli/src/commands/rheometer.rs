@@ -19,7 +19,7 @@ use crate::{
     folder::prepare_for,
     operand::{Operand, canonical_model},
     rheometer_folder::{figure, file_names, write},
-    terminal::{Terminal, Tone, WIDTH, note, print},
+    terminal::{Terminal, Tone, WIDTH, note, print, remark},
     text::{table, wrapped},
 };
 
@@ -47,7 +47,7 @@ pub(crate) fn rheometer(
         match protocol(&test, &own)?.run(&specimen, &methods) {
             Ok(report) => reports.push(report),
             // One test alone was asked for; of several, the others go on.
-            Err(error) if arguments.test.len() != 1 => note(&format!("note: {error}")),
+            Err(error) if arguments.test.len() != 1 => remark(&error.to_string()),
             Err(error) => return Err(error.into()),
         }
     }

@@ -130,6 +130,9 @@ fn series(matrix: &DMatrix<Complex>, vector: &mut [Complex]) {
             }
         }
         term = next;
+        if term.iter().all(|t| *t == Complex::default()) {
+            return;
+        }
         let mut settled = true;
         for (sum, t) in vector.iter_mut().zip(&term) {
             settled &= t.norm() <= 1e-18 * sum.norm();

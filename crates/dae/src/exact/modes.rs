@@ -38,6 +38,9 @@ impl Modes {
     /// the eigenvalue iteration fails, the whole matrix is taken as one block: slower, and without
     /// an error bound, but with the right values.
     pub(super) fn new(system: &Augmented, caution: Caution) -> Self {
+        if let Some(chains) = chains(&system.matrix) {
+            return Self::of_chains(system, &chains);
+        }
         let Some(mut schur) = augmented_schur(system) else { return Self::undivided(system) };
         let mut clusters = Clusters::single(&schur);
         loop {
@@ -50,6 +53,38 @@ impl Modes {
                 return if known { modes } else { Self::undivided(system) };
             }
             clusters.join(&alike);
+        }
+    }
+
+    /// The modes of a matrix of integrators in chains, which is triangular but for its order: its
+    /// entries are kept as they are, and nothing is rounded.
+    fn of_chains(system: &Augmented, chains: &[Vec<usize>]) -> Self {
+        let size = system.size();
+        let mut basis = DMatrix::zeros(size, size);
+        let mut dual = DMatrix::zeros(size, size);
+        let mut blocks = Vec::with_capacity(chains.len());
+        let mut start = 0;
+        for chain in chains {
+            let mut matrix = DMatrix::from_fn(chain.len(), chain.len(), |i, j| {
+                Complex::new(system.matrix[(chain[i], chain[j])], 0.0)
+            });
+            for (i, unit) in graded(&matrix, system.end()).into_iter().enumerate() {
+                basis[(chain[i], start + i)] = Complex::new(unit, 0.0);
+                dual[(start + i, chain[i])] = Complex::new(unit.recip(), 0.0);
+                matrix.column_mut(i).apply(|z| *z *= unit);
+                matrix.row_mut(i).apply(|z| *z /= unit);
+            }
+            blocks.push(Block::new(start, matrix));
+            start += chain.len();
+        }
+        Self {
+            basis,
+            basis_low: DMatrix::zeros(size, size),
+            dual,
+            blocks,
+            pairs: Vec::new(),
+            defect: DMatrix::zeros(size, size),
+            dual_defect: DMatrix::zeros(size, size),
         }
     }
 
@@ -137,6 +172,33 @@ impl Modes {
     }
 }
 
+/// The states in an order in which each depends on later ones only, apart for each set of states that
+/// have nothing to do with the others. `None` where a state acts back on itself.
+fn chains(matrix: &DMatrix<f64>) -> Option<Vec<Vec<usize>>> {
+    let size = matrix.nrows();
+    let mut waits: Vec<usize> =
+        (0..size).map(|j| (0..size).filter(|&i| matrix[(i, j)] != 0.0).count()).collect();
+    let mut set: Vec<usize> = (0..size).collect();
+    let mut order: Vec<usize> = (0..size).filter(|&j| waits[j] == 0).collect();
+    let mut at = 0;
+    while let Some(&i) = order.get(at) {
+        for j in (0..size).filter(|&j| matrix[(i, j)] != 0.0) {
+            waits[j] -= 1;
+            if waits[j] == 0 {
+                order.push(j);
+            }
+            let (keep, drop) = (set[i].min(set[j]), set[i].max(set[j]));
+            set.iter_mut().filter(|own| **own == drop).for_each(|own| *own = keep);
+        }
+        at += 1;
+    }
+    let all = |keep: usize| -> Vec<usize> {
+        order.iter().copied().filter(|&state| set[state] == keep).collect()
+    };
+    let is_whole = order.len() == size;
+    is_whole.then(|| (0..size).map(all).filter(|chain| !chain.is_empty()).collect())
+}
+
 /// Factors for a triangular block's basis, powers of two and as few as needed, after which its
 /// couplings act on the time scale of the run: `|T_ij| u_j/u_i · horizon ≤ 1`.
 fn graded(triangle: &DMatrix<Complex>, horizon: f64) -> Vec<f64> {
@@ -184,4 +246,25 @@ fn augmented_schur(system: &Augmented) -> Option<ComplexSchur> {
     let outer = basis.view((states, states), (generators, generators)).into_owned();
     triangle.view_mut((0, states), (states, generators)).copy_from(&(turned * outer));
     Some(ComplexSchur { basis, triangle })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integrators_are_put_in_order_and_those_apart_are_told_apart() {
+        // Two bodies in free flight, of which one is driven by a constant; unknowns in any order.
+        let mut a = DMatrix::zeros(5, 5);
+        (a[(0, 2)], a[(3, 1)], a[(1, 4)]) = (2.0, 3.0, -1.0);
+        let found = chains(&a).unwrap();
+        assert_eq!(found.iter().map(Vec::len).collect::<Vec<_>>(), [2, 3]);
+        for chain in &found {
+            for (i, &row) in chain.iter().enumerate() {
+                assert!((0..=i).all(|j| a[(row, chain[j])] == 0.0), "{found:?}");
+            }
+        }
+        a[(4, 3)] = 1e-300;
+        assert!(chains(&a).is_none(), "an oscillator");
+    }
 }

@@ -99,6 +99,11 @@ pub(crate) struct Expansion {
     pub(crate) owners: Vec<Option<String>>,
 }
 
+/// Whether the name of a connection says already what its only element is: `padding.contact`.
+fn says(name: &str, kind: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, end)| end == kind)
+}
+
 /// Longest path that is written out in full; deeper parts are named by their number.
 const LONGEST_PATH: usize = 160;
 
@@ -162,7 +167,7 @@ impl Expansion {
             match model {
                 Tree::Part(element) => {
                     shapes[shape] = Shape::Leaf(self.primitives.len());
-                    let is_whole = shape == 0;
+                    let is_whole = shape == 0 && !says(&path, element.kind());
                     let name = if is_whole { format!("{path}.{}", element.kind()) } else { path };
                     let law = element.law();
                     self.primitives.push(Primitive {

@@ -84,7 +84,6 @@ struct Parts<'a> {
 struct Compiled {
     assembly: Assembly,
     carry: Option<Carry>,
-    bodies: Bodies,
 }
 
 impl Network {
@@ -207,7 +206,7 @@ impl Network {
             warnings,
             switching: None,
         };
-        Ok(Compiled { assembly, carry, bodies })
+        Ok(Compiled { assembly, carry })
     }
 
     /// The given displacements of bodies as rows.

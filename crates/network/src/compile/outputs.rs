@@ -126,15 +126,26 @@ impl Outputs {
                 }
                 _ => summed(shapes, &rate),
             };
-            let force = forces[0].clone().map(|row| self.add(format!("{name}.force"), "N", row));
+            // An element whose name says it all is its only part.
+            let own = self.primitives[first..].iter().find(|own| own.name == *name);
+            let own = own.map(|own| (own.force, own.deformation));
+            let force = match own {
+                Some((force, _)) => Some(force),
+                None => forces[0].clone().map(|row| self.add(format!("{name}.force"), "N", row)),
+            };
+            let deformation = match own {
+                Some((_, deformation)) => deformation,
+                None => self.add(format!("{name}.deformation"), "m", position),
+            };
             let mut outputs = ConnectionOutputs {
                 name: name.clone(),
                 between: connection.between,
                 thickness: connection.thickness,
                 is_rigid: a == b,
+                never_pulls: connection.never_pulls(0),
                 force,
                 transmitted: force,
-                deformation: self.add(format!("{name}.deformation"), "m", position),
+                deformation,
                 rate: velocity.map(|row| self.add(format!("{name}.rate"), "m/s", row)),
                 primitives: first..self.primitives.len(),
                 segments: Vec::new(),
@@ -211,6 +222,7 @@ impl Outputs {
             }
             let name = drive.name.clone();
             let outputs = DriveOutputs {
+                node: drive.node,
                 force: self.add(format!("{name}.force"), "N", force),
                 velocity: self.add(format!("{name}.velocity"), "m/s", velocity),
                 jumps: drive.jumps.clone(),

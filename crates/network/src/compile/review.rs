@@ -24,7 +24,9 @@ pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
                 ));
             }
         } else if let (Some(from), Some(to)) = (distance[a], distance[b])
-            && direction.is_some_and(|forward| if forward { from > to } else { from < to })
+            && let Some(forward) = direction
+            && is_against(forward, [from, to])
+            && !is_behind(network, parts, &distance, (forward, if from < to { a } else { b }))
         {
             warnings.push(format!(
                 "`{name}` looks reversed: `between` runs along the impactor's way, so that \
@@ -34,6 +36,28 @@ pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
     }
     warnings.extend(idle_restitutions(network, parts));
     warnings
+}
+
+/// Whether a connection between bodies at these distances from the impactor runs against its way.
+fn is_against(forward: bool, [from, to]: [usize; 2]) -> bool {
+    if forward { from > to } else { from < to }
+}
+
+/// Whether `body` has something before it in the impactor's way: what runs the other way from it then
+/// lies behind it, and is pressed when it comes back.
+fn is_behind(
+    network: &Network,
+    parts: &Parts<'_>,
+    distance: &[Option<usize>],
+    (forward, body): (bool, usize),
+) -> bool {
+    network.connections.iter().any(|connection| {
+        let [a, b] = connection.between.map(|id| parts.bodies.of_joint[id.0]);
+        let near = if forward { a } else { b };
+        let ends = [distance[a], distance[b]];
+        let [Some(from), Some(to)] = ends else { return false };
+        near == body && from != to && !is_against(forward, [from, to])
+    })
 }
 
 /// Restitutions that do nothing: they act between masses, and a part without mass takes the speed of

@@ -70,7 +70,10 @@ impl Structure {
         }
         let first_jump = |body: &Body| match body.role {
             Role::Prescribed(node) => match &network.nodes[node].support {
-                Support::Prescribed(motion) => jumps(network, motion, duration).first().copied(),
+                // What switches begins where its motions do.
+                Support::Prescribed(motion) => jumps(network, motion, duration)
+                    .into_iter()
+                    .find(|&time| time > 0.0 || !expansion.switches),
                 _ => None,
             },
             _ => None,

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    Effect, EffectKind,
+    Effect, EffectKind, Face,
     site::{AT, Site, at_of, at_value, connection_of, face_of},
 };
 use crate::{
@@ -25,6 +25,12 @@ use crate::{
 /// [`Face`](super::Face) gives it one, moves by itself, and contact comes back where the node meets
 /// it again.
 ///
+/// An element that by its law never pulls at this end, as a
+/// [`HystereticFoam`](crate::elements::HystereticFoam) or a
+/// [`HuntCrossley`](crate::elements::HuntCrossley) contact, alone or in series with others, is its own
+/// contact: the network stays as it is, without a face. Where [`Face`](super::Face) gives it a face
+/// with mass, that can part from the node as any other.
+///
 /// A restitution acts between masses, so it needs a face with mass. A massless face takes the speed
 /// of what strikes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +47,15 @@ impl Separation {
     fn contact(&self) -> Contact {
         Contact { gap: 0.0, restitution: self.restitution }
     }
+
+    /// Whether the element's face has mass.
+    fn has_heavy_face(&self, network: &Network) -> bool {
+        let mut faces = network.effects.iter().filter(|own| own.kind() == Face::KIND);
+        let is_heavy = |own: &Value| own.number().is_some_and(|mass| mass > 0.0);
+        faces.any(|own| {
+            own.target() == Some(&self.element) && own.values().first().is_some_and(is_heavy)
+        })
+    }
 }
 
 impl Effect for Separation {
@@ -54,6 +69,9 @@ impl Effect for Separation {
 
     fn rewrite(&self, network: &mut Network) -> Result<(), NetworkError> {
         let site = Site::of(network, Self::KIND, &self.element, self.at.as_deref())?;
+        if site.never_pulls(network) && !self.has_heavy_face(network) {
+            return Ok(());
+        }
         site.put_face(network, Node::massless(face_of(&self.element)), part(self.contact()));
         Ok(())
     }
@@ -61,7 +79,9 @@ impl Effect for Separation {
     fn influences(&self, situation: &Situation<'_>) -> Vec<Influence> {
         let found = connection_of(situation.network, Self::KIND, &self.element);
         let struck = situation.impact.as_ref().zip(found.ok());
-        let Some((impact, _)) = struck.filter(|(own, at)| own.struck.contains(at)) else {
+        let pulls = |at: usize| !situation.network.connections[at].never_pulls(0);
+        let Some((impact, _)) = struck.filter(|&(own, at)| own.struck.contains(&at) && pulls(at))
+        else {
             return Vec::new();
         };
         let contact = PI * impact.time();
@@ -94,7 +114,7 @@ impl EffectKind for Separation {
 
     fn would_be(situation: &Situation<'_>) -> Vec<Self> {
         let on = |element: &str| Self { element: element.to_owned(), at: None, restitution: 0.0 };
-        situation.struck().map(|own| on(&own.name)).collect()
+        situation.struck().filter(|own| !own.never_pulls(0)).map(|own| on(&own.name)).collect()
     }
 
     fn from_values(target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {

@@ -84,6 +84,11 @@ impl Site {
         network.connections[self.connection].between[self.end]
     }
 
+    /// Whether the element's law has no tension at this end.
+    pub(super) fn never_pulls(self, network: &Network) -> bool {
+        network.connections[self.connection].never_pulls(self.end)
+    }
+
     /// Puts `face` in the place of the node at this end, and `link` between the two, in the order
     /// of the element.
     pub(super) fn put_face(self, network: &mut Network, face: Node, link: Model) {

@@ -5,7 +5,7 @@ use dashpot_rheology::Tree;
 use super::{Effect, EffectKind, Face, Gravity, GravityStart, Separation, Stop, Touch, rewrite};
 use crate::{
     Network, NetworkError, Node, Start,
-    elements::{Dashpot, Rigid, Spring},
+    elements::{Dashpot, ElementKind, HuntCrossley, HystereticFoam, Rigid, Spring},
     parameters::Value,
     part,
 };
@@ -92,6 +92,40 @@ fn an_element_that_opens_at_the_support_keeps_compression_positive() {
     let network = network.unwrap();
     assert_eq!(outline(&network)[0], format!("padding: head → padding.face: {PAD}"));
     assert_eq!(outline(&network)[2], "padding.contact: padding.face → panel: contact 0 0.5");
+}
+
+#[test]
+fn what_never_pulls_is_its_own_contact() {
+    let foam = || part(HystereticFoam::sample());
+    let contact = || part(HuntCrossley::sample());
+    let damped = || Tree::parallel([foam(), part(Dashpot { damping: 1.0 })]);
+    let count = |model: &crate::Model, effects: Vec<Arc<dyn Effect>>| {
+        let mut network = impact();
+        network.connections[0].model = model.clone();
+        for effect in effects {
+            network.add_shared_effect(effect);
+        }
+        rewrite(&mut network).unwrap();
+        network.connections().len()
+    };
+    let cases = [
+        (foam(), 2),
+        (contact(), 2),
+        (Tree::series([damped(), foam()]), 2),
+        (Tree::series([part(Spring { stiffness: 1.0 }), contact()]), 2),
+        (Tree::parallel([foam(), contact()]), 2),
+        // A dashpot beside it pulls.
+        (damped(), 3),
+        (Tree::series([damped(), damped()]), 3),
+    ];
+    for (model, expected) in cases {
+        assert_eq!(count(&model, vec![Arc::new(separation())]), expected, "{model:?}");
+        // What has a face with mass can part from it.
+        let both: Vec<Arc<dyn Effect>> = vec![Arc::new(separation()), Arc::new(face(0.2))];
+        assert_eq!(count(&model, both), 3, "{model:?}");
+        let none: Vec<Arc<dyn Effect>> = vec![Arc::new(separation()), Arc::new(face(0.0))];
+        assert_eq!(count(&model, none), expected, "{model:?}");
+    }
 }
 
 #[test]

@@ -1,16 +1,14 @@
 //! Contact with a wanted restitution.
 
-use std::sync::Arc;
-
 use super::{
     Element, ElementKind, Law, Tangent,
-    impact_law::{ENGAGED, Engaged, ImpactLaw, PHASES},
+    impact_law::{Impact, ImpactLaw},
     number,
     power::{AT_PARAMETER, EXPONENT, FORCE_PARAMETER, PowerLaw},
 };
 use crate::{
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, positive},
-    phases::{Exit, Phase, PhaseLaw, Phases},
+    phases::Phases,
 };
 
 /// A contact that gives back a wanted part of the speed: the law of
@@ -126,12 +124,6 @@ impl Bumper {
     pub fn dissipation(&self) -> f64 {
         self.dissipation
     }
-
-    fn impact(&self) -> ImpactLaw {
-        let BumperSettings { force, at, exponent, gap, .. } = self.settings;
-        let power = PowerLaw { force, at, exponent };
-        ImpactLaw { power, dissipation: self.dissipation, gap }
-    }
 }
 
 /// The solution `d ≥ 0` of `d (1 + e) = ln((1 + d)/(1 − e d))` for `0 < e ≤ 1`.
@@ -173,25 +165,11 @@ fn excess(e: f64, x: f64, d: f64) -> f64 {
     sum
 }
 
-impl Phases for Bumper {
-    fn names(&self) -> &'static [&'static str] {
-        PHASES
-    }
-
-    fn first(&self, deformation: f64) -> Phase {
-        self.impact().first(deformation)
-    }
-
-    fn law(&self, phase: Phase) -> PhaseLaw {
-        if phase.index != ENGAGED {
-            return PhaseLaw::Open;
-        }
-        let (impact, values) = (self.impact(), Element::values(self));
-        PhaseLaw::Element(Arc::new(Engaged { impact, kind: Self::KIND, values }))
-    }
-
-    fn exits(&self, phase: Phase) -> Vec<Exit> {
-        self.impact().exits(phase)
+impl Impact for Bumper {
+    fn impact(&self) -> ImpactLaw {
+        let BumperSettings { force, at, exponent, gap, .. } = self.settings;
+        let power = PowerLaw { force, at, exponent };
+        ImpactLaw { power, dissipation: self.dissipation, gap }
     }
 }
 
@@ -218,6 +196,10 @@ impl Element for Bumper {
 
     fn phases(&self) -> Option<&dyn Phases> {
         Some(self)
+    }
+
+    fn never_pulls(&self) -> bool {
+        true
     }
 
     fn validate(&self) -> Result<(), InvalidParameter> {

@@ -88,6 +88,10 @@ impl Element for Contact {
         Some(self)
     }
 
+    fn never_pulls(&self) -> bool {
+        true
+    }
+
     fn validate(&self) -> Result<(), InvalidParameter> {
         non_negative("gap", self.gap)?;
         non_negative("restitution", self.restitution)?;

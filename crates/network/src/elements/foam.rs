@@ -224,15 +224,17 @@ pub(super) const DENSIFICATION_EXPONENT: Parameter = Parameter::required(
     ParameterKind::Quantity(Dimension::NUMBER),
     "exponent n of densification [1], 1 or more",
 );
-pub(super) const THICKNESS: Parameter = Parameter::required(
+pub(super) const THICKNESS: Parameter = Parameter::following(
     "thickness",
     ParameterKind::Quantity(Dimension::LENGTH),
-    "thickness h [m], positive",
+    "that of the pad",
+    "thickness h [m], positive; here or beside the law, none in a material",
 );
-pub(super) const AREA: Parameter = Parameter::required(
+pub(super) const AREA: Parameter = Parameter::following(
     "area",
     ParameterKind::Quantity(Dimension::new(0, 2, 0)),
-    "area A [m^2], positive",
+    "that of the pad",
+    "area A [m^2], positive; here or beside the law, none in a material",
 );
 
 impl ElementKind for Foam {

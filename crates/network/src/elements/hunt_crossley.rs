@@ -1,16 +1,14 @@
 //! Contact with a stiffness and damping that grow from zero.
 
-use std::sync::Arc;
-
 use super::{
     Element, ElementKind, Law, Tangent,
-    impact_law::{ENGAGED, Engaged, ImpactLaw, PHASES},
+    impact_law::{Impact, ImpactLaw},
     number,
     power::{AT_PARAMETER, EXPONENT, FORCE_PARAMETER, PowerLaw},
 };
 use crate::{
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value},
-    phases::{Exit, Phase, PhaseLaw, Phases},
+    phases::Phases,
 };
 
 /// A contact with a stiffness and a damping that grow from zero with the depth,
@@ -64,35 +62,13 @@ pub struct HuntCrossley {
     pub gap: f64,
 }
 
-impl HuntCrossley {
+impl Impact for HuntCrossley {
     fn impact(&self) -> ImpactLaw {
         ImpactLaw {
             power: PowerLaw { force: self.force, at: self.at, exponent: self.exponent },
             dissipation: self.dissipation,
             gap: self.gap,
         }
-    }
-}
-
-impl Phases for HuntCrossley {
-    fn names(&self) -> &'static [&'static str] {
-        PHASES
-    }
-
-    fn first(&self, deformation: f64) -> Phase {
-        self.impact().first(deformation)
-    }
-
-    fn law(&self, phase: Phase) -> PhaseLaw {
-        if phase.index != ENGAGED {
-            return PhaseLaw::Open;
-        }
-        let (impact, values) = (self.impact(), Element::values(self));
-        PhaseLaw::Element(Arc::new(Engaged { impact, kind: Self::KIND, values }))
-    }
-
-    fn exits(&self, phase: Phase) -> Vec<Exit> {
-        self.impact().exits(phase)
     }
 }
 
@@ -119,6 +95,10 @@ impl Element for HuntCrossley {
 
     fn phases(&self) -> Option<&dyn Phases> {
         Some(self)
+    }
+
+    fn never_pulls(&self) -> bool {
+        true
     }
 
     fn validate(&self) -> Result<(), InvalidParameter> {

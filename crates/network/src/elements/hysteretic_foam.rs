@@ -215,6 +215,10 @@ impl Element for HystereticFoam {
         Some(self)
     }
 
+    fn never_pulls(&self) -> bool {
+        true
+    }
+
     fn validate(&self) -> Result<(), InvalidParameter> {
         self.foam.validate()?;
         if !(0.0..1.0).contains(&self.set) {

@@ -1,10 +1,48 @@
 //! The law that elements of impact damping share.
 
+use std::sync::Arc;
+
 use super::{Element, Law, Tangent, power::PowerLaw};
 use crate::{
     parameters::{InvalidParameter, Value, finite, non_negative},
-    phases::{Exit, Phase, Watched},
+    phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
+
+/// An element of this law.
+pub(super) trait Impact: Element {
+    /// The law with the constants of the element.
+    fn impact(&self) -> ImpactLaw;
+}
+
+impl<T: Impact> Phases for T {
+    fn names(&self) -> &'static [&'static str] {
+        &["free", "engaged"]
+    }
+
+    fn first(&self, deformation: f64) -> Phase {
+        let index = if deformation < self.impact().gap { FREE } else { ENGAGED };
+        Phase { index, memory: 0.0 }
+    }
+
+    fn law(&self, phase: Phase) -> PhaseLaw {
+        if phase.index != ENGAGED {
+            return PhaseLaw::Open;
+        }
+        let (impact, kind) = (self.impact(), self.kind());
+        PhaseLaw::Element(Arc::new(Engaged { impact, kind, values: self.values() }))
+    }
+
+    fn exits(&self, phase: Phase) -> Vec<Exit> {
+        let is_free = phase.index != ENGAGED;
+        vec![Exit {
+            watched: Watched::Deformation,
+            level: self.impact().gap,
+            rising: is_free,
+            to: if is_free { ENGAGED } else { FREE },
+            remembers: false,
+        }]
+    }
+}
 
 /// `F = F_r (z/y_r)^n max(0, 1 + c ẏ) + c₀ ẏ` for `z = y − gap > 0`, else 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,9 +58,8 @@ pub(super) struct ImpactLaw {
 /// `c₀` in units of `F_r c`: the slope over the rate that the law has where it engages.
 const SMALL: f64 = 1e-9;
 
-pub(super) const FREE: usize = 0;
-pub(super) const ENGAGED: usize = 1;
-pub(super) const PHASES: &[&str] = &["free", "engaged"];
+const FREE: usize = 0;
+const ENGAGED: usize = 1;
 
 impl ImpactLaw {
     /// Slope over the rate at the reference deformation \[N s/m\].
@@ -69,21 +106,6 @@ impl ImpactLaw {
         self.power.integral(self.depth(deformation))
     }
 
-    pub(super) fn first(&self, deformation: f64) -> Phase {
-        Phase { index: if deformation < self.gap { FREE } else { ENGAGED }, memory: 0.0 }
-    }
-
-    pub(super) fn exits(&self, phase: Phase) -> Vec<Exit> {
-        let is_free = phase.index != ENGAGED;
-        vec![Exit {
-            watched: Watched::Deformation,
-            level: self.gap,
-            rising: is_free,
-            to: if is_free { ENGAGED } else { FREE },
-            remembers: false,
-        }]
-    }
-
     pub(super) fn validate(&self) -> Result<(), InvalidParameter> {
         self.power.validate()?;
         non_negative("dissipation", self.dissipation)?;
@@ -98,12 +120,12 @@ impl ImpactLaw {
 
 /// An element of this law while it is engaged.
 #[derive(Debug)]
-pub(super) struct Engaged {
-    pub(super) impact: ImpactLaw,
+struct Engaged {
+    impact: ImpactLaw,
     /// Word of the element.
-    pub(super) kind: &'static str,
+    kind: &'static str,
     /// Values of the element.
-    pub(super) values: Vec<Value>,
+    values: Vec<Value>,
 }
 
 impl Element for Engaged {

@@ -74,6 +74,12 @@ pub trait Element: Debug + Send + Sync {
         None
     }
 
+    /// Whether its law has no tension: `F ≥ 0` in every phase, but for what a massless node needs to
+    /// find its rate.
+    fn never_pulls(&self) -> bool {
+        false
+    }
+
     /// Checks the parameters.
     ///
     /// # Errors

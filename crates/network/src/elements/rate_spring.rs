@@ -33,7 +33,9 @@ use crate::parameters::{
 /// # Limits
 ///
 /// In unloading the force would not depend on the rate at all. So that a massless node finds its
-/// rate there, the term 10⁻⁹ `a F_r ln(1 + |ẏ|/v_r) sgn ẏ` is added to all phases; it dissipates.
+/// rate there, the term `c₀ ẏ` with `c₀ = 10⁻⁸ a F_r/(v_r + 1 m/s)` is added to all phases; it
+/// dissipates. It is linear, since a logarithm would give a node that is out of balance by an error
+/// of the method an exponentially large rate.
 ///
 /// # Examples
 ///
@@ -63,8 +65,10 @@ pub struct RateSpring {
     pub reference_rate: f64,
 }
 
-/// Part of the reference force that depends on the rate in all phases.
-const SMALL: f64 = 1e-9;
+/// The force of the term that all phases have, in parts of `a F_r`, at [`FAST`] above `v_r`.
+const SMALL: f64 = 1e-8;
+/// A rate as impacts have it \[m/s\].
+const FAST: f64 = 1.0;
 
 impl RateSpring {
     fn power(&self) -> PowerLaw {
@@ -80,9 +84,9 @@ impl RateSpring {
         )
     }
 
-    /// The slope over the rate that a spring under the reference force has at rest.
+    /// The slope over the rate that all phases have \[N s/m\].
     fn damping(&self) -> f64 {
-        self.force * self.gain / self.reference_rate
+        SMALL * self.gain * self.force / (self.reference_rate + FAST)
     }
 }
 
@@ -95,7 +99,7 @@ impl Element for RateSpring {
         let (gain, _) = self.gained(rate);
         let steady = self.power().value(deformation.abs()).copysign(deformation);
         let loading = if deformation * rate > 0.0 { gain } else { 0.0 };
-        steady * (1.0 + loading) + (SMALL * self.force * gain).copysign(rate)
+        steady * (1.0 + loading) + self.damping() * rate
     }
 
     fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
@@ -105,7 +109,7 @@ impl Element for RateSpring {
             if deformation * rate > 0.0 { (gain, steady * slope) } else { (0.0, 0.0) };
         Tangent {
             stiffness: self.power().slope(deformation.abs()) * (1.0 + loading),
-            damping: of_rate + SMALL * self.force * slope,
+            damping: of_rate + self.damping(),
         }
     }
 
@@ -127,7 +131,7 @@ impl Element for RateSpring {
         non_negative("gain", self.gain)?;
         positive("reference-rate", self.reference_rate)?;
         if self.gain > 0.0 {
-            in_range("reference-rate", self.reference_rate, SMALL * self.damping())?;
+            in_range("reference-rate", self.reference_rate, self.damping())?;
         }
         Ok(())
     }
@@ -214,6 +218,21 @@ mod tests {
         assert!(cycle(1e-6, 10.0) < 1e-4 * spring.stored(0.01));
         let lost = 0.1 * 1001_f64.ln() * spring.stored(0.01);
         assert!((cycle(10.0, 1e-6) / lost - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_massless_node_that_is_out_of_balance_has_a_rate_in_proportion() {
+        let spring = RateSpring::sample();
+        let slope = spring.damping();
+        // It is next to nothing beside the part of the force that the rate makes.
+        assert!(slope * 100.0 < 1e-6 * spring.gained(100.0).0 * spring.force);
+        for excess in [1e-12, 1e-6, 1e-3] {
+            let steady = spring.power().value(0.01);
+            let rate = -excess * steady / slope;
+            let off = spring.force(0.01, rate) - (1.0 - excess) * steady;
+            assert!(off.abs() <= 1e-12 * steady, "{excess} {off}");
+            assert!(spring.tangent(0.01, rate).damping.to_bits() == slope.to_bits());
+        }
     }
 
     /// Work on a way at one rate, by the closed integral of the power law on either side of zero.

@@ -163,20 +163,20 @@ fn check(points: &[(f64, f64)]) -> Result<(), InvalidParameter> {
         let [(from, start), (to, end)] = [pair[0], pair[1]];
         if to <= from {
             let range = "in rising order of the deformation";
-            return Err(invalid(range, format!("{to:?} m after {from:?} m")));
+            return Err(invalid(range, format!("{to:?} after {from:?}")));
         }
         if end < start {
             let range = "of forces that never fall as the deformation rises";
-            return Err(invalid(range, format!("{end:?} N after {start:?} N")));
+            return Err(invalid(range, format!("{end:?} after {start:?}")));
         }
     }
     if points[points.len() - 1].1 <= points[0].1 {
-        return Err(invalid("of forces that rise", format!("{:?} N everywhere", points[0].1)));
+        return Err(invalid("of forces that rise", format!("{:?} everywhere", points[0].1)));
     }
     if points.iter().any(|own| own.0.abs() <= 0.0 && own.1.abs() <= 0.0) {
         Ok(())
     } else {
-        let range = "a curve through [\"0 m\", \"0 N\"], given as one of its points";
+        let range = "a curve through [0, 0], given as one of its points";
         Err(invalid(range, "without that point".to_owned()))
     }
 }
@@ -264,7 +264,7 @@ impl ElementKind for TableSpring {
     const PARAMETERS: &'static [Parameter] = &[Parameter::required(
         POINTS,
         ParameterKind::Curve(Dimension::LENGTH, Dimension::FORCE),
-        "points of deformation [m] and force [N], rising, one of them [\"0 m\", \"0 N\"]",
+        "points of deformation [m] and force [N], rising, one of them [0, 0]",
     )];
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
@@ -340,7 +340,7 @@ mod tests {
         assert!(reason(&[(0.0, 0.0), (0.0, 1.0)]).contains("rising order"));
         assert!(reason(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.0)]).contains("never fall"));
         assert!(reason(&[(0.0, 0.0), (1.0, 0.0)]).contains("rise"));
-        assert!(reason(&[(0.1, 0.0), (1.0, 2.0)]).contains("0 m"));
+        assert!(reason(&[(0.1, 0.0), (1.0, 2.0)]).contains("[0, 0]"));
         assert!(reason(&[(0.0, 0.0), (1.0, f64::INFINITY)]).contains("finite"));
         assert!(reason(&[(0.0, 0.0), (1e-200, 1e200)]).contains("double precision"));
     }

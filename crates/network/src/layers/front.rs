@@ -72,6 +72,14 @@ fn blow(
             )
         });
     }
+    if !face.is_linear() {
+        // The slopes of the law where it is pressed are not known, and neither is the excess.
+        return Some(format!(
+            "`{node}` strikes the layer {layer} of `{element}`, which is not linear: the front of \
+             the wave is as steep as its segments, and forces depend on their number; compare with \
+             other numbers"
+        ));
+    }
     let step = (face.mass() * stiffness.size()).sqrt();
     let excess = EXCESS * step / (step + impact);
     let wanted = match layers.resolution {

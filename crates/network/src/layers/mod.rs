@@ -14,6 +14,11 @@
 //!
 //! That is an accuracy of what is smooth. Steps, as a body sends them into a layer that it strikes at
 //! once, keep ripples however many segments there are; the network warns of them.
+//!
+//! In a layer that is not linear, waves have no speed of their own: it goes with the slope of the law
+//! where the layer happens to be pressed, from nearly none on a plateau to that of a wall, and where
+//! the law bends upwards fronts get steeper until they are as wide as a segment. So the number of
+//! segments of such a layer is given, and not found from an accuracy.
 
 mod front;
 mod resolve;
@@ -29,6 +34,7 @@ use self::stiffness::Stiffness;
 pub(crate) use self::{front::warnings, resolve::resolve};
 use crate::{
     Connection, Model, Network,
+    elements::Law,
     parameters::{InvalidParameter, non_negative, positive},
 };
 
@@ -63,7 +69,8 @@ pub enum Resolution {
     /// so that the longest time of passage of a segment is as short as possible.
     Segments(usize),
     /// Such that the speed of waves is right to this relative error, 0 … 1, up to the frequency
-    /// [`Layers::frequency`].
+    /// [`Layers::frequency`]. Where waves have no speed of their own, because a layer with mass is
+    /// not linear, none is said.
     Accuracy(f64),
 }
 
@@ -104,7 +111,8 @@ impl Layer {
     }
 
     /// The wave of small amplitude of the angular frequency `omega` > 0 \[rad/s\]; `None` in a layer
-    /// without mass or stiffness, and in a rigid one.
+    /// without mass or stiffness, and in a rigid one. Elements that are not linear count with a
+    /// typical slope, so that in a layer of such elements it is a scale and no wave.
     pub fn wave(&self, omega: f64) -> Option<Wave> {
         let (mass, stiffness) = (self.mass(), Stiffness::of(&self.model, omega));
         let slowness = (mass / stiffness.size()).sqrt();
@@ -119,6 +127,12 @@ impl Layer {
             impedance: (mass * stiffness.size()).sqrt(),
             decay: omega * slowness * sine,
         })
+    }
+
+    /// Whether its law is one of springs and dashpots, which waves cross at a speed of their own.
+    pub(crate) fn is_linear(&self) -> bool {
+        let linear = |law: Law| matches!(law, Law::Spring(_) | Law::Dashpot(_) | Law::Rigid);
+        self.model.parts().iter().all(|(_, element)| linear(element.law()))
     }
 
     fn validate(&self) -> Result<(), InvalidParameter> {
@@ -203,6 +217,14 @@ impl Layers {
                 }
             }
             Resolution::Accuracy(accuracy) => {
+                if let Some(layer) = self.nonlinear() {
+                    let range = format!(
+                        "given, for instance 10: the layer {} is not linear, so that waves in it \
+                         have no speed from which an accuracy could tell how many",
+                        layer.name
+                    );
+                    return Err(InvalidParameter::new("segments", range, "left out"));
+                }
                 let longest = (24.0 * accuracy).sqrt() / omega.unwrap_or(0.0);
                 let needed = transits.iter().map(|transit| (transit / longest).ceil().max(1.0));
                 if needed.clone().sum::<f64>() > MOST_SEGMENTS as f64 {
@@ -217,6 +239,11 @@ impl Layers {
             }
         }
         Ok(counts)
+    }
+
+    /// The first layer with mass that is not linear.
+    fn nonlinear(&self) -> Option<&Layer> {
+        self.all.iter().find(|layer| layer.mass() > 0.0 && !layer.is_linear())
     }
 
     pub(crate) fn validate(&self) -> Result<(), InvalidParameter> {
@@ -249,7 +276,8 @@ pub struct Resolved<'l> {
     pub name: &'l str,
     /// Number of its segments.
     pub segments: usize,
-    /// The wave of the highest frequency that is resolved; `None` where none travels.
+    /// The wave of the highest frequency that is resolved; `None` where none travels, or where its
+    /// speed goes with the strain.
     pub wave: Option<Wave>,
 }
 
@@ -269,7 +297,7 @@ pub fn resolved<'l>(
     let all = layers.all.iter().zip(counts).map(|(layer, segments)| Resolved {
         name: &layer.name,
         segments,
-        wave: omega.and_then(|omega| layer.wave(omega)),
+        wave: omega.filter(|_| layer.is_linear()).and_then(|omega| layer.wave(omega)),
     });
     Ok(all.collect())
 }

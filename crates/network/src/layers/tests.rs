@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     Model, Network, NetworkError, Node,
-    elements::{Dashpot, Spring},
+    elements::{Dashpot, ElementKind, Foam, Spring},
     linear_model, part,
 };
 
@@ -276,4 +276,31 @@ fn layers_out_of_range_are_refused_by_the_name_of_the_pad() {
     assert_eq!(refusal(Layer { area: f64::NAN, ..elastic() }, fine), "area");
     assert_eq!(refusal(Layer { density: -1.0, ..elastic() }, fine), "density");
     assert_eq!(refusal(elastic(), Resolution::Accuracy(0.0)), "accuracy");
+}
+
+#[test]
+fn a_layer_that_is_not_linear_wants_its_number_of_segments() {
+    let foam = Layer { model: part(Foam::sample()), ..elastic() };
+    let asked = |layer: &Layer, resolution| pad(vec![elastic(), layer.clone()], resolution);
+    let error = asked(&foam, Resolution::Accuracy(0.01)).segments(None).unwrap_err();
+    assert_eq!(error.parameter, "segments");
+    assert!(error.to_string().contains("the layer foam is not linear"), "{error}");
+    assert_eq!(
+        asked(&foam, Resolution::Segments(6)).segments(None).unwrap().iter().sum::<usize>(),
+        6
+    );
+    // Without mass there are no waves.
+    let light = Layer { density: 0.0, ..foam.clone() };
+    assert!(asked(&light, Resolution::Accuracy(0.01)).segments(None).is_ok());
+    // A speed is told of the one that has one.
+    let network = network(asked(&foam, Resolution::Segments(6)));
+    let all = super::resolved(&network, &network.connections()[0]).unwrap();
+    assert!(all[0].wave.is_some() && all[1].wave.is_none());
+    let warnings = super::warnings(&struck(&foam), 0.01);
+    assert!(warnings[0].contains("which is not linear"), "{warnings:?}");
+}
+
+/// A network in which a body of 5 kg strikes this layer.
+fn struck(layer: &Layer) -> Network {
+    network(pad(vec![layer.clone()], Resolution::Segments(3)))
 }

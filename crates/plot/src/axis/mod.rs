@@ -8,6 +8,8 @@ use crate::chart::Scale;
 const LARGEST: f64 = 1e290;
 /// Ranges narrower than this part of their values hold nothing but round-off and are drawn as a constant.
 const ROUND_OFF: f64 = 1e-6;
+/// A bound that is zero but for this part of the range needs no room beside it.
+const NEARLY_ZERO: f64 = 1e-3;
 /// Empty part of a padded range, at each end.
 const PADDING: f64 = 0.08;
 
@@ -148,10 +150,8 @@ fn range(values: impl Iterator<Item = f64>, padded: bool) -> (f64, f64) {
         return (low - 0.1 * magnitude, high + 0.1 * magnitude);
     }
     let room = if padded { PADDING * span } else { 0.0 };
-    (
-        low - if low.abs() > 0.0 { room } else { 0.0 },
-        high + if high.abs() > 0.0 { room } else { 0.0 },
-    )
+    let beside = |bound: f64| if bound.abs() > NEARLY_ZERO * span { room } else { 0.0 };
+    (low - beside(low), high + beside(high))
 }
 
 /// About `wanted` multiples of a round step from `low` to `high`, and the step.
@@ -229,6 +229,12 @@ mod tests {
         assert_eq!(axis.title("force (N)"), "force (N) × 10⁶");
         assert_eq!(labels(&axis), ["0", "5", "10", "15", "20"]);
         assert_eq!(Axis::over([0.0, 3e-5].into_iter(), false, 3).title("y"), "y × 10⁻⁶");
+    }
+
+    #[test]
+    fn an_end_at_zero_but_for_round_off_has_no_room_beside_it() {
+        let axis = Axis::over([-1e-9, 20.0].into_iter(), true, 6);
+        assert!((axis.low + 1e-9).abs() < 1e-20 && (axis.high - 21.6).abs() < 1e-6, "{axis:?}");
     }
 
     #[test]

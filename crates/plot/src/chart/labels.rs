@@ -87,6 +87,9 @@ impl Placer {
     /// Longest stretch of a curve that a text may not notice \[px\].
     const STRIDE: f64 = 6.0;
 
+    /// A curve nearer to a text than this touches it \[px\].
+    const CLEAR: f64 = 3.0;
+
     /// Cost of a text and a leader that cross.
     const STRUCK: f64 = 50.0;
 
@@ -227,8 +230,8 @@ impl Placer {
             let outside = 1.0 - place.overlap(&self.frame) / place.size();
             let covers = self.taken.iter().map(|t| place.overlap(t) / place.size());
             let covered: f64 = covers.filter(|part| *part > 0.0).map(|part| 1.0 + part).sum();
-            let crossed =
-                self.curves.iter().filter(|p| place.holds(p)).take(200).fold(0.0, |n, _| n + 1.0);
+            let near = |p: &&(f64, f64)| place.distance(p) < Self::CLEAR;
+            let crossed = self.curves.iter().filter(near).take(200).fold(0.0, |n, _| n + 1.0);
             let struck = self.leaders.iter().filter(|line| strikes(&place, line));
             let struck = struck.fold(0.0, |sum, _| sum + Self::STRUCK);
             own + 1000.0 * outside + 400.0 * covered + struck + crossed

@@ -40,10 +40,10 @@ impl Chart {
     /// Places for the texts at limits and markers, and for what belongs to them.
     pub(super) fn place_texts(&self, frame: &Frame, curves: &[Vec<Path>]) -> Texts {
         let bounds = labels::Area {
-            left: frame.left,
+            left: frame.left + 0.5 * theme::HALO_WIDTH,
             right: frame.right,
             top: frame.top,
-            bottom: frame.bottom,
+            bottom: frame.bottom - 0.5 * theme::HALO_WIDTH,
         };
         let mut placer = labels::Placer::new(bounds, curves);
         let limits = self.limits(frame);

@@ -1,8 +1,9 @@
 //! Deformation over time.
 
-use super::run_series::{Of, element_curves, markers, thickness_lines};
+use super::markers::markers;
+use super::run_series::{Of, element_curves, thickness_lines};
 use super::unit::Unit;
-use super::{Figure, RunMarkerKind, RunSeries, curves, largest};
+use super::{Figure, RunMarkerKind, RunSeries, curves, largest, note};
 use crate::{Chart, Direction};
 
 /// Deformation of each element over time, positive in compression, with the thickness of pads as a limit.
@@ -19,14 +20,15 @@ impl Figure for DeformationTime {
     }
 
     fn chart(&self, runs: &[RunSeries]) -> Chart {
-        let (shown, note) = largest(element_curves(runs, Of::Time, Of::Deformation), "elements");
+        let (shown, left_out) =
+            largest(element_curves(runs, Of::Time, Of::Deformation), "elements");
         let points = || shown.iter().flat_map(|q| q.curves.iter().flatten());
         let x = Unit::time(points().map(|p| p.0));
         let y = Unit::length(points().map(|p| p.1));
         let kinds = [RunMarkerKind::DeepestPoint, RunMarkerKind::TensionStart];
         Chart {
             title: self.title().into(),
-            note,
+            note: note(runs, &left_out),
             x_label: x.label("time"),
             y_label: y.label("deformation"),
             markers: markers(runs, &shown, &kinds, (Of::Time, x), (Of::Deformation, y)),

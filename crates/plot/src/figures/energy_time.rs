@@ -2,7 +2,7 @@
 
 use super::run_series::zip;
 use super::unit::Unit;
-use super::{Figure, Quantity, RunSeries, curves, largest};
+use super::{Figure, Quantity, RunSeries, curves, largest, note};
 use crate::Chart;
 
 /// The parts of the energy ledger over time.
@@ -19,13 +19,13 @@ impl Figure for EnergyTime {
     }
 
     fn chart(&self, runs: &[RunSeries]) -> Chart {
-        let (shown, note) = largest(energy_curves(runs), "energies");
+        let (shown, left_out) = largest(energy_curves(runs), "energies");
         let points = || shown.iter().flat_map(|q| q.curves.iter().flatten());
         let x = Unit::time(points().map(|p| p.0));
         let y = Unit::energy(points().map(|p| p.1));
         Chart {
             title: self.title().into(),
-            note,
+            note: note(runs, &left_out),
             x_label: x.label("time"),
             y_label: y.label("energy"),
             markers: Vec::new(),

@@ -1,8 +1,9 @@
 //! Force over time.
 
-use super::run_series::{Of, element_curves, markers};
+use super::markers::markers;
+use super::run_series::{Of, element_curves};
 use super::unit::Unit;
-use super::{Figure, RunMarkerKind, RunSeries, curves, largest};
+use super::{Figure, RunMarkerKind, RunSeries, curves, largest, note};
 use crate::Chart;
 
 /// Force of each element over time, positive in compression.
@@ -19,14 +20,14 @@ impl Figure for ForceTime {
     }
 
     fn chart(&self, runs: &[RunSeries]) -> Chart {
-        let (shown, note) = largest(element_curves(runs, Of::Time, Of::Force), "elements");
+        let (shown, left_out) = largest(element_curves(runs, Of::Time, Of::Force), "elements");
         let points = || shown.iter().flat_map(|q| q.curves.iter().flatten());
         let x = Unit::time(points().map(|p| p.0));
         let y = Unit::force(points().map(|p| p.1));
         let kinds = [RunMarkerKind::PeakForce, RunMarkerKind::TensionStart];
         Chart {
             title: self.title().into(),
-            note,
+            note: note(runs, &left_out),
             x_label: x.label("time"),
             y_label: y.label("force"),
             markers: markers(runs, &shown, &kinds, (Of::Time, x), (Of::Force, y)),

@@ -6,6 +6,7 @@ mod deformation_time;
 mod energy_time;
 mod force_deformation;
 mod force_time;
+mod markers;
 pub mod model;
 mod run_series;
 mod unit;
@@ -18,6 +19,7 @@ pub use energy_time::EnergyTime;
 pub use force_deformation::ForceDeformation;
 pub use force_time::ForceTime;
 pub use run_series::{ElementSeries, EnergySeries, RunMarker, RunMarkerKind, RunSeries};
+use unit::Unit;
 pub use vibration::{VibrationCurve, VibrationSeries};
 
 /// Every figure, in the order of the report. **A new figure is registered here.**
@@ -60,6 +62,27 @@ fn largest(mut quantities: Vec<Quantity>, kind: &str) -> (Vec<Quantity>, String)
     quantities.retain(|q| size(q) >= least);
     quantities.truncate(MOST_CURVES);
     (quantities, format!("the {MOST_CURVES} largest of {total} {kind}"))
+}
+
+/// What stands below a heading: which part of the run is shown, and what is left out.
+fn note(runs: &[RunSeries], left_out: &str) -> String {
+    let excerpt = runs.first().and_then(excerpt).unwrap_or_default();
+    let said = [&*excerpt, left_out].into_iter().filter(|text| !text.is_empty());
+    said.collect::<Vec<_>>().join("; ")
+}
+
+/// Which part of a run is shown, as in `from 552.1 to 564.5 ms of 600 ms`.
+fn excerpt(run: &RunSeries) -> Option<String> {
+    let (end, from, to) = (run.excerpt_of?, *run.time.first()?, *run.time.last()?);
+    let unit = Unit::time(run.time.iter().copied());
+    let number = |time: f64| unit.number_within(time, to - from);
+    Some(format!(
+        "from {} to {} {} of {}",
+        number(from),
+        number(to),
+        unit.symbol(),
+        unit.print(end)
+    ))
 }
 
 /// Curves scaled from SI to the units of the axes: one colour per quantity, one pattern per run. Of several runs the
@@ -135,8 +158,10 @@ pub(crate) mod tests {
                 element: "padding".into(),
                 kind: RunMarkerKind::PeakForce,
                 time: 1e-3,
-                label: "peak 38.4 kN at 1.00 ms".into(),
+                label: "peak 38.4 kN".into(),
+                moment: "1.00 ms".into(),
             }],
+            excerpt_of: None,
             time,
         }
     }
@@ -230,5 +255,21 @@ pub(crate) mod tests {
         let names: Vec<&str> = chart.series.iter().map(|s| s.name.as_str()).collect();
         assert_eq!(names, ["e24", "e25", "e26", "e27", "e28", "e29"]);
         assert_eq!(chart.note, "the 6 largest of 30 elements");
+    }
+
+    #[test]
+    fn every_figure_says_which_part_of_the_run_it_shows() {
+        let mut runs = runs();
+        assert!(FIGURES.iter().all(|figure| figure.chart(&runs).note.is_empty()));
+        runs[0].excerpt_of = Some(1.0);
+        runs[0].time.iter_mut().for_each(|time| *time += 0.5);
+        for figure in FIGURES {
+            assert_eq!(
+                figure.chart(&runs).note,
+                "from 500 to 520 ms of 1000 ms",
+                "{}",
+                figure.name()
+            );
+        }
     }
 }

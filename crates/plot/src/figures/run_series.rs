@@ -1,8 +1,9 @@
 //! The plain numbers of one run that figures are drawn from.
 
 use super::Quantity;
+use super::markers::listed;
 use super::unit::Unit;
-use crate::{Direction, Marker, ReferenceLine};
+use crate::{Direction, ReferenceLine};
 
 /// Sampled results of one run with one method, in SI units.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -15,6 +16,8 @@ pub struct RunSeries {
     pub elements: Vec<ElementSeries>,
     /// Parts of the energy ledger.
     pub energy: Vec<EnergySeries>,
+    /// Length of the run \[s\] where `time` is only a part of it; figures then say which.
+    pub excerpt_of: Option<f64>,
     /// Points worth a text; of several runs the first one's are drawn.
     pub markers: Vec<RunMarker>,
 }
@@ -53,8 +56,10 @@ pub struct RunMarker {
     pub kind: RunMarkerKind,
     /// Time \[s\].
     pub time: f64,
-    /// Text beside the point, as in `peak 38.4 kN at 0.98 ms`.
+    /// Text beside the point, as in `peak 38.4 kN`.
     pub label: String,
+    /// Its time as text, as in `0.98 ms`; empty where the label tells it.
+    pub moment: String,
 }
 
 /// What a [`RunMarker`] marks.
@@ -77,7 +82,7 @@ pub(super) enum Of {
 }
 
 impl RunSeries {
-    fn signal<'a>(&'a self, element: &'a ElementSeries, of: Of) -> &'a [f64] {
+    pub(super) fn signal<'a>(&'a self, element: &'a ElementSeries, of: Of) -> &'a [f64] {
         match of {
             Of::Time => &self.time,
             Of::Force => &element.force,
@@ -102,89 +107,6 @@ pub(super) fn element_curves(runs: &[RunSeries], x: Of, y: Of) -> Vec<Quantity> 
 /// Points of two signals of equal times; the longer one is cut.
 pub(super) fn zip(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
     x.iter().copied().zip(y.iter().copied()).collect()
-}
-
-/// The first run's markers of these `kinds` on elements that are shown, with the signals `x` and `y` interpolated
-/// between the samples. Where several elements are shown, a text begins with the name of its own; one text serves all
-/// elements that have it at nearly one point.
-pub(super) fn markers(
-    runs: &[RunSeries],
-    shown: &[Quantity],
-    kinds: &[RunMarkerKind],
-    x: (Of, Unit),
-    y: (Of, Unit),
-) -> Vec<Marker> {
-    let Some(run) = runs.first() else { return Vec::new() };
-    let place = |marker: &RunMarker| {
-        let element = run.elements.iter().find(|e| e.name == marker.element)?;
-        let at = |of| match of {
-            Of::Time => Some(marker.time),
-            _ => interpolate(&run.time, run.signal(element, of), marker.time),
-        };
-        let (x, y) = (at(x.0)? / x.1.factor, at(y.0)? / y.1.factor);
-        Some((x, y))
-    };
-    let placed = run
-        .markers
-        .iter()
-        .filter(|m| kinds.contains(&m.kind) && shown.iter().any(|q| q.name == m.element))
-        .filter_map(|marker| place(marker).map(|(x, y)| (marker, x, y)));
-    let points = || shown.iter().flat_map(|q| q.curves.iter().flatten());
-    let near = (
-        NEAR * extent(points().map(|p| p.0)) / x.1.factor,
-        NEAR * extent(points().map(|p| p.1)) / y.1.factor,
-    );
-    let mut merged: Vec<(Marker, Vec<&str>)> = Vec::new();
-    for (marker, x, y) in placed {
-        let is_same = |(other, names): &&mut (Marker, Vec<&str>)| {
-            other.label == marker.label
-                && !names.contains(&marker.element.as_str())
-                && (other.x - x).abs() <= near.0
-                && (other.y - y).abs() <= near.1
-        };
-        match merged.iter_mut().find(is_same) {
-            Some((_, names)) => names.push(&marker.element),
-            None => {
-                merged.push((Marker { x, y, label: marker.label.clone() }, vec![&marker.element]));
-            }
-        }
-    }
-    let named = |(marker, names): (Marker, Vec<&str>)| match shown.len() {
-        0 | 1 => marker,
-        _ => Marker { label: format!("{}: {}", listed(&names), marker.label), ..marker },
-    };
-    merged.into_iter().map(named).collect()
-}
-
-/// Points nearer than this part of the curves' extent carry one text together.
-const NEAR: f64 = 0.01;
-
-/// Distance of the smallest and the largest finite value.
-fn extent(values: impl Iterator<Item = f64>) -> f64 {
-    let (low, high) = values
-        .filter(|v| v.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-    (high - low).max(0.0)
-}
-
-/// Names in one text; of many the first ones and how many more there are.
-fn listed(names: &[&str]) -> String {
-    const MOST: usize = 3;
-    match names.len() {
-        0..=MOST => names.join(", "),
-        count => format!("{} and {} more", names[..MOST - 1].join(", "), count - (MOST - 1)),
-    }
-}
-
-/// The value at `at`, on the straight line between its neighbours; `None` outside the samples.
-fn interpolate(time: &[f64], values: &[f64], at: f64) -> Option<f64> {
-    let after = time.iter().position(|t| *t >= at)?;
-    let end = *values.get(after)?;
-    let Some(before) = after.checked_sub(1) else {
-        return (at >= time[0]).then_some(end);
-    };
-    let part = (at - time[before]) / (time[after] - time[before]);
-    Some(values[before] + part * (end - values[before]))
 }
 
 /// The thicknesses of the elements that are shown, in the colours of their curves; equal ones are one line.
@@ -214,20 +136,4 @@ pub(super) fn thickness_lines(
         colour,
     };
     limits.into_iter().map(line).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn markers_are_interpolated_and_outside_the_samples_left_out() {
-        let (time, values) = ([0.0, 1.0, 2.0], [0.0, 10.0, 4.0]);
-        assert_eq!(interpolate(&time, &values, 0.5), Some(5.0));
-        assert_eq!(interpolate(&time, &values, 0.0), Some(0.0));
-        assert_eq!(interpolate(&time, &values, 2.5), None);
-        assert_eq!(interpolate(&time, &values, -1.0), None);
-        assert_eq!(interpolate(&time, &values, f64::NAN), None);
-        assert_eq!(interpolate(&[], &[], 0.0), None);
-    }
 }

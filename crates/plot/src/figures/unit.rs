@@ -60,6 +60,20 @@ impl Unit {
         format!("{quantity} ({})", self.symbol)
     }
 
+    /// As on an axis.
+    pub(super) fn symbol(self) -> &'static str {
+        self.symbol
+    }
+
+    /// The number for a value \[SI\], with as many decimals as show three figures of `span` \[SI\].
+    pub(super) fn number_within(self, value: f64, span: f64) -> String {
+        let size = (span / self.factor).log10().floor();
+        let decimals = (0..9_i32).find(|own| f64::from(*own) >= 2.0 - size).unwrap_or(9);
+        let round = 10_f64.powi(decimals);
+        // A zero has no sign.
+        format!("{}", (value / self.factor * round).round() / round + 0.0)
+    }
+
     /// A value \[SI\] with three figures or more and this unit, as in `20 mm`.
     pub(super) fn print(self, value: f64) -> String {
         let rounded = (value / self.factor * 1e3).round() / 1e3;
@@ -91,5 +105,14 @@ mod tests {
         assert_eq!(Unit::time([100.0].into_iter()).label("time"), "time (s)");
         assert_eq!(Unit::length(std::iter::empty()).label("y"), "y (mm)");
         assert_eq!(Unit::length([0.02].into_iter()).print(0.02), "20 mm");
+    }
+
+    #[test]
+    fn ends_of_a_span_have_the_decimals_that_tell_them_apart() {
+        let ms = Unit::time([0.6].into_iter());
+        assert_eq!(ms.number_within(0.552_132, 0.0124), "552.1");
+        assert_eq!(ms.number_within(0.496_4, 0.68), "496");
+        assert_eq!(ms.number_within(0.0, 0.68), "0");
+        assert_eq!(ms.number_within(1.0, 0.0), "1000");
     }
 }

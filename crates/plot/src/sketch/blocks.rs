@@ -133,7 +133,8 @@ mod tests {
             }
         }
         let leaf = |_: &SketchTree| Extent { width: 50.0, up: 20.0, down: 10.0 };
-        let branches = SketchTree::Parallel(vec![spring("a"), dashpot("b"), SketchTree::Rigid]);
+        let branches =
+            SketchTree::Parallel(vec![spring("a"), dashpot("b"), SketchTree::element("rigid", "")]);
         let tree = SketchTree::Series(vec![branches, spring("c")]);
         let sizes = sizes(&leaf);
         let whole = sizes.extent(&tree);

@@ -1,5 +1,7 @@
 //! A network as a list with counts, where a drawing would be too wide or too large.
 
+use super::symbols::SYMBOLS;
+use super::text::{gravity, lines_and_loads};
 use super::{Census, Sketch, SketchKind, SketchTree};
 use crate::lettering::{clip_columns, columns, one_line};
 
@@ -14,16 +16,18 @@ pub(super) fn counts(sketch: &Sketch) -> Vec<String> {
     let nodes = sentence(&[
         (of_kind(SketchKind::Mass), "mass", "masses"),
         (of_kind(SketchKind::Massless), "joint", "joints"),
+        (of_kind(SketchKind::Face) + of_kind(SketchKind::HeavyFace), "face", "faces"),
         (of_kind(SketchKind::Prescribed), "prescribed motion", "prescribed motions"),
         (of_kind(SketchKind::Fixed), "support", "supports"),
     ]);
     let census = sketch.census();
-    let elements = sentence(&[
-        (census.springs, "spring", "springs"),
-        (census.dashpots, "dashpot", "dashpots"),
-        (census.rigid, "rigid bar", "rigid bars"),
-        (census.others, "other element", "other elements"),
-    ]);
+    let kinds = census.of_kind.iter().zip(SYMBOLS);
+    let others = (census.others, "other element", "other elements");
+    let elements: Vec<(usize, &str, &str)> = kinds
+        .map(|(count, symbol)| (*count, symbol.names[0], symbol.names[1]))
+        .chain([others])
+        .collect();
+    let elements = sentence(&elements);
     let links = sentence(&[(sketch.links.len(), "link", "links")]);
     vec![nodes, format!("{links}: {elements}")]
 }
@@ -43,17 +47,19 @@ pub(super) fn list(sketch: &Sketch, width: usize) -> String {
         let kind = match node.kind {
             SketchKind::Mass => "mass",
             SketchKind::Massless => "joint",
+            SketchKind::Face | SketchKind::HeavyFace => "face",
             SketchKind::Fixed => "support",
             SketchKind::Prescribed => "prescribed",
         };
-        [node.name.clone(), kind.into(), node.lines.join(", ")]
+        [node.name.clone(), kind.into(), lines_and_loads(node).join(", ")]
     });
     let name = |index: usize| sketch.nodes.get(index).map_or("?", |node| node.name.as_str());
     let links = sketch.links.iter().map(|link| {
         let ends = format!("{} → {}", name(link.from), name(link.to));
         [link.name.clone(), ends, words(&link.tree, 0)]
     });
-    let mut lines = counts(sketch);
+    let mut lines: Vec<String> = sketch.gravity.iter().map(gravity).collect();
+    lines.extend(counts(sketch));
     for rows in [table(nodes, width), table(links, width)] {
         lines.push(String::new());
         lines.extend(rows);
@@ -120,10 +126,8 @@ fn words(tree: &SketchTree, depth: usize) -> String {
         if depth > 0 && parts.len() > 1 { format!("({joined})") } else { joined }
     };
     match tree {
-        SketchTree::Spring { label } => format!("spring {label}"),
-        SketchTree::Dashpot { label } => format!("dashpot {label}"),
-        SketchTree::Rigid => String::from("rigid"),
-        SketchTree::Other { word, label } => format!("{word} {label}"),
+        SketchTree::Element { kind, label } if label.contains(kind.as_str()) => label.clone(),
+        SketchTree::Element { kind, label } => format!("{kind} {label}").trim_end().to_owned(),
         SketchTree::Series(parts) if parts.is_empty() => String::from("rigid"),
         SketchTree::Parallel(parts) if parts.is_empty() => String::from("not connected"),
         SketchTree::Series(parts) => join(parts, " – "),
@@ -148,7 +152,7 @@ mod tests {
     fn deep_nesting_is_counted() {
         let mut tree = spring("1 N/m");
         for _ in 0..2_000 {
-            tree = SketchTree::Parallel(vec![tree, SketchTree::Rigid]);
+            tree = SketchTree::Parallel(vec![tree, SketchTree::element("rigid", "")]);
         }
         assert!(words(&tree, 0).len() < 200);
     }

@@ -10,6 +10,8 @@ mod svg;
 mod symbols;
 mod text;
 
+use symbols::SYMBOLS;
+
 /// A network to be drawn, from the impactor on the left to the support on the right.
 ///
 /// # Examples
@@ -27,10 +29,11 @@ mod text;
 ///         from: 0,
 ///         to: 1,
 ///         tree: SketchTree::Parallel(vec![
-///             SketchTree::Spring { label: "20 MN/m".into() },
-///             SketchTree::Dashpot { label: "4 kN s/m".into() },
+///             SketchTree::element("spring", "20 MN/m"),
+///             SketchTree::element("dashpot", "4 kN s/m"),
 ///         ]),
 ///     }],
+///     gravity: None,
 /// };
 /// assert!(sketch.svg().contains("padding"));
 /// assert!(sketch.text(80).contains("10 kg"));
@@ -41,6 +44,17 @@ pub struct Sketch {
     pub nodes: Vec<SketchNode>,
     /// Links between nodes; several may join the same two.
     pub links: Vec<SketchLink>,
+    /// Gravity, where it acts.
+    pub gravity: Option<SketchGravity>,
+}
+
+/// Gravity along the axis of a [`Sketch`]: an arrow above the drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SketchGravity {
+    /// Its magnitude, as in `9.81 m/s²`.
+    pub label: String,
+    /// Whether it pulls away from the support, to the left.
+    pub pulls_back: bool,
 }
 
 /// A node of a [`Sketch`].
@@ -52,16 +66,23 @@ pub struct SketchNode {
     pub kind: SketchKind,
     /// Values below the name, as in `10 kg` and `10 m/s →`.
     pub lines: Vec<String>,
+    /// Forces on it: arrows with a text each.
+    pub loads: Vec<String>,
 }
 
 impl SketchNode {
-    /// A node with its values.
+    /// A node with its values and without loads.
     pub fn new<'a>(
         name: impl Into<String>,
         kind: SketchKind,
         lines: impl IntoIterator<Item = &'a str>,
     ) -> Self {
-        Self { name: name.into(), kind, lines: lines.into_iter().map(Into::into).collect() }
+        Self {
+            name: name.into(),
+            kind,
+            lines: lines.into_iter().map(Into::into).collect(),
+            loads: Vec::new(),
+        }
     }
 }
 
@@ -72,6 +93,10 @@ pub enum SketchKind {
     Mass,
     /// A joint without mass: a dot.
     Massless,
+    /// The face of an element, without mass: a plate.
+    Face,
+    /// The face of an element, with mass: a thick plate.
+    HeavyFace,
     /// A support: a hatched wall, drawn anew at each neighbour.
     Fixed,
     /// A node whose motion is given: a dashed box.
@@ -94,23 +119,11 @@ pub struct SketchLink {
 /// What a [`SketchLink`] is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SketchTree {
-    /// A spring.
-    Spring {
-        /// Value, as in `20 MN/m`.
-        label: String,
-    },
-    /// A dashpot.
-    Dashpot {
-        /// Value, as in `6 kN s/m`.
-        label: String,
-    },
-    /// A rigid bar.
-    Rigid,
-    /// Any other law: a box.
-    Other {
-        /// Word in the box.
-        word: String,
-        /// Value.
+    /// A single element with the symbol of its kind; a box with the word where the kind has none.
+    Element {
+        /// Word of the kind, as in `spring`.
+        kind: String,
+        /// Text above the symbol, as in `20 MN/m`.
         label: String,
     },
     /// One behind the other: the forces are equal.
@@ -119,32 +132,40 @@ pub enum SketchTree {
     Parallel(Vec<SketchTree>),
 }
 
+impl SketchTree {
+    /// A single element of this kind.
+    pub fn element(kind: impl Into<String>, label: impl Into<String>) -> Self {
+        Self::Element { kind: kind.into(), label: label.into() }
+    }
+}
+
 /// Numbers of elements and depth of nesting.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 struct Census {
-    springs: usize,
-    dashpots: usize,
-    rigid: usize,
+    /// As many as there are of each of the [`SYMBOLS`].
+    of_kind: Vec<usize>,
     others: usize,
     depth: usize,
 }
 
 impl Census {
-    fn elements(self) -> usize {
-        self.springs + self.dashpots + self.rigid + self.others
+    fn elements(&self) -> usize {
+        self.of_kind.iter().sum::<usize>() + self.others
     }
 
     /// Counts without recursion, since nesting may be deeper than a stack.
     fn of<'a>(trees: impl Iterator<Item = &'a SketchTree>) -> Self {
-        let mut census = Self::default();
+        let mut census = Self { of_kind: vec![0; SYMBOLS.len()], others: 0, depth: 0 };
         let mut open: Vec<(&SketchTree, usize)> = trees.map(|tree| (tree, 1)).collect();
         while let Some((tree, depth)) = open.pop() {
             census.depth = census.depth.max(depth);
             match tree {
-                SketchTree::Spring { .. } => census.springs += 1,
-                SketchTree::Dashpot { .. } => census.dashpots += 1,
-                SketchTree::Rigid => census.rigid += 1,
-                SketchTree::Other { .. } => census.others += 1,
+                SketchTree::Element { kind, .. } => {
+                    match SYMBOLS.iter().position(|symbol| symbol.kind == kind) {
+                        Some(at) => census.of_kind[at] += 1,
+                        None => census.others += 1,
+                    }
+                }
                 SketchTree::Series(parts) | SketchTree::Parallel(parts) => {
                     open.extend(parts.iter().map(|part| (part, depth + 1)));
                 }
@@ -173,11 +194,11 @@ pub(crate) mod tests {
     use super::*;
 
     pub(crate) fn spring(label: &str) -> SketchTree {
-        SketchTree::Spring { label: label.into() }
+        SketchTree::element("spring", label)
     }
 
     pub(crate) fn dashpot(label: &str) -> SketchTree {
-        SketchTree::Dashpot { label: label.into() }
+        SketchTree::element("dashpot", label)
     }
 
     fn link(name: &str, from: usize, to: usize, tree: SketchTree) -> SketchLink {
@@ -199,6 +220,7 @@ pub(crate) mod tests {
                 SketchNode::new("ground", SketchKind::Fixed, []),
             ],
             links: vec![link("padding", 0, 1, pad), link("mount", 1, 2, mount)],
+            gravity: None,
         }
     }
 
@@ -213,10 +235,10 @@ pub(crate) mod tests {
             node("Körper 頭", SketchKind::Mass),
             node("alone", SketchKind::Mass),
         ]);
-        let foam = SketchTree::Other { word: "foam".into(), label: "60 g/l".into() };
+        let foam = SketchTree::element("jelly", "60 g/l");
         sketch.links.extend([
             link("knee pad", 3, 4, foam),
-            link("bar", 4, 1, SketchTree::Rigid),
+            link("bar", 4, 1, SketchTree::element("rigid", "")),
             link("strap", 0, 2, spring("1 kN/m")),
             link("second pad", 0, 1, dashpot("1 kN s/m")),
             link("back", 1, 3, spring("2 kN/m")),
@@ -234,6 +256,7 @@ pub(crate) mod tests {
             links: (1..masses)
                 .map(|i| link(&format!("k{i}"), i - 1, i, spring("1 kN/m")))
                 .collect(),
+            gravity: None,
         }
     }
 

@@ -3,7 +3,7 @@
 use super::blocks::{Pen, Sizes};
 use super::layout::{Metrics, plan};
 use super::order::Extent;
-use super::symbols::{Canvas, LINE, Weight, leaf_extent, node_extent};
+use super::symbols::{Canvas, GRAVITY, LINE, Weight, gravity_width, leaf_extent, node_extent};
 use super::{Sketch, SketchLink, SketchTree, list};
 use crate::lettering::{escape, text_width};
 use crate::theme;
@@ -15,7 +15,7 @@ const NAME: f64 = 1.5 * theme::LABEL_SIZE;
 
 impl Pen for Canvas {
     fn wire(&mut self, from: (f64, f64), to: (f64, f64)) {
-        self.line(&[from, to], theme::LINE_WIDTH);
+        self.straight(from, to);
     }
 
     fn symbol(&mut self, leaf: &SketchTree, at: (f64, f64), extent: Extent) {
@@ -44,8 +44,14 @@ impl Sketch {
             wire: 0.0,
         };
         let plan = plan(self, &metrics);
-        let moved = |(x, y): (f64, f64)| (x + theme::MARGIN, y + theme::MARGIN);
         let mut canvas = Canvas::default();
+        let mut size = (plan.width, plan.height);
+        if let Some(gravity) = &self.gravity {
+            canvas.gravity(gravity, (theme::MARGIN, theme::MARGIN + theme::TICK_SIZE));
+            size = (size.0.max(gravity_width(gravity)), size.1 + GRAVITY);
+        }
+        let top = theme::MARGIN + size.1 - plan.height;
+        let moved = |(x, y): (f64, f64)| (x + theme::MARGIN, y + top);
         for wire in &plan.wires {
             let points: Vec<(f64, f64)> = wire.iter().map(|p| moved(*p)).collect();
             canvas.line(&points, theme::LINE_WIDTH);
@@ -66,7 +72,7 @@ impl Sketch {
             let at = moved((placed.x, placed.y));
             canvas.node(&self.nodes[placed.index], at, placed.extent, placed.wired);
         }
-        framed((plan.width, plan.height), &canvas)
+        framed(size, &canvas)
     }
 
     fn summary(&self) -> String {

@@ -6,7 +6,8 @@ use super::blocks::Sizes;
 use super::grid::{Grid, centred};
 use super::layout::{Metrics, Placed, plan};
 use super::order::Extent;
-use super::{Sketch, SketchKind, SketchLink, SketchNode, SketchTree, list};
+use super::symbols::symbol_of;
+use super::{Sketch, SketchGravity, SketchKind, SketchLink, SketchNode, SketchTree, list};
 use crate::lettering::{self, one_line};
 
 /// Elements or nodes beyond which a list is clearer.
@@ -25,7 +26,13 @@ impl Sketch {
         if !self.is_drawable(MOST) {
             return list::list(self, width);
         }
-        self.rows(width).unwrap_or_else(|| list::list(self, width))
+        match self.rows(width) {
+            Some(rows) => {
+                let above = self.gravity.as_ref().map(|own| gravity(own) + "\n\n");
+                above.unwrap_or_default() + &rows
+            }
+            None => list::list(self, width),
+        }
     }
 
     /// The drawing in one or, for a chain, several rows.
@@ -80,6 +87,7 @@ impl Sketch {
         Self {
             nodes: nodes.iter().map(|v| self.nodes[*v].clone()).collect(),
             links: links.collect(),
+            gravity: None,
         }
     }
 
@@ -135,11 +143,13 @@ fn draw_node(grid: &mut Grid, node: &SketchNode, placed: &Placed) {
         SketchKind::Mass | SketchKind::Prescribed => {
             grid.frame((placed.x, top), (width, up + down + 1.0));
         }
-        SketchKind::Fixed | SketchKind::Massless => {}
+        SketchKind::Fixed | SketchKind::Massless | SketchKind::Face | SketchKind::HeavyFace => {}
     }
     let mut row = match node.kind {
         SketchKind::Mass | SketchKind::Prescribed => top + 1.0,
-        SketchKind::Fixed | SketchKind::Massless => placed.y,
+        SketchKind::Fixed | SketchKind::Massless | SketchKind::Face | SketchKind::HeavyFace => {
+            placed.y
+        }
     };
     for line in inscription(node, placed.wired.1) {
         let start = match node.kind {
@@ -159,10 +169,24 @@ fn inscription(node: &SketchNode, is_left_end: bool) -> Vec<String> {
         SketchKind::Mass => name,
         SketchKind::Prescribed => format!("↔ {name}"),
         SketchKind::Massless => format!("({name})"),
+        SketchKind::Face => format!("▏{name}▕"),
+        SketchKind::HeavyFace => format!("▌{name}▐"),
         SketchKind::Fixed if is_left_end => format!("{name} ▒"),
         SketchKind::Fixed => format!("▒ {name}"),
     };
-    std::iter::once(first).chain(node.lines.iter().map(|line| one_line(line))).collect()
+    std::iter::once(first).chain(lines_and_loads(node)).collect()
+}
+
+/// The values of a node and the forces on it, line by line.
+pub(super) fn lines_and_loads(node: &SketchNode) -> Vec<String> {
+    let loads = node.loads.iter().map(|load| format!("⇒ {}", one_line(load)));
+    node.lines.iter().map(|line| one_line(line)).chain(loads).collect()
+}
+
+/// Gravity in one line.
+pub(super) fn gravity(gravity: &SketchGravity) -> String {
+    let arrow = if gravity.pulls_back { '←' } else { '→' };
+    format!("g = {} {arrow}", one_line(&gravity.label))
 }
 
 fn node_extent(node: &SketchNode) -> Extent {
@@ -174,7 +198,7 @@ fn node_extent(node: &SketchNode) -> Extent {
             let up = f64::midpoint(count, 1.0).floor();
             Extent { width: widest + 2.0, up, down: count + 1.0 - up }
         }
-        SketchKind::Fixed | SketchKind::Massless => {
+        SketchKind::Fixed | SketchKind::Massless | SketchKind::Face | SketchKind::HeavyFace => {
             Extent { width: widest, up: 0.0, down: count - 1.0 }
         }
     }
@@ -189,10 +213,10 @@ fn leaf_extent(leaf: &SketchTree) -> Extent {
 /// Symbol of an element and the value above it.
 pub(super) fn symbol(leaf: &SketchTree) -> (String, &str) {
     match leaf {
-        SketchTree::Spring { label } => (String::from("/\\/\\/\\"), label),
-        SketchTree::Dashpot { label } => (String::from("]="), label),
-        SketchTree::Other { word, label } => (format!("[{}]", one_line(word)), label),
-        SketchTree::Rigid => (String::from("═══"), ""),
+        SketchTree::Element { kind, label } => match symbol_of(kind) {
+            Some(symbol) => (symbol.text.to_owned(), label),
+            None => (format!("[{}]", one_line(kind)), label),
+        },
         SketchTree::Series(_) | SketchTree::Parallel(_) => (String::new(), ""),
     }
 }

@@ -4,12 +4,13 @@ use dashpot_network::parameters::{Dimension, positive};
 
 use super::Spot;
 use crate::{
-    basis::{AREA, Basis},
+    basis::{AREA, Basis, Pad, SIZE, is_sized},
     diagnostics::Faults,
     document::{Content, Entry},
     fault::Fault,
     kinds::{Example, registers},
     library::{Library, Shelf},
+    pad::{Size, Surroundings, missing_size},
     parameters::KindReader,
     plausible,
     table::wrong_type,
@@ -22,6 +23,8 @@ pub(super) struct Context {
     pub(super) basis: Basis,
     /// Factor of all times \[1\], from the shifts around the table.
     pub(super) times: f64,
+    /// What is known of the size of the pad.
+    pub(super) size: Surroundings,
 }
 
 /// A shift of a model.
@@ -40,7 +43,7 @@ impl Context {
             Shelf::Models => Basis::Model,
             Shelf::Materials => Basis::MATERIAL,
         };
-        Self { basis, times: 1.0 }
+        Self { basis, times: 1.0, size: Surroundings::default() }
     }
 }
 
@@ -69,53 +72,63 @@ impl<'d> Besides<'d> {
         if let Some(shift) = shift {
             context.times *= shift.factor;
         }
-        let [thickness, area] = ["thickness", "area"].map(find);
-        if law.key == Shelf::Materials.word() && !context.basis.is_material() {
-            let thickness = self.size(spot, thickness, ("thickness", Dimension::LENGTH, "2 cm"));
-            let area = self.size(spot, area, ("area", AREA, "100 cm^2"));
-            let size = thickness.zip(area);
-            let area_over_thickness = size.map_or(1.0, |(thickness, area)| area / thickness);
-            context.basis = Basis::Material { area_over_thickness };
+        let given = SIZE.map(find);
+        if context.basis.is_material() {
+            for (key, entry) in SIZE.into_iter().zip(given) {
+                let Some(entry) = entry else { continue };
+                self.faults.error(entry.key_place, Fault::SizeInMaterial { key });
+            }
             return (context, shift);
         }
-        // The thickness of an element is also the depth at which it is warned of.
-        let thickness = thickness.filter(|_| !spot.other_keys.contains(&"between"));
-        for (key, entry) in [("thickness", thickness), ("area", area)] {
-            let Some(entry) = entry else { continue };
-            let fault = if context.basis.is_material() {
-                Fault::SizeInMaterial { key }
-            } else {
-                Fault::SizeWithoutMaterial { key, owner: spot.owner.to_string() }
-            };
-            self.faults.error(entry.key_place, fault);
+        let around = context.size;
+        let mut sizes = SIZE.into_iter().zip(given);
+        let mut beside = [(); 2].map(|()| {
+            let (key, entry) = sizes.next()?;
+            entry.and_then(|entry| self.size(spot, key, entry))
+        });
+        context.size.beside = [None; 2];
+        let is_element = spot.other_keys.contains(&"between");
+        if law.key == Shelf::Materials.word() {
+            for (key, (entry, size)) in SIZE.into_iter().zip(given.into_iter().zip(beside)) {
+                match size {
+                    Some(size) => around.check(key, size, self.faults),
+                    None if entry.is_none() => self.missing(spot, key),
+                    None => {}
+                }
+            }
+            let [thickness, area] = beside.map(|size| size.map_or(1.0, |size| size.value));
+            context.basis = Basis::Material(Pad { thickness, area });
+        } else if registers().element(&law.key).is_some_and(|kind| is_sized(kind.parameters)) {
+            // The reader of the law checks them with those in its own table.
+            context.size.beside = beside;
+        } else if is_element {
+            context.size.around = beside[0].take();
+        } else {
+            for (key, entry) in SIZE.into_iter().zip(given) {
+                let Some(entry) = entry else { continue };
+                let fault = Fault::SizeWithoutMaterial { key, owner: spot.owner.to_string() };
+                self.faults.error(entry.key_place, fault);
+            }
         }
+        context.size.in_row |= law.key == "series";
         (context, shift)
     }
 
     /// The thickness or area of a pad.
-    fn size(
-        &self,
-        spot: &Spot<'d>,
-        entry: Option<&Entry>,
-        (key, dimension, example): (&'static str, Dimension, &str),
-    ) -> Option<f64> {
-        let Some(entry) = entry else {
-            if !self.faults.damaged() {
-                let (key, owner) = (key.to_owned(), spot.owner.to_string());
-                let help = format!(
-                    "a material becomes a pad by its thickness and area, for example `{key} = \
-                     \"{example}\"`"
-                );
-                let fault = Fault::MissingKey { key, owner, example: String::new() };
-                self.faults.error(spot.place, fault.with_help(help));
-            }
-            return None;
-        };
+    fn size(&self, spot: &Spot<'d>, key: &'static str, entry: &Entry) -> Option<Size> {
         let quantities = self.library.quantities(spot.document, self.faults);
-        let check = |size| positive(key, size);
-        let size = quantities.read_checked(&entry.item, dimension, check);
+        let dimension = if key == SIZE[0] { Dimension::LENGTH } else { AREA };
+        let size = quantities.read_checked(&entry.item, dimension, |size| positive(key, size));
         plausible::check(quantities, entry, size);
-        size
+        size.map(|value| Size { value, place: entry.item.place })
+    }
+
+    /// Notes a size that a material needs.
+    fn missing(&self, spot: &Spot<'d>, key: &'static str) {
+        if !self.faults.damaged() {
+            let fault = missing_size(key, &spot.owner);
+            self.faults.error(spot.place, fault);
+        }
     }
 
     /// The shift in a table such as `{ wlf = { … } }`.
@@ -149,10 +162,6 @@ impl<'d> Besides<'d> {
         let kind = shifts.iter().find(|kind| kind.word == only.key)?;
         let quantities = self.library.quantities(spot.document, self.faults);
         let factor = KindReader::new(quantities).read(kind, &only.item, only.key_place)?;
-        for own in only.item.table().unwrap_or(&[]) {
-            let temperature = quantities.peek(&own.item);
-            plausible::check(quantities, own, temperature);
-        }
         Some(Shift { word: kind.word, factor })
     }
 }

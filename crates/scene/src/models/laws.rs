@@ -2,17 +2,20 @@
 
 use std::{cell::RefCell, collections::HashMap};
 
-use dashpot_network::{Model, composites::Composed, shifts::shifted};
+use dashpot_network::{
+    Element, Model, composites::Composed, parameters::Parameter, shifts::shifted,
+};
 use dashpot_rheology::Tree;
 
 use super::{context::Context, forms::FormReader};
 use crate::{
-    basis::{Basis, fits_material},
+    basis::{Basis, Pad, SIZE, fits_material, is_size},
     diagnostics::Faults,
     document::Entry,
     fault::Fault,
     kinds::{CompositeEntry, registers},
     library::Library,
+    pad::Extent,
     parameters::KindReader,
     quantity::Quantities,
     source::Place,
@@ -22,9 +25,12 @@ use crate::{
 pub(super) struct LawReader<'d> {
     library: &'d Library,
     faults: &'d Faults,
-    /// Composites by their place and pad: many elements may have one model, and it may take long.
-    composed: RefCell<HashMap<(Place, u64), Option<Composed>>>,
+    /// Many elements may have one model, and it may take long.
+    composed: RefCell<HashMap<ComposedFor, Option<Composed>>>,
 }
+
+/// The place of a composite, and the thickness and area of the pad that it is for, as bits.
+type ComposedFor = (Place, [u64; 2]);
 
 /// What comes of a law.
 #[derive(Default)]
@@ -33,6 +39,8 @@ pub(super) struct Made {
     pub(super) model: Option<Model>,
     /// What is to be said about it, and the time up to which that holds.
     pub(super) note: Option<(String, Option<f64>)>,
+    /// The size of the pad that it is.
+    pub(super) extent: Extent,
 }
 
 impl<'d> LawReader<'d> {
@@ -53,8 +61,12 @@ impl<'d> LawReader<'d> {
                 self.faults.error(law.key_place, Fault::ElementInMaterial { word: kind.word });
                 return made;
             }
-            let reader = KindReader::new(quantities);
-            made.model = reader.read(kind, &law.item, law.key_place).map(Tree::Part);
+            let reader = KindReader { size: context.size, ..KindReader::new(quantities) };
+            let element = reader.read(kind, &law.item, law.key_place);
+            if let Some(element) = &element {
+                made.extent = extent_of(element.as_ref(), kind.parameters);
+            }
+            made.model = element.map(Tree::Part);
         } else if let Some(form) = registers.form(word) {
             made.model = FormReader { quantities }.read(form.parts, form.in_series, law);
         } else if let Some(composite) = registers.composite(word)
@@ -78,8 +90,8 @@ impl<'d> LawReader<'d> {
         law: &Entry,
     ) -> Option<Composed> {
         let pad = match quantities.basis {
-            Basis::Model => 0,
-            Basis::Material { area_over_thickness } => area_over_thickness.to_bits(),
+            Basis::Model => [0; 2],
+            Basis::Material(Pad { thickness, area }) => [thickness, area].map(f64::to_bits),
         };
         let key = (law.key_place, pad);
         if let Some(known) = self.composed.borrow().get(&key) {
@@ -100,6 +112,16 @@ impl<'d> LawReader<'d> {
             }
         }
     }
+}
+
+/// The size of an element that has one.
+fn extent_of(element: &dyn Element, parameters: &[Parameter]) -> Extent {
+    let values = element.values();
+    let [thickness, area] = SIZE.map(|key| {
+        let at = parameters.iter().position(|own| is_size(own) && own.name == key)?;
+        values.get(at)?.number()
+    });
+    Extent { thickness, area }
 }
 
 #[expect(clippy::float_cmp, reason = "1 is the factor where there is no shift at all")]

@@ -20,12 +20,14 @@ use dashpot_rheology::Tree;
 
 use self::{context::Context, laws::LawReader};
 use crate::{
+    basis::Basis,
     diagnostics::Faults,
     document::Item,
     fault::Fault,
     kinds::registers,
     library::{Library, Reference, SHELVES, Shelf},
     notes::{ModelNote, Notes},
+    pad::Extent,
     source::Place,
 };
 
@@ -101,6 +103,8 @@ struct Done<'d> {
     word: &'d str,
     given: Given<'d>,
     model: Option<Model>,
+    /// The size of the pad that it is.
+    extent: Extent,
 }
 
 /// Models that have been entered and not left yet.
@@ -125,14 +129,15 @@ impl<'d> ModelReader<'d> {
         }
     }
 
-    /// The model in the table of an element of the scene; `other_keys` are read by the caller.
+    /// The model in the table of an element of the scene, and the size of the pad that it is;
+    /// `other_keys` are read by the caller.
     pub(crate) fn element(
         &self,
         item: &'d Item,
         owner: String,
         place: Place,
         other_keys: &'static [&'static str],
-    ) -> Option<Model> {
+    ) -> Option<(Model, Extent)> {
         let outer = Some(owner.clone());
         let (owner, context) = (owner.into(), Context::of(Shelf::Models));
         self.run(Task::Read(Spot { item, owner, place, document: 0, context, other_keys }), outer)
@@ -141,7 +146,8 @@ impl<'d> ModelReader<'d> {
     /// The model or material `reference`.
     pub(crate) fn named(&self, reference: Reference) -> Option<Model> {
         self.visited.borrow_mut().insert(reference);
-        self.run(Task::Enter(Entrance::plain(reference)), Some(String::new()))
+        let named = Task::Enter(Entrance::plain(reference));
+        self.run(named, Some(String::new())).map(|(model, _)| model)
     }
 
     /// Looks for faults in those models and materials of the scene that no element uses.
@@ -179,7 +185,7 @@ impl<'d> ModelReader<'d> {
     /// Works off `first` and all that follows from it; notes on tables without a name are about
     /// `outer`. Without it, models that have been visited before are not looked at again, nothing
     /// is noted, and the result is of no use.
-    fn run(&self, first: Task<'d>, outer: Option<String>) -> Option<Model> {
+    fn run(&self, first: Task<'d>, outer: Option<String>) -> Option<(Model, Extent)> {
         let mut tasks = vec![first];
         let mut done: Vec<Done<'d>> = Vec::new();
         let mut open = Open { order: Vec::new(), set: HashSet::new(), outer };
@@ -195,16 +201,26 @@ impl<'d> ModelReader<'d> {
                     tasks.push(Task::Leave(entrance));
                     tasks.push(Task::Read(self.spot(&entrance)));
                 }
-                Task::Leave(Entrance { reference, given, .. }) => {
+                Task::Leave(Entrance { reference, given, context }) => {
                     open.order.pop();
                     open.set.remove(&reference);
                     if let Some(last) = done.last_mut() {
                         (last.word, last.given) = (&self.library.entry(reference).key, given);
+                        if let (Shelf::Materials, Basis::Material(pad)) =
+                            (reference.shelf, context.basis)
+                        {
+                            last.extent = Extent::of(pad);
+                        }
                     }
                 }
                 Task::Read(spot) => {
                     self.count(1, spot.place)?;
-                    let failed = Step::Done(Done { word: "model", given: None, model: None });
+                    let failed = Step::Done(Done {
+                        word: "model",
+                        given: None,
+                        model: None,
+                        extent: Extent::default(),
+                    });
                     match self.read(&spot, &open).unwrap_or(failed) {
                         Step::Done(model) => {
                             // The first part has been counted with its table.
@@ -222,7 +238,12 @@ impl<'d> ModelReader<'d> {
                             let seen = !self.visited.borrow_mut().insert(reference);
                             if seen && open.outer.is_none() {
                                 let word = &self.library.entry(reference).key;
-                                done.push(Done { word, given, model: None });
+                                done.push(Done {
+                                    word,
+                                    given,
+                                    model: None,
+                                    extent: Extent::default(),
+                                });
                                 continue;
                             }
                             tasks.push(Task::Enter(entrance));
@@ -231,7 +252,7 @@ impl<'d> ModelReader<'d> {
                 }
             }
         }
-        done.pop()?.model
+        done.pop().and_then(|last| Some((last.model?, last.extent)))
     }
 
     /// Counts parts; `None` where there are too many by now.
@@ -247,7 +268,9 @@ impl<'d> ModelReader<'d> {
     fn composed(&self, series: bool, branches: Vec<Done<'d>>, given: Given<'d>) -> Done<'d> {
         let word = if series { "series" } else { "parallel" };
         let compose = if series { Tree::Series } else { Tree::Parallel };
-        Done { word, given, model: naming::named(branches, self.faults).map(compose) }
+        let extents = branches.iter().map(|branch| branch.extent);
+        let extent = if series { Extent::in_row(extents) } else { Extent::beside(extents) };
+        Done { word, given, model: naming::named(branches, self.faults).map(compose), extent }
     }
 }
 

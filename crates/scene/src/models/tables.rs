@@ -44,7 +44,7 @@ impl<'d> ModelReader<'d> {
             word => {
                 let made = self.laws.read(spot.document, law, context);
                 made.note.into_iter().for_each(|note| self.note(open, given, note));
-                Some(Step::Done(Done { word, given, model: made.model }))
+                Some(Step::Done(Done { word, given, model: made.model, extent: made.extent }))
             }
         }
     }

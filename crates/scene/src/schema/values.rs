@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::{described_as, reference};
 use crate::{
-    basis::Basis,
+    basis::{Basis, is_size},
     fault::{described, example_text},
 };
 
@@ -44,7 +44,8 @@ impl Values {
 
     /// The parameters by their names.
     pub(super) fn parameters(self, all: &[Parameter]) -> Map<String, Value> {
-        all.iter().map(|own| (own.name.to_owned(), self.parameter(own))).collect()
+        let known = all.iter().filter(|own| !(self.basis.is_material() && is_size(own)));
+        known.map(|own| (own.name.to_owned(), self.parameter(own))).collect()
     }
 
     fn parameter(self, parameter: &Parameter) -> Value {

@@ -54,8 +54,8 @@ fn check_measure(
 
 fn wish(reading: &Reading<'_>, entry: &Entry) -> Option<f64> {
     reading.quantities().read_checked(&entry.item, Dimension::NUMBER, |wish| {
-        let range = "more than 0 and at most 1, for instance \"0.1 %\"";
+        let range = "more than 0 and at most 0.2, for instance \"1 %\" or 0.01";
         let invalid = || InvalidParameter::new("accuracy", range, wish);
-        if wish > 0.0 && wish <= 1.0 { Ok(()) } else { Err(invalid()) }
+        if wish > 0.0 && wish <= Accuracy::LOOSEST { Ok(()) } else { Err(invalid()) }
     })
 }

@@ -66,10 +66,10 @@ fn read_element<'d>(
     table.finish_missing();
     let Table { owner, place, .. } = table;
     let model = models.element(&entry.item, owner, place, ELEMENT_KEYS);
-    let ([from, to], model) = between.zip(model)?;
+    let ([from, to], (model, extent)) = between.zip(model)?;
     let pad = network.connect(&*entry.key, from, to, model);
-    pad.thickness = thickness.unwrap_or_default();
-    pad.area = area;
+    pad.thickness = thickness.unwrap_or(extent.thickness);
+    pad.area = area.or(extent.area);
     Some(())
 }
 

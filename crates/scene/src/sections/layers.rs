@@ -75,7 +75,7 @@ fn read_layer<'d>(
     let name = text_of(&material?.item, "`material`", reading.faults)?;
     let name = name.rsplit(':').next().unwrap_or(name).to_owned();
     let Table { owner, place, .. } = table;
-    let model = models.element(item, owner, place, LAYER_KEYS)?;
+    let (model, _) = models.element(item, owner, place, LAYER_KEYS)?;
     Some(Layer { name, thickness: thickness?, area: area?, density: density?, model })
 }
 

@@ -30,6 +30,9 @@ pub struct RunSettings {
     pub duration: f64,
     /// Points of the output grid, 1 … 10⁷; the solution does not depend on it.
     pub samples: usize,
+    /// Whether the scene says how many: they then lie at regular times, else where they resolve
+    /// short contacts.
+    pub samples_given: bool,
     /// Names of the methods, one or more; `auto` chooses.
     pub methods: Vec<String>,
     /// The methods' own relative tolerance, 1e-13 … 1e-1, where it is given.
@@ -48,8 +51,14 @@ pub(crate) struct StopText<'d> {
 /// Reads the settings and the conditions to stop.
 pub(crate) fn read_run<'d>(reading: &Reading<'d>) -> (RunSettings, Vec<StopText<'d>>) {
     let methods = vec!["auto".to_owned()];
-    let mut run =
-        RunSettings { duration: 0.0, samples: SAMPLES, methods, rtol: None, stops: Vec::new() };
+    let mut run = RunSettings {
+        duration: 0.0,
+        samples: SAMPLES,
+        samples_given: false,
+        methods,
+        rtol: None,
+        stops: Vec::new(),
+    };
     let Some(entry) = reading.library.section("run") else {
         if !reading.faults.damaged() {
             reading.faults.error(None, Fault::MissingSection { section: "run" });
@@ -78,6 +87,7 @@ pub(crate) fn read_run<'d>(reading: &Reading<'d>) -> (RunSettings, Vec<StopText<
     table.finish();
     let stops = stops.unwrap_or(&[]).iter().filter_map(|item| stop(reading, item)).collect();
     run.duration = duration.unwrap_or(run.duration);
+    run.samples_given = samples.is_some();
     run.samples = samples.unwrap_or(run.samples);
     run.methods = methods.unwrap_or(run.methods);
     (run, stops)

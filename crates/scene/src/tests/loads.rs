@@ -235,9 +235,9 @@ fn a_chirp_is_solved_by_steps_and_the_methods_agree() {
 #[test]
 fn a_file_means_the_same_as_its_points() {
     let points = "table = [[\"0 ms\", \"0 N\"], [\"2 ms\", \"1.5 kN\"], [\"2 ms\", \"1 kN\"], \
-                  [\"8 ms\", \"-250 N\"]]";
+                  [\"8 ms\", \"-250 N\"], [\"10 ms\", \"0 N\"]]";
     let expected = force(&pushed(points), "");
-    let rows = "0,0\n2,1.5\n2,1\n8,-0.25\n";
+    let rows = "0,0\n2,1.5\n2,1\n8,-0.25\n10,0\n";
     let name = "table = \"pulse.csv\"";
     let header = format!("time [ms], force [kN]\n{rows}");
     assert_eq!(force(&pushed(name), &header), expected);
@@ -246,7 +246,7 @@ fn a_file_means_the_same_as_its_points() {
     assert_eq!(force(&pushed(units), &header), expected);
     // A header's unit of another dimension is no contradiction: `g` is the gram here.
     assert_eq!(force(&pushed(units), &header.replace("kN", "g")), expected);
-    let wide = "t (ms);x [mm];F [kN]\n0;7;0\n2;7;1.5\n2;7;1\n8;7;-0.25\n";
+    let wide = "t (ms);x [mm];F [kN]\n0;7;0\n2;7;1.5\n2;7;1\n8;7;-0.25\n10;7;0\n";
     for columns in ["[1, 3]", "[\"t\", \"F\"]", "[1, \"F\"]"] {
         let table = format!("table = {{ file = \"pulse.csv\", columns = {columns} }}");
         assert_eq!(force(&pushed(&table), wide), expected, "{columns}");

@@ -288,7 +288,7 @@ error: `2 MPa` is a pressure (Pa); a stiffness (N/m) is expected here
 9 | series = [{ spring = "2 MPa" }, { kelvin-chain = [["1 ms", "2 1/MPa"]] }]
   |                      ^^^^^^^
   |
-  = help: values in Pa belong in [materials]; a pad is made of one by `material = "…", thickness = "2 cm", area = "100 cm^2"`
+  = help: stresses and strains belong in [materials]; a pad is made of one by `material = "…", thickness = "2 cm", area = "100 cm^2"`
 
 error: `2 1/MPa` is a compliance of a material (1/Pa); a compliance (m/N) is expected here
  --> scene.toml:9:60
@@ -296,7 +296,7 @@ error: `2 1/MPa` is a compliance of a material (1/Pa); a compliance (m/N) is exp
 9 | series = [{ spring = "2 MPa" }, { kelvin-chain = [["1 ms", "2 1/MPa"]] }]
   |                                                            ^^^^^^^^^
   |
-  = help: values in Pa belong in [materials]; a pad is made of one by `material = "…", thickness = "2 cm", area = "100 cm^2"`
+  = help: stresses and strains belong in [materials]; a pad is made of one by `material = "…", thickness = "2 cm", area = "100 cm^2"`
 
 error: unknown key `wfl` in `shift`
   --> scene.toml:10:11
@@ -344,14 +344,6 @@ error: there is no model named `foam`
    |
    = help: `foam` is a material: write `material = "foam"` with the `thickness` and the `area` of the pad
 
-error: `area` goes with `material`, which element `three` does not have
-  --> scene.toml:15:57
-   |
-15 | three = { between = ["head", "ground"], model = "foam", area = "1 cm^2" }
-   |                                                         ^^^^
-   |
-   = help: leave it out, or name a material of [materials], in Pa: `material = "…"`
-
 error: `50 degC` is a temperature; a difference of temperatures (K) is expected here
   --> scene.toml:16:117
    |
@@ -365,6 +357,14 @@ error: `shift` is a table with one kind of shift, for example `{ wlf = { tempera
    |
 17 | five = { between = ["head", "ground"], dashpot = 1, shift = "wlf" }
    |                                                             ^^^^^
+
+warning: `temperature` is -10 K, which is very little
+  --> scene.toml:16:84
+   |
+16 | four = { between = ["head", "ground"], spring = 1, shift = { wlf = { temperature = -10, reference = "20 degC", c2 = "50 degC" } } }
+   |                                                                                    ^^^
+   |
+   = help: a bare number is in K; write it with its unit: "-10 degC"
 "#;
 
 #[test]

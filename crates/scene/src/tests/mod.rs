@@ -11,6 +11,7 @@ mod materials;
 mod messages;
 mod models;
 mod named;
+mod pads;
 mod round_trip;
 mod settings;
 mod warnings;

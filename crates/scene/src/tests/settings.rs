@@ -50,8 +50,8 @@ fn what_may_be_left_out_is_a_share() {
     let bound = |value: &str| read(value).unwrap().value.accuracy.neglect_below;
     assert_eq!(scene(&on_model("spring = 1")).accuracy.neglect_below, None);
     assert!(is_close(bound("\"0.5 %\"").unwrap(), 0.005));
-    assert!(is_close(bound("1").unwrap(), 1.0));
-    for value in ["0", "\"-1 %\"", "1.5", "\"2 mm\"", "true"] {
+    assert!(is_close(bound("0.2").unwrap(), 0.2));
+    for value in ["0", "\"-1 %\"", "\"21 %\"", "1", "\"2 mm\"", "true"] {
         assert!(read(value).is_err(), "{value}");
     }
 }

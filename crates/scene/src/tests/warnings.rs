@@ -99,10 +99,116 @@ fn an_impactor_that_leaves_is_told() {
 }
 
 #[test]
+fn a_pad_behind_the_impactor_is_not_reversed() {
+    let pads = |speed: &str| {
+        let head = HEAD.replace("1 m/s", speed);
+        let back = "back = { between = [\"ground\", \"head\"], spring = 1 }";
+        warnings(&head, &format!("{PAD}\n{back}"), RUN)
+    };
+    assert_eq!(pads("1 m/s") + &pads("-1 m/s"), "");
+    let back = PAD.replace("\"head\", \"ground\"", "\"ground\", \"head\"");
+    assert_eq!(warnings(&HEAD.replace("1 m/s", "-1 m/s"), &back, RUN), "");
+    has(&warnings(HEAD, &back, RUN), &["`pad` looks reversed"]);
+}
+
+/// The warnings on a scene that is driven at the node `base`, with a file beside it.
+fn driven(driven: &str, csv: &str) -> String {
+    let text = format!(
+        "[nodes]\nhead = {{ mass = 1 }}\nbase = {driven}\n[elements]\n\
+         pad = {{ between = [\"head\", \"base\"], spring = 1 }}\n[run]\nduration = \"0.5 s\"\n"
+    );
+    let loader = |_: &str| Ok(csv.to_owned());
+    let options = crate::ReadOptions { loader: Some(&loader), ..crate::ReadOptions::default() };
+    crate::read(&text, &options).unwrap().warnings.render(false)
+}
+
+#[test]
+fn a_support_that_drifts_away_is_told_with_its_way() {
+    let sine = |more: &str| {
+        let sine = format!("{{ sine = {{ amplitude = 20, frequency = \"10 Hz\"{more} }} }}");
+        driven(&format!("{{ acceleration = {sine} }}"), "")
+    };
+    // The mean velocity is A/ω = 0.3183 m/s, over 5 whole periods.
+    let shown = sine("");
+    has(&shown, &["`base` drift away: 159.155 mm in 500 ms, at 318 mm/s in the mean"]);
+    has(&shown, &["`phase = \"90 deg\"`", "`motion`"]);
+    assert_eq!(sine(", phase = \"90 deg\""), "");
+    let table = |points: &str| driven(&format!("{{ acceleration = {{ table = {points} }} }}"), "");
+    // 10 mm in the first 0.1 s, then 0.1 m/s.
+    let shown = table("[[0, 3], [0.05, 3], [0.05, -1], [0.1, -1], [0.1, 0]]");
+    has(&shown, &["`base` drift away: 50.000 mm in 500 ms", "take its mean off the record"]);
+    assert_eq!(table("[[0, 1], [0.05, 1], [0.05, -1], [0.1, -1], [0.1, 0]]"), "");
+    // A shock leaves the table with a speed on purpose.
+    assert_eq!(table("[[0, 0], [0.005, 400], [0.01, 0]]"), "");
+    assert_eq!(driven("{ motion = { sine = { amplitude = 1, frequency = 10 } } }", ""), "");
+}
+
+#[test]
+fn a_pulse_that_does_not_end_at_zero_is_told_with_what_holds() {
+    let rows = |last: &str| format!("time [ms],a [m/s^2]\n0,0\n10,30\n20,{last}\n");
+    let pulse = |last: &str| driven("{ acceleration = { table = \"a.csv\" } }", &rows(last));
+    let shown = pulse("2");
+    has(&shown, &["the table ends at 20 ms with 2 m/s^2", "held to the end of the run at 500 ms"]);
+    has(&shown, &["help: end it with a row of zero"]);
+    assert_eq!(pulse("0") + &pulse("0.001"), "");
+    let push = |last: &str| {
+        let load = "[loads]\nf = { on = \"head\", force = { table = \"f.csv\" } }\n";
+        let text = format!("{RUN}{load}[nodes]\n{HEAD}\n[elements]\n{PAD}\n");
+        let csv = format!("time [ms],f [N]\n0,0\n10,30\n20,{last}\n");
+        let loader = |_: &str| Ok(csv.clone());
+        let options = crate::ReadOptions { loader: Some(&loader), ..crate::ReadOptions::default() };
+        crate::read(&text, &options).unwrap().warnings.render(false)
+    };
+    has(&push("-3"), &["the table ends at 20 ms with -3 N, which is held"]);
+    assert_eq!(push("0"), "");
+}
+
+#[test]
+fn a_stop_below_the_padding_is_told() {
+    let stop = |at: &str| {
+        let pad = PAD.replace("spring", "thickness = \"25 mm\", spring");
+        let effects = format!("{RUN}[effects]\nstop.pad = {{ at = \"{at}\" }}\n");
+        warnings(HEAD, &pad, &effects)
+    };
+    has(&stop("30 mm"), &["the stop of `pad` at 30 mm lies deeper than its thickness of 25 mm"]);
+    has(&stop("30 mm"), &["^^^^^^^", "leave it out for the thickness"]);
+    assert_eq!(stop("25 mm") + &stop("20 mm"), "");
+}
+
+#[test]
+fn a_drop_without_gravity_is_noted() {
+    let notes = |rest: &str| {
+        let head = HEAD.replace("velocity = \"1 m/s\"", "drop = \"1.5 m\"");
+        let text = format!("{RUN}{rest}[nodes]\n{head}\n[elements]\n{PAD}\n");
+        read_text(&text).unwrap().value.notes
+    };
+    let told = notes("");
+    assert_eq!((told.len(), told[0].subject.as_str()), (1, "node `head`"));
+    has(&told[0].text, &["dropped from 1.5 m with gravity off", "weighs nothing"]);
+    assert!(notes("[effects]\ngravity = {}\n").is_empty());
+}
+
+#[test]
 fn a_reversed_pair_is_written_out() {
     let nodes = format!("{HEAD}\npanel = {{ mass = 1 }}");
     let elements = "pad = { between = [\"panel\", \"head\"], spring = 1 }\n\
                     mount = { between = [\"panel\", \"ground\"], spring = 1 }";
     let shown = warnings(&nodes, elements, RUN);
     has(&shown, &["`pad` looks reversed", "help: write [\"head\", \"panel\"]"]);
+}
+
+#[test]
+fn long_messages_are_wrapped_and_quoted_lines_are_not() {
+    let nodes = format!("{HEAD}\npanel = {{ mass = 1 }}");
+    let elements = "pad = { between = [\"panel\", \"head\"], spring = 1 }";
+    let text = format!("{RUN}\n[nodes]\n{nodes}\n[elements]\n{elements}\n");
+    let warnings = read_text(&text).unwrap().warnings;
+    let shown = warnings.render_within(false, 40);
+    assert!(
+        shown.lines().all(|line| line.chars().count() <= 40 || line.contains(" | ")),
+        "{shown}"
+    );
+    has(&shown, &["\n8 | pad = { between = [\"panel\", \"head\"], spring = 1 }\n"]);
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(words(&shown), words(&warnings.render(false)));
 }

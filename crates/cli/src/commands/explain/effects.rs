@@ -20,8 +20,9 @@ use crate::{
 
 /// What the columns mean.
 const MEANING: &str = "What each adds, or would add with its defaults: unknowns, modes as a \
-                       factor, and at the start entries of the matrices and guards. `number` \
-                       measures how much it matters: little where it is far below 1.";
+                       factor, and entries of the matrices and guards at the start, where it \
+                       may change which phases hold; `2 fewer` says that it removes two. \
+                       `number` measures how much it matters: little where it is far below 1.";
 
 /// What compiling a network gives, in numbers.
 #[derive(Debug, Clone, Copy)]
@@ -107,7 +108,7 @@ fn number(value: f64) -> String {
 }
 
 fn change(with: usize, without: usize) -> String {
-    if with >= without { (with - without).to_string() } else { format!("-{}", without - with) }
+    if with >= without { (with - without).to_string() } else { format!("{} fewer", without - with) }
 }
 
 fn size(assembly: &Assembly) -> Size {

@@ -2,7 +2,9 @@
 
 use super::{
     super::{bodies::Role, carry::State},
-    PhasedNetwork, is_contact,
+    PhasedNetwork,
+    groups::Group,
+    is_contact,
 };
 use crate::phases::{Phase, PhaseLaw, Watched};
 
@@ -19,6 +21,23 @@ pub(super) struct Impact {
     pub(super) worked: f64,
 }
 
+/// Where masses may meet.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Meeting<'a> {
+    /// Whose impacts are asked for.
+    pub(super) group: &'a Group,
+    /// The phases that end.
+    pub(super) phases: &'a [Phase],
+    /// For each part whether its deformation is at a level.
+    pub(super) touching: &'a [bool],
+    /// Parts whose deformation has reached a level \[m\] by the event that ended the leg.
+    pub(super) at_level: &'a [(usize, f64)],
+    /// Speeds of approach below this part of the speeds are none.
+    pub(super) doubt: f64,
+    /// Whether what is fast enough rebounds; else nothing parts.
+    pub(super) rebounds: bool,
+}
+
 /// A contact that may take part in impacts.
 struct Candidate {
     part: usize,
@@ -29,6 +48,8 @@ struct Candidate {
     restitution: f64,
     /// Speed of approach before \[m/s\].
     approach: f64,
+    /// Whether it is brought to rest although it moves apart.
+    settles: bool,
 }
 
 /// Most sweeps over the contacts of one instant.
@@ -37,86 +58,98 @@ const SWEEPS: usize = 20_000;
 /// rests. It ends what would bounce infinitely often in a finite time.
 const RESTING: f64 = 1e-9;
 
+/// How near to its level, in parts of the doubt, a deformation is at it.
+const TOUCHING: f64 = 0.02;
+
 impl PhasedNetwork {
-    /// Applies to `state` the impacts of all contacts at whose level it is: impulses `p ≥ 0` with
-    /// which no contact approaches any more, and each that pushes parts with its restitution times
-    /// its speed of approach (Newton), at one instant for all.
-    ///
-    /// Without `rebound` none of them parts.
-    pub(super) fn impacts(
-        &self,
-        state: &mut State,
-        phases: &[Phase],
-        touching: &[bool],
-        doubt: f64,
-        rebound: bool,
-    ) -> Vec<Impact> {
-        let slowest =
-            if rebound { self.own_speed(state) * RESTING.max(4.0 * doubt) } else { f64::INFINITY };
-        let contacts = self.candidates(state, phases, touching, slowest);
-        let noise = doubt.max(1e-14);
+    /// Applies to `state` the impacts of all contacts of a group at whose level it is: impulses
+    /// `p ≥ 0` with which no contact approaches any more, and each that pushes parts with its
+    /// restitution times its speed of approach (Newton), at one instant for all.
+    pub(super) fn impacts(&self, state: &mut State, meeting: &Meeting<'_>) -> Vec<Impact> {
+        let contacts = self.candidates(state, meeting);
         let scale = contacts
             .iter()
             .flat_map(|own| own.ends)
             .map(|body| self.velocity(state, body).abs())
             .fold(0.0, f64::max);
-        if contacts.iter().all(|own| own.approach <= noise * scale) {
+        let noise = meeting.doubt.max(1e-14);
+        if contacts.iter().all(|own| own.approach <= noise * scale && !own.settles) {
             return Vec::new();
         }
+        let before: Vec<f64> =
+            (0..self.apart.all.len()).map(|body| self.velocity(state, body)).collect();
+        let mut after = before.clone();
+        let impulses = self.impulses(&contacts, &mut after, scale);
+        for &body in &meeting.group.bodies {
+            if matches!(self.apart.all[body].role, Role::Mass(_)) {
+                for &joint in &self.apart.all[body].joints {
+                    state.velocity[joint] = after[body];
+                }
+            }
+        }
+        self.booked(&contacts, &impulses, &before, &after)
+    }
+
+    /// The impulses of all contacts, by projected sweeps over them; `speeds` become those after.
+    fn impulses(&self, contacts: &[Candidate], speeds: &mut [f64], scale: f64) -> Vec<f64> {
         let mobility = |body: usize| match self.apart.all[body].role {
             Role::Mass(mass) => mass.recip(),
             _ => 0.0,
         };
-        let count = self.apart.all.len();
-        let before: Vec<f64> = (0..count).map(|body| self.velocity(state, body)).collect();
-        let mut after = before.clone();
         let mut impulses = vec![0.0_f64; contacts.len()];
         for _ in 0..SWEEPS {
             let mut change = 0.0_f64;
-            for (impulse, contact) in impulses.iter_mut().zip(&contacts) {
+            for (impulse, contact) in impulses.iter_mut().zip(contacts) {
                 let [a, b] = contact.ends;
                 let ease = mobility(a) + mobility(b);
                 let wanted = -contact.restitution * contact.approach.max(0.0);
-                let missing = (after[a] - after[b]) - wanted;
-                let next = (*impulse + missing / ease).max(0.0);
+                let missing = (speeds[a] - speeds[b]) - wanted;
+                let next = *impulse + missing / ease;
+                let next = if contact.settles { next } else { next.max(0.0) };
                 let step = next - *impulse;
                 *impulse = next;
-                after[a] -= step * mobility(a);
-                after[b] += step * mobility(b);
+                speeds[a] -= step * mobility(a);
+                speeds[b] += step * mobility(b);
                 change = change.max(step.abs() * ease);
             }
             if change <= 2.0 * f64::EPSILON * scale {
                 break;
             }
         }
-        let energy = |body: usize, speed: f64| match self.apart.all[body].role {
-            Role::Mass(mass) => 0.5 * mass * speed * speed,
-            _ => 0.0,
-        };
-        let total: f64 = impulses.iter().sum();
-        let lost: f64 =
-            (0..count).map(|body| energy(body, before[body]) - energy(body, after[body])).sum();
-        // What a moving support gives or takes is work from outside, not a loss.
-        let work: f64 = contacts
+        impulses
+    }
+
+    /// The impacts with their impulses, and their shares of what is lost and of what supports do.
+    fn booked(
+        &self,
+        contacts: &[Candidate],
+        impulses: &[f64],
+        before: &[f64],
+        after: &[f64],
+    ) -> Vec<Impact> {
+        let lost: f64 = self
+            .apart
+            .all
             .iter()
-            .zip(&impulses)
-            .flat_map(|(own, &impulse)| {
-                [(own.ends[0], -impulse), (own.ends[1], impulse)].map(|(body, push)| {
-                    if matches!(self.apart.all[body].role, Role::Mass(_)) {
-                        0.0
-                    } else {
-                        -push * before[body]
-                    }
-                })
+            .zip(before.iter().zip(after))
+            .map(|(body, (before, after))| match body.role {
+                Role::Mass(mass) => 0.5 * mass * (before * before - after * after),
+                _ => 0.0,
             })
             .sum();
-        for (joint, body) in self.apart.of_joint.iter().enumerate() {
-            if matches!(self.apart.all[*body].role, Role::Mass(_)) {
-                state.velocity[joint] = after[*body];
-            }
-        }
+        // What a moving support gives or takes is work from outside, not a loss.
+        let push = |body: usize, impulse: f64| match self.apart.all[body].role {
+            Role::Mass(_) => 0.0,
+            _ => -impulse * before[body],
+        };
+        let pushes = contacts.iter().zip(impulses);
+        let work: f64 = pushes
+            .clone()
+            .map(|(own, &impulse)| push(own.ends[0], -impulse) + push(own.ends[1], impulse))
+            .sum();
+        let total: f64 = impulses.iter().sum();
         let mut met: Vec<Impact> = Vec::new();
-        for (own, &impulse) in contacts.iter().zip(&impulses).filter(|own| *own.1 > 0.0) {
+        for (own, &impulse) in pushes.filter(|own| *own.1 > 0.0) {
             let (lost, worked) = ((lost + work) * impulse / total, work * impulse / total);
             met.push(Impact { part: own.part, impulse, lost, worked });
             for &part in &own.through {
@@ -129,15 +162,16 @@ impl PhasedNetwork {
         met
     }
 
-    fn candidates(
-        &self,
-        state: &State,
-        phases: &[Phase],
-        touching: &[bool],
-        slowest: f64,
-    ) -> Vec<Candidate> {
+    fn candidates(&self, state: &State, meeting: &Meeting<'_>) -> Vec<Candidate> {
+        let Meeting { group, phases, touching, .. } = *meeting;
+        let slowest = if meeting.rebounds {
+            self.group_speed(state, group) * RESTING.max(4.0 * meeting.doubt)
+        } else {
+            f64::INFINITY
+        };
         let mut found = Vec::new();
-        for (part, &at) in self.parts.iter().enumerate() {
+        for &part in &group.parts {
+            let at = self.parts[part];
             let Some(own) = self.phases_of(at).filter(|own| is_contact(*own)) else { continue };
             let closed = matches!(own.law(phases[part]), PhaseLaw::Held(_));
             if !closed && !touching[part] {
@@ -171,13 +205,18 @@ impl PhasedNetwork {
             let restitution = own.restitution();
             let rebounds = restitution * approach > slowest;
             let restitution = if rebounds { restitution } else { 0.0 };
-            found.push(Candidate { part, ends, through, restitution, approach });
+            // What has reached its level by a motion away from it is there by the method's error.
+            let settles = !meeting.rebounds
+                && approach < 0.0
+                && -approach <= meeting.doubt.sqrt() * self.speed
+                && meeting.at_level.iter().any(|own| own.0 == part);
+            found.push(Candidate { part, ends, through, restitution, approach, settles });
         }
         found
     }
 
     /// The bodies on both sides of a primitive.
-    fn sides(&self, primitive: usize) -> [usize; 2] {
+    pub(super) fn sides(&self, primitive: usize) -> [usize; 2] {
         self.expansion.primitives[primitive].ends.map(|joint| self.apart.of_joint[joint])
     }
 
@@ -194,7 +233,8 @@ impl PhasedNetwork {
         })
     }
 
-    fn velocity(&self, state: &State, body: usize) -> f64 {
+    /// The velocity of a body apart \[m/s\]; of no meaning for a massless one.
+    pub(super) fn velocity(&self, state: &State, body: usize) -> f64 {
         let joints = &self.apart.all[body].joints;
         let rules = |joint: usize| {
             self.network
@@ -207,6 +247,9 @@ impl PhasedNetwork {
     }
 
     /// For each part whether it is at a level of its deformation at which a phase ends.
+    ///
+    /// What has not been reached and is nearer than its error is taken to be there. It is not looked
+    /// for as far as the doubt: of two levels that follow each other closely, each has its own instant.
     pub(super) fn touching(
         &self,
         state: &State,
@@ -215,6 +258,7 @@ impl PhasedNetwork {
         doubt: f64,
     ) -> Vec<bool> {
         let size = self.own_length(state);
+        let near = TOUCHING * doubt;
         let at_level = |part: usize| {
             let at = self.parts[part];
             let Some(own) = self.phases_of(at) else { return false };
@@ -222,7 +266,7 @@ impl PhasedNetwork {
             own.exits(phases[part]).iter().enumerate().any(|(number, exit)| {
                 exit.watched == Watched::Deformation
                     && (fired.contains(&(part, number))
-                        || (deformation - exit.level).abs() <= doubt * (size + exit.level.abs())
+                        || (deformation - exit.level).abs() <= near * (size + exit.level.abs())
                         || if exit.rising {
                             deformation > exit.level
                         } else {

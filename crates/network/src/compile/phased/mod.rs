@@ -5,7 +5,10 @@
 //! unknowns.
 
 mod choice;
+mod groups;
 mod impacts;
+mod judge;
+mod search;
 mod start;
 
 use std::{
@@ -16,7 +19,7 @@ use std::{
 
 use dashpot_dae::{Direction, Guard, Leg, LegEnd, SolveError, Switch, Switching, System};
 
-use self::choice::Choice;
+use self::judge::Choice;
 use super::{
     Compiled,
     bodies::Bodies,
@@ -51,7 +54,6 @@ type Key = Vec<(usize, u64)>;
 pub(super) struct Mode {
     pub(super) system: Arc<System>,
     pub(super) carry: Carry,
-    pub(super) bodies: Bodies,
     /// For each part that switches its ways out.
     pub(super) exits: Vec<Vec<Exit>>,
     guards: Vec<Guard>,
@@ -189,7 +191,7 @@ impl PhasedNetwork {
     }
 
     fn build(&self, phases: &[Phase]) -> Result<Mode, NetworkErrors> {
-        let Compiled { assembly, carry, bodies } = self.compiled(phases)?;
+        let Compiled { assembly, carry } = self.compiled(phases)?;
         let (mut guards, mut of_guard) = (Vec::new(), Vec::new());
         let exits: Vec<Vec<Exit>> = self
             .parts
@@ -221,7 +223,7 @@ impl PhasedNetwork {
             }
         }
         let carry = carry.unwrap_or_default();
-        Ok(Mode { system: Arc::new(assembly.system), carry, bodies, exits, guards, of_guard })
+        Ok(Mode { system: Arc::new(assembly.system), carry, exits, guards, of_guard })
     }
 
     /// Numbers the bodies as if every contact with a massless side were closed, so that what is
@@ -289,6 +291,17 @@ pub(super) fn is_contact(own: &dyn Phases) -> bool {
         let phase = Phase { index, memory: 0.0 };
         matches!(own.law(phase), PhaseLaw::Held(_))
             && own.exits(phase).iter().all(|exit| !exit.rising)
+    })
+}
+
+/// The first phase of a part in which it holds nothing and can move at this rate \[m/s\], or is about
+/// to.
+fn moving(own: &dyn Phases, phase: Phase, rate: f64) -> Option<usize> {
+    (0..own.names().len()).find(|&index| {
+        let phase = Phase { index, ..phase };
+        let goes_on =
+            |exit: &Exit| exit.watched != Watched::Rate || (rate < exit.level) == exit.rising;
+        !matches!(own.law(phase), PhaseLaw::Held(_)) && own.exits(phase).iter().all(goes_on)
     })
 }
 

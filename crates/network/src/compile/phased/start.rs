@@ -3,24 +3,28 @@
 use super::{
     super::{
         balance,
-        bodies::{Bodies, Role, start_velocity},
+        bodies::{Bodies, Body, Groups, Role, start_velocity},
         carry::State,
         expand::Expansion,
         structure::Structure,
     },
-    is_contact,
+    is_contact, moving,
 };
 use crate::{
-    Network, NetworkErrors, Start, Support,
+    Network, NetworkError, NetworkErrors, Start, Support,
     phases::{Phase, PhaseLaw, Phases},
 };
+
+/// Overlap at the start that is rounding, in parts of the places.
+const NEAR: f64 = 1e-9;
 
 /// The bodies of the network in its loosest state, in which no part that switches holds anything.
 ///
 /// # Errors
 ///
 /// What is undetermined where nothing touches, for instance a massless pad that can part on both
-/// sides. Sliders count as stuck there: one that no force can move does not slide.
+/// sides. Sliders count as stuck there, since one that no force can move does not slide; but those
+/// that given motions move slide.
 pub(super) fn bodies_apart(
     network: &Network,
     expansion: &Expansion,
@@ -41,11 +45,77 @@ pub(super) fn bodies_apart(
         };
         parts.iter().map(phase).collect()
     };
-    let untouched = expansion.in_phases(parts, &phases(is_contact));
+    let loosest = expansion.in_phases(parts, &phases(|_| true));
+    let apart = Bodies::of(network, &loosest).map_err(NetworkErrors)?;
+    let mut untouched = phases(is_contact);
+    slip(network, expansion, parts, &apart, &mut untouched)?;
+    let untouched = expansion.in_phases(parts, &untouched);
     let bodies = Bodies::of(network, &untouched).map_err(NetworkErrors)?;
     Structure::of(network, &untouched, &bodies, duration).map_err(NetworkErrors)?;
-    let loosest = expansion.in_phases(parts, &phases(|_| true));
-    Bodies::of(network, &loosest).map_err(NetworkErrors)
+    Ok(apart)
+}
+
+/// Lets those sliders slide that would hold together what is given different motions, the way that
+/// their rate goes at the start.
+///
+/// # Errors
+///
+/// [`NetworkError::UndeterminedForce`] where the motions at both ends begin alike: then a slider
+/// neither sticks nor slides, and its force follows from nothing.
+fn slip(
+    network: &Network,
+    expansion: &Expansion,
+    parts: &[usize],
+    apart: &Bodies,
+    phases: &mut [Phase],
+) -> Result<(), NetworkErrors> {
+    let support = |body: &Body| match body.role {
+        Role::Fixed => Some(&Support::Fixed),
+        Role::Prescribed(node) => Some(&network.nodes[node].support),
+        _ => None,
+    };
+    let mut given: Vec<Option<&Support>> = apart.all.iter().map(support).collect();
+    let mut joined = Groups::new(apart.all.len());
+    let mut errors = Vec::new();
+    // Contacts hold whatever there is; sliders give way.
+    for slides in [false, true] {
+        for (&at, phase) in parts.iter().zip(&mut *phases) {
+            let primitive = &expansion.primitives[at];
+            let Some(own) = primitive.origin.phases() else { continue };
+            let is_held = matches!(own.law(*phase), PhaseLaw::Held(_));
+            if !is_held || is_contact(own) == slides {
+                continue;
+            }
+            let ends = primitive.ends.map(|joint| apart.of_joint[joint]);
+            let [a, b] = ends.map(|end| given[joined.of(end)]);
+            if slides && a.zip(b).is_some_and(|(a, b)| a != b) {
+                let rate = given_rate(ends.map(|end| support(&apart.all[end])));
+                match moving(own, *phase, rate.unwrap_or(0.0)) {
+                    Some(index) if rate != Some(0.0) => phase.index = index,
+                    _ => {
+                        let element = primitive.name.clone();
+                        errors.push(NetworkError::UndeterminedForce { element });
+                    }
+                }
+                continue;
+            }
+            joined.join(ends[0], ends[1]);
+            given[joined.of(ends[0])] = a.or(b);
+        }
+    }
+    if errors.is_empty() { Ok(()) } else { Err(NetworkErrors(errors)) }
+}
+
+/// The first derivative from the rate on that is not zero at the start, of what is given at both
+/// ends: it has the sign of the rate that follows.
+fn given_rate(ends: [Option<&Support>; 2]) -> Option<f64> {
+    let [Some(a), Some(b)] = ends else { return None };
+    let derivative = |support: &Support, order: u32| match support {
+        Support::Prescribed(motion) => motion.piece_at(0.0).derivative(order, 0.0),
+        _ => 0.0,
+    };
+    let difference = |order: u32| derivative(a, order) - derivative(b, order);
+    Some((1..=4).map(difference).find(|&own| own != 0.0).unwrap_or(0.0))
 }
 
 /// The state at the start and the phases that go with it, as far as places tell.
@@ -90,20 +160,22 @@ pub(super) fn state(
         ends.map(|[a, b]| position[a] - position[b]).collect()
     };
     let mut deformation = deformations(&position);
-    let phases = |deformation: &[f64]| -> Vec<Phase> {
+    let phases = |deformation: &[f64]| -> Result<Vec<Phase>, NetworkErrors> {
         let first = |&at: &usize| match expansion.primitives[at].origin.phases() {
             Some(own) => own.first(deformation[at]),
             None => Phase { index: 0, memory: 0.0 },
         };
-        parts.iter().map(first).collect()
+        let mut first: Vec<Phase> = parts.iter().map(first).collect();
+        slip(network, expansion, parts, apart, &mut first)?;
+        Ok(first)
     };
-    let mut first = phases(&deformation);
+    let mut first = phases(&deformation)?;
     if network.effects.iter().any(|effect| effect.starts_in_balance()) {
         for _ in 0..=parts.len() {
             let settled = expansion.in_phases(parts, &first);
             position = balanced(network, &settled, &position, duration)?;
             deformation = deformations(&position);
-            let reached = phases(&deformation);
+            let reached = phases(&deformation)?;
             let mut changed = false;
             for (at, (own, reached)) in first.iter_mut().zip(&reached).enumerate() {
                 let holds = expansion.primitives[parts[at]]
@@ -118,15 +190,53 @@ pub(super) fn state(
             if !changed {
                 break;
             }
+            slip(network, expansion, parts, apart, &mut first)?;
         }
-        let remembered = phases(&deformation);
+        let remembered = phases(&deformation)?;
         for (own, remembered) in first.iter_mut().zip(remembered) {
             if own.index == remembered.index {
                 own.memory = remembered.memory;
             }
         }
     }
+    overlaps(network, expansion, parts, apart, &deformation)?;
     Ok((State { deformation, position, velocity }, first))
+}
+
+/// Refuses contacts whose sides overlap at the start because a motion begins within what it meets.
+fn overlaps(
+    network: &Network,
+    expansion: &Expansion,
+    parts: &[usize],
+    apart: &Bodies,
+    deformation: &[f64],
+) -> Result<(), NetworkErrors> {
+    let overlap = |&at: &usize| -> Option<NetworkError> {
+        let primitive = &expansion.primitives[at];
+        let own = primitive.origin.phases().filter(|own| is_contact(*own))?;
+        let level = (0..own.names().len()).find_map(|index| {
+            match own.law(Phase { index, memory: 0.0 }) {
+                PhaseLaw::Held(level) => Some(level),
+                _ => None,
+            }
+        })?;
+        let bodies = primitive.ends.map(|joint| &apart.all[apart.of_joint[joint]]);
+        // What is massless gives way.
+        let is_hard = bodies.iter().all(|body| !body.is_massless());
+        let beyond = deformation[at] - level;
+        if !is_hard || beyond <= NEAR * deformation[at].abs().max(level.abs()) {
+            return None;
+        }
+        bodies.iter().find_map(|body| match body.role {
+            Role::Prescribed(node) => Some(NetworkError::StepThroughContact {
+                node: network.nodes[node].name.clone(),
+                time: 0.0,
+            }),
+            _ => None,
+        })
+    };
+    let errors: Vec<NetworkError> = parts.iter().filter_map(overlap).collect();
+    if errors.is_empty() { Ok(()) } else { Err(NetworkErrors(errors)) }
 }
 
 /// Places of all joints in balance under the weight of what has no start speed.

@@ -1,3 +1,6 @@
+mod driven;
+mod many;
+
 use dashpot_dae::{Run, Silent, Switch, Trajectory, Waveform, methods, switching};
 use dashpot_rheology::Tree;
 

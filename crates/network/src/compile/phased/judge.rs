@@ -1,0 +1,281 @@
+//! Whether phases hold.
+
+use std::sync::Arc;
+
+use dashpot_dae::{Derivatives, Output, System, derivatives};
+
+use super::{
+    super::{bodies::Groups, carry::State},
+    Mode, PhasedNetwork, moving,
+};
+use crate::phases::{Exit, Phase, PhaseLaw, Watched};
+
+/// Phases that hold, and the unknowns of their system.
+pub(super) struct Choice {
+    pub(super) mode: Arc<Mode>,
+    /// The mode's system, with time counted from the instant.
+    pub(super) system: Arc<System>,
+    pub(super) phases: Vec<Phase>,
+    pub(super) unknowns: Vec<f64>,
+    /// The levels of the mode's guards: where rounding or the method's error has left a quantity on
+    /// the outer side of its level, that place is its level in this leg.
+    pub(super) levels: Vec<f64>,
+}
+
+/// A part that does not stay in the phase that is tried.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Fault {
+    /// Number of the part.
+    pub(super) part: usize,
+    /// Number of the phase to which it leads, where one is known.
+    pub(super) towards: Option<usize>,
+}
+
+/// Whether a part stays in its phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stay {
+    Yes,
+    /// As far as can be told.
+    Doubtful,
+    No,
+}
+
+/// What is found of phases that are tried.
+pub(super) enum Verdict {
+    /// Every part stays. Some may do so only because nothing can be told: what they watch is on the
+    /// outer side of its level, by less than its error, and moves neither way.
+    Holds(Box<Choice>, Vec<Fault>),
+    /// Some do not.
+    Fails(Vec<Fault>),
+    /// There is no such system.
+    Refused(String),
+}
+
+/// By what it is judged whether phases hold.
+pub(super) struct Judge<'a> {
+    /// The instant \[s\].
+    pub(super) time: f64,
+    pub(super) state: &'a State,
+    /// The phases that end.
+    pub(super) before: &'a [Phase],
+    /// What is at its level by the event that ended the leg, and that level.
+    pub(super) on_level: &'a [(usize, Watched, f64)],
+    /// Parts whose deformation has reached a level \[m\] by that event.
+    pub(super) at_level: &'a [(usize, f64)],
+    /// How closely each part is looked at.
+    pub(super) looks: &'a [Look],
+    /// A length \[m\] and a speed \[m/s\] of the network's own.
+    pub(super) size: (f64, f64),
+}
+
+/// How closely a part is looked at.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Look {
+    /// What is smaller than this part of its terms cannot be told from zero.
+    pub(super) doubt: f64,
+    /// Whether a way inwards counts that turns back before it can be told from the level.
+    pub(super) graze: bool,
+    /// Whether another phase is in reach.
+    pub(super) may_change: bool,
+    /// Whether no impact changes its speed. Then what is at its level, by the event that ended the
+    /// leg, and leaves it inwards again by the speed with which it came, is there by the method's
+    /// error: that speed is none.
+    pub(super) is_smooth: bool,
+}
+
+/// Derivatives that are looked at to see which way a quantity leaves its level.
+const ORDERS: usize = 6;
+/// What turns back before it is so far from its level is not seen to leave it, in parts of the doubt.
+const SEEN: f64 = 0.02;
+/// Parts of a length or a speed below which places and speeds that a phase joins are the same.
+const SAME: f64 = 1e-9;
+
+impl PhasedNetwork {
+    /// What is to be said of these phases.
+    pub(super) fn judge(&self, phases: &[Phase], judge: &Judge<'_>) -> Verdict {
+        let faults = self.held_apart(phases, judge);
+        if !faults.is_empty() {
+            return Verdict::Fails(faults);
+        }
+        let mode = match self.mode(phases) {
+            Ok(mode) => mode,
+            Err(errors) => return Verdict::Refused(errors.to_string()),
+        };
+        let unknowns = mode.carry.unknowns(judge.state);
+        let system = mode.system_from(judge.time);
+        let motion = match derivatives(&system, &unknowns, ORDERS + 1) {
+            Ok(motion) => motion,
+            Err(error) => return Verdict::Refused(error.to_string()),
+        };
+        let (mut faults, mut doubtful): (Vec<Fault>, Vec<Fault>) = (Vec::new(), Vec::new());
+        let guards = || mode.of_guard.iter().map(|own| own.0).zip(mode.of_guard_exits());
+        for (part, (output, exit)) in guards() {
+            let again = judge.is_again(part, phases[part], exit);
+            let fault = Fault { part, towards: Some(exit.to) };
+            match judge.stays(part, &motion, &mode.system.outputs[output], exit, again) {
+                Stay::Yes => {}
+                Stay::Doubtful => doubtful.push(fault),
+                Stay::No => faults.push(fault),
+            }
+        }
+        if !faults.is_empty() {
+            faults.dedup_by_key(|fault| fault.part);
+            return Verdict::Fails(faults);
+        }
+        let levels = guards().map(|(part, (output, exit))| {
+            let output = &mode.system.outputs[output];
+            let (value, size) = motion.output(output, 0);
+            let outward = if exit.rising { 1.0 } else { -1.0 };
+            let beyond = (outward * (value - exit.level)).max(0.0);
+            let error = judge.looks[part].doubt * (size + exit.level.abs());
+            let again = judge.is_again(part, phases[part], exit);
+            exit.level + outward * if again { 2.0 * beyond + error } else { beyond }
+        });
+        let levels = levels.collect();
+        let phases = phases.to_vec();
+        Verdict::Holds(Box::new(Choice { mode, system, phases, unknowns, levels }), doubtful)
+    }
+
+    /// The parts that would have to hold what is elsewhere, or what moves apart.
+    fn held_apart(&self, phases: &[Phase], judge: &Judge<'_>) -> Vec<Fault> {
+        let (length, speed) = judge.size;
+        let held: Vec<(usize, f64)> = (0..self.parts.len())
+            .filter_map(|part| match self.phases_of(self.parts[part])?.law(phases[part]) {
+                PhaseLaw::Held(level) => Some((part, level)),
+                _ => None,
+            })
+            .collect();
+        let mut faults: Vec<Fault> = Vec::new();
+        let mut joined = Groups::new(self.apart.all.len());
+        for &(part, level) in &held {
+            let at = self.parts[part];
+            let deformation = judge.state.deformation[at];
+            let near =
+                judge.looks[part].doubt.max(SAME) * (length + level.abs()).max(deformation.abs());
+            if (deformation - level).abs() > near && !judge.at_level.contains(&(part, level)) {
+                faults.push(Fault { part, towards: None });
+            }
+            let [a, b] = self.sides(at);
+            joined.join(a, b);
+        }
+        // Slowest and fastest of the bodies that the phases make one.
+        let mut span = vec![(f64::INFINITY, f64::NEG_INFINITY); self.apart.all.len()];
+        for body in (0..self.apart.all.len()).filter(|&body| !self.apart.all[body].is_massless()) {
+            let (own, of) = (self.velocity(judge.state, body), joined.of(body));
+            span[of] = (span[of].0.min(own), span[of].1.max(own));
+        }
+        let (mut direct, mut through) = (Vec::new(), Vec::new());
+        for &(part, _) in &held {
+            let at = self.parts[part];
+            let sides = self.sides(at);
+            let whole = joined.of(sides[0]);
+            let (slowest, fastest) = span[whole];
+            let doubt = judge.looks[part].doubt;
+            let near = (doubt.max(SAME) * speed).max(doubt * self.speed);
+            if fastest - slowest <= near {
+                continue;
+            }
+            if sides.iter().any(|&side| self.apart.all[side].is_massless()) {
+                through.push((whole, Fault { part, towards: None }));
+                continue;
+            }
+            let rate = self.velocity(judge.state, sides[0]) - self.velocity(judge.state, sides[1]);
+            if rate.abs() > near {
+                let own = self.phases_of(at);
+                let towards = own.and_then(|own| moving(own, phases[part], rate));
+                direct.push((whole, Fault { part, towards }));
+            }
+        }
+        // What has a massless side is to blame only where nothing else is.
+        through.retain(|(whole, _)| direct.iter().all(|(other, _)| other != whole));
+        faults.extend(direct.into_iter().chain(through).map(|(_, fault)| fault));
+        faults.sort_unstable_by_key(|fault| fault.part);
+        faults.dedup_by_key(|fault| fault.part);
+        faults
+    }
+}
+
+impl Mode {
+    /// The system with time counted from `time` \[s\].
+    fn system_from(&self, time: f64) -> Arc<System> {
+        let moves = |own: &dashpot_dae::Waveform| {
+            own.pieces().len() > 1 || !own.pieces().iter().all(|piece| piece.is_constant(0))
+        };
+        if time == 0.0 || !self.system.waveforms.iter().any(moves) {
+            return Arc::clone(&self.system);
+        }
+        let mut system = System::clone(&self.system);
+        let start = time / system.time_scale;
+        system.waveforms = system.waveforms.iter().map(|own| own.since(start)).collect();
+        Arc::new(system)
+    }
+
+    /// Each exit with the output that it watches.
+    fn of_guard_exits(&self) -> impl Iterator<Item = (usize, &Exit)> {
+        self.guards
+            .iter()
+            .zip(&self.of_guard)
+            .map(|(guard, &(part, exit))| (guard.output, &self.exits[part][exit]))
+    }
+}
+
+impl Judge<'_> {
+    /// Whether an exit was reached at which a part stays in its phase all the same.
+    fn is_again(&self, part: usize, phase: Phase, exit: &Exit) -> bool {
+        self.looks[part].is_smooth
+            && phase.index == self.before[part].index
+            && exit.watched == Watched::Deformation
+            && self.on_level.contains(&(part, exit.watched, exit.level))
+    }
+
+    /// Whether a quantity is on the inner side of its exit's level, or on it and not on its way out.
+    fn stays(
+        &self,
+        part: usize,
+        motion: &Derivatives,
+        output: &Output,
+        exit: &Exit,
+        again: bool,
+    ) -> Stay {
+        let told = |stays: bool| if stays { Stay::Yes } else { Stay::No };
+        let Look { doubt, graze, may_change, .. } = self.looks[part];
+        let inward = if exit.rising { -1.0 } else { 1.0 };
+        let (value, size) = motion.output(output, 0);
+        let gap = inward * (value - exit.level);
+        let noise = doubt * (size.max(output.scale.abs()) + exit.level.abs());
+        // The method's error may leave it a little off the level that it has reached; what is farther
+        // off has jumped there.
+        let is_reached = self.on_level.contains(&(part, exit.watched, exit.level))
+            && gap.abs() <= doubt.sqrt() * (size + exit.level.abs());
+        if gap.abs() > noise && !is_reached {
+            return told(gap > 0.0);
+        }
+        if gap > 0.0 && !may_change {
+            // It has not been reached yet, however near it is.
+            return Stay::Yes;
+        }
+        let is_still = exit.watched == Watched::Deformation
+            && self.on_level.contains(&(part, Watched::Rate, 0.0));
+        let derivative = |order: usize| {
+            if order == 1 && is_still {
+                return 0.0;
+            }
+            let (value, own) = motion.output(output, order);
+            // The state is rounded, and its rounding grows from one derivative to the next.
+            let before = motion.output(output, order - 1).1;
+            let size = own.max((before * motion.output(output, order + 1).1).sqrt());
+            let is_none =
+                value.abs() <= doubt * size || (order == 1 && again && inward * value > 0.0);
+            if is_none { 0.0 } else { inward * value }
+        };
+        let Some(order) = (1..=ORDERS).find(|&order| derivative(order) != 0.0) else {
+            return if gap < 0.0 { Stay::Doubtful } else { Stay::Yes };
+        };
+        let first = derivative(order);
+        if first < 0.0 || graze || order > 1 || derivative(2) >= 0.0 {
+            return told(first > 0.0);
+        }
+        let seen = SEEN * doubt * (size + exit.level.abs());
+        told(first * first > 2.0 * seen * -derivative(2))
+    }
+}

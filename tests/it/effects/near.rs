@@ -1,0 +1,129 @@
+//! Switchings that nearly coincide, and many contacts at once.
+
+use dashpot::{
+    analysis::{RunReport, solve},
+    dae::Silent,
+    scene::{ReadOptions, read},
+};
+
+const METHODS: [&str; 4] = ["exact", "bdf", "tr-bdf2", "esdirk34"];
+
+fn run(text: &str, method: &str) -> RunReport {
+    let scene = read(text, &ReadOptions::default()).unwrap().value;
+    solve(&scene.network, &scene.settings(method), &mut Silent)
+        .unwrap_or_else(|error| panic!("{method}: {error}"))
+}
+
+/// Holds every measure of the stepping methods against those of `exact`, within the errors of both.
+fn all_agree(text: &str) -> RunReport {
+    let exact = run(text, "exact");
+    for method in &METHODS[1..] {
+        let found = run(text, method);
+        for truth in &exact.measures {
+            let measure = found.measure(&truth.key).unwrap();
+            let (Some(value), Some(expected)) = (measure.value, truth.value) else {
+                assert_eq!(measure.value, truth.value, "{method}: {}", truth.key);
+                continue;
+            };
+            let errors = measure.error.unwrap() + truth.error.unwrap();
+            let off = (value - expected).abs();
+            assert!(off <= errors, "{method}: {} off by {off:e} of {errors:e}", truth.key);
+        }
+    }
+    exact
+}
+
+fn value(report: &RunReport, key: &str) -> f64 {
+    report.measure(key).unwrap().value.unwrap()
+}
+
+#[test]
+fn impacts_less_than_a_microsecond_apart_are_two() {
+    let exact = all_agree(
+        r#"
+        [nodes]
+        head = { mass = "5 kg", velocity = "4 m/s" }
+        plate = { mass = "1 kg" }
+        [elements]
+        p1 = { between = ["head", "plate"], kelvin-voigt = { spring = "100 kN/m", dashpot = "100 N s/m" } }
+        p2 = { between = ["plate", "ground"], zener = { spring = "50 kN/m", maxwell = { spring = "50 kN/m", dashpot = "200 N s/m" } } }
+        [effects]
+        face.p1 = { mass = "0 kg", at = "head" }
+        separation.p1 = { at = "head" }
+        face.p2 = { mass = "0.3 kg", at = "ground" }
+        separation.p2 = { at = "ground" }
+        stop.p1 = { at = "5 mm" }
+        stop.p2 = { at = "15 mm" }
+        [run]
+        duration = "0.2 s"
+        "#,
+    );
+    let mut times: Vec<f64> = exact.events.iter().map(|event| event.time).collect();
+    times.dedup();
+    let nearest = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+    assert!(nearest < 1e-6, "{nearest:e}");
+}
+
+#[test]
+fn a_stop_lets_go_however_stiff_it_is() {
+    for stiffness in [1e9, 1e11, 1e13] {
+        let exact = all_agree(&format!(
+            r#"
+            [nodes]
+            head = {{ mass = "5 kg", velocity = "5 m/s" }}
+            [elements]
+            pad = {{ between = ["head", "ground"], kelvin-voigt = {{ spring = "20 kN/m", dashpot = "50 N s/m" }} }}
+            [effects]
+            separation.pad = {{ at = "head" }}
+            stop.pad = {{ at = "20 mm", stiffness = {stiffness}, damping = 0 }}
+            [run]
+            duration = "40 ms"
+            "#
+        ));
+        // Half a period of the mass on the stop, of which the pad and its share of the way are a part.
+        let half = std::f64::consts::PI * f64::sqrt(5.0 / stiffness);
+        let off = value(&exact, "pad.stop.contact-time") / half - 1.0;
+        assert!(off.abs() < 10.0 * f64::sqrt(20e3 / stiffness), "{stiffness:e}: {off:e}");
+    }
+}
+
+#[test]
+fn a_slider_keeps_its_force_while_what_moves_it_pauses() {
+    let exact = all_agree(
+        r#"
+        [nodes]
+        p = { motion = { trapezoid = { peak = "5 mm", rise = "50 ms", hold = "100 ms", fall = "50 ms" } } }
+        [elements]
+        f = { between = ["p", "ground"], friction = "50 N" }
+        [measures]
+        f = [{ kind = "energy", window = "run" }]
+        [run]
+        duration = "0.4 s"
+        "#,
+    );
+    let energy = value(&exact, "f.energy");
+    assert!((energy - 2.0 * 50.0 * 5e-3).abs() < 1e-12, "{energy}");
+}
+
+#[test]
+fn ten_balls_in_a_row_pass_the_blow_on() {
+    let mut text = "[nodes]\nb0 = { mass = 1, velocity = 1 }\n".to_owned();
+    for ball in 1..10 {
+        text += &format!("b{ball} = {{ mass = 1 }}\n");
+    }
+    text += "[elements]\n";
+    for ball in 0..9 {
+        text += &format!(
+            "c{ball} = {{ between = [\"b{ball}\", \"b{}\"], contact = {{ gap = 0.01, restitution = 0.9 }} }}\n",
+            ball + 1
+        );
+    }
+    text += "[measures]\nb9 = [{ kind = \"end-velocity\", window = \"run\" }]\n[run]\nduration = 0.3\n";
+    let expected = f64::powi(1.9 / 2.0, 9);
+    for method in METHODS {
+        let found = run(&text, method);
+        let velocity = found.measure("b9.end-velocity").unwrap();
+        let off = (velocity.value.unwrap() - expected).abs();
+        assert!(off <= velocity.error.unwrap().max(1e-14), "{method}: off by {off:e}");
+    }
+}

@@ -1,0 +1,189 @@
+//! What the command prints on a terminal of 80 columns.
+
+use std::{fs, path::PathBuf};
+
+use dashpot::{
+    dae::{System, switching::Switching},
+    network::Network,
+    scene::{ReadOptions, read_network},
+};
+use tempfile::TempDir;
+
+use crate::cli::{code, err, file, out, run, text};
+
+const WIDTH: usize = 80;
+
+fn scenes() -> Vec<PathBuf> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut all: Vec<PathBuf> =
+        entries.filter(|path| path.extension().is_some_and(|end| end == "toml")).collect();
+    all.sort();
+    assert!(all.len() > 10);
+    all
+}
+
+/// Checks both streams of a command. Names of files and quoted lines of a scene are as long as they
+/// are, and examples of its text stand in one line, to be copied.
+fn fits(arguments: &[&str]) {
+    let output = run(arguments);
+    for line in out(&output).lines().chain(err(&output).lines()) {
+        let is_long = arguments.iter().any(|own| own.len() > 20 && line.contains(own));
+        let is_example = arguments[0] == "list" && line.contains(" = ");
+        let is_quoted = line
+            .split_once(" | ")
+            .is_some_and(|(number, _)| number.trim().chars().all(|digit| digit.is_ascii_digit()));
+        assert!(
+            is_long || is_example || is_quoted || line.chars().count() <= WIDTH,
+            "{arguments:?}: {line}"
+        );
+    }
+}
+
+fn network(path: &str) -> Network {
+    read_network(&fs::read_to_string(path).unwrap(), &ReadOptions::default()).unwrap().value
+}
+
+#[test]
+fn no_line_is_wider_than_the_terminal() {
+    let folder = TempDir::new().unwrap();
+    for scene in scenes() {
+        let scene = text(&scene);
+        for verb in ["check", "explain", "vibrate"] {
+            fits(&[verb, scene]);
+        }
+        fits(&["run", scene, "--plot", "always"]);
+        fits(&["run", scene, "--neglect", "0.5%"]);
+        fits(&["vibrate", scene, "--drive", "ground", "--plot", "always"]);
+        for element in network(scene).connections() {
+            let operand = format!("{scene}:{}", element.name);
+            fits(&["rheometer", &operand, "--plot", "always"]);
+            // Its output is a scene, with the lines that it had.
+            let file = folder.path().join("converted.toml");
+            let target = ["--to", "generalized-maxwell", "--force", "--out", text(&file)];
+            fits(&[&["convert", &operand], &target[..]].concat());
+            fits(&["compare", &operand, "reference:padding"]);
+        }
+    }
+}
+
+#[test]
+fn help_and_lists_fit_too() {
+    for verb in ["run", "check", "explain", "convert", "compare", "rheometer", "vibrate", "new"] {
+        fits(&[verb, "--help"]);
+    }
+    for arguments in [&["--help"][..], &["list"], &["list", "effects"], &["list", "elements"]] {
+        fits(arguments);
+    }
+}
+
+#[test]
+fn long_notes_go_on_with_an_indent() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/hockey-pad.toml");
+    let told = err(&run(&["check", scene]));
+    let mut lines = told.lines();
+    assert!(lines.next().unwrap().starts_with("note: element `pad`: "), "{told}");
+    assert!(lines.clone().count() > 2 && lines.all(|line| line.starts_with("  ")), "{told}");
+}
+
+/// Entries of the matrices with which a run of the network begins.
+fn entries(network: &Network, duration: f64) -> usize {
+    let own = |system: &System| system.jacobian.nnz() + system.input_matrix.nnz();
+    let assembly = network.compile(duration).unwrap();
+    match &assembly.switching {
+        Some(phased) => own(&phased.first(0.0).unwrap().system),
+        None => own(&assembly.system),
+    }
+}
+
+#[test]
+fn effects_that_remove_entries_say_so() {
+    let helmet = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/helmet-drop.toml");
+    let full = network(helmet);
+    for (name, effect) in [("gravity", 0), ("separation.liner", 1)] {
+        let position = full.effects().iter().position(|own| match effect {
+            0 => own.kind() == "gravity",
+            _ => own.kind() == "separation",
+        });
+        let without = full.without(&[dashpot::network::Detail::Effect(position.unwrap())]);
+        let [with, without] = [&full, &without].map(|own| entries(own, 0.6));
+        let expected = match with.checked_sub(without) {
+            Some(more) => more.to_string(),
+            None => format!("{} fewer", without - with),
+        };
+        let shown = out(&run(&["explain", helmet]));
+        let starts = format!("  {name} ");
+        let row = shown.lines().find(|line| line.starts_with(&starts)).unwrap();
+        assert!(row.contains(&format!(" {expected}  ")), "{expected}: {row}");
+        assert!(row.contains(" on "), "{row}");
+    }
+}
+
+#[test]
+fn what_cannot_be_shaken_is_told_with_what_to_do_instead() {
+    let told = |scene: &str, arguments: &[&str]| {
+        let scene = format!("{}/scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
+        let output = run(&[&["vibrate", &scene], arguments].concat());
+        assert_eq!(code(&output), 2);
+        err(&output).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let switching = told("truck-parcel", &[]);
+    for part in
+        ["`cushion.contact` is not linear (contact)", "`dashpot run` solves it in time", "sine"]
+    {
+        assert!(switching.contains(part), "{switching}");
+    }
+    assert!(told("helmet-drop", &[]).contains("help: `--drive ground` shakes `ground`"));
+    assert!(told("hockey-pad", &[]).contains("there is nothing to shake"));
+    assert!(told("crash-mat", &["--drive", "ground"]).contains("is not linear"));
+}
+
+#[test]
+fn contacts_of_effects_are_named_once() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/hockey-pad.toml");
+    let shown = out(&run(&["explain", scene]));
+    assert!(
+        shown
+            .lines()
+            .any(|line| line.trim() == "contact      pad.contact               open / closed"),
+        "{shown}"
+    );
+    let folder = TempDir::new().unwrap();
+    let stopped = "[nodes]\nhead = { mass = 1, velocity = 1 }\n[elements]\npad = { between = \
+                   [\"head\", \"ground\"], spring = 1000 }\n[effects]\nseparation.pad = {}\n[run]\n\
+                   duration = 1\nstop = [{ when = \"pad.contact.force\", rises-above = \"10 N\" }]\n";
+    let scene = file(&folder, "stop.toml", stopped);
+    let shown = out(&run(&["run", text(&scene)]));
+    assert!(shown.contains("  stopped  "), "{shown}");
+}
+
+#[test]
+fn completions_know_all_verbs_and_options() {
+    let shown = out(&run(&["completions", "bash"]));
+    for word in
+        ["vibrate", "--neglect", "--drive", "--amplitude", "rheometer", "--impact", "--plot"]
+    {
+        assert!(shown.contains(word), "{word}");
+    }
+}
+
+#[test]
+fn a_body_that_nothing_brings_back_is_told_of_once() {
+    let folder = TempDir::new().unwrap();
+    let scene = |gravity: &str| {
+        format!(
+            "[nodes]\nparcel = {{ mass = 3 }}\nbed = {{ motion = {{ sine = {{ amplitude = \"5 mm\", \
+             frequency = \"9 Hz\" }} }} }}\n[elements]\nfoam = {{ between = [\"parcel\", \"bed\"], \
+             kelvin-voigt = {{ spring = 9000, dashpot = 40 }} }}\n[effects]\nseparation.foam = {{}}\n\
+             {gravity}[run]\nduration = 1\n"
+        )
+    };
+    let told = |gravity: &str| {
+        let path = file(&folder, "fly.toml", &scene(gravity));
+        err(&run(&["run", text(&path)]))
+    };
+    let off = told("");
+    assert_eq!(off.matches("never comes back: gravity is off").count(), 1, "{off}");
+    assert!(off.contains("parcel leaves the foam at"), "{off}");
+    assert_eq!(told("gravity = {}\n"), "");
+}
