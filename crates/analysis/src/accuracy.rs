@@ -177,7 +177,10 @@ mod tests {
         // A thousandth of what is wanted of the largest one.
         assert!(is_as_good_as_zero(&zero, Some(9e-7), (1.0, 1e-3)));
         assert!(!is_as_good_as_zero(&zero, Some(2e-6), (1.0, 1e-3)));
-        assert!(!is_as_good_as_zero(&reading(Some(1e-20)), Some(1e-27), (1.0, 1e-3)), "it is a number");
+        assert!(
+            !is_as_good_as_zero(&reading(Some(1e-20)), Some(1e-27), (1.0, 1e-3)),
+            "it is a number"
+        );
     }
 
     #[test]

@@ -107,18 +107,21 @@ fn a_slider_keeps_its_force_while_what_moves_it_pauses() {
 
 #[test]
 fn ten_balls_in_a_row_pass_the_blow_on() {
-    let mut text = "[nodes]\nb0 = { mass = 1, velocity = 1 }\n".to_owned();
-    for ball in 1..10 {
-        text += &format!("b{ball} = {{ mass = 1 }}\n");
-    }
-    text += "[elements]\n";
-    for ball in 0..9 {
-        text += &format!(
-            "c{ball} = {{ between = [\"b{ball}\", \"b{}\"], contact = {{ gap = 0.01, restitution = 0.9 }} }}\n",
-            ball + 1
-        );
-    }
-    text += "[measures]\nb9 = [{ kind = \"end-velocity\", window = \"run\" }]\n[run]\nduration = 0.3\n";
+    let balls: Vec<String> = (1..10).map(|ball| format!("b{ball} = {{ mass = 1 }}\n")).collect();
+    let contacts: Vec<String> = (0..9)
+        .map(|ball| {
+            let ends = format!("[\"b{ball}\", \"b{}\"]", ball + 1);
+            format!(
+                "c{ball} = {{ between = {ends}, contact = {{ gap = 0.01, restitution = 0.9 }} }}\n"
+            )
+        })
+        .collect();
+    let text = format!(
+        "[nodes]\nb0 = {{ mass = 1, velocity = 1 }}\n{}[elements]\n{}[measures]\nb9 = [{{ kind = \
+         \"end-velocity\", window = \"run\" }}]\n[run]\nduration = 0.3\n",
+        balls.concat(),
+        contacts.concat()
+    );
     let expected = f64::powi(1.9 / 2.0, 9);
     for method in METHODS {
         let found = run(&text, method);

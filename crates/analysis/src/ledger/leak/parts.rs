@@ -8,7 +8,7 @@ use dashpot_network::Assembly;
 use super::Place;
 use crate::{
     Solution,
-    accounts::{self, Accounts},
+    accounts::Accounts,
     bodies,
     ledger::{does_work, steps},
 };
@@ -152,12 +152,11 @@ impl<'a> Parts<'a> {
     }
 
     fn add_to_body(&mut self, body: usize, cell: usize, energy: f64) {
-        match self.within.get(&body) {
-            Some(&element) => self.add_to_element(element, cell, energy),
-            None => {
-                self.bodies[body] += energy;
-                self.totals[cell] += energy;
-            }
+        if let Some(&element) = self.within.get(&body) {
+            self.add_to_element(element, cell, energy);
+        } else {
+            self.bodies[body] += energy;
+            self.totals[cell] += energy;
         }
     }
 
@@ -174,12 +173,12 @@ impl<'a> Parts<'a> {
             return;
         }
         let velocity = self.velocity(body);
-        let slices = self.slices().map(|(cell, (from, to))| {
-            (cell, velocity.value(from), velocity.left_value(to))
-        });
-        let instants = self.instants().map(|(cell, time)| {
-            (cell, velocity.left_value(time), velocity.value(time))
-        });
+        let slices = self
+            .slices()
+            .map(|(cell, (from, to))| (cell, velocity.value(from), velocity.left_value(to)));
+        let instants = self
+            .instants()
+            .map(|(cell, time)| (cell, velocity.left_value(time), velocity.value(time)));
         for (cell, before, after) in slices.chain(instants) {
             let momentum = mass * (after - before);
             self.add_to_body(body, cell, -0.5 * momentum * (after + before));
