@@ -8,6 +8,11 @@
     reason = "a benchmark prints its table and has no one to report errors to"
 )]
 
+#[path = "equal_error/by_hand.rs"]
+mod by_hand;
+#[path = "equal_error/impact.rs"]
+mod impact;
+
 use std::{
     hint::black_box,
     time::{Duration, Instant},
@@ -17,93 +22,58 @@ use criterion::Criterion;
 use dashpot::{
     analysis::{SolveSettings, solve},
     dae::{Method, Run, Silent, System, methods},
-    network::{
-        Assembly, Network, Node,
-        elements::{Dashpot, Spring},
-        part,
-    },
-    rheology::Tree,
+    network::Assembly,
 };
-use diffsol::{DenseMatrix, NalgebraLU, NalgebraMat, OdeBuilder, OdeSolverMethod};
 use nalgebra::{SMatrix, SVector};
 
-/// Groups of the thesis: a, b, c, d, α, β, γ of the reference in SI.
-const GROUPS: [f64; 7] = [80.0 / 3.0, 200.0 / 3.0, 8.0, 80.0, 0.2, 2.0, 0.1];
-/// Dimensionless end of the run, 20 ms.
-const END: f64 = 10.0;
+use self::{by_hand::ByHand, impact::Impact};
+
+/// Damping of the mount \[N s/m\], and the same in the groups of the thesis.
+const MOUNT: (f64, f64) = (1e4, 0.2);
 /// Output samples.
 const SAMPLES: usize = 501;
 
-fn rates(z: &[f64], rate: &mut [f64]) {
-    let [a, b, c, d, alpha, beta, gamma] = GROUPS;
-    let (zeta2, eta2) = (-z[4], -alpha * z[3] - beta * z[2] + gamma * z[4]);
-    rate[0] = z[1];
-    rate[1] = zeta2;
-    rate[2] = z[3];
-    rate[3] = eta2;
-    rate[4] = z[5];
-    rate[5] = -a * z[5] - b * z[4] + c * (zeta2 - eta2) + d * (z[1] - z[3]);
+/// The samples' times by hand.
+fn times() -> Vec<f64> {
+    let end = Impact::with_mount(MOUNT.1).end();
+    (0..SAMPLES).map(|at| end * at as f64 / (SAMPLES - 1) as f64).collect()
 }
 
-fn start() -> [f64; 6] {
-    [0.0, 1.0, 0.0, 0.0, 0.0, GROUPS[2]]
+/// The same in our units.
+fn own_times(system: &System) -> Vec<f64> {
+    let end = 0.02 / system.time_scale;
+    (0..SAMPLES).map(|at| end * at as f64 / (SAMPLES - 1) as f64).collect()
 }
 
-/// Hand-written diffsol: φ at all samples, and the steps.
+/// Hand-written diffsol: the force at all samples.
 fn hand_written_bdf(rtol: f64, times: &[f64]) -> Vec<f64> {
-    let problem = OdeBuilder::<NalgebraMat<f64>>::new()
-        .rtol(rtol)
-        .atol([rtol])
-        .rhs_implicit(|z, _p, _t, rate| rates(z, rate), |_z, _p, _t, v, rate| rates(v, rate))
-        .init(|_p, _t, z| z.copy_from_slice(&start()), 6)
-        .build()
-        .expect("hand-written problem");
-    let mut solver = problem.bdf::<NalgebraLU<f64>>().expect("hand-written solver");
-    let (found, _) = solver.solve_dense(times).expect("hand-written solution");
-    (0..times.len()).map(|at| found.get_index(4, at)).collect()
+    let impact = Impact::with_mount(MOUNT.1);
+    let mut job = by_hand::bdf(&impact, times).expect("hand-written problem");
+    job(rtol).expect("hand-written solution")
 }
 
-/// Hand-written matrix exponential and a loop of static products: φ at all samples.
+/// Hand-written matrix exponential and a loop of static products: the force at all samples.
 fn hand_written_exponential() -> Vec<f64> {
+    let impact = Impact::with_mount(MOUNT.1);
     let mut matrix = SMatrix::<f64, 6, 6>::zeros();
     for column in 0..6 {
         let mut unit = [0.0; 6];
         unit[column] = 1.0;
         let mut rate = [0.0; 6];
-        rates(&unit, &mut rate);
+        impact.rates(&unit, &mut rate);
         for row in 0..6 {
             matrix[(row, column)] = rate[row];
         }
     }
-    let propagator = (matrix * (END / (SAMPLES - 1) as f64)).exp();
-    let mut state = SVector::<f64, 6>::from(start());
+    let propagator = (matrix * times()[1]).exp();
+    let mut state = SVector::<f64, 6>::from_vec(impact.start());
     let mut force = Vec::with_capacity(SAMPLES);
-    force.push(state[4]);
+    force.push(impact.observed(&|at| state[at]));
     for _ in 1..SAMPLES {
         state = propagator * state;
-        force.push(state[4]);
+        force.push(impact.observed(&|at| state[at]));
     }
     force
-}
-
-/// The impact with a pad of `links` Kelvin links behind a Maxwell element; the reference has one.
-/// Without links the pad is one Kelvin element.
-fn network(links: usize) -> Network {
-    let kelvin =
-        |k, c| Tree::parallel([part(Spring { stiffness: k }), part(Dashpot { damping: c })]);
-    let mut network = Network::new();
-    let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
-    let panel = network.add_node(Node::mass("panel", 100.0));
-    let maxwell = [part(Spring { stiffness: 2e7 }), part(Dashpot { damping: 6e3 })];
-    let link = |at: usize| kelvin(2e7 * (at + links) as f64, 4e3 / (1 + at) as f64);
-    let pad = match links {
-        0 => kelvin(2e7, 4e3),
-        1 => Tree::series(maxwell.into_iter().chain([kelvin(2e7, 4e3)])),
-        _ => Tree::series(maxwell.into_iter().chain((0..links).map(link))),
-    };
-    network.connect("padding", head, panel, pad).thickness = Some(0.02);
-    network.connect("mount", panel, network.ground(), kelvin(5e7, 1e4));
-    network
 }
 
 /// Our way from the system to the samples: all unknowns at all times.
@@ -113,15 +83,16 @@ fn ours(method: &dyn Method, system: &System, rtol: f64, times: &[f64]) -> Vec<f
     trajectory.dense.sample(system, times)
 }
 
-/// φ from our unknowns.
+/// The force \[N\] from our unknowns.
 fn force(assembly: &Assembly, states: &[f64]) -> Vec<f64> {
     let output = &assembly.system.outputs[assembly.output("padding.force").expect("force")];
-    let scale = output.scale * 0.02 / 1000.0;
-    states.chunks(assembly.system.len()).map(|z| scale * output.unknowns.at(z)).collect()
+    states.chunks(assembly.system.len()).map(|z| output.scale * output.unknowns.at(z)).collect()
 }
 
+/// The largest difference in units of the equations by hand.
 fn error(found: &[f64], truth: &[f64]) -> f64 {
-    found.iter().zip(truth).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    let differences = found.iter().zip(truth).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max) / impact::UNIT
 }
 
 /// Medians of two jobs that take turns, so that the machine's moods hit both alike.
@@ -147,8 +118,8 @@ fn line(name: &str, [ours, theirs]: [Duration; 2], target: &str) {
 
 fn table(assembly: &Assembly) {
     let system = &assembly.system;
-    let times: Vec<f64> = (0..SAMPLES).map(|at| END * at as f64 / (SAMPLES - 1) as f64).collect();
-    let own: Vec<f64> = times.iter().map(|t| t / END * (0.02 / system.time_scale)).collect();
+    let times = times();
+    let own = own_times(system);
     let exact = methods::by_name("exact").expect("exact");
     let bdf = methods::by_name("bdf").expect("bdf");
     let truth = hand_written_exponential();
@@ -182,20 +153,18 @@ fn table(assembly: &Assembly) {
 fn against_bdf(links: usize) {
     let (exact, bdf) =
         (methods::by_name("exact").expect("exact"), methods::by_name("bdf").expect("bdf"));
-    let assembly = network(links).compile(0.02).expect("the pad compiles");
+    let assembly = impact::network(links, MOUNT.0).compile(0.02).expect("the pad compiles");
     let system = &assembly.system;
-    let end = 0.02 / system.time_scale;
-    let times: Vec<f64> = (0..SAMPLES).map(|at| end * at as f64 / (SAMPLES - 1) as f64).collect();
+    let times = own_times(system);
     let sampled =
         |method: &dyn Method, rtol: f64| force(&assembly, &ours(method, system, rtol, &times));
     let truth = sampled(&*exact, 1e-6);
-    let scale = truth.iter().copied().fold(0.0, f64::max);
+    let scale = truth.iter().copied().fold(0.0, f64::max) / impact::UNIT;
     let trajectory =
         exact.integrate(system, &Run::to(0.02), &mut Silent).expect("the pad is solved");
     let signal = trajectory.signal(system, assembly.output("padding.force").expect("force"));
     let seconds: Vec<f64> = times.iter().map(|t| t * system.time_scale).collect();
-    let other: Vec<f64> =
-        signal.sample(&seconds).iter().map(|force| force * 0.02 / 1000.0).collect();
+    let other = signal.sample(&seconds);
     println!(
         "{} states: two evaluations of exact differ by {:.1e}",
         system.states(),
@@ -223,7 +192,7 @@ fn against_bdf(links: usize) {
 }
 
 fn main() {
-    let network = network(1);
+    let network = impact::network(1, MOUNT.0);
     let assembly = network.compile(0.02).expect("the reference compiles");
     table(&assembly);
 
@@ -232,9 +201,9 @@ fn main() {
         .measurement_time(Duration::from_secs(2))
         .warm_up_time(Duration::from_millis(500))
         .configure_from_args();
-    let times: Vec<f64> = (0..SAMPLES).map(|at| END * at as f64 / (SAMPLES - 1) as f64).collect();
+    let times = times();
     let system = &assembly.system;
-    let own: Vec<f64> = times.iter().map(|t| t / END * (0.02 / system.time_scale)).collect();
+    let own = own_times(system);
     criterion.bench_function("hand-written diffsol, 1e-6", |b| {
         b.iter(|| hand_written_bdf(1e-6, black_box(&times)));
     });

@@ -90,6 +90,39 @@ fn run_without_a_scene_gives_the_verdict_on_the_reference_impact() {
 }
 
 #[test]
+#[cfg(unix)]
+fn where_both_streams_are_one_a_warning_is_read_once() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("both");
+    let both = fs::File::create(&path).unwrap();
+    let mut run = command(&["run"]);
+    run.stdout(both.try_clone().unwrap()).stderr(both);
+    assert!(run.status().unwrap().success());
+    let read = fs::read_to_string(&path).unwrap();
+    assert_eq!(read.matches("the padding pulls: separation is off").count(), 1, "{read}");
+}
+
+#[test]
+fn the_verdict_names_the_longest_interval_of_a_head_injury_criterion() {
+    let folder = TempDir::new().unwrap();
+    let asked = "[measures]\nhead = [\"hic15\", \"hic36\", { kind = \"hic\", cap = \"5 ms\" }]\n";
+    let path = file(&folder, "scene.toml", &(SOFT.to_owned() + asked));
+    let verdict = out(&run(&["run", text(&path)]));
+    let words = verdict.split_whitespace().collect::<Vec<_>>().join(" ");
+    let injury = &words[words.find("injury").unwrap()..];
+    for name in ["HIC15 of head ", "HIC36 of head ", "s (from "] {
+        assert!(injury.contains(name), "{name}: {verdict}");
+    }
+    let only = "[measures]\nhead = [{ kind = \"hic\", cap = \"5 ms\" }]\n";
+    let path = file(&folder, "other.toml", &(SOFT.to_owned() + only));
+    let verdict = out(&run(&["run", text(&path)]));
+    assert!(verdict.contains("HIC up to 5 ms of head "), "{verdict}");
+    let path = file(&folder, "third.toml", &(SOFT.to_owned() + "[measures]\nhead = [\"hic\"]\n"));
+    let verdict = out(&run(&["run", text(&path)]));
+    assert!(verdict.contains("HIC without a cap of head "), "{verdict}");
+}
+
+#[test]
 fn json_has_one_shape_and_si_values() {
     let answer = json(&["run", "--json"]);
     for key in ["scene", "runs", "difference", "settings", "failed"] {

@@ -17,6 +17,7 @@ use dashpot::{
 
 mod equivalent_models;
 mod gallery;
+mod laws;
 mod readme;
 mod registers;
 mod separation;
@@ -38,6 +39,22 @@ fn root() -> &'static Path {
 fn text(path: impl AsRef<Path>) -> String {
     let path = root().join(path);
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// All files of Rust in a folder, relative to the root.
+fn sources(folder: &str) -> Vec<PathBuf> {
+    let (mut all, mut folders) = (Vec::new(), vec![PathBuf::from(folder)]);
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(root().join(&folder)).unwrap() {
+            let path = folder.join(entry.unwrap().file_name());
+            if root().join(&path).is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|end| end == "rs") {
+                all.push(path);
+            }
+        }
+    }
+    all
 }
 
 /// All documents in Markdown, relative to the root.
@@ -152,6 +169,20 @@ fn every_relative_link_leads_to_a_file_and_a_heading_in_it() {
                     assert!(found, "{place}, where that heading is missing");
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn the_tables_of_nodes_and_of_runs_have_every_key_of_the_schema() {
+    let schema = dashpot::scene::schema();
+    let page = text("docs/scene-format.md");
+    for (heading, part) in [("## Nodes", "/$defs/node"), ("## Run", "/properties/run")] {
+        let section = page.split(&format!("\n{heading}\n")).nth(1).unwrap();
+        let section = section.split("\n## ").next().unwrap();
+        let keys = schema.pointer(&format!("{part}/properties")).unwrap().as_object().unwrap();
+        for key in keys.keys() {
+            assert!(section.contains(&format!("| `{key}` |")), "{heading} lacks `{key}`");
         }
     }
 }

@@ -1,4 +1,4 @@
-"""Reference solutions of the effects: separation, stops, faces with mass, friction, waves, nonlinear laws.
+"""Reference solutions of the effects: separation, stops, faces with mass, friction, waves, nonlinear laws, chirps.
 
 Judge of the tests on effects. Needs mpmath: python3 effects_reference.py
 Writes effects_reference.csv beside itself, in about two minutes. Each line: case, quantity, value. Values
@@ -18,7 +18,8 @@ by quadrature and compared with Gauss-Legendre integration of the equation of mo
 
 from pathlib import Path
 
-from mpmath import acos, acosh, asin, atan, atan2, beta, ceil, cos, ellipk, exp, expm, findroot, gamma, lambertw
+from mpmath import acos, acosh, asin, atan, atan2, beta, ceil, cos, ellipk, exp, expm, findroot, fresnelc, fresnels
+from mpmath import gamma, lambertw
 from mpmath import legendre, log, log1p, lu_solve, matrix, mp, mpc, mpf, nstr, pi, quad, sin, sqrt
 
 mp.dps = 50
@@ -1832,6 +1833,94 @@ def steady_force(gauss):
     case.give("period-start.velocity", speed(mpf(0)))
 
 
+# 13. Swept sines. The first method is closed or the convolution with the impulse response by quadrature, the
+# second one Gauss-Legendre integration of the equation of motion.
+
+
+class Chirp:
+    """A sine of the frequency f0 at `start`, that of f1 from `length` later on, and linear between; and its rate."""
+
+    def __init__(self, amplitude, f0, f1, length, start):
+        self.amplitude, self.start, self.length = amplitude, start, length
+        self.end = start + length
+        self.omega, self.sweep = 2 * pi * f0, 2 * pi * (f1 - f0) / length
+        self.last = 2 * pi * f1
+        self.turned = (self.omega + self.sweep * length / 2) * length
+
+    def parts(self, t):
+        """Phase and its rate."""
+        s = t - self.start
+        if t <= self.end:
+            return (self.omega + self.sweep * s / 2) * s, self.omega + self.sweep * s
+        return self.turned + self.last * (t - self.end), self.last
+
+    def value(self, t):
+        return self.amplitude * sin(self.parts(t)[0])
+
+    def rate(self, t):
+        phase, rate = self.parts(t)
+        return self.amplitude * rate * cos(phase)
+
+    def spans(self, t):
+        """The parts of the time from the start to t on which it is analytic."""
+        return [(self.start, min(t, self.end))] + ([(self.end, t)] if t > self.end else [])
+
+
+def swept_integral(chirp, t):
+    """Integral of a rising chirp from its start to t, which is within the sweep: Fresnel's integrals."""
+    # The phase is sweep (s + b)^2/2 - sweep b^2/2, with the arguments of Fresnel's integrals z = (s + b) sqrt(sweep/pi).
+    b = chirp.omega / chirp.sweep
+    scale = sqrt(pi / chirp.sweep)
+    low, high = b / scale, (t - chirp.start + b) / scale
+    back = chirp.sweep * b * b / 2
+    sines, cosines = fresnels(high) - fresnels(low), fresnelc(high) - fresnelc(low)
+    return chirp.amplitude * scale * (sines * cos(back) - cosines * sin(back))
+
+
+def chirps(gauss):
+    times = {"sweep": "0.3", "end": None, "after": "0.7"}
+
+    def chirp_of(case, amplitude):
+        f0, f1, length, start = case.params(f0=2, f1=40, length=0.5, start=0.0625)
+        chirp = Chirp(amplitude, f0, f1, length, start)
+        return chirp, [(name, chirp.end if own is None else case.param(f"{name}.time", own)) for name, own in times.items()]
+
+    # A free mass: its speed is the integral of the force over the mass.
+    case = Case("chirp-free")
+    m, P = case.params(m=5, P=100)
+    chirp, instants = chirp_of(case, P)
+    for name, t in instants:
+        speed = swept_integral(chirp, min(t, chirp.end)) / m
+        if t > chirp.end:
+            turned = cos(chirp.turned) - cos(chirp.turned + chirp.last * (t - chirp.end))
+            speed += P / m * turned / chirp.last
+        agree(speed, sum(smooth(chirp.value, *span, 32) for span in chirp.spans(t)) / m, "1e-28", P / m * t)
+        place = sum(smooth(lambda s: (t - s) * chirp.value(s), *span, 32) for span in chirp.spans(t)) / m
+        case.give(f"{name}.velocity", speed)
+        case.give(f"{name}.position", place)
+
+    # A mass on a pad, by a force and by a motion of the ground; the sweep passes the resonance.
+    for way in ("force", "motion"):
+        case = Case(f"chirp-{way}")
+        m, K, C, P = case.params(m=5, K=2e5, C=100, P=100 if way == "force" else 0.001)
+        chirp, instants = chirp_of(case, P)
+        push = chirp.value if way == "force" else lambda t: K * chirp.value(t) + C * chirp.rate(t)
+        decay = C / (2 * m)
+        w = sqrt(K / m - decay**2)
+        answer = lambda t: exp(-decay * t) * sin(w * t) / (m * w)
+        rate_of = lambda t: exp(-decay * t) * (cos(w * t) - decay / w * sin(w * t)) / m
+        motion = lambda t, z: [z[1], (push(t) - K * z[0] - C * z[1]) / m]
+        state, at = [mpf(0), mpf(0)], chirp.start
+        for name, t in instants:
+            place = sum(smooth(lambda s: answer(t - s) * push(s), *span, 32) for span in chirp.spans(t))
+            speed = sum(smooth(lambda s: rate_of(t - s) * push(s), *span, 32) for span in chirp.spans(t))
+            state, at = gauss.over(motion, at, state, t, 60), t
+            agree(state[0], place, "1e-24", 1 / w)
+            agree(state[1], speed, "1e-24", 1)
+            case.give(f"{name}.position", place)
+            case.give(f"{name}.velocity", speed)
+
+
 def main():
     kelvin_voigt()
     kelvin_voigt_gravity()
@@ -1862,6 +1951,7 @@ def main():
         springs_in_series(gauss)
         rate_law(gauss)
         steady_force(gauss)
+        chirps(gauss)
     header = [
         "# Reference solutions of the effects. Regenerate: python3 effects_reference.py (needs mpmath).",
         "# Conventions and methods stand at the head of that script. SI units; param.* are inputs.",

@@ -60,7 +60,9 @@ fn changed(name: &str, change: impl Fn(String) -> String) -> Solved {
     let first = &runs[0];
     for run in &runs {
         let method = run.solver.method;
-        assert!(run.warnings.is_empty(), "{name} by {method}: {:?}", run.warnings);
+        // Segments that are too few, by which the errors are widened, are told of.
+        let told = |own: &String| !own.contains("segments of layers instead of");
+        assert!(!run.warnings.iter().any(told), "{name} by {method}: {:?}", run.warnings);
         // As good as the numbers are said to be, among them energies; and rounding.
         let allowed = run.worst_relative_error().unwrap().max(1e-12);
         let closure = run.energy.closure().abs();

@@ -7,23 +7,28 @@
     reason = "tests say what they expect"
 )]
 
+mod allocations;
+mod calibration;
 mod cli;
 mod cli_models;
 mod closed_forms;
 mod conformance;
 mod conversions;
+mod cost;
 mod docs;
 mod effects;
 mod equivalence;
 mod error_bars;
 mod examples;
 mod gallery;
+mod hard;
 mod independent;
 mod layers;
 mod order;
 mod partial;
 mod random_networks;
 mod signs;
+mod sizes;
 mod terminal;
 mod thesis;
 mod vibration;

@@ -1,9 +1,12 @@
 //! Which elements can part, and what happens at their contacts in words.
 
+use std::collections::HashMap;
+
 use dashpot_dae::{Switch, Trajectory};
 use dashpot_network::{
     Assembly, ConnectionOutputs, NodeId, PrimitiveOutputs,
     elements::{Contact, ElementKind, Law},
+    phases::{Phase, PhaseLaw},
 };
 
 use crate::{accounts::Accounts, wording::quantity};
@@ -26,7 +29,7 @@ pub(crate) fn has_contact(assembly: &Assembly, connection: &ConnectionOutputs) -
 const IMPACT: &str = "impact";
 
 /// Name of the contact that opens an element, where an effect has put it there.
-fn contact_of(element: &str) -> String {
+pub(crate) fn contact_of(element: &str) -> String {
     format!("{element}.contact")
 }
 
@@ -169,7 +172,7 @@ pub(crate) fn left_for_good(assembly: &Assembly, trajectory: &Trajectory) -> Vec
 }
 
 /// How often an element meets something again after `time` \[s\], at its own contact or, where it is
-/// one, in itself.
+/// one, in itself: what was open, and pushes nothing, comes to push.
 pub(crate) fn meetings_after(
     assembly: &Assembly,
     trajectory: &Trajectory,
@@ -179,14 +182,22 @@ pub(crate) fn meetings_after(
     let contact = contact_of(element);
     let names =
         [element, contact.as_str()].into_iter().filter_map(|name| assembly.connection(name));
-    let names: Vec<&str> = names
+    let parts: Vec<&PrimitiveOutputs> = names
+        .filter(|own| own.never_pulls || own.name == contact)
         .flat_map(|connection| parts(assembly, connection))
-        .filter(|primitive| is_contact(primitive))
-        .map(|primitive| primitive.name.as_str())
         .collect();
-    let later = trajectory.switches.iter().filter(|own| own.time > time);
-    later
-        .filter(|own| is_meeting(own) && !stays_closed(own))
-        .filter(|own| names.contains(&own.name.as_str()))
-        .count()
+    let opens = |own: &Switch, index: usize, memory: f64| {
+        let part = parts.iter().find(|part| part.name == own.name);
+        part.and_then(|part| part.element.phases())
+            .map(|phases| matches!(phases.law(Phase { index, memory }), PhaseLaw::Open))
+    };
+    let mut was_open: HashMap<usize, bool> = HashMap::new();
+    let mut count = 0;
+    for own in &trajectory.switches {
+        let Some(is_open) = opens(own, own.phase, own.memory) else { continue };
+        let before = was_open.insert(own.part, is_open).unwrap_or(!is_open);
+        let meets = if own.impulse > 0.0 { !stays_closed(own) } else { before && !is_open };
+        count += usize::from(meets && own.time > time);
+    }
+    count
 }

@@ -71,6 +71,15 @@ pub enum RunError {
         /// What was given.
         value: f64,
     },
+    /// A part of a large solution was asked for that had not been kept.
+    #[error(
+        "not all of so large a solution is kept, and what was left out is needed: {}",
+        .outputs.join(", ")
+    )]
+    NotKept {
+        /// Names of the outputs.
+        outputs: Vec<String>,
+    },
     /// Energy appeared or vanished.
     #[error(
         "the solution of `{method}` cannot be trusted: {} of the energy turned over {}{}",

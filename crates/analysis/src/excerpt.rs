@@ -4,7 +4,7 @@
 use dashpot_dae::Signal;
 use dashpot_network::phases::{Phase, PhaseLaw, Phases};
 
-use crate::Solution;
+use crate::{Solution, contacts::contact_of};
 
 /// Part of the largest force by which a force may change where nothing happens.
 const STILL: f64 = 0.01;
@@ -21,32 +21,22 @@ const SHARE: f64 = 0.5;
 const LEAST: usize = 10;
 
 /// The spans \[s\] in which any contact is closed, in order of time and apart from each other; masses
-/// that meet and part at once touch for no time. Where there is no contact, those in which a padding
-/// pushes that may go slack by itself. Empty where nothing can let go.
+/// that meet and part at once touch for no time. What never pulls is closed while it pushes. Empty where
+/// nothing can let go.
 pub fn touching(solution: &Solution<'_>) -> Vec<(f64, f64)> {
     let Some(switching) = &solution.assembly().switching else { return Vec::new() };
-    let primitives = &solution.assembly().primitives;
+    let assembly = solution.assembly();
     let parts = switching.parts();
-    let parts: Vec<(usize, &dyn Phases)> = parts
-        .iter()
-        .enumerate()
-        .filter_map(|(number, part)| {
-            let own = primitives.iter().find(|own| own.name == part.name)?;
-            let phases = own.element.phases()?;
-            let opens = (0..part.phases.len()).any(|index| is_open(phases, index, 0.0));
-            opens.then_some((number, phases))
-        })
-        .collect();
-    // A padding that remembers is seldom slack: while it recovers, it pushes next to nothing.
-    let remembers = |phases: &dyn Phases| {
-        let count = phases.names().len();
-        (0..count).any(|index| {
-            phases.exits(Phase { index, memory: 0.0 }).iter().any(|exit| exit.remembers)
-        })
-    };
-    let has_contact = parts.iter().any(|own| !remembers(own.1));
-    let counted = parts.iter().filter(|own| !(has_contact && remembers(own.1)));
-    joined(counted.flat_map(|own| closed(solution, *own)).collect())
+    let counted = parts.iter().enumerate().filter_map(|(number, part)| {
+        let at = assembly.primitives.iter().position(|own| own.name == part.name)?;
+        let phases = assembly.primitives[at].element.phases()?;
+        let opens = (0..part.phases.len()).any(|index| is_open(phases, index, 0.0));
+        // Where an effect has put a contact before a padding, that one tells.
+        let element = assembly.connections.iter().find(|own| own.primitives.contains(&at))?;
+        let is_behind = assembly.connection(&contact_of(&element.name)).is_some();
+        (opens && !is_behind).then_some((number, phases))
+    });
+    joined(counted.flat_map(|own| closed(solution, own)).collect())
 }
 
 fn is_open(phases: &dyn Phases, index: usize, memory: f64) -> bool {

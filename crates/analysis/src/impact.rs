@@ -26,7 +26,14 @@ pub enum Contact {
 /// The time from first contact to the first zero of the contact force.
 ///
 /// Masses that meet and part at once have an impact of no length. A force that is zero at the start and then pushes (a Maxwell element's) has its first zero
-/// later; a force that decays towards zero from above has none.
+/// later; a force that decays towards zero from above has none. A touch that stays below a thousandth
+/// of the largest force of the run, and after which the force rests on zero again, is none.
+///
+/// A padding whose face has mass and can part is struck through its face: its impact begins with the
+/// first impulse or push on the face, and ends when what struck it has left it for good or the padding
+/// is unloaded. Bounces of the face on what strikes it belong to it as long as the padding stays
+/// pressed between them: its force does not fall to what it bore before, or to a hundredth of the most
+/// that it has borne since.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
     /// When it begins \[s\].
@@ -59,7 +66,8 @@ impl Impact {
 
     /// The impact of a contact force with the impulses that act beside it.
     pub(crate) fn of_contact(force: &Signal, blows: &[Blow], run_end: f64, doubt: f64) -> Self {
-        let Some(first) = blows.first().filter(|blow| Self::begins_with(blow, force)) else {
+        let Some(first) = first_felt(blows, force).filter(|blow| Self::begins_with(blow, force))
+        else {
             return Self::of_force(force, run_end, doubt);
         };
         let run = Self {
@@ -68,7 +76,7 @@ impl Impact {
             end_error: Some(0.0),
             contact: Contact::Lasting,
         };
-        let stays = force.panels.get(force.panel_at(first.time)).is_some_and(|own| !rests(own));
+        let stays = pushes(force).iter().any(|push| push.holds(first.time));
         if stays && force.departure(0.0, first.time) == Some(true) {
             return Self::of_push(force, run, doubt);
         }
@@ -82,7 +90,7 @@ impl Impact {
     }
 
     /// The impact of a force that pushes first.
-    fn of_push(force: &Signal, run: Self, doubt: f64) -> Self {
+    pub(crate) fn of_push(force: &Signal, run: Self, doubt: f64) -> Self {
         let run_end = run.end;
         let parted = rest_after(force, run.start);
         let released = release(force, run_end, doubt)
@@ -183,7 +191,13 @@ impl Impact {
 
 /// Part of its largest push that a force may pull with before, as a pad does that was left unloaded
 /// between parts that sag.
-const SLIGHT: f64 = 1e-2;
+pub(crate) const SLIGHT: f64 = 1e-2;
+
+/// A push that stays below this part of the largest is none, where the force rests before and after.
+const NEXT_TO_NOTHING: f64 = 1e-3;
+
+/// Part of the largest impulse below which an impulse is rounding.
+const SMALLEST_BLOW: f64 = 1e-9;
 
 /// The doubt of a force that by its law never pulls: no fall below zero counts.
 pub(crate) const NO_PULL: f64 = 1.0;
@@ -233,15 +247,62 @@ fn begins(force: &Signal, doubt: f64) -> Option<bool> {
     }
 }
 
+/// A time over which a force acts without rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Push {
+    /// When it begins \[s\].
+    pub(crate) start: f64,
+    /// When the force comes to rest on zero \[s\], as it does where a contact opens; `None` if it acts
+    /// until the run ends.
+    pub(crate) end: Option<f64>,
+}
+
+impl Push {
+    /// Whether it has begun at `time` and not ended yet.
+    pub(crate) fn holds(&self, time: f64) -> bool {
+        self.start <= time && self.end.is_none_or(|end| time < end)
+    }
+}
+
+/// The pushes of a force in order of time, without those that are next to nothing beside its largest
+/// magnitude: a touch that rounding makes is none.
+pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
+    let floor = (NEXT_TO_NOTHING * force.bound()).max(force.noise);
+    let mut found = Vec::new();
+    let mut open: Option<(f64, f64)> = None;
+    for panel in &force.panels {
+        if !rests(panel) {
+            let size: f64 = panel.coefficients.iter().map(|own| own.abs()).sum();
+            let (start, most) = open.unwrap_or((panel.start, 0.0));
+            open = Some((start, most.max(size)));
+        } else if panel.length() > 0.0
+            && let Some((start, most)) = open.take()
+            && most > floor
+        {
+            found.push(Push { start, end: Some(panel.start) });
+        }
+    }
+    if let Some((start, _)) = open.filter(|own| own.1 > floor) {
+        found.push(Push { start, end: None });
+    }
+    found
+}
+
+/// The first impulse of those that act beside a force which is not next to nothing.
+pub(crate) fn first_felt<'b>(blows: &'b [Blow], force: &Signal) -> Option<&'b Blow> {
+    let most = blows.iter().map(|blow| blow.impulse.abs()).reduce(f64::max)?;
+    let size = most.max(force.integral((0.0, force.end())).abs());
+    blows.iter().find(|blow| blow.impulse.abs() > SMALLEST_BLOW * size)
+}
+
 /// When a force that is zero at first begins to act \[s\].
 fn first_load(force: &Signal) -> Option<f64> {
-    force.panels.iter().find(|panel| !rests(panel)).map(|panel| panel.start)
+    pushes(force).first().map(|push| push.start)
 }
 
 /// When the force comes to rest on zero after `start` \[s\], as it does where a contact opens.
 fn rest_after(force: &Signal, start: f64) -> Option<f64> {
-    let later = force.panels.iter().filter(|panel| panel.start >= start && panel.length() > 0.0);
-    later.skip_while(|panel| rests(panel)).find(|panel| rests(panel)).map(|panel| panel.start)
+    pushes(force).iter().find(|push| push.end.is_none_or(|end| end > start))?.end
 }
 
 /// Whether the force is zero all over a panel, as it is by structure where a contact is open; a force
@@ -319,102 +380,4 @@ impl Span {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn line(start: f64, end: f64) -> Signal {
-        let coefficients = vec![0.5 * (start + end), 0.5 * (end - start)];
-        Signal::new(vec![Panel { start: 0.0, end: 2.0, coefficients }], Some(1e-6), 1e-12)
-    }
-
-    #[test]
-    fn impact_ends_where_the_force_falls_through_zero() {
-        let impact = Impact::of_force(&line(3.0, -1.0), 2.0, 0.0);
-        assert_eq!(impact.contact, Contact::Released);
-        assert!((impact.end - 1.5).abs() < 1e-15);
-        assert!((impact.end_error.unwrap() - 5e-7).abs() < 1e-14);
-    }
-
-    #[test]
-    fn force_that_starts_at_zero_and_pushes_is_a_contact() {
-        let impact = Impact::of_force(&line(0.0, 1.0), 2.0, 0.0);
-        assert_eq!((impact.contact, impact.end), (Contact::Lasting, 2.0));
-        let span = impact.span(WindowWish::Impact, 2.0).unwrap();
-        assert_eq!(span.note, Some(STILL_IN_CONTACT));
-    }
-
-    #[test]
-    fn run_that_stops_at_release_has_its_impact() {
-        let impact = Impact::of_force(&line(1.0, 1e-17), 2.0, 0.0);
-        assert_eq!((impact.contact, impact.end), (Contact::Released, 2.0));
-        let decaying = Impact::of_force(&line(1.0, 1e-6), 2.0, 0.0);
-        assert_eq!(decaying.contact, Contact::Lasting);
-    }
-
-    /// Adjoining lines through these values, one a second apart from the next.
-    fn polygon(values: &[f64]) -> Signal {
-        let mut start = 0.0;
-        let panels = values.windows(2).map(|pair| {
-            let panel = Panel {
-                start,
-                end: start + 1.0,
-                coefficients: vec![0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0])],
-            };
-            start = panel.end;
-            panel
-        });
-        Signal::new(panels.collect(), None, 1e-12)
-    }
-
-    #[test]
-    fn fall_below_zero_within_the_methods_error_is_no_release() {
-        let decaying = polygon(&[100.0, 0.05, -0.05, -0.02]);
-        assert_eq!(Impact::of_force(&decaying, 3.0, 1e-3).contact, Contact::Lasting);
-        assert_eq!(Impact::of_force(&decaying, 3.0, 1e-4).contact, Contact::Released);
-        let loaded_later = polygon(&[100.0, 0.05, -0.05, 50.0, -50.0]);
-        let impact = Impact::of_force(&loaded_later, 4.0, 1e-3);
-        assert_eq!(impact.contact, Contact::Released);
-        assert!((impact.end - 3.5).abs() < 1e-12, "{}", impact.end);
-    }
-
-    #[test]
-    fn force_that_pulls_from_the_start_is_no_impact() {
-        for force in [line(0.0, -1.0), line(-1.0, 1.0)] {
-            let impact = Impact::of_force(&force, 2.0, 0.0);
-            assert_eq!((impact.contact, impact.end), (Contact::Pulling, 0.0));
-            assert!(impact.span(WindowWish::Impact, 2.0).is_err());
-            assert!(impact.span(WindowWish::Run, 2.0).is_ok());
-        }
-    }
-
-    #[test]
-    fn force_that_never_pulls_is_no_pull_however_deep() {
-        let released = polygon(&[100.0, 1.0, -1.0, 0.0, 0.0]);
-        let impact = Impact::of_force(&released, 4.0, NO_PULL);
-        assert_eq!((impact.contact, impact.end), (Contact::Parted, 3.0));
-        let below = polygon(&[-1e-3, 100.0, 0.0, 0.0]);
-        assert_eq!(Impact::of_force(&below, 3.0, NO_PULL).contact, Contact::Parted);
-        let none = line(-1e-13, -1e-13);
-        assert_eq!(Impact::of_force(&none, 2.0, NO_PULL).contact, Contact::Unloaded);
-        let ends = Impact::of_force(&line(1.0, 1e-17), 2.0, NO_PULL);
-        assert_eq!((ends.contact, ends.end), (Contact::Released, 2.0));
-    }
-
-    #[test]
-    fn two_impacts_join_to_the_longer_one() {
-        let short = Impact::of_force(&line(3.0, -1.0), 2.0, 0.0);
-        let long = Impact::of_force(&line(1.0, 1.0), 2.0, 0.0);
-        assert_eq!(short.joined(long), long);
-        let pulling = Impact::of_force(&line(-1.0, 1.0), 2.0, 0.0);
-        assert_eq!(pulling.joined(short), short);
-    }
-
-    #[test]
-    fn windows_are_cut_to_the_run() {
-        let impact = Impact::without_impactor(2.0);
-        let span = impact.span(WindowWish::Times(1.0, 5.0), 2.0).unwrap();
-        assert_eq!(span.window(), (1.0, 2.0));
-        assert!(span.note.is_some());
-        assert!(impact.span(WindowWish::Times(3.0, 5.0), 2.0).is_err());
-    }
-}
+mod tests;

@@ -2,7 +2,8 @@
 
 use crate::{Ledger, Solution, measures::STANDARD_GRAVITY};
 
-/// How many outputs are looked at; fewer can only make a quantity seem smaller.
+/// How many outputs are looked at, of those that were kept; fewer can only make a quantity seem
+/// smaller.
 const MOST_OUTPUTS: usize = 1000;
 /// The exponent of the injury measures.
 const INJURY: f64 = 2.5;
@@ -22,7 +23,8 @@ pub(crate) fn largest(solution: &Solution<'_>, energy: &Ledger, unit: &str) -> f
 }
 
 fn largest_signal(solution: &Solution<'_>, unit: &str) -> f64 {
-    let outputs = solution.assembly().system.outputs.iter().take(MOST_OUTPUTS).enumerate();
-    let alike = outputs.filter(|(_, output)| output.unit == unit);
+    let outputs = solution.assembly().system.outputs.iter().enumerate();
+    let kept = outputs.filter(|(at, _)| solution.keeps(*at)).take(MOST_OUTPUTS);
+    let alike = kept.filter(|(_, output)| output.unit == unit);
     alike.map(|(at, _)| solution.signal(at).bound()).fold(0.0, f64::max)
 }

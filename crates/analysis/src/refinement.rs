@@ -1,13 +1,16 @@
 //! As many solutions as the errors ask for.
 
-use std::time::Duration;
+use std::{collections::BTreeSet, time::Duration};
 
 use dashpot_dae::{Method, Observer, Run, SolveError, Trajectory, switching};
 use dashpot_network::Assembly;
 
 use crate::{
     Ledger, Reading, Solution, SolveSettings,
-    accuracy::{error_bar, excess, is_as_good_as_zero, is_lost_in_noise, rounding},
+    accuracy::{
+        Evidence, SOLUTIONS, excess, is_as_good_as_zero, is_lost_in_noise, of_energy, rounding,
+    },
+    large::keep_also,
     ledger::ledger,
     magnitude::largest,
     selection::Selected,
@@ -16,10 +19,10 @@ use crate::{
 
 /// Part of the energy turned over beyond which a balance that does not close fails the run.
 pub(crate) const MOST_LOST: f64 = 0.01;
-/// Exponent of the first tolerance that is tried, 1e-4.
-const COARSEST: i32 = 4;
-/// Exponent of the last tolerance that is tried, 1e-12.
-const FINEST: i32 = 12;
+/// The first tolerance that is tried, 1e-4, in half decades below 1.
+const COARSEST: i32 = 8;
+/// The last tolerance that is tried, 1e-12, in half decades below 1.
+const FINEST: i32 = 24;
 
 /// What is to be solved, and how.
 #[derive(Clone, Copy)]
@@ -40,6 +43,13 @@ pub(crate) struct Solved {
     pub(crate) trajectory: Trajectory,
     pub(crate) readings: Vec<Reading>,
     pub(crate) energy: Ledger,
+}
+
+impl Solved {
+    /// What it tells of errors.
+    fn told(&self) -> (f64, &[Reading]) {
+        (self.rtol, &self.readings)
+    }
 }
 
 /// The solution to report, and what is known about its errors.
@@ -72,7 +82,25 @@ impl Task<'_> {
         self.is_good_enough(&outcome.solved, &outcome.errors)
     }
 
+    /// A solution with its measures. Where only a part of it is kept, and that turns out not to be all
+    /// that is asked for, it is made again.
     fn solve(&self, run: &Run, observer: &mut dyn Observer) -> Result<Solved, SolveError> {
+        let mut run = run.clone();
+        loop {
+            let (solved, missing) = self.attempt(&run, observer)?;
+            if missing.is_empty() {
+                return Ok(solved);
+            }
+            run.keep = keep_also(&run.keep, &missing);
+        }
+    }
+
+    /// A solution, and the outputs that were asked for but not kept.
+    fn attempt(
+        &self,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<(Solved, BTreeSet<usize>), SolveError> {
         let trajectory = match &self.assembly.switching {
             None => self.method.integrate(&self.assembly.system, run, observer)?,
             Some(phased) => switching::integrate(self.method, phased.as_ref(), run, observer)?,
@@ -82,8 +110,9 @@ impl Task<'_> {
         let readings = self.read(&solution);
         let pulls = if doubt > 0.0 { solution.first_pulls() } else { Vec::new() };
         let energy = ledger(&solution, solution.end());
+        let missing = solution.missing();
         drop(solution);
-        Ok(Solved { rtol: run.rtol, doubt, pulls, trajectory, readings, energy })
+        Ok((Solved { rtol: run.rtol, doubt, pulls, trajectory, readings, energy }, missing))
     }
 
     fn read(&self, solution: &Solution<'_>) -> Vec<Reading> {
@@ -91,12 +120,11 @@ impl Task<'_> {
         self.selected.iter().map(read).collect()
     }
 
-    /// Reads three solutions again with the doubts about their contact forces that all three
-    /// together leave.
+    /// Reads solutions again with the doubts about their contact forces that all of them together
+    /// leave.
     fn settle_doubts(&self, solved: &mut [Solved]) {
-        let [coarse, middle, fine] = solved else { return };
-        let doubts = doubts([coarse, middle, fine]);
-        for (solved, doubt) in [coarse, middle, fine].into_iter().zip(doubts) {
+        let doubts = doubts(solved);
+        for (solved, doubt) in solved.iter_mut().zip(doubts) {
             if solved.doubt.to_bits() != doubt.to_bits() {
                 solved.doubt = doubt;
                 let solution = Solution::new(self.assembly, &solved.trajectory).doubting(doubt);
@@ -122,20 +150,23 @@ impl Task<'_> {
         })
     }
 
-    /// Solutions at falling tolerances: three if the tolerance is given, else until the accuracy is
-    /// reached.
+    /// Solutions at falling tolerances: as many as error bars take if the tolerance is given, else
+    /// until the accuracy is reached.
     fn refined(&self, run: &Run, observer: &mut dyn Observer) -> Result<Outcome, SolveError> {
         let mut last: Vec<Solved> = Vec::new();
         let mut solves = 0;
         let mut wall = Duration::ZERO;
         let mut obstacle = None;
-        for rtol in self.tolerances() {
+        for rtol in tolerances(self.settings.rtol) {
             match self.solve(&run.clone().with_rtol(rtol), observer) {
                 Ok(finer) => {
                     solves += 1;
                     wall += finer.trajectory.statistics.wall;
-                    if last.len() == 3 {
+                    if last.len() == SOLUTIONS {
                         last.remove(0);
+                    }
+                    if let Some(before) = last.last_mut() {
+                        before.energy.gather_parts();
                     }
                     last.push(finer);
                 }
@@ -144,13 +175,13 @@ impl Task<'_> {
                     obstacle = Some(error);
                     // A finer solution may fail where rounding rules; a coarse one may fail where
                     // a finer one does not.
-                    if last.len() == 3 {
+                    if last.len() == SOLUTIONS {
                         break;
                     }
                     last.clear();
                 }
             }
-            if last.len() == 3 {
+            if last.len() == SOLUTIONS {
                 obstacle = None;
                 self.settle_doubts(&mut last);
                 let errors = self.errors(&last);
@@ -173,21 +204,23 @@ impl Task<'_> {
         Ok(Outcome { errors, solved, solves_for_error: solves - 1, wall_for_error, obstacle })
     }
 
-    fn tolerances(&self) -> Vec<f64> {
-        match self.settings.rtol {
-            Some(rtol) => vec![100.0 * rtol, 10.0 * rtol, rtol],
-            // Powers of ten as they are written.
-            None => (COARSEST..=FINEST).map(|exponent| 1.0 / 10.0_f64.powi(exponent)).collect(),
-        }
-    }
-
-    /// The error of each measure of the last of three solutions; unknown if there are fewer.
+    /// The error of each measure of the last of some solutions; unknown if there are too few.
     fn errors(&self, solved: &[Solved]) -> Vec<Option<f64>> {
-        let [coarse, middle, fine] = solved else { return vec![None; self.selected.len()] };
-        let closure = fine.energy.closure();
-        let readings = coarse.readings.iter().zip(&middle.readings).zip(&fine.readings);
-        let bar = |((coarse, middle), fine)| error_bar([coarse, middle, fine], closure);
-        readings.map(bar).collect()
+        let Some((finest, others)) = solved.split_last().filter(|_| solved.len() == SOLUTIONS)
+        else {
+            return vec![None; self.selected.len()];
+        };
+        let lost = (finest.energy.closure(), finest.energy.turned_over);
+        let least = |(entry, reading): (&Selected, &Reading)| {
+            of_energy(reading, entry.measure.unit(), lost)
+        };
+        let evidence = Evidence {
+            others: others.iter().map(Solved::told).collect(),
+            finest: finest.told(),
+            least: self.selected.iter().zip(&finest.readings).map(least).collect(),
+            fall: self.method.fall(),
+        };
+        evidence.error_bars()
     }
 
     /// Gives values that are as good as zero the size of what they are the remainder of, or of the
@@ -224,32 +257,52 @@ impl Task<'_> {
     }
 }
 
-/// The doubts with which to read three solutions.
+/// The tolerances to solve at, a factor √10 apart.
+fn tolerances(finest: Option<f64>) -> Vec<f64> {
+    /// Where those lie above a tolerance that is given, in half decades.
+    const ABOVE: [i32; SOLUTIONS] = [3, 2, 1, 0];
+    // Powers of ten as they are written.
+    let below = |half_decades: i32| {
+        let power = 10.0_f64.powi(half_decades / 2);
+        if half_decades % 2 == 0 { power } else { power * 10.0_f64.sqrt() }
+    };
+    match finest {
+        Some(rtol) => ABOVE.map(|above| rtol * below(above)).to_vec(),
+        None => (COARSEST..=FINEST).map(|down| 1.0 / below(down)).collect(),
+    }
+}
+
+/// The doubts with which to read solutions, the last of which is the finest.
 ///
 /// An error of the method shrinks with the tolerance, while a pull that is one stays as deep: where
-/// all three agree on it, it is not in doubt however shallow. Where they do not, and it is not
-/// negligible, it is left open: all but the last solution are read as if there were no doubt, so
-/// that what hangs on it shows in the error.
-fn doubts(solved: [&Solved; 3]) -> [f64; 3] {
+/// all agree on it, it is not in doubt however shallow. Where they do not, and it is not negligible,
+/// it is left open: all but the finest solution are read as if there were no doubt, so that what hangs
+/// on it shows in the error.
+fn doubts(solved: &[Solved]) -> Vec<f64> {
     /// How much deeper one pull may be than another that is the same.
     const SAME: f64 = 1.5;
     /// Part of the largest force up to which a pull is none.
     const NEGLIGIBLE: f64 = 1e-10;
-    let mut doubts = solved.map(|solved| doubt_at(Some(solved.rtol)));
-    let [coarse, middle, fine] = solved.map(|solved| &solved.pulls);
-    let mut is_open = false;
-    for ((coarse, middle), fine) in coarse.iter().zip(middle).zip(fine) {
+    let mut doubts: Vec<f64> = solved.iter().map(|own| doubt_at(Some(own.rtol))).collect();
+    let Some((finest, others)) = solved.split_last() else { return doubts };
+    let own_doubt = doubt_at(Some(finest.rtol));
+    let (mut least, mut is_open) = (f64::INFINITY, false);
+    for (at, fine) in finest.pulls.iter().enumerate() {
         let Some(fine) = *fine else { continue };
-        let is_same = |other: f64| fine.max(other) <= SAME * fine.min(other);
-        match (*coarse, *middle) {
-            (Some(coarse), Some(middle)) if is_same(coarse) && is_same(middle) => {
-                let least = 0.5 * coarse.min(middle).min(fine);
-                doubts = doubts.map(|doubt| doubt.min(least));
-            }
-            _ => is_open |= fine > NEGLIGIBLE && fine < doubts[2],
+        let is_same = |pull: &f64| fine.max(*pull) <= SAME * fine.min(*pull);
+        let pulls = others.iter().map(|other| other.pulls.get(at).copied().flatten());
+        match pulls.map(|pull| pull.filter(is_same)).collect::<Option<Vec<f64>>>() {
+            Some(pulls) => least = least.min(0.5 * pulls.into_iter().fold(fine, f64::min)),
+            None => is_open |= fine > NEGLIGIBLE && fine < own_doubt.min(least),
         }
     }
-    if is_open { [0.0, 0.0, doubts[2]] } else { doubts }
+    for doubt in &mut doubts {
+        *doubt = doubt.min(least);
+    }
+    if is_open && let Some((_, others)) = doubts.split_last_mut() {
+        others.fill(0.0);
+    }
+    doubts
 }
 
 /// Whether another tolerance would change nothing about the error.

@@ -8,7 +8,7 @@ use dashpot_network::{
     parameters::{Value, WindowWish},
 };
 
-use crate::{Impact, Ledger, Partial, Solution, solution::is_impactor};
+use crate::{Impact, Ledger, Partial, Segmentation, Solution, solution::is_impactor};
 
 /// In networks of more elements than this nobody looks for the largest force of all.
 const MOST_ELEMENTS: usize = 200;
@@ -32,6 +32,9 @@ pub struct RunReport {
     pub events: Vec<EventReport>,
     /// What was left out, where that was allowed.
     pub partial: Option<Partial>,
+    /// The segments of layers that the errors include; `None` where there are none, or errors were
+    /// not estimated.
+    pub segmentation: Option<Segmentation>,
     /// What the reader must know, the most important first.
     pub warnings: Vec<String>,
     /// The equations.
@@ -105,10 +108,23 @@ pub struct MeasureReport {
     pub excess: f64,
 }
 
+/// Error in parts of a value whose first digit is just known.
+const FIRST_DIGIT: f64 = 0.1;
+
 impl MeasureReport {
-    /// The error relative to the measure's size, where both are known.
+    /// The error relative to the value, where both are known; of what is next to nothing beside its
+    /// size, relative to that.
     pub fn relative_error(&self) -> Option<f64> {
-        self.error.filter(|_| self.size > 0.0).map(|error| error / self.size)
+        let error = self.error.filter(|_| self.size > 0.0)?;
+        let of = if self.is_next_to_nothing() { Some(self.size) } else { self.value };
+        of.map(|of| error / of.abs())
+    }
+
+    /// Whether not even the first digit of the value is known, while the error is small beside the
+    /// size of what the value is the remainder of.
+    pub fn is_next_to_nothing(&self) -> bool {
+        let (Some(value), Some(error)) = (self.value, self.error) else { return false };
+        value.abs() < self.size && (value == 0.0 || error > FIRST_DIGIT * value.abs())
     }
 }
 

@@ -39,7 +39,7 @@ pub fn table(assembly: &Assembly, trajectory: &Trajectory, count: usize) -> Tabl
 }
 
 /// The outputs of all nodes and elements at these times \[s\], which rise and lie within the run,
-/// from the right where they jump.
+/// from the right where they jump; of a large network those that were [kept](Trajectory::keeps).
 pub fn table_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -> Table {
     let system = &assembly.system;
     let nodes = assembly.nodes.iter();
@@ -48,8 +48,9 @@ pub fn table_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -
         .connections
         .iter()
         .flat_map(|connection| [Some(connection.deformation), connection.rate, connection.force]);
-    let numbers: Vec<usize> = nodes.chain(elements).flatten().collect();
-    if assembly.switching.is_some() {
+    let all = nodes.chain(elements).flatten();
+    let numbers: Vec<usize> = all.filter(|&at| trajectory.keeps(system, at)).collect();
+    if assembly.switching.is_some() || trajectory.digest().is_some() {
         let column = |&at: &usize| Column {
             name: system.outputs[at].name.clone(),
             unit: system.outputs[at].unit,

@@ -1,6 +1,6 @@
 //! Which measures a run reports.
 
-use std::sync::Arc;
+use std::{collections::HashMap, sync::Arc};
 
 use dashpot_network::{
     Assembly,
@@ -9,6 +9,7 @@ use dashpot_network::{
 
 use crate::{
     RunError, bodies,
+    large::is_large,
     measures::{Family, Measure, by_default, of_layers},
     solution::is_impactor,
 };
@@ -50,8 +51,10 @@ pub(crate) fn select(
 ) -> Result<Vec<Selected>, RunError> {
     let mut selected = Vec::new();
     let has_impactor = assembly.nodes.iter().any(is_impactor);
+    // In a large network without an impactor nothing stands out.
+    let has_defaults = has_impactor || !is_large(assembly);
     let of_elements = by_default(Family::Element, has_impactor);
-    for at in reported_elements(assembly) {
+    for at in reported_elements(assembly).into_iter().filter(|_| has_defaults) {
         add_defaults(&mut selected, &of_elements, &assembly.connections[at].name, at);
     }
     let of_layers = of_layers();
@@ -61,16 +64,18 @@ pub(crate) fn select(
         }
     }
     let of_nodes = by_default(Family::Node, has_impactor);
-    for at in reported_nodes(assembly) {
+    for at in reported_nodes(assembly).into_iter().filter(|_| has_defaults) {
         add_defaults(&mut selected, &of_nodes, &assembly.nodes[at].name, at);
     }
     let defaults = selected.len();
     let mut taken = vec![false; defaults];
+    let mut known: HashMap<String, usize> =
+        selected.iter().enumerate().map(|(at, entry)| (entry.key.clone(), at)).collect();
+    let names = Names::of(assembly, wishes);
     for wish in wishes {
-        let target = find(assembly, wish)?;
+        let target = names.find(assembly, wish)?;
         let key = key(&wish.target, wish.measure.as_ref());
-        let place = selected[..defaults].iter().position(|entry| entry.key == key);
-        match place {
+        match known.get(&key).copied().filter(|&place| place < defaults) {
             Some(place) if !taken[place] && is_of_impact(wish.measure.as_ref(), has_impactor) => {
                 taken[place] = true;
                 selected[place].measure = Arc::clone(&wish.measure);
@@ -80,9 +85,10 @@ pub(crate) fn select(
                     1 => key.clone(),
                     _ => format!("{key}-{count}"),
                 };
-                let is_new = |key: &String| selected.iter().all(|entry| entry.key != *key);
+                let is_new = |key: &String| !known.contains_key(key);
                 let most = selected.len() + 1;
                 let key = (1..=most).map(numbered).find(is_new).unwrap_or_default();
+                known.insert(key.clone(), selected.len());
                 let measure = Arc::clone(&wish.measure);
                 selected.push(Selected { key, name: wish.target.clone(), target, measure });
             }
@@ -169,15 +175,41 @@ fn reported_nodes(assembly: &Assembly) -> Vec<usize> {
         .collect()
 }
 
-fn find(assembly: &Assembly, wish: &MeasureWish) -> Result<usize, RunError> {
-    let (family, names): (_, Vec<&String>) = match wish.measure.applies_to() {
-        Family::Element => ("element", assembly.connections.iter().map(|c| &c.name).collect()),
-        Family::Node => ("node", assembly.nodes.iter().map(|node| &node.name).collect()),
-    };
-    names.iter().position(|name| **name == wish.target).ok_or_else(|| RunError::UnknownTarget {
-        kind: wish.measure.kind(),
-        target: wish.target.clone(),
-        family,
-        known: names.into_iter().cloned().collect(),
-    })
+/// Elements and nodes by name, where any is asked for.
+struct Names<'a> {
+    elements: HashMap<&'a str, usize>,
+    nodes: HashMap<&'a str, usize>,
+}
+
+impl<'a> Names<'a> {
+    fn of(assembly: &'a Assembly, wishes: &[MeasureWish]) -> Self {
+        let mut names = Self { elements: HashMap::new(), nodes: HashMap::new() };
+        let is_asked = |family| wishes.iter().any(|wish| wish.measure.applies_to() == family);
+        // The first of a name counts.
+        if is_asked(Family::Element) {
+            let own = assembly.connections.iter().enumerate().rev();
+            names.elements = own.map(|(at, own)| (own.name.as_str(), at)).collect();
+        }
+        if is_asked(Family::Node) {
+            let own = assembly.nodes.iter().enumerate().rev();
+            names.nodes = own.map(|(at, own)| (own.name.as_str(), at)).collect();
+        }
+        names
+    }
+
+    fn find(&self, assembly: &Assembly, wish: &MeasureWish) -> Result<usize, RunError> {
+        let (family, names) = match wish.measure.applies_to() {
+            Family::Element => ("element", &self.elements),
+            Family::Node => ("node", &self.nodes),
+        };
+        names.get(wish.target.as_str()).copied().ok_or_else(|| RunError::UnknownTarget {
+            kind: wish.measure.kind(),
+            target: wish.target.clone(),
+            family,
+            known: match wish.measure.applies_to() {
+                Family::Element => assembly.connections.iter().map(|c| c.name.clone()).collect(),
+                Family::Node => assembly.nodes.iter().map(|node| node.name.clone()).collect(),
+            },
+        })
+    }
 }

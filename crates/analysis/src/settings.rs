@@ -11,7 +11,7 @@ pub struct SolveSettings {
     pub method: String,
     /// Length of the run \[s\], zero or positive.
     pub duration: f64,
-    /// The method's own relative tolerance, that of the finest of three solutions where errors are
+    /// The method's own relative tolerance, that of the finest of four solutions where errors are
     /// estimated, from 1e-13 to 1e-3 (to 1e-1 without estimate); `None` finds one that gives the
     /// accuracy wanted.
     pub rtol: Option<f64>,
@@ -63,7 +63,7 @@ impl SolveSettings {
         if !(self.duration >= 0.0 && self.duration.is_finite()) {
             return invalid("duration", "zero or positive, and finite", self.duration);
         }
-        // The coarsest of three solutions takes 100 times the tolerance.
+        // The coarsest of four solutions takes 32 times the tolerance.
         let (coarsest, range) = if self.estimate {
             (1e-3, "from 1e-13 to 1e-3 where errors are estimated")
         } else {

@@ -1,14 +1,19 @@
 //! A solved run as the measures see it.
 
-use std::{borrow::Cow, cell::OnceCell};
+use std::{
+    borrow::Cow,
+    cell::{OnceCell, RefCell},
+    collections::BTreeSet,
+};
 
 use dashpot_dae::{Signal, Trajectory};
-use dashpot_network::{Assembly, ConnectionOutputs, NodeOutputs};
+use dashpot_network::{Assembly, ConnectionOutputs, NodeId, NodeOutputs};
 
 use crate::{
     blows::{self, Blow},
     bodies, contacts,
-    impact::{Impact, NO_PULL, first_pull, first_way},
+    impact::{Impact, NO_PULL, first_felt, first_pull, first_way},
+    padding::{self, FaceContact, Struck, Through},
 };
 
 /// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
@@ -29,9 +34,10 @@ pub fn doubt_at(rtol: Option<f64>) -> f64 {
 pub struct Solution<'a> {
     assembly: &'a Assembly,
     trajectory: &'a Trajectory,
-    signals: Vec<OnceCell<Signal>>,
-    element_impacts: Vec<OnceCell<Impact>>,
-    body_impacts: Vec<OnceCell<Impact>>,
+    signals: Vec<OnceCell<Box<Signal>>>,
+    missing: RefCell<BTreeSet<usize>>,
+    element_impacts: Vec<OnceCell<Box<Impact>>>,
+    body_impacts: Vec<OnceCell<Box<Impact>>>,
     blows: OnceCell<Vec<Vec<Blow>>>,
     has_impactor: Vec<bool>,
     doubt: f64,
@@ -41,11 +47,13 @@ pub struct Solution<'a> {
 impl<'a> Solution<'a> {
     /// Looks at `trajectory`, which must be one of `assembly`.
     pub fn new(assembly: &'a Assembly, trajectory: &'a Trajectory) -> Self {
+        // In large networks few of them are ever filled.
         let cells = |count: usize| (0..count).map(|_| OnceCell::new()).collect();
         Self {
             assembly,
             trajectory,
             signals: (0..assembly.system.outputs.len()).map(|_| OnceCell::new()).collect(),
+            missing: RefCell::default(),
             element_impacts: cells(assembly.connections.len()),
             body_impacts: cells(bodies::count(assembly)),
             blows: OnceCell::new(),
@@ -77,13 +85,30 @@ impl<'a> Solution<'a> {
         self.trajectory.t_end
     }
 
-    /// An output as a function of time.
+    /// An output as a function of time; one that was not [kept](Self::keeps) is not a number
+    /// throughout.
     ///
     /// # Panics
     ///
     /// When the assembly has no such output.
     pub fn signal(&self, output: usize) -> &Signal {
-        self.signals[output].get_or_init(|| self.trajectory.signal(&self.assembly.system, output))
+        self.signals[output].get_or_init(|| {
+            if !self.keeps(output) {
+                self.missing.borrow_mut().insert(output);
+            }
+            Box::new(self.trajectory.signal(&self.assembly.system, output))
+        })
+    }
+
+    /// Whether the run has kept the output of this number. Runs of large networks keep those that
+    /// belong to impactors, to what these touch, and to what a measure was asked of.
+    pub fn keeps(&self, output: usize) -> bool {
+        self.trajectory.keeps(&self.assembly.system, output)
+    }
+
+    /// The outputs that were asked for and had not been kept.
+    pub(crate) fn missing(&self) -> BTreeSet<usize> {
+        self.missing.borrow().clone()
     }
 
     /// The rate that belongs to a deformation: the output where there is one, else the derivative
@@ -120,14 +145,26 @@ impl<'a> Solution<'a> {
         }
     }
 
+    /// The speed at which two nodes approach each other \[m/s\], as that of their bodies; `None` where
+    /// one of those has no velocity.
+    pub(crate) fn approach_of(&self, [a, b]: [usize; 2]) -> Option<Signal> {
+        let (a, b) = (self.velocity_of_body(a)?, self.velocity_of_body(b)?);
+        Some(self.signal(a).plus(self.signal(b), -1.0))
+    }
+
     /// The speed at which the ends of an element approach each other just before `time` \[m/s\]:
     /// before the run that of the start speeds.
     pub(crate) fn approach_before(&self, connection: &ConnectionOutputs, time: f64) -> f64 {
         if time > 0.0 {
             return self.approach(connection).left_value(time);
         }
-        let [a, b] = connection.between.map(|end| {
-            let body = self.assembly.nodes[end.index()].body;
+        self.start_approach(connection.between.map(NodeId::index))
+    }
+
+    /// The speed at which two nodes approach each other before the run \[m/s\].
+    pub(crate) fn start_approach(&self, ends: [usize; 2]) -> f64 {
+        let [a, b] = ends.map(|end| {
+            let body = self.assembly.nodes[end].body;
             let of_body = || self.assembly.nodes.iter().filter(|node| node.body == body);
             match of_body().find(|node| !node.free) {
                 Some(held) => held.velocity.map_or(0.0, |own| self.signal(own).value(0.0)),
@@ -144,11 +181,16 @@ impl<'a> Solution<'a> {
     }
 
     /// The impact as the element number `element` feels it: that of its own force if it touches an
-    /// impactor, that of the body if it is a rigid link within one, else that of the scene.
+    /// impactor, that of its face and its force if one strikes it there, that of the body if it is a
+    /// rigid link within one, else that of the scene.
     pub fn element_impact(&self, element: usize) -> Impact {
-        *self.element_impacts[element].get_or_init(|| {
+        **self.element_impacts[element].get_or_init(|| {
             let connection = &self.assembly.connections[element];
-            match connection.force {
+            let through = self.struck_face(element);
+            if let Some(through) = through.and_then(|face| self.impact_through(element, face)) {
+                return Box::new(through.whole);
+            }
+            Box::new(match connection.force {
                 Some(force) if self.touches_impactor(connection) => Impact::of_contact(
                     self.signal(force),
                     self.element_blows(element),
@@ -157,14 +199,15 @@ impl<'a> Solution<'a> {
                 ),
                 _ if connection.is_rigid => self.node_impact(connection.between[0].index()),
                 _ => self.scene_impact(),
-            }
+            })
         })
     }
 
     /// The impact as the node number `node` feels it: that of its body, the nodes that rigid links
     /// join to it, if an impactor belongs to it; else that of the scene.
     ///
-    /// What counts is the sum of the forces that the elements put on the body. Whichever way it
+    /// What counts is the sum of the forces that the elements put on the body, and of a padding with a
+    /// face that it strikes all that belongs to the impact of that. Whichever way it
     /// first goes is the way it pushes: against the speed of a body that strikes, along with that
     /// of a body that is struck from behind.
     pub fn node_impact(&self, node: usize) -> Impact {
@@ -172,12 +215,16 @@ impl<'a> Solution<'a> {
         if !self.has_impactor[body] {
             return self.scene_impact();
         }
-        *self.body_impacts[body].get_or_init(|| match self.push_on(body) {
-            Some(force) => {
-                let doubt = self.doubt_of_body(body);
-                Impact::of_contact(&force, &self.body_blows(body), self.end(), doubt)
-            }
-            None => Impact::unloaded(self.end()),
+        **self.body_impacts[body].get_or_init(|| {
+            let own = match self.push_on(body) {
+                Some(force) => {
+                    let doubt = self.doubt_of_body(body);
+                    Impact::of_contact(&force, &self.body_blows(body), self.end(), doubt)
+                }
+                None => Impact::unloaded(self.end()),
+            };
+            let longer = self.longer_impacts(Some(body)).into_iter();
+            Box::new(longer.fold(own, |impact, longer| impact.joined(longer.touch)))
         })
     }
 
@@ -202,6 +249,42 @@ impl<'a> Solution<'a> {
 
     fn all_blows(&self) -> &[Vec<Blow>] {
         self.blows.get_or_init(|| blows::by_connection(self.assembly, self.trajectory))
+    }
+
+    /// How the element number `element` is struck through its face, where an impactor does so.
+    pub(crate) fn struck_face(&self, element: usize) -> Option<FaceContact> {
+        let connections = &self.assembly.connections;
+        let face = padding::face_contact(self.assembly, element)?;
+        let is_through_it = self.touches_impactor(&connections[face.connection])
+            && !self.touches_impactor(&connections[element]);
+        is_through_it.then_some(face)
+    }
+
+    /// The impact of such an element.
+    fn impact_through(&self, element: usize, face: FaceContact) -> Option<Through> {
+        let connections = &self.assembly.connections;
+        let struck = Struck {
+            touch: self.signal(connections[face.connection].force?),
+            blows: self.element_blows(face.connection),
+            padding: self.signal(connections[element].force?),
+            run_end: self.end(),
+        };
+        Some(struck.impact())
+    }
+
+    /// The impacts, longer than the first contact of a face, of the elements that are struck through
+    /// their faces by `body`, or by any.
+    fn longer_impacts(&self, body: Option<usize>) -> Vec<Through> {
+        let found = (0..self.assembly.connections.len()).filter_map(|element| {
+            let face = self.struck_face(element)?;
+            let is_meant = body.is_none_or(|body| {
+                let ends =
+                    bodies::between(self.assembly, &self.assembly.connections[face.connection]);
+                ends.contains(&body)
+            });
+            self.impact_through(element, face).filter(|own| is_meant && own.is_more)
+        });
+        found.collect()
     }
 
     /// Bound of the error of the velocity of a node \[m/s\], where it has one.
@@ -284,15 +367,19 @@ impl<'a> Solution<'a> {
     }
 
     /// The impact of the scene: from the first contact of any impactor until the last one is let
-    /// go. Without an impactor it is the whole run.
+    /// go, and what they have struck through a face is unloaded. Without an impactor it is the whole run.
     pub fn scene_impact(&self) -> Impact {
         *self.scene_impact.get_or_init(|| {
             let impactors = self.assembly.nodes.iter().enumerate();
-            impactors
+            let of_impactors = impactors
                 .filter(|(_, node)| is_impactor(node))
                 .map(|(at, _)| self.node_impact(at))
-                .reduce(Impact::joined)
-                .unwrap_or_else(|| Impact::without_impactor(self.end()))
+                .reduce(Impact::joined);
+            let Some(of_impactors) = of_impactors else {
+                return Impact::without_impactor(self.end());
+            };
+            let longer = self.longer_impacts(None).into_iter();
+            longer.fold(of_impactors, |impact, longer| impact.joined(longer.whole))
         })
     }
 
@@ -305,7 +392,7 @@ impl<'a> Solution<'a> {
 
 /// Whether the first force or impulse is positive; so is none.
 fn first_pushes(force: &Signal, blows: &[Blow]) -> bool {
-    match blows.first().filter(|blow| Impact::begins_with(blow, force)) {
+    match first_felt(blows, force).filter(|blow| Impact::begins_with(blow, force)) {
         Some(blow) => blow.impulse > 0.0,
         None => first_way(force) != Some(false),
     }

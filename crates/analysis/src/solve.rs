@@ -14,10 +14,12 @@ use crate::{
     accuracy::excess,
     contacts::{self, meetings_after},
     events,
+    large::{is_large, keep},
     ledger::{leak, ledger},
     partial::solve_partial,
     refinement::{MOST_LOST, Outcome, Solved, Task},
     selection::{Selected, select},
+    solution::is_impactor,
     warnings,
     wording::quantity,
 };
@@ -25,9 +27,13 @@ use crate::{
 /// Tolerance of a single solution whose error is not estimated, when none is given.
 const SINGLE: f64 = 1e-6;
 
+/// What is to be said of a large network in which nothing stands out.
+const UNASKED: &str = "the network is large and has no impactor: only measures that are asked for are \
+                       reported";
+
 /// Compiles a network, integrates it, and reports.
 ///
-/// A method that bounds its own error solves once. The others solve at three tolerances a factor 10
+/// A method that bounds its own error solves once. The others solve at four tolerances a factor √10
 /// apart and take the errors of the finest solution from the differences; as long as an error
 /// exceeds what is wanted, or the energy does not close as well, they go on to the next tolerance.
 ///
@@ -64,19 +70,33 @@ pub fn solve_assembly(
         t_end: settings.duration,
         rtol: settings.rtol.unwrap_or(SINGLE),
         guards: guards(assembly, settings)?,
+        keep: keep(assembly, &selected),
     };
-    let (method, why) = choose(&settings.method, assembly, &run)?;
+    let (mut method, mut why) = choose(&settings.method, assembly, &run)?;
+    let mut others = if settings.method == "auto" { others(method.as_ref()) } else { Vec::new() };
+    let mut first = None;
+    let outcome = loop {
+        let task = Task { assembly, settings, selected: &selected, method: method.as_ref() };
+        let error = match task.run(&run, observer) {
+            Ok(outcome) => match lost(assembly, &outcome.solved) {
+                Some(error) => error,
+                None => break outcome,
+            },
+            Err(error @ (SolveError::Cancelled { .. } | SolveError::InvalidSetting { .. })) => {
+                return Err(error.into());
+            }
+            Err(error) => RunError::Solve(error),
+        };
+        let Some(next) = others.pop() else { return Err(first.unwrap_or(error)) };
+        // A phase that is reached later may ask for more than the first one.
+        why = match &error {
+            RunError::EnergyLost { .. } => error.to_string(),
+            error => format!("`{}` does not get through: {error}", method.name()),
+        };
+        first.get_or_insert(error);
+        method = next;
+    };
     let task = Task { assembly, settings, selected: &selected, method: method.as_ref() };
-    let outcome = match task.run(&run, observer) {
-        Err(SolveError::NotApplicable { reason, .. }) if settings.method == "auto" => {
-            // A phase that is reached later asks for more than the first one.
-            let other = Task { method: &methods::Bdf, ..task };
-            let why = format!("`{}` declines on the way: {reason}", method.name());
-            let outcome = other.run(&run, observer)?;
-            return report(assembly, effects, &other, &run, why, outcome);
-        }
-        outcome => outcome?,
-    };
     if settings.method == "auto" && method.is_exact() && !task.suffices(&outcome) {
         // Rounding has spoilt the exact solution; another method may do better.
         let other = Task { method: &methods::Bdf, ..task };
@@ -140,6 +160,13 @@ fn choose(
     Ok((method, why))
 }
 
+/// The methods that `auto` turns to where this one fails, the last one first.
+fn others(first: &dyn Method) -> Vec<Box<dyn Method>> {
+    let all: [Box<dyn Method>; 3] =
+        [Box::new(methods::TrBdf2), Box::new(methods::Esdirk34), Box::new(methods::Bdf)];
+    all.into_iter().filter(|own| own.name() != first.name()).collect()
+}
+
 fn check_keys(settings: &SolveSettings, selected: &[Selected]) -> Result<(), RunError> {
     let is_known = |key: &&String| selected.iter().any(|entry| entry.key == **key);
     match settings.accuracy.by_measure.keys().find(|key| !is_known(key)) {
@@ -151,7 +178,10 @@ fn check_keys(settings: &SolveSettings, selected: &[Selected]) -> Result<(), Run
     }
 }
 
-fn guards(assembly: &Assembly, settings: &SolveSettings) -> Result<Vec<Guard>, RunError> {
+pub(crate) fn guards(
+    assembly: &Assembly,
+    settings: &SolveSettings,
+) -> Result<Vec<Guard>, RunError> {
     let guard = |stop: &crate::Stop| {
         let output = assembly.output(&stop.output).ok_or_else(|| RunError::UnknownOutput {
             output: stop.output.clone(),
@@ -189,12 +219,10 @@ fn report(
     outcome: Outcome,
 ) -> Result<RunReport, RunError> {
     let Outcome { solved, errors, solves_for_error, wall_for_error, obstacle } = outcome;
-    let Solved { rtol, doubt, trajectory, readings, energy, .. } = solved;
-    let closure = energy.closure();
-    if closure.is_nan() || closure.abs() > MOST_LOST {
-        let leak = leak(&Solution::new(assembly, &trajectory));
-        return Err(RunError::EnergyLost { method: trajectory.method, closure, leak });
+    if let Some(error) = lost(assembly, &solved) {
+        return Err(error);
     }
+    let Solved { rtol, doubt, trajectory, readings, energy, .. } = solved;
     let solution = Solution::new(assembly, &trajectory).doubting(doubt);
     let measures: Vec<MeasureReport> = task
         .selected
@@ -208,9 +236,11 @@ fn report(
         .collect();
     let contacts = contact_reports(&solution);
     let impact = solution.scene_impact();
-    let energy_after_impact = impact.has_ended().then(|| ledger(&solution, impact.end));
+    let is_known = trajectory.digest().is_none() || impact.end >= trajectory.t_end;
+    let energy_after_impact =
+        (impact.has_ended() && is_known).then(|| ledger(&solution, impact.end));
     let events = events::collect(run, assembly, &trajectory, &contacts);
-    let warnings = warnings::collect(&warnings::Findings {
+    let mut warnings = warnings::collect(&warnings::Findings {
         solution: &solution,
         accuracy: &task.settings.accuracy,
         measures: &measures,
@@ -220,7 +250,21 @@ fn report(
         guards: &run.guards,
         effects,
     });
+    let missing = solution.missing();
+    if !missing.is_empty() {
+        let names = missing.iter().filter_map(|&at| assembly.system.outputs.get(at));
+        let outputs = names.map(|output| output.name.clone()).collect();
+        return Err(RunError::NotKept { outputs });
+    }
     drop(solution);
+    let why = if trajectory.digest().is_some() {
+        format!("{why}; only what the measures need is kept of so large a solution")
+    } else {
+        why
+    };
+    if is_large(assembly) && !assembly.nodes.iter().any(is_impactor) {
+        warnings.push(UNASKED.to_owned());
+    }
     Ok(RunReport {
         solver: SolverReport {
             method: trajectory.method,
@@ -243,9 +287,21 @@ fn report(
         energy_after_impact,
         events,
         partial: None,
+        segmentation: None,
         warnings,
         assembly: Arc::clone(assembly),
         trajectory,
+    })
+}
+
+/// What is to be said of a solution in which so much energy is missing, or too much, that nothing of it
+/// can be trusted.
+fn lost(assembly: &Arc<Assembly>, solved: &Solved) -> Option<RunError> {
+    let Solved { trajectory, energy, .. } = solved;
+    let closure = energy.closure();
+    (closure.is_nan() || closure.abs() > MOST_LOST).then(|| {
+        let leak = leak(&Solution::new(assembly, trajectory));
+        RunError::EnergyLost { method: trajectory.method, closure, leak }
     })
 }
 
@@ -310,6 +366,8 @@ fn contact_reports(solution: &Solution<'_>) -> Vec<ContactReport> {
         .collect()
 }
 
+#[cfg(test)]
+mod faults;
 #[cfg(test)]
 mod random;
 #[cfg(test)]

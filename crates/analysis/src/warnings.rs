@@ -1,12 +1,17 @@
 //! What the reader of a report must know.
 
 use dashpot_dae::{Direction, Guard, SolveError};
-use dashpot_network::effects::{EffectKind, Gravity};
+use dashpot_network::{
+    ConnectionOutputs,
+    effects::{EffectKind, Gravity},
+    parameters::WindowWish,
+};
 
 use crate::{
     Accuracy, ContactReport, Ledger, MeasureReport, Solution, contacts,
     impact::{Contact, Impact},
     ledger::leak,
+    measures::{CRUSHED, MeasureKind, PeakAcceleration, PeakForce, PeakStrain, Reading},
     solution::is_impactor,
     wording::{percent, quantity},
 };
@@ -25,6 +30,8 @@ pub(crate) struct Findings<'a> {
 
 /// Closure in parts of the energy turned over that rounding may leave.
 const ROUNDING: f64 = 1e-10;
+/// Part by which a peak outside the impact must exceed that within to be worth a warning.
+const HARDER: f64 = 0.05;
 /// How many measures one warning names.
 const NAMED: usize = 4;
 
@@ -32,10 +39,12 @@ const NAMED: usize = 4;
 pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
     let mut warnings = pulling(findings);
     warnings.extend(beyond_thickness(findings.solution));
+    warnings.extend(crushed_layers(findings));
     warnings.extend(energy(findings));
     warnings.extend(stops_that_hold(findings));
     warnings.extend(still_falling(findings.solution));
     warnings.extend(still_in_contact(findings.contacts));
+    warnings.extend(harder_outside(findings));
     warnings.extend(flying_away(findings));
     warnings.extend(accuracy(findings));
     warnings.extend(findings.solution.assembly().warnings.iter().cloned());
@@ -71,6 +80,9 @@ fn pads<'a>(solution: &'a Solution<'a>) -> impl Iterator<Item = (&'a str, Impact
     connections.filter_map(|connection| {
         connection.thickness?;
         let force = connection.force.filter(|_| !solution.touches_impactor(connection))?;
+        if !solution.keeps(force) {
+            return None;
+        }
         Some((connection.name.as_str(), solution.impact_of(connection, solution.signal(force))))
     })
 }
@@ -79,7 +91,8 @@ fn beyond_thickness(solution: &Solution<'_>) -> Vec<String> {
     let connections = solution.assembly().connections.iter();
     connections
         .filter_map(|connection| {
-            let thickness = connection.thickness?;
+            let thickness =
+                connection.thickness.filter(|_| solution.keeps(connection.deformation))?;
             let deformation = solution.signal(connection.deformation);
             let deepest = deformation.maximum((0.0, solution.end()));
             let noise = deformation.error.unwrap_or(0.0).max(ROUNDING * thickness);
@@ -95,6 +108,24 @@ fn beyond_thickness(solution: &Solution<'_>) -> Vec<String> {
             })
         })
         .collect()
+}
+
+/// Layers that are pressed in by more than their thickness, while the pad as a whole is not.
+fn crushed_layers(findings: &Findings<'_>) -> Vec<String> {
+    let solution = findings.solution;
+    let strains = findings.measures.iter().filter(|own| own.kind == PeakStrain::KIND);
+    let crushed = strains.filter_map(|own| {
+        let connection = solution.assembly().connection(&own.target)?;
+        let (strain, time) = own.value.zip(own.time)?;
+        let is_layered = connection.segments.len() > 1;
+        let note = own.note.as_ref().filter(|note| is_layered && note.contains(CRUSHED))?;
+        let (strain, time) = (percent(strain), quantity(time, "s"));
+        Some(format!(
+            "a part of the {} is pressed in by {strain} of its own thickness at {time} ({note})",
+            own.target
+        ))
+    });
+    crushed.collect()
 }
 
 fn energy(findings: &Findings<'_>) -> Option<String> {
@@ -167,6 +198,59 @@ fn still_in_contact(contacts: &[ContactReport]) -> Vec<String> {
             format!("the {} is still in contact at the end of the run at {end}", contact.element)
         })
         .collect()
+}
+
+/// Peaks of forces and accelerations that lie outside the impact, and above those within.
+fn harder_outside(findings: &Findings<'_>) -> Option<String> {
+    let solution = findings.solution;
+    let has_ended = |own: &&MeasureReport| {
+        let is_of_impact = own.window_wish == Some(WindowWish::Impact);
+        is_of_impact && own.window.is_some_and(|(from, to)| from > 0.0 || to < solution.end())
+    };
+    let of_impact = findings.measures.iter().filter(has_ended);
+    let harder: Vec<String> = of_impact
+        .filter_map(|measure| {
+            let most = measure.value?;
+            let peak = peak_of_run(solution, measure)?;
+            let (value, time) = (peak.value.unwrap_or(f64::INFINITY), peak.time?);
+            let margin = measure.error.unwrap_or(0.0).max(HARDER * most);
+            // What is but rounding in the impact has no peak there to be exceeded.
+            let is_harder = value > most + margin && value > peak.noise;
+            is_harder.then(|| {
+                let (key, unit) = (&measure.key, measure.unit);
+                let value =
+                    if value.is_finite() { quantity(value, unit) } else { "infinite".to_owned() };
+                let (most, time) = (quantity(most, unit), quantity(time, "s"));
+                format!("`{key}` is {most}, but {value} at {time}")
+            })
+        })
+        .collect();
+    (!harder.is_empty()).then(|| {
+        let peaks = listed(&harder);
+        format!(
+            "there is a harder blow outside the impact: {peaks}; measures with `window = \"run\"` \
+             see it"
+        )
+    })
+}
+
+/// The peak over the whole run of what a measure tells that of the impact of; `None` for other measures.
+fn peak_of_run(solution: &Solution<'_>, measure: &MeasureReport) -> Option<Reading> {
+    let (assembly, window) = (solution.assembly(), WindowWish::Run);
+    match measure.kind {
+        PeakForce::KIND => {
+            let of_target = |own: &ConnectionOutputs| own.name == measure.target;
+            let at = assembly.connections.iter().position(of_target)?;
+            solution.keeps(assembly.connections[at].force?).then_some(())?;
+            Some(PeakForce { window }.read(solution, at))
+        }
+        PeakAcceleration::KIND => {
+            let at = assembly.nodes.iter().position(|own| own.name == measure.target)?;
+            solution.keeps(assembly.nodes[at].acceleration?).then_some(())?;
+            Some(PeakAcceleration { window }.read(solution, at))
+        }
+        _ => None,
+    }
 }
 
 /// What is shaken or pushed off without a weight that brings it back.

@@ -53,6 +53,8 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Tests a model alone: creep, relaxation, oscillation, in closed form and by simulation.
     Rheometer(RheometerArguments),
+    /// Shows what accuracy costs: true errors of every method against time and work.
+    Cost(CostArguments),
     /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
     Vibrate(VibrateArguments),
     /// Lists every kind that a scene may contain, with its parameters.
@@ -296,6 +298,38 @@ pub(crate) struct VibrateArguments {
     /// A plot in the text; `auto` draws it on terminals.
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     pub(crate) plot: When,
+}
+
+/// `cost`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot cost                                     the built-in reference impact\n  \
+    dashpot cost pad.toml --measure pad.peak-force   what one number costs\n  \
+    dashpot cost pad.toml --method bdf,tsit45        some methods alone\n  \
+    dashpot cost pad.toml --out cost                 CSV, JSON, SVG and HTML\n\n\
+    Each method solves the scene at tolerances from 1e-3 to 1e-11. Errors are taken from the \
+    exact solution, or from two solutions by methods of different families. Times are those of \
+    this machine; the counts of work are the same everywhere.")]
+pub(crate) struct CostArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Methods that are tried [default: all].
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = MethodNames(method_names()))]
+    pub(crate) method: Vec<String>,
+    /// Measures by which methods are ranked, such as padding.peak-force [default: those that the
+    /// scene wants an accuracy of, else all].
+    #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
+    pub(crate) measure: Vec<String>,
+    /// How often each solution is repeated for its time [default: the more often, the fewer steps
+    /// it has].
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) repeat: Option<u16>,
+    /// Folder for CSV, JSON, SVG and HTML; it is made if need be.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// `list`.

@@ -15,7 +15,7 @@ use crate::{
     as_run,
     error::CliError,
     series::curves_and_energies,
-    sketch::sketch,
+    sketch::{MOST_DRAWN, sketch},
 };
 
 /// The file that also marks a folder as one of results.
@@ -77,13 +77,17 @@ fn refuse_foreign(path: &Path, names: impl Iterator<Item = String>) -> Result<()
 /// files.
 pub(crate) fn write(answer: &Answer, path: &Path) -> Result<Vec<String>, CliError> {
     let mut texts = vec![(SCENE.to_owned(), as_run::text(&answer.scene, &answer.changes))];
-    let network = sketch(&answer.scene.network, answer.scene.run.duration).svg();
+    let network = &answer.scene.network;
+    let is_drawn = network.connections().len() <= MOST_DRAWN;
+    let drawing = is_drawn.then(|| sketch(network, answer.scene.run.duration).svg());
     let (low, high) = POINTS;
     let count = answer.scene.run.samples.clamp(low, high);
     let series = curves_and_energies(&answer.runs, count);
-    let mut figures =
-        vec![ReportFigure { caption: "The network".to_owned(), svg: network.clone() }];
-    texts.push((DRAWING.to_owned(), network));
+    let mut figures = Vec::new();
+    if let Some(svg) = drawing {
+        figures.push(ReportFigure { caption: "The network".to_owned(), svg: svg.clone() });
+        texts.push((DRAWING.to_owned(), svg));
+    }
     for figure in FIGURES {
         let chart = figure.chart(&series);
         // Of a rigid contact alone there is no force over a deformation.

@@ -7,6 +7,7 @@ mod answer;
 mod args;
 mod as_run;
 mod commands;
+mod cost_folder;
 mod entanglement;
 mod error;
 mod folder;
@@ -49,6 +50,7 @@ pub fn main() -> ExitCode {
         Command::Convert(arguments) => commands::convert(&arguments, terminal),
         Command::Compare(arguments) => commands::compare(&arguments, terminal),
         Command::Rheometer(arguments) => commands::rheometer(&arguments, terminal),
+        Command::Cost(arguments) => commands::cost(&arguments, terminal),
         Command::Vibrate(arguments) => commands::vibrate(&arguments, terminal),
         Command::List(arguments) => commands::list(&arguments, terminal),
         Command::New(arguments) => commands::new(&arguments),

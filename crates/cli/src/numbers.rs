@@ -108,11 +108,17 @@ pub(crate) fn duration(time: Duration) -> String {
     format_quantity(time.as_secs_f64(), Dimension::TIME, 2)
 }
 
+/// A tolerance as a power of ten, to three significant digits without zeros at the end.
+pub(crate) fn tolerance(value: f64) -> String {
+    let rounded = format!("{value:.2e}");
+    rounded.parse::<f64>().map_or(rounded, |value| format!("{value:e}"))
+}
+
 /// How many significant digits of `value` its absolute error justifies, at most `most`: the unit of
-/// the last digit is not smaller than the error.
+/// the last digit is not larger than the error, so that rounding stays within it.
 pub(crate) fn digits(value: f64, error: Option<f64>, most: usize) -> usize {
     let Some(error) = error else { return UNKNOWN.min(most) };
-    let justified = value.abs().log10().floor() + 1.0 - error.log10();
+    let justified = (value.abs().log10().floor() + 1.0 - error.log10()).ceil();
     if justified.is_nan() {
         return if error == 0.0 { most } else { FEWEST };
     }
@@ -188,11 +194,12 @@ mod tests {
 
     #[test]
     fn numbers_have_the_digits_that_their_errors_justify() {
-        assert_eq!(digits(38_359.0, Some(3.8), 7), 4);
+        assert_eq!(digits(38_359.0, Some(3.8), 7), 5);
         assert_eq!(digits(38_359.0, Some(1e-7), 7), 7);
-        assert_eq!(digits(104.8, Some(0.017), 7), 4);
+        assert_eq!(digits(104.8, Some(0.017), 7), 5);
         assert_eq!(digits(0.0, Some(1.0), 7), 2);
         assert_eq!(digits(1.0, Some(5.0), 7), 2);
+        assert_eq!(digits(3886.6, Some(1.2), 7), 4);
         assert_eq!(digits(1.0, None, 7), 4);
         assert_eq!(digits(0.0, Some(0.0), 7), 7);
         assert_eq!(digits(1.0, Some(f64::INFINITY), 7), 2);
@@ -220,6 +227,13 @@ mod tests {
         assert_eq!(bound(2.6e-12), "3e-10 %");
         assert_eq!(bound(f64::INFINITY), "unknown");
         assert_eq!(share(0.9752), "98 %");
+    }
+
+    #[test]
+    fn tolerances_have_three_digits_at_most() {
+        assert_eq!(tolerance(3.162_277_660_168_379e-6), "3.16e-6");
+        assert_eq!(tolerance(1e-6), "1e-6");
+        assert_eq!(tolerance(2.5e-13), "2.5e-13");
     }
 
     #[test]

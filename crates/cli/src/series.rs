@@ -42,7 +42,10 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
         column.map_or_else(Vec::new, |column| column.values.clone())
     };
     let connections = report.assembly.connections.iter();
+    // Of a large network only what the measures need is kept.
+    let is_kept = |output: usize| report.trajectory.keeps(&report.assembly.system, output);
     let mut elements: Vec<ElementSeries> = connections
+        .filter(|connection| is_kept(connection.deformation))
         .map(|connection| ElementSeries {
             name: connection.name.clone(),
             force: values(connection.force),
@@ -105,6 +108,9 @@ fn leave_out_repetitions(elements: &mut [ElementSeries]) {
 
 fn with_energies(report: &RunReport, window: (f64, f64), count: usize) -> RunSeries {
     let series = curves_within(report, window, count);
+    if report.trajectory.digest().is_some() {
+        return series;
+    }
     let energies = energy_series(&report.solution(), &series.time);
     let part = |name: &str, values: Vec<f64>| EnergySeries { name: name.to_owned(), values };
     let mut energy = vec![

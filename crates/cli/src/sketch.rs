@@ -1,6 +1,6 @@
 //! Networks as drawings.
 
-use std::{f64::consts::TAU, sync::Arc};
+use std::{collections::HashMap, f64::consts::TAU, sync::Arc};
 
 use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{
@@ -19,6 +19,9 @@ const DIGITS: usize = 4;
 /// Deeper nesting is drawn as one box: no drawing shows it, and the way down is a recursion.
 const DEEPEST: usize = 500;
 
+/// Networks of more elements are not drawn: nothing could be read off the drawing.
+pub(crate) const MOST_DRAWN: usize = 500;
+
 /// The drawing of a network with what its effects put into it; motions and loads are described over
 /// a run of `duration` \[s\].
 pub(crate) fn sketch(network: &Network, duration: f64) -> Sketch {
@@ -28,7 +31,9 @@ pub(crate) fn sketch(network: &Network, duration: f64) -> Sketch {
     // The ground is there even where nothing stands on it.
     let nodes: Vec<(NodeId, &Node)> =
         network.nodes().filter(|(id, _)| *id != network.ground() || used(*id)).collect();
-    let place = |id: NodeId| nodes.iter().position(|(own, _)| *own == id).unwrap_or(usize::MAX);
+    let places: HashMap<NodeId, usize> =
+        nodes.iter().enumerate().map(|(at, (id, _))| (*id, at)).collect();
+    let place = |id: NodeId| places.get(&id).copied().unwrap_or(usize::MAX);
     let links = network.connections().iter().enumerate().map(|(at, connection)| SketchLink {
         name: connection.name.clone(),
         from: place(connection.between[0]),

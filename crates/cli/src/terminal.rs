@@ -17,6 +17,8 @@ pub(crate) struct Terminal {
     pub(crate) output: Stream,
     /// Standard error.
     pub(crate) error: Stream,
+    /// Whether both are read at one place: on a terminal, or because one is sent to the other.
+    pub(crate) is_one: bool,
 }
 
 /// What is known about a stream.
@@ -52,10 +54,10 @@ impl Terminal {
             };
             Stream { attended, colored }
         };
-        Self {
-            output: stream(io::stdout().is_terminal()),
-            error: stream(io::stderr().is_terminal()),
-        }
+        let (output, error) =
+            (stream(io::stdout().is_terminal()), stream(io::stderr().is_terminal()));
+        let is_one = output.attended && error.attended || have_one_file();
+        Self { output, error, is_one }
     }
 
     /// The text in the colour of its tone, for standard output.
@@ -104,6 +106,27 @@ impl Terminal {
             None => note(&shown),
         }
     }
+}
+
+/// Whether both streams lead to the same file, pipe or device.
+#[cfg(unix)]
+fn have_one_file() -> bool {
+    use std::{
+        fs::File,
+        os::{fd::AsFd, unix::fs::MetadataExt},
+    };
+    let identity = |stream: &dyn AsFd| {
+        let file = File::from(stream.as_fd().try_clone_to_owned().ok()?).metadata().ok()?;
+        Some((file.dev(), file.ino()))
+    };
+    let output = identity(&io::stdout());
+    output.is_some() && output == identity(&io::stderr())
+}
+
+/// Whether both streams lead to the same file, pipe or device; that is not known here.
+#[cfg(not(unix))]
+fn have_one_file() -> bool {
+    false
 }
 
 /// Prints to standard output. A reader that has gone away is no error.

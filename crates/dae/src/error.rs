@@ -70,6 +70,22 @@ pub enum SolveError {
         /// The limit.
         steps: usize,
     },
+    /// The solution takes more memory than a run may.
+    #[error(
+        "the solution of `{method}` takes {} MB after {steps} steps, at {time:.3e} s: it is too large \
+         to be kept as a whole",
+        bytes / 1_000_000
+    )]
+    TooLarge {
+        /// The method's name.
+        method: &'static str,
+        /// Time reached \[s\].
+        time: f64,
+        /// Steps taken.
+        steps: usize,
+        /// Memory taken \[B\].
+        bytes: usize,
+    },
     /// The equations that follow a switching are not known.
     #[error("at {time:.6e} s: {reason}")]
     Switching {

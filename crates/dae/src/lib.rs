@@ -7,6 +7,7 @@
 
 pub mod chebyshev;
 mod derivatives;
+mod digest;
 mod error;
 pub mod events;
 mod exact;
@@ -24,13 +25,14 @@ mod trajectory;
 mod waveform;
 
 pub use derivatives::{Derivatives, derivatives};
+pub use digest::{Digest, Jump, Product};
 pub use error::SolveError;
 pub use events::{Direction, Event, Guard};
 pub use linear_form::LinearForm;
 pub use methods::{Method, MethodKind};
-pub use run::{Observer, Progress, Run, Silent};
+pub use run::{Keep, Observer, Part, Progress, Run, Silent};
 pub use signal::{Crossing, Extremum, Panel, Signal};
-pub use switching::{Leg, LegEnd, Switch, Switching};
+pub use switching::{Flight, Leg, LegEnd, Switch, Switching};
 pub use system::{Input, Linear, Output, System, Unknown, UnknownKind};
 pub use term::{Argument, Characteristic, Term};
 pub use trajectory::{Dense, Outcome, Statistics, Trajectory};

@@ -2,13 +2,24 @@
 
 mod inputs;
 mod lagrange;
+mod products;
+mod stream;
 
-use crate::{Dense, Output, Signal, System, chebyshev::Interpolation};
+#[cfg(test)]
+mod tests;
+
+use std::borrow::Cow;
+
+use crate::{Dense, Digest, Keep, Output, Panel, Run, Signal, System, chebyshev::Interpolation};
 use lagrange::Lagrange;
+use stream::Stream;
 
 /// Roundings of the largest term that a value of an output may be off by: those of the
 /// interpolation, and of its coefficients.
 pub(crate) const ROUNDING: f64 = 16.0;
+
+/// Memory \[B\] that the rows of a run may take.
+pub(crate) const MOST_BYTES: usize = 2 << 30;
 
 /// One step: where it lies, and the rows that its polynomial passes through. Times are counted from
 /// `origin`, so that steps far below the resolution of the time of day are told apart.
@@ -24,12 +35,19 @@ struct Step {
     degree: usize,
 }
 
-/// The solution of a run in dimensionless time: rows of values of all unknowns, and the steps.
+/// The solution of a run in dimensionless time: rows of values of the unknowns, and the steps.
+///
+/// Where only a part is kept, rows hold the unknowns that its outputs need; what is to be known of all
+/// others is summed up while the last rows of all of them are still there.
 ///
 /// A multistep method needs no row but the last of a step: its polynomial passes through the rows of
 /// the steps before. A one-step method adds rows inside the step.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub(crate) struct Pieces {
+    /// The unknowns that are kept, in rising order; `None` where all are.
+    kept: Option<Vec<usize>>,
+    stream: Option<Box<Stream>>,
+    /// How many unknowns are kept.
     size: usize,
     /// Rows of `size` values each.
     rows: Vec<f64>,
@@ -46,10 +64,25 @@ pub(crate) struct Pieces {
 }
 
 impl Pieces {
-    /// A store for `size` unknowns, without any step yet.
-    pub(crate) fn new(size: usize) -> Self {
+    /// A store for what `run` keeps, without any step yet.
+    pub(crate) fn new(system: &System, run: &Run) -> Self {
+        let (kept, stream) = match &run.keep {
+            Keep::Everything => (None, None),
+            Keep::Part(part) => {
+                let watched = run.guards.iter().map(|guard| guard.output);
+                let outputs = part.outputs.iter().copied().chain(watched);
+                let forms = outputs.filter_map(|at| system.outputs.get(at));
+                let mut kept: Vec<usize> =
+                    forms.flat_map(|own| own.unknowns.terms()).map(|term| term.0).collect();
+                kept.sort_unstable();
+                kept.dedup();
+                (Some(kept), Some(Box::new(Stream::new(system, part, run.rtol))))
+            }
+        };
         Self {
-            size,
+            size: kept.as_ref().map_or(system.len(), Vec::len),
+            kept,
+            stream,
             rows: Vec::new(),
             times: Vec::new(),
             steps: Vec::new(),
@@ -68,17 +101,28 @@ impl Pieces {
     }
 
     /// Begins a smooth span at `origin`, where the unknowns are `state`.
-    pub(crate) fn begin(&mut self, origin: f64, state: &[f64]) {
+    pub(crate) fn begin(&mut self, system: &System, origin: f64, state: &[f64]) {
+        if let Some(stream) = &mut self.stream {
+            stream.settle(system, &self.times);
+            stream.begin(system, (self.origin, origin), state);
+        }
         self.origin = origin;
         self.reached = 0.0;
         self.first = self.times.len();
-        self.add_row(0.0, state);
+        self.add_row(system, 0.0, state);
     }
 
     /// Adds the unknowns at a time after the span's origin.
-    pub(crate) fn add_row(&mut self, time: f64, state: &[f64]) {
+    pub(crate) fn add_row(&mut self, system: &System, time: f64, state: &[f64]) {
+        if let Some(stream) = &mut self.stream {
+            stream.settle(system, &self.times);
+            stream.add_row(state);
+        }
         self.times.push(time);
-        self.rows.extend_from_slice(state);
+        match &self.kept {
+            None => self.rows.extend_from_slice(state),
+            Some(kept) => self.rows.extend(kept.iter().map(|&unknown| state[unknown])),
+        }
     }
 
     /// Ends a step at the last row. Its polynomial has this degree, or a lower one where the span has
@@ -88,15 +132,27 @@ impl Pieces {
         let degree = degree.min(last - self.first).min(lagrange::HIGHEST);
         let end = self.times[last];
         let first = last - degree;
-        self.steps.push(Step { origin: self.origin, start: self.reached, end, first, degree });
-        self.reached = end;
+        self.add_step(Step { origin: self.origin, start: self.reached, end, first, degree });
     }
 
     /// Adds a step up to `end` in which no unknown moves.
     pub(crate) fn rest(&mut self, end: f64) {
         let first = self.times.len() - 1;
-        self.steps.push(Step { origin: self.origin, start: self.reached, end, first, degree: 0 });
-        self.reached = end;
+        self.add_step(Step { origin: self.origin, start: self.reached, end, first, degree: 0 });
+    }
+
+    fn add_step(&mut self, step: Step) {
+        self.reached = step.end;
+        self.steps.push(step);
+        if let Some(stream) = &mut self.stream {
+            stream.pending = Some(step);
+        }
+    }
+
+    /// Memory that the rows and steps take \[B\].
+    pub(crate) fn size_of_rows(&self) -> usize {
+        size_of::<f64>() * (self.rows.len() + self.times.len())
+            + size_of::<Step>() * self.steps.len()
     }
 
     /// Number of steps.
@@ -105,10 +161,14 @@ impl Pieces {
     }
 
     /// Ends the run at `t_end` \[s\], which lies in the last step.
-    pub(crate) fn finish(&mut self, time_scale: f64, t_end: f64) {
+    pub(crate) fn finish(&mut self, system: &System, t_end: f64) {
         self.t_end = t_end;
         if let Some(last) = self.steps.last_mut() {
-            last.end = (t_end / time_scale - last.origin).clamp(last.start, last.end);
+            last.end = (t_end / system.time_scale - last.origin).clamp(last.start, last.end);
+            if let Some(stream) = &mut self.stream {
+                stream.pending = Some(*last);
+                stream.finish(system, &self.times);
+            }
         }
     }
 
@@ -117,8 +177,14 @@ impl Pieces {
         let mut panels = Vec::with_capacity(self.steps.len() - from);
         let mut magnitude = 0.0_f64;
         let mut values = Vec::new();
+        let Some(terms) = self.places(output) else {
+            let start = self.steps.get(from).map_or(0.0, |step| step.origin + step.start);
+            let start = (start * system.time_scale).min(self.t_end);
+            let panel = Panel::constant(start, self.t_end, f64::NAN);
+            return Signal::new(vec![panel], None, f64::NAN);
+        };
         for step in &self.steps[from..] {
-            self.at_nodes(output, step, &mut values, &mut magnitude);
+            self.at_nodes(&terms, step, &mut values, &mut magnitude);
             inputs::add(system, output, step, &values, &mut panels, &mut magnitude);
         }
         if let Some(panel) = panels.last_mut()
@@ -129,9 +195,23 @@ impl Pieces {
         Signal::new(panels, None, ROUNDING * f64::EPSILON * magnitude * output.scale.abs())
     }
 
-    /// `unknowns · y` at the Chebyshev–Lobatto points of a step, and how large its terms are.
-    fn at_nodes(&self, output: &Output, step: &Step, values: &mut Vec<f64>, magnitude: &mut f64) {
+    /// The terms of an output over the values of a row; `None` where not all of them are kept.
+    fn places<'o>(&self, output: &'o Output) -> Option<Cow<'o, [(usize, f64)]>> {
         let terms = output.unknowns.terms();
+        let Some(kept) = &self.kept else { return Some(Cow::Borrowed(terms)) };
+        let place =
+            |&(unknown, factor): &(usize, f64)| Some((kept.binary_search(&unknown).ok()?, factor));
+        terms.iter().map(place).collect::<Option<Vec<_>>>().map(Cow::Owned)
+    }
+
+    /// The sum of `terms` at the Chebyshev–Lobatto points of a step, and how large they are.
+    fn at_nodes(
+        &self,
+        terms: &[(usize, f64)],
+        step: &Step,
+        values: &mut Vec<f64>,
+        magnitude: &mut f64,
+    ) {
         let mut in_rows = [0.0; lagrange::HIGHEST + 1];
         for (at, in_row) in in_rows.iter_mut().enumerate().take(step.degree + 1) {
             let row = &self.rows[(step.first + at) * self.size..][..self.size];
@@ -164,10 +244,10 @@ impl Dense for Pieces {
     }
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {
-        let mut samples = vec![0.0; times.len() * self.size];
-        if self.size == 0 {
-            return samples;
+        if self.size == 0 || self.kept.is_some() {
+            return Vec::new();
         }
+        let mut samples = vec![0.0; times.len() * self.size];
         let mut rest = times.iter().zip(samples.chunks_exact_mut(self.size)).peekable();
         for (at, step) in self.steps.iter().enumerate() {
             let next =
@@ -184,6 +264,18 @@ impl Dense for Pieces {
             lagrange::sample(&self.times[first..first + count], rows, self.size, here);
         }
         samples
+    }
+
+    fn keeps(&self, system: &System, output: usize) -> bool {
+        system.outputs.get(output).is_some_and(|own| self.places(own).is_some())
+    }
+
+    fn digest(&self) -> Option<&Digest> {
+        self.stream.as_ref().map(|stream| &stream.digest)
+    }
+
+    fn bytes(&self) -> usize {
+        self.size_of_rows()
     }
 }
 

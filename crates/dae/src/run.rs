@@ -1,6 +1,6 @@
 //! What is asked of a method.
 
-use std::ops::ControlFlow;
+use std::{ops::ControlFlow, sync::Arc};
 
 use crate::Guard;
 
@@ -14,12 +14,38 @@ pub struct Run {
     pub rtol: f64,
     /// Conditions to watch.
     pub guards: Vec<Guard>,
+    /// What the trajectory is to keep.
+    pub keep: Keep,
+}
+
+/// What a trajectory keeps of a solution.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub enum Keep {
+    /// All of it, so that every output can be asked for: memory grows with unknowns times steps.
+    #[default]
+    Everything,
+    /// A part of it, and a [`Digest`](crate::Digest) of the rest: memory grows with the unknowns of
+    /// the part times steps, and with all unknowns. Runs of several legs, and methods that take no
+    /// steps, keep everything.
+    Part(Arc<Part>),
+}
+
+/// The part of a solution that is kept, and what is summed up over all of it on the way. Every number
+/// is an index into [`System::outputs`](crate::System::outputs).
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Part {
+    /// Outputs that can be asked for as functions of time; those of guards need not be named.
+    pub outputs: Vec<usize>,
+    /// Pairs of outputs of which the integral of their product over time is wanted.
+    pub products: Vec<[usize; 2]>,
+    /// Outputs whose jumps at breakpoints of the driving functions are wanted.
+    pub jumps: Vec<usize>,
 }
 
 impl Run {
     /// A run to `t_end` \[s\] at the relative tolerance 1e-6 that watches nothing.
     pub fn to(t_end: f64) -> Self {
-        Self { t_end, rtol: 1e-6, guards: Vec::new() }
+        Self { t_end, rtol: 1e-6, guards: Vec::new(), keep: Keep::Everything }
     }
 
     /// The same run at another tolerance.

@@ -6,12 +6,14 @@
 
 mod chain;
 mod drive;
+mod flight;
 
 use std::{fmt::Debug, sync::Arc};
 
 use crate::{Guard, SolveError, System};
 
 pub use drive::integrate;
+pub use flight::Flight;
 
 /// A part of a run with one set of equations.
 #[derive(Debug, Clone)]
@@ -24,6 +26,8 @@ pub struct Leg {
     pub guards: Vec<Guard>,
     /// What switched as the leg began.
     pub switches: Vec<Switch>,
+    /// The guard that ends the leg, where that is known already: no method need look for it.
+    pub flight: Option<Flight>,
 }
 
 /// The end of a leg at guards.

@@ -155,6 +155,19 @@ impl System {
         of_pieces.reduce(f64::min)
     }
 
+    /// The shortest dimensionless time in which a driving function may go and come back within
+    /// `[start, end]`, between which no other piece begins: a period, or the length of a polynomial that
+    /// turns. `None` where none does.
+    pub(crate) fn shortest_swing(&self, (start, end): (f64, f64)) -> Option<f64> {
+        let swing = |waveform: &Waveform| {
+            let piece = waveform.piece_at(start);
+            let frequency = piece.frequency(start).max(piece.frequency(end));
+            let swings = frequency > 0.0 || piece.turns(start, end);
+            swings.then(|| (end - start).min(std::f64::consts::TAU / frequency))
+        };
+        self.waveforms.iter().filter_map(swing).reduce(f64::min)
+    }
+
     /// The input vector at dimensionless time `t`, on the piece that holds at `piece_time`
     /// (at a jump, the piece to take is not decided by `t`).
     pub fn inputs_at(&self, piece_time: f64, t: f64, w: &mut [f64]) {

@@ -2,7 +2,7 @@
 
 use std::{fmt::Debug, time::Duration};
 
-use crate::{Event, Signal, Switch, System};
+use crate::{Digest, Event, Signal, Switch, System};
 
 /// How much work a run was.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -49,13 +49,29 @@ pub enum Outcome {
 
 /// A solution between its ends.
 pub trait Dense: Debug + Send + Sync {
-    /// The output of this number as a function of time, in SI units, over the whole run.
+    /// The output of this number as a function of time, in SI units, over the whole run. One that is
+    /// not [kept](Self::keeps) is not a number throughout.
     fn signal(&self, system: &System, output: usize) -> Signal;
 
     /// All unknowns, dimensionless, at each of the dimensionless `times` (rising, within the run):
     /// one row of `n` values after another. Empty for a run of several legs, each of which has
-    /// unknowns of its own.
+    /// unknowns of its own, and where only a part is kept.
     fn sample(&self, system: &System, times: &[f64]) -> Vec<f64>;
+
+    /// Whether the output of this number can be asked for.
+    fn keeps(&self, _system: &System, _output: usize) -> bool {
+        true
+    }
+
+    /// What is known of all outputs where only a part of them is kept.
+    fn digest(&self) -> Option<&Digest> {
+        None
+    }
+
+    /// Memory that the solution takes \[B\], where it grows with the steps.
+    fn bytes(&self) -> usize {
+        0
+    }
 }
 
 /// The result of a run.
@@ -87,5 +103,15 @@ impl Trajectory {
     /// When `system` is not the one that was solved and has fewer outputs.
     pub fn signal(&self, system: &System, output: usize) -> Signal {
         self.dense.signal(system, output)
+    }
+
+    /// Whether the output number `output` can be asked for: the run has [kept](crate::Keep) it.
+    pub fn keeps(&self, system: &System, output: usize) -> bool {
+        self.dense.keeps(system, output)
+    }
+
+    /// What is known of all outputs, where the run has [kept](crate::Keep) a part of them only.
+    pub fn digest(&self) -> Option<&Digest> {
+        self.dense.digest()
     }
 }

@@ -96,17 +96,26 @@ impl Waveform {
 
     /// The largest absolute value on `[0, end]`, bounded from above.
     pub fn bound(&self, end: f64) -> f64 {
-        let mut bound = 0.0_f64;
-        let mut from = 0.0;
-        for (at, piece) in self.pieces.iter().enumerate().skip(self.index_at(0.0)) {
+        self.bounds(end).map(|(_, bound)| bound).fold(0.0, f64::max)
+    }
+
+    /// The integral of the absolute value over `[0, end]`, bounded from above: the sum over all pieces
+    /// of the largest value times the length.
+    pub fn area_bound(&self, end: f64) -> f64 {
+        self.bounds(end).map(|(length, bound)| length * bound).sum()
+    }
+
+    /// The length of each piece on `[0, end]`, and the bound of its values there.
+    fn bounds(&self, end: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let first = self.index_at(0.0);
+        let pieces = self.pieces.iter().enumerate().skip(first);
+        let pieces = pieces.take_while(move |(at, piece)| *at == first || piece.start <= end);
+        pieces.map(move |(at, piece)| {
+            let from = if at == first { 0.0 } else { piece.start };
             let next = self.pieces.get(at + 1).map_or(f64::INFINITY, |next| next.start);
-            bound = bound.max(piece.bound(from, next.min(end)));
-            if next > end {
-                break;
-            }
-            from = next;
-        }
-        bound
+            let until = next.min(end);
+            (until - from, piece.bound(from, until))
+        })
     }
 
     fn index_at(&self, t: f64) -> usize {

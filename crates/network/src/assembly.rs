@@ -123,8 +123,9 @@ pub struct DriveOutputs {
     pub node: usize,
     /// Force that it puts on its node \[N\].
     pub force: usize,
-    /// Velocity of that node \[m/s\].
-    pub velocity: usize,
+    /// Velocity of that node \[m/s\]. `None` at a massless node in a network that switches: it is not
+    /// known in all phases.
+    pub velocity: Option<usize>,
     /// Times \[s\] at which a prescribed displacement jumps; the work done there is the jump of
     /// the stored energy.
     pub jumps: Vec<f64>,

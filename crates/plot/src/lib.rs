@@ -28,8 +28,8 @@ pub use figures::model::{
     RheometerSeries,
 };
 pub use figures::{
-    ElementSeries, EnergySeries, Figure, RunMarker, RunMarkerKind, RunSeries, VibrationCurve,
-    VibrationSeries,
+    ElementSeries, EnergySeries, Figure, PrecisionCurve, PrecisionSeries, RunMarker, RunMarkerKind,
+    RunSeries, VibrationCurve, VibrationSeries,
 };
 pub use report::{Report, ReportFigure, Table};
 pub use sketch::{Sketch, SketchGravity, SketchKind, SketchLink, SketchNode, SketchTree};

@@ -211,7 +211,9 @@ impl Faults {
         if !state.seen.insert((place, fault.to_string())) {
             return;
         }
-        let source = place.and_then(|place| state.sources.get(place.source as usize).cloned());
+        // What has no place, such as a section that is missing, is about the text that is read.
+        let number = place.map_or(0, |place| place.source as usize);
+        let source = state.sources.get(number).cloned();
         let span = place.zip(source.as_deref()).map(|(place, source)| source.clamp(&place.span()));
         state.list.push((place, Diagnostic { severity, fault, source, span }));
     }

@@ -177,7 +177,7 @@ impl Library {
     /// Reads quantities of a document.
     pub(crate) fn quantities<'d>(&'d self, document: usize, faults: &'d Faults) -> Quantities<'d> {
         let values = &self.documents[document].values;
-        Quantities { values, faults, is_motion: false, basis: Basis::Model }
+        Quantities { values, faults, is_motion: false, basis: Basis::Model, element: None }
     }
 
     /// The values of the scene's own document.

@@ -10,7 +10,7 @@ use crate::{
     document::{Content, Item},
     fault::Fault,
     source::Place,
-    units::{Quantity, UnitError, parse_quantity, si_unit},
+    units::{Quantity, UnitError, format_short, parse_quantity, si_unit},
 };
 
 /// The named values of one document.
@@ -79,7 +79,36 @@ pub(crate) struct Quantities<'d> {
     pub(crate) is_motion: bool,
     /// Whether they belong to a model or to a material.
     pub(crate) basis: Basis,
+    /// The element that they are about, where an effect on one is read.
+    pub(crate) element: Option<Target<'d>>,
 }
+
+/// An element whose thickness may be what a share is meant of.
+#[derive(Clone, Copy)]
+pub(crate) struct Target<'d> {
+    pub(crate) name: &'d str,
+    /// Its thickness \[m\], where it has one.
+    pub(crate) thickness: Option<f64>,
+}
+
+impl Target<'_> {
+    /// What to write in place of `text`, the `share` of a length.
+    fn help(self, text: &str, share: f64) -> String {
+        let name = self.name;
+        match self.thickness {
+            Some(thickness) => {
+                let length = format_short(share * thickness, Dimension::LENGTH, SHARE_DIGITS);
+                format!("write \"{length}\", which is {text} of the thickness of `{name}`")
+            }
+            None => format!(
+                "write a length such as \"10 mm\": `{name}` has no `thickness` to take a share of"
+            ),
+        }
+    }
+}
+
+/// Digits of a length that a share was meant for.
+const SHARE_DIGITS: usize = 7;
 
 impl Quantities<'_> {
     /// The quantity `item` as written, in SI units, with an error where it does not have the
@@ -210,6 +239,10 @@ impl Quantities<'_> {
                 Dimension::ACCELERATION if self.is_motion => fault.with_help(MOTION_HELP),
                 Dimension::VELOCITY if self.is_motion => {
                     fault.with_help("a motion is a displacement: integrate the velocity")
+                }
+                Dimension::NUMBER if expected == Dimension::LENGTH && self.element.is_some() => {
+                    let help = self.element.map(|own| own.help(&shown(), quantity.value));
+                    fault.with_help(help.unwrap_or_default())
                 }
                 _ if found == in_model => fault.with_help(pad_in_material_help(in_model)),
                 _ if found == Basis::MATERIAL.dimension(in_model) => {

@@ -184,7 +184,11 @@ impl Trial<'_> {
             self.faults.borrow_mut().push(format!("{own:?}"));
             return;
         };
-        self.within(key, value, self.case.get(quantity), bars * error);
+        let expected = self.case.get(quantity);
+        let stated = bars * error;
+        let allowed =
+            if self.is_exact() { self.error(Some(stated), expected.abs()) } else { stated };
+        self.within(key, value, expected, allowed);
     }
 
     /// A number that was made of others, of the size `scale`, without an error of its own.

@@ -130,3 +130,69 @@ fn ten_balls_in_a_row_pass_the_blow_on() {
         assert!(off <= velocity.error.unwrap().max(1e-14), "{method}: off by {off:e}");
     }
 }
+
+#[test]
+fn auto_turns_to_a_method_that_gets_through() {
+    let text = r#"
+        [nodes]
+        head = { mass = "5 kg", velocity = "6 m/s" }
+        [elements]
+        pad = { between = ["head", "ground"], series = [
+          { rate-spring = { force = "1 kN", at = "10 mm", gain = 0.2, reference-rate = "10 mm/s", exponent = 1.5 } },
+          { spring = "300 kN/m" },
+        ] }
+        [effects]
+        separation.pad = { at = "head" }
+        [run]
+        duration = "80 ms"
+        "#;
+    let (found, other) = (run(text, "auto"), run(text, "tr-bdf2"));
+    for key in ["pad.peak-force", "pad.impulse"] {
+        let (one, another) = (found.measure(key).unwrap(), other.measure(key).unwrap());
+        let errors = one.error.unwrap() + another.error.unwrap();
+        assert!((one.value.unwrap() - another.value.unwrap()).abs() <= errors, "{key}");
+    }
+}
+
+#[test]
+fn separation_without_which_a_padding_would_pull_is_not_left_out() {
+    let text = r#"
+        [nodes]
+        head = { mass = "5 kg", velocity = "5 m/s" }
+        panel = { mass = "0.3 kg" }
+        [elements]
+        pad = { between = ["head", "panel"], kelvin-voigt = { spring = "200 kN/m", dashpot = "50 N s/m" } }
+        mount = { between = ["panel", "ground"], kelvin-voigt = { spring = "20 kN/m", dashpot = "20 N s/m" } }
+        [effects]
+        separation.pad = { at = "head" }
+        [accuracy]
+        neglect-below = "5 %"
+        [run]
+        duration = "12 ms"
+        "#;
+    let found = run(text, "exact");
+    let partial = found.partial.as_ref().unwrap();
+    assert!(partial.left_out.iter().all(|own| own.effect != "separation.pad"), "{partial:?}");
+    assert!(found.warnings.iter().all(|own| !own.contains("separation is off")), "{found:?}");
+}
+
+#[test]
+fn stops_that_share_a_blow_are_warned_of() {
+    let text = r#"
+        [nodes]
+        head = { mass = "5 kg", velocity = "5 m/s" }
+        panel = { mass = "4 kg" }
+        [elements]
+        p1 = { between = ["head", "panel"], spring = "20 kN/m" }
+        p2 = { between = ["head", "panel"], spring = "30 kN/m" }
+        mount = { between = ["panel", "ground"], spring = "100 kN/m" }
+        [effects]
+        stop.p1 = { at = "10 mm" }
+        stop.p2 = { at = "10 mm" }
+        [run]
+        duration = "20 ms"
+        "#;
+    let found = run(text, "exact");
+    let is_told = |own: &String| own.contains("`p1.stop`") && own.contains("`p2.stop`");
+    assert!(found.warnings.iter().any(is_told), "{:?}", found.warnings);
+}

@@ -6,7 +6,11 @@ use dashpot::{
     network::{
         effects::{EffectKind, EffectVisitor, visit_effects},
         elements::{ElementKind, ElementVisitor, visit_elements},
+        parameters::{Dimension, ParameterKind, Value},
+        shifts::{ShiftKind, ShiftVisitor, visit_shifts},
+        waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
     },
+    scene::write_kind,
 };
 
 use super::trial::{run, scene};
@@ -172,18 +176,72 @@ fn every_element_at_its_neutral_value_is_nothing_or_its_linear_relative() {
     assert!(elements.0 > 10);
 }
 
+/// The lines of a shift at which no time is multiplied.
+fn neutral_shift(kind: &str) -> &'static [&'static str] {
+    match kind {
+        "wlf" => &["wlf = { temperature = \"40 degC\", reference = \"40 degC\" }"],
+        "arrhenius" => &[
+            "arrhenius = { temperature = \"40 degC\", reference = \"40 degC\", energy = \"80 kJ/mol\" }",
+        ],
+        kind => panic!("what is the neutral value of `{kind}`?"),
+    }
+}
+
+struct Shifts(usize);
+
+impl ShiftVisitor for Shifts {
+    fn visit<S: ShiftKind>(&mut self) {
+        let off = text("", "", "");
+        for line in neutral_shift(S::KIND) {
+            let law = "{ dashpot = 600 }] }";
+            let shifted =
+                off.replace(law, &format!("{{ dashpot = 600 }}], shift = {{ {line} }} }}"));
+            assert_ne!(shifted, off);
+            same(line, &shifted, &off);
+            self.0 += 1;
+        }
+    }
+}
+
+#[test]
+fn every_shift_at_its_reference_is_none() {
+    let mut shifts = Shifts(0);
+    visit_shifts(&mut shifts);
+    assert!(shifts.0 > 1);
+}
+
+struct Waveforms(usize);
+
+impl WaveformVisitor for Waveforms {
+    fn visit<W: WaveformKind>(&mut self) {
+        let none = |(value, kind): (Value, ParameterKind)| match (value, kind) {
+            (Value::Number(_), ParameterKind::Amplitude) => Value::Number(0.0),
+            (Value::Table(points), ParameterKind::TimeTable) => {
+                Value::Table(points.into_iter().map(|(time, _)| (time, 0.0)).collect())
+            }
+            (value, _) => value,
+        };
+        let kinds = W::PARAMETERS.iter().map(|own| own.kind);
+        let values: Vec<Value> = W::sample().values().into_iter().zip(kinds).map(none).collect();
+        assert_ne!(values, W::sample().values(), "{} has no size", W::KIND);
+        let line = |driven| write_kind(W::KIND, W::PARAMETERS, &values, driven);
+        let off = text("", "", "");
+        let push = format!(
+            "[loads]\npush = {{ on = \"head\", force = {{ {} }} }}",
+            line(Dimension::FORCE)
+        );
+        same(W::KIND, &text(&push, "", ""), &off);
+        let motion =
+            format!("floor = {{ motion = {{ {} }} }}\n[elements]", line(Dimension::LENGTH));
+        let moved = off.replace("\"ground\"", "\"floor\"").replace("[elements]", &motion);
+        same(W::KIND, &moved, &off);
+        self.0 += 1;
+    }
+}
+
 #[test]
 fn a_load_of_zero_and_a_motion_of_zero_are_none() {
-    let off = text("", "", "");
-    let loaded = text(
-        "[loads]\npush = { on = \"head\", force = { sine = { amplitude = 0, frequency = 50 } } }",
-        "",
-        "",
-    );
-    same("a load of zero", &loaded, &off);
-    let moved = off.replace("\"ground\"", "\"floor\"").replace(
-        "[elements]",
-        "floor = { motion = { table = [[0, 0], [0.004, 0], [0.008, 0]] } }\n[elements]",
-    );
-    same("a motion of zero", &moved, &off);
+    let mut waveforms = Waveforms(0);
+    visit_waveforms(&mut waveforms);
+    assert!(waveforms.0 > 5);
 }

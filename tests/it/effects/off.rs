@@ -60,37 +60,6 @@ fn a_network_without_effects_has_the_order_of_its_graph_and_nothing_that_switche
     }
 }
 
-/// A row of masses between springs and dashpots in parallel, from the ground to the last one.
-fn chain(masses: usize) -> Network {
-    let mut network = Network::new();
-    let mut last = network.ground();
-    for at in 0..masses {
-        let next = network.add_node(Node::mass(format!("m{at}"), 1.0).moving(1.0));
-        let link = crate::thesis::kelvin(1e4, 10.0);
-        network.connect(format!("link {at}"), next, last, link);
-        last = next;
-    }
-    network
-}
-
-#[test]
-fn the_matrix_of_a_chain_has_the_entries_of_its_graph() {
-    // Each rate of a place is one velocity. Each rate of a velocity has the forces of two links, or of
-    // one at the end: with places as unknowns those of up to three masses, with deformations of two
-    // links; and the velocities of up to three masses in both.
-    for masses in [3, 40] {
-        let assembly = chain(masses).compile(1.0).unwrap();
-        let system = &assembly.system;
-        let velocities = 3 * masses - 2;
-        let by_places = masses + 2 * velocities;
-        let by_deformations = (2 * masses - 1) + (2 * masses - 1) + velocities;
-        let found = system.jacobian.nnz();
-        assert!([by_places, by_deformations].contains(&found), "{found} of {masses}");
-        assert_eq!((system.states(), system.algebraic()), (2 * masses, 0));
-        assert_eq!(system.input_matrix.nnz(), 0);
-    }
-}
-
 /// What has been asked of something.
 #[derive(Debug, Default)]
 struct Calls {

@@ -65,7 +65,7 @@ fn gravity_makes_a_kelvin_voigt_pad_let_go_later_or_never() {
                 let [value, time] =
                     ["smallest-force", "smallest-force.time"].map(|own| case.get(own));
                 trial.number("smallest force", smallest.value, value, case.get("peak-force"));
-                // The bottom is flat: its place is known to the root of what its depth is.
+                // The bottom is flat: its place is known to the root of what its depth is, 1e-12.
                 trial.if_exact(|| assert!((smallest.time - time).abs() < 1e-6 * time));
                 (0.0, end)
             };
@@ -158,13 +158,17 @@ fn zener_pad_lets_go_with_a_jump_of_the_speed_of_its_face() {
         trial.value("head.position", end, Side::Before, "horizon.mass-position");
         let face = trial.signal("pad.face.position");
         let panel = face.panel_at(release);
-        let speeds = [face.panels[panel - 1].slope(release), face.panels[panel].slope(release)];
+        let sides = [&face.panels[panel - 1], &face.panels[panel]];
         let expected =
             ["before", "after"].map(|side| case.get(&format!("release-1.face-velocity-{side}")));
-        // A slope has the error of the value over the length of a panel.
+        // A polynomial of degree n with an error has a slope with up to 2 n²/length of it (Markov).
         trial.if_exact(|| {
-            for (found, expected) in speeds.into_iter().zip(expected) {
-                assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{found} {expected}");
+            for (panel, expected) in sides.into_iter().zip(expected) {
+                let degree = (panel.coefficients.len() - 1) as f64;
+                let steepening = 2.0 * degree * degree / panel.length();
+                let allowed = steepening * trial.error(face.error, face.bound());
+                trial.within("face speed", panel.slope(release), expected, allowed);
+                assert!(allowed < 1e-6 * expected.abs(), "{allowed:e} says nothing");
             }
         });
     });

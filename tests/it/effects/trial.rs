@@ -1,6 +1,6 @@
 //! One case solved by one method, and what it is judged by.
 //!
-//! `exact` must stay within the error that it states and, besides, within 1e-10 of the largest value
+//! `exact` must stay within the error that it states and, besides, within 1e-12 of the largest value
 //! of the quantity. Of a method with a tolerance `rtol` the true error is 100 to 700 `rtol` of the
 //! largest value, and ten times that for one of second order, which takes so many more steps: its
 //! quantities must stay within 1000, or 10 000. An instant at which a quantity passes a level is known
@@ -22,7 +22,7 @@ pub(super) const ALL: &[&str] = &["exact", "bdf", "esdirk34", "tr-bdf2"];
 pub(super) const STEPPING: &[&str] = &["bdf", "esdirk34", "tr-bdf2"];
 
 /// Part of the largest value within which `exact` must be.
-const EXACT: f64 = 1e-10;
+const EXACT: f64 = 1e-12;
 /// Errors of stepping methods in parts of their tolerance.
 const ERRORS_PER_TOLERANCE: f64 = 1e3;
 /// Relative error of a number that is read, or is a sum of times.
@@ -121,7 +121,7 @@ impl Trial<'_> {
         }
     }
 
-    /// Energy is conserved: to 1e-10 by `exact`, within its errors by the others.
+    /// Energy is conserved: to 1e-12 by `exact`, within its errors by the others.
     fn energy_closes(&self) {
         let energy = &self.report.energy;
         let allowed = match self.report.solver.rtol {
@@ -150,9 +150,10 @@ impl Trial<'_> {
                 self.faults.borrow_mut().push(format!("no error: {one:?}\n{two:?}"));
                 continue;
             };
-            // Two bars of the release of a force y^3.5 need not meet.
+            // Bars are made to hold in 99 of 100 scenes, and those of the release of a force y^3.5 do
+            // not meet.
             let is_flat = one.kind == "contact-time" && self.case.find("param.p") > Some(3.0);
-            let bar = (first + second) * if is_flat { 4.0 } else { 1.0 };
+            let bar = (first + second) * if is_flat { 4.0 } else { 2.0 };
             let gap = (a - b).abs();
             if gap > bar + ROUNDING * a.abs() {
                 let fault = format!(

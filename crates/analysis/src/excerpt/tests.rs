@@ -79,7 +79,7 @@ fn what_goes_on_after_the_contact_stays_in_sight() {
 fn foam_is_left_where_its_contact_opens_and_alone_where_it_goes_slack() {
     use dashpot_network::elements::{ElementKind, HystereticFoam};
     for beside in [0.0, 10.0] {
-        // Foam alone never pulls; with a dashpot beside it the mass leaves it, and there is a fall.
+        // Foam never pulls, alone or with a dashpot beside it that its separation holds back.
         let mut network = drop(0.5, false);
         let foam = part(HystereticFoam::sample());
         let model = Tree::parallel([foam.clone(), part(Dashpot { damping: beside })]);
@@ -87,8 +87,9 @@ fn foam_is_left_where_its_contact_opens_and_alone_where_it_goes_slack() {
         let settings = SolveSettings::lasting(0.5).by("esdirk34");
         let report = solve(&network, &settings, &mut Silent).unwrap();
         let spans = touching(&report.solution());
-        let met = if beside > 0.0 { contact(0.5).0 } else { 0.0 };
-        assert!((spans[0].0 - met).abs() < 1e-5, "{spans:?}");
+        let (met, _) = contact(0.5);
+        // As good as the measures are to be.
+        assert!((spans[0].0 - met).abs() <= settings.accuracy.default * met, "{spans:?}");
         assert!((0.01..0.03).contains(&(spans[0].1 - met)), "{spans:?}");
     }
 }

@@ -67,12 +67,16 @@ impl fmt::Display for Leak {
     }
 }
 
-/// Where most of the energy goes missing; `None` where none does.
+/// Where most of the energy goes missing; `None` where none does, or where only a part of the
+/// solution was kept.
 ///
 /// Each slice of time is balanced for each part: for a mass the work of all forces on it against its
 /// kinetic energy, for an element the work done on its ends against what it stores and dissipates,
 /// and at each switch what jumps against the impulses. The sum over all is what the ledger misses.
 pub fn leak(solution: &Solution<'_>) -> Option<Leak> {
+    if solution.trajectory().digest().is_some() {
+        return None;
+    }
     let missing = ledger(solution, solution.end()).missing();
     if missing.is_nan() || missing == 0.0 {
         return None;

@@ -71,7 +71,8 @@ pub fn energy_series(solution: &Solution<'_>, times: &[f64]) -> EnergySeries {
     }
     for drive in &assembly.drives {
         let force = solution.signal(drive.force);
-        accumulate(&mut series.work_in, times, force, solution.signal(drive.velocity));
+        let velocity = solution.rate(drive.velocity, assembly.nodes[drive.node].position);
+        accumulate(&mut series.work_in, times, force, &velocity);
     }
     let (mut sum, mut from) = (0.0, 0.0);
     for (work, &time) in series.work_in.iter_mut().zip(times) {

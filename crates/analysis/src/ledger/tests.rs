@@ -106,8 +106,21 @@ fn cradle(restitution: f64) -> Network {
     network
 }
 
+/// A load on the massless end of a spring that slides on the ground.
+fn dragged() -> Network {
+    let mut network = Network::new();
+    let block = network.add_node(Node::mass("block", 1.0).moving(1.0));
+    let shoe = network.add_node(Node::massless("shoe"));
+    let ground = network.ground();
+    network.connect("tie", block, shoe, spring(1.0));
+    network.connect("slide", shoe, ground, part(Friction { force: 0.3 }));
+    let force = Waveform::new(vec![Piece { value: -0.2, ..Piece::default() }]).unwrap();
+    network.add_load("drag", shoe, force);
+    network
+}
+
 /// Networks in which something switches, by name, with how long they run \[s\].
-fn cases() -> Vec<(&'static str, Network, f64)> {
+pub(super) fn cases() -> Vec<(&'static str, Network, f64)> {
     vec![
         ("ball that bounces to rest", ball(0.5), 2.0),
         ("ball that stays", ball(0.0), 2.0),
@@ -119,6 +132,7 @@ fn cases() -> Vec<(&'static str, Network, f64)> {
         ("stop that holds", stopped(0.0), 0.02),
         ("stop that reflects", stopped(0.3), 0.02),
         ("belt", belt(), 3.0),
+        ("shoe that is dragged", dragged(), 3.0),
         ("racket that reflects", racket(0.7), 0.3),
         ("racket that takes along", racket(0.0), 0.3),
         ("two walls and friction", between_walls(), 3.0),
@@ -127,7 +141,7 @@ fn cases() -> Vec<(&'static str, Network, f64)> {
     ]
 }
 
-fn run(network: &Network, duration: f64, method: &str) -> RunReport {
+pub(super) fn run(network: &Network, duration: f64, method: &str) -> RunReport {
     let settings = SolveSettings::lasting(duration).by(method);
     solve(network, &settings, &mut Silent).unwrap()
 }

@@ -1,6 +1,11 @@
 //! Coefficient of restitution.
 
-use dashpot_network::parameters::{InvalidParameter, Parameter, Value, WindowWish};
+use std::borrow::Cow;
+
+use dashpot_network::{
+    NodeId,
+    parameters::{InvalidParameter, Parameter, Value, WindowWish},
+};
 
 use super::{Family, MeasureKind, Reading, reading::end_value};
 use crate::{
@@ -10,6 +15,9 @@ use crate::{
 
 /// The speed at which an element's ends part at release over that at which they met,
 /// `e = −ẏ(release)/ẏ(contact)` \[1\], for elements that touch an impactor.
+///
+/// Of an element that is struck through a face with mass they are the speeds of what strikes the face
+/// and of the other end, before the first touch and at the end of the impact.
 ///
 /// A massless face has the speed of what strikes it, from the touch until it is let go. Where masses
 /// meet, the speeds are those before and after the impulse; an impact of masses that stay together
@@ -34,7 +42,8 @@ impl MeasureKind for CoefficientOfRestitution {
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connection = &solution.assembly().connections[target];
-        if !solution.touches_impactor(connection) {
+        let face = solution.struck_face(target);
+        if !solution.touches_impactor(connection) && face.is_none() {
             return Reading::undefined("it touches no impactor");
         }
         let impact = solution.element_impact(target);
@@ -45,11 +54,19 @@ impl MeasureKind for CoefficientOfRestitution {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
-        let rate = solution.approach(connection);
-        let blows = solution.element_blows(target);
+        let own = || solution.approach(connection);
+        let rate = match face {
+            Some(face) => solution.approach_of(face.ends).map_or_else(own, Cow::Owned),
+            None => own(),
+        };
+        let touch = face.map_or(target, |face| face.connection);
+        let blows = solution.element_blows(touch);
         let is_struck = |time: f64| !blows::within(blows, (time, time)).is_empty();
-        let meeting = if is_struck(span.from) {
-            solution.approach_before(connection, span.from)
+        let ends = face.map_or(connection.between.map(NodeId::index), |face| face.ends);
+        let meeting = if is_struck(span.from) && span.from <= 0.0 {
+            solution.start_approach(ends)
+        } else if is_struck(span.from) {
+            rate.left_value(span.from)
         } else {
             rate.value(span.from)
         };

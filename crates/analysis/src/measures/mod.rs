@@ -45,6 +45,7 @@ pub use peak_deformation::PeakDeformation;
 pub use peak_displacement::PeakDisplacement;
 pub use peak_force::PeakForce;
 pub use peak_rate::PeakRate;
+pub(crate) use peak_strain::CRUSHED;
 pub use peak_strain::PeakStrain;
 pub use peak_stress::PeakStress;
 pub use reading::Reading;

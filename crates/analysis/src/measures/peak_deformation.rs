@@ -4,13 +4,14 @@ use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
 use super::{
     Family, MeasureKind, Reading,
-    reading::{peak, peaks_below_zero},
+    reading::{peak, peaks_below_zero, positive_peak},
     window,
 };
 use crate::Solution;
 
 /// The largest magnitude of an element's deformation, `max |y(t)|` \[m\], with its time; a peak in
-/// elongation is noted.
+/// elongation is noted. Of what never pulls it is the deepest compression, `max y(t) ≥ 0`: what it is
+/// apart by is a gap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PeakDeformation {
     /// The part of the run that it looks at.
@@ -43,7 +44,11 @@ impl MeasureKind for PeakDeformation {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
-        let deformation = solution.signal(solution.assembly().connections[target].deformation);
+        let connection = &solution.assembly().connections[target];
+        let deformation = solution.signal(connection.deformation);
+        if connection.never_pulls {
+            return positive_peak(deformation, &span);
+        }
         let mut reading = peak(deformation, &span);
         if solution.has_contact(target) {
             // At a contact it is the remainder of the way that its ends have come to meet.

@@ -11,6 +11,9 @@ const NO_THICKNESS: &str = "its thickness is not known: give it a `thickness` or
 /// Note on a strain that is one in elongation.
 const STRETCHED: &str = "in elongation";
 
+/// Note on a segment that would have to be thinner than nothing.
+pub(crate) const CRUSHED: &str = "pressed in by more than its thickness";
+
 /// The largest magnitude of the strain in any segment of a pad, `max |y(t)|/h` \[1\], with its time and
 /// its layer; a peak in elongation is noted.
 ///
@@ -61,7 +64,7 @@ impl MeasureKind for PeakStrain {
         // The note is on the largest strain, unless that is one in elongation.
         let is_crushed = reading.value.is_some_and(|value| value > 1.0);
         if is_crushed && !reading.note.as_ref().is_some_and(|note| note.contains(STRETCHED)) {
-            return reading.noting("pressed in by more than its thickness");
+            return reading.noting(CRUSHED);
         }
         reading
     }

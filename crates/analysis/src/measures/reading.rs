@@ -1,6 +1,6 @@
 //! What a measure yields, and how errors of signals become errors of measures.
 
-use dashpot_dae::Signal;
+use dashpot_dae::{Extremum, Signal};
 use dashpot_network::ConnectionOutputs;
 
 use crate::{
@@ -33,6 +33,9 @@ pub struct Reading {
     pub noise: f64,
     /// How fast the value changes at most with the end of its window \[unit/s\].
     pub end_rate: f64,
+    /// By how much it might be larger \[unit\] and there would still be a value, where the run may end
+    /// before there is one.
+    pub room: Option<f64>,
 }
 
 impl Reading {
@@ -52,6 +55,7 @@ impl Reading {
             note: span.note.map(str::to_owned),
             noise: 0.0,
             end_rate: 0.0,
+            room: None,
         };
         if value.is_finite() {
             reading
@@ -106,7 +110,16 @@ pub(crate) fn infinite(span: &Span, blows: &[Blow]) -> Option<Reading> {
 
 /// The largest magnitude of a signal over a span.
 pub(crate) fn peak(signal: &Signal, span: &Span) -> Reading {
-    let peak = signal.absolute_maximum(span.window());
+    at_extremum(signal, span, signal.absolute_maximum(span.window()))
+}
+
+/// The largest value of a signal over a span, 0 where all are negative.
+pub(crate) fn positive_peak(signal: &Signal, span: &Span) -> Reading {
+    let most = signal.maximum(span.window());
+    at_extremum(signal, span, Extremum { value: most.value.max(0.0), ..most })
+}
+
+fn at_extremum(signal: &Signal, span: &Span, peak: Extremum) -> Reading {
     // An end that is not known to the last digit moves a peak that lies at it.
     let end_rate = if peak.time >= span.to { signal.slope(span.to).abs() } else { 0.0 };
     let error = signal.error.zip(span.to_error);
@@ -184,7 +197,12 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     let magnitude = |signal: &Signal| signal.absolute_maximum(window).value;
     let most_force = magnitude(force);
     // What a spring of this peak force and deformation takes up, and may give back.
-    let deformation = magnitude(solution.signal(connection.deformation));
+    let deformation = solution.signal(connection.deformation);
+    let deformation = if connection.never_pulls {
+        deformation.maximum(window).value.max(0.0)
+    } else {
+        magnitude(deformation)
+    };
     let area = |signal: &Signal| signal.integral_of(window, &[0.0], f64::abs);
     let noise = force.noise * area(&rate) + rate.noise * area(force);
     let blows = blows::within(solution.element_blows(target), window);

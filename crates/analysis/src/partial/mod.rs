@@ -22,7 +22,7 @@ mod tests;
 use std::{sync::Arc, time::Duration};
 
 use dashpot_dae::Observer;
-use dashpot_network::{Assembly, Influence, Network};
+use dashpot_network::{Assembly, Detail, Influence, Network};
 
 use self::{
     candidates::{Candidate, candidates},
@@ -33,7 +33,7 @@ pub use self::{
     cost::Cost,
     sweep::{PartialSweep, Saving, sweep},
 };
-use crate::{RunError, RunReport, SolveSettings, solve_assembly};
+use crate::{RunError, RunReport, SolveSettings, segmentation, solve_assembly};
 
 /// What was left out of a run, and what it cost.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,6 +81,13 @@ pub enum Why {
     Moves(Cost),
     /// What is asked of the run does not exist without it, or the run fails.
     Fails(RunError),
+    /// An element that can part would pull, as if glued.
+    Pulls {
+        /// Its name.
+        element: String,
+        /// From when on \[s\].
+        time: f64,
+    },
 }
 
 /// Work beyond the solution that is reported.
@@ -103,7 +110,8 @@ impl Partial {
 /// out, without what is shown to matter less. Otherwise as [`solve_assembly`], without any further
 /// solution.
 ///
-/// The errors of measures include what was left out.
+/// The errors of measures include what was left out, and what the segments of layers make of them:
+/// the latter takes one further solution.
 ///
 /// # Errors
 ///
@@ -115,7 +123,8 @@ pub fn solve_partial(
     observer: &mut dyn Observer,
 ) -> Result<RunReport, RunError> {
     let Some(bound) = settings.accuracy.neglect_below else {
-        return solve_assembly(assembly, &words(network), settings, observer);
+        let report = solve_assembly(assembly, &words(network), settings, observer)?;
+        return segmentation::charged(network, report, settings, observer);
     };
     settings.validate()?;
     let mut found = candidates(network, settings.duration, bound);
@@ -123,6 +132,7 @@ pub fn solve_partial(
     let mut put_back = Candidate::needed(&mut found, network, settings);
     let trials = std::slice::from_mut(&mut trial);
     let settled = settle(&mut found, &mut put_back, trials, bound, observer)?;
+    let details: Vec<Detail> = found.iter().map(|own| own.detail).collect();
     let mut partial = Partial {
         bound,
         left_out: found.into_iter().map(Neglected::from).collect(),
@@ -142,7 +152,7 @@ pub fn solve_partial(
     };
     partial.verification = Verification { solves: solves - 1, wall: wall.saturating_sub(own) };
     report.partial = Some(partial);
-    Ok(report)
+    segmentation::charged(&network.without(&details), report, settings, observer)
 }
 
 /// The words of the effects that are on.

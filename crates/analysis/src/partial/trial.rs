@@ -9,7 +9,7 @@ use dashpot_dae::{Observer, SolveError};
 use dashpot_network::{Assembly, Detail, Network};
 
 use super::{Candidate, Comparison, Cost, PutBack, Why, words};
-use crate::{RunError, RunReport, SolveSettings, solve_assembly};
+use crate::{Contact, RunError, RunReport, SolveSettings, solve_assembly};
 
 /// A network that was solved in full, to be solved again without some of its details.
 pub(super) struct Trial<'n> {
@@ -41,7 +41,7 @@ impl<'n> Trial<'n> {
         Ok(Self { network, settings, full, own, solves: 1, wall: own })
     }
 
-    /// Solves the network without these details; `Err` within where it cannot be.
+    /// Solves the network without these details; `Err` within where that is no answer.
     ///
     /// # Errors
     ///
@@ -50,7 +50,7 @@ impl<'n> Trial<'n> {
         &mut self,
         details: &[Detail],
         observer: &mut dyn Observer,
-    ) -> Result<Result<Reduced, RunError>, RunError> {
+    ) -> Result<Result<Reduced, Why>, RunError> {
         let started = Instant::now();
         let report = solve_without(self.network, details, self.settings, observer);
         let taken = started.elapsed();
@@ -58,13 +58,29 @@ impl<'n> Trial<'n> {
         self.wall += taken;
         match report {
             Err(error) if is_cancelled(&error) => Err(error),
-            Err(error) => Ok(Err(error)),
+            Err(error) => Ok(Err(Why::Fails(error))),
             Ok(report) => {
+                if let Some(pulls) = pulls(&self.full, &report) {
+                    return Ok(Err(pulls));
+                }
                 let comparison = Comparison::of(&self.full, &report);
                 Ok(Ok((report, taken, comparison)))
             }
         }
     }
+}
+
+/// The first element that pulls in the reduced run, where it parts in the full one.
+fn pulls(full: &RunReport, reduced: &RunReport) -> Option<Why> {
+    let parts =
+        |element: &str| full.contacts.iter().any(|own| own.element == element && !own.is_glued);
+    let pulling = reduced.contacts.iter().find(|own| {
+        own.is_glued
+            && own.impact.contact == Contact::Released
+            && own.impact.end < reduced.trajectory.t_end
+            && parts(&own.element)
+    })?;
+    Some(Why::Pulls { element: pulling.element.clone(), time: pulling.impact.end })
 }
 
 /// Solves a network without these details of it.
@@ -108,7 +124,7 @@ pub(super) fn settle(
                     continue;
                 }
                 Ok((_, _, comparison)) => comparison.worst().cloned().map(Why::Moves),
-                Err(error) => Some(Why::Fails(error)),
+                Err(why) => Some(why),
             };
             let Some(why) = why else { continue };
             if candidates.len() > 1 && std::mem::take(&mut first) {
@@ -154,7 +170,7 @@ fn apart(
                     None => kept.push(own),
                 }
             }
-            Err(error) => failed.push((f64::INFINITY, own.put_back(Why::Fails(error)))),
+            Err(why) => failed.push((f64::INFINITY, own.put_back(why))),
         }
     }
     failed.sort_by(|one, other| other.0.total_cmp(&one.0));

@@ -145,7 +145,7 @@ impl Vibration {
         };
         let own = self.assembly.drives.iter().find(|own| own.name == name)?;
         let [force, velocity] =
-            [own.force, own.velocity].map(|at| harmonic.amplitude(&[(at, 1.0)]).value);
+            [own.force, own.velocity?].map(|at| harmonic.amplitude(&[(at, 1.0)]).value);
         Some(0.5 * (force * velocity.conj()).re)
     }
 }

@@ -71,7 +71,15 @@ struct Run<'a> {
     events: Vec<Event<'a>>,
     /// What was left out; null where nothing was allowed to be.
     partial: Option<Reduced<'a>>,
+    /// The segments of layers that the errors include; null where there are none.
+    segmentation: Option<Segments>,
     warnings: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Segments {
+    segments: usize,
+    compared_with: usize,
 }
 
 #[derive(Serialize)]
@@ -273,6 +281,10 @@ fn run(report: &RunReport, elapsed: Duration) -> Run<'_> {
         },
         events: report.events.iter().map(|own| Event { time: own.time, what: &own.what }).collect(),
         partial: report.partial.as_ref().map(reduced),
+        segmentation: report
+            .segmentation
+            .as_ref()
+            .map(|own| Segments { segments: own.segments, compared_with: own.others }),
         warnings: &report.warnings,
     }
 }
@@ -292,6 +304,9 @@ fn reduced(partial: &Partial) -> Reduced<'_> {
         let (moves, error) = match &own.why {
             Why::Moves(cost) => (Some(moved(cost)), None),
             Why::Fails(error) => (None, Some(error.to_string())),
+            Why::Pulls { element, time } => {
+                (None, Some(format!("`{element}` would pull from {time} s on")))
+            }
         };
         let (formula, estimate) = (own.influence.formula.as_str(), own.influence.value);
         PutBack { effect: &own.effect, formula, estimate, moves, error }

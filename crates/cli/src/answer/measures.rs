@@ -175,12 +175,12 @@ fn value(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
     }
 }
 
-/// The error relative to the measure's size; that of a zero in its unit.
+/// The error relative to the value; that of what is next to nothing in its unit.
 fn error(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
     let Some(absolute) = measure.error.filter(|_| measure.value.is_some()) else {
         return "–".to_owned();
     };
-    if zeros.has(measure) {
+    if zeros.has(measure) || measure.is_next_to_nothing() {
         return if absolute == 0.0 {
             "±0".to_owned()
         } else {

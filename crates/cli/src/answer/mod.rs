@@ -1,6 +1,7 @@
 //! What a run of a scene has to say, before it becomes text, JSON, or a page.
 
 pub(crate) mod comparison;
+pub(crate) mod cost;
 mod energy;
 mod json;
 mod measures;

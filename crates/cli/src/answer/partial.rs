@@ -5,10 +5,12 @@ use dashpot_analysis::{
     partial::{Cost, Verification, Why},
 };
 
-use crate::numbers::{apart, duration, significant};
+use crate::numbers::{apart, duration, quantity, significant};
 
 /// Digits of an estimate.
 const DIGITS: usize = 2;
+/// Digits of a time.
+const TIME_DIGITS: usize = 3;
 
 /// What was left out, what that cost, and what the proof of it took.
 pub(super) fn left_out(run: &RunReport) -> Option<String> {
@@ -46,6 +48,9 @@ fn why(partial: &Partial, why: &Why) -> String {
             format!("without it {}, more than {}", moved(cost), apart(partial.bound))
         }
         Why::Fails(error) => format!("without it {error}"),
+        Why::Pulls { element, time } => {
+            format!("without it the {element} pulls from {} on", quantity(*time, "s", TIME_DIGITS))
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use dashpot_analysis::RunReport;
 use dashpot_plot::Table;
 
 use super::Answer;
-use crate::numbers::duration;
+use crate::numbers::{duration, tolerance};
 
 /// What the columns of times mean.
 const TIMES: &str = "`time`: integration alone (of `exact`: its set-up); `in all`: everything";
@@ -27,7 +27,7 @@ pub(crate) fn solving_table(answer: &Answer) -> Table {
         };
         vec![
             solver.method.to_owned(),
-            solver.rtol.map_or("–".to_owned(), |rtol| format!("{rtol:e}")),
+            solver.rtol.map_or("–".to_owned(), tolerance),
             count(work.accepted),
             count(work.rejected),
             count(work.jacobian_calls),

@@ -3,10 +3,11 @@
 use dashpot_analysis::{
     Contact, ContactReport, MeasureKind, MeasureReport, RunReport, is_impactor, ledger,
     measures::{
-        ContactTime, EndVelocity, Energy, PeakAcceleration, PeakDeformation, PeakForce,
-        STANDARD_GRAVITY, SeverityIndex,
+        ContactTime, EndVelocity, Energy, Hic, Hic15, Hic36, PeakAcceleration, PeakDeformation,
+        PeakForce, STANDARD_GRAVITY, SeverityIndex, TransmittedForce,
     },
 };
+use dashpot_network::parameters::WindowWish;
 
 use super::{
     Answer,
@@ -94,21 +95,42 @@ fn whereabouts(answer: &Answer, measure: &MeasureReport) -> String {
     format!(" in {}{}{}", measure.target, time.unwrap_or_default(), note.unwrap_or_default())
 }
 
-/// The contact of an element and its stop, which carries more than each of them, with its peak force.
+/// The force of a padding and its stop together, where it is more than that of each: at the contact of
+/// the padding, or where it has none on what lies behind; in the window of the headline.
 fn whole_contact(run: &RunReport) -> Option<String> {
     let (headline, most) = largest(run, PeakForce::KIND)?;
-    let (element, peak) = run.largest_force()?;
-    let pad = element.strip_suffix(".contact")?;
-    let is_part = headline
-        .target
-        .strip_prefix(pad)
-        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
-    let is_whole = is_part && headline.target != element && peak.value.is_finite();
-    (is_whole && peak.value > most * (1.0 + MARGIN)).then(|| {
-        let (force, time) =
-            (quantity(peak.value, "N", TIME_DIGITS), quantity(peak.time, "s", TIME_DIGITS));
-        format!("{force} in {element} at {time}")
+    let (place, peak, time) = at_contact(run, headline).or_else(|| behind(run, headline))?;
+    (peak.is_finite() && peak > most * (1.0 + MARGIN)).then(|| {
+        let (force, time) = (quantity(peak, "N", TIME_DIGITS), quantity(time, "s", TIME_DIGITS));
+        format!("{force} {place} at {time}")
     })
+}
+
+/// The name of the padding that the headline is about, or whose stop.
+fn padding_of(headline: &MeasureReport) -> &str {
+    headline.target.strip_suffix(".stop").unwrap_or(&headline.target)
+}
+
+fn at_contact(run: &RunReport, headline: &MeasureReport) -> Option<(String, f64, f64)> {
+    let element = format!("{}.contact", padding_of(headline));
+    let at = run.assembly.connections.iter().position(|own| own.name == element)?;
+    let (from, to) = headline.window?;
+    let in_window = PeakForce { window: WindowWish::Times(from, to) };
+    let reading = MeasureKind::read(&in_window, &run.solution(), at);
+    // Where masses meet in it, it has a time and no value.
+    let peak = reading.value.unwrap_or(f64::INFINITY);
+    Some((format!("in {element}"), peak, reading.time?))
+}
+
+fn behind(run: &RunReport, headline: &MeasureReport) -> Option<(String, f64, f64)> {
+    let pad = padding_of(headline);
+    let connections = &run.assembly.connections;
+    let at = connections.iter().position(|own| own.name == pad)?;
+    run.assembly.connection(&format!("{pad}.stop"))?;
+    let (from, to) = headline.window?;
+    let in_window = TransmittedForce { window: WindowWish::Times(from, to) };
+    let reading = MeasureKind::read(&in_window, &run.solution(), at);
+    Some((format!("behind {pad} with its stop"), reading.value?, reading.time?))
 }
 
 /// The largest force of one element, where the headline is that of a whole contact.
@@ -181,7 +203,9 @@ fn energy(answer: &Answer, run: &RunReport) -> Option<String> {
         return Some(format!("{name} takes up {amount}"));
     }
     let until = measure.window.map_or(run.energy.time, |(_, end)| end);
-    let work = work_in(run, until);
+    let Some(work) = work_in(run, until) else {
+        return Some(format!("{name} takes up {amount}"));
+    };
     if impact <= ZERO * run.energy.turned_over {
         // What falls begins without energy.
         let whole = rounded(work, "J", TIME_DIGITS);
@@ -205,17 +229,19 @@ fn energy(answer: &Answer, run: &RunReport) -> Option<String> {
     Some(format!("{name} takes up {amount} of {whole}{added}{part}"))
 }
 
-/// The work done from outside \[J\] from the start until a time \[s\].
-fn work_in(run: &RunReport, until: f64) -> f64 {
+/// The work done from outside \[J\] from the start until a time \[s\]; unknown within the run of a large
+/// network.
+fn work_in(run: &RunReport, until: f64) -> Option<f64> {
     if run.energy.work_in.is_empty() {
-        return 0.0;
+        return Some(0.0);
     }
     let ledgers = run.energy_after_impact.iter().chain([&run.energy]);
     let known = ledgers.into_iter().find(|own| (own.time - until).abs() <= 1e-9 * own.time);
-    known.map_or_else(
+    let work = known.map_or_else(
         || ledger::ledger(&run.solution(), until).total_work_in(),
         dashpot_analysis::Ledger::total_work_in,
-    )
+    );
+    (!work.is_nan()).then_some(work)
 }
 
 /// The element with the largest force, where that is none of those that are reported.
@@ -237,7 +263,12 @@ fn elsewhere(run: &RunReport) -> Option<String> {
     (element != headline.target && is_larger).then(|| {
         let (force, time) =
             (quantity(peak.value, "N", TIME_DIGITS), quantity(peak.time, "s", TIME_DIGITS));
-        format!("{force} in {element} at {time}")
+        let when = match headline.window {
+            Some((from, _)) if peak.time < from => ", before the impact",
+            Some((_, to)) if peak.time > to => ", after the impact",
+            _ => "",
+        };
+        format!("{force} in {element} at {time}{when}")
     })
 }
 
@@ -325,22 +356,51 @@ fn leaving(run: &RunReport) -> Option<String> {
 
 /// Whether a measure of this kind is an index that has seconds as its unit but is no time.
 pub(super) fn is_index(kind: &str) -> bool {
-    kind == SeverityIndex::KIND || kind.starts_with("hic")
+    kind == SeverityIndex::KIND || is_hic(kind)
+}
+
+fn is_hic(kind: &str) -> bool {
+    [Hic::KIND, Hic15::KIND, Hic36::KIND].contains(&kind)
+}
+
+/// The name of an index; of a head injury criterion with the longest interval that it may have, which
+/// is not to be guessed: `HIC15`.
+fn index_name(run: &RunReport, measure: &MeasureReport) -> String {
+    if measure.kind != Hic::KIND {
+        let name = measure.kind.replace('-', " ");
+        return if is_hic(measure.kind) { name.to_uppercase() } else { name };
+    }
+    let cap = measure.parameters.iter().find_map(|(_, value)| value.number());
+    match cap.filter(|cap| *cap < run.trajectory.t_end) {
+        Some(cap) => format!("HIC up to {}", constant(cap, "s")),
+        None => "HIC without a cap".to_owned(),
+    }
 }
 
 fn injury(run: &RunReport) -> Option<String> {
     let indices = run.measures.iter().filter(|measure| is_index(measure.kind));
     let texts = indices.filter_map(|measure| {
-        let name = format!("{} of {}", measure.kind.replace('-', " "), measure.target);
+        let name = format!("{} of {}", index_name(run, measure), measure.target);
         let Some(value) = measure.value else {
             return measure.time.map(|_| format!("{name} is infinite"));
         };
         let digits = numbers::digits(value, measure.error, DIGITS);
         let number = Unit::plain(measure.unit).text(value, digits);
-        Some(format!("{name} {number}"))
+        let found = measure.window.filter(|_| is_hic(measure.kind)).map_or(String::new(), |own| {
+            let [from, to] = [own.0, own.1].map(|time| quantity(time, "s", TIME_DIGITS));
+            format!(" (from {from} to {to})")
+        });
+        Some(format!("{name} {number}{found}"))
     });
     let texts: Vec<String> = texts.take(3).collect();
     (!texts.is_empty()).then(|| texts.join(", "))
+}
+
+/// That errors include what the segments of layers make of the figures.
+fn and_segments(run: &RunReport) -> String {
+    run.segmentation.as_ref().map_or(String::new(), |own| {
+        format!(" and {} segments of layers beside {}", own.segments, own.others)
+    })
 }
 
 fn how_wrong(answer: &Answer, run: &RunReport) -> Option<String> {
@@ -356,12 +416,14 @@ fn how_wrong(answer: &Answer, run: &RunReport) -> Option<String> {
         }
         Some(worst) if run.solver.rtol.is_none() => {
             let method = format!("a bound of `{method}`");
-            format!("every figure is good to {}: {method}{}", bound(worst), and_left_out(run))
+            let of = and_segments(run);
+            format!("every figure is good to {}: {method}{of}{}", bound(worst), and_left_out(run))
         }
         Some(worst) => {
             let solves = run.solver.solves_for_error + 1;
             let solves = format!("by {solves} solutions of `{method}`");
-            format!("every figure is good to {}, {solves}{}", bound(worst), and_left_out(run))
+            let of = and_segments(run);
+            format!("every figure is good to {}, {solves}{of}{}", bound(worst), and_left_out(run))
         }
     };
     let apart = answer.differences().iter().map(|entry| entry.relative).reduce(f64::max);

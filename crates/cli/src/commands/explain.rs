@@ -22,7 +22,7 @@ use crate::{
     folder::unwritable,
     input::read_scene,
     numbers::{constant, quantity},
-    sketch::{element, sketch, waveform},
+    sketch::{MOST_DRAWN, element, sketch, waveform},
     terminal::{Terminal, Tone, WIDTH, print},
     text::{fitted, indented, labelled, wrapped},
 };
@@ -41,12 +41,18 @@ pub(crate) fn explain(
     let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
-    let drawing = sketch(&scene.network, scene.run.duration);
+    let count = scene.network.connections().len();
+    let drawing = || sketch(&scene.network, scene.run.duration);
+    let drawn = if count > MOST_DRAWN {
+        format!("{count} elements, too many to be drawn here\n")
+    } else {
+        drawing().text(WIDTH - 4)
+    };
     let mut text = String::new();
     for line in wrapped(title(&scene), WIDTH) {
         let _ = writeln!(text, "{}", terminal.toned(Tone::Heading, &line));
     }
-    let _ = write!(text, "\n{}", indented(&drawing.text(WIDTH - 4)));
+    let _ = write!(text, "\n{}", indented(&drawn));
     let tables = [nodes(&scene), elements(&scene), layers(&scene), parts(&scene), loads(&scene)];
     for content in tables.iter().filter(|content| !content.rows.is_empty()) {
         text += &section(content, terminal);
@@ -70,7 +76,7 @@ pub(crate) fn explain(
     }
     if let Some(path) = &arguments.out {
         let file = svg_path(path);
-        fs::write(&file, drawing.svg()).map_err(unwritable(&file))?;
+        fs::write(&file, drawing().svg()).map_err(unwritable(&file))?;
         let _ = writeln!(text, "\nwrote {}", file.display());
     }
     print(&text)?;

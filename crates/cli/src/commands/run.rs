@@ -118,8 +118,8 @@ fn settings(scene: &Scene, method: &str, arguments: &RunArguments) -> SolveSetti
 
 fn show(answer: &Answer, arguments: &RunArguments, terminal: Terminal) -> Result<(), CliError> {
     let warnings = new_warnings(answer);
-    // On one terminal they would be read twice.
-    if arguments.json || !(terminal.output.attended && terminal.error.attended) {
+    // The report begins with them, so at one place they would be read twice.
+    if arguments.json || !terminal.is_one {
         warnings.iter().for_each(|warning| terminal.warn(warning));
     }
     let text = if arguments.json {

@@ -4,6 +4,9 @@ use super::{bound, derivative, evaluate, restrict, variation};
 
 /// Intervals shorter than this are not divided further.
 const NARROWEST: f64 = 1e-15;
+/// What rounding leaves of the values of a polynomial whose coefficients have lost their digits, in the
+/// range below full precision: some of the smallest numbers.
+const SMALLEST: f64 = 64.0 * f64::MIN_POSITIVE * f64::EPSILON;
 
 /// Whether the coefficients prove that `p` rises all the way, or falls all the way; a constant does.
 ///
@@ -19,14 +22,16 @@ pub fn is_monotone(coefficients: &[f64]) -> bool {
 /// All places in `(−1, 1)` at which `p` changes its sign, in rising order.
 ///
 /// Intervals are divided until the coefficients prove that there is no zero in them, or one at
-/// most. Pairs of zeros between which `|p|` stays below its rounding error may be left out.
+/// most. Pairs of zeros between which `|p|` stays below its rounding error may be left out. A polynomial
+/// whose coefficients are not finite has none.
 pub fn sign_changes(coefficients: &[f64]) -> Vec<f64> {
     let mut found = Vec::new();
     let total = bound(coefficients);
-    if coefficients.len() < 2 || coefficients[0].abs() > total - coefficients[0].abs() {
+    let is_lost = coefficients.len() < 2 || !total.is_finite();
+    if is_lost || coefficients[0].abs() > total - coefficients[0].abs() {
         return found;
     }
-    let noise = 16.0 * f64::EPSILON * total;
+    let noise = (16.0 * f64::EPSILON * total).max(SMALLEST);
     let slope = derivative(coefficients);
     let ends = (evaluate(coefficients, -1.0), evaluate(coefficients, 1.0));
     let mut open = vec![((-1.0, ends.0), (1.0, ends.1))];

@@ -30,6 +30,26 @@ fn interpolate(degree: usize, f: impl Fn(f64) -> f64) -> Vec<f64> {
 }
 
 #[test]
+fn places_of_the_smallest_numbers_are_searched_to_an_end() {
+    for exponent in [-1000, -1040, -1060, -1070, -1074] {
+        let size = f64::from(exponent).exp2();
+        // Sines over some periods, as they come from a table of Chebyshev coefficients.
+        let nodes = Interpolation::of_degree(16);
+        let values: Vec<f64> = nodes.nodes().iter().map(|x| size * (7.0 * x + 0.3).sin()).collect();
+        let mut coefficients = vec![0.0; 17];
+        nodes.coefficients(&values, &mut coefficients);
+        let found = sign_changes(&coefficients);
+        assert!(found.len() <= 17, "{exponent}: {found:?}");
+        if exponent >= -1040 {
+            let zeros: Vec<f64> = (-2..=2).map(|k| (PI * f64::from(k) - 0.3) / 7.0).collect();
+            let is_near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-3;
+            let all = found.len() == zeros.len() && found.iter().zip(&zeros).all(is_near);
+            assert!(all, "{exponent}: {found:?}");
+        }
+    }
+}
+
+#[test]
 fn evaluation_agrees_with_the_cosine_form() {
     for degree in 0..=20 {
         let mut unit = vec![0.0; degree + 1];

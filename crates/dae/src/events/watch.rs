@@ -42,19 +42,26 @@ impl Watch {
         self.tracks.is_empty()
     }
 
-    /// Looks at the next part of the run: `signals` holds the output of each guard on it. Returns
-    /// the stop, if a stopping guard is crossed; nothing after it is recorded then.
+    /// Looks at the next part of the run: `signals` holds the output of each guard on it, and
+    /// `roundings` how well their numbers are known as such, whatever the error of the method that made
+    /// them. Returns the stop, if a stopping guard is crossed; nothing after it is recorded then.
     ///
     /// Crossings that cannot be told apart in time, up to the rounding of their outputs, happen at
-    /// one instant, and those at the instant of a stop are all recorded.
-    pub fn feed(&mut self, guards: &[Guard], signals: &[Signal]) -> Option<Stop> {
+    /// one instant, and those at the instant of a stop are all recorded. The method's error joins none:
+    /// what is one impact after another would become two at once, at every tolerance.
+    pub fn feed(
+        &mut self,
+        guards: &[Guard],
+        signals: &[Signal],
+        roundings: &[f64],
+    ) -> Option<Stop> {
         if self.stop.is_some() {
             return self.stop;
         }
         let mut found = Vec::new();
         for (at, (track, guard)) in self.tracks.iter_mut().zip(guards).enumerate() {
-            let Some(signal) = signals.get(at) else { break };
-            track.advance(guard.level, signal, |crossing, spread| {
+            let Some((signal, &rounding)) = signals.get(at).zip(roundings.get(at)) else { break };
+            track.advance(guard.level, signal, rounding, |crossing, spread| {
                 let Some(rising) = crossing.rising else { return };
                 if guard.direction.counts(rising) {
                     found.push(Found {
@@ -109,7 +116,8 @@ impl Watch {
 /// each guard over the run.
 pub fn scan(guards: &[Guard], signals: &[Signal]) -> (Vec<Event>, Option<Stop>) {
     let mut watch = Watch::new(guards);
-    let stop = watch.feed(guards, signals);
+    let roundings: Vec<f64> = signals.iter().map(|signal| signal.noise).collect();
+    let stop = watch.feed(guards, signals, &roundings);
     (watch.into_events(), stop)
 }
 
@@ -138,8 +146,15 @@ struct Track {
 }
 
 impl Track {
-    /// Goes on along `signal` and tells `visit` the crossings, each with its uncertainty in time.
-    fn advance(&mut self, level: f64, signal: &Signal, mut visit: impl FnMut(Crossing, f64)) {
+    /// Goes on along `signal` and tells `visit` the crossings, each with its uncertainty in time by
+    /// `rounding`.
+    fn advance(
+        &mut self,
+        level: f64,
+        signal: &Signal,
+        rounding: f64,
+        mut visit: impl FnMut(Crossing, f64),
+    ) {
         let noise = signal.noise;
         let mut panels = Vec::with_capacity(self.open.len() + signal.panels.len() + 1);
         let first = self.open.first().or(signal.panels.first()).map_or(0.0, |panel| panel.start);
@@ -156,9 +171,9 @@ impl Track {
         let bent = if self.leaves { bent_at_start(&crossings, signal, level) } else { 0 };
         self.leaves = false;
         for &crossing in crossings.iter().skip(self.told.max(bent)) {
-            let rounding = 4.0 * f64::EPSILON * crossing.time.abs();
-            let spread = noise / crossing.slope.abs();
-            visit(crossing, rounding + if spread.is_finite() { spread } else { 0.0 });
+            let of_time = 4.0 * f64::EPSILON * crossing.time.abs();
+            let spread = rounding / crossing.slope.abs();
+            visit(crossing, of_time + if spread.is_finite() { spread } else { 0.0 });
         }
         self.told = 0;
         let end = all.left_value(all.end()) - level;

@@ -23,7 +23,11 @@ pub(super) struct SpanCoordinates {
 /// The coordinates of all spans, each continued from the one before: only what the generators jump
 /// by is added at a breakpoint, so nothing is lost in going to and fro between `c` and `z`.
 pub(super) fn follow(system: &Augmented, modes: &Modes) -> Vec<SpanCoordinates> {
+    let waves = waves(system, modes);
     let (mut start, mut inherited) = solve(modes, &system.initial);
+    if let Some(first) = system.spans.first() {
+        silence(&waves, first, &mut start, &mut inherited);
+    }
     let kept =
         if system.spans.len() > 1 { kept_errors(system, modes) } else { DMatrix::zeros(0, 0) };
     let mut all = Vec::with_capacity(system.spans.len());
@@ -34,9 +38,47 @@ pub(super) fn follow(system: &Augmented, modes: &Modes) -> Vec<SpanCoordinates> 
         if let Some(next) = system.spans.get(at + 1) {
             inherited = forget(&kept, &inherited);
             cross(system, modes, span, next, &mut start, &mut inherited);
+            silence(&waves, next, &mut start, &mut inherited);
         }
     }
     all
+}
+
+/// The two modes that alone hold the wave of a driving function.
+struct Wave {
+    /// Index of its first generator; the second one follows.
+    generator: usize,
+    modes: [usize; 2],
+}
+
+/// The waves that two modes hold alone: no other mode has a part in their generators.
+fn waves(system: &Augmented, modes: &Modes) -> Vec<Wave> {
+    let has_part = |row: usize, mode: usize| {
+        let place = (row, mode);
+        let zero = Complex::default();
+        modes.basis[place] != zero || modes.basis_low[place] != zero
+    };
+    let of_wave = |(generator, _): (usize, f64)| {
+        let row = system.states + generator;
+        let holds = |&mode: &usize| has_part(row, mode) || has_part(row + 1, mode);
+        let held: Vec<usize> = (0..modes.len()).filter(holds).collect();
+        let modes = <[usize; 2]>::try_from(held).ok()?;
+        Some(Wave { generator, modes })
+    };
+    system.generators.waves().filter_map(of_wave).collect()
+}
+
+/// Sets the modes of waves that are not there in `span` to the zero that they are, without any error:
+/// what rounding leaves of a short pulse would be followed through all of its periods.
+fn silence(waves: &[Wave], span: &Span, c: &mut [Complex], error: &mut [f64]) {
+    for wave in waves {
+        let here = &span.generators[wave.generator..wave.generator + 2];
+        if here.iter().all(|&value| value == 0.0) {
+            for mode in wave.modes {
+                (c[mode], error[mode]) = (Complex::default(), 0.0);
+            }
+        }
+    }
 }
 
 /// `|1 − X⁻¹ P X|`, where `P` picks the generators: what is left of an error at a breakpoint, where

@@ -3,7 +3,8 @@
 use std::sync::OnceLock;
 
 use super::{
-    Augmented,
+    Augmented, Complex,
+    block::Block,
     coordinates::{SpanCoordinates, follow},
     decoupling::CAUTIONS,
     drift::drifts,
@@ -17,6 +18,8 @@ use crate::{Dense, Panel, Signal, System};
 /// Rounding of a value relative to the sizes of its terms, in units of `ε`: interpolation, a few
 /// operations for each term, and what trimming leaves between panels.
 const NOISE: f64 = 16.0;
+/// The same in the range below full precision: some of the smallest numbers.
+const SMALLEST: f64 = NOISE * f64::MIN_POSITIVE * f64::EPSILON;
 /// Spans up to which the propagator is used for samples; each takes exponentials of its own.
 const FEW_SPANS: usize = 8;
 /// `‖Ā‖ T` up to which the propagator is used for samples; beyond it the modes are more accurate.
@@ -124,13 +127,28 @@ impl Solution {
         self.by_modes(&ends).iter().position(|y| !y.is_finite()).map(|at| at % self.system.states)
     }
 
-    /// The growth rates `Re λ` and frequencies `|Im λ|` of all modes, dimensionless.
-    pub(crate) fn rates(&self) -> Vec<(f64, f64)> {
-        let diagonal = |block: &super::block::Block| {
-            (0..block.len()).map(|i| block.matrix[(i, i)]).collect::<Vec<_>>()
+    /// The radians that all modes together pass through until `end`, dimensionless.
+    ///
+    /// A mode that decays is forgotten after so many lifetimes, and one that stands still in a span,
+    /// as that of a pulse before and after it, passes through none there.
+    pub(crate) fn radians(&self, end: f64, lifetimes: f64) -> f64 {
+        let Modal { modes, spans } = self.modal();
+        let moves = |block: &Block, coordinates: &SpanCoordinates| {
+            coordinates.start[block.range()].iter().any(|c| *c != Complex::default())
         };
-        let blocks = self.modal().modes.blocks.iter();
-        blocks.flat_map(diagonal).map(|rate| (rate.re, rate.im.abs())).collect()
+        let of_block = |block: &Block| {
+            let spans = self.system.spans.iter().zip(spans);
+            let moving = spans.filter(|(_, coordinates)| moves(block, coordinates));
+            let length: f64 =
+                moving.map(|(span, _)| (span.end.min(end) - span.start).max(0.0)).sum();
+            let of_mode = |i: usize| {
+                let rate = block.matrix[(i, i)];
+                let alive = if rate.re < 0.0 { lifetimes / -rate.re } else { f64::INFINITY };
+                rate.im.abs() * length.min(alive)
+            };
+            (0..block.len()).map(of_mode).sum::<f64>()
+        };
+        modes.blocks.iter().map(of_block).sum()
     }
 
     /// All unknowns at `times` from the modal form.
@@ -220,14 +238,20 @@ impl Dense for Solution {
         }
         let unit = output.scale;
         let noise = NOISE * f64::EPSILON * quality.size * unit.abs();
-        let error = quality.error * unit.abs() + noise;
+        let largest = quality.size * unit.abs();
+        let is_small = largest > 0.0 && largest < f64::MIN_POSITIVE / f64::EPSILON;
+        let error = quality.error * unit.abs() + if is_small { noise + SMALLEST } else { noise };
         let panels = pieces.into_iter().map(|piece| self.panel(piece, unit)).collect();
         Signal::new(panels, error.is_finite().then_some(error), noise)
     }
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {
         match uniform(times) {
-            Some(grid) if self.can_march() => self.by_propagator(grid),
+            // One state is wanted where equations change: as exactly as the signals are. That at the
+            // start is given.
+            Some(grid) if (grid.count > 1 || grid.first == 0.0) && self.can_march() => {
+                self.by_propagator(grid)
+            }
             _ => self.by_modes(times),
         }
     }

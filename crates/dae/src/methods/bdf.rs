@@ -26,6 +26,8 @@ impl Scheme for Bdf {
         "backward differentiation of variable order: for every system, large and stiff ones too";
     const HIGHEST: u8 = 5;
     const ORDER: usize = 1;
+    // Where its steps are few it works at order 4 or 5, which give 4/5 and 5/6.
+    const FALL: f64 = 0.85;
 
     fn span<M>(
         problem: &Problem<'_, M>,

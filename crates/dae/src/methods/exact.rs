@@ -23,8 +23,11 @@ const RADIANS: f64 = 6e6;
 /// Lifetimes after which a mode is forgotten.
 const LIFETIMES: f64 = 45.0;
 
-/// Parts of a run that are searched for a stop one after the other.
-const SHARES: [f64; 4] = [1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0];
+/// Largest part of a run that is searched for a stop first, and the radians that it may hold.
+const FIRST_SHARE: f64 = 1.0 / 64.0;
+const FIRST_RADIANS: f64 = 1e3;
+/// How many times as long the next part is.
+const NEXT_SHARE: f64 = 4.0;
 
 /// The solution by the matrix exponential: no steps, and no error but rounding.
 ///
@@ -108,16 +111,9 @@ impl Exact {
         Ok(augmented)
     }
 
-    /// Whether the oscillations of the modes are few enough.
+    /// Whether the oscillations of the modes until `end` are few enough.
     fn count(solution: &Solution, end: f64) -> Result<(), SolveError> {
-        let radians: f64 = solution
-            .rates()
-            .iter()
-            .map(|&(growth, frequency)| {
-                let alive = if growth < 0.0 { (LIFETIMES / -growth).min(end) } else { end };
-                frequency * alive
-            })
-            .sum();
+        let radians = solution.radians(end, LIFETIMES);
         if radians > RADIANS {
             return Self::decline(format!(
                 "its modes pass through {radians:.1e} radians, and {RADIANS:.0e} are followed"
@@ -131,11 +127,29 @@ impl Exact {
         let end = run.t_end / system.time_scale;
         let quick = augmented.norm() * end <= QUICK;
         let solution = Solution::new(augmented, run.t_end, system.time_scale);
-        if !quick {
+        // A run that may stop is counted as far as it is searched.
+        if !quick && !may_stop(run) {
             Self::count(&solution, end)?;
         }
         Ok(solution)
     }
+}
+
+/// Whether a guard may end the run early.
+fn may_stop(run: &Run) -> bool {
+    run.guards.iter().any(|guard| guard.stops)
+}
+
+/// The parts of a run of so many radians that are searched for a stop one after the other.
+fn shares(radians: f64) -> Vec<f64> {
+    let mut share = FIRST_SHARE.min(FIRST_RADIANS / radians.max(1.0));
+    let mut shares = Vec::new();
+    while share < 1.0 {
+        shares.push(share);
+        share *= NEXT_SHARE;
+    }
+    shares.push(1.0);
+    shares
 }
 
 /// Whether the frequency of a driving function in use is swept on a piece that begins before `end`.
@@ -179,9 +193,14 @@ impl Method for Exact {
         let (mut t_end, mut outcome, mut events) = (run.t_end, Outcome::Finished, Vec::new());
         if !run.guards.is_empty() {
             solution = solution.decomposed();
-            let stops = run.guards.iter().any(|guard| guard.stops);
+            let end = run.t_end / system.time_scale;
             // Where a run may stop, the first part of it is looked at first.
-            for share in if stops { &SHARES[..] } else { &SHARES[3..] } {
+            let parts =
+                if may_stop(run) { shares(solution.radians(end, LIFETIMES)) } else { vec![1.0] };
+            for share in parts {
+                if may_stop(run) {
+                    Self::count(&solution, share * end)?;
+                }
                 let part = solution.clone().until(share * run.t_end);
                 let signal = |guard: &Guard| crate::Dense::signal(&part, system, guard.output);
                 let signals: Vec<_> = run.guards.iter().map(signal).collect();

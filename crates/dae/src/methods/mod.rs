@@ -21,6 +21,9 @@ use std::fmt::Debug;
 
 use crate::{Observer, Run, SolveError, System, Trajectory};
 
+/// See [`Method::fall`]: orders 2 to 5 give 2/3 to 5/6.
+const FALL: f64 = 0.8;
+
 /// Integrates a [`System`] over a time span.
 pub trait Method: Debug + Send + Sync {
     /// Its name on the command line, for instance `bdf`.
@@ -40,6 +43,12 @@ pub trait Method: Debug + Send + Sync {
     /// Whether its only error is rounding, so that its signals carry a bound.
     fn is_exact(&self) -> bool {
         false
+    }
+
+    /// The power of its tolerance with which its errors fall about, for a method that has one. Error
+    /// bars are calibrated with it.
+    fn fall(&self) -> f64 {
+        FALL
     }
 
     /// Runs from the initial state to `run.t_end`, or to the first guard that stops it.

@@ -66,6 +66,17 @@ pub(super) fn add(
     }
 }
 
+/// The degree of polynomials, and the number of equal parts of a step, that follow the step's own
+/// polynomial and every driving function.
+pub(super) fn resolution(system: &System, step: &Step) -> (usize, usize) {
+    let terms: Vec<Term> =
+        (0..system.inputs.len()).map(|input| term_of(system, step, (input, 1.0))).collect();
+    let omega = terms.iter().map(|term| term.omega(step)).fold(0.0, f64::max);
+    let half = 0.5 * omega * (step.end - step.start);
+    let parts = count((half / LONGEST).ceil()).max(1);
+    (degree(step, &terms, half / size(parts), parts), parts)
+}
+
 /// Adds a panel; adjoining panels share their border to the last bit.
 fn push(panels: &mut Vec<Panel>, start: f64, end: f64, coefficients: Vec<f64>) {
     let start = panels.last().map_or(start, |panel| panel.end);
@@ -138,6 +149,6 @@ fn count(number: f64) -> usize {
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts of panels are small")]
-fn size(count: usize) -> f64 {
+pub(super) fn size(count: usize) -> f64 {
     count as f64
 }

@@ -32,9 +32,9 @@ const CAUTION: f64 = 8.0;
 impl Dense for Chain {
     /// The signals of the legs, one behind the other.
     ///
-    /// Each leg bounds its own error. What the errors before it do to it is estimated from a second
-    /// solution whose states were shaken: eight times the largest difference of both, leg by leg,
-    /// is added. Where the legs of both are not the same ones, no error is stated.
+    /// Each leg bounds its own error, to which comes what the rounding of times does to a value. What
+    /// the errors before it do to it is estimated from a second solution whose states were shaken: eight times the largest difference of both, leg by leg,
+    /// is added. Where the second one has no value, no error is stated.
     fn signal(&self, _system: &System, output: usize) -> Signal {
         let mut panels: Vec<Panel> = Vec::new();
         let (mut error, mut noise) = (Some(0.0_f64), 0.0_f64);
@@ -43,7 +43,11 @@ impl Dense for Chain {
         for (at, leg) in self.legs.iter().enumerate() {
             let own = leg.dense.signal(&leg.system, output);
             noise = noise.max(own.noise);
-            error = error.zip(own.error).map(|(most, own)| most.max(own));
+            let timed = own.error.map(|error| {
+                // A leg bounds its error in its own time, which begins at a rounded one.
+                if alone { error } else { error + f64::EPSILON * leg.end * steepest(&own) }
+            });
+            error = error.zip(timed).map(|(most, own)| most.max(own));
             if !alone && error.is_some() {
                 let between = self.difference(at, output, &own);
                 difference = difference.zip(between).map(|(most, own)| most.max(own));
@@ -63,29 +67,66 @@ impl Dense for Chain {
     fn sample(&self, _system: &System, _times: &[f64]) -> Vec<f64> {
         Vec::new()
     }
+
+    fn bytes(&self) -> usize {
+        let all = self.legs.iter().chain(self.doubled.iter().flatten());
+        all.map(|leg| leg.dense.bytes()).sum()
+    }
+}
+
+/// A bound of the slope of a signal. Panels that are too short to have one do not count.
+fn steepest(signal: &Signal) -> f64 {
+    let slope = |panel: &Panel| {
+        let (mut sum, mut order) = (0.0, 0.0);
+        for coefficient in &panel.coefficients {
+            sum += order * order * coefficient.abs();
+            order += 1.0;
+        }
+        2.0 * sum / panel.length()
+    };
+    signal.panels.iter().map(slope).filter(|slope| slope.is_finite()).fold(0.0, f64::max)
 }
 
 impl Chain {
-    /// The largest difference of an output between a leg and its double, with time counted from the
-    /// start of each.
+    /// The largest difference of an output between a leg and the second solution. As long as both go
+    /// through the same legs, time counts from the start of each; where one of them has come to rest
+    /// after fewer bounces, it counts from the start of the run.
     fn difference(&self, leg: usize, output: usize, own: &Signal) -> Option<f64> {
-        let doubled = self.doubled.as_ref()?;
-        let (one, other) = (&self.legs[leg], doubled.get(leg)?);
-        let alike = |(a, b): (&(usize, f64), &(usize, f64))| a.0 == b.0;
-        if doubled.len() != self.legs.len() || !one.phases.iter().zip(&other.phases).all(alike) {
-            return None;
-        }
-        let double = other.dense.signal(&other.system, output);
+        let doubled = self.doubled.as_ref().filter(|all| !all.is_empty())?;
+        let one = &self.legs[leg];
         // Inside of panels only: where an input jumps, both may jump a rounding apart.
-        let places = own
+        let mut places = own
             .panels
             .iter()
             .flat_map(|panel| INSIDE.map(|x| panel.time(x)).map(|t| (t, panel.value(t))));
-        // A leg that ends earlier by a rounding is not followed beyond its end.
-        let end = double.end();
-        let differences = places
-            .filter(|(t, _)| *t <= end)
-            .map(|(t, value)| (value - double.left_value(t)).abs());
-        Some(differences.fold(0.0, f64::max))
+        let all = doubled.len() == self.legs.len();
+        if let Some(other) = doubled.get(leg).filter(|other| is_same(one, other, all)) {
+            let double = other.dense.signal(&other.system, output);
+            // A leg that ends earlier by a rounding is not followed beyond its end.
+            let end = double.end();
+            let differences = places
+                .filter(|(t, _)| *t <= end)
+                .map(|(t, value)| (value - double.left_value(t)).abs());
+            return Some(differences.fold(0.0, f64::max));
+        }
+        let mut known: Option<(usize, Signal)> = None;
+        places.try_fold(0.0_f64, |most, (t, value)| {
+            let time = one.start + t;
+            let at = doubled.partition_point(|other| other.end < time);
+            let other = doubled.get(at)?;
+            if known.as_ref().is_none_or(|(known, _)| *known != at) {
+                known = Some((at, other.dense.signal(&other.system, output)));
+            }
+            let double = known.as_ref().map(|(_, signal)| signal.left_value(time - other.start))?;
+            Some(most.max((value - double).abs()))
+        })
     }
+}
+
+/// Whether a leg and one of the second solution are the same part of the run. They are by their place
+/// among the legs, and where there are not as many also by their times.
+fn is_same(one: &Solved, other: &Solved, as_many: bool) -> bool {
+    let alike = one.phases.iter().zip(&other.phases).all(|(a, b)| a.0 == b.0);
+    let apart = (one.start - other.start).abs().max((one.end - other.end).abs());
+    alike && (as_many || apart <= 0.5 * (one.end - one.start))
 }

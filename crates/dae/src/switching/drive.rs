@@ -5,9 +5,11 @@ use std::{ops::ControlFlow, time::Instant};
 use super::{
     Leg, LegEnd, Switching,
     chain::{Chain, Solved},
+    flight::follow,
 };
 use crate::{
-    Event, Method, Observer, Outcome, Progress, Run, Silent, SolveError, Statistics, Trajectory,
+    Event, Keep, Method, Observer, Outcome, Progress, Run, Silent, SolveError, Statistics,
+    Trajectory, pieces::MOST_BYTES,
 };
 
 /// Most legs of a run.
@@ -16,6 +18,9 @@ const MOST_LEGS: usize = 200_000;
 const MOST_AT_ONCE: usize = 64;
 /// Errors of stepping methods at events, in parts of their tolerance.
 const ERRORS_PER_TOLERANCE: f64 = 1e2;
+/// Most that such errors may be in parts of a quantity: were they as large as the quantity itself, a part
+/// could not be told to have left its level, and would switch there again and again.
+const LARGEST_ERROR: f64 = 0.1;
 /// Roundings of a method that has no other error.
 const ROUNDINGS: f64 = 1e3;
 
@@ -35,8 +40,11 @@ pub fn integrate(
     observer: &mut dyn Observer,
 ) -> Result<Trajectory, SolveError> {
     let begin = Instant::now();
-    let doubt =
-        if method.is_exact() { ROUNDINGS * f64::EPSILON } else { ERRORS_PER_TOLERANCE * run.rtol };
+    let doubt = if method.is_exact() {
+        ROUNDINGS * f64::EPSILON
+    } else {
+        (ERRORS_PER_TOLERANCE * run.rtol).min(LARGEST_ERROR)
+    };
     let Solution { mut chain, name, t_end, first_phases, mut found } =
         solve(method, switching, run, doubt, observer)?;
     if method.is_exact() && chain.legs.len() > 1 {
@@ -79,7 +87,7 @@ fn solve(
     let first_phases = leg.phases.clone();
     let mut drive = Drive { start: 0.0, steps: 0, run, observer, chain: Chain::default() };
     let mut found = Found { switches: leg.switches.clone(), ..Found::default() };
-    let mut at_once = 0;
+    let (mut at_once, mut bytes) = (0, 0);
     loop {
         let (trajectory, t_end) = drive.leg(method, &leg, &mut found)?;
         let own = leg.guards.len();
@@ -106,6 +114,7 @@ fn solve(
         let fired: Vec<usize> =
             trajectory.events.iter().filter(at_end).map(|event| event.guard).collect();
         let name = trajectory.method;
+        bytes += trajectory.dense.bytes();
         drive.chain.legs.push(Solved {
             start: drive.start,
             end: t_end,
@@ -113,6 +122,10 @@ fn solve(
             system: leg.system.clone(),
             dense: trajectory.dense,
         });
+        if bytes > MOST_BYTES {
+            let steps = found.statistics.accepted;
+            return Err(SolveError::TooLarge { method: name, time: t_end, steps, bytes });
+        }
         if !goes_on {
             return Ok(Solution { chain: drive.chain, name, t_end, first_phases, found });
         }
@@ -196,10 +209,18 @@ impl Drive<'_> {
             t_end: self.run.t_end - self.start,
             rtol: self.run.rtol,
             guards: leg.guards.iter().chain(&self.run.guards).cloned().collect(),
+            keep: Keep::Everything,
         };
         let mut shifted =
             Shifted { start: self.start, steps: self.steps, observer: &mut *self.observer };
-        let trajectory = method.integrate(&leg.system, &run, &mut shifted)?;
+        let followed = match leg.flight {
+            Some(flight) => follow(leg, flight, method, &run, &mut shifted)?,
+            None => None,
+        };
+        let trajectory = match followed {
+            Some(trajectory) => trajectory,
+            None => method.integrate(&leg.system, &run, &mut shifted)?,
+        };
         let finished = trajectory.outcome == Outcome::Finished;
         let t_end = if finished { self.run.t_end } else { self.start + trajectory.t_end };
         let users = trajectory.events.iter().filter(|event| event.guard >= own);

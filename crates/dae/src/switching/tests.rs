@@ -33,7 +33,7 @@ impl Walls {
             begins: Some(wall == 0),
         };
         let guards = [(0, Direction::Falling), (1, Direction::Rising)].map(guard).to_vec();
-        Leg { system: Arc::new(system), phases: vec![(0, 0.0)], guards, switches }
+        Leg { system: Arc::new(system), phases: vec![(0, 0.0)], guards, switches, flight: None }
     }
 }
 

@@ -53,6 +53,15 @@ impl Piece {
         if self.is_wave() { (self.omega + self.sweep * (t - self.start)).abs() } else { 0.0 }
     }
 
+    /// Whether the polynomial part rises and falls within two times in order.
+    pub(crate) fn turns(&self, from: f64, to: f64) -> bool {
+        // The rate is largest or smallest at an end or where the second derivative is zero.
+        let steepest = from - self.polynomial(2, from) / self.jerk;
+        let inside = (steepest > from && steepest < to).then_some(steepest);
+        let rates = || [from, to].into_iter().chain(inside).map(|t| self.polynomial(1, t));
+        rates().any(|rate| rate > 0.0) && rates().any(|rate| rate < 0.0)
+    }
+
     /// Degree of the polynomial part; `None` where it is zero.
     pub(crate) fn degree(&self) -> Option<u32> {
         let coefficients = [self.constant(), self.slope, self.curvature, self.jerk];

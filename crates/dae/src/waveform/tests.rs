@@ -17,6 +17,26 @@ fn waveform(pieces: &[Piece]) -> Waveform {
     Waveform::new(pieces.to_vec()).unwrap()
 }
 
+#[test]
+fn a_pulse_has_its_area_however_long_the_run_is() {
+    let half_sine = Piece { start: 0.5, sine: 3.0, omega: 100.0, ..Piece::default() };
+    let rest = |start| Piece { start, ..Piece::default() };
+    let pulse = waveform(&[rest(0.0), half_sine, rest(0.53)]);
+    assert!((pulse.area_bound(1e6) - 3.0 * 0.03).abs() < 1e-12);
+    assert!((pulse.area_bound(0.51) - 3.0 * 0.01).abs() < 1e-12);
+    assert_eq!((pulse.area_bound(0.2), pulse.area_bound(0.0)), (0.0, 0.0));
+    assert!((Waveform::constant(-2.0).area_bound(4.0) - 8.0).abs() < 1e-14);
+}
+
+#[test]
+fn only_what_rises_and_falls_turns() {
+    let at = |curvature: f64, jerk: f64| Piece { slope: 1.0, curvature, jerk, ..Piece::default() };
+    assert!(!at(0.0, 0.0).turns(0.0, 10.0), "a line");
+    assert!(at(-1.0, 0.0).turns(0.0, 1.5) && !at(-1.0, 0.0).turns(0.0, 0.9), "a parabola");
+    // 1 − 3 s + 1.5 s²: falls between 0.42 and 1.58 only.
+    assert!(at(-3.0, 3.0).turns(0.0, 2.0) && !at(-3.0, 3.0).turns(1.6, 9.0), "a cubic");
+}
+
 /// The derivative of `u` at `t` by differences of sixth order, and the error that is to be expected
 /// of it for a function of size and rates up to `size`, `rate`⁷.
 fn difference(u: impl Fn(f64) -> f64, t: f64, step: f64) -> f64 {

@@ -41,8 +41,8 @@ enum Origin {
     Place(usize, f64),
     /// The place of one joint less that of another, less a difference of offsets.
     Between([usize; 2], f64),
-    /// The deformation of a primitive times a sign, less an offset.
-    Along(usize, f64, f64),
+    /// The deformation of a primitive times a sign.
+    Along(usize, f64),
     /// It follows from a balance.
     Balance,
 }
@@ -108,9 +108,7 @@ impl Carry {
             Origin::Velocity(joint) => state.velocity[joint],
             Origin::Place(joint, offset) => state.position[joint] - offset,
             Origin::Between([a, b], offset) => state.position[a] - state.position[b] - offset,
-            Origin::Along(primitive, sign, offset) => {
-                sign * (state.deformation[primitive] - offset)
-            }
+            Origin::Along(primitive, sign) => sign * state.deformation[primitive],
             Origin::Balance => 0.0,
         };
         self.origins.iter().zip(&self.scales).map(|(origin, scale)| value(origin) / scale).collect()
@@ -129,10 +127,12 @@ fn origins(parts: &Parts<'_>, system: &System) -> Vec<Origin> {
         let Some(unknown) = parts.places.unknown[at] else { continue };
         origins[unknown] = match parts.places.parent[at] {
             None => Origin::Place(first, offset(first)),
-            Some(parent) => along(parts, at, parent).unwrap_or_else(|| {
+            Some(parent) => {
                 let other = parts.bodies.all[parent].joints[0];
-                Origin::Between([first, other], offset(first) - offset(other))
-            }),
+                let between = Origin::Between([first, other], offset(first) - offset(other));
+                let along = parts.places.along[at];
+                along.map_or(between, |own| Origin::Along(own.primitive, own.sign))
+            }
         };
     }
     for (origin, unknown) in origins.iter_mut().zip(&system.unknowns) {
@@ -141,16 +141,4 @@ fn origins(parts: &Parts<'_>, system: &System) -> Vec<Origin> {
         }
     }
     origins
-}
-
-/// The distance of a body from its parent as the deformation of a primitive between them.
-fn along(parts: &Parts<'_>, body: usize, parent: usize) -> Option<Origin> {
-    let mut edges = parts.structure.springs.iter().chain(&parts.structure.dashpots);
-    edges.find_map(|edge| match edge.ends {
-        [a, b] if (a, b) == (body, parent) => Some(Origin::Along(edge.primitive, 1.0, edge.offset)),
-        [a, b] if (b, a) == (body, parent) => {
-            Some(Origin::Along(edge.primitive, -1.0, edge.offset))
-        }
-        _ => None,
-    })
 }

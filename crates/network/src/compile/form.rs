@@ -94,11 +94,6 @@ impl Form {
         let terms = self.terms.iter();
         LinearForm::sum(terms.map(|&(at, value)| (at, value.high() * scales[at])).collect())
     }
-
-    /// The form rounded to doubles.
-    pub(super) fn rounded(&self) -> LinearForm {
-        LinearForm::sum(self.terms.iter().map(|&(at, value)| (at, value.high())).collect())
-    }
 }
 
 fn is_nothing(sum: Twofold, largest: f64) -> bool {
@@ -114,7 +109,7 @@ mod tests {
         let (large, small) = (Twofold::from(1e14) / 3.0, Twofold::ONE / 7.0);
         let sum = Form::sum(vec![(2, large), (0, Twofold::ONE), (2, small), (2, -large)]);
         assert_eq!(sum.terms()[0], (0, Twofold::ONE));
-        assert!((sum.rounded().coefficient(2) * 7.0 - 1.0).abs() <= f64::EPSILON);
+        assert!((sum.scaled(&[1.0; 3]).coefficient(2) * 7.0 - 1.0).abs() <= f64::EPSILON);
         assert_eq!(sum.terms().len(), 2);
     }
 

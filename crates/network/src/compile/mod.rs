@@ -44,8 +44,9 @@ use self::{
     motion::Motion,
     outputs::Outputs,
     row::{Combination, Row},
-    scales::{Drives, Scales},
+    scales::{Drives, Force, Scales},
     structure::Structure,
+    system::Scaling,
     unknowns::{Inputs, Places},
 };
 use crate::{Assembly, Network, NetworkErrors, Support, effects, layers};
@@ -132,9 +133,11 @@ impl Network {
         let drives = self.drives(&bodies, &motions, duration, &mut inputs, &mut sizes);
         for primitive in expansion.primitives.iter().filter(|own| own.push != 0.0) {
             let ends = primitive.ends.map(|joint| bodies.of_joint[joint]);
-            sizes.forces.extend(ends.map(|end| (end, primitive.push.abs())));
+            let largest = primitive.push.abs();
+            let impulse = largest * duration;
+            sizes.forces.extend(ends.map(|body| Force { body, largest, impulse }));
         }
-        let scales = Scales::of(&bodies, &structure, &sizes, duration)?;
+        let scales = Scales::of(&bodies, &structure, &sizes, duration, expansion.switches)?;
 
         let mut loads = vec![Row::default(); bodies.all.len()];
         for drive in &drives {
@@ -142,7 +145,8 @@ impl Network {
                 loads[drive.body] = loads[drive.body].plus(1.0, force);
             }
         }
-        let mut places = unknowns::choose(self, expansion, &bodies, &structure, &scales, &motions);
+        let mut places =
+            unknowns::choose(self, expansion, &bodies, &structure, &scales, &motions, &mut inputs);
         let pushes = pushes::add(
             expansion,
             &bodies,
@@ -185,24 +189,19 @@ impl Network {
             offsets: &offsets,
             masses: &masses,
         };
-        let outputs = Outputs::of(self, &parts)?;
+        let scaling = Scaling::of(&places, &inputs, &scales, duration);
+        let Outputs { list, nodes, connections, primitives, drives: driven, .. } =
+            Outputs::of(self, &parts, &scaling)?;
         let warnings = review::warnings(self, &parts);
-        let system = system::dimensionless(
-            expansion,
-            &motion,
-            &places,
-            &inputs,
-            &outputs,
-            scales.time,
-            duration,
-        )?;
+        let system =
+            system::dimensionless(expansion, &motion, &places, &inputs, &scaling, list, duration)?;
         let carry = expansion.switches.then(|| Carry::of(&parts, &inputs, &system, duration));
         let assembly = Assembly {
             system,
-            nodes: outputs.nodes,
-            connections: outputs.connections,
-            primitives: outputs.primitives,
-            drives: outputs.drives,
+            nodes,
+            connections,
+            primitives,
+            drives: driven,
             warnings,
             switching: None,
         };
@@ -241,7 +240,8 @@ impl Network {
         let mut drives = Vec::new();
         let mut force = |name: String, node: usize, force: Waveform, is_body_force: bool| {
             let body = bodies.of_joint[node];
-            sizes.forces.push((body, force.bound(duration)));
+            let (largest, impulse) = (force.bound(duration), force.area_bound(duration));
+            sizes.forces.push(Force { body, largest, impulse });
             let waveform = inputs.waveform(force);
             let force = Some(inputs.row(waveform, 0));
             drives.push(Drive {

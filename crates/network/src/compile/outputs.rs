@@ -11,46 +11,58 @@ use super::{
     reactions::rigid_forces,
     row::{Combination, Row, RowSum},
     segments::Listed,
+    system::Scaling,
 };
 use crate::{
     ConnectionOutputs, DriveOutputs, Network, NetworkError, Node, NodeOutputs, PrimitiveOutputs,
     Support, elements::Law,
 };
 
-/// Outputs with rows that are still in SI units.
-#[derive(Debug, Default)]
-pub(super) struct Outputs {
-    pub(super) list: Vec<(Output, Row)>,
+/// All outputs, dimensionless, and where they are found.
+#[derive(Debug)]
+pub(super) struct Outputs<'s> {
+    scaling: &'s Scaling,
+    /// One of them that is out of scale.
+    fault: Option<NetworkError>,
+    pub(super) list: Vec<Output>,
     pub(super) nodes: Vec<NodeOutputs>,
     pub(super) connections: Vec<ConnectionOutputs>,
     pub(super) primitives: Vec<PrimitiveOutputs>,
     pub(super) drives: Vec<DriveOutputs>,
 }
 
-impl Outputs {
+impl<'s> Outputs<'s> {
     /// All outputs. In a network that switches they are the same ones in all phases, whether or not
     /// a part takes part in a phase; rates that some phases do not know are left out.
-    pub(super) fn of(network: &Network, parts: &Parts<'_>) -> Result<Self, NetworkError> {
-        let mut outputs = Self::default();
+    pub(super) fn of(
+        network: &Network,
+        parts: &Parts<'_>,
+        scaling: &'s Scaling,
+    ) -> Result<Self, NetworkError> {
+        let mut outputs = Self {
+            scaling,
+            fault: None,
+            list: Vec::new(),
+            nodes: Vec::with_capacity(network.nodes.len()),
+            connections: Vec::with_capacity(network.connections.len()),
+            primitives: Vec::with_capacity(parts.expansion.primitives.len()),
+            drives: Vec::with_capacity(parts.drives.len()),
+        };
         let contact = contact_forces(parts);
         outputs.add_nodes(network, parts, &contact);
         outputs.add_connections(network, parts)?;
         outputs.add_drives(network, parts, &contact);
-        Ok(outputs)
+        outputs.list.shrink_to_fit();
+        outputs.fault.take().map_or(Ok(outputs), Err)
     }
 
-    pub(super) fn add(&mut self, name: String, unit: &'static str, row: Row) -> usize {
-        self.list.push((
-            Output {
-                name,
-                unit,
-                scale: 1.0,
-                unknowns: row.unknowns.rounded(),
-                inputs: row.inputs.rounded(),
-            },
-            row,
-        ));
-        self.list.len() - 1
+    /// Adds an output, whose row is in SI units.
+    pub(super) fn add(&mut self, name: String, unit: &'static str, row: &Row) -> usize {
+        match self.scaling.output(name, unit, row) {
+            Ok(output) => self.list.push(output),
+            Err(fault) => self.fault = Some(fault),
+        }
+        self.list.len().saturating_sub(1)
     }
 
     fn add_nodes(&mut self, network: &Network, parts: &Parts<'_>, contact: &[RowSum]) {
@@ -58,14 +70,14 @@ impl Outputs {
             let body = parts.bodies.of_joint[at];
             let name = &node.name;
             let place = parts.motion.position[body].plus(1.0, &parts.offsets[at]);
-            let position = self.add(format!("{name}.position"), "m", place);
+            let position = self.add(format!("{name}.position"), "m", &place);
             let is_known = !parts.expansion.switches || moves_by_itself(node);
             let velocity = parts.motion.velocity[body]
                 .clone()
                 .filter(|_| is_known)
-                .map(|row| self.add(format!("{name}.velocity"), "m/s", row));
+                .map(|row| self.add(format!("{name}.velocity"), "m/s", &row));
             let acceleration = accelerometer(network, parts, at, &contact[body])
-                .map(|row| self.add(format!("{name}.acceleration"), "m/s^2", row));
+                .map(|row| self.add(format!("{name}.acceleration"), "m/s^2", &row));
             self.nodes.push(NodeOutputs {
                 name: name.clone(),
                 mass: node.mass,
@@ -131,11 +143,11 @@ impl Outputs {
             let own = own.map(|own| (own.force, own.deformation));
             let force = match own {
                 Some((force, _)) => Some(force),
-                None => forces[0].clone().map(|row| self.add(format!("{name}.force"), "N", row)),
+                None => forces[0].clone().map(|row| self.add(format!("{name}.force"), "N", &row)),
             };
             let deformation = match own {
                 Some((_, deformation)) => deformation,
-                None => self.add(format!("{name}.deformation"), "m", position),
+                None => self.add(format!("{name}.deformation"), "m", &position),
             };
             let mut outputs = ConnectionOutputs {
                 name: name.clone(),
@@ -146,7 +158,7 @@ impl Outputs {
                 force,
                 transmitted: force,
                 deformation,
-                rate: velocity.map(|row| self.add(format!("{name}.rate"), "m/s", row)),
+                rate: velocity.map(|row| self.add(format!("{name}.rate"), "m/s", &row)),
                 primitives: first..self.primitives.len(),
                 segments: Vec::new(),
                 has_layers: connection.layers.is_some(),
@@ -199,9 +211,9 @@ impl Outputs {
         let outputs = PrimitiveOutputs {
             name: name.clone(),
             element: Arc::clone(&primitive.origin),
-            force: self.add(format!("{name}.force"), "N", force),
-            deformation: self.add(format!("{name}.deformation"), "m", deformation(parts, at)),
-            rate: rate.map(|row| self.add(format!("{name}.rate"), "m/s", row)),
+            force: self.add(format!("{name}.force"), "N", &force),
+            deformation: self.add(format!("{name}.deformation"), "m", &deformation(parts, at)),
+            rate: rate.map(|row| self.add(format!("{name}.rate"), "m/s", &row)),
         };
         self.primitives.push(outputs);
         Ok(())
@@ -212,7 +224,10 @@ impl Outputs {
             let velocity = parts.motion.velocity[drive.body].clone();
             let switches = parts.expansion.switches;
             let is_known = !switches || moves_by_itself(&network.nodes[drive.node]);
-            let Some(velocity) = velocity.filter(|_| is_known) else { continue };
+            if velocity.is_none() && !switches {
+                continue;
+            }
+            let velocity = velocity.filter(|_| is_known);
             let force = match &drive.force {
                 Some(force) => force.clone(),
                 None => held_force(parts, drive, &contact[drive.body]),
@@ -223,8 +238,8 @@ impl Outputs {
             let name = drive.name.clone();
             let outputs = DriveOutputs {
                 node: drive.node,
-                force: self.add(format!("{name}.force"), "N", force),
-                velocity: self.add(format!("{name}.velocity"), "m/s", velocity),
+                force: self.add(format!("{name}.force"), "N", &force),
+                velocity: velocity.map(|row| self.add(format!("{name}.velocity"), "m/s", &row)),
                 jumps: drive.jumps.clone(),
                 name,
             };

@@ -7,7 +7,11 @@ use super::{
     bodies::Groups,
     expand::{Primitive, Shape},
 };
-use crate::{Network, Support, elements::Law, phases::Phases};
+use crate::{
+    Network, Support,
+    elements::Law,
+    phases::{Phase, PhaseLaw, Phases},
+};
 
 /// All oddities, one sentence each.
 pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
@@ -35,7 +39,53 @@ pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
         }
     }
     warnings.extend(idle_restitutions(network, parts));
+    warnings.extend(shared_contacts(parts));
     warnings
+}
+
+/// Contacts between the same bodies that close at one deformation: what each of them carries is not
+/// determined, their sum is.
+fn shared_contacts(parts: &Parts<'_>) -> Vec<String> {
+    let contacts: Vec<(&Primitive, [usize; 2], f64)> = parts
+        .expansion
+        .primitives
+        .iter()
+        .filter_map(|own| {
+            let level = closing_level(own.origin.phases()?)?;
+            Some((own, own.ends.map(|joint| parts.bodies.of_joint[joint]), level))
+        })
+        .collect();
+    let mut warnings = Vec::new();
+    for (at, (one, ends, level)) in contacts.iter().enumerate() {
+        let same = |other: &&(&Primitive, [usize; 2], f64)| {
+            other.1 == *ends && other.2.to_bits() == level.to_bits() && ends[0] != ends[1]
+        };
+        if let Some((other, ..)) = contacts[at + 1..].iter().find(same) {
+            warnings.push(format!(
+                "`{}` and `{}` close at once between the same masses: how they share force and \
+                 impulse is not determined, only the sum is; a stiffness in one of them settles it",
+                told(&one.name),
+                told(&other.name)
+            ));
+        }
+    }
+    warnings
+}
+
+/// The name of a contact as the scene has it: that of the stop or of the element.
+fn told(contact: &str) -> &str {
+    contact.strip_suffix(".contact").unwrap_or(contact)
+}
+
+/// The deformation \[m\] at which a rigid contact closes.
+fn closing_level(own: &dyn Phases) -> Option<f64> {
+    if !super::phased::is_contact(own) {
+        return None;
+    }
+    (0..own.names().len()).find_map(|index| match own.law(Phase { index, memory: 0.0 }) {
+        PhaseLaw::Held(level) => Some(level),
+        _ => None,
+    })
 }
 
 /// Whether a connection between bodies at these distances from the impactor runs against its way.

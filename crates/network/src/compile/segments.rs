@@ -14,7 +14,7 @@ use crate::{Connection, ConnectionOutputs, SegmentOutputs, layers::Piece};
 /// have none.
 pub(super) type Listed = BTreeMap<usize, usize>;
 
-impl Outputs {
+impl Outputs<'_> {
     /// Completes the outputs of a connection by its segments, and by the force at its second end
     /// where masses stand between the two. Its shapes come with a force for each.
     pub(super) fn add_segments(
@@ -31,7 +31,7 @@ impl Outputs {
         if let (Shape::Row(_), Some(&last)) = (&shapes[0], branches.last()) {
             let force = forces[last].clone();
             let name = format!("{}.transmitted-force", connection.name);
-            outputs.transmitted = force.map(|row| self.add(name, "N", row));
+            outputs.transmitted = force.map(|row| self.add(name, "N", &row));
         }
         if connection.pieces.is_empty() {
             outputs.segments = connection
@@ -66,8 +66,8 @@ impl Outputs {
                         let deformation = deformation.or_else(|| between(parts, shapes, shape));
                         let deformation = deformation.unwrap_or_default();
                         let force = forces[shape].clone();
-                        let force = force.map(|row| self.add(format!("{name}.force"), "N", row));
-                        Some((force, self.add(format!("{name}.deformation"), "m", deformation)))
+                        let force = force.map(|row| self.add(format!("{name}.force"), "N", &row));
+                        Some((force, self.add(format!("{name}.deformation"), "m", &deformation)))
                     }
                 };
                 // What takes no part carries nothing.

@@ -10,9 +10,8 @@ use nalgebra_sparse::{CooMatrix, CsrMatrix};
 use super::{
     expand::Expansion,
     motion::Motion,
-    outputs::Outputs,
     row::Row,
-    scales::power_of_two,
+    scales::{Scales, power_of_two},
     unknowns::{Inputs, Places},
 };
 use crate::{
@@ -35,26 +34,68 @@ impl Characteristic for OfElement {
     }
 }
 
-/// The system of all rows, with `time` \[s\] as its unit of time.
+/// What makes rows dimensionless.
+#[derive(Debug)]
+pub(super) struct Scaling {
+    /// SI value of 1 of each unknown, times the lift.
+    columns: Vec<f64>,
+    /// The same of each input.
+    input_columns: Vec<f64>,
+    /// The unit of time \[s\].
+    time: f64,
+    /// See [`Scales::lift`].
+    lift: f64,
+}
+
+impl Scaling {
+    pub(super) fn of(places: &Places, inputs: &Inputs, scales: &Scales, duration: f64) -> Self {
+        let Scales { time, lift, .. } = *scales;
+        let columns = places.drafts.iter().map(|draft| draft.scale).collect();
+        let input_columns = inputs.columns(time, duration).into_iter().map(|own| own * lift);
+        Self { columns, input_columns: input_columns.collect(), time, lift }
+    }
+
+    /// The output of this row, in units of its largest coefficient.
+    pub(super) fn output(
+        &self,
+        mut name: String,
+        unit: &'static str,
+        row: &Row,
+    ) -> Result<Output, NetworkError> {
+        let (own, given) = scaled(row, &self.columns, &self.input_columns);
+        let scale = largest(&own).max(largest(&given));
+        let scale = finite(power_of_two(if scale > 0.0 { scale } else { 1.0 }))?;
+        name.shrink_to_fit();
+        Ok(Output {
+            name,
+            unit,
+            scale: scale / self.lift,
+            unknowns: divided(&own, scale),
+            inputs: divided(&given, scale),
+        })
+    }
+}
+
+/// The system of all rows.
 pub(super) fn dimensionless(
     expansion: &Expansion,
     motion: &Motion,
     places: &Places,
     inputs: &Inputs,
-    outputs: &Outputs,
-    time: f64,
+    scaling: &Scaling,
+    outputs: Vec<Output>,
     duration: f64,
 ) -> Result<System, NetworkError> {
-    let columns: Vec<f64> = places.drafts.iter().map(|draft| draft.scale).collect();
+    let Scaling { columns, input_columns, time, lift } = scaling;
+    let (time, lift) = (*time, *lift);
     let heights = inputs.heights(duration);
-    let input_columns = inputs.columns(time, duration);
 
     let count = places.drafts.len();
     let mut terms = Vec::new();
     let mut jacobian = CooMatrix::new(count, count);
     let mut input_matrix = CooMatrix::new(count, inputs.entries.len());
     for (at, draft) in places.drafts.iter().enumerate() {
-        let (own, given) = scaled(&draft.row, &columns, &input_columns);
+        let (own, given) = scaled(&draft.row, columns, input_columns);
         let factor = match draft.kind {
             UnknownKind::Differential => time / draft.scale,
             UnknownKind::Algebraic => {
@@ -67,15 +108,15 @@ pub(super) fn dimensionless(
         if let Some(primitive) = draft.term {
             let argument = |row: &Option<Row>| {
                 let row = row.clone().unwrap_or_default();
-                let (unknowns, inputs) = scaled(&row, &columns, &input_columns);
-                Argument { scale: 1.0, unknowns, inputs }
+                let (unknowns, inputs) = scaled(&row, columns, input_columns);
+                Argument { scale: lift.recip(), unknowns, inputs }
             };
             let element = &expansion.primitives[primitive];
             let [_, damping] = element.slopes();
             let rate = if damping > 0.0 { &motion.rate[primitive] } else { &None };
             terms.push(Term {
                 row: at,
-                factor: finite(factor)?,
+                factor: finite(factor * lift)?,
                 law: Arc::new(OfElement(Arc::clone(&element.element))),
                 arguments: [argument(&motion.deformation[primitive]), argument(rate)],
             });
@@ -87,19 +128,6 @@ pub(super) fn dimensionless(
             input_matrix.push(at, column, finite(factor * value)?);
         }
     }
-    let report = |(output, row): &(Output, Row)| {
-        let (own, given) = scaled(row, &columns, &input_columns);
-        let scale = largest(&own).max(largest(&given));
-        let scale = power_of_two(if scale > 0.0 { scale } else { 1.0 });
-        finite(scale)?;
-        Ok(Output {
-            name: output.name.clone(),
-            unit: output.unit,
-            scale,
-            unknowns: divided(&own, scale),
-            inputs: divided(&given, scale),
-        })
-    };
     Ok(System {
         unknowns: places
             .drafts
@@ -107,7 +135,7 @@ pub(super) fn dimensionless(
             .map(|draft| Unknown {
                 name: draft.name.clone(),
                 kind: draft.kind,
-                scale: draft.scale,
+                scale: draft.scale / lift,
                 unit: draft.unit,
             })
             .collect(),
@@ -121,8 +149,8 @@ pub(super) fn dimensionless(
             .map(|(waveform, &height)| waveform.in_units(time, height))
             .collect(),
         terms,
-        initial: places.drafts.iter().map(|draft| draft.initial / draft.scale).collect(),
-        outputs: outputs.list.iter().map(report).collect::<Result<_, NetworkError>>()?,
+        initial: places.drafts.iter().map(|draft| draft.initial * lift / draft.scale).collect(),
+        outputs,
         time_scale: time,
     })
 }

@@ -1,3 +1,4 @@
+mod amplitudes;
 mod chains;
 
 use dashpot_dae::Waveform;

@@ -9,7 +9,7 @@ use super::{
     expand::Expansion,
     row::{Combination, Row},
     scales::{Scales, power_of_two},
-    structure::Structure,
+    structure::{Edge, Structure},
     tree,
 };
 use crate::Network;
@@ -103,6 +103,38 @@ impl Inputs {
     }
 }
 
+/// A part between a body and its parent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Along {
+    /// Number of the primitive.
+    pub(super) primitive: usize,
+    /// By which its deformation gives the body's position unknown: 1, or −1 where it runs from the
+    /// parent to the body.
+    pub(super) sign: f64,
+    /// The position unknown where both bodies are at one place \[m\].
+    pub(super) offset: f64,
+}
+
+impl Along {
+    /// The part that determines the unknown best: the stiffest spring, or else the strongest dashpot.
+    fn between(structure: &Structure, body: usize, parent: usize) -> Option<Self> {
+        let strongest = |edges: &[Edge]| {
+            let between = edges.iter().filter_map(|edge| {
+                let sign = match edge.ends {
+                    [a, b] if (a, b) == (body, parent) => 1.0,
+                    [a, b] if (b, a) == (body, parent) => -1.0,
+                    _ => return None,
+                };
+                let own = Self { primitive: edge.primitive, sign, offset: sign * edge.offset };
+                Some((edge.constant, own))
+            });
+            between.reduce(|best, next| if next.0 > best.0 { next } else { best })
+        };
+        let found = strongest(&structure.springs).or_else(|| strongest(&structure.dashpots));
+        found.map(|(_, own)| own)
+    }
+}
+
 /// Where every body is, as far as it is not algebraic.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Places {
@@ -113,6 +145,9 @@ pub(super) struct Places {
     pub(super) velocity: Vec<Option<usize>>,
     /// The body that a body's position unknown is counted from.
     pub(super) parent: Vec<Option<usize>>,
+    /// The part whose deformation a body's position unknown is, where one is between it and its
+    /// parent.
+    pub(super) along: Vec<Option<Along>>,
     /// Position of each body; of bodies in algebraic clusters relative to the cluster.
     pub(super) position: Vec<Row>,
 }
@@ -121,7 +156,7 @@ pub(super) struct Places {
 ///
 /// Masses have position and velocity. So that forces do not come from small differences of large
 /// numbers, deformations along a [`tree`] of springs and dashpots stand for positions in small
-/// networks; massless bodies that dashpots tie to one anchor are else counted from that anchor, and
+/// networks, each the very deformation of its part, whatever rigid links are held at; massless bodies that dashpots tie to one anchor are else counted from that anchor, and
 /// those of an algebraic cluster from its first body.
 pub(super) fn choose(
     network: &Network,
@@ -130,12 +165,14 @@ pub(super) fn choose(
     structure: &Structure,
     scales: &Scales,
     motions: &BTreeMap<usize, Row>,
+    inputs: &mut Inputs,
 ) -> Places {
     let count = bodies.all.len();
     let mut places = Places {
         unknown: vec![None; count],
         velocity: vec![None; count],
         parent: tree::parents(bodies, structure, scales.time),
+        along: vec![None; count],
         position: vec![Row::default(); count],
         drafts: Vec::new(),
     };
@@ -165,6 +202,8 @@ pub(super) fn choose(
         if !is_moved {
             continue;
         }
+        places.along[body] =
+            places.parent[body].and_then(|parent| Along::between(structure, body, parent));
         let relative = places.parent[body]
             .map_or(String::new(), |parent| format!(" relative to {}", name(parent)));
         places.unknown[body] = Some(places.drafts.len());
@@ -190,13 +229,13 @@ pub(super) fn choose(
             });
         }
     }
-    places.add_up(motions);
+    places.add_up(motions, inputs);
     places
 }
 
 impl Places {
     /// Adds the unknowns up along the chain of parents.
-    fn add_up(&mut self, motions: &BTreeMap<usize, Row>) {
+    fn add_up(&mut self, motions: &BTreeMap<usize, Row>, inputs: &mut Inputs) {
         let mut is_done = vec![false; self.position.len()];
         for body in 0..self.position.len() {
             let mut chain = vec![body];
@@ -209,7 +248,11 @@ impl Places {
                 let own = self.unknown[body].map_or_else(Row::default, Row::unknown);
                 let given = motions.get(&body).cloned().unwrap_or_default();
                 let base = self.parent[body].map(|parent| self.position[parent].clone());
-                self.position[body] = own.plus(1.0, &given).plus(1.0, &base.unwrap_or_default());
+                let offset = self.along[body].map_or(0.0, |along| along.offset);
+                self.position[body] = own
+                    .plus(1.0, &given)
+                    .plus(1.0, &base.unwrap_or_default())
+                    .plus(-1.0, &inputs.constant(offset));
                 is_done[body] = true;
             }
         }

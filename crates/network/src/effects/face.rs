@@ -23,6 +23,17 @@ use crate::{
 /// With [`Separation`](super::Separation) the contact is one that pushes and never pulls: it parts
 /// where `F1` falls to zero, and a touch is an impact on the mass of the face. Without it the face
 /// is rigidly linked to its node and moves with it from the start.
+///
+/// # Limits
+///
+/// The mass of the padding stands in one place: no wave runs through it. A padding in which waves
+/// matter is made of [layers](crate::layers::Layers). Where the face is struck at rest its speed
+/// jumps, and the peak of `F1` is infinite.
+///
+/// # References
+///
+/// The mass `m2` and the group `B = m1/(m1 + m2)` are those of `thesis` in `docs/references.bib`,
+/// whose equations have the face move with the impactor from the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Face {
     /// Name of the element.

@@ -15,6 +15,18 @@ use crate::{
 /// | symbol | field          | unit | range |
 /// |--------|----------------|------|-------|
 /// | `g`    | `acceleration` | m/s² | finite; negative pulls away from the support |
+///
+/// # Limits
+///
+/// It is the same everywhere and at all times, and it acts along the axis only. Deformations are
+/// counted from unloaded. A weight that no spring carries to a fixed or moved node has no balance,
+/// and is refused with the start in equilibrium. Elements have no weight; the mass of
+/// [layers](crate::layers::Layers) has.
+///
+/// # References
+///
+/// `cgpm1901` in `docs/references.bib` for the standard value 9.80665 m/s²; group A of `thesis` for
+/// when it matters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gravity {
     /// Gravitational acceleration `g` \[m/s²\].

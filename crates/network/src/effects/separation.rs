@@ -33,6 +33,17 @@ use crate::{
 ///
 /// A restitution acts between masses, so it needs a face with mass. A massless face takes the speed
 /// of what strikes it.
+///
+/// # Limits
+///
+/// A face without mass takes no energy and no time: it is at rest at once where only a spring
+/// stands behind it, and creeps back where a dashpot does. There is no adhesion. A massless face
+/// that meets a body again does so without an impact, whatever the speed.
+///
+/// # References
+///
+/// The contact is that of `signorini1959` in `docs/references.bib`. The model of `thesis` has none:
+/// its padding stays glued to both its sides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Separation {
     /// Name of the element.

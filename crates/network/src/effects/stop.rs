@@ -23,6 +23,17 @@ use crate::{
 /// [`Contact`] with the gap `d`, `y ≤ d`: masses that meet on it have an impact. One with stiffness
 /// has the force `max(0, k (y − d) + c ẏ)` in contact: the contact in series with a spring and a
 /// dashpot side by side, which lets go where the force falls to zero and then returns by itself.
+///
+/// # Limits
+///
+/// The element goes on to bear its own force beside the stop, by its law beyond `d`. A rigid stop
+/// makes the speeds jump where masses meet on it, so peaks of force and acceleration are infinite
+/// there. A stop with damping begins with the force `c ẏ` at once.
+///
+/// # References
+///
+/// `signorini1959` in `docs/references.bib` for the rigid stop; `mindlin1945`, "bi-linear
+/// elasticity", for cushions that bottom abruptly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stop {
     /// Name of the element.

@@ -18,6 +18,18 @@ use crate::{
 /// both sides have mass, closing is an impact: the relative speed is reversed and multiplied by `e`
 /// (Newton), momentum is kept, and the loss of energy is booked in the ledger. A massless side takes
 /// the speed of the other one without any impact.
+///
+/// # Limits
+///
+/// Both sides are rigid where they meet: speeds jump, and where masses meet the force is infinite
+/// for no time. One number `e` holds at all speeds; a contact with a force over time is a
+/// [`HuntCrossley`](super::HuntCrossley). Rebounds whose height cannot be told from zero end, and
+/// the contact stays closed. Of contacts between the same bodies that close at one deformation only
+/// the sum of their forces is determined, which is warned of.
+///
+/// # References
+///
+/// `signorini1959` and, for impacts, `brogliato1999` in `docs/references.bib`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// Deformation at which it closes \[m\].

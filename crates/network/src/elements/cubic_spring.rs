@@ -17,6 +17,12 @@ use crate::parameters::{
 /// twice that of the linear part. `k₃ < 0` is refused: such a law falls beyond `√(−k/(3 k₃))` and
 /// pulls beyond `√(−k/k₃)`. A spring that softens is a [`TableSpring`](super::TableSpring).
 ///
+/// # Limits
+///
+/// The law has no stroke at which it would bottom: it goes on to any deformation. A cushion that
+/// bottoms is a [`StiffeningSpring`](super::StiffeningSpring) or has a
+/// [`Stop`](crate::effects::Stop).
+///
 /// # Examples
 ///
 /// ```

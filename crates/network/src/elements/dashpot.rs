@@ -13,6 +13,10 @@ use crate::parameters::{
 ///
 /// The dashpot stores nothing and dissipates the power `c ẏ²`. `c = 0` is no dashpot at all.
 ///
+/// # Limits
+///
+/// Where the rate jumps, so does the force. Alone it carries no weight at rest.
+///
 /// # Examples
 ///
 /// ```
@@ -21,6 +25,11 @@ use crate::parameters::{
 /// let dashpot = Dashpot { damping: 6000.0 };
 /// assert_eq!(dashpot.force(0.01, 2.0), 12_000.0);
 /// ```
+///
+/// # References
+///
+/// `newton1687` in `docs/references.bib`, book II, section IX: resistance in proportion to the
+/// speed with which parts of a liquid are separated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dashpot {
     /// Dashpot constant `c` \[N·s/m\].

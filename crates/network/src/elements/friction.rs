@@ -16,6 +16,16 @@ use crate::{
 /// It sticks where its rate comes to zero, and slides again where the force that holds it would
 /// exceed `F_c`: sticking is exact, not a creep. It stores no energy and dissipates `F_c |ẏ|`. Static
 /// and kinetic friction are the same. `F_c = 0` is no slider at all.
+///
+/// # Limits
+///
+/// `F_c` does not depend on a normal force, on the speed or on the time of rest. Between two given
+/// motions it cannot stick: it slides the way they go, and while they pause it keeps the force that
+/// it had.
+///
+/// # References
+///
+/// `coulomb1785` in `docs/references.bib`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     /// Force at which it slides `F_c` \[N\].

@@ -38,6 +38,12 @@ use crate::{
 /// on the first curve, that for `y_m = y`. All else that was put in is dissipated, and at once: with
 /// `y_m` the store rises by less than `f dy`, since `s` falls.
 ///
+/// # Limits
+///
+/// It has one memory, the greatest deformation: a loop within the curve of unloading takes no
+/// energy, nothing heals with time, and no force depends on the rate. Beyond the strain 0.99 it is
+/// as straight as its [`Foam`].
+///
 /// # Examples
 ///
 /// ```
@@ -55,6 +61,11 @@ use crate::{
 /// assert_eq!(crushed.force(0.01, 1.0), foam.force(0.01, 1.0));
 /// assert!(crushed.stored(0.01) < 0.4 * foam.stored(0.01));
 /// ```
+///
+/// # References
+///
+/// `avalle2007` in `docs/references.bib` for the first curve; `hallquist2006`, material type 57,
+/// for unloading on the first curve times a factor; `gibson1997` for what happens in the cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HystereticFoam {
     /// The foam as it is loaded for the first time.

@@ -33,6 +33,10 @@ use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, V
 /// assert_eq!(thinning.force(0.0, 1.0), 200.0);
 /// assert_eq!(thinning.force(0.0, -4.0), -400.0);
 /// ```
+///
+/// # References
+///
+/// `ostwald1925` in `docs/references.bib` for `p < 1`; `merritt1967` for the orifice.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerDashpot {
     /// Force `F_r` at the reference rate \[N\].

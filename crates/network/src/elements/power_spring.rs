@@ -19,6 +19,13 @@ use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, V
 /// the linear spring; `n = 3/2` is the contact of two elastic spheres (Hertz 1882). For `n > 1` the
 /// slope is zero at rest, so two such springs do not determine a massless node between them there.
 ///
+/// # Limits
+///
+/// Hertz's law holds while the radius of the contact is small against the spheres, and for spheres
+/// that are pressed together: as tension mirrors compression here, a contact that parts needs
+/// [`Separation`](crate::effects::Separation) or is a [`HuntCrossley`](super::HuntCrossley). It
+/// goes on to any deformation.
+///
 /// # Examples
 ///
 /// ```
@@ -28,6 +35,10 @@ use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, V
 /// assert_eq!(spring.force(0.01, 0.0), 2000.0);
 /// assert!((spring.force(-0.04, 0.0) + 16_000.0).abs() < 1e-9);
 /// ```
+///
+/// # References
+///
+/// `hertz1882` in `docs/references.bib` for `n = 3/2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerSpring {
     /// Force `F_r` at the reference deformation \[N\].

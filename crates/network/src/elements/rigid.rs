@@ -7,6 +7,15 @@ use crate::parameters::{InvalidParameter, Parameter, ParameterKind, Value};
 ///
 /// The compiler merges the nodes at its ends; the force in the link follows from the balance of
 /// what hangs on either side. It stores and dissipates nothing.
+///
+/// # Limits
+///
+/// Its deformation is 0 from the start, so nodes that it links start with one speed. Several links
+/// in parallel share their force in no way that could be told: a loop of them is refused.
+///
+/// # References
+///
+/// A constraint of kinematics; there is no law to cite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rigid;
 

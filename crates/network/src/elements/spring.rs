@@ -13,6 +13,11 @@ use crate::parameters::{
 ///
 /// The spring stores the energy `½ k y²` and dissipates none. `k = 0` is no spring at all.
 ///
+/// # Limits
+///
+/// It has no limit of deformation: it may be pressed in by more than the thickness of what it
+/// stands for, which is warned of where that is known.
+///
 /// # Examples
 ///
 /// ```
@@ -21,6 +26,10 @@ use crate::parameters::{
 /// let spring = Spring { stiffness: 200.0 };
 /// assert_eq!(spring.force(0.01, 0.0), 2.0);
 /// ```
+///
+/// # References
+///
+/// `hooke1678` in `docs/references.bib`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
     /// Spring constant `k` \[N/m\].

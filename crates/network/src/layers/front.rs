@@ -6,15 +6,13 @@
 //! from face to face, a body of start speed `v` meets `2 n c v` at once, and without segments a force
 //! without limit.
 
-use super::{Layer, Layers, MOST_SEGMENTS, Resolution, stiffness::Stiffness};
+use super::{Layer, Layers, MOST_SEGMENTS, Recut, Resolution, stiffness::Stiffness};
 use crate::{Connection, Network, NodeId, compile::bodies::start_velocity};
 
 /// Largest excess of the force on a face over that of a step, `∫₀^2.405 J₀ − 1`.
 const EXCESS: f64 = 0.470_3;
 /// Part of the peak of the impact from which on the force at the first touch may be the larger one.
 const COMPARABLE: f64 = 0.5;
-/// Accuracy that is expected where a number of segments is given.
-const EXPECTED: f64 = 0.01;
 /// Loss angle \[rad\] from which on a layer resists like a dashpot.
 const LOSSY: f64 = 1.5;
 
@@ -84,13 +82,14 @@ fn blow(
     let excess = EXCESS * step / (step + impact);
     let wanted = match layers.resolution {
         Resolution::Accuracy(accuracy) => accuracy,
-        Resolution::Segments(_) => EXPECTED,
+        Resolution::Segments(_) => Recut::EXPECTED,
     };
     (excess > wanted).then(|| {
         format!(
             "`{node}` strikes the layer {layer} of `{element}`, and the front of the wave is as \
-             steep as its segments: forces may be up to {:.0} % too high, however many segments \
-             there are; a spring between the two blunts the front",
+             steep as its segments: with few of them its forces are too low, with many up to \
+             {:.0} % too high, whatever their stated errors; a spring between the two blunts the \
+             front",
             (100.0 * excess).ceil()
         )
     })

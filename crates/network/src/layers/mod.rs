@@ -21,6 +21,7 @@
 //! segments of such a layer is given, and not found from an accuracy.
 
 mod front;
+mod recut;
 mod resolve;
 mod slice;
 pub(crate) mod stiffness;
@@ -30,6 +31,7 @@ mod tests;
 
 use dashpot_rheology::{Branch, Tree};
 
+pub use self::recut::{Recut, recut};
 use self::stiffness::Stiffness;
 pub(crate) use self::{front::warnings, resolve::resolve};
 use crate::{

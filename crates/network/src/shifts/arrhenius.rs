@@ -20,9 +20,17 @@ const BOLTZMANN: f64 = 1.380_649e-23;
 /// | `T_ref` | `reference`   | K    | > 0   |
 /// | `E`     | `energy`      | J    | ≥ 0   |
 ///
-/// It describes thermally activated flow far above and below the glass transition. `E` is the
-/// energy for one molecule, so the law has the constant of Boltzmann; an energy for a mole is the
-/// same when it is divided by the number of molecules in a mole, as in `"80 kJ/mol"`.
+/// `E` is the energy for one molecule, so the law has the constant of Boltzmann; an energy for a mole
+/// is the same when it is divided by the number of molecules in a mole, as in `"80 kJ/mol"`.
+///
+/// # Limits
+///
+/// It describes thermally activated flow far above and below the glass transition. Across the
+/// transition the energy is no constant; there [`Wlf`](super::Wlf) holds.
+///
+/// # References
+///
+/// `arrhenius1889` in `docs/references.bib`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arrhenius {
     /// The temperature `T` of the model \[K\].

@@ -18,14 +18,17 @@ use crate::{
 /// | `c1`    | `c1`          | 1    | > 0             |
 /// | `c2`    | `c2`          | K    | > 0             |
 ///
-/// It describes polymers from their glass transition to about 100 K above. The constants belong to
-/// the reference temperature: 17.44 and 51.6 K, which are average values of many polymers, hold
-/// where the reference is the glass transition. Towards `T_ref − c2` all times grow without bound,
-/// and at or below it the law has no meaning.
+/// The constants belong to the reference temperature: 17.44 and 51.6 K, which are average values of
+/// many polymers, hold where the reference is the glass transition.
+///
+/// # Limits
+///
+/// It describes polymers from their glass transition to about 100 K above. Towards `T_ref − c2` all
+/// times grow without bound, and at or below it the law has no meaning.
 ///
 /// # References
 ///
-/// M. L. Williams, R. F. Landel, J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701, eq. 1.
+/// `wlf1955` in `docs/references.bib`, eq. 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wlf {
     /// The temperature `T` of the model \[K\].

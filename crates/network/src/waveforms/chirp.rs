@@ -13,11 +13,28 @@ use crate::{
     },
 };
 
-/// A sine whose frequency changes linearly from `from` to `to` within `duration` and stays at `to`:
-/// `u(t) = amplitude · sin(2π (from s + ½ (to − from) s²/duration))` with `s = t − start` for
-/// `0 ≤ s ≤ duration`, 0 before. Value and rate go on without a jump where the sweep ends.
+/// A sine whose frequency changes linearly from `f₀` to `f₁` within `T` and stays at `f₁`:
+/// `u(t) = a sin(2π (f₀ s + ½ (f₁ − f₀) s²/T))` with `s = t − t₀` for `0 ≤ s ≤ T`, 0 before. Value and
+/// rate go on without a jump where the sweep ends.
 ///
-/// The exact method cannot follow it; the stepping methods can.
+/// | symbol | field       | unit         | range                    |
+/// |--------|-------------|--------------|--------------------------|
+/// | `a`    | `amplitude` | N, m or m/s² | finite                   |
+/// | `f₀`   | `from`      | Hz           | ≥ 0                      |
+/// | `f₁`   | `to`        | Hz           | ≥ 0; not both are 0      |
+/// | `T`    | `duration`  | s            | > 0                      |
+/// | `t₀`   | `start`     | s            | finite, 0 where left out |
+///
+/// # Limits
+///
+/// The exact method cannot follow it; the stepping methods can. As an acceleration of a support it
+/// is refused: its displacement has no closed form in pieces of this kind. The frequency rises in
+/// equal steps in equal times, while the sweeps of standards double it in equal times. A sweep that
+/// is fast against the decay of a resonance passes it before the answer is steady.
+///
+/// # References
+///
+/// `iec60068-2-6` in `docs/references.bib` for sweeps as tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Chirp {
     /// The amplitude \[N, m or m/s²\].

@@ -8,7 +8,20 @@ use crate::{
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite},
 };
 
-/// A constant that is switched on: `u(t) = value` for `t ≥ start`, 0 before.
+/// A constant that is switched on: `u(t) = u₀` for `t ≥ t₀`, 0 before.
+///
+/// | symbol | field   | unit         | range                    |
+/// |--------|---------|--------------|--------------------------|
+/// | `u₀`   | `value` | N, m or m/s² | finite                   |
+/// | `t₀`   | `start` | s            | finite, 0 where left out |
+///
+/// # Limits
+///
+/// It jumps where it is switched on, which a motion must not do at a node with mass.
+///
+/// # References
+///
+/// `harris2002` in `docs/references.bib`, chapter 8: the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constant {
     /// The value \[N, m or m/s²\].

@@ -10,8 +10,22 @@ use crate::{
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite, positive},
 };
 
-/// One arch of a sine: `u(t) = peak · sin(π (t − start)/duration)` for `start ≤ t ≤ start +
-/// duration`, 0 elsewhere.
+/// One arch of a sine: `u(t) = u₀ sin(π (t − t₀)/T)` for `t₀ ≤ t ≤ t₀ + T`, 0 elsewhere.
+///
+/// | symbol | field      | unit         | range                    |
+/// |--------|------------|--------------|--------------------------|
+/// | `u₀`   | `peak`     | N, m or m/s² | finite                   |
+/// | `T`    | `duration` | s            | > 0                      |
+/// | `t₀`   | `start`    | s            | finite, 0 where left out |
+///
+/// # Limits
+///
+/// It has kinks at both ends, which a motion must not have at a node with mass. What a shock table
+/// makes of it differs from it within the tolerances of the standard.
+///
+/// # References
+///
+/// `iec60068-2-27` in `docs/references.bib`: the half-sine pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfSine {
     /// The peak \[N, m or m/s²\].

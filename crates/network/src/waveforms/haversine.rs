@@ -10,10 +10,24 @@ use crate::{
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite, positive},
 };
 
-/// One wave of a cosine that stands on zero: `u(t) = ½ peak (1 − cos(2π (t − start)/duration))` for
-/// `start ≤ t ≤ start + duration`, 0 elsewhere.
+/// One wave of a cosine that stands on zero: `u(t) = ½ u₀ (1 − cos(2π (t − t₀)/T))` for
+/// `t₀ ≤ t ≤ t₀ + T`, 0 elsewhere.
 ///
-/// Unlike a half-sine it begins and ends without a kink. Its mean is `peak/2`.
+/// | symbol | field      | unit         | range                    |
+/// |--------|------------|--------------|--------------------------|
+/// | `u₀`   | `peak`     | N, m or m/s² | finite                   |
+/// | `T`    | `duration` | s            | > 0                      |
+/// | `t₀`   | `start`    | s            | finite, 0 where left out |
+///
+/// Unlike a half-sine it begins and ends without a kink. Its mean is `u₀/2`.
+///
+/// # Limits
+///
+/// Its second derivative jumps at both ends.
+///
+/// # References
+///
+/// `harris2002` in `docs/references.bib`, chapter 8, where it is the versed-sine pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Haversine {
     /// The peak \[N, m or m/s²\].

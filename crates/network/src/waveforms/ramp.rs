@@ -8,7 +8,21 @@ use crate::{
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite, positive},
 };
 
-/// A straight rise: 0 until `start`, then linear to `height` within `rise`, then `height`.
+/// A straight rise: 0 until `t₀`, then `u(t) = u₀ (t − t₀)/T` until `t₀ + T`, then `u₀`.
+///
+/// | symbol | field    | unit         | range                    |
+/// |--------|----------|--------------|--------------------------|
+/// | `u₀`   | `height` | N, m or m/s² | finite                   |
+/// | `T`    | `rise`   | s            | > 0                      |
+/// | `t₀`   | `start`  | s            | finite, 0 where left out |
+///
+/// # Limits
+///
+/// It has kinks at both ends of the rise, which a motion must not have at a node with mass.
+///
+/// # References
+///
+/// `harris2002` in `docs/references.bib`, chapter 8: the step with a linear rise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ramp {
     /// The final value \[N, m or m/s²\].

@@ -10,7 +10,22 @@ use crate::{
     parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite, positive},
 };
 
-/// `u(t) = amplitude · sin(2π frequency t + phase)`, at all times.
+/// A sine, `u(t) = a sin(2π f t + φ)`, at all times.
+///
+/// | symbol | field       | unit         | range                    |
+/// |--------|-------------|--------------|--------------------------|
+/// | `a`    | `amplitude` | N, m or m/s² | finite                   |
+/// | `f`    | `frequency` | Hz           | > 0                      |
+/// | `φ`    | `phase`     | rad          | finite, 0 where left out |
+///
+/// # Limits
+///
+/// It is there at `t = 0` already, without a rise. So what it drives answers to its beginning as
+/// well, until that has died away; what follows alone is the steady response.
+///
+/// # References
+///
+/// `iec60068-2-6` in `docs/references.bib`: vibration by a sine of fixed frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sine {
     /// The amplitude \[N, m or m/s²\].

@@ -7,6 +7,21 @@ use crate::parameters::{InvalidParameter, Parameter, ParameterKind, Value};
 
 /// Straight lines through given points; before the first and after the last point the function
 /// keeps that point's value. Two points at one time are a jump.
+///
+/// | symbol | field    | unit         | range                             |
+/// |--------|----------|--------------|-----------------------------------|
+/// | `t_i`  | `points` | s            | in order; two the same are a jump |
+/// | `u_i`  | `points` | N, m or m/s² | finite                            |
+///
+/// # Limits
+///
+/// It has a kink at each point, which a motion must not have at a node with mass. Between points
+/// nothing is known but a straight line, so a measured curve needs as many points as its bends ask
+/// for; no filter is applied to it.
+///
+/// # References
+///
+/// Linear interpolation; there is no law to cite.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// Time \[s\] and value \[N, m or m/s²\], in order of time.

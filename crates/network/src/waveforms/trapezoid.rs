@@ -13,8 +13,26 @@ use crate::{
 /// A pulse with a flat top: from 0 at `start` in a straight line to `peak` within `rise`, `peak` for
 /// `hold`, and in a straight line back to 0 within `fall`.
 ///
+/// | symbol | field   | unit         | range                        |
+/// |--------|---------|--------------|------------------------------|
+/// | `u₀`   | `peak`  | N, m or m/s² | finite                       |
+/// |        | `rise`  | s            | ≥ 0                          |
+/// |        | `hold`  | s            | ≥ 0                          |
+/// |        | `fall`  | s            | ≥ 0; the three are not all 0 |
+/// | `t₀`   | `start` | s            | finite, 0 where left out     |
+///
 /// A rise or fall of zero is a jump: a rectangular pulse has both, a sawtooth one of them and no
 /// `hold`.
+///
+/// # Limits
+///
+/// It has kinks where its straight lines meet, and jumps where a rise or fall is zero. A motion
+/// must have neither at a node with mass.
+///
+/// # References
+///
+/// `iec60068-2-27` in `docs/references.bib`: the trapezoidal pulse, and the saw-tooth with its peak
+/// at the end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trapezoid {
     /// The flat top \[N, m or m/s²\].

@@ -11,6 +11,7 @@ pub mod model;
 mod run_series;
 mod unit;
 mod vibration;
+mod work_precision;
 
 use crate::{Chart, Pattern, Series, Stroke};
 
@@ -21,6 +22,7 @@ pub use force_time::ForceTime;
 pub use run_series::{ElementSeries, EnergySeries, RunMarker, RunMarkerKind, RunSeries};
 use unit::Unit;
 pub use vibration::{VibrationCurve, VibrationSeries};
+pub use work_precision::{PrecisionCurve, PrecisionSeries};
 
 /// Every figure, in the order of the report. **A new figure is registered here.**
 pub const FIGURES: &[&dyn Figure] = &[&ForceTime, &DeformationTime, &ForceDeformation, &EnergyTime];

@@ -14,6 +14,7 @@ use crate::{
     kinds::{EffectEntry, Example, registers},
     network_faults::value_of,
     parameters::KindReader,
+    quantity::{Quantities, Target},
     units::{parse_quantity, si_unit},
 };
 
@@ -93,6 +94,14 @@ impl Wanted<'_> {
         effect
     }
 
+    /// The element that it acts on, where it acts on one.
+    fn element(&self) -> Option<Target<'_>> {
+        let entry = self.reading.elements.get(self.target)?;
+        let given = value_of(entry, "thickness");
+        let thickness = given.and_then(|item| self.reading.quantities().peek(item));
+        Some(Target { name: self.target, thickness: thickness.filter(|own| *own > 0.0) })
+    }
+
     /// Notes a node that is no end of the element.
     fn check_end(&self, element: &Entry, item: &Item) -> Option<()> {
         let name = item.text()?;
@@ -124,7 +133,8 @@ impl Wanted<'_> {
         let defaults = Item { value: Content::Table(Vec::new()), place: entry.item.place };
         let is_on = optional && matches!(entry.item.value, Content::Switch(true));
         let item = if is_on { &defaults } else { &entry.item };
-        KindReader::new(reading.quantities()).read_as(
+        let quantities = Quantities { element: self.element(), ..reading.quantities() };
+        KindReader::new(quantities).read_as(
             (path, kind.parameters),
             &|values| (kind.make)(target, values),
             item,

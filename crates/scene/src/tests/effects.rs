@@ -151,3 +151,18 @@ fn values_of_effects_are_checked_at_their_places() {
         &["`separation.padding` is a table", "write `separation.padding = { at = \"head\" }`"],
     );
 }
+
+#[test]
+fn a_share_of_the_thickness_is_told_as_a_length() {
+    says(
+        "[effects]\nstop.padding = { at = \"80 %\" }",
+        &[
+            "`80 %` is a pure number; a length (m) is expected here",
+            "write \"16 mm\", which is 80 % of the thickness of `padding`",
+        ],
+    );
+    says(
+        "[effects]\nstop.mount = { at = \"80 %\" }",
+        &["write a length such as \"10 mm\": `mount` has no `thickness` to take a share of"],
+    );
+}

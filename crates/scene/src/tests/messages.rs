@@ -461,6 +461,16 @@ fn an_empty_scene_is_told_how_to_begin() {
 }
 
 #[test]
+fn what_is_missing_is_said_of_the_file() {
+    let errors = read_text("title = \"x\"\n").unwrap_err();
+    assert!(!errors.is_empty());
+    for own in &errors.list {
+        assert_eq!((own.file(), own.line_and_column()), (Some("scene.toml"), None), "{own:?}");
+    }
+    assert!(errors.render(false).contains("--> scene.toml\n"), "{errors}");
+}
+
+#[test]
 fn a_diagnostic_knows_its_place() {
     let errors = read_text(FAULTS_OF_THE_NETWORK).unwrap_err();
     let first = &errors.list[0];

@@ -58,9 +58,9 @@ impl<'a> Parts<'a> {
             parts.inside(at);
         }
         for drive in &assembly.drives {
-            let body = assembly.nodes[drive.node].body;
-            let (force, velocity) = (solution.signal(drive.force), solution.signal(drive.velocity));
-            parts.push(body, None, (1.0, force), velocity);
+            let node = &assembly.nodes[drive.node];
+            let velocity = solution.rate(drive.velocity, node.position);
+            parts.push(node.body, None, (1.0, solution.signal(drive.force)), &velocity);
         }
         for body in 0..parts.bodies.len() {
             parts.inertia(body);

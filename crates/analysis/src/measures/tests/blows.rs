@@ -155,6 +155,13 @@ fn faced(restitution: f64) -> Network {
     network
 }
 
+/// How long head and face press the pad \[s\] if they meet it as one: until its force is zero.
+fn pressed_for() -> f64 {
+    let (delta, square) = (2e3 / 22.0, 2e6 / 11.0);
+    let omega = f64::sqrt(square - delta * delta);
+    (PI - (2.0 * delta * omega).atan2(omega * omega - delta * delta)) / omega
+}
+
 #[test]
 fn plastic_touch_of_a_face_with_mass_keeps_momentum() {
     let report = solved(&faced(0.0), 0.03, &["pad.contact"], &["head"]);
@@ -163,10 +170,8 @@ fn plastic_touch_of_a_face_with_mass_keeps_momentum() {
     // Half of the reduced mass times the square of the speed is lost.
     is(&report, "pad.contact.energy", 0.5 * (10.0 / 11.0) * 100.0);
     // Both together are a Kelvin–Voigt oscillator; they part without speed where it has no force.
-    let (delta, square) = (2e3 / 22.0, 2e6 / 11.0);
-    let omega = f64::sqrt(square - delta * delta);
-    let time = (PI - (2.0 * delta * omega).atan2(omega * omega - delta * delta)) / omega;
-    let speed = 100.0 / 11.0 * (-delta * time).exp();
+    let time = pressed_for();
+    let speed = 100.0 / 11.0 * (-2e3 / 22.0 * time).exp();
     is(&report, "pad.contact.contact-time", time);
     is(&report, "head.end-velocity", -speed);
     is(&report, "pad.contact.impulse", 10.0 * (10.0 + speed));
@@ -189,6 +194,61 @@ fn impulse_is_what_the_head_loses_of_its_momentum() {
     let sum = value("pad.contact.impulse-2");
     let lost = 10.0 * (10.0 - value("head.end-velocity"));
     assert!((sum / lost - 1.0).abs() < 1e-10, "{sum} {lost}");
+}
+
+#[test]
+fn padding_is_pressed_through_all_bounces_of_its_face() {
+    let mut settings = SolveSettings::lasting(0.03).by("exact");
+    settings.measures.push(MeasureWish::new("pad", CoefficientOfRestitution));
+    settings.measures.push(MeasureWish::new("pad", PeakForce { window: RUN }));
+    settings.measures.push(MeasureWish::new("pad.contact", Impulse { window: RUN }));
+    settings.measures.push(MeasureWish::new("head", EndVelocity::default()));
+    let report = solve(&faced(0.3), &settings, &mut Silent).unwrap();
+    let value = |key: &str| measure(&report, key).value.unwrap();
+    let speed = value("head.end-velocity");
+    // What the pad has taken is what both have lost of their momentum; they part with one speed.
+    let lost = 10.0 * 10.0 - 11.0 * speed;
+    assert!((value("pad.impulse") / lost - 1.0).abs() < 1e-10, "{} {lost}", value("pad.impulse"));
+    let sum = 10.0 * (10.0 - speed);
+    assert!((value("pad.contact.impulse-2") / sum - 1.0).abs() < 1e-10, "{sum}");
+    assert!((value("pad.coefficient-of-restitution") + speed / 10.0).abs() < 1e-12, "{speed}");
+    close(measure(&report, "pad.peak-force").value, value("pad.peak-force-2"), 1e-12);
+    // The bounces take little of the time of a plastic touch.
+    let time = value("pad.contact-time");
+    assert!((time / pressed_for() - 1.0).abs() < 0.01, "{time}");
+    let after = report.energy_after_impact.as_ref().map(|own| own.time);
+    assert_eq!(after, measure(&report, "pad.contact-time").time);
+}
+
+#[test]
+fn face_that_is_thrown_presses_the_padding_until_it_is_unloaded() {
+    // 1 kg at 10 m/s leaves a face of 4 kg at −6 m/s, which goes on at 4 m/s on a spring alone.
+    let mut network = Network::new();
+    let head = network.add_node(Node::mass("head", 1.0).moving(10.0));
+    let ground = network.ground();
+    network.connect("pad", head, ground, part(Spring { stiffness: 4e4 }));
+    let element = || "pad".to_owned();
+    network.add_effect(Separation { element: element(), at: None, restitution: 1.0 });
+    network.add_effect(Face { element: element(), mass: 4.0, at: None, touch: Touch::Impact });
+    let report = solved(&network, 0.05, &["pad"], &["head"]);
+    is(&report, "pad.peak-force", 4.0 * f64::sqrt(4e4 * 4.0));
+    is(&report, "pad.contact-time", PI / 100.0);
+    is(&report, "pad.impulse", 2.0 * 4.0 * 4.0);
+    is(&report, "pad.coefficient-of-restitution", 0.6);
+    is(&report, "head.end-velocity", -6.0);
+    let text = report.warnings.join(", ");
+    assert!(!text.contains("pulls") && !text.contains("in contact"), "{text}");
+}
+
+#[test]
+fn bodies_that_bounce_on_an_unloaded_padding_have_an_impact_of_each() {
+    // Falls that come back: each is far longer than the time for which the padding is pressed.
+    let mut network = faced(0.3);
+    network.add_effect(Gravity { acceleration: 10.0, start: GravityStart::Equilibrium });
+    let settings = SolveSettings::lasting(3.0).by("exact");
+    let report = solve(&network, &settings, &mut Silent).unwrap();
+    let time = measure(&report, "pad.contact-time").value.unwrap();
+    assert!((time / pressed_for() - 1.0).abs() < 0.01, "{time}");
 }
 
 #[test]

@@ -18,6 +18,10 @@ fn signal(f: impl Fn(f64) -> f64, borders: &[f64]) -> Signal {
     Signal::new(borders.windows(2).map(panel).collect(), None, 1e-14)
 }
 
+fn noises(signals: &[Signal]) -> Vec<f64> {
+    signals.iter().map(|signal| signal.noise).collect()
+}
+
 /// Feeds the signals panel by panel.
 fn step_by_step(guards: &[Guard], signals: &[Signal]) -> (Vec<Event>, Option<Stop>) {
     let mut watch = Watch::new(guards);
@@ -25,7 +29,7 @@ fn step_by_step(guards: &[Guard], signals: &[Signal]) -> (Vec<Event>, Option<Sto
         let part =
             |signal: &Signal| Signal::new(vec![signal.panels[at].clone()], None, signal.noise);
         let parts: Vec<Signal> = signals.iter().map(part).collect();
-        if watch.feed(guards, &parts).is_some() {
+        if watch.feed(guards, &parts, &noises(&parts)).is_some() {
             break;
         }
     }
@@ -145,8 +149,8 @@ fn nothing_is_told_after_a_stop() {
     let guards = [guard(0.0, Direction::Either, true)];
     let wave = signal(|t| t.sin() - 0.5, &[0.0, 2.0, 4.0, 6.0, 8.0]);
     let mut watch = Watch::new(&guards);
-    let first = watch.feed(&guards, std::slice::from_ref(&wave));
-    assert_eq!(watch.feed(&guards, &[wave]), first);
+    let first = watch.feed(&guards, std::slice::from_ref(&wave), &[wave.noise]);
+    assert_eq!(watch.feed(&guards, std::slice::from_ref(&wave), &[wave.noise]), first);
     assert_eq!(watch.into_events().len(), 1);
 }
 
@@ -175,4 +179,17 @@ fn a_bend_of_the_first_step_over_a_level_that_is_left_is_no_event() {
     let out = signal(|t| 1e-2 * t * (0.4 - t), &[0.0, 0.1, 1.0]);
     let (events, _) = look(&[known], std::slice::from_ref(&out));
     assert_eq!(times(&events), [0.0]);
+}
+
+#[test]
+fn crossings_are_at_one_instant_by_rounding_and_not_by_the_error_of_a_method() {
+    let guards = [guard(0.0, Direction::Either, true), guard(1e-9, Direction::Either, true)];
+    let line = signal(|t| t - 1.0, &[0.0, 3.0]);
+    let signals = [line.clone(), line].map(|own| Signal { noise: 1e-6, ..own });
+    let met = |rounding: f64| {
+        let mut watch = Watch::new(&guards);
+        watch.feed(&guards, &signals, &[rounding; 2]);
+        watch.into_events().len()
+    };
+    assert_eq!((met(1e-14), met(1e-6)), (1, 2));
 }

@@ -30,6 +30,27 @@ fn a_ramp_on_a_free_mass_is_a_cubic() {
 }
 
 #[test]
+fn a_pulse_is_followed_while_it_lasts_only() {
+    // 10⁻⁹ of the run: as many radians as nobody would follow if it lasted.
+    let (start, length) = (0.5, 1e-9);
+    let half_sine = Piece { start, sine: 1.0, omega: PI / length, ..Piece::default() };
+    let rest = |start| Piece { start, ..Piece::default() };
+    let pulse = waveform(&[rest(0.0), half_sine, rest(start + length)]);
+    let solved = oscillator(pulse).solve(20.0);
+    let signal = solved.signal(0);
+    assert!(signal.panels.len() < 100, "{} panels", signal.panels.len());
+    // The impulse 2 T/π, in the middle of the pulse.
+    let impulse = 2.0 / PI * length;
+    for t in [1.0, 3.3, 20.0] {
+        let expected = impulse * (t - start - 0.5 * length).sin();
+        let (found, bound) = (signal.value(t), signal.error.unwrap());
+        assert!((found - expected).abs() <= bound + 1e-15 * impulse, "{t}: {found} {bound:e}");
+        assert!(bound < 1e-12 * impulse, "{bound:e}");
+    }
+    assert_eq!(signal.value(0.4), 0.0);
+}
+
+#[test]
 fn resonance_grows_as_it_must() {
     let sine = waveform(&[Piece { sine: 1.0, omega: 1.0, ..Piece::default() }]);
     oscillator(sine).solve(200.0).judge(0, 1e-11, |t| 0.5 * (t.sin() - t * t.cos()));

@@ -1,11 +1,13 @@
 //! The two matrix worlds that the integrators run in, behind one private trait.
 
 use diffsol::{
-    DiffsolError, FaerSparseLU, FaerSparseMat, FaerVec, LinearSolver, Matrix, NalgebraLU,
-    NalgebraMat, NalgebraVec, Vector, VectorCommon,
+    DiffsolError, FaerSparseMat, FaerVec, LinearSolver, Matrix, NalgebraLU, NalgebraMat,
+    NalgebraVec, Vector, VectorCommon,
     matrix::{MatrixCommon, sparsity::MatrixSparsityRef},
 };
 use nalgebra_sparse::CsrMatrix;
+
+use super::factor::SparseFactor;
 
 /// Unknowns up to which dense matrices are faster than sparse ones.
 pub(super) const DENSE_UP_TO: usize = 30;
@@ -70,7 +72,7 @@ impl Algebra for NalgebraMat<f64> {
 }
 
 impl Algebra for FaerSparseMat<f64> {
-    type Factor = FaerSparseLU<f64>;
+    type Factor = SparseFactor;
 
     fn values(&self) -> &[f64] {
         self.inner().first().map_or(&[], |only| only.val())

@@ -24,6 +24,7 @@ pub(super) struct Drive {
 /// `M ẏ = J y + B w + n(y, w)` on one smooth span, in the span's own time `t − start`.
 pub(in crate::methods) struct Equations<'s, M: Algebra> {
     system: &'s System,
+    fastest: f64,
     rows: Rows<'s>,
     context: M::C,
     jacobian: M,
@@ -72,8 +73,12 @@ impl<'s, M: Algebra> Equations<'s, M> {
             let places = terms.places(&jacobian, |_| true);
             (terms, places)
         });
+        let is_rate = |row: usize| system.unknowns[row].kind == UnknownKind::Differential;
+        let rates = entries(&system.jacobian).filter(|entry| is_rate(entry.0));
+        let fastest = rates.map(|entry| entry.2.abs()).fold(0.0, f64::max);
         Ok(Self {
             system,
+            fastest,
             rows: Rows::of(&system.jacobian),
             context: M::C::default(),
             jacobian,
@@ -211,6 +216,12 @@ impl<'s, M: Algebra> Equations<'s, M> {
     pub(super) fn system(&self) -> &'s System {
         self.system
     }
+
+    /// The largest coefficient of an unknown in a rate: the shortest time in the equations is no shorter
+    /// than about its reciprocal.
+    pub(super) fn fastest(&self) -> f64 {
+        self.fastest
+    }
 }
 
 impl Drive {
@@ -292,13 +303,11 @@ impl<M: Algebra> NonLinearOpJacobian for Equations<'_, M> {
 
     fn jacobian_inplace(&self, y: &M::V, t: f64, out: &mut M) {
         self.jacobians.set(self.jacobians.get() + 1);
-        let Some((terms, places)) = &self.terms else {
-            out.copy_from(&self.jacobian);
-            return;
-        };
         refill(out, &self.jacobian);
-        let point = (self.start + t, y.slice());
-        terms.add_slopes(point, Slopes::Filled, places, out.values_mut());
+        if let Some((terms, places)) = &self.terms {
+            let point = (self.start + t, y.slice());
+            terms.add_slopes(point, Slopes::Filled, places, out.values_mut());
+        }
     }
 
     fn jacobian_sparsity(&self) -> Option<M::Sparsity> {
@@ -343,7 +352,7 @@ impl<M: Algebra> LinearOp for Mass<M> {
     }
 
     fn matrix_inplace(&self, _t: f64, out: &mut M) {
-        out.copy_from(&self.matrix);
+        refill(out, &self.matrix);
     }
 
     fn sparsity(&self) -> Option<M::Sparsity> {

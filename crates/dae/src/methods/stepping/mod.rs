@@ -18,9 +18,12 @@
 
 mod algebra;
 mod balance;
+mod banded;
 mod equations;
+mod factor;
 mod failure;
 mod newton;
+mod ordering;
 mod recursion;
 mod spans;
 mod start;
@@ -51,6 +54,8 @@ pub(super) trait Scheme: Debug + Default + Send + Sync + 'static {
     const HIGHEST: u8;
     /// Its order at the start, from which the first step is estimated.
     const ORDER: usize;
+    /// See [`Method::fall`].
+    const FALL: f64 = super::FALL;
 
     /// Why it is a fit for `system`, or why it cannot solve it.
     fn suits(_system: &System) -> Result<&'static str, String> {
@@ -77,6 +82,10 @@ impl<S: Scheme> Method for S {
 
     fn summary(&self) -> &'static str {
         S::SUMMARY
+    }
+
+    fn fall(&self) -> f64 {
+        S::FALL
     }
 
     fn applies(&self, system: &System, _run: &Run) -> Result<String, SolveError> {

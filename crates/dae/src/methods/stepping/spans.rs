@@ -55,7 +55,7 @@ fn integrate_in<S: Scheme>(
         observer,
         watch: Watch::new(&run.guards),
         largest: vec![0.0; run.guards.len()],
-        pieces: Pieces::new(system.len()),
+        pieces: Pieces::new(system, run),
         statistics: Statistics::default(),
         span: (0.0, 0.0),
         state: system.initial.clone(),
@@ -85,7 +85,7 @@ fn integrate_in<S: Scheme>(
         }
         Err(Stop::Failed(error)) => return Err(error),
     };
-    walk.pieces.finish(system.time_scale, t_end);
+    walk.pieces.finish(system, t_end);
     walk.statistics.wall = begin.elapsed();
     Ok(Trajectory {
         method: S::KIND,
@@ -154,7 +154,7 @@ impl Walk<'_> {
         let borders = self.borders(1);
         for span in borders.windows(2) {
             self.span = (span[0], span[1]);
-            self.pieces.begin(span[0], &self.state);
+            self.pieces.begin(self.system, span[0], &self.state);
             self.pieces.rest(span[1] - span[0]);
             self.report(span[1] * self.system.time_scale)?;
         }
@@ -186,7 +186,7 @@ impl Walk<'_> {
             if balance.is_some() && self.state.iter().any(|value| !value.is_finite()) {
                 return Err(site.singular(&self.state).into());
             }
-            self.pieces.begin(span[0], &self.state);
+            self.pieces.begin(self.system, span[0], &self.state);
             outcome = S::span(&problem, state, self);
             if outcome.is_err() {
                 break;

@@ -23,6 +23,18 @@ const PATIENCE: usize = 10_000;
 /// far below the resolution of absolute time are meaningful; later, a step that the time in the span
 /// cannot resolve ends the run.
 const SMALLEST_STEP: f64 = 1e-30;
+/// The same in parts of the shortest time in the equations, where that is shorter still.
+const SMALLEST_SHARE: f64 = 1e-8;
+/// Shortest step of all, well within the range of full precision.
+const SHORTEST: f64 = 1e-300;
+
+/// Largest first step in parts of the time in which a driving function goes and comes back: a longer one
+/// may see nothing of a pulse that is zero where it begins and ends.
+const OF_SWING: f64 = 1.0 / 32.0;
+
+/// The first step that is guessed where nothing moves yet, and the tolerance for which it is taken as it
+/// is.
+const GUESS: (f64, f64) = (1e-4, 1e-12);
 
 /// Tightest tolerance that the Newton iterations can meet.
 const TIGHTEST: f64 = 1e-14;
@@ -76,7 +88,8 @@ pub(super) fn enter<M: Algebra>(
     order: usize,
     state: &mut [f64],
 ) -> Result<StateCommon<M::V>, Imbalance> {
-    problem.ode_options.min_timestep = SMALLEST_STEP * length;
+    let smallest = smallest_step(problem.eqn.fastest(), length);
+    problem.ode_options.min_timestep = smallest;
     problem.eqn.enter(start, state);
     let mut slopes = vec![0.0; state.len()];
     if let Some(balance) = &mut balance {
@@ -112,7 +125,48 @@ pub(super) fn enter<M: Algebra>(
         balance.slopes(1, &problem.eqn, state, &mut slopes)?;
         common.dy.slice_mut().copy_from_slice(&slopes);
     }
+    let (guess, tolerance) = GUESS;
+    if common.h >= 0.99 * guess && is_at_rest(state, &problem.atol) {
+        common.h = guess * (problem.rtol / tolerance).powf(0.25);
+    }
+    let swing = problem.eqn.system().shortest_swing((start, start + length));
+    let longest = swing.map_or(length, |own| length.min(OF_SWING * own));
     // Extreme slopes make the estimate zero, or no number.
-    common.h = common.h.min(length).max(SMALLEST_STEP * length);
+    common.h = common.h.min(longest).max(smallest);
     Ok(common)
+}
+
+/// The smallest step in a span of this length where the largest coefficient of the equations is
+/// `fastest`: what is stiffer than any span is long begins with steps of its own.
+fn smallest_step(fastest: f64, length: f64) -> f64 {
+    let usual = SMALLEST_STEP * length;
+    let own = SMALLEST_SHARE / fastest;
+    if own < usual { own.max(SHORTEST).min(usual) } else { usual }
+}
+
+/// Whether no unknown is far enough from zero for the first step to be estimated from it. It would be one
+/// and the same guess for all tolerances then; and where nothing ever grows beyond the tolerance, so would
+/// be all steps, and the differences of solutions, which error bars are taken from, would be none.
+fn is_at_rest<V: Slice>(state: &[f64], atol: &V) -> bool {
+    state.iter().zip(atol.slice()).all(|(value, atol)| value.abs() < 1e-5 * atol)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Method, Run, Silent, Waveform, methods::Bdf, problems};
+
+    #[test]
+    fn steps_of_what_never_grows_beyond_the_tolerance_follow_the_tolerance_all_the_same() {
+        // A force of 10⁻¹² of what the scales are made for.
+        let mut system = problems::driven_by_sine().system;
+        system.waveforms = vec![Waveform::constant(1e-12)];
+        let end = 3.0 * system.time_scale;
+        let place = |rtol: f64| {
+            let run = Run::to(end).with_rtol(rtol);
+            let trajectory = Bdf.integrate(&system, &run, &mut Silent).unwrap();
+            trajectory.dense.sample(&system, &[3.0])[0]
+        };
+        let places = [1e-4, 1e-5, 1e-6].map(place);
+        assert!(places.windows(2).all(|pair| (pair[0] / pair[1] - 1.0).abs() > 1e-6), "{places:?}");
+    }
 }

@@ -7,7 +7,7 @@ use crate::{
     Observer, Progress, Run, SolveError, Statistics, System, UnknownKind,
     chebyshev::Interpolation,
     events::Watch,
-    pieces::{self, Pieces, between},
+    pieces::{self, MOST_BYTES, Pieces, between},
 };
 
 /// Steps after which a run is given up.
@@ -103,12 +103,12 @@ impl Walk<'_> {
                     for &node in nodes.nodes().get(1..degree).unwrap_or_default() {
                         let time = between(before, state.t, node);
                         solver.interpolate_inplace(time, &mut inner)?;
-                        self.pieces.add_row(time, inner.slice());
+                        self.pieces.add_row(self.system, time, inner.slice());
                     }
                     degree
                 }
             };
-            self.pieces.add_row(t, state.y.slice());
+            self.pieces.add_row(self.system, t, state.y.slice());
             self.pieces.end_step(degree);
             before = state.t;
             self.report(site.time)?;
@@ -128,10 +128,15 @@ impl Walk<'_> {
         if steps >= MOST_STEPS {
             return Err(SolveError::TooManySteps { method: self.method, time, steps }.into());
         }
+        let bytes = self.pieces.size_of_rows();
+        if bytes > MOST_BYTES {
+            return Err(SolveError::TooLarge { method: self.method, time, steps, bytes }.into());
+        }
         if self.watch.is_idle() {
             return Ok(());
         }
         let mut signals = Vec::with_capacity(self.run.guards.len());
+        let mut roundings = Vec::with_capacity(self.run.guards.len());
         for (guard, largest) in self.run.guards.iter().zip(&mut self.largest) {
             let output = &self.system.outputs[guard.output];
             let mut signal = self.pieces.signal_from(self.system, output, steps - 1);
@@ -142,10 +147,11 @@ impl Walk<'_> {
             let algebraic = output.unknowns.terms().iter().filter(|term| is_algebraic(term.0));
             let least = output.scale.abs() * algebraic.map(|term| term.1.abs()).sum::<f64>();
             *largest = largest.max(signal.noise / (pieces::ROUNDING * f64::EPSILON)).max(least);
+            roundings.push(signal.noise);
             signal.noise = signal.noise.max(self.run.rtol * *largest);
             signals.push(signal);
         }
-        if self.watch.feed(&self.run.guards, &signals).is_some() {
+        if self.watch.feed(&self.run.guards, &signals, &roundings).is_some() {
             Err(Stop::Guard)
         } else {
             Ok(())

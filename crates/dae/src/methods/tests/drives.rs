@@ -43,6 +43,29 @@ fn oscillator(drive: &Waveform) -> System {
     }
 }
 
+#[test]
+fn a_pulse_that_is_zero_at_both_ends_is_not_overlooked() {
+    let (start, length) = (0.5, 1e-9);
+    let rest = |start| Piece { start, ..Piece::default() };
+    let omega = std::f64::consts::PI / length;
+    let half_sine = Piece { start, sine: 0.5 * omega, omega, ..Piece::default() };
+    // s (T − s), as a parabola, with the area 1.
+    let steep = 6.0 / length.powi(2);
+    let parabola =
+        Piece { start, slope: steep, curvature: -2.0 * steep / length, ..Piece::default() };
+    for pulse in [half_sine, parabola] {
+        let pulse = Waveform::new(vec![rest(0.0), pulse, rest(start + length)]).unwrap();
+        let system = oscillator(&pulse);
+        for name in STEPPERS {
+            let run = Run::to(2.0).with_rtol(1e-6);
+            let solved = by_name(name).unwrap().integrate(&system, &run, &mut Silent).unwrap();
+            let found = solved.signal(&system, 0).value(2.0);
+            let expected = 1.5_f64.sin();
+            assert!((found - expected).abs() < global(name, 1e-6), "{name}: {found} {expected}");
+        }
+    }
+}
+
 /// Duhamel's integral `∫₀ᵗ sin(t − τ) u(τ) dτ` at the ends of `count` equal parts of `[0, end]`,
 /// each part by Gauss' rule of five points on ten panels.
 fn duhamel(drive: &Waveform, end: f64, count: u32) -> Vec<f64> {

@@ -49,6 +49,23 @@ fn numbers_that_are_not_finite_are_errors_with_the_name_of_the_unknown() {
 }
 
 #[test]
+fn what_ends_within_no_time_at_all_is_followed_to_its_end() {
+    // x' = v, v' = −C v: it stops at 1/C.
+    for damping in [1e30, 1e60, 1e100] {
+        let kinds = [UnknownKind::Differential; 2];
+        let own = system(&kinds, &[(0, 1, 1.0), (1, 1, -damping)], &[0.0, 1.0]);
+        for name in ["bdf", "tr-bdf2", "esdirk34"] {
+            let run = Run::to(1.0);
+            let solved = by_name(name).unwrap().integrate(&own, &run, &mut Silent).unwrap();
+            let end = solved.dense.sample(&own, &[1.0]);
+            let (place, speed) = (end[0] * damping, end[1].abs());
+            // A rough bound: a thousand tolerances.
+            assert!((place - 1.0).abs() < 1e-3 && speed < 1e-3, "{name} {damping:e}: {end:?}");
+        }
+    }
+}
+
+#[test]
 fn settings_out_of_range_are_refused() {
     let decay = system(ONE, &[(0, 0, -1.0)], &[1.0]);
     for method in steppers() {

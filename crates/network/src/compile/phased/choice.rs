@@ -5,7 +5,7 @@ use dashpot_dae::{SolveError, Switch};
 use super::{
     super::carry::State,
     PhasedNetwork,
-    impacts::Meeting,
+    impacts::{Meeting, Rebound},
     judge::{Choice, Fault, Judge, Look, Verdict},
     search::Search,
 };
@@ -16,24 +16,29 @@ use crate::phases::{Exit, Phase, Watched};
 struct Way {
     /// By how much more than its scale rounding is thought to have grown.
     coarser: f64,
-    /// Whether what meets may part again at once.
-    rebound: bool,
+    /// What may part again at once after an impact.
+    rebound: Rebound,
     /// Whether a way inwards counts that turns back before it can be told from the level.
     graze: bool,
 }
 
 /// The ways of judging, one after the other.
 ///
-/// What would part by less than can be seen rests; only if nothing else holds may it part. Rounding
+/// What rebounds by less than a method's doubt parts where it is known when it comes back; whatever
+/// else would part by less than can be seen rests; only if nothing else holds may it part. Rounding
 /// may have grown beyond its scale: then the next coarser judgement may tell.
 fn ways() -> impl Iterator<Item = Way> {
-    [1.0, 64.0, 4096.0].into_iter().flat_map(|coarser| {
-        [(true, false), (false, false), (true, true), (false, true)].map(|(rebound, graze)| Way {
-            coarser,
-            rebound,
-            graze,
-        })
-    })
+    let all = Way { coarser: 1.0, rebound: Rebound::All, graze: false };
+    let told = [1.0, 64.0, 4096.0].into_iter().flat_map(|coarser| {
+        let order = [
+            (Rebound::Fast, false),
+            (Rebound::None, false),
+            (Rebound::Fast, true),
+            (Rebound::None, true),
+        ];
+        order.map(|(rebound, graze)| Way { coarser, rebound, graze })
+    });
+    std::iter::once(all).chain(told)
 }
 
 /// What an instant is like before anything changes.
@@ -74,19 +79,25 @@ impl PhasedNetwork {
         fired: &[(usize, usize)],
         doubt: f64,
     ) -> Result<(Choice, Vec<Switch>), SolveError> {
-        let touching = self.touching(state, phases, fired, doubt);
+        let kept = self.kept(state, time, phases, fired, doubt);
+        let left: Vec<(usize, usize)> =
+            fired.iter().copied().filter(|own| !kept.contains(own)).collect();
+        let touching = self.touching(state, phases, &left);
         let options: Vec<Vec<Phase>> = (0..self.parts.len())
-            .map(|part| self.options(part, state, phases[part], fired, touching[part]))
+            .map(|part| self.options(part, state, phases[part], &left, touching[part]))
             .collect();
-        let reached: Vec<(usize, Exit)> = fired
-            .iter()
-            .filter_map(|&(part, exit)| {
+        let exits_of = |own: &[(usize, usize)]| -> Vec<(usize, Exit)> {
+            let exit = |&(part, exit): &(usize, usize)| {
                 let own = self.phases_of(self.parts[part])?;
                 Some((part, *own.exits(phases[part]).get(exit)?))
-            })
-            .collect();
-        let on_level: Vec<(usize, Watched, f64)> =
-            reached.iter().map(|(part, exit)| (*part, exit.watched, exit.level)).collect();
+            };
+            own.iter().filter_map(exit).collect()
+        };
+        let levels_of = |own: &[(usize, Exit)]| -> Vec<(usize, Watched, f64)> {
+            own.iter().map(|(part, exit)| (*part, exit.watched, exit.level)).collect()
+        };
+        let reached = exits_of(fired);
+        let (on_level, kept) = (levels_of(&reached), levels_of(&exits_of(&kept)));
         let at_level: Vec<(usize, f64)> = reached
             .iter()
             .filter(|(_, exit)| exit.watched == Watched::Deformation)
@@ -97,6 +108,7 @@ impl PhasedNetwork {
             graze: false,
             may_change: options.len() > 1,
             is_smooth: true,
+            pace: None,
         };
         let mut looks: Vec<Look> = options.iter().map(look).collect();
         let before = state.clone();
@@ -118,6 +130,7 @@ impl PhasedNetwork {
                 before: phases,
                 on_level: &on_level,
                 at_level: &instant.at_level,
+                kept: &kept,
                 looks: &looks,
                 size,
             };
@@ -183,12 +196,15 @@ impl PhasedNetwork {
             touching: &instant.touching,
             at_level: &instant.at_level,
             doubt,
-            rebounds: rebound,
+            rebound,
         };
         search.impacts = self.impacts(state, &meeting);
         let is_smooth = search.impacts.is_empty();
         for &part in &search.group.parts {
-            looks[part] = Look { doubt, graze, is_smooth, ..looks[part] };
+            looks[part] = Look { doubt, graze, is_smooth, pace: None, ..looks[part] };
+        }
+        for impact in &search.impacts {
+            looks[impact.part].pace = impact.pace;
         }
     }
 

@@ -19,6 +19,30 @@ pub(super) struct Impact {
     pub(super) lost: f64,
     /// Work done by moving supports \[J\], likewise.
     pub(super) worked: f64,
+    /// How its sides part again, if by their own restitution.
+    pub(super) pace: Option<Pace>,
+}
+
+/// How fast sides part after an impact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pace {
+    /// By less than the doubt: only where it is known when they come back, they part at all.
+    Slow,
+    /// By more, but when they come back may be known all the same.
+    Fast,
+    /// By more, and it is left to the method when they come back.
+    Told,
+}
+
+/// What parts again after an impact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Rebound {
+    /// All but what comes back too often.
+    All,
+    /// What is faster than the doubt.
+    Fast,
+    /// Nothing.
+    None,
 }
 
 /// Where masses may meet.
@@ -34,8 +58,8 @@ pub(super) struct Meeting<'a> {
     pub(super) at_level: &'a [(usize, f64)],
     /// Speeds of approach below this part of the speeds are none.
     pub(super) doubt: f64,
-    /// Whether what is fast enough rebounds; else nothing parts.
-    pub(super) rebounds: bool,
+    /// What parts again.
+    pub(super) rebound: Rebound,
 }
 
 /// A contact that may take part in impacts.
@@ -46,6 +70,7 @@ struct Candidate {
     /// The contacts between massless sides and what they lie on, which pass the impulse on.
     through: Vec<usize>,
     restitution: f64,
+    pace: Option<Pace>,
     /// Speed of approach before \[m/s\].
     approach: f64,
     /// Whether it is brought to rest although it moves apart.
@@ -57,9 +82,14 @@ const SWEEPS: usize = 20_000;
 /// Speeds of rebound below this part of the network's own speeds are none: what bounces so slowly
 /// rests. It ends what would bounce infinitely often in a finite time.
 const RESTING: f64 = 1e-9;
+/// The same of what is followed without a method, in parts of the doubt, so that what is left out is no
+/// more than a method's tolerance.
+const FOLLOWED: f64 = 0.01;
+/// Speeds of rebound that can be told from none, in parts of the doubt.
+const TOLD: f64 = 4.0;
 
-/// How near to its level, in parts of the doubt, a deformation is at it.
-const TOUCHING: f64 = 0.02;
+/// How near to its level a deformation is at it, in parts of the lengths: roundings.
+const TOUCHING: f64 = 20.0 * f64::EPSILON;
 
 impl PhasedNetwork {
     /// Applies to `state` the impacts of all contacts of a group at whose level it is: impulses
@@ -151,11 +181,13 @@ impl PhasedNetwork {
         let mut met: Vec<Impact> = Vec::new();
         for (own, &impulse) in pushes.filter(|own| *own.1 > 0.0) {
             let (lost, worked) = ((lost + work) * impulse / total, work * impulse / total);
-            met.push(Impact { part: own.part, impulse, lost, worked });
+            met.push(Impact { part: own.part, impulse, lost, worked, pace: own.pace });
             for &part in &own.through {
                 match met.iter_mut().find(|impact| impact.part == part) {
                     Some(passed) => passed.impulse += impulse,
-                    None => met.push(Impact { part, impulse, lost: 0.0, worked: 0.0 }),
+                    None => {
+                        met.push(Impact { part, impulse, lost: 0.0, worked: 0.0, pace: None });
+                    }
                 }
             }
         }
@@ -164,11 +196,7 @@ impl PhasedNetwork {
 
     fn candidates(&self, state: &State, meeting: &Meeting<'_>) -> Vec<Candidate> {
         let Meeting { group, phases, touching, .. } = *meeting;
-        let slowest = if meeting.rebounds {
-            self.group_speed(state, group) * RESTING.max(4.0 * meeting.doubt)
-        } else {
-            f64::INFINITY
-        };
+        let speed = self.group_speed(state, group);
         let mut found = Vec::new();
         for &part in &group.parts {
             let at = self.parts[part];
@@ -203,14 +231,24 @@ impl PhasedNetwork {
             }
             let approach = self.velocity(state, ends[0]) - self.velocity(state, ends[1]);
             let restitution = own.restitution();
-            let rebounds = restitution * approach > slowest;
-            let restitution = if rebounds { restitution } else { 0.0 };
+            let is_above = |least: f64, speed: f64| restitution * approach > least * speed;
+            let whole = speed.max(self.speed);
+            // What loses nothing in impacts does not come to rest by them.
+            let told = if restitution < 1.0 { TOLD * meeting.doubt } else { 0.0 };
+            let told = RESTING.max(told);
+            let pace = match meeting.rebound {
+                Rebound::All if is_above(told, speed) => Some(Pace::Fast),
+                Rebound::Fast if is_above(told, speed) => Some(Pace::Told),
+                Rebound::All if is_above(FOLLOWED * meeting.doubt, whole) => Some(Pace::Slow),
+                _ => None,
+            };
+            let restitution = if pace.is_some() { restitution } else { 0.0 };
             // What has reached its level by a motion away from it is there by the method's error.
-            let settles = !meeting.rebounds
+            let settles = meeting.rebound == Rebound::None
                 && approach < 0.0
                 && -approach <= meeting.doubt.sqrt() * self.speed
                 && meeting.at_level.iter().any(|own| own.0 == part);
-            found.push(Candidate { part, ends, through, restitution, approach, settles });
+            found.push(Candidate { part, ends, through, restitution, pace, approach, settles });
         }
         found
     }
@@ -248,17 +286,16 @@ impl PhasedNetwork {
 
     /// For each part whether it is at a level of its deformation at which a phase ends.
     ///
-    /// What has not been reached and is nearer than its error is taken to be there. It is not looked
-    /// for as far as the doubt: of two levels that follow each other closely, each has its own instant.
+    /// What has not been reached and is nearer than rounding tells is taken to be there. It is not
+    /// looked for as far as the doubt: of two levels that follow each other closely, each has its own
+    /// instant, and two impacts one after the other are not two at once.
     pub(super) fn touching(
         &self,
         state: &State,
         phases: &[Phase],
         fired: &[(usize, usize)],
-        doubt: f64,
     ) -> Vec<bool> {
         let size = self.own_length(state);
-        let near = TOUCHING * doubt;
         let at_level = |part: usize| {
             let at = self.parts[part];
             let Some(own) = self.phases_of(at) else { return false };
@@ -266,7 +303,7 @@ impl PhasedNetwork {
             own.exits(phases[part]).iter().enumerate().any(|(number, exit)| {
                 exit.watched == Watched::Deformation
                     && (fired.contains(&(part, number))
-                        || (deformation - exit.level).abs() <= near * (size + exit.level.abs())
+                        || (deformation - exit.level).abs() <= TOUCHING * (size + exit.level.abs())
                         || if exit.rising {
                             deformation > exit.level
                         } else {

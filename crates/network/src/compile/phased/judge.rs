@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use dashpot_dae::{Derivatives, Output, System, derivatives};
+use dashpot_dae::{Derivatives, Flight, Output, System, derivatives};
 
 use super::{
     super::{bodies::Groups, carry::State},
-    Mode, PhasedNetwork, moving,
+    Mode, PhasedNetwork,
+    impacts::Pace,
+    moving,
 };
 use crate::phases::{Exit, Phase, PhaseLaw, Watched};
 
@@ -20,6 +22,8 @@ pub(super) struct Choice {
     /// The levels of the mode's guards: where rounding or the method's error has left a quantity on
     /// the outer side of its level, that place is its level in this leg.
     pub(super) levels: Vec<f64>,
+    /// The exit that is reached next, if what has just parted comes back before it can be seen.
+    pub(super) flight: Option<Flight>,
 }
 
 /// A part that does not stay in the phase that is tried.
@@ -33,7 +37,7 @@ pub(super) struct Fault {
 
 /// Whether a part stays in its phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stay {
+pub(super) enum Stay {
     Yes,
     /// As far as can be told.
     Doubtful,
@@ -62,6 +66,8 @@ pub(super) struct Judge<'a> {
     pub(super) on_level: &'a [(usize, Watched, f64)],
     /// Parts whose deformation has reached a level \[m\] by that event.
     pub(super) at_level: &'a [(usize, f64)],
+    /// What is at its level by that event, but turns back before it is seen to leave it.
+    pub(super) kept: &'a [(usize, Watched, f64)],
     /// How closely each part is looked at.
     pub(super) looks: &'a [Look],
     /// A length \[m\] and a speed \[m/s\] of the network's own.
@@ -81,6 +87,8 @@ pub(super) struct Look {
     /// leg, and leaves it inwards again by the speed with which it came, is there by the method's
     /// error: that speed is none.
     pub(super) is_smooth: bool,
+    /// How an impact in the part has let its sides part, if one has.
+    pub(super) pace: Option<Pace>,
 }
 
 /// Derivatives that are looked at to see which way a quantity leaves its level.
@@ -109,10 +117,17 @@ impl PhasedNetwork {
         };
         let (mut faults, mut doubtful): (Vec<Fault>, Vec<Fault>) = (Vec::new(), Vec::new());
         let guards = || mode.of_guard.iter().map(|own| own.0).zip(mode.of_guard_exits());
-        for (part, (output, exit)) in guards() {
+        let levels = judge.levels(&mode, &motion, phases);
+        let flights = judge.flights(&mode, &system, &motion, &levels);
+        for (at, (part, (output, exit))) in guards().enumerate() {
             let again = judge.is_again(part, phases[part], exit);
             let fault = Fault { part, towards: Some(exit.to) };
-            match judge.stays(part, &motion, &mode.system.outputs[output], exit, again) {
+            let output = &mode.system.outputs[output];
+            let stays = match judge.returns(part, exit, output, flights[at], system.time_scale) {
+                Some(stay) => stay,
+                None => judge.stays(part, &motion, output, exit, again),
+            };
+            match stays {
                 Stay::Yes => {}
                 Stay::Doubtful => doubtful.push(fault),
                 Stay::No => faults.push(fault),
@@ -122,18 +137,15 @@ impl PhasedNetwork {
             faults.dedup_by_key(|fault| fault.part);
             return Verdict::Fails(faults);
         }
-        let levels = guards().map(|(part, (output, exit))| {
+        let is_flying = guards().zip(&flights).any(|((part, (output, _)), own)| {
             let output = &mode.system.outputs[output];
-            let (value, size) = motion.output(output, 0);
-            let outward = if exit.rising { 1.0 } else { -1.0 };
-            let beyond = (outward * (value - exit.level)).max(0.0);
-            let error = judge.looks[part].doubt * (size + exit.level.abs());
-            let again = judge.is_again(part, phases[part], exit);
-            exit.level + outward * if again { 2.0 * beyond + error } else { beyond }
+            own.is_some_and(|(_, height)| judge.is_followed(part, height, output))
         });
-        let levels = levels.collect();
+        let next = flights.into_iter().flatten().map(|own| own.0);
+        let flight = next.min_by(|a, b| a.length.total_cmp(&b.length)).filter(|_| is_flying);
         let phases = phases.to_vec();
-        Verdict::Holds(Box::new(Choice { mode, system, phases, unknowns, levels }), doubtful)
+        let choice = Choice { mode, system, phases, unknowns, levels, flight };
+        Verdict::Holds(Box::new(choice), doubtful)
     }
 
     /// The parts that would have to hold what is elsewhere, or what moves apart.
@@ -152,7 +164,10 @@ impl PhasedNetwork {
             let deformation = judge.state.deformation[at];
             let near =
                 judge.looks[part].doubt.max(SAME) * (length + level.abs()).max(deformation.abs());
-            if (deformation - level).abs() > near && !judge.at_level.contains(&(part, level)) {
+            let is_elsewhere =
+                (deformation - level).abs() > near && !judge.at_level.contains(&(part, level));
+            // What an impact has parted is not held, however slowly it goes.
+            if is_elsewhere || judge.looks[part].pace.is_some() {
                 faults.push(Fault { part, towards: None });
             }
             let [a, b] = self.sides(at);
@@ -195,9 +210,14 @@ impl PhasedNetwork {
     }
 }
 
+/// How far from its level what has terms of this size must come to be seen off it.
+pub(super) fn seen(doubt: f64, size: f64) -> f64 {
+    SEEN * doubt * size
+}
+
 impl Mode {
     /// The system with time counted from `time` \[s\].
-    fn system_from(&self, time: f64) -> Arc<System> {
+    pub(super) fn system_from(&self, time: f64) -> Arc<System> {
         let moves = |own: &dashpot_dae::Waveform| {
             own.pieces().len() > 1 || !own.pieces().iter().all(|piece| piece.is_constant(0))
         };
@@ -220,6 +240,33 @@ impl Mode {
 }
 
 impl Judge<'_> {
+    /// The levels of the guards of a mode.
+    fn levels(&self, mode: &Mode, motion: &Derivatives, phases: &[Phase]) -> Vec<f64> {
+        let guards = mode.of_guard.iter().zip(mode.of_guard_exits());
+        let level = |(&(part, _), (output, exit)): (&(usize, usize), (usize, &Exit))| {
+            let output = &mode.system.outputs[output];
+            let (value, size) = motion.output(output, 0);
+            let outward = if exit.rising { 1.0 } else { -1.0 };
+            let beyond = (outward * (value - exit.level)).max(0.0);
+            let doubt = self.looks[part].doubt;
+            let further = if self.is_again(part, phases[part], exit) {
+                beyond + doubt * (size + exit.level.abs())
+            } else if self.is_kept(part, phases[part], exit) {
+                seen(doubt, size.max(output.scale.abs()) + exit.level.abs())
+            } else {
+                0.0
+            };
+            exit.level + outward * (beyond + further)
+        };
+        guards.map(level).collect()
+    }
+
+    /// Whether an exit was reached by a force or a rate at which a part stays in its phase all the same.
+    fn is_kept(&self, part: usize, phase: Phase, exit: &Exit) -> bool {
+        phase.index == self.before[part].index
+            && self.kept.contains(&(part, exit.watched, exit.level))
+    }
+
     /// Whether an exit was reached at which a part stays in its phase all the same.
     fn is_again(&self, part: usize, phase: Phase, exit: &Exit) -> bool {
         self.looks[part].is_smooth
@@ -273,9 +320,8 @@ impl Judge<'_> {
         };
         let first = derivative(order);
         if first < 0.0 || graze || order > 1 || derivative(2) >= 0.0 {
-            return told(first > 0.0);
+            return told(first > 0.0 || self.kept.contains(&(part, exit.watched, exit.level)));
         }
-        let seen = SEEN * doubt * (size + exit.level.abs());
-        told(first * first > 2.0 * seen * -derivative(2))
+        told(first * first > 2.0 * seen(doubt, size + exit.level.abs()) * -derivative(2))
     }
 }

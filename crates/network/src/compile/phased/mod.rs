@@ -8,6 +8,8 @@ mod choice;
 mod groups;
 mod impacts;
 mod judge;
+mod kept;
+mod returns;
 mod search;
 mod start;
 
@@ -260,7 +262,7 @@ impl PhasedNetwork {
 
     /// The leg that begins with these phases.
     fn leg(choice: Choice, switches: Vec<Switch>) -> Leg {
-        let Choice { mode, system, phases, unknowns, levels } = choice;
+        let Choice { mode, system, phases, unknowns, levels, flight } = choice;
         let mut system = System::clone(&system);
         system.initial = unknowns;
         Leg {
@@ -273,6 +275,7 @@ impl PhasedNetwork {
                 .map(|(guard, level)| Guard { level, ..guard.clone() })
                 .collect(),
             switches,
+            flight,
         }
     }
 

@@ -275,7 +275,7 @@ fn balanced(
 }
 
 /// The height \[m\] from which a body begins to fall freely: it is dropped, gravity pulls it towards
-/// the support, and only contacts touch it, each of them between it and something that does not begin
+/// the support, and only what never pulls touches it, each of them between it and something that does not begin
 /// with a speed. All others begin at touch, with the speed of the fall.
 fn flight(network: &Network, expansion: &Expansion, joints: &[usize]) -> Option<f64> {
     let gravity = network.effects.iter().find_map(|effect| effect.gravity())?;
@@ -290,7 +290,8 @@ fn flight(network: &Network, expansion: &Expansion, joints: &[usize]) -> Option<
         .filter(|own| !own.is_link && own.ends.iter().any(|joint| joints.contains(joint)));
     let mut contacts = touching.map(|own| {
         let rests = network.nodes.get(own.ends[1]).is_none_or(|below| !below.is_impactor());
-        joints.contains(&own.ends[0]) && rests && own.origin.phases().is_some_and(is_contact)
+        let parts = own.origin.never_pulls() || own.origin.phases().is_some_and(is_contact);
+        joints.contains(&own.ends[0]) && rests && parts
     });
     (gravity > 0.0 && contacts.all(|is_below| is_below)).then_some(height)
 }

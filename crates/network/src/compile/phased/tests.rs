@@ -43,9 +43,13 @@ struct Solved {
 }
 
 fn solve_by(method: &str, network: &Network, duration: f64) -> Solved {
+    solve_with(method, 1e-9, network, duration)
+}
+
+fn solve_with(method: &str, rtol: f64, network: &Network, duration: f64) -> Solved {
     let assembly = network.compile(duration).unwrap();
     let method = methods::by_name(method).unwrap();
-    let run = Run::to(duration).with_rtol(1e-9);
+    let run = Run::to(duration).with_rtol(rtol);
     let switching = assembly.switching.clone().expect("something that switches");
     let trajectory =
         switching::integrate(method.as_ref(), switching.as_ref(), &run, &mut Silent).unwrap();
@@ -274,6 +278,25 @@ fn the_same_run_twice_is_the_same_to_the_last_bit() {
         for output in ["head.position", "head.velocity", "pad.force"] {
             let [one, two] = [&one, &two].map(|own| own.at(output, 1.7).to_bits());
             assert_eq!(one, two, "{output} by {method}");
+        }
+    }
+}
+
+/// However loose the tolerance is, a part that leaves its stop is told from one that reaches it.
+#[test]
+fn a_hard_stop_switches_as_often_with_any_tolerance_as_with_the_exact_method() {
+    let mut network = Network::new();
+    let mass = network.add_node(Node::mass("mass", 10.0).moving(10.0));
+    network.connect("spring", mass, network.ground(), kelvin_voigt(1e6, 300.0));
+    let stop = Tree::series([contact(5e-3, 0.0), spring(2e7)]);
+    network.connect("stop", mass, network.ground(), stop);
+    let expected = solve(&network, 0.05);
+    assert_eq!(expected.switches().len(), 8);
+    for method in ["bdf", "tr-bdf2", "esdirk34"] {
+        for rung in 4..=16 {
+            let rtol = 10_f64.powf(-f64::from(rung) / 4.0);
+            let solved = solve_with(method, rtol, &network, 0.05);
+            assert_eq!(solved.what(), expected.what(), "{method} at {rtol:e}");
         }
     }
 }

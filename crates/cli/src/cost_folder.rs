@@ -1,0 +1,180 @@
+//! What `cost` draws, and what it writes into a folder.
+
+use std::{fs, path::Path};
+
+use dashpot_analysis::cost::{CostPoint, CostReport, Deviation};
+use dashpot_plot::{PrecisionCurve, PrecisionSeries, Report, ReportFigure, Table};
+use dashpot_scene::Scene;
+
+use crate::{
+    answer::{
+        cost::{answer, cheapest, errors, failures, measures, slips, truth, work},
+        title,
+    },
+    error::CliError,
+    folder::{RESULT, unwritable},
+    sketch::sketch,
+};
+
+/// One row for each solution.
+const TABLE: &str = "cost.csv";
+/// Everything on one page.
+const PAGE: &str = "report.html";
+/// Error over time, of the measures and of the state, and over work.
+const FIGURES: [&str; 3] = ["error-time.svg", "state-error-time.svg", "error-work.svg"];
+
+/// The files that are written besides the result.
+pub(crate) fn file_names() -> Vec<String> {
+    FIGURES.iter().chain([&TABLE, &PAGE]).map(|own| (*own).to_owned()).collect()
+}
+
+/// The errors as the plain numbers that figures are drawn from.
+fn series(report: &CostReport, title: &str, error: impl Fn(&CostPoint) -> f64) -> PrecisionSeries {
+    let mut curves: Vec<PrecisionCurve> = Vec::new();
+    for point in &report.points {
+        if curves.last().is_none_or(|own| own.name != point.method) {
+            let name = point.method.to_owned();
+            curves.push(PrecisionCurve { name, ..PrecisionCurve::default() });
+        }
+        if let Some(curve) = curves.last_mut() {
+            curve.time.push(point.time.median);
+            curve.work.push(point.work.rhs_calls as f64);
+            curve.error.push(error(point));
+        }
+    }
+    let note = "no better than the truth is known; time to solve and to read all measures";
+    PrecisionSeries { title: title.to_owned(), note: note.to_owned(), curves }
+}
+
+/// The three figures: name and drawing.
+fn figures(report: &CostReport) -> Result<Vec<(String, String)>, CliError> {
+    let worst = match report.asked.as_slice() {
+        [only] => {
+            let key = report.measures.get(*only).map_or("", |own| own.key.as_str());
+            format!("What accuracy costs: {key}")
+        }
+        _ => "What accuracy costs: largest error of any measure".to_owned(),
+    };
+    let of_measures = series(report, &worst, |own| own.worst(&report.asked));
+    let of_state = series(report, "What accuracy costs: largest error of the state", |own| {
+        own.state.map_or(f64::NAN, Deviation::at_most)
+    });
+    let charts = [of_measures.time_chart(), of_state.time_chart(), of_measures.work_chart()];
+    let drawn = FIGURES.into_iter().zip(charts);
+    drawn.map(|(name, chart)| Ok((name.to_owned(), chart.svg()?))).collect()
+}
+
+/// Writes everything into the folder `path`, and returns the names of the files.
+pub(crate) fn write(
+    path: &Path,
+    json: &str,
+    scene: &Scene,
+    report: &CostReport,
+    accuracies: &[f64],
+) -> Result<Vec<String>, CliError> {
+    let figures = figures(report)?;
+    let table = csv(report).map_err(std::io::Error::from);
+    let page = page(scene, report, accuracies, &figures).html();
+    let mut files = vec![
+        (RESULT.to_owned(), json.as_bytes().to_vec()),
+        (TABLE.to_owned(), table.map_err(unwritable(&path.join(TABLE)))?),
+        (PAGE.to_owned(), page.into_bytes()),
+    ];
+    files.extend(figures.into_iter().map(|(name, svg)| (name, svg.into_bytes())));
+    for (name, content) in &files {
+        let file = path.join(name);
+        fs::write(&file, content).map_err(unwritable(&file))?;
+    }
+    Ok(files.into_iter().map(|own| own.0).collect())
+}
+
+fn page(
+    scene: &Scene,
+    report: &CostReport,
+    accuracies: &[f64],
+    figures: &[(String, String)],
+) -> Report {
+    let list = |caption: &str, lines: Vec<String>| Table {
+        caption: caption.to_owned(),
+        header: Vec::new(),
+        rows: lines.into_iter().map(|own| vec![own]).collect(),
+    };
+    let network = ReportFigure {
+        caption: "The network".to_owned(),
+        svg: sketch(&scene.network, scene.run.duration).svg(),
+    };
+    let charts =
+        figures.iter().map(|(_, svg)| ReportFigure { caption: String::new(), svg: svg.clone() });
+    let details = [
+        list("What is true", truth(report)),
+        work(report),
+        measures(report),
+        list("Failed", failures(report)),
+        list("Further off than it is said", slips(report)),
+    ];
+    Report {
+        title: title(scene).to_owned(),
+        warnings: Vec::new(),
+        verdict: vec![answer(report, accuracies)],
+        tables: vec![errors(report), cheapest(report, accuracies)],
+        figures: std::iter::once(network).chain(charts).collect(),
+        details: details.into_iter().filter(|own| !own.rows.is_empty()).collect(),
+        scene_text: scene.text.to_string(),
+    }
+}
+
+/// One row for each solution: times, work, and each error beside how well the truth is known.
+fn csv(report: &CostReport) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut header: Vec<String> = [
+        "method",
+        "rtol [1]",
+        "time [s]",
+        "time, lower quartile [s]",
+        "time, upper quartile [s]",
+        "integration [s]",
+        "repeats [1]",
+        "steps [1]",
+        "rejected [1]",
+        "rhs [1]",
+        "Jacobians [1]",
+        "LU [1]",
+        "solves [1]",
+        "events missed [1]",
+        "events extra [1]",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    let subjects = ["state", "events"].into_iter();
+    for name in subjects.chain(report.measures.iter().map(|own| own.key.as_str())) {
+        header.push(format!("error of {name} [1]"));
+        header.push(format!("truth of {name} known within [1]"));
+    }
+    writer.write_record(header)?;
+    for own in &report.points {
+        let work = &own.work;
+        let times = [own.time.median, own.time.lower, own.time.upper, own.integration.median];
+        let counts = [
+            own.repeats,
+            work.accepted,
+            work.rejected,
+            work.rhs_calls,
+            work.jacobian_calls,
+            work.factorizations,
+            work.linear_solves,
+            own.events.missed,
+            own.events.extra,
+        ];
+        let measures = own.measures.iter().map(|own| own.deviation);
+        let errors = [own.state, own.events.deviation].into_iter().chain(measures);
+        let number = |own: Option<f64>| own.map_or(String::new(), |own| own.to_string());
+        let mut record = vec![own.method.to_owned(), number(own.rtol)];
+        record.extend(times.map(|own| own.to_string()));
+        record.extend(counts.map(|own| own.to_string()));
+        record.extend(errors.flat_map(|own| {
+            [number(own.map(|own| own.value)), number(own.map(|own| own.known_within))]
+        }));
+        writer.write_record(record)?;
+    }
+    writer.into_inner().map_err(|error| error.into_error().into())
+}

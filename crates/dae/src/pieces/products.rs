@@ -1,0 +1,233 @@
+//! Integrals of products of outputs, step by step.
+
+use super::{
+    Step, between, inputs,
+    lagrange::{HIGHEST, Lagrange},
+    stream::Row,
+};
+use crate::{LinearForm, Product, System, chebyshev::GaussLegendre};
+
+/// Products that are worked on at once, so that they stay in the processor's nearest memory.
+const BLOCK: usize = 256;
+
+/// Roundings up to which two forms are multiples of each other.
+const ROUNDINGS: f64 = 8.0;
+
+/// The integrals of products of outputs over the steps so far, dimensionless, each with the factor
+/// that gives it its unit.
+///
+/// A product of two polynomials is integrated by a Gauss rule that is exact for it. Most products are
+/// those of a dashpot, whose force is a multiple of its rate: they are squares.
+#[derive(Debug, Default)]
+pub(super) struct Products {
+    squares: Vec<Sum>,
+    pairs: Vec<Sum>,
+    /// Products with driving functions in them, and those.
+    driven: Vec<(Sum, [LinearForm; 2])>,
+    /// The factors, as forms over the unknowns: those of squares once, then the first of all other
+    /// pairs, then the second.
+    forms: Forms,
+}
+
+/// One integral.
+#[derive(Debug, Clone, Copy)]
+struct Sum {
+    /// Index of the product.
+    index: usize,
+    factor: f64,
+    total: f64,
+    largest: f64,
+}
+
+impl Sum {
+    fn add(&mut self, summand: f64) {
+        self.total += summand;
+        self.largest = self.largest.max(self.factor.signum() * self.total);
+    }
+
+    fn product(&self) -> Product {
+        Product { total: self.factor * self.total, largest: self.factor.abs() * self.largest }
+    }
+}
+
+impl Products {
+    pub(super) fn new(system: &System, wanted: &[[usize; 2]]) -> Self {
+        let mut products = Self::default();
+        let (mut squared, mut first, mut second) = (Vec::new(), Vec::new(), Vec::new());
+        let mut driven = (Vec::new(), Vec::new());
+        for (index, &[a, b]) in wanted.iter().enumerate() {
+            let (a, b) = (&system.outputs[a], &system.outputs[b]);
+            let factor = a.scale * b.scale * system.time_scale;
+            let sum = Sum { index, factor, total: 0.0, largest: 0.0 };
+            if !(a.inputs.is_zero() && b.inputs.is_zero()) {
+                products.driven.push((sum, [a.inputs.clone(), b.inputs.clone()]));
+                driven.0.push(&a.unknowns);
+                driven.1.push(&b.unknowns);
+            } else if let Some(ratio) = ratio(&a.unknowns, &b.unknowns) {
+                products.squares.push(Sum { factor: factor * ratio, ..sum });
+                squared.push(&b.unknowns);
+            } else {
+                products.pairs.push(sum);
+                first.push(&a.unknowns);
+                second.push(&b.unknowns);
+            }
+        }
+        let all = [squared, first, second, driven.0, driven.1];
+        products.forms = Forms::new(all.into_iter().flatten());
+        products
+    }
+
+    /// The factors of all products where the unknowns are `state`.
+    pub(super) fn factors(&self, state: &[f64], values: &mut Vec<f64>) {
+        self.forms.at(state, values);
+    }
+
+    /// Adds the integrals over one step, whose polynomials pass through `rows`.
+    pub(super) fn add(
+        &mut self,
+        system: &System,
+        step: &Step,
+        lagrange: &Lagrange<'_>,
+        rows: &[&Row],
+    ) {
+        let rule = GaussLegendre::with_points(step.degree + 1);
+        let half = 0.5 * (step.end - step.start);
+        let points: Vec<Point> = rule
+            .nodes()
+            .iter()
+            .zip(rule.weights())
+            .map(|(&x, weight)| Point {
+                weight: half * weight,
+                shares: lagrange.weights(between(step.start, step.end, x)),
+            })
+            .collect();
+        let (squares, pairs) = (self.squares.len(), self.pairs.len());
+        for (at, sums) in self.squares.chunks_mut(BLOCK).enumerate() {
+            let first = at * BLOCK;
+            let mut work = [0.0; BLOCK];
+            for point in &points {
+                let values = point.values(rows, first, sums.len());
+                for (work, value) in work.iter_mut().zip(values) {
+                    *work += point.weight * value * value;
+                }
+            }
+            sums.iter_mut().zip(work).for_each(|(sum, work)| sum.add(work));
+        }
+        for (at, sums) in self.pairs.chunks_mut(BLOCK).enumerate() {
+            let first = squares + at * BLOCK;
+            let mut work = [0.0; BLOCK];
+            for point in &points {
+                let ones = point.values(rows, first, sums.len());
+                let others = point.values(rows, first + pairs, sums.len());
+                for ((work, one), other) in work.iter_mut().zip(ones).zip(others) {
+                    *work += point.weight * one * other;
+                }
+            }
+            sums.iter_mut().zip(work).for_each(|(sum, work)| sum.add(work));
+        }
+        if !self.driven.is_empty() {
+            self.add_driven(system, step, lagrange, rows);
+        }
+    }
+
+    /// The same for products with driving functions in them, at as many points as these ask for.
+    fn add_driven(&mut self, system: &System, step: &Step, lagrange: &Lagrange<'_>, rows: &[&Row]) {
+        let (degree, parts) = inputs::resolution(system, step);
+        let rule = GaussLegendre::with_points(degree + 1);
+        let first = self.squares.len() + 2 * self.pairs.len();
+        let count = self.driven.len();
+        let mut given = vec![0.0; system.inputs.len()];
+        let mut work = vec![0.0; count];
+        let length = (step.end - step.start) / inputs::size(parts);
+        for part in 0..parts {
+            let start = step.start + length * inputs::size(part);
+            for (&x, weight) in rule.nodes().iter().zip(rule.weights()) {
+                let time = between(start, start + length, x);
+                let point = Point { weight: 0.5 * length * weight, shares: lagrange.weights(time) };
+                system.inputs_at(step.origin, step.origin + time, &mut given);
+                for (at, (work, (_, forms))) in work.iter_mut().zip(&self.driven).enumerate() {
+                    let one = point.value(rows, first + at) + forms[0].at(&given);
+                    let other = point.value(rows, first + count + at) + forms[1].at(&given);
+                    *work += point.weight * one * other;
+                }
+            }
+        }
+        self.driven.iter_mut().zip(work).for_each(|(entry, work)| entry.0.add(work));
+    }
+
+    /// The integrals in the order in which they were wanted.
+    pub(super) fn finish(self) -> Vec<Product> {
+        let driven = self.driven.iter().map(|entry| &entry.0);
+        let mut all: Vec<&Sum> = self.squares.iter().chain(&self.pairs).chain(driven).collect();
+        all.sort_unstable_by_key(|sum| sum.index);
+        all.into_iter().map(Sum::product).collect()
+    }
+}
+
+/// By how much `a` is larger than `b`, if it is a multiple of it.
+fn ratio(a: &LinearForm, b: &LinearForm) -> Option<f64> {
+    let (a, b) = (a.terms(), b.terms());
+    let ratio = a.first()?.1 / b.first()?.1;
+    let is_same = |(one, other): (&(usize, f64), &(usize, f64))| {
+        let rest = one.1 - ratio * other.1;
+        one.0 == other.0 && rest.abs() <= ROUNDINGS * f64::EPSILON * one.1.abs()
+    };
+    (a.len() == b.len() && a.iter().zip(b).all(is_same)).then_some(ratio)
+}
+
+/// A place in a step: what it weighs in an integral, and the shares of the step's rows in the values
+/// there.
+struct Point {
+    weight: f64,
+    shares: [f64; HIGHEST + 1],
+}
+
+impl Point {
+    /// The values of `count` factors from number `first` on; the rest is zero.
+    fn values(&self, rows: &[&Row], first: usize, count: usize) -> [f64; BLOCK] {
+        let mut values = [0.0; BLOCK];
+        for (share, row) in self.shares.iter().zip(rows) {
+            let own = &row.factors[first..first + count];
+            values.iter_mut().zip(own).for_each(|(value, own)| *value += share * own);
+        }
+        values
+    }
+
+    /// The value of one factor.
+    fn value(&self, rows: &[&Row], at: usize) -> f64 {
+        self.shares.iter().zip(rows).map(|(share, row)| share * row.factors[at]).sum()
+    }
+}
+
+/// Many linear forms over the unknowns, one behind the other.
+#[derive(Debug, Default)]
+struct Forms {
+    /// Where the terms of each form end.
+    ends: Vec<usize>,
+    terms: Vec<(usize, f64)>,
+}
+
+impl Forms {
+    fn new<'f>(forms: impl Iterator<Item = &'f LinearForm>) -> Self {
+        let mut all = Self::default();
+        for form in forms {
+            all.terms.extend_from_slice(form.terms());
+            all.ends.push(all.terms.len());
+        }
+        all.ends.shrink_to_fit();
+        all.terms.shrink_to_fit();
+        all
+    }
+
+    /// Their values where the unknowns are `state`.
+    fn at(&self, state: &[f64], values: &mut Vec<f64>) {
+        values.clear();
+        values.reserve_exact(self.ends.len());
+        let mut start = 0;
+        for &end in &self.ends {
+            let terms = &self.terms[start..end];
+            values.push(terms.iter().map(|&(unknown, factor)| factor * state[unknown]).sum());
+            start = end;
+        }
+    }
+}

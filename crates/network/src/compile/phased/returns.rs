@@ -1,0 +1,74 @@
+//! What an impact has parted, and what is known of when it comes back.
+
+use dashpot_dae::{Derivatives, Flight, Guard, Output, System};
+
+use super::{
+    Mode,
+    impacts::Pace,
+    judge::{Judge, Look, Stay},
+};
+use crate::phases::{Exit, Watched};
+
+/// What comes back without having been farther from its level, in parts of its scale and of the root of
+/// the doubt, is not left to a method: that it follows places to its tolerance says little about when
+/// so low a flight ends.
+const LOW: f64 = 0.1;
+/// Shortest flight in parts of the time of the run.
+const SHORT: f64 = 4.0 * f64::EPSILON;
+
+impl Judge<'_> {
+    /// For each guard of a mode how it is reached, and how far what it watches is from it before, if that is
+    /// soon. Only asked for where an impact has let something part.
+    pub(super) fn flights(
+        &self,
+        mode: &Mode,
+        system: &System,
+        motion: &Derivatives,
+        levels: &[f64],
+    ) -> Vec<Option<(Flight, f64)>> {
+        let none = || vec![None; levels.len()];
+        if self.looks.iter().all(|own| own.pace.is_none()) {
+            return none();
+        }
+        let flight = |(at, (guard, &level)): (usize, (&Guard, &f64))| {
+            let (part, exit) = mode.of_guard[at];
+            let Look { doubt, pace, .. } = self.looks[part];
+            let is_place = mode.exits[part][exit].watched == Watched::Deformation;
+            // What has just parted is where it parted, whatever that is rounded to.
+            let here = motion.output(&mode.system.outputs[guard.output], 0).0;
+            let level = if pace.is_some() { here } else { level };
+            let guard = Guard { level, ..guard.clone() };
+            Flight::of(system, motion, (at, &guard), doubt).filter(|_| is_place)
+        };
+        mode.guards.iter().zip(levels).enumerate().map(flight).collect()
+    }
+
+    /// Whether a part whose sides an impact has parted stays in its phase, where it is told by when they
+    /// come back.
+    pub(super) fn returns(
+        &self,
+        part: usize,
+        exit: &Exit,
+        output: &Output,
+        flight: Option<(Flight, f64)>,
+        time_scale: f64,
+    ) -> Option<Stay> {
+        let is_place = exit.watched == Watched::Deformation;
+        let pace = self.looks[part].pace.filter(|_| is_place)?;
+        match flight {
+            // Time does not tell it from none.
+            Some((own, _)) if own.length * time_scale <= SHORT * self.time => Some(Stay::No),
+            Some((_, height)) if self.is_followed(part, height, output) => Some(Stay::Yes),
+            None if pace == Pace::Slow => Some(Stay::No),
+            _ => None,
+        }
+    }
+
+    /// Whether a part's sides have just parted, and come back from so near that they are followed without a
+    /// method.
+    pub(super) fn is_followed(&self, part: usize, height: f64, output: &Output) -> bool {
+        let Look { doubt, pace, .. } = self.looks[part];
+        pace.is_some_and(|own| own != Pace::Told)
+            && height <= LOW * doubt.sqrt() * output.scale.abs()
+    }
+}

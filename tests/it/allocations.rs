@@ -1,0 +1,67 @@
+//! Runs take no more memory from the system than code written by hand, and no more with each step.
+//!
+//! What a thread allocates is counted by the allocator of `allocation-counter`, which this binary
+//! uses for that. The code by hand is that of the benchmarks.
+
+#[path = "../../benches/equal_error/by_hand.rs"]
+mod by_hand;
+#[path = "../../benches/equal_error/chain.rs"]
+mod chain;
+#[path = "../../benches/equal_error/impact.rs"]
+mod impact;
+
+use std::hint::black_box;
+
+use allocation_counter::measure;
+use dashpot::{
+    dae::{Run, Silent, System, methods},
+    network::Network,
+};
+
+use self::{by_hand::ByHand, chain::Chain, impact::Impact};
+
+/// Allocations of a run by `bdf` that yields all unknowns at 501 times, and its steps.
+fn ours(system: &System, rtol: f64) -> (u64, usize) {
+    let bdf = methods::by_name("bdf").unwrap();
+    let end = 0.02 / system.time_scale;
+    let times: Vec<f64> = (0..=500).map(|at| end * f64::from(at) / 500.0).collect();
+    let mut steps = 0;
+    let counted = measure(|| {
+        let run = Run::to(0.02).with_rtol(rtol);
+        let trajectory = bdf.integrate(system, &run, &mut Silent).unwrap();
+        steps = trajectory.statistics.accepted;
+        black_box(trajectory.dense.sample(system, &times));
+    });
+    (counted.count_total, steps)
+}
+
+/// Allocations of the same by hand, from the equations on.
+fn by_hand(problem: &dyn ByHand, rtol: f64) -> u64 {
+    let times: Vec<f64> = (0..=500).map(|at| problem.end() * f64::from(at) / 500.0).collect();
+    measure(|| drop(black_box(by_hand::bdf(problem, &times).unwrap()(rtol).unwrap()))).count_total
+}
+
+fn compare(network: &Network, problem: &dyn ByHand) {
+    let system = network.compile(0.02).unwrap().system;
+    let mut found = Vec::new();
+    for rtol in [1e-4, 1e-6, 1e-8, 1e-10] {
+        let ((ours, steps), hand) = (ours(&system, rtol), by_hand(problem, rtol));
+        assert!(ours <= hand, "at {rtol:e}: {ours}, by hand {hand}");
+        found.push((ours, steps));
+    }
+    // What is kept of the steps grows by doubling: three vectors, each a few times.
+    let ((first, few), (last, many)) = (found[0], found[3]);
+    assert!(many > 3 * few);
+    assert!(last <= first + 3 * 12, "{first} in {few} steps, {last} in {many}");
+}
+
+#[test]
+fn a_run_allocates_no_more_than_code_by_hand_and_nothing_with_each_step() {
+    compare(&impact::network(1, 1e4), &Impact::with_mount(0.2));
+}
+
+#[test]
+fn so_does_one_with_sparse_matrices() {
+    let chain = Chain { nodes: 60 };
+    compare(&chain.network(), &chain);
+}

@@ -1,0 +1,87 @@
+//! The accuracy that is asked for: found by the program, paid for, and kept.
+
+use dashpot::analysis::{Accuracy, RunReport};
+
+use super::{
+    METHODS, SEED, most_outside,
+    trial::{Case, beside},
+};
+
+/// Scenes of each accuracy.
+const SCENES: usize = 32;
+
+/// What a report says of measures that are not as good as wanted.
+fn admits(report: &RunReport) -> bool {
+    let says = ["the accuracy wanted is not reached", "whether there is a value depends"];
+    report.warnings.iter().any(|warning| says.iter().any(|own| warning.starts_with(own)))
+}
+
+/// Solves the scenes by the method that the program chooses, and by one that it does not, and holds
+/// what it says of accuracy against the truth.
+fn accuracy_is_kept(wish: impl Fn(&mut Accuracy)) {
+    let (mut judged, mut reached, mut outside) = (0, 0, Vec::new());
+    for at in 0..SCENES {
+        let case = Case::new(SEED + 1, at);
+        for method in ["auto", METHODS[at / 2 % 3]] {
+            let mut settings = case.drawn.scene.settings(method);
+            wish(&mut settings.accuracy);
+            let accuracy = settings.accuracy.clone();
+            let known = case.solve(&settings).map(|report| (case.truth(), report));
+            let Ok((Some(truth), report)) = known else { continue };
+            let name = format!("{} {at} by {method}", case.drawn.kind);
+            if report.solver.method != "exact" {
+                assert!(report.solver.solves_for_error >= 3, "{name}: nothing to take bars from");
+                assert!(!report.solver.wall_for_error.is_zero(), "{name}: bars cost time");
+            }
+            for found in report.measures.iter().filter(|found| found.value.is_some()) {
+                let bar = found.error.unwrap_or_else(|| panic!("{name}: {} has no bar", found.key));
+                let true_size = truth[&found.key].0.unwrap_or(0.0).abs().max(found.size);
+                let is_good = bar <= 1.01 * accuracy.of(&found.key) * true_size;
+                // What cannot be told from zero has no size of its own.
+                let is_zero = found.value.is_some_and(|value| value.abs() <= bar);
+                reached += usize::from(is_good);
+                assert!(is_good || is_zero || admits(&report), "{name}: {found:?}");
+            }
+            let Some(own) = beside(truth, &report) else { continue };
+            judged += 1;
+            outside.extend(own.outside.first().map(|own| format!("{name}: {own}")));
+        }
+    }
+    assert!(judged > SCENES, "only {judged} could be judged");
+    assert!(reached > 8 * judged, "only {reached} measures in {judged} runs");
+    assert!(outside.len() <= most_outside(judged), "of {judged}: {outside:?}");
+}
+
+#[test]
+fn one_percent_is_kept() {
+    accuracy_is_kept(|accuracy| accuracy.default = 1e-2);
+}
+
+#[test]
+fn one_in_a_thousand_is_kept_without_asking() {
+    accuracy_is_kept(|_| {});
+}
+
+#[test]
+fn one_in_ten_thousand_is_kept() {
+    accuracy_is_kept(|accuracy| accuracy.default = 1e-4);
+}
+
+#[test]
+fn a_wish_for_one_measure_is_kept_beside_the_others() {
+    let case = (0..).step_by(2).map(|at| Case::new(SEED + 1, at));
+    let mut cases = case.filter(|case| case.drawn.kind == "impact");
+    for case in cases.by_ref().take(4) {
+        let mut settings = case.drawn.scene.settings("bdf");
+        let rough = case.solve(&settings).unwrap();
+        settings.accuracy.by_measure.insert("pad.peak-deformation".to_owned(), 1e-6);
+        let fine = case.solve(&settings).unwrap();
+        let truth = case.truth().unwrap()["pad.peak-deformation"].0.unwrap();
+        let found = fine.measure("pad.peak-deformation").unwrap();
+        let bar = found.error.unwrap();
+        assert!(bar <= 1.01e-6 * truth.abs() || admits(&fine), "{found:?}");
+        assert!((found.value.unwrap() - truth).abs() <= bar, "{found:?} is {truth}");
+        assert!(fine.solver.rtol < rough.solver.rtol, "it takes a finer tolerance");
+        assert!(fine.solver.solves_for_error > rough.solver.solves_for_error);
+    }
+}

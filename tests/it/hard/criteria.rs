@@ -1,0 +1,141 @@
+//! Injury criteria of given signals: closed forms with the height A in g and the length T in s.
+//!
+//! A force on a massless plate goes through a dashpot into the head unaltered, so that the head reads
+//! the force over its mass.
+
+use dashpot::analysis::measures::STANDARD_GRAVITY as G0;
+
+use super::{case::Case, scene::Text, table::judge};
+
+/// Relative error of the printed constants.
+const PRINTED: f64 = 2e-6;
+
+#[test]
+fn criteria() {
+    let (height, length) = (80.0, 0.012);
+    let mut cases = vec![
+        signal(
+            "half-sine",
+            &half_sine(height, length),
+            height,
+            length,
+            (0.414_645_65, 0.457_655_86),
+        ),
+        signal("haversine", &haversine(height, length), height, length, (0.302_939, 0.339_531)),
+        signal("triangle", &triangle(height, length), height, length, (0.246_401, 2.0 / 7.0)),
+        signal(
+            "two samples (a ramp)",
+            &ramp(height, length),
+            height,
+            length,
+            (0.246_401, 2.0 / 7.0),
+        ),
+        signal("rectangle, a plateau", &rectangle(height, length), height, length, (1.0, 1.0)),
+        signal(
+            "half-sine, all negative",
+            &half_sine(-height, length),
+            height,
+            length,
+            (0.414_645_65, 0.457_655_86),
+        ),
+        signal("no signal", &rectangle(0.0, length), 0.0, length, (1.0, 1.0)),
+    ];
+    cases.push(struck_spring());
+    cases.extend([too_large(), infinite()]);
+    judge("criteria", cases);
+}
+
+fn half_sine(height: f64, length: f64) -> String {
+    format!("half-sine = {{ peak = {:?}, duration = {length:?}, start = 0.002 }}", height * G0)
+}
+
+fn haversine(height: f64, length: f64) -> String {
+    format!("haversine = {{ peak = {:?}, duration = {length:?}, start = 0.002 }}", height * G0)
+}
+
+fn triangle(height: f64, length: f64) -> String {
+    let (top, end) = (0.002 + 0.5 * length, 0.002 + length);
+    format!(
+        "table = [[0.0, 0.0], [0.002, 0.0], [{top:?}, {:?}], [{end:?}, 0.0], [1.0, 0.0]]",
+        height * G0
+    )
+}
+
+fn ramp(height: f64, length: f64) -> String {
+    format!("table = [[0.0, 0.0], [{length:?}, {:?}], [{length:?}, 0.0], [1.0, 0.0]]", height * G0)
+}
+
+fn rectangle(height: f64, length: f64) -> String {
+    format!(
+        "trapezoid = {{ peak = {:?}, rise = 0.0, hold = {length:?}, fall = 0.0, start = 0.002 }}",
+        height * G0
+    )
+}
+
+const MEASURES: &str = "[{ kind = \"hic\", window = \"run\" }, { kind = \"severity-index\", window = \"run\" }, \
+     { kind = \"peak-acceleration\", window = \"run\" }]";
+
+fn scene(force: &str) -> String {
+    Text::default()
+        .node("head", "mass = 1")
+        .node("plate", "")
+        .element("pad", ["plate", "head"], "dashpot = 10")
+        .measure("head", MEASURES)
+        .with(&format!("[loads]\nram = {{ on = \"plate\", force = {{ {force} }} }}"))
+        .lasting(0.02)
+}
+
+fn signal(name: &str, force: &str, height: f64, length: f64, known: (f64, f64)) -> Case {
+    Case::new(name, "closed form", scene(force), move |trial| {
+        let unit = height.powf(2.5) * length;
+        trial.measure_known("head.hic", known.0 * unit, PRINTED * unit);
+        trial.measure_known("head.severity-index", known.1 * unit, PRINTED * unit);
+        trial.measure("head.peak-acceleration", height * G0);
+    })
+}
+
+/// The half-sine of an impact on a spring from which the head parts.
+fn struck_spring() -> Case {
+    let text = Text::default()
+        .node("head", "mass = 4, velocity = 5")
+        .element("pad", ["head", "ground"], "spring = 40e3")
+        .measure("head", MEASURES)
+        .with("[effects]\nseparation.pad = { at = \"head\" }")
+        .lasting(0.1);
+    Case::new("head that strikes a spring and parts", "closed form", text, |trial| {
+        let (height, length) = (500.0 / G0, std::f64::consts::PI / 100.0);
+        let unit = height.powf(2.5) * length;
+        trial.measure_known("head.hic", 0.414_645_65 * unit, PRINTED * unit);
+        trial.measure_known("head.severity-index", 0.457_655_86 * unit, PRINTED * unit);
+    })
+}
+
+fn too_large() -> Case {
+    Case::new(
+        "a^2.5 beyond the largest double",
+        "said in words",
+        scene(&half_sine(1e130, 0.012)),
+        |trial| {
+            trial.measure("head.peak-acceleration", 1e130 * G0);
+            for key in ["head.hic", "head.severity-index"] {
+                let own = trial.report.measure(key).unwrap();
+                trial.holds(format!("{own:?}"), own.value.is_none() && own.note.is_some());
+            }
+        },
+    )
+}
+
+fn infinite() -> Case {
+    let text = Text::default()
+        .node("head", "mass = 4, velocity = 5")
+        .element("pad", ["head", "ground"], "contact = { gap = 0.01, restitution = 0.5 }")
+        .measure("head", MEASURES)
+        .lasting(0.1);
+    Case::new("jump of the velocity on a rigid stop", "said in words", text, |trial| {
+        for key in ["head.hic", "head.severity-index", "head.peak-acceleration"] {
+            let own = trial.report.measure(key).unwrap();
+            let says = own.note.as_ref().is_some_and(|note| note.contains("infinite"));
+            trial.holds(format!("{own:?}"), own.value.is_none() && says);
+        }
+    })
+}

@@ -1,0 +1,89 @@
+//! A scene solved by a method, and how the answers of two methods compare.
+
+use std::ops::ControlFlow;
+
+use dashpot::{
+    analysis::{MeasureReport, RunError, RunReport, SolveSettings, solve},
+    dae::{Observer, Progress},
+    scene::{ReadOptions, Scene, read},
+};
+
+/// The scene in a text, or nothing if it is refused.
+pub(super) fn scene(text: &str) -> Option<Scene> {
+    read(text, &ReadOptions::default()).ok().map(|checked| checked.value)
+}
+
+/// Ends what takes too many steps: explicit methods where the scene is stiff.
+struct Patience(usize);
+
+impl Observer for Patience {
+    fn progress(&mut self, _: Progress) -> ControlFlow<()> {
+        self.0 = self.0.saturating_sub(1);
+        if self.0 == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// The report on a scene by what is chosen for it.
+pub(super) fn by_auto(scene: &Scene) -> Result<RunReport, RunError> {
+    solve(&scene.network, &scene.settings("auto"), &mut Patience(5_000))
+}
+
+/// The report on a scene by a method, at tolerances from 1e-4 to 1e-6.
+pub(super) fn by(scene: &Scene, method: &str) -> Result<RunReport, RunError> {
+    let settings = SolveSettings { rtol: Some(1e-6), ..scene.settings(method) };
+    solve(&scene.network, &settings, &mut Patience(1_500))
+}
+
+/// Part of the size of a measure that rounding makes where two networks are written down
+/// differently: their coefficients differ by a few roundings, which stiff scenes magnify.
+pub(super) const ROUNDING: f64 = 1e-9;
+
+/// Measures that are not compared: where a force dies out without passing zero, their end depends on
+/// the tolerance, and severities count in parts of the acceleration of gravity, whatever the units.
+const OPEN: &[&str] = &["contact-time", "severity-index", "hic"];
+
+/// What is said where two reports tell different things, although neither says that it might.
+/// `bars` is how many times their errors they may differ by, `factor` of a unit what the values of
+/// the first report are to be multiplied by.
+pub(super) fn disagreement(
+    one: &RunReport,
+    other: &RunReport,
+    bars: f64,
+    factor: impl Fn(&str) -> f64,
+) -> Option<String> {
+    one.measures.iter().filter(|own| !OPEN.contains(&own.kind)).find_map(|first| {
+        let second = other.measure(&first.key)?;
+        let factor = factor(first.unit);
+        (!is_same(first, second, bars, factor)).then(|| {
+            format!(
+                "{}: {:?} ± {:?} by {}, {:?} ± {:?} by {} ({:?}, {:?})",
+                first.key,
+                first.value.map(|value| value * factor),
+                first.error.map(|error| error * factor),
+                one.solver.method,
+                second.value,
+                second.error,
+                other.solver.method,
+                first.note,
+                second.note,
+            )
+        })
+    })
+}
+
+fn is_same(one: &MeasureReport, other: &MeasureReport, bars: f64, factor: f64) -> bool {
+    let is_open = |own: &MeasureReport| own.error.is_some_and(f64::is_infinite);
+    if is_open(one) || is_open(other) {
+        return true;
+    }
+    match (one.value, other.value) {
+        (None, None) => true,
+        (Some(first), Some(second)) => {
+            let allowed = bars * (factor * one.error.unwrap_or(0.0) + other.error.unwrap_or(0.0));
+            let size = (factor * one.size).max(other.size);
+            // Where a mirror exchanges the ways, magnitudes are what stays.
+            (factor * first.abs() - second.abs()).abs() <= allowed + ROUNDING * size
+        }
+        _ => false,
+    }
+}
