@@ -45,8 +45,14 @@ pub use dashpot_network as network;
 pub use dashpot_plot as plot;
 pub use dashpot_rheology as rheology;
 pub use dashpot_scene as scene;
+pub use dashpot_thesis as thesis;
 
 /// The examples of the README, which are tested with the others.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The example of the chapter on the thesis.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/thesis.md")]
+struct ThesisChapter;

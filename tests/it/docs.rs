@@ -22,6 +22,7 @@ mod readme;
 mod registers;
 mod separation;
 mod shown;
+mod thesis;
 mod vibration;
 
 /// Said of what the program has left behind.

@@ -31,4 +31,6 @@ mod signs;
 mod sizes;
 mod terminal;
 mod thesis;
+mod thesis_command;
+mod thesis_numbers;
 mod vibration;

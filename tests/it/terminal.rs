@@ -69,7 +69,9 @@ fn no_line_is_wider_than_the_terminal() {
 
 #[test]
 fn help_and_lists_fit_too() {
-    for verb in ["run", "check", "explain", "convert", "compare", "rheometer", "vibrate", "new"] {
+    for verb in
+        ["run", "check", "explain", "convert", "compare", "rheometer", "vibrate", "thesis", "new"]
+    {
         fits(&[verb, "--help"]);
     }
     for arguments in [&["--help"][..], &["list"], &["list", "effects"], &["list", "elements"]] {

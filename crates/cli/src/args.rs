@@ -57,6 +57,8 @@ pub(crate) enum Command {
     Cost(CostArguments),
     /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
     Vibrate(VibrateArguments),
+    /// Recomputes the thesis behind this project: its numbers, figures, misprints and claims.
+    Thesis(ThesisArguments),
     /// Lists every kind that a scene may contain, with its parameters.
     List(ListArguments),
     /// Writes a commented scene to start from.
@@ -328,6 +330,24 @@ pub(crate) struct CostArguments {
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `thesis`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot thesis                                   numbers and claims, with verdicts\n  \
+    dashpot thesis --out thesis                      figures, CSV, and the whole report\n  \
+    dashpot thesis --json | jq '.claims[] | [.verdict, .claim]'\n\n\
+    The values that the figures of the thesis used for a, b, c and d are lost; those shown are chosen. \
+    Beside each curve stand its springs, dashpots, q and largest deformation; what exceeds the \
+    thickness is dashed.")]
+pub(crate) struct ThesisArguments {
+    /// Folder for SVG, CSV, JSON, Markdown and HTML; it is made if need be.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Prints one JSON object in place of text.
     #[arg(long)]
     pub(crate) json: bool,
 }

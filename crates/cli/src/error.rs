@@ -8,6 +8,7 @@ use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
 use dashpot_scene::Diagnostics;
+use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
 use crate::input::reason;
@@ -187,6 +188,9 @@ pub(crate) enum CliError {
     /// A run that cannot be done.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// The thesis cannot be recomputed.
+    #[error(transparent)]
+    Thesis(#[from] ThesisError),
     /// A figure that cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -240,6 +244,7 @@ impl CliError {
             Self::Undecided { .. }
             | Self::Unwritable { .. }
             | Self::Output(_)
+            | Self::Thesis(_)
             | Self::Plot(_)
             | Self::Json(_) => Status::RunFailed,
         }

@@ -21,6 +21,7 @@ mod series;
 mod sketch;
 mod terminal;
 mod text;
+mod thesis_folder;
 mod vibration_folder;
 
 use std::process::ExitCode;
@@ -52,6 +53,7 @@ pub fn main() -> ExitCode {
         Command::Rheometer(arguments) => commands::rheometer(&arguments, terminal),
         Command::Cost(arguments) => commands::cost(&arguments, terminal),
         Command::Vibrate(arguments) => commands::vibrate(&arguments, terminal),
+        Command::Thesis(arguments) => commands::thesis(&arguments, terminal),
         Command::List(arguments) => commands::list(&arguments, terminal),
         Command::New(arguments) => commands::new(&arguments),
         Command::Schema => commands::schema(),

@@ -11,6 +11,7 @@ mod new;
 mod rheometer;
 mod run;
 mod schema;
+mod thesis;
 mod vibrate;
 
 pub(crate) use check::check;
@@ -24,4 +25,5 @@ pub(crate) use new::new;
 pub(crate) use rheometer::rheometer;
 pub(crate) use run::run;
 pub(crate) use schema::schema;
+pub(crate) use thesis::thesis;
 pub(crate) use vibrate::vibrate;

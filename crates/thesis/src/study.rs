@@ -1,0 +1,263 @@
+//! The impacts that everything else is read off: the base and families with one parameter varied.
+
+use dashpot_plot::Table;
+
+use crate::{
+    Groups, Impact, Padding, Scales, Support, ThesisError,
+    words::{short, significant},
+};
+
+/// A parameter that is varied, all others at base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Varied {
+    /// The group a.
+    A,
+    /// The group b.
+    B,
+    /// The group c, and e with it.
+    C,
+    /// The group d.
+    D,
+    /// The spring K₁.
+    K1,
+    /// The spring K₂.
+    K2,
+    /// The dashpot C₁.
+    C1,
+    /// The dashpot C₂.
+    C2,
+}
+
+/// Impacts that differ in one parameter.
+#[derive(Debug)]
+pub struct Family {
+    /// Which one.
+    pub varied: Varied,
+    /// Its values, rising, with their impacts.
+    pub members: Vec<Member>,
+}
+
+/// An impact of a family.
+#[derive(Debug)]
+pub struct Member {
+    /// The value of what is varied: a number for groups, SI units for K₁ … C₂.
+    pub value: f64,
+    /// The impact.
+    pub impact: Impact,
+}
+
+/// The impacts that are compared.
+#[derive(Debug)]
+pub struct Study {
+    /// The groups that chapter IV prints, α = 0.2.
+    pub printed: Impact,
+    /// The same with α = 200, which follows from the C₃ that is printed.
+    pub printed_stiff: Impact,
+    /// The system parameters that chapter IV prints, with C₃ = 10 kN s/m.
+    pub system: Impact,
+    /// The same with the C₃ that is printed, 10 MN s/m.
+    pub system_stiff: Impact,
+    /// Families of a, b, c and d around the printed groups.
+    pub groups: Vec<Family>,
+    /// Families of K₁, K₂, C₁ and C₂ around the system parameters.
+    pub constants: Vec<Family>,
+}
+
+impl Varied {
+    /// The groups of the figures.
+    pub const GROUPS: [Self; 4] = [Self::A, Self::B, Self::C, Self::D];
+    /// The system parameters of the padding.
+    pub const CONSTANTS: [Self; 4] = [Self::K1, Self::K2, Self::C1, Self::C2];
+
+    /// Its symbol.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::A => "a",
+            Self::B => "b",
+            Self::C => "c",
+            Self::D => "d",
+            Self::K1 => "K1",
+            Self::K2 => "K2",
+            Self::C1 => "C1",
+            Self::C2 => "C2",
+        }
+    }
+
+    /// The values of its family, the base among them. Those of the thesis' figures are lost, so they
+    /// are chosen: on both sides of the base, and for b and d once beyond the thickness. C₂ keeps to
+    /// the range that chapter V gives.
+    pub fn values(self) -> [f64; 5] {
+        match self {
+            Self::A => [20.0, 23.0, 26.6, 30.0, 35.0],
+            Self::B => [50.0, 58.0, 66.66, 75.0, 80.0],
+            Self::C => [5.0, 6.5, 8.0, 10.0, 12.0],
+            Self::D => [60.0, 70.0, 80.0, 90.0, 100.0],
+            Self::K1 | Self::K2 => [10e6, 15e6, 20e6, 25e6, 30e6],
+            Self::C1 => [2e3, 3e3, 4e3, 5e3, 6e3],
+            Self::C2 => [5150.0, 5600.0, 6000.0, 6800.0, 7600.0],
+        }
+    }
+
+    /// The impact with this value and all else at base.
+    ///
+    /// # Errors
+    ///
+    /// As [`Impact::of_groups`].
+    pub fn impact(self, value: f64) -> Result<Impact, ThesisError> {
+        let (base, pad) = (Groups::PRINTED, Padding::CHAPTER_4);
+        let system = |padding: Padding| Impact::of_system(&padding, &Support::CHAPTER_4);
+        match self {
+            Self::A => Impact::of_groups(&Groups { a: value, ..base }),
+            Self::B => Impact::of_groups(&Groups { b: value, ..base }),
+            Self::C => Impact::of_groups(&Groups { c: value, ..base }),
+            Self::D => Impact::of_groups(&Groups { d: value, ..base }),
+            Self::K1 => system(Padding { k1: value, ..pad }),
+            Self::K2 => system(Padding { k2: value, ..pad }),
+            Self::C1 => system(Padding { c1: value, ..pad }),
+            Self::C2 => system(Padding { c2: value, ..pad }),
+        }
+    }
+
+    /// A value as text with its unit.
+    pub fn text(self, value: f64) -> String {
+        match self {
+            Self::A | Self::B | Self::C | Self::D => short(value, 6),
+            Self::K1 | Self::K2 => format!("{} MN/m", short(value / 1e6, 6)),
+            Self::C1 | Self::C2 => format!("{} kN s/m", short(value / 1e3, 6)),
+        }
+    }
+
+    fn family(self) -> Result<Family, ThesisError> {
+        let member = |value| Ok(Member { value, impact: self.impact(value)? });
+        let members = self.values().into_iter().map(member).collect::<Result<_, ThesisError>>()?;
+        Ok(Family { varied: self, members })
+    }
+
+    /// The value between two, on different sides of it, at which the largest deformation is the
+    /// thickness, to nine digits; `None` where both are on one side.
+    ///
+    /// # Errors
+    ///
+    /// As [`Impact::of_groups`].
+    pub fn limit(self, low: f64, high: f64) -> Result<Option<f64>, ThesisError> {
+        /// More steps are never needed: half of them halve the interval.
+        const MOST: usize = 100;
+        let excess = |value| Ok::<f64, ThesisError>(self.impact(value)?.deepest().value - 1.0);
+        let (mut low, mut high) = ((low, excess(low)?), (high, excess(high)?));
+        if low.1 * high.1 > 0.0 {
+            return Ok(None);
+        }
+        for step in 0..MOST {
+            let secant = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            let next = if step % 3 == 2 { f64::midpoint(low.0, high.0) } else { secant };
+            let own = excess(next)?;
+            if own == 0.0 || (high.0 - low.0).abs() < 1e-9 * high.0.abs() {
+                return Ok(Some(next));
+            }
+            if own * low.1 > 0.0 {
+                // The weight of an end that stays is halved, or the secant would creep.
+                (low, high) = ((next, own), (high.0, 0.5 * high.1));
+            } else {
+                (low, high) = ((low.0, 0.5 * low.1), (next, own));
+            }
+        }
+        Ok(Some(f64::midpoint(low.0, high.0)))
+    }
+}
+
+impl Study {
+    /// Solves all of it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Impact::of_groups`]; the values are such that there are none.
+    pub fn new() -> Result<Self, ThesisError> {
+        let (base, pad) = (Groups::PRINTED, Padding::CHAPTER_4);
+        let families = |of: [Varied; 4]| {
+            of.into_iter().map(Varied::family).collect::<Result<Vec<_>, ThesisError>>()
+        };
+        Ok(Self {
+            printed: Impact::of_groups(&base)?,
+            printed_stiff: Impact::of_groups(&Groups { alpha: 200.0, ..base })?,
+            system: Impact::of_system(&pad, &Support::CHAPTER_4)?,
+            system_stiff: Impact::of_system(&pad, &Support::CHAPTER_4_STIFF)?,
+            groups: families(Varied::GROUPS)?,
+            constants: families(Varied::CONSTANTS)?,
+        })
+    }
+
+    /// All families.
+    pub fn families(&self) -> impl Iterator<Item = &Family> {
+        self.groups.iter().chain(&self.constants)
+    }
+
+    /// The family of a parameter.
+    pub fn family(&self, varied: Varied) -> Option<&Family> {
+        self.families().find(|own| own.varied == varied)
+    }
+}
+
+impl Family {
+    /// What a quantity is of each member.
+    pub fn each(&self, of: impl Fn(&Impact) -> f64) -> Vec<f64> {
+        self.members.iter().map(|own| of(&own.impact)).collect()
+    }
+
+    /// The table that belongs to the figures: padding, q and measures of each member.
+    pub fn table(&self) -> Table {
+        let symbol = self.varied.symbol();
+        let header = [
+            symbol,
+            "K1 MN/m",
+            "C1 kN s/m",
+            "K2 MN/m",
+            "C2 kN s/m",
+            "q",
+            "φ max",
+            "at τ*",
+            "ξ max",
+            "at τ*",
+            "release τ*",
+            "thickness",
+        ];
+        Table {
+            caption: format!("The family of {symbol}, all else at base"),
+            header: header.map(str::to_owned).to_vec(),
+            rows: self.members.iter().map(|own| own.row(self.varied)).collect(),
+        }
+    }
+}
+
+impl Member {
+    /// Whether the padding would be pressed by more than its thickness.
+    pub fn exceeds(&self) -> bool {
+        self.impact.deepest().value > 1.0
+    }
+
+    /// The padding in SI units, as it is in chapter IV.
+    pub fn padding(&self) -> Option<Padding> {
+        self.impact.groups.padding(&Scales::CHAPTER_4)
+    }
+
+    fn row(&self, varied: Varied) -> Vec<String> {
+        let number = |value: f64| significant(value, 4);
+        let pad = self.padding();
+        let of = |value: fn(&Padding) -> f64| pad.as_ref().map_or(f64::NAN, value);
+        let (peak, deepest) = (self.impact.peak(), self.impact.deepest());
+        let exceeds = if self.exceeds() { "exceeds" } else { "within" };
+        vec![
+            varied.text(self.value),
+            number(of(|own| own.k1) / 1e6),
+            number(of(|own| own.c1) / 1e3),
+            number(of(|own| own.k2) / 1e6),
+            number(of(|own| own.c2) / 1e3),
+            number(self.impact.groups.q()),
+            number(peak.value),
+            number(peak.time),
+            number(deepest.value),
+            number(deepest.time),
+            self.impact.release().map_or_else(|| "–".to_owned(), number),
+            exceeds.to_owned(),
+        ]
+    }
+}
