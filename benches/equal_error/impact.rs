@@ -11,7 +11,7 @@ use dashpot::{
 
 use super::by_hand::ByHand;
 
-/// Force \[N\] of one unit in the equations by hand: 1 kN mm of 2 cm.
+/// Force \[N\] of one unit in the equations by hand: 1 kJ over 2 cm.
 pub(crate) const UNIT: f64 = 1000.0 / 0.02;
 
 /// The equations of the thesis in its dimensionless groups.

@@ -10,12 +10,21 @@ mod chain;
 #[path = "../../benches/equal_error/impact.rs"]
 mod impact;
 
-use std::hint::black_box;
+use std::{hint::black_box, ops::ControlFlow};
 
 use allocation_counter::measure;
 use dashpot::{
+    analysis::{
+        SolveSettings,
+        sweep::{Grid, Posed, columns, sweep},
+    },
     dae::{Run, Silent, System, methods},
-    network::Network,
+    network::{
+        Network, Node,
+        elements::{Dashpot, Spring},
+        part,
+    },
+    rheology::Tree,
 };
 
 use self::{by_hand::ByHand, chain::Chain, impact::Impact};
@@ -64,4 +73,40 @@ fn a_run_allocates_no_more_than_code_by_hand_and_nothing_with_each_step() {
 fn so_does_one_with_sparse_matrices() {
     let chain = Chain { nodes: 60 };
     compare(&chain.network(), &chain);
+}
+
+/// Allocations of a sweep of the reference over so many values of three of its numbers by one thread, and
+/// its points.
+fn swept(counts: [usize; 3]) -> (u64, usize) {
+    let posed = |places: &[usize]| {
+        let factor = |at: usize| 1.0 + 0.02 * places[at] as f64;
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", 10.0).moving(10.0 * factor(2)));
+        let pad = Tree::series([
+            part(Spring { stiffness: 2e7 * factor(0) }),
+            part(Dashpot { damping: 2e4 * factor(1) }),
+        ]);
+        network.connect("padding", head, network.ground(), pad).thickness = Some(0.02);
+        Ok(Posed { network, settings: SolveSettings::lasting(0.02) })
+    };
+    let keys = ["peak-force", "peak-deformation", "energy"].map(|own| format!("padding.{own}"));
+    let severity = "head.severity-index".to_owned();
+    let keys: Vec<String> = keys.into_iter().chain([severity]).collect();
+    let columns = columns(&posed(&[0; 3]).unwrap(), &keys).unwrap().0;
+    let grid = Grid::new(counts.to_vec()).unwrap();
+    let mut stamped = 0;
+    let counted = measure(|| {
+        let watch = &mut |_, _| ControlFlow::Continue(());
+        stamped = sweep(&grid, &posed, &columns, 1, watch).unwrap().stamped;
+    });
+    assert_eq!(stamped, grid.len());
+    (counted.count_total, grid.len())
+}
+
+#[test]
+fn a_sweep_allocates_nothing_with_each_scene() {
+    // What is read along the axes and solved in full besides is nearly the same.
+    let ((few, small), (many, large)) = (swept([20, 20, 2]), swept([20, 20, 20]));
+    let each = many.saturating_sub(few) as f64 / (large - small) as f64;
+    assert!(each < 0.5, "{each} a scene: {few} of {small}, {many} of {large}");
 }

@@ -22,6 +22,7 @@ mod readme;
 mod registers;
 mod separation;
 mod shown;
+mod sweeps;
 mod thesis;
 mod vibration;
 

@@ -29,6 +29,7 @@ mod partial;
 mod random_networks;
 mod signs;
 mod sizes;
+mod sweeps;
 mod terminal;
 mod thesis;
 mod thesis_command;

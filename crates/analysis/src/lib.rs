@@ -32,6 +32,7 @@ mod selection;
 mod settings;
 mod solution;
 mod solve;
+pub mod sweep;
 pub mod vibration;
 mod warnings;
 mod wording;

@@ -1,6 +1,6 @@
 //! The arguments of the command: types only.
 
-use std::{ffi::OsStr, path::PathBuf};
+use std::{ffi::OsStr, num::NonZero, path::PathBuf};
 
 use clap::{
     Args, Parser, Subcommand, ValueEnum,
@@ -55,6 +55,8 @@ pub(crate) enum Command {
     Rheometer(RheometerArguments),
     /// Shows what accuracy costs: true errors of every method against time and work.
     Cost(CostArguments),
+    /// Solves a scene for many values of its numbers: tables, lines and maps of measures.
+    Sweep(SweepArguments),
     /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
     Vibrate(VibrateArguments),
     /// Recomputes the thesis behind this project: its numbers, figures, misprints and claims.
@@ -300,6 +302,41 @@ pub(crate) struct VibrateArguments {
     /// A plot in the text; `auto` draws it on terminals.
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     pub(crate) plot: When,
+}
+
+/// `sweep`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot sweep pad.toml --vary \"K=5..30 MN/m,26,log\"\n  \
+    dashpot sweep --vary \"head.velocity=2..12 m/s\" --measure padding.peak-force\n  \
+    dashpot sweep --vary \"padding.maxwell.spring=5..80 MN/m,41,log\" \\\n    \
+    --vary \"padding.kelvin.dashpot=1..16 kN s/m,41,log\" --out map\n\n\
+    A number of the scene goes by its path, such as head.velocity, mount.dashpot, \
+    padding.maxwell.spring or padding.thickness, or by its name under [values]. Its values are a \
+    range, with their count and `lin` or `log`, or a list: \"K=5,10,20 MN/m\". Without `--out` the \
+    table is printed as CSV, in SI units.")]
+pub(crate) struct SweepArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// A number of the scene and the values that it takes; repeatable, for all combinations.
+    #[arg(long, value_name = "NAME=VALUES", required = true)]
+    pub(crate) vary: Vec<String>,
+    /// Measures, such as padding.peak-force [default: all that the scene reports].
+    #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
+    pub(crate) measure: Vec<String>,
+    /// Leaves out what moves no measure by more than this, relative, such as 0.5%; verified at
+    /// points spread over the sweep [default: the scene's, else nothing].
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub(crate) neglect: Option<f64>,
+    /// How many threads share the points; the results are the same [default: one per core].
+    #[arg(long, value_name = "NUMBER")]
+    pub(crate) threads: Option<NonZero<usize>>,
+    /// Folder for CSV, JSON and SVG: lines over one parameter, maps over two.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Prints one JSON object, in SI units, in place of the table.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// `cost`.

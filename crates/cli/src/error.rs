@@ -2,12 +2,14 @@
 
 use std::{io, path::PathBuf, process::ExitCode};
 
-use dashpot_analysis::{RunError, rheometer::RheometerError, vibration::VibrationError};
+use dashpot_analysis::{
+    RunError, rheometer::RheometerError, sweep::SweepError, vibration::VibrationError,
+};
 use dashpot_dae::SolveError;
 use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
-use dashpot_scene::Diagnostics;
+use dashpot_scene::{Diagnostics, TunableFault, VariationFault, suggestion};
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
@@ -125,6 +127,27 @@ pub(crate) enum CliError {
         /// Why.
         reason: String,
     },
+    /// Values of a parameter that cannot be read.
+    #[error("`--vary`: {0}")]
+    Variation(#[from] VariationFault),
+    /// A number that a scene does not have, or not alone.
+    #[error("`--vary`: {0}")]
+    Tunable(#[from] TunableFault),
+    /// A named value that is both set and varied.
+    #[error("`{name}` is set and varied: leave out one of both")]
+    SetAndVaried {
+        /// The name.
+        name: String,
+    },
+    /// A grid that is too large.
+    #[error("these are more than {most} points")]
+    TooManyPoints {
+        /// The largest number.
+        most: usize,
+    },
+    /// A sweep that cannot be done.
+    #[error(transparent)]
+    Sweep(SweepError),
     /// A parameter that no test has.
     #[error("no test has a `{name}`; there are {}", .known.join(", "))]
     UnknownSetting {
@@ -199,6 +222,16 @@ pub(crate) enum CliError {
     Json(#[from] serde_json::Error),
 }
 
+impl From<SweepError> for CliError {
+    fn from(error: SweepError) -> Self {
+        match error {
+            // What is wrong with a run is told as in a run.
+            SweepError::Run(error) => Self::Run(error),
+            error => Self::Sweep(error),
+        }
+    }
+}
+
 impl CliError {
     /// The one table of exit codes.
     pub(crate) fn status(&self) -> Status {
@@ -216,6 +249,10 @@ impl CliError {
             | Self::UnknownElement { .. }
             | Self::Rheometer(_)
             | Self::WrongAmplitude { .. }
+            | Self::Variation(_)
+            | Self::Tunable(_)
+            | Self::SetAndVaried { .. }
+            | Self::TooManyPoints { .. }
             | Self::UnknownSetting { .. }
             | Self::WrongSetting { .. }
             | Self::MaterialAndPad
@@ -237,6 +274,12 @@ impl CliError {
                 ) => Status::InputWrong,
                 _ => Status::RunFailed,
             },
+            Self::Sweep(error) => match error {
+                SweepError::NotPosed(_)
+                | SweepError::NoMeasure { .. }
+                | SweepError::NoneReported => Status::InputWrong,
+                _ => Status::RunFailed,
+            },
             Self::Vibration(error) => match error {
                 VibrationError::Unbounded { .. } => Status::RunFailed,
                 _ => Status::InputWrong,
@@ -255,6 +298,11 @@ impl CliError {
         match self {
             Self::Unreadable { similar: Some(similar), .. } => {
                 Some(format!("did you mean `{similar}`?"))
+            }
+            Self::Variation(fault) => Some(fault.help()),
+            Self::Tunable(fault) => fault.help(),
+            Self::Sweep(SweepError::NoMeasure { key, known }) => {
+                suggestion(key, "measures", known)
             }
             Self::UnknownKind { .. } => Some("`dashpot list` names every kind".to_owned()),
             Self::Unreadable { .. } => Some(

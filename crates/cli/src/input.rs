@@ -22,6 +22,11 @@ pub(crate) struct Input {
 }
 
 impl Input {
+    /// The same; the built-in scene where none is named.
+    pub(crate) fn of(path: Option<&Path>) -> Result<Self, CliError> {
+        Self::read(path.unwrap_or(Path::new(BUILT_IN)))
+    }
+
     /// The built-in scene of this name, a file, or standard input for `-`.
     pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let name = path.to_string_lossy();
@@ -61,7 +66,7 @@ pub(crate) fn read_scene(
     path: Option<&Path>,
     set: &[(String, String)],
 ) -> Result<Checked<Scene>, CliError> {
-    let input = Input::read(path.unwrap_or(Path::new(BUILT_IN)))?;
+    let input = Input::of(path)?;
     read(input.text()?, &input.options(set)).map_err(CliError::Scene)
 }
 

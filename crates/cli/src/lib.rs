@@ -19,6 +19,7 @@ mod registers;
 mod rheometer_folder;
 mod series;
 mod sketch;
+mod sweep_folder;
 mod terminal;
 mod text;
 mod thesis_folder;
@@ -52,6 +53,7 @@ pub fn main() -> ExitCode {
         Command::Compare(arguments) => commands::compare(&arguments, terminal),
         Command::Rheometer(arguments) => commands::rheometer(&arguments, terminal),
         Command::Cost(arguments) => commands::cost(&arguments, terminal),
+        Command::Sweep(arguments) => commands::sweep(&arguments, terminal),
         Command::Vibrate(arguments) => commands::vibrate(&arguments, terminal),
         Command::Thesis(arguments) => commands::thesis(&arguments, terminal),
         Command::List(arguments) => commands::list(&arguments, terminal),

@@ -53,6 +53,11 @@ impl Unit {
         Self { symbol: symbol.to_owned(), factor }
     }
 
+    /// The number of units in `value`.
+    pub(crate) fn of(&self, value: f64) -> f64 {
+        value / self.factor
+    }
+
     /// The number of units in `value` to so many significant digits.
     pub(crate) fn number(&self, value: f64, digits: usize) -> String {
         significant(value / self.factor, digits)

@@ -18,6 +18,7 @@ mod pieces;
 pub mod problems;
 mod run;
 mod signal;
+pub mod small;
 pub mod switching;
 mod system;
 mod term;

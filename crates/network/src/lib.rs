@@ -25,7 +25,10 @@ pub mod waveforms;
 pub use assembly::{
     Assembly, ConnectionOutputs, DriveOutputs, NodeOutputs, PrimitiveOutputs, SegmentOutputs,
 };
-pub use compile::phased::{PhasedNetwork, PhasedPart};
+pub use compile::{
+    blueprint::{Blueprint, Stamp},
+    phased::{PhasedNetwork, PhasedPart},
+};
 pub use effects::Effect;
 pub use elements::Element;
 pub use error::{NetworkError, NetworkErrors, Subject};

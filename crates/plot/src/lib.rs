@@ -5,6 +5,7 @@
 //! - [`figures::model`]: the register of figures that are drawn from the [`ModelSeries`] of linear models, and what a
 //!   rheometer measures on them.
 //! - [`Sketch`]: a network of masses, springs, dashpots and supports, as [SVG](Sketch::svg) and as [text](Sketch::text).
+//! - [`Map`]: a value over two quantities, as [SVG](Map::svg).
 //! - [`Report`]: one self-contained HTML page.
 //!
 //! Nothing here knows scenes, systems or solvers, reads files or prints: data in, text out.
@@ -14,6 +15,7 @@ mod chart;
 mod error;
 pub mod figures;
 mod lettering;
+mod map;
 mod report;
 mod sketch;
 mod theme;
@@ -31,5 +33,6 @@ pub use figures::{
     ElementSeries, EnergySeries, Figure, PrecisionCurve, PrecisionSeries, RunMarker, RunMarkerKind,
     RunSeries, VibrationCurve, VibrationSeries,
 };
+pub use map::{Map, MapLimit};
 pub use report::{Report, ReportFigure, Table};
 pub use sketch::{Sketch, SketchGravity, SketchKind, SketchLink, SketchNode, SketchTree};

@@ -83,6 +83,47 @@ const PALETTE: [Colour; 7] = [
     Colour(0x8C, 0x6D, 0x53),
 ];
 
+/// The line of a limit in a map.
+pub(crate) const LIMIT: Colour = Colour(0xC2, 0x18, 0x1E);
+
+/// Colours of a map from its lowest to its highest value, dark to bright for every eye
+/// (cividis; Nuñez, Anderton and Renslow, 2018).
+const MAP: [Colour; 9] = [
+    Colour(0x00, 0x20, 0x4D),
+    Colour(0x00, 0x33, 0x6F),
+    Colour(0x39, 0x48, 0x6B),
+    Colour(0x57, 0x5C, 0x6D),
+    Colour(0x70, 0x71, 0x73),
+    Colour(0x8A, 0x87, 0x79),
+    Colour(0xA6, 0x9D, 0x75),
+    Colour(0xC4, 0xB5, 0x6C),
+    Colour(0xFF, 0xEA, 0x46),
+];
+
+/// The colour of a map at a share of its range, 0…1.
+pub(crate) fn map_colour(share: f64) -> Colour {
+    let place = share.clamp(0.0, 1.0) * (MAP.len() - 1) as f64;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a place between the colours of the map"
+    )]
+    let first = (place.floor() as usize).min(MAP.len() - 2);
+    let share = place - first as f64;
+    let (one, other) = (MAP[first], MAP[first + 1]);
+    let mixed = |one: u8, other: u8| {
+        let value = (1.0 - share) * f64::from(one) + share * f64::from(other);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between two bytes"
+        )]
+        let byte = value.round() as u8;
+        byte
+    };
+    Colour(mixed(one.0, other.0), mixed(one.1, other.1), mixed(one.2, other.2))
+}
+
 /// Number of different curve colours.
 pub(crate) const COLOURS: usize = PALETTE.len();
 

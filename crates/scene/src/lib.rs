@@ -40,8 +40,10 @@ mod sections;
 mod shipped;
 mod source;
 mod table;
+mod tunable;
 pub mod units;
 mod values;
+mod variation;
 mod write;
 
 pub use csv::CsvFault;
@@ -50,13 +52,16 @@ pub use document::MAX_BYTES;
 pub use fault::Fault;
 pub use library::Loader;
 pub use named::{NamedModel, read_named_model};
+pub use nearest::suggestion;
 pub use notes::ModelNote;
 pub use rewrite::with_model;
 pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network, text_of_bytes};
 pub use schema::schema;
 pub use shipped::{Shipped, reference, references, template, templates};
 pub use source::Source;
+pub use tunable::{Tunable, TunableFault, Tunables};
 pub use values::NamedValue;
+pub use variation::{Variation, VariationFault};
 pub use write::{write_effect, write_kind, write_material_table, write_model, write_model_table};
 
 #[cfg(test)]

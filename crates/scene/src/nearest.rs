@@ -39,8 +39,8 @@ pub(crate) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) 
         .map(|(_, candidate)| candidate)
 }
 
-/// "did you mean …?" and the known words, as far as they fit into a line.
-pub(crate) fn suggestion<S: AsRef<str>>(word: &str, family: &str, known: &[S]) -> Option<String> {
+/// "did you mean …?" and the known words, as far as they fit into a line; `None` where none is known.
+pub fn suggestion<S: AsRef<str>>(word: &str, family: &str, known: &[S]) -> Option<String> {
     if known.is_empty() {
         return None;
     }

@@ -24,6 +24,7 @@ use std::{sync::Arc, time::Duration};
 use dashpot_dae::Observer;
 use dashpot_network::{Assembly, Detail, Influence, Network};
 
+pub(crate) use self::sweep::{decide, spread};
 use self::{
     candidates::{Candidate, candidates},
     cost::{Comparison, charged},

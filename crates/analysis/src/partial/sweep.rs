@@ -48,25 +48,67 @@ pub struct Saving {
     pub wall_in_full: Duration,
 }
 
-/// Solves many networks that differ in numbers only, without what matters less than the bound of
-/// the accuracy in each of them.
-///
-/// Candidates are what is below the bound by estimate in every network. They are verified at
-/// `√n` points of `n`, three at least, spread evenly over the sweep from its first to its last one:
-/// what moves a measure by more than the bound at one of them stays everywhere. All other points are
-/// solved once. Without a bound every network is solved once, in full.
+/// What is left out of many networks, and what finding that out has yielded.
+#[derive(Debug)]
+pub(crate) struct Decision {
+    found: Vec<Candidate>,
+    /// What stayed although its estimate was below the bound.
+    pub(crate) put_back: Vec<PutBack>,
+    worst: Option<Cost>,
+    solves: usize,
+    /// Wall-clock times of the runs in full.
+    in_full: Vec<Duration>,
+    /// The networks that were solved with and without it, rising.
+    checked: Vec<usize>,
+    /// What is reported of the networks that were solved, by their positions.
+    runs: BTreeMap<usize, Result<RunReport, RunError>>,
+}
+
+impl Decision {
+    /// What is left out.
+    pub(crate) fn details(&self) -> Vec<Detail> {
+        self.found.iter().map(|own| own.detail).collect()
+    }
+
+    /// The same in words.
+    pub(crate) fn left_out(&self) -> Vec<Neglected> {
+        self.found.iter().cloned().map(Neglected::from).collect()
+    }
+
+    /// The measure that moves the most at any of the networks that were checked.
+    pub(crate) fn worst(&self) -> Option<Cost> {
+        self.worst.clone()
+    }
+
+    /// Solutions so far.
+    pub(crate) fn solves(&self) -> usize {
+        self.solves
+    }
+
+    /// The networks that were solved with and without it, rising.
+    pub(crate) fn checked(&self) -> impl Iterator<Item = usize> + '_ {
+        self.checked.iter().copied()
+    }
+
+    /// What `count` runs in full would take.
+    pub(crate) fn wall_in_full(&self, count: usize) -> Duration {
+        of_all(&self.in_full, count)
+    }
+}
+
+/// Finds what may be left out of all of these networks, as [`sweep`] does, by solving those at the
+/// positions `points` with and without it.
 ///
 /// # Errors
 ///
-/// What is wrong with the settings, and that the observer has cancelled a run. Other failures stand
-/// among the runs.
-pub fn sweep(
+/// What is wrong with the settings, and that the observer has cancelled a run.
+pub(crate) fn decide(
     networks: &[Network],
+    points: &[usize],
     settings: &SolveSettings,
     observer: &mut dyn Observer,
-) -> Result<PartialSweep, RunError> {
+) -> Result<Decision, RunError> {
     settings.validate()?;
-    let started = Instant::now();
     let bound = settings.accuracy.neglect_below.unwrap_or(0.0);
     let mut found = common(networks, settings.duration, bound);
     let mut put_back = match networks.first() {
@@ -74,7 +116,7 @@ pub fn sweep(
         None => Vec::new(),
     };
     let (mut checked, mut trials, mut runs) = (Vec::new(), Vec::new(), BTreeMap::new());
-    for at in if found.is_empty() { Vec::new() } else { spread(networks.len()) } {
+    for &at in if found.is_empty() { &[] } else { points } {
         match trial(&networks[at], settings, observer) {
             Ok(trial) => {
                 checked.push(at);
@@ -92,9 +134,8 @@ pub fn sweep(
     let settled = settle(&mut found, &mut put_back, &mut trials, bound, observer)?;
     let worst = settled.iter().filter_map(|own| own.2.worst()).cloned();
     let worst = worst.reduce(Cost::larger);
-
-    let mut solves = runs.len() + trials.iter().map(|trial| trial.solves).sum::<usize>();
-    let mut in_full: Vec<Duration> = trials.iter().map(|trial| trial.own).collect();
+    let solves = runs.len() + trials.iter().map(|trial| trial.solves).sum::<usize>();
+    let in_full: Vec<Duration> = trials.iter().map(|trial| trial.own).collect();
     let mut settled = settled.into_iter();
     for (&at, Trial { full, .. }) in checked.iter().zip(trials) {
         let run = match settled.next() {
@@ -103,25 +144,49 @@ pub fn sweep(
         };
         runs.insert(at, Ok(run));
     }
-    let details: Vec<Detail> = found.iter().map(|own| own.detail).collect();
+    Ok(Decision { found, put_back, worst, solves, in_full, checked, runs })
+}
+
+/// Solves many networks that differ in numbers only, without what matters less than the bound of
+/// the accuracy in each of them.
+///
+/// Candidates are what is below the bound by estimate in every network. They are verified at
+/// `√n` points of `n`, three at least, spread evenly over the sweep from its first to its last one:
+/// what moves a measure by more than the bound at one of them stays everywhere. All other points are
+/// solved once. Without a bound every network is solved once, in full.
+///
+/// # Errors
+///
+/// What is wrong with the settings, and that the observer has cancelled a run. Other failures stand
+/// among the runs.
+pub fn sweep(
+    networks: &[Network],
+    settings: &SolveSettings,
+    observer: &mut dyn Observer,
+) -> Result<PartialSweep, RunError> {
+    let started = Instant::now();
+    let mut decision = decide(networks, &spread(networks.len()), settings, observer)?;
+    let details = decision.details();
+    let left_out = decision.left_out();
+    let mut runs = std::mem::take(&mut decision.runs);
     for (at, network) in networks.iter().enumerate() {
         if runs.contains_key(&at) {
             continue;
         }
         let begun = Instant::now();
         let run = solve_without(network, &details, settings, observer);
-        solves += 1;
+        decision.solves += 1;
         if details.is_empty() {
-            in_full.push(begun.elapsed());
+            decision.in_full.push(begun.elapsed());
         }
         match run {
             Err(error) if is_cancelled(&error) => return Err(error),
             run => runs.insert(at, run),
         };
     }
-    let wall_in_full = of_all(&in_full, networks.len());
-    let saving = Saving { solves, wall: started.elapsed(), wall_in_full };
-    let left_out = found.into_iter().map(Neglected::from).collect();
+    let wall_in_full = decision.wall_in_full(networks.len());
+    let saving = Saving { solves: decision.solves, wall: started.elapsed(), wall_in_full };
+    let Decision { put_back, checked, worst, .. } = decision;
     let runs = runs.into_values().collect();
     Ok(PartialSweep { runs, left_out, put_back, checked, worst, saving })
 }
@@ -157,7 +222,7 @@ fn common(networks: &[Network], duration: f64, bound: f64) -> Vec<Candidate> {
 }
 
 /// Positions that are spread evenly over `count`.
-fn spread(count: usize) -> Vec<usize> {
+pub(crate) fn spread(count: usize) -> Vec<usize> {
     let root = count.isqrt();
     let wanted = if root * root < count { root + 1 } else { root };
     let wanted = wanted.max(LEAST).min(count);

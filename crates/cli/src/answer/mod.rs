@@ -10,6 +10,7 @@ mod partial;
 pub(crate) mod rheometer;
 mod settings;
 mod solving;
+pub(crate) mod sweep;
 pub(crate) mod thesis;
 mod verdict;
 pub(crate) mod vibration;

@@ -11,6 +11,7 @@ mod new;
 mod rheometer;
 mod run;
 mod schema;
+mod sweep;
 mod thesis;
 mod vibrate;
 
@@ -25,5 +26,6 @@ pub(crate) use new::new;
 pub(crate) use rheometer::rheometer;
 pub(crate) use run::run;
 pub(crate) use schema::schema;
+pub(crate) use sweep::sweep;
 pub(crate) use thesis::thesis;
 pub(crate) use vibrate::vibrate;

@@ -8,6 +8,7 @@
 //! in SI; `system` rounds them and makes them dimensionless.
 
 mod balance;
+pub(crate) mod blueprint;
 pub(crate) mod bodies;
 mod carry;
 mod dashpots;

@@ -81,7 +81,7 @@ fn exact_molar(value: f64) -> Option<String> {
 }
 
 /// The SI unit of a dimension, with a name of its own or as a product of powers.
-pub(crate) fn si_unit(dimension: Dimension) -> String {
+pub fn si_unit(dimension: Dimension) -> String {
     if let Some((_, unit)) = dimension.named() {
         return unit.to_owned();
     }

@@ -11,8 +11,8 @@ mod format;
 mod symbols;
 
 use dashpot_network::parameters::Dimension;
-pub(crate) use format::{exact_quantity, si_unit};
-pub use format::{format_quantity, format_short};
+pub(crate) use format::exact_quantity;
+pub use format::{format_quantity, format_short, si_unit};
 use symbols::Unit;
 pub(crate) use symbols::meant_as;
 use thiserror::Error;

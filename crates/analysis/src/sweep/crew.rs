@@ -1,0 +1,110 @@
+//! Work that is shared among threads, in an order that does not show in the results.
+
+use std::{
+    ops::ControlFlow,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
+    },
+    time::Duration,
+};
+
+/// Points that a thread takes at once.
+const SHARE: usize = 32;
+/// How often the watcher is told how far the work has come.
+const PULSE: Duration = Duration::from_millis(20);
+
+/// Tells how many points of how many are done; `Break` ends the sweep.
+pub type Watch<'w> = dyn FnMut(usize, usize) -> ControlFlow<()> + 'w;
+
+/// Does something for each of some `rows`, by so many threads, each with a `tool` of its own. False
+/// where the watcher broke it off.
+pub(super) fn share<R: Send, T>(
+    rows: &mut [R],
+    threads: usize,
+    tool: &(dyn Fn() -> T + Sync),
+    work: &(dyn Fn(&mut T, &mut R) + Sync),
+    watch: &mut Watch<'_>,
+) -> bool {
+    let count = rows.len();
+    let threads = threads.clamp(1, count.div_ceil(SHARE).max(1));
+    if threads == 1 {
+        return alone(rows, &mut tool(), work, watch);
+    }
+    let queue = Mutex::new(rows.chunks_mut(SHARE));
+    let (done, running) = (AtomicUsize::new(0), AtomicUsize::new(threads));
+    let is_over = AtomicBool::new(false);
+    let watcher = std::thread::current();
+    let labour = || {
+        let mut own = tool();
+        while !is_over.load(Ordering::Relaxed) {
+            let chunk = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some(chunk) = chunk else { break };
+            for row in chunk {
+                work(&mut own, row);
+                done.fetch_add(1, Ordering::Relaxed);
+            }
+        }
+        if running.fetch_sub(1, Ordering::Release) == 1 {
+            watcher.unpark();
+        }
+    };
+    let labour_of = &labour;
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(labour_of);
+        }
+        while running.load(Ordering::Acquire) > 0 {
+            std::thread::park_timeout(PULSE);
+            if watch(done.load(Ordering::Relaxed), count).is_break() {
+                is_over.store(true, Ordering::Relaxed);
+            }
+        }
+    });
+    !is_over.load(Ordering::Relaxed)
+}
+
+/// The same by the thread that asks for it.
+fn alone<R, T>(
+    rows: &mut [R],
+    tool: &mut T,
+    work: &(dyn Fn(&mut T, &mut R) + Sync),
+    watch: &mut Watch<'_>,
+) -> bool {
+    let (mut done, count) = (0, rows.len());
+    for chunk in rows.chunks_mut(SHARE) {
+        done += chunk.len();
+        chunk.iter_mut().for_each(|row| work(tool, row));
+        if watch(done, count).is_break() {
+            return false;
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_row_is_worked_on_once_by_any_number_of_threads() {
+        for threads in [0, 1, 2, 7, 1000] {
+            let mut rows: Vec<usize> = (0..1000).collect();
+            let whole = share(&mut rows, threads, &|| 1, &|one, row| *row += *one, &mut |_, _| {
+                ControlFlow::Continue(())
+            });
+            assert!(whole && rows.iter().enumerate().all(|(at, own)| *own == at + 1));
+        }
+    }
+
+    #[test]
+    fn the_watcher_may_break_it_off() {
+        let mut rows = vec![0; 100_000];
+        let work = |(): &mut (), row: &mut i32| {
+            *row += 1;
+            std::thread::sleep(Duration::from_micros(50));
+        };
+        let whole = share(&mut rows, 2, &|| (), &work, &mut |_, _| ControlFlow::Break(()));
+        assert!(!whole && rows.contains(&0));
+    }
+}

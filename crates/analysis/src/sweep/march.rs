@@ -1,0 +1,274 @@
+//! The impact of one scene, by the powers of one matrix exponential.
+//!
+//! The state is carried from node to node by `e^{A h}`, until the contact force falls through zero.
+//! At the nodes force and deformation are known with two rates each; where one turns, or the force
+//! falls through zero, the state is carried into the step by its own series, and the place is found
+//! by Newton's method on the solution itself. Integrals are Gauss's sums over each step; the two
+//! steps at which the force is zero are taken in the root of time, in which powers of it are smooth.
+
+use std::ops::ControlFlow;
+
+use dashpot_dae::small::{Powers, Square, apply, apply_left};
+
+use super::{
+    bracket::{Flank, Step},
+    sums::Sums,
+};
+
+/// A step is so long, in units of the shortest time of the system, where only peaks are looked for …
+const COARSE: f64 = 3.0;
+/// … and where integrals are formed.
+const FINE: f64 = 1.0;
+/// A run has at least so many steps …
+const FEWEST: f64 = 16.0;
+/// … and at most so many; beyond, it is not followed here.
+const MOST: f64 = 20_000.0;
+/// A force that comes so near to zero without passing it, in parts of its peak, is not judged here.
+const GRAZING: f64 = 1e-6;
+/// What is less than this part of its terms cannot be told from zero.
+const NOTHING: f64 = 64.0 * f64::EPSILON;
+/// What the error of a value is counted in: roundings per unit of norm times time.
+const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
+
+/// An impact, ready to be solved: `ż = A z` in any unit of time, and what is looked at.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Posed<'s, const N: usize> {
+    /// `A` by its columns.
+    pub(super) matrix: &'s Square<N>,
+    /// The state at the start.
+    pub(super) start: &'s [f64; N],
+    /// The contact force \[N\] over the states.
+    pub(super) force: &'s [f64; N],
+    /// The deformation \[m\] of the same element.
+    pub(super) deformation: &'s [f64; N],
+    /// Length of the run.
+    pub(super) end: f64,
+}
+
+/// Which integrals are wanted.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Wanted {
+    /// `∫ F^n dt` with this exponent.
+    pub(super) power: Option<f64>,
+    /// `∫ F dt` and `∫ F ẏ dt`.
+    pub(super) work: bool,
+    /// `∫ F ẏ dt` up to the end of the run as well.
+    pub(super) work_at_end: bool,
+}
+
+/// A number and how far it may be off.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Figure {
+    pub(super) value: f64,
+    pub(super) error: f64,
+}
+
+/// What is known of an impact; times in the unit of the matrix.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Impact {
+    /// The largest force \[N\].
+    pub(super) force: Figure,
+    /// The largest deformation \[m\].
+    pub(super) depth: Figure,
+    /// When the force falls through zero.
+    pub(super) release: Figure,
+    /// `∫ F^n dt`.
+    pub(super) power: Figure,
+    /// `∫ F dt`.
+    pub(super) impulse: Figure,
+    /// `∫ F ẏ dt` \[J\].
+    pub(super) work: Figure,
+    /// The same up to the end of the run \[J\].
+    pub(super) work_at_end: Figure,
+}
+
+/// The largest value of a signal so far.
+#[derive(Debug, Clone, Copy)]
+struct Peak {
+    value: f64,
+    /// What it may be between nodes where it is not known to run straight.
+    doubtful: f64,
+}
+
+impl<const N: usize> Posed<'_, N> {
+    /// Solves the impact. `None` where it is not of the plain kind: the force does not push from the
+    /// start, or does not fall through zero within the run, or comes near to zero before, or one of
+    /// both turns twice within a step where it is largest, or the system is too stiff.
+    pub(super) fn solve(&self, wanted: Wanted) -> Option<Impact> {
+        let mut march = March::new(self, wanted)?;
+        while march.start() < self.end {
+            if let ControlFlow::Break(time) = march.advance()? {
+                return march.impact(time);
+            }
+        }
+        None
+    }
+}
+
+/// A solution on its way from node to node.
+struct March<'p, const N: usize> {
+    posed: &'p Posed<'p, N>,
+    wanted: Wanted,
+    /// How fast the system changes, and the step that suits it.
+    rate: f64,
+    step: f64,
+    carry: Square<N>,
+    /// Force and deformation with two rates each, over the states.
+    looks: [[f64; 6]; N],
+    sums: Option<Sums<N>>,
+    /// Steps done, the state there, and what is seen.
+    at: u32,
+    z: [f64; N],
+    seen: [f64; 6],
+    /// The largest magnitude of each state.
+    most: [f64; N],
+    /// Of the force and of the deformation.
+    peaks: [Peak; 2],
+    /// The lowest turn of the force and the least deformation.
+    lowest: f64,
+    shallowest: f64,
+    /// By how much the force falls in the step in which it passes zero, per time.
+    fall: f64,
+}
+
+impl<'p, const N: usize> March<'p, N> {
+    fn new(posed: &'p Posed<'p, N>, wanted: Wanted) -> Option<Self> {
+        let powers = Powers::of(posed.matrix);
+        let rate = powers.rate();
+        let integrates = wanted.work || wanted.work_at_end || wanted.power.is_some();
+        let longest = if integrates { FINE } else { COARSE } / rate;
+        let step = longest.min(posed.end / FEWEST);
+        if !(step > 0.0 && posed.end / step <= MOST) {
+            return None;
+        }
+        let rates = |row: &[f64; N]| apply_left(row, posed.matrix);
+        let (force_rate, speed) = (rates(posed.force), rates(posed.deformation));
+        let (force_bend, bend) = (rates(&force_rate), rates(&speed));
+        let mut looks = [[0.0; 6]; N];
+        for (at, look) in looks.iter_mut().enumerate() {
+            let force = [posed.force[at], force_rate[at], force_bend[at]];
+            let depth = [posed.deformation[at], speed[at], bend[at]];
+            *look = [force[0], force[1], force[2], depth[0], depth[1], depth[2]];
+        }
+        let most = posed.start.map(f64::abs);
+        let seen = apply(&looks, posed.start);
+        let noise = |row: &[f64; N]| NOTHING * size(row, &most);
+        let begins = if seen[0].abs() > noise(posed.force) {
+            seen[0] > 0.0
+        } else {
+            seen[1] > noise(&force_rate)
+        };
+        let peak = |value: f64| Peak { value: value.max(0.0), doubtful: 0.0 };
+        begins.then(|| Self {
+            posed,
+            wanted,
+            rate,
+            step,
+            carry: powers.exponential(step),
+            looks,
+            sums: integrates.then(|| Sums::new(posed, wanted, step, &speed)),
+            at: 0,
+            z: *posed.start,
+            seen,
+            most,
+            peaks: [peak(seen[0]), peak(seen[3])],
+            lowest: f64::INFINITY,
+            shallowest: 0.0,
+            fall: 0.0,
+        })
+    }
+
+    /// When the next step begins.
+    fn start(&self) -> f64 {
+        f64::from(self.at) * self.step
+    }
+
+    /// Takes a step, or breaks off where the force falls through zero, with how long after the beginning
+    /// of the step that is. `None` where the impact is not of the plain kind.
+    fn advance(&mut self) -> Option<ControlFlow<f64>> {
+        let next = apply(&self.carry, &self.z);
+        let found = apply(&self.looks, &next);
+        for (own, state) in self.most.iter_mut().zip(&next) {
+            *own = own.max(state.abs());
+        }
+        let flanks = [Flank::of(&self.seen, &found, 0), Flank::of(&self.seen, &found, 3)];
+        let (matrix, looks) = (self.posed.matrix, &self.looks);
+        let whole = Step { matrix, looks, length: self.step, ends: [&self.z, &next] };
+        let mut until = None;
+        if found[0] <= 0.0 {
+            let (time, depth) = whole.fall(&flanks[0])?;
+            if self.at == 0 || self.start() + time > self.posed.end {
+                return None;
+            }
+            self.shallowest = self.shallowest.min(depth);
+            self.peaks[1].value = self.peaks[1].value.max(depth);
+            self.fall = found[1].min(self.seen[1]).abs();
+            until = Some(time);
+        } else {
+            if self.seen[1] < 0.0 && found[1] > 0.0 {
+                self.lowest = self.lowest.min(whole.turn(&flanks[0], 0)?.1);
+            }
+            self.peaks[0].value = self.peaks[0].value.max(found[0]);
+            self.peaks[1].value = self.peaks[1].value.max(found[3]);
+        }
+        for ((peak, flank), place) in self.peaks.iter_mut().zip(&flanks).zip([0, 3]) {
+            if flank.rises_then_falls() {
+                let (time, value) = whole.turn(flank, place)?;
+                if time <= until.unwrap_or(self.step) {
+                    peak.value = peak.value.max(value);
+                }
+            } else if !flank.is_straight(self.step) {
+                peak.doubtful = peak.doubtful.max(flank.bound(self.step));
+            }
+        }
+        self.shallowest = self.shallowest.min(found[3]);
+        let ahead = self.posed.end - self.start();
+        if let Some(sums) = &mut self.sums {
+            if until.is_some() && self.wanted.work_at_end {
+                sums.complete(&self.carry, &self.z, ahead);
+            }
+            sums.add(self.posed, &self.z, self.at, until)?;
+        }
+        if let Some(time) = until {
+            return Some(ControlFlow::Break(time));
+        }
+        (self.z, self.seen) = (next, found);
+        self.at += 1;
+        Some(ControlFlow::Continue(()))
+    }
+
+    /// What is known of the impact that ends so long after the beginning of the last step.
+    fn impact(&self, time: f64) -> Option<Impact> {
+        let [force, depth] = self.peaks;
+        let release = self.start() + time;
+        let is_clear = force.doubtful <= force.value
+            && depth.doubtful <= depth.value
+            && self.lowest > GRAZING * force.value
+            && -self.shallowest <= depth.value;
+        if !is_clear {
+            return None;
+        }
+        let steps = f64::from(self.at) + 16.0 + self.rate * release;
+        let grown = ROUNDINGS * steps * N as f64;
+        let noise = grown * size(self.posed.force, &self.most);
+        let figure = |value: f64, error: f64| Figure { value, error };
+        let mut impact = Impact {
+            force: figure(force.value, noise),
+            depth: figure(depth.value, grown * size(self.posed.deformation, &self.most)),
+            release: figure(release, noise / self.fall + 4.0 * f64::EPSILON * release),
+            ..Impact::default()
+        };
+        if let Some(sums) = &self.sums {
+            let speed: [f64; N] = self.looks.map(|own| own[4]);
+            sums.finish(&mut impact, self.posed.end, noise, grown * size(&speed, &self.most));
+        }
+        let all = [impact.force, impact.depth, impact.release, impact.power, impact.work];
+        let is_finite = |own: &Figure| own.value.is_finite() && own.error.is_finite();
+        all.iter().all(is_finite).then_some(impact)
+    }
+}
+
+/// What a row may come to at most.
+fn size<const N: usize>(row: &[f64; N], most: &[f64; N]) -> f64 {
+    row.iter().zip(most).map(|(one, other)| (one * other).abs()).sum()
+}

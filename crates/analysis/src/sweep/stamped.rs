@@ -1,0 +1,222 @@
+//! Points of a sweep that are solved by stamping: one compiled form, other numbers.
+
+use dashpot_network::{
+    Blueprint, Stamp,
+    parameters::{Value, WindowWish},
+};
+
+use super::{
+    Column, Grid, Pose, Posed as Scene,
+    march::{Figure, Impact, Posed, Wanted},
+    table::Table,
+};
+use crate::{
+    measures::STANDARD_GRAVITY,
+    selection::{Selected, select},
+};
+
+/// A value that is less certain than this part of itself is left to the full solution.
+const LOOSEST: f64 = 1e-6;
+
+/// What a column shows of an impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Shown {
+    Force,
+    Depth,
+    Share,
+    Acceleration,
+    ContactTime,
+    Impulse,
+    Work,
+    WorkAtEnd,
+    Severity,
+}
+
+/// How the points of a sweep are solved by stamping.
+#[derive(Debug)]
+pub(super) struct Plan<'g> {
+    grid: &'g Grid,
+    blueprint: Blueprint,
+    table: Table,
+    shown: Vec<Shown>,
+    wanted: Wanted,
+    duration: f64,
+}
+
+impl<'g> Plan<'g> {
+    /// A plan, where the scene at the first point and the columns allow one.
+    pub(super) fn of(
+        grid: &'g Grid,
+        pose: &Pose<'_>,
+        first: &Scene,
+        columns: &[Column],
+    ) -> Option<Self> {
+        let settings = &first.settings;
+        let is_exact = matches!(settings.method.as_str(), "auto" | "exact");
+        if !is_exact || !settings.stops.is_empty() || settings.accuracy.neglect_below.is_some() {
+            return None;
+        }
+        let duration = settings.duration;
+        let blueprint = Blueprint::of(&first.network, duration)?;
+        if blueprint.states() > MOST_STATES {
+            return None;
+        }
+        let assembly = first.network.compile(duration).ok()?;
+        let selected = select(&assembly, &settings.measures).ok()?;
+        let mut wanted = Wanted::default();
+        let mut shown = Vec::with_capacity(columns.len());
+        for column in columns {
+            let own = selected.iter().find(|own| own.key == column.key)?;
+            let own = shown_by(own, &blueprint, &mut wanted)?;
+            shown.push(if column.is_share { Shown::Share } else { own });
+        }
+        let table = Table::of(&blueprint, grid, pose, duration)?;
+        Some(Self { grid, blueprint, table, shown, wanted, duration })
+    }
+
+    /// Whether the numbers at a point are those of its network.
+    pub(super) fn agrees(&self, point: usize, scene: &Scene) -> bool {
+        let mut places = vec![0; self.grid.counts().len()];
+        self.grid.locate(point, &mut places);
+        self.table.agrees(&self.blueprint, &places, &scene.network)
+    }
+
+    /// What solves points; one for each thread.
+    pub(super) fn stamper(&self) -> Option<Box<dyn Stamper + '_>> {
+        match self.blueprint.states() {
+            0..=2 => self.sized::<2>(),
+            3..=4 => self.sized::<4>(),
+            5..=6 => self.sized::<6>(),
+            7..=8 => self.sized::<8>(),
+            9..=10 => self.sized::<10>(),
+            11..=MOST_STATES => self.sized::<MOST_STATES>(),
+            _ => None,
+        }
+    }
+
+    fn sized<const N: usize>(&self) -> Option<Box<dyn Stamper + '_>> {
+        Some(Box::new(Sized {
+            plan: self,
+            stamp: self.blueprint.stamp::<N>()?,
+            places: vec![0; self.grid.counts().len()],
+            numbers: vec![0.0; self.table.len()],
+        }))
+    }
+
+    fn figure(&self, shown: Shown, impact: &Impact, numbers: &[f64]) -> Figure {
+        let time = self.blueprint.time_scale();
+        let mass = self.blueprint.impactor_mass(numbers);
+        let thickness = numbers[numbers.len() - 1];
+        let times = |own: Figure, factor: f64| Figure {
+            value: own.value * factor,
+            error: own.error * factor,
+        };
+        match shown {
+            Shown::Force => impact.force,
+            Shown::Depth => impact.depth,
+            Shown::Share => times(impact.depth, thickness.recip()),
+            Shown::Acceleration => times(impact.force, mass.recip()),
+            Shown::ContactTime => times(impact.release, time),
+            Shown::Impulse => times(impact.impulse, time),
+            Shown::Work => impact.work,
+            Shown::WorkAtEnd => impact.work_at_end,
+            Shown::Severity => {
+                let exponent = self.wanted.power.unwrap_or(1.0);
+                times(impact.power, time / (mass * STANDARD_GRAVITY).powf(exponent))
+            }
+        }
+    }
+}
+
+/// The largest number of unknowns that are stamped.
+const MOST_STATES: usize = 12;
+
+/// The figure that is a measure; `None` where it has to be read off the full solution.
+fn shown_by(own: &Selected, blueprint: &Blueprint, wanted: &mut Wanted) -> Option<Shown> {
+    let mut numbers = Vec::new();
+    for value in own.measure.values() {
+        match value {
+            Value::Window(WindowWish::Impact) => {}
+            Value::Number(number) => numbers.push(number),
+            _ => return None,
+        }
+    }
+    let target = match own.measure.kind() {
+        "peak-force" | "peak-deformation" | "contact-time" | "impulse" | "energy"
+        | "energy-at-end" => blueprint.element(),
+        _ => blueprint.impactor().index(),
+    };
+    if own.target != target {
+        return None;
+    }
+    match (own.measure.kind(), numbers.as_slice()) {
+        ("peak-force", []) => Some(Shown::Force),
+        ("peak-deformation", []) => Some(Shown::Depth),
+        ("peak-acceleration", []) => Some(Shown::Acceleration),
+        ("contact-time", []) => Some(Shown::ContactTime),
+        ("impulse", []) => {
+            wanted.work = true;
+            Some(Shown::Impulse)
+        }
+        ("energy", []) => {
+            wanted.work = true;
+            Some(Shown::Work)
+        }
+        ("energy-at-end", []) => {
+            wanted.work_at_end = true;
+            Some(Shown::WorkAtEnd)
+        }
+        // Below one, a power is too steep where the force is zero.
+        ("severity-index", &[exponent])
+            if exponent >= 1.0
+                && wanted.power.is_none_or(|own| own.to_bits() == exponent.to_bits()) =>
+        {
+            wanted.power = Some(exponent);
+            Some(Shown::Severity)
+        }
+        _ => None,
+    }
+}
+
+/// Solves points, one after the other.
+pub(super) trait Stamper {
+    /// Writes the columns of a point and their errors. False where the point has to be solved in full:
+    /// it is of another form, or its impact is not of the plain kind, or not certain enough. Nothing is
+    /// allocated.
+    fn write(&mut self, point: usize, values: &mut [f64], errors: &mut [f64]) -> bool;
+}
+
+struct Sized<'p, const N: usize> {
+    plan: &'p Plan<'p>,
+    stamp: Stamp<N>,
+    places: Vec<usize>,
+    numbers: Vec<f64>,
+}
+
+impl<const N: usize> Stamper for Sized<'_, N> {
+    fn write(&mut self, point: usize, values: &mut [f64], errors: &mut [f64]) -> bool {
+        let plan = self.plan;
+        plan.grid.locate(point, &mut self.places);
+        if !plan.table.write(&self.places, &mut self.numbers) {
+            return false;
+        }
+        plan.blueprint.fill(&self.numbers, &mut self.stamp);
+        let stamp = &self.stamp;
+        let posed = Posed {
+            matrix: &stamp.matrix,
+            start: &stamp.start,
+            force: &stamp.force,
+            deformation: &stamp.deformation,
+            end: plan.duration / plan.blueprint.time_scale(),
+        };
+        let Some(impact) = posed.solve(plan.wanted) else { return false };
+        for ((shown, value), error) in plan.shown.iter().zip(values).zip(errors) {
+            let own = plan.figure(*shown, &impact, &self.numbers);
+            if own.error.is_nan() || own.error > LOOSEST * own.value.abs() {
+                return false;
+            }
+            (*value, *error) = (own.value, own.error);
+        }
+        true
+    }
+}

@@ -1,0 +1,293 @@
+//! Integrals over an impact, as Gauss's sums over the steps of its solution.
+
+use dashpot_dae::small::{Square, apply, apply_left, dot};
+
+use super::march::{Figure, Impact, Posed, Wanted};
+
+/// Terms of the series of a force within a step.
+const TERMS: usize = 24;
+/// Points of Gauss's rule.
+const GAUSS: usize = 6;
+/// Its places on 0…1 …
+const PLACES: [f64; GAUSS] = [
+    0.033_765_242_898_423_99,
+    0.169_395_306_766_867_74,
+    0.380_690_406_958_401_55,
+    0.619_309_593_041_598_5,
+    0.830_604_693_233_132_3,
+    0.966_234_757_101_576,
+];
+/// … and their weights.
+const WEIGHTS: [f64; GAUSS] = [
+    0.085_662_246_189_585_17,
+    0.180_380_786_524_069_3,
+    0.233_956_967_286_345_52,
+    0.233_956_967_286_345_52,
+    0.180_380_786_524_069_3,
+    0.085_662_246_189_585_17,
+];
+/// Points of the rule for the first step and the last ones.
+const ENDS: usize = 12;
+/// Its places on 0…1 …
+const END_PLACES: [f64; ENDS] = [
+    0.009_219_682_876_640_375,
+    0.047_941_371_814_762_57,
+    0.115_048_662_902_847_65,
+    0.206_341_022_856_691_3,
+    0.316_084_250_500_909_9,
+    0.437_383_295_744_265_54,
+    0.562_616_704_255_734_5,
+    0.683_915_749_499_090_1,
+    0.793_658_977_143_308_7,
+    0.884_951_337_097_152_3,
+    0.952_058_628_185_237_5,
+    0.990_780_317_123_359_7,
+];
+/// … and their weights.
+const END_WEIGHTS: [f64; ENDS] = [
+    0.023_587_668_193_255_914,
+    0.053_469_662_997_659_21,
+    0.080_039_164_271_673_11,
+    0.101_583_713_361_532_96,
+    0.116_746_268_269_177_4,
+    0.124_573_522_906_701_39,
+    0.124_573_522_906_701_39,
+    0.116_746_268_269_177_4,
+    0.101_583_713_361_532_96,
+    0.080_039_164_271_673_11,
+    0.053_469_662_997_659_21,
+    0.023_587_668_193_255_914,
+];
+/// What a Gauss sum may be off by, in parts of the integral; see the tests.
+const QUADRATURE: f64 = 1e-9;
+
+/// The integrals so far.
+pub(super) struct Sums<const N: usize> {
+    wanted: Wanted,
+    step: f64,
+    /// Force and rate of deformation at Gauss's points of a step, over the state at its start.
+    force_at: [[f64; GAUSS]; N],
+    speed_at: [[f64; GAUSS]; N],
+    /// `F Aʲ/j!` and `ẏ Aʲ/j!`.
+    force_terms: [[f64; N]; TERMS],
+    speed_terms: [[f64; N]; TERMS],
+    /// Up to the step before the last one …
+    sure: Amounts,
+    /// … and that step, with the state at its beginning.
+    last: Amounts,
+    before: [f64; N],
+    /// The work up to the end of the run, and `∫ |F ẏ| dt` of it.
+    whole: [f64; 2],
+}
+
+/// What is summed up over a time.
+#[derive(Debug, Clone, Copy, Default)]
+struct Amounts {
+    /// `∫ F^n dt`.
+    power: f64,
+    /// `∫ F^(n−1) dt`, by which its error grows.
+    slope: f64,
+    /// `∫ F dt`.
+    impulse: f64,
+    /// `∫ F ẏ dt`.
+    work: f64,
+    /// `∫ |ẏ| dt`.
+    way: f64,
+}
+
+impl Amounts {
+    /// The sums over Gauss's points. `None` where the force is below `floor` at one of them.
+    fn of<const K: usize>(
+        (force, speed): (&[f64; K], &[f64; K]),
+        weights: &[f64; K],
+        power: Option<f64>,
+        floor: f64,
+    ) -> Option<Self> {
+        let mut own = Self::default();
+        for ((force, speed), weight) in force.iter().zip(speed).zip(weights) {
+            if *force < floor {
+                return None;
+            }
+            let force = force.max(0.0);
+            own.impulse += weight * force;
+            own.work += weight * force * speed;
+            own.way += weight * speed.abs();
+            if let Some(exponent) = power {
+                let (power, slope) = raised(force, exponent);
+                own.power += weight * power;
+                own.slope += weight * slope;
+            }
+        }
+        Some(own)
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            power: self.power + other.power,
+            slope: self.slope + other.slope,
+            impulse: self.impulse + other.impulse,
+            work: self.work + other.work,
+            way: self.way + other.way,
+        }
+    }
+}
+
+impl<const N: usize> Sums<N> {
+    pub(super) fn new(posed: &Posed<'_, N>, wanted: Wanted, step: f64, speed: &[f64; N]) -> Self {
+        let force_terms = terms(posed.force, posed.matrix);
+        let needs_speed = wanted.work || wanted.work_at_end;
+        let speed_terms = if needs_speed { terms(speed, posed.matrix) } else { [[0.0; N]; TERMS] };
+        Self {
+            wanted,
+            step,
+            force_at: rows(&force_terms, step),
+            speed_at: if needs_speed { rows(&speed_terms, step) } else { [[0.0; GAUSS]; N] },
+            force_terms,
+            speed_terms,
+            sure: Amounts::default(),
+            last: Amounts::default(),
+            before: *posed.start,
+            whole: [0.0; 2],
+        }
+    }
+
+    /// Adds a step from the state `z`: the first one, one in the midst, or the last one, which ends
+    /// after a time and is taken together with the one before. `None` where the force pulls within, or
+    /// the last step is one of the first two.
+    pub(super) fn add(
+        &mut self,
+        posed: &Posed<'_, N>,
+        z: &[f64; N],
+        at: u32,
+        until: Option<f64>,
+    ) -> Option<()> {
+        let floor = -1e-9 * dot(&posed.force.map(f64::abs), &z.map(f64::abs));
+        let amounts = match until {
+            None if at > 0 => {
+                let seen = (&apply(&self.force_at, z), &apply(&self.speed_at, z));
+                let weights = WEIGHTS.map(|own| own * self.step);
+                Amounts::of(seen, &weights, self.wanted.power, floor)?
+            }
+            None => {
+                let times = END_PLACES.map(|u| self.step * u * u);
+                self.in_roots(z, &times, self.step, floor)?
+            }
+            Some(_) if at < 2 => return None,
+            Some(time) => {
+                let length = self.step + time;
+                let times = END_PLACES.map(|u| length * (1.0 - u * u));
+                self.last = Amounts::default();
+                self.in_roots(&self.before, &times, length, floor)?
+            }
+        };
+        self.sure = self.sure.plus(self.last);
+        (self.last, self.before) = (amounts, *z);
+        Some(())
+    }
+
+    /// The sums over a time in which the force is zero at one end, in the root of the time from there.
+    fn in_roots(
+        &self,
+        z: &[f64; N],
+        times: &[f64; ENDS],
+        length: f64,
+        floor: f64,
+    ) -> Option<Amounts> {
+        let mut weights = END_WEIGHTS;
+        for (weight, u) in weights.iter_mut().zip(END_PLACES) {
+            *weight *= 2.0 * u * length;
+        }
+        let seen = (&self.force_terms, &self.speed_terms);
+        let [force, speed] = [seen.0, seen.1].map(|terms| {
+            let own = terms.map(|row| dot(&row, z));
+            times.map(|time| polynomial(&own, time))
+        });
+        Amounts::of((&force, &speed), &weights, self.wanted.power, floor)
+    }
+
+    /// Adds up the work from the state `z` at the beginning of a step to the end of the run, which lies so
+    /// far ahead.
+    pub(super) fn complete(&mut self, carry: &Square<N>, z: &[f64; N], ahead: f64) {
+        let (mut state, mut left) = (*z, ahead);
+        let work = self.sure.plus(self.last).work;
+        self.whole = [work, work.abs()];
+        while left > 0.0 {
+            let (force, speed, length) = if left >= self.step {
+                (apply(&self.force_at, &state), apply(&self.speed_at, &state), self.step)
+            } else {
+                let at = |terms: &[[f64; N]; TERMS]| {
+                    let own = terms.map(|row| dot(&row, &state));
+                    PLACES.map(|place| polynomial(&own, place * left))
+                };
+                (at(&self.force_terms), at(&self.speed_terms), left)
+            };
+            for at in 0..GAUSS {
+                let power = force[at] * speed[at];
+                self.whole[0] += WEIGHTS[at] * length * power;
+                self.whole[1] += WEIGHTS[at] * length * power.abs();
+            }
+            state = apply(carry, &state);
+            left -= self.step;
+        }
+    }
+
+    /// What is known in the end of a run of the length `end`, where the force may be off by `force` and
+    /// the rate by `speed`.
+    pub(super) fn finish(&self, impact: &mut Impact, end: f64, force: f64, speed: f64) {
+        let sum = self.sure.plus(self.last);
+        let exponent = self.wanted.power.unwrap_or(1.0);
+        let error = exponent * sum.slope * force + QUADRATURE * sum.power;
+        impact.power = Figure { value: sum.power, error };
+        let error = force * impact.release.value + QUADRATURE * sum.impulse;
+        impact.impulse = Figure { value: sum.impulse, error };
+        let size = impact.force.value * sum.way;
+        let error = force * sum.way + speed * sum.impulse + QUADRATURE * size;
+        impact.work = Figure { value: sum.work, error };
+        // What is off at the end of the impact is so beyond it, by the time that passes.
+        let error = error * (end / impact.release.value).max(1.0) + QUADRATURE * self.whole[1];
+        impact.work_at_end = Figure { value: self.whole[0], error };
+    }
+}
+
+/// The exponent of the severity index.
+const GADD: f64 = 2.5;
+
+/// `x^n` and `x^(n−1)`; the square root is much faster than any other power.
+#[inline]
+fn raised(x: f64, exponent: f64) -> (f64, f64) {
+    if exponent.to_bits() == GADD.to_bits() {
+        let root = x.sqrt();
+        (x * x * root, x * root)
+    } else if x > 0.0 {
+        let power = x.powf(exponent);
+        (power, power / x)
+    } else {
+        (0.0, 0.0)
+    }
+}
+
+/// `row · Aʲ/j!`.
+fn terms<const N: usize>(row: &[f64; N], matrix: &Square<N>) -> [[f64; N]; TERMS] {
+    let mut all = [*row; TERMS];
+    for at in 1..TERMS {
+        let factor = 1.0 / at as f64;
+        all[at] = apply_left(&all[at - 1], matrix).map(|own| own * factor);
+    }
+    all
+}
+
+/// The rows at Gauss's points of a step.
+fn rows<const N: usize>(terms: &[[f64; N]; TERMS], step: f64) -> [[f64; GAUSS]; N] {
+    let mut all = [[0.0; GAUSS]; N];
+    for (place, share) in PLACES.iter().enumerate() {
+        let time = share * step;
+        for (at, own) in all.iter_mut().enumerate() {
+            own[place] = terms.iter().rev().fold(0.0, |sum, row| sum * time + row[at]);
+        }
+    }
+    all
+}
+
+fn polynomial(coefficients: &[f64; TERMS], time: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, own| sum * time + own)
+}

@@ -1,0 +1,264 @@
+//! What `sweep` draws, and what it writes into a folder.
+
+use std::{fs, path::Path};
+
+use dashpot_analysis::sweep::{Column, SweepReport};
+use dashpot_plot::{Chart, Direction, Map, MapLimit, ReferenceLine, Scale, Series};
+use dashpot_scene::Variation;
+
+use crate::{
+    answer::{
+        sweep::{Swept, name},
+        title,
+    },
+    error::CliError,
+    folder::{RESULT, unwritable},
+    numbers::Unit,
+};
+
+/// Values at all points.
+const TABLE: &str = "sweep.csv";
+/// A family has at most so many lines.
+const MOST_LINES: usize = 12;
+/// A map has at least so many rows and columns.
+const LEAST_OF_MAP: usize = 4;
+/// What is to be said of a padding that is as deep as it is thick.
+const PRESSED: &str = "ξmax = 1";
+
+/// The figures of a sweep.
+#[derive(Clone, Copy)]
+struct Figures {
+    lines: bool,
+    map: bool,
+}
+
+impl Figures {
+    fn of(variations: &[Variation]) -> Self {
+        match variations {
+            [_] => Self { lines: true, map: false },
+            [first, second] => {
+                let map = first.len() >= LEAST_OF_MAP && second.len() >= LEAST_OF_MAP;
+                Self { lines: !map || second.len() <= MOST_LINES, map }
+            }
+            _ => Self { lines: false, map: false },
+        }
+    }
+}
+
+fn line_file(column: &Column) -> String {
+    let share = if column.is_share { "-over-thickness" } else { "" };
+    format!("{}{share}.svg", column.key)
+}
+
+fn map_file(column: &Column) -> String {
+    let share = if column.is_share { "-over-thickness" } else { "" };
+    format!("{}{share}-map.svg", column.key)
+}
+
+/// The files that are written besides the result.
+pub(crate) fn file_names(swept: &Swept<'_>, columns: &[Column]) -> Vec<String> {
+    let figures = Figures::of(swept.variations);
+    let lines = columns.iter().filter(|_| figures.lines).map(line_file);
+    let maps = columns.iter().filter(|_| figures.map).map(map_file);
+    [TABLE.to_owned()].into_iter().chain(lines).chain(maps).collect()
+}
+
+/// Writes everything into the folder `path`, and returns the names of the files.
+pub(crate) fn write(
+    path: &Path,
+    json: &str,
+    swept: &Swept<'_>,
+    report: &SweepReport,
+) -> Result<Vec<String>, CliError> {
+    let mut files =
+        vec![(RESULT.to_owned(), json.to_owned()), (TABLE.to_owned(), csv(swept, report))];
+    let figures = Figures::of(swept.variations);
+    for (at, column) in report.columns.iter().enumerate() {
+        if figures.lines {
+            files.push((line_file(column), lines(swept, report, at).svg()?));
+        }
+        if figures.map {
+            files.push((map_file(column), map(swept, report, at).svg()));
+        }
+    }
+    for (name, content) in &files {
+        let file = path.join(name);
+        fs::write(&file, content).map_err(unwritable(&file))?;
+    }
+    Ok(files.into_iter().map(|own| own.0).collect())
+}
+
+/// Values and errors at all points, in SI units; what is missing is blank.
+pub(crate) fn csv(swept: &Swept<'_>, report: &SweepReport) -> String {
+    let mut text = String::new();
+    let mut header: Vec<String> = swept
+        .variations
+        .iter()
+        .enumerate()
+        .map(|(at, own)| format!("{} [{}]", own.name, swept.unit(at)))
+        .collect();
+    for own in &report.columns {
+        header.push(format!("{} [{}]", name(own), own.unit));
+        header.push(format!("error of {} [{}]", name(own), own.unit));
+    }
+    push_record(&mut text, header.iter().map(|own| quoted(own)));
+    let width = report.columns.len();
+    let points = report.values.chunks(width).zip(report.errors.chunks(width));
+    let mut places = vec![0; swept.variations.len()];
+    for (values, errors) in points {
+        let own =
+            places.iter().zip(swept.variations).map(|(place, own)| number(own.values[*place]));
+        let both = values.iter().zip(errors).flat_map(|(value, error)| [*value, *error]);
+        push_record(&mut text, own.chain(both.map(number)));
+        for (place, own) in places.iter_mut().zip(swept.variations).rev() {
+            *place += 1;
+            if *place < own.len() {
+                break;
+            }
+            *place = 0;
+        }
+    }
+    text
+}
+
+fn push_record(text: &mut String, fields: impl Iterator<Item = String>) {
+    for (at, field) in fields.enumerate() {
+        if at > 0 {
+            text.push(',');
+        }
+        text.push_str(&field);
+    }
+    text.push('\n');
+}
+
+fn quoted(field: &str) -> String {
+    if field.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field.to_owned()
+    }
+}
+
+/// The shortest digits that give the number back.
+fn number(value: f64) -> String {
+    if !value.is_finite() {
+        return String::new();
+    }
+    let (plain, scientific) = (value.to_string(), format!("{value:e}"));
+    if scientific.len() < plain.len() { scientific } else { plain }
+}
+
+/// The unit in which a column is drawn: that of its largest value.
+fn unit(report: &SweepReport, column: usize) -> Unit {
+    let most = report.column(column).filter(|own| own.is_finite()).map(f64::abs);
+    Unit::suiting(most.fold(0.0, f64::max), report.columns[column].unit)
+}
+
+fn label(name: &str, unit: &Unit) -> String {
+    if unit.symbol.is_empty() { name.to_owned() } else { format!("{name} ({})", unit.symbol) }
+}
+
+/// Label, scale and places of a parameter: in the unit of the command line, or where it is logarithmic
+/// in the SI unit, whose ticks carry prefixes.
+fn axis(swept: &Swept<'_>, parameter: usize) -> (String, Scale, Vec<f64>) {
+    let own = &swept.variations[parameter];
+    if own.is_logarithmic {
+        let unit = swept.unit(parameter);
+        let unit = if unit == "1" { String::new() } else { unit };
+        return (own.name.clone(), Scale::logarithmic(&unit), own.values.clone());
+    }
+    let label = if own.unit.is_empty() {
+        let unit = swept.unit(parameter);
+        if unit == "1" { own.name.clone() } else { format!("{} ({unit})", own.name) }
+    } else {
+        format!("{} ({})", own.name, own.unit)
+    };
+    (label, Scale::Linear, own.numbers.clone())
+}
+
+/// A column over the first parameter, one line for each value of the second.
+fn lines(swept: &Swept<'_>, report: &SweepReport, column: usize) -> Chart {
+    let (x_label, x_scale, x) = axis(swept, 0);
+    let unit = unit(report, column);
+    let values: Vec<f64> = report.column(column).map(|own| unit.of(own)).collect();
+    let (count, name_of): (usize, Box<dyn Fn(usize) -> String>) = match swept.variations {
+        [_, second] => {
+            (second.len(), Box::new(|at| format!("{} = {}", second.name, shown(second, at))))
+        }
+        _ => (1, Box::new(|_| String::new())),
+    };
+    let line = |at: usize| {
+        let points = x.iter().enumerate().map(|(place, x)| (*x, values[place * count + at]));
+        Series::new(name_of(at), points.collect())
+    };
+    let own = &report.columns[column];
+    let limit = ReferenceLine {
+        direction: Direction::Horizontal,
+        at: 1.0,
+        label: PRESSED.to_owned(),
+        colour: None,
+    };
+    Chart {
+        title: name(own),
+        note: title(swept.scene).to_owned(),
+        x_label,
+        x_scale,
+        y_label: label(&name(own), &unit),
+        series: (0..count).map(line).collect(),
+        lines: if own.is_share { vec![limit] } else { Vec::new() },
+        ..Chart::default()
+    }
+}
+
+/// A value of a parameter to four digits.
+fn shown(own: &Variation, at: usize) -> String {
+    let unit = Unit::new(&own.unit, 1.0);
+    let text = unit.text(own.numbers[at], 4);
+    let (number, rest) = text.split_once(' ').unwrap_or((&text, ""));
+    let short = match number.split_once('.') {
+        Some(_) if !number.contains('e') => number.trim_end_matches('0').trim_end_matches('.'),
+        _ => number,
+    };
+    format!("{short} {rest}").trim_end().to_owned()
+}
+
+/// A column over both parameters, with the line on which a padding is pressed to nothing.
+fn map(swept: &Swept<'_>, report: &SweepReport, column: usize) -> Map {
+    let (x_label, x_scale, x) = axis(swept, 0);
+    let (y_label, y_scale, y) = axis(swept, 1);
+    let turned = |values: Vec<f64>| -> Vec<f64> {
+        let place = |at: usize| (at % x.len()) * y.len() + at / x.len();
+        (0..values.len()).map(|at| values[place(at)]).collect()
+    };
+    let own = &report.columns[column];
+    let element = own.key.rsplit_once('.').map(|key| key.0);
+    let limits = report.columns.iter().enumerate().filter(|(_, other)| {
+        let other_element = other.key.rsplit_once('.').map(|key| key.0);
+        other.is_share && (other_element == element || shares(report) == 1)
+    });
+    let limits = limits.map(|(at, _)| MapLimit {
+        values: turned(report.column(at).collect()),
+        at: 1.0,
+        label: PRESSED.to_owned(),
+    });
+    let limits = limits.collect();
+    let unit = unit(report, column);
+    Map {
+        title: name(own),
+        note: title(swept.scene).to_owned(),
+        x_label,
+        y_label,
+        x_scale,
+        y_scale,
+        value_label: label(&name(own), &unit),
+        values: turned(report.column(column).map(|own| unit.of(own)).collect()),
+        limits,
+        x,
+        y,
+    }
+}
+
+/// How many columns are shares of a thickness.
+fn shares(report: &SweepReport) -> usize {
+    report.columns.iter().filter(|own| own.is_share).count()
+}

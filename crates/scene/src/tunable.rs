@@ -1,0 +1,440 @@
+//! The numbers of a scene that a sweep may give other values.
+//!
+//! Every number in the text is one, by its path: `nodes.head.velocity`,
+//! `models.valox-pad.burgers.maxwell.spring`. Any parts of the path that are not needed to tell it may be
+//! left out, but for the last one. The numbers of a model also go by the elements that are made of it, as
+//! `padding.maxwell.spring`; and a number that stands for a named value is that value.
+
+use std::{collections::BTreeMap, ops::Range, sync::Arc};
+
+use dashpot_network::parameters::Dimension;
+use thiserror::Error;
+
+use crate::{
+    Variation,
+    diagnostics::{Diagnostics, Faults},
+    document::{Content, Item, parse},
+    nearest::{list, nearest},
+    source::Source,
+    units::parse_quantity,
+    variation::{in_words, other_dimension},
+};
+
+/// The tables whose numbers may vary.
+const SECTIONS: [&str; 7] =
+    ["values", "models", "materials", "nodes", "elements", "effects", "loads"];
+/// The key under `[run]` that may vary.
+const RUN: (&str, &str) = ("run", "duration");
+
+/// A number in the text of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tunable {
+    /// Its path in full.
+    pub path: String,
+    /// The shortest end of the path that tells it from all others.
+    pub name: String,
+    /// Its value in SI units.
+    pub value: f64,
+    /// What it measures, where a unit is given.
+    pub dimension: Option<Dimension>,
+    span: Range<usize>,
+}
+
+/// Why there is no such number.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TunableFault {
+    /// No number goes by this name.
+    #[error("the scene has no number `{name}`")]
+    Unknown {
+        /// What was given.
+        name: String,
+        /// What was probably meant.
+        near: Option<String>,
+        /// The names that there are.
+        known: Vec<String>,
+    },
+    /// Several numbers do.
+    #[error("`{name}` may be {}", .names.join(" or "))]
+    Ambiguous {
+        /// What was given.
+        name: String,
+        /// What tells them apart.
+        names: Vec<String>,
+    },
+    /// Its values would measure something else.
+    #[error("`{name}`: {reason}")]
+    OtherDimension {
+        /// What was given.
+        name: String,
+        /// What they measure.
+        reason: String,
+    },
+    /// One number is varied twice.
+    #[error("`{first}` and `{second}` are the same number of the scene")]
+    Twice {
+        /// What was given first.
+        first: String,
+        /// What was given then.
+        second: String,
+    },
+}
+
+impl TunableFault {
+    /// What to do.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Unknown { near, known, .. } => {
+                let listed = format!("its numbers are {}", list(known));
+                Some(match near {
+                    Some(near) => format!("did you mean `{near}`? {listed}"),
+                    None => listed,
+                })
+            }
+            Self::Ambiguous { .. } => {
+                Some("write so much of the path that it is the only one".to_owned())
+            }
+            Self::OtherDimension { .. } => None,
+            Self::Twice { .. } => Some("vary it once".to_owned()),
+        }
+    }
+}
+
+/// The numbers of a scene's text.
+#[derive(Debug, Clone)]
+pub struct Tunables {
+    text: Arc<str>,
+    all: Vec<Tunable>,
+    /// Every path, the alternative ones included, and the number that it leads to.
+    paths: Vec<(Vec<String>, usize)>,
+}
+
+/// What stands in a text: numbers, and words that may be names of values.
+#[derive(Default)]
+struct Found {
+    numbers: Vec<(Vec<String>, Range<usize>, String)>,
+    words: Vec<(Vec<String>, String)>,
+}
+
+impl Tunables {
+    /// The numbers of a scene's text; those of other files are not among them.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the text as TOML.
+    pub fn of(text: &str, file: Option<&str>) -> Result<Self, Diagnostics> {
+        let faults = Faults::default();
+        let source = Arc::new(Source::new(file.unwrap_or("scene"), text));
+        let root = parse(&source, &faults);
+        let Some(root) = root.filter(|_| faults.errors() == 0) else {
+            return Err(faults.finish());
+        };
+        let mut found = Found::default();
+        for entry in root.table().unwrap_or(&[]) {
+            if SECTIONS.contains(&entry.key.as_str()) {
+                collect(&entry.item, &mut vec![entry.key.clone()], &mut found);
+            } else if entry.key == RUN.0 {
+                let own = entry.item.table().unwrap_or(&[]).iter().filter(|own| own.key == RUN.1);
+                let path = || vec![RUN.0.to_owned(), RUN.1.to_owned()];
+                own.for_each(|own| collect(&own.item, &mut path(), &mut found));
+            }
+        }
+        Ok(Self::with(Arc::clone(&source.text), found))
+    }
+
+    fn with(text: Arc<str>, found: Found) -> Self {
+        let mut own = Self { text, all: Vec::new(), paths: Vec::new() };
+        for (path, span, content) in found.numbers {
+            let Ok(quantity) = parse_quantity(&content) else { continue };
+            own.paths.push((path.clone(), own.all.len()));
+            own.all.push(Tunable {
+                path: path.join("."),
+                name: String::new(),
+                value: quantity.value,
+                dimension: quantity.dimension,
+                span,
+            });
+        }
+        // Where a word is the name of a value, it stands for its number.
+        for (path, word) in &found.words {
+            let value = ["values".to_owned(), word.clone()];
+            let known = own.paths.iter().find(|known| known.0 == value).map(|known| known.1);
+            own.paths.extend(known.map(|at| (path.clone(), at)));
+        }
+        // An element of a model has the numbers of the model.
+        for (path, word) in &found.words {
+            let [section, element, key] = path.as_slice() else { continue };
+            let shelf = if key == "material" { "materials" } else { "models" };
+            if section != "elements" || !["model", "material"].contains(&key.as_str()) {
+                continue;
+            }
+            let inner: Vec<(Vec<String>, usize)> = own
+                .paths
+                .iter()
+                .filter(|known| known.0.len() > 2 && known.0[0] == shelf && known.0[1] == *word)
+                .map(|known| {
+                    let mut path = vec![section.clone(), element.clone()];
+                    path.extend_from_slice(&known.0[2..]);
+                    (path, known.1)
+                })
+                .collect();
+            own.paths.extend(inner);
+        }
+        for at in 0..own.all.len() {
+            own.all[at].name = own.shortest(at);
+        }
+        own
+    }
+
+    /// All numbers, in the order of the text.
+    pub fn all(&self) -> &[Tunable] {
+        &self.all
+    }
+
+    /// The position of the number of this name.
+    ///
+    /// # Errors
+    ///
+    /// Where none or several go by it.
+    pub fn find(&self, name: &str) -> Result<usize, TunableFault> {
+        let wanted: Vec<&str> = name.split('.').map(str::trim).collect();
+        match self.led_to(&wanted)[..] {
+            [only] => Ok(only),
+            [] => {
+                let known: Vec<String> = self.all.iter().map(|own| own.name.clone()).collect();
+                let paths = self.paths.iter().map(|own| own.0[1..].join("."));
+                let words: Vec<String> = known.iter().cloned().chain(paths).collect();
+                let near = nearest(name, words.iter().map(String::as_str)).map(str::to_owned);
+                Err(TunableFault::Unknown { name: name.to_owned(), near, known })
+            }
+            ref several => {
+                let names = several.iter().map(|&at| format!("`{}`", self.all[at].name)).collect();
+                Err(TunableFault::Ambiguous { name: name.to_owned(), names })
+            }
+        }
+    }
+
+    /// The number that each variation is of.
+    ///
+    /// # Errors
+    ///
+    /// A name that leads to none or several, values of another dimension than the number in the text, and
+    /// two variations of one number.
+    pub fn matched(&self, variations: &[Variation]) -> Result<Vec<usize>, TunableFault> {
+        let mut found: Vec<usize> = Vec::with_capacity(variations.len());
+        for own in variations {
+            let at = self.find(&own.name)?;
+            if let (Some(given), Some(wanted)) = (own.dimension, self.all[at].dimension)
+                && given != wanted
+            {
+                let reason = other_dimension(&own.text(0), given, wanted);
+                return Err(TunableFault::OtherDimension { name: own.name.clone(), reason });
+            }
+            if let Some(before) = found.iter().position(|other| *other == at) {
+                let (first, second) = (variations[before].name.clone(), own.name.clone());
+                return Err(TunableFault::Twice { first, second });
+            }
+            found.push(at);
+        }
+        Ok(found)
+    }
+
+    /// The text of the scene with other values in the place of some numbers.
+    pub fn text_with(&self, values: &[(usize, String)]) -> String {
+        let mut values: Vec<(&Range<usize>, &str)> =
+            values.iter().map(|(at, value)| (&self.all[*at].span, value.as_str())).collect();
+        values.sort_by_key(|own| own.0.start);
+        let mut text = String::with_capacity(self.text.len() + 16 * values.len());
+        let mut from = 0;
+        for (span, value) in values {
+            text.push_str(&self.text[from..span.start]);
+            text.push('"');
+            text.push_str(value);
+            text.push('"');
+            from = span.end;
+        }
+        text.push_str(&self.text[from..]);
+        text
+    }
+
+    /// The value of a number in words.
+    pub fn shown(&self, at: usize) -> String {
+        in_words(self.all[at].value, self.all[at].dimension)
+    }
+
+    /// The numbers that a path leads to, rising.
+    fn led_to(&self, wanted: &[&str]) -> Vec<usize> {
+        let whole = self.paths.iter().filter(|own| own.0[1..] == *wanted || own.0 == *wanted);
+        let mut found: Vec<usize> = whole.map(|own| own.1).collect();
+        if found.is_empty() {
+            found =
+                self.paths.iter().filter(|own| holds(&own.0, wanted)).map(|own| own.1).collect();
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// The shortest name that leads to a number alone and says what it is of: parts of its path, or of
+    /// that of an element, with the end.
+    fn shortest(&self, at: usize) -> String {
+        let own = self.paths.iter().filter(|path| path.1 == at);
+        let mut names: BTreeMap<(usize, usize), String> = BTreeMap::new();
+        for (order, (path, _)) in own.enumerate() {
+            let last = path.len() - 1;
+            // The end with one part before it; with the thing's name and one part besides; all of it.
+            let mut picks: Vec<Vec<usize>> = (1..last).map(|first| vec![first, last]).collect();
+            picks.extend((2..last).map(|second| vec![1, second, last]));
+            picks.push((1..=last).collect());
+            for pick in picks {
+                let parts: Vec<&str> = pick.iter().map(|&part| path[part].as_str()).collect();
+                if self.led_to(&parts) == [at] {
+                    names.entry((parts.len(), order)).or_insert_with(|| parts.join("."));
+                    break;
+                }
+            }
+        }
+        names.into_values().next().unwrap_or_else(|| self.all[at].path.clone())
+    }
+}
+
+/// Whether a path has these parts in this order, its end included.
+fn holds(path: &[String], wanted: &[&str]) -> bool {
+    let Some((last, inner)) = wanted.split_last() else { return false };
+    let Some((end, mut rest)) = path.split_last() else { return false };
+    if end != last {
+        return false;
+    }
+    for part in inner {
+        match rest.iter().position(|own| own == part) {
+            Some(at) => rest = &rest[at + 1..],
+            None => return false,
+        }
+    }
+    true
+}
+
+/// Adds all that stands in an item. Members of a list go by their names, or by their numbers from 1.
+fn collect(item: &Item, path: &mut Vec<String>, found: &mut Found) {
+    match &item.value {
+        Content::Number(digits) => {
+            found.numbers.push((path.clone(), item.place.span(), digits.clone()));
+        }
+        Content::Text(text) if parse_quantity(text).is_ok() => {
+            found.numbers.push((path.clone(), item.place.span(), text.clone()));
+        }
+        Content::Text(text) => found.words.push((path.clone(), text.trim().to_owned())),
+        Content::Table(entries) => {
+            for entry in entries {
+                path.push(entry.key.clone());
+                collect(&entry.item, path, found);
+                path.pop();
+            }
+        }
+        Content::List(items) => {
+            for (at, item) in items.iter().enumerate() {
+                let entries = item.table().unwrap_or(&[]);
+                let name = entries.iter().find(|entry| entry.key == "name");
+                let name = name.and_then(|entry| entry.item.text());
+                path.push(name.map_or_else(|| (at + 1).to_string(), str::to_owned));
+                collect(item, path, found);
+                path.pop();
+            }
+        }
+        Content::Switch(_) | Content::Date => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ReadOptions, read, reference};
+
+    const TEXT: &str = r#"
+[values]
+K2 = "20 MN/m"
+
+[models.pad]
+series = [
+  { spring = "K2" },
+  { dashpot = "6 kN s/m" },
+  { parallel = [{ spring = "18 MN/m" }, { dashpot = 4000 }] },
+]
+
+[nodes]
+head = { mass = "10 kg", velocity = "10 m/s" }
+
+[elements]
+padding = { between = ["head", "ground"], model = "pad", thickness = "2 cm" }
+
+[run]
+duration = "20 ms"
+samples = 11
+"#;
+
+    fn tunables() -> Tunables {
+        Tunables::of(TEXT, None).unwrap()
+    }
+
+    fn path(name: &str) -> String {
+        let own = tunables();
+        own.find(name).map_or_else(|fault| fault.to_string(), |at| own.all()[at].path.clone())
+    }
+
+    #[test]
+    fn a_number_goes_by_any_parts_of_its_path_that_tell_it() {
+        assert_eq!(path("head.velocity"), "nodes.head.velocity");
+        assert_eq!(path("velocity"), "nodes.head.velocity");
+        assert_eq!(path("K2"), "values.K2");
+        assert_eq!(path("padding.thickness"), "elements.padding.thickness");
+        assert_eq!(path("padding.parallel.dashpot"), "models.pad.series.3.parallel.2.dashpot");
+        assert_eq!(path("padding.series.2.dashpot"), "models.pad.series.2.dashpot");
+        assert_eq!(path("run.duration"), "run.duration");
+        assert_eq!(path("padding.series.1.spring"), "values.K2", "a named value");
+    }
+
+    #[test]
+    fn what_leads_to_none_or_several_is_said() {
+        assert!(path("samples").contains("no number `samples`"));
+        let fault = tunables().find("head.veloctiy").unwrap_err();
+        assert!(fault.help().unwrap().starts_with("did you mean `head.velocity`?"), "{fault:?}");
+        assert!(path("pad.dashpot").contains(" or "), "{}", path("pad.dashpot"));
+    }
+
+    #[test]
+    fn every_name_that_is_shown_leads_to_its_number() {
+        for text in [TEXT, reference()] {
+            let own = Tunables::of(text, None).unwrap();
+            for (at, tunable) in own.all().iter().enumerate() {
+                assert_eq!(own.find(&tunable.name), Ok(at), "{}", tunable.name);
+                assert_eq!(own.find(&tunable.path), Ok(at), "{}", tunable.path);
+            }
+        }
+    }
+
+    #[test]
+    fn the_text_is_that_of_the_scene_with_the_value_in_its_place() {
+        let own = tunables();
+        let at = own.find("padding.parallel.dashpot").unwrap();
+        let speed = own.find("velocity").unwrap();
+        let text = own.text_with(&[(speed, "5 m/s".to_owned()), (at, "8 kN s/m".to_owned())]);
+        let expected = TEXT.replace("dashpot = 4000", "dashpot = \"8 kN s/m\"");
+        assert_eq!(text, expected.replace("\"10 m/s\"", "\"5 m/s\""));
+        assert!(read(&text, &ReadOptions::default()).is_ok());
+    }
+
+    #[test]
+    fn variations_are_held_to_the_dimension_of_the_number() {
+        let own = tunables();
+        let matched = |texts: &[&str]| {
+            let all: Vec<Variation> =
+                texts.iter().map(|text| Variation::parse(text).unwrap()).collect();
+            own.matched(&all).map_err(|fault| fault.to_string())
+        };
+        assert!(matched(&["K2=5..30 MN/m", "head.mass=1..2"]).is_ok());
+        let fault = matched(&["K2=5..30 mm"]).unwrap_err();
+        assert!(fault.contains("is in m, the value in the scene in N/m"), "{fault}");
+        let fault = matched(&["K2=5..30 MN/m", "values.K2=1..2 MN/m"]).unwrap_err();
+        assert!(fault.contains("are the same number"), "{fault}");
+    }
+}

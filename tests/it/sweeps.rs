@@ -1,0 +1,220 @@
+//! Sweeps as users of the command meet them.
+
+use dashpot::{
+    analysis::solve,
+    dae::Silent,
+    scene::{ReadOptions, read, reference},
+};
+use tempfile::TempDir;
+
+use crate::cli::{code, err, file, json, out, run, text};
+
+/// The records of a table in CSV, the header first.
+fn records(table: &str) -> Vec<Vec<&str>> {
+    table.lines().map(|line| line.split(',').collect()).collect()
+}
+
+const TWO: [&str; 6] = [
+    "sweep",
+    "reference",
+    "--vary",
+    "padding.maxwell.spring=5..80 MN/m,5,log",
+    "--vary",
+    "head.velocity=5,10 m/s",
+];
+
+#[test]
+fn values_are_those_of_single_runs() {
+    let run = run(&TWO);
+    assert_eq!(code(&run), 0, "{}", err(&run));
+    let table = out(&run);
+    let records = records(&table);
+    assert_eq!(records.len(), 1 + 10);
+    assert_eq!(records[0][0], "padding.maxwell.spring [N/m]");
+    for record in &records[1..] {
+        let spring = format!("maxwell = {{ spring = \"{} N/m\",", record[0]);
+        let text = reference()
+            .replace("maxwell = { spring = \"20 MN/m\",", &spring)
+            .replace("velocity = \"10 m/s\"", &format!("velocity = \"{} m/s\"", record[1]));
+        let scene = read(&text, &ReadOptions::default()).unwrap().value;
+        let report = solve(&scene.network, &scene.settings("exact"), &mut Silent).unwrap();
+        let mut compared = 0;
+        for (at, name) in records[0].iter().enumerate().skip(2).step_by(2) {
+            let (key, _) = name.split_once(" [").unwrap();
+            let (key, thickness) = match key.strip_suffix(" over thickness") {
+                Some(key) => (key, 0.02),
+                None => (key, 1.0),
+            };
+            let own = report.measure(key).unwrap();
+            let right = own.value.unwrap() / thickness;
+            let [value, error]: [f64; 2] = [at, at + 1].map(|at| record[at].parse().unwrap());
+            let room = error + own.error.unwrap_or(0.0) / thickness;
+            assert!((value - right).abs() <= room, "{name}: {value} against {right}");
+            assert!(error <= 1e-6 * value.abs(), "{name}: {error}");
+            compared += 1;
+        }
+        assert_eq!(compared, 9, "all that the scene reports, and the share of the thickness");
+    }
+}
+
+#[test]
+fn the_bytes_are_the_same_by_one_thread_and_by_many() {
+    let by = |threads: &str, json: bool| {
+        let mut arguments = TWO.to_vec();
+        arguments.extend(["--threads", threads]);
+        if json {
+            arguments.push("--json");
+        }
+        out(&run(&arguments))
+    };
+    for json in [false, true] {
+        let one = by("1", json);
+        assert!(one.len() > 500);
+        for threads in ["2", "7"] {
+            assert_eq!(by(threads, json), one);
+        }
+    }
+}
+
+#[test]
+fn a_named_value_varies_wherever_its_name_stands() {
+    let folder = TempDir::new().unwrap();
+    let scene = reference()
+        .replace("[nodes]", "[values]\nK2 = \"20 MN/m\"\n\n[nodes]")
+        .replace("kelvin = { spring = \"20 MN/m\"", "kelvin = { spring = \"K2\"")
+        .replace("maxwell = { spring = \"20 MN/m\"", "maxwell = { spring = \"K2\"");
+    let path = file(&folder, "scene.toml", &scene);
+    let json = json(&["sweep", text(&path), "--vary", "K2=5..30 MN/m,4,log", "--json"]);
+    assert_eq!(json["parameters"][0]["path"], "values.K2");
+    assert_eq!(json["parameters"][0]["unit"], "N/m");
+    assert_eq!((json["points"].as_u64(), json["stamped"].as_u64()), (Some(4), Some(4)));
+    let forces = json["measures"][0]["values"].as_array().unwrap();
+    assert_eq!(json["measures"][0]["key"], "padding.peak-force");
+    assert!(forces.windows(2).all(|pair| pair[0].as_f64() < pair[1].as_f64()));
+}
+
+#[test]
+fn effects_and_other_measures_vary_too() {
+    let json = json(&[
+        "sweep",
+        "reference-gravity",
+        "--vary",
+        "gravity.value=0.5..1.5 g0,3",
+        "--measure",
+        "head.hic15,mount.peak-force",
+        "--json",
+    ]);
+    assert_eq!(json["stamped"], 0);
+    let keys: Vec<&str> = json["measures"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|own| own["key"].as_str().unwrap())
+        .collect();
+    assert_eq!(keys, ["head.hic15", "mount.peak-force"]);
+    assert!(json["measures"][0]["values"].as_array().unwrap().iter().all(|own| own.is_f64()));
+}
+
+#[test]
+fn what_matters_little_is_left_out_after_a_proof() {
+    let json = json(&[
+        "sweep",
+        "reference-gravity",
+        "--vary",
+        "head.velocity=12..16 m/s,9",
+        "--measure",
+        "padding.peak-force",
+        "--neglect",
+        "1%",
+        "--json",
+    ]);
+    assert_eq!(json["left_out"]["effects"][0], "gravity");
+    assert_eq!(json["left_out"]["checked"], serde_json::json!([0, 4, 8]));
+    assert_eq!(json["stamped"], 9, "without gravity it is of the plain kind");
+    let moves = json["left_out"]["moves"].as_f64().unwrap();
+    assert!(moves > 0.0 && moves <= 0.01);
+    for at in 0..9 {
+        let own = |what: &str| json["measures"][0][what][at].as_f64().unwrap();
+        assert!(own("errors") >= moves * own("values"));
+    }
+}
+
+#[test]
+fn a_folder_holds_table_object_lines_and_maps() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("map").display().to_string();
+    let mut arguments = TWO.to_vec();
+    arguments[5] = "padding.kelvin.dashpot=2..8 kN s/m,4";
+    arguments.extend(["--measure", "padding.peak-force", "--out", &path]);
+    let done = run(&arguments);
+    assert_eq!(code(&done), 0, "{}", err(&done));
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("map").join(name)).unwrap();
+    assert_eq!(records(&read("sweep.csv")).len(), 1 + 20);
+    assert!(read("result.json").starts_with("{\n  \"dashpot\""));
+    let lines = read("padding.peak-force.svg");
+    assert!(lines.contains("padding.kelvin.dashpot = 2 kN s/m"));
+    let map = read("padding.peak-force-map.svg");
+    assert!(
+        map.contains("padding.peak-force (kN)") && map.contains("padding.kelvin.dashpot (kN s/m)")
+    );
+    let shown = out(&done);
+    assert!(shown.lines().all(|line| line.chars().count() <= 80), "{shown}");
+    assert!(shown.contains("20 points, stamped from one compiled form"), "{shown}");
+    // It may be written again, but not over what others have written.
+    assert_eq!(code(&run(&arguments)), 0);
+    std::fs::remove_file(folder.path().join("map/result.json")).unwrap();
+    let refused = run(&arguments);
+    assert_eq!(code(&refused), 2);
+    let said = err(&refused);
+    let said: Vec<&str> = said.split_whitespace().collect();
+    assert!(said.join(" ").contains("was not written by this command"), "{said:?}");
+}
+
+/// What is said of a wrong command line.
+fn fault(arguments: &[&str]) -> String {
+    let done = run(arguments);
+    assert_eq!(code(&done), 2, "{arguments:?}: {}", out(&done));
+    let said = err(&done);
+    assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    said.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn faults_are_named_with_the_nearest_word() {
+    let vary = |text: &'static str| fault(&["sweep", "reference", "--vary", text]);
+    assert!(vary("head.velocty=1..2 m/s").contains("did you mean `head.velocity`?"));
+    assert!(vary("spring=1..2 N/m").contains("may be"));
+    assert!(vary("head.velocity=1..2 mm").contains("is in m, the value in the scene in m/s"));
+    assert!(vary("head.velocity=1..2 m/s,5,lgo").contains("did you mean `log`?"));
+    assert!(vary("head.velocity=2..1 m/s").contains("do not rise"));
+    assert!(vary("head.velocity").contains("does not name a parameter and its values"));
+    assert!(vary("head.mass=-1..2 kg").contains("mass"));
+    assert!(vary("head.velocity=1..2 m/s,100000000").contains("not a number of values"));
+    let measure = |key: &'static str| {
+        let vary = "head.velocity=1..2 m/s";
+        fault(&["sweep", "reference", "--vary", vary, "--measure", key])
+    };
+    assert!(measure("padding.peak-forse").contains("did you mean `padding.peak-force`?"));
+    assert!(measure("hed.hic15").contains("there is no such node"));
+    let twice = fault(&[
+        "sweep",
+        "reference",
+        "--vary",
+        "head.velocity=1..2 m/s",
+        "--vary",
+        "nodes.head.velocity=1..2 m/s",
+    ]);
+    assert!(twice.contains("are the same number of the scene"));
+    assert!(fault(&["sweep", "reference"]).contains("--vary"));
+}
+
+#[test]
+fn a_value_that_is_set_cannot_vary_as_well() {
+    let folder = TempDir::new().unwrap();
+    let scene = reference()
+        .replace("[nodes]", "[values]\nV = \"10 m/s\"\n\n[nodes]")
+        .replace("velocity = \"10 m/s\"", "velocity = \"V\"");
+    let path = file(&folder, "scene.toml", &scene);
+    let said = fault(&["sweep", text(&path), "--vary", "V=1..2 m/s", "--set", "V=5 m/s"]);
+    assert!(said.contains("`V` is set and varied"), "{said}");
+}
