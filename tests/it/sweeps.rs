@@ -112,7 +112,9 @@ fn effects_and_other_measures_vary_too() {
         .map(|own| own["key"].as_str().unwrap())
         .collect();
     assert_eq!(keys, ["head.hic15", "mount.peak-force"]);
-    assert!(json["measures"][0]["values"].as_array().unwrap().iter().all(|own| own.is_f64()));
+    assert!(
+        json["measures"][0]["values"].as_array().unwrap().iter().all(serde_json::Value::is_f64)
+    );
 }
 
 #[test]
