@@ -28,6 +28,7 @@ mod order;
 mod partial;
 mod random_networks;
 mod signs;
+mod similarity;
 mod sizes;
 mod sweeps;
 mod terminal;

@@ -10,6 +10,7 @@ use clap_complete::Shell;
 use dashpot_analysis::{
     Accuracy,
     rheometer::{ProtocolKind, ProtocolVisitor, visit_protocols},
+    similarity::Similarity,
 };
 use dashpot_dae::methods;
 use dashpot_rheology::conversion::Target;
@@ -27,7 +28,8 @@ use dashpot_scene::{templates, units::parse_quantity};
         dashpot new --out pad.toml      a commented scene to start from\n  \
         dashpot run pad.toml            solve it: forces, g, depth, and their errors\n\n\
         Exit codes: 0 done (warnings included), 1 a run failed, 2 the input is wrong,\n\
-        3 `compare` says that two models are not the same."
+        3 `compare` says that two models are not the same, `groups` that two scenes
+        are not similar."
 )]
 pub(crate) struct Arguments {
     /// What to do.
@@ -61,6 +63,8 @@ pub(crate) enum Command {
     Vibrate(VibrateArguments),
     /// Recomputes the thesis behind this project: its numbers, figures, misprints and claims.
     Thesis(ThesisArguments),
+    /// Shows dimensionless groups, whether scenes are similar, and designs laboratory tests.
+    Groups(GroupsArguments),
     /// Lists every kind that a scene may contain, with its parameters.
     List(ListArguments),
     /// Writes a commented scene to start from.
@@ -389,6 +393,47 @@ pub(crate) struct ThesisArguments {
     pub(crate) json: bool,
 }
 
+/// `groups`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot groups                                   of the built-in reference impact\n  \
+    dashpot groups real.toml test.toml               are they similar?\n  \
+    dashpot groups real.toml --lab \"mass=1 kg, speed=2 m/s, thickness=5 mm\" --out lab.toml\n  \
+    dashpot groups --from \"a=26.6, b=66.66, c=8, d=80\" --out groups.toml\n\n\
+    Similar scenes have one structure and equal groups; their answers differ by factors of \
+    mass, length and time alone.\n\n\
+    Exit codes: 0 done, or similar; 3 not similar; 2 the input is wrong, 1 a run failed.")]
+pub(crate) struct GroupsArguments {
+    /// File of the scene, `-` for standard input, or a built-in scene [default: reference].
+    #[arg(value_name = "A")]
+    pub(crate) first: Option<PathBuf>,
+    /// Another scene: is it similar, and if not, what does each group do?
+    #[arg(value_name = "B", conflicts_with_all = ["lab", "from"])]
+    pub(crate) second: Option<PathBuf>,
+    /// Groups are equal within this, relative.
+    #[arg(long, value_name = "NUMBER", default_value_t = Similarity::WITHIN, value_parser = within)]
+    pub(crate) within: f64,
+    /// Designs the laboratory test with these values: `mass`, `speed`, `thickness`, or any
+    /// parameter by its name; what is left open stays as it is.
+    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = assignment, conflicts_with = "from")]
+    pub(crate) lab: Vec<(String, String)>,
+    /// Takes other groups of the thesis (A, B, a, b, c, d, alpha, beta, gamma), and the parameters
+    /// that follow from them.
+    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = assignment)]
+    pub(crate) from: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(crate) values: ValueArguments,
+    /// File to write the scene of `--lab` or `--from` to.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Overwrites the file if there is one.
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
 /// `list`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  dashpot list\n  dashpot list measures\n  dashpot list zener")]
@@ -522,6 +567,13 @@ fn assignment(text: &str) -> Result<(String, String), String> {
         return Err("write a name, `=` and a value, such as \"K=25 MN/m\"".to_owned());
     }
     Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+fn within(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(number) if (0.0..=1.0).contains(&number) => Ok(number),
+        _ => Err("it must be a number from 0 to 1, such as 1e-12".to_owned()),
+    }
 }
 
 fn share(text: &str) -> Result<f64, String> {

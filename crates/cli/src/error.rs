@@ -3,13 +3,14 @@
 use std::{io, path::PathBuf, process::ExitCode};
 
 use dashpot_analysis::{
-    RunError, rheometer::RheometerError, sweep::SweepError, vibration::VibrationError,
+    RunError, rheometer::RheometerError, similarity::SimilarityError, sweep::SweepError,
+    vibration::VibrationError,
 };
 use dashpot_dae::SolveError;
 use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
-use dashpot_scene::{Diagnostics, TunableFault, VariationFault, suggestion};
+use dashpot_scene::{Diagnostics, TunableFault, Unwritable, VariationFault, suggestion};
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
@@ -208,6 +209,12 @@ pub(crate) enum CliError {
     /// Standard output that cannot be written.
     #[error("the output cannot be written: {0}")]
     Output(io::Error),
+    /// A scene that has no such similar one.
+    #[error(transparent)]
+    Similarity(#[from] SimilarityError),
+    /// A scene that cannot be written.
+    #[error(transparent)]
+    Unwritten(#[from] Unwritable),
     /// A run that cannot be done.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -255,6 +262,8 @@ impl CliError {
             | Self::TooManyPoints { .. }
             | Self::UnknownSetting { .. }
             | Self::WrongSetting { .. }
+            | Self::Similarity(_)
+            | Self::Unwritten(_)
             | Self::MaterialAndPad
             | Self::OutOfRange { .. }
             | Self::OneNode { .. }
@@ -329,6 +338,9 @@ impl CliError {
             Self::NotReplaced { .. } => Some(
                 "give the model a table of its own, [models.NAME], and convert that".to_owned(),
             ),
+            Self::Similarity(SimilarityError::UnknownQuantity { known, .. }) => {
+                Some(format!("there are {}", known.join(", ")))
+            }
             Self::Vibration(VibrationError::NoDrive { known, .. }) => match known.first() {
                 Some(name) => Some(format!("`--drive {name}` shakes `{name}`")),
                 None => Some(

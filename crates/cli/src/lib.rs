@@ -34,7 +34,8 @@ use error::Status;
 use terminal::Terminal;
 
 /// Does what the command line says. The exit code is 0 when it is done (warnings included), 1 when
-/// a run failed, 2 when the input is wrong, and 3 when two models are not the same.
+/// a run failed, 2 when the input is wrong, and 3 when two models are not the same, or two scenes not
+/// similar.
 pub fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -55,6 +56,7 @@ pub fn main() -> ExitCode {
         Command::Cost(arguments) => commands::cost(&arguments, terminal),
         Command::Sweep(arguments) => commands::sweep(&arguments, terminal),
         Command::Vibrate(arguments) => commands::vibrate(&arguments, terminal),
+        Command::Groups(arguments) => commands::groups(&arguments, terminal),
         Command::Thesis(arguments) => commands::thesis(&arguments, terminal),
         Command::List(arguments) => commands::list(&arguments, terminal),
         Command::New(arguments) => commands::new(&arguments),

@@ -3,7 +3,10 @@
 
 use std::{borrow::Cow, fmt};
 
+use dashpot_rheology::Tree;
 use thiserror::Error;
+
+use crate::Model;
 
 /// Physical dimension as exponents of kilogram, metre, second and kelvin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -109,6 +112,8 @@ pub enum ParameterKind {
     Window,
     /// The name of a node.
     Node,
+    /// A two-terminal model.
+    Model,
 }
 
 /// One parameter of a kind.
@@ -169,8 +174,39 @@ pub enum Value {
     Flag,
     /// For [`ParameterKind::Window`].
     Window(WindowWish),
+    /// For [`ParameterKind::Model`].
+    Model(ModelValue),
     /// Of a parameter that [follows](Parameter::follows) from the rest of the scene.
     LeftOut,
+}
+
+/// A model as the value of a parameter. Two are equal where their trees, the names of branches, and
+/// the kinds and values of elements are.
+#[derive(Debug, Clone)]
+pub struct ModelValue(pub Model);
+
+impl PartialEq for ModelValue {
+    fn eq(&self, other: &Self) -> bool {
+        let mut left = vec![(&self.0, &other.0)];
+        while let Some((one, other)) = left.pop() {
+            let is_same = match (one, other) {
+                (Tree::Part(one), Tree::Part(other)) => {
+                    one.kind() == other.kind() && one.values() == other.values()
+                }
+                (Tree::Series(one), Tree::Series(other))
+                | (Tree::Parallel(one), Tree::Parallel(other)) => {
+                    left.extend(one.iter().zip(other).map(|(one, other)| (&one.tree, &other.tree)));
+                    one.len() == other.len()
+                        && one.iter().zip(other).all(|(one, other)| one.name == other.name)
+                }
+                _ => false,
+            };
+            if !is_same {
+                return false;
+            }
+        }
+        true
+    }
 }
 
 /// The part of a run that a measure looks at.

@@ -299,6 +299,7 @@ impl Example {
             ParameterKind::Flag => "true".to_owned(),
             ParameterKind::Window => "\"impact\"".to_owned(),
             ParameterKind::Node => "\"head\"".to_owned(),
+            ParameterKind::Model => "{ spring = \"4 kN/m\" }".to_owned(),
         }
     }
 

@@ -45,6 +45,8 @@ pub mod units;
 mod values;
 mod variation;
 mod write;
+mod write_scene;
+mod write_waveform;
 
 pub use csv::CsvFault;
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
@@ -63,6 +65,7 @@ pub use tunable::{Tunable, TunableFault, Tunables};
 pub use values::NamedValue;
 pub use variation::{Variation, VariationFault};
 pub use write::{write_effect, write_kind, write_material_table, write_model, write_model_table};
+pub use write_scene::{Unwritable, write_scene};
 
 #[cfg(test)]
 mod tests;

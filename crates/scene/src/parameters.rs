@@ -265,6 +265,11 @@ impl<'d> KindReader<'d> {
             ParameterKind::Node => {
                 text_of(item, &what(), faults).map(|name| Value::Word(name.to_owned()))
             }
+            // Whoever has one reads it with the models of the scene at hand.
+            ParameterKind::Model => {
+                wrong_type(item, &what(), "a model of the scene", faults);
+                None
+            }
         }
     }
 

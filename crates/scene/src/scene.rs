@@ -253,10 +253,10 @@ impl<'d> Parts<'d> {
         let mut network = Network::new();
         read_nodes(&mut reading, &mut network);
         read_elements(&mut reading, &models, &mut network);
-        models.check_unused();
         read_effects(&reading, &mut network);
         read_loads(&reading, &mut network);
-        let measures = read_measures(&reading);
+        let measures = read_measures(&reading, &models);
+        models.check_unused();
         let accuracy = read_accuracy(&reading);
         Self { reading, network, title, measures, accuracy, notes: models.notes() }
     }

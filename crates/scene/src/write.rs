@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use dashpot_network::{
     Effect, Element, Model,
-    parameters::{Dimension, Parameter, ParameterKind, Value, WindowWish},
+    parameters::{Dimension, ModelValue, Parameter, ParameterKind, Value, WindowWish},
 };
 use dashpot_rheology::{Branch, Tree};
 
@@ -68,6 +68,11 @@ pub fn write_material_table(name: &str, model: &Model, comments: &[String]) -> S
 }
 
 fn table(section: &str, name: &str, model: &Model, basis: Basis, comments: &[String]) -> String {
+    comment_lines(comments) + &format!("[{section}.{}]\n{}\n", key(name), law(model, basis, true))
+}
+
+/// Comments, each of their lines with its mark.
+pub(crate) fn comment_lines(comments: &[String]) -> String {
     let mut text = String::new();
     for line in comments.iter().flat_map(|comment| comment.lines()) {
         // Other control characters may not stand in a comment.
@@ -76,18 +81,18 @@ fn table(section: &str, name: &str, model: &Model, basis: Basis, comments: &[Str
         text.push_str(&line);
         text.push('\n');
     }
-    text + &format!("[{section}.{}]\n{}\n", key(name), law(model, basis, true))
+    text
 }
 
 /// A name as a key.
-fn key(name: &str) -> String {
+pub(crate) fn key(name: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     if !name.is_empty() && name.chars().all(is_bare) { name.to_owned() } else { quoted(name) }
 }
 
 /// A model by its law: `spring = "20 MN/m"`, `series = […]`; `in_lines` gives each of the outer
 /// branches a line of its own.
-fn law(model: &Model, basis: Basis, in_lines: bool) -> String {
+pub(crate) fn law(model: &Model, basis: Basis, in_lines: bool) -> String {
     enum Step<'m> {
         Law(&'m Model),
         Text(&'static str),
@@ -176,6 +181,24 @@ fn write_kind_in(
     format!("{word} = {{ {} }}", written.collect::<Vec<_>>().join(", "))
 }
 
+/// The values of parameters as `name = …`, each; those that follow from the rest of a scene are left
+/// out.
+pub(crate) fn write_pairs(
+    parameters: &[Parameter],
+    values: &[Value],
+    driven: Dimension,
+) -> Vec<String> {
+    let pairs = parameters.iter().zip(values).filter(|pair| *pair.1 != Value::LeftOut);
+    let written = pairs.map(|(own, value)| {
+        let dimension = match own.kind {
+            ParameterKind::Quantity(dimension) => dimension,
+            _ => driven,
+        };
+        format!("{} = {}", own.name, write_value(value, dimension, Dimension::TIME))
+    });
+    written.collect()
+}
+
 /// An effect as it stands under `[effects]`.
 ///
 /// # Examples
@@ -223,6 +246,7 @@ fn write_value(value: &Value, dimension: Dimension, beside: Dimension) -> String
         Value::Word(word) => quoted(word),
         Value::Flag => "true".to_owned(),
         Value::LeftOut => String::new(),
+        Value::Model(ModelValue(model)) => write_model(model),
         Value::Window(WindowWish::Impact) => quoted("impact"),
         Value::Window(WindowWish::Run) => quoted("run"),
         Value::Window(WindowWish::Times(from, to)) => format!("[{}, {}]", time(*from), time(*to)),
@@ -247,6 +271,6 @@ fn has_plain_names(branches: &[Branch<std::sync::Arc<dyn Element>>]) -> bool {
     })
 }
 
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
 }

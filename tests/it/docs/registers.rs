@@ -159,6 +159,7 @@ fn value(kind: ParameterKind, amplitude: Option<Dimension>) -> String {
         ParameterKind::Flag => "`true`".to_owned(),
         ParameterKind::Window => "`\"impact\"`, `\"run\"` or `[from, to]`".to_owned(),
         ParameterKind::Node => "name of a node".to_owned(),
+        ParameterKind::Model => "a model: its name, or a table".to_owned(),
     }
 }
 

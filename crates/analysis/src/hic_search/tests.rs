@@ -106,3 +106,41 @@ fn best_of_many_peaks_is_found() {
         assert!(found.doubt <= 0.0, "cap {cap}: {}", found.doubt);
     }
 }
+
+fn steps(pieces: &[(f64, f64)]) -> Signal {
+    let mut start = 0.0;
+    let panel = |&(length, height): &(f64, f64)| {
+        let panel = Panel::constant(start, start + length, height);
+        start += length;
+        panel
+    };
+    Signal::new(pieces.iter().map(panel).collect(), None, 0.0)
+}
+
+#[test]
+fn caps_beyond_a_pulse_do_not_matter() {
+    let pulse = steps(&[(1.0, 3.0), (1.0, 0.0)]);
+    for cap in [1.0, 1.5, 2.0, 1e6] {
+        let found = optimum(&pulse, (0.0, 2.0), cap);
+        close(found.value, 3.0_f64.powf(2.5), 1e-13 * found.value);
+        assert_eq!(found.interval, (0.0, 1.0));
+    }
+}
+
+#[test]
+fn windows_span_two_peaks_where_that_is_worth_it() {
+    // Two plateaus of 0.5 s with a gap between them: together they have the mean 1/(1 + gap).
+    let both = |gap: f64| (1.0 + gap).powf(-1.5);
+    let near = steps(&[(0.5, -1.0), (0.25, 0.0), (0.5, 1.0), (0.75, 0.0)]);
+    let found = optimum(&near, (0.0, 2.0), 1e6);
+    close(found.value, both(0.25), 1e-13);
+    assert_eq!(found.interval, (0.0, 1.25));
+    // A window of 1 s has 0.75 s of it loaded, which is worth less than one plateau.
+    close(optimum(&near, (0.0, 2.0), 1.0).value, 0.5, 1e-13);
+    let far = steps(&[(0.5, 1.0), (1.0, 0.0), (0.5, 1.0)]);
+    close(optimum(&far, (0.0, 2.0), 1e6).value, 0.5, 1e-13);
+    // Where both are worth the same, either will do: (1 + gap)^-1.5 = 0.5.
+    let even = 4.0_f64.cbrt() - 1.0;
+    let found = optimum(&steps(&[(0.5, 1.0), (even, 0.0), (0.5, 1.0)]), (0.0, 1.0 + even), 1e6);
+    close(found.value, 0.5, 1e-13);
+}

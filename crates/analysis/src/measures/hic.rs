@@ -65,6 +65,10 @@ impl MeasureKind for Hic {
         vec![Value::Number(self.cap), Value::Window(self.window)]
     }
 
+    fn gravities(&self) -> f64 {
+        2.5
+    }
+
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
             return Reading::undefined(MASSLESS);

@@ -1,9 +1,11 @@
 //! Head injury criterion over at most 15 ms.
 
+use std::sync::Arc;
+
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
-use super::{Family, Hic, MeasureKind, Reading, window};
-use crate::Solution;
+use super::{Family, Hic, Measure, MeasureKind, Reading, window};
+use crate::{Solution, similarity::Scale};
 
 /// The head injury criterion over intervals of at most 15 ms \[s\]; otherwise as [`Hic`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +17,12 @@ pub struct Hic15 {
 impl Default for Hic15 {
     fn default() -> Self {
         Self { window: WindowWish::Impact }
+    }
+}
+
+impl Hic15 {
+    fn hic(self) -> Hic {
+        Hic { cap: 0.015, window: self.window }
     }
 }
 
@@ -32,7 +40,15 @@ impl MeasureKind for Hic15 {
         vec![Value::Window(self.window)]
     }
 
+    fn gravities(&self) -> f64 {
+        2.5
+    }
+
+    fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>> {
+        MeasureKind::of_similar(&self.hic(), scale)
+    }
+
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
-        MeasureKind::read(&Hic { cap: 0.015, window: self.window }, solution, target)
+        MeasureKind::read(&self.hic(), solution, target)
     }
 }

@@ -1,8 +1,12 @@
 //! The register of measures: scalars read off a continuous solution, never off samples.
 
 mod average_deceleration;
+mod clip;
+mod clip_3ms;
 mod coefficient_of_restitution;
 mod contact_time;
+mod dri;
+mod edi;
 mod end_deformation;
 mod end_position;
 mod end_velocity;
@@ -20,8 +24,9 @@ mod peak_force;
 mod peak_rate;
 mod peak_strain;
 mod peak_stress;
-mod reading;
+pub(crate) mod reading;
 mod severity_index;
+mod transmissibility;
 mod transmitted_force;
 
 use std::{fmt::Debug, sync::Arc};
@@ -29,8 +34,12 @@ use std::{fmt::Debug, sync::Arc};
 use dashpot_network::parameters::{InvalidParameter, Parameter, ParameterKind, Value, WindowWish};
 
 pub use average_deceleration::AverageDeceleration;
+pub use clip::Clip;
+pub use clip_3ms::Clip3ms;
 pub use coefficient_of_restitution::CoefficientOfRestitution;
 pub use contact_time::ContactTime;
+pub use dri::Dri;
+pub use edi::Edi;
 pub use end_deformation::EndDeformation;
 pub use end_position::EndPosition;
 pub use end_velocity::EndVelocity;
@@ -50,9 +59,13 @@ pub use peak_strain::PeakStrain;
 pub use peak_stress::PeakStress;
 pub use reading::Reading;
 pub use severity_index::SeverityIndex;
+pub use transmissibility::Transmissibility;
 pub use transmitted_force::TransmittedForce;
 
-use crate::Solution;
+use crate::{
+    Solution,
+    similarity::{Scale, scaled_values},
+};
 
 /// Standard gravity \[m/s²\], the unit of the injury measures (3rd CGPM, 1901).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -84,6 +97,13 @@ pub trait Measure: Debug + Send + Sync {
 
     /// The parameters' values in the order of [`parameters`](Self::parameters).
     fn values(&self) -> Vec<Value>;
+
+    /// The power of standard gravity over which its values are given.
+    fn gravities(&self) -> f64;
+
+    /// The measure that tells the same of a scene that is similar at this scale; `None` where there
+    /// is none.
+    fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>>;
 
     /// Reads the measure off `solution` for the element or node number `target`.
     ///
@@ -123,6 +143,20 @@ pub trait MeasureKind: Debug + Default + Send + Sync + Sized + 'static {
     /// The parameters' values in the order of [`PARAMETERS`](Self::PARAMETERS).
     fn values(&self) -> Vec<Value>;
 
+    /// The power of standard gravity over which its values are given: 2.5 for `∫ (|a|/g0)^2.5 dt`. Its
+    /// values times this power of it have the dimension that their unit and the power make up.
+    fn gravities(&self) -> f64 {
+        0.0
+    }
+
+    /// The measure that tells the same of a scene that is similar at this scale: its parameters times
+    /// the factors of their dimensions. A measure with a time of its own has another kind for its
+    /// counterpart, or none.
+    fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>> {
+        let values = scaled_values(Self::PARAMETERS, &MeasureKind::values(self), scale)?;
+        Self::from_values(&values).ok().map(|own| Arc::new(own) as Arc<dyn Measure>)
+    }
+
     /// Reads the measure off `solution` for the element or node number `target`.
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading;
 
@@ -153,6 +187,14 @@ impl<M: MeasureKind> Measure for M {
         MeasureKind::values(self)
     }
 
+    fn gravities(&self) -> f64 {
+        MeasureKind::gravities(self)
+    }
+
+    fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>> {
+        MeasureKind::of_similar(self, scale)
+    }
+
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         MeasureKind::read(self, solution, target)
     }
@@ -180,6 +222,11 @@ pub fn visit_measures(visitor: &mut impl MeasureVisitor) {
     visitor.visit::<Hic15>();
     visitor.visit::<Hic36>();
     visitor.visit::<Hic>();
+    visitor.visit::<Clip3ms>();
+    visitor.visit::<Clip>();
+    visitor.visit::<Edi>();
+    visitor.visit::<Dri>();
+    visitor.visit::<Transmissibility>();
     visitor.visit::<AverageDeceleration>();
     visitor.visit::<EndVelocity>();
     visitor.visit::<EndPosition>();
@@ -234,7 +281,7 @@ impl MeasureVisitor for Collect {
 /// Note on a measure of the force of a rigid link in a loop of rigid links.
 const UNDETERMINED_FORCE: &str = "the force is undetermined in a loop of rigid links";
 /// Note on a measure of the acceleration of a node without mass.
-const MASSLESS: &str = "the node has no mass";
+pub(crate) const MASSLESS: &str = "the node has no mass";
 /// Note on a measure of a velocity that is not a function of time.
 const NO_VELOCITY: &str = "the velocity of this massless node jumps with the loads' rates";
 
@@ -245,6 +292,10 @@ const WINDOW: Parameter = Parameter::optional(
     "impact",
     "`impact`, `run`, or a pair of times [s]",
 );
+
+/// The same of a measure whose largest value may come after the impact.
+const WHOLE_RUN: Parameter =
+    Parameter::optional("window", ParameterKind::Window, "run", WINDOW.help);
 
 /// The parameters of a measure that has no other.
 const WINDOW_ONLY: &[Parameter] = &[WINDOW];

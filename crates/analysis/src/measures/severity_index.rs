@@ -66,6 +66,10 @@ impl MeasureKind for SeverityIndex {
         vec![Value::Number(self.exponent), Value::Window(self.window)]
     }
 
+    fn gravities(&self) -> f64 {
+        self.exponent
+    }
+
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
             return Reading::undefined(MASSLESS);

@@ -1,4 +1,5 @@
 mod blows;
+mod injury;
 mod transmitted;
 
 use std::f64::consts::PI;
@@ -9,6 +10,7 @@ use dashpot_dae::{
 use dashpot_network::{Assembly, Network, Node, elements::Spring, part};
 
 use super::*;
+use crate::Counted;
 
 /// A solution written down as functions of time.
 struct Written {
@@ -203,7 +205,7 @@ fn every_kind_rebuilds_from_its_values_and_reads() {
     }
     let mut check = Check(0);
     visit_measures(&mut check);
-    assert_eq!(check.0, 21);
+    assert_eq!(check.0, 26);
 }
 
 #[test]

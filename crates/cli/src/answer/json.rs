@@ -6,7 +6,8 @@ use dashpot_analysis::{
     Ledger, MeasureReport, Partial, RunReport, SolveSettings,
     partial::{Cost, Why},
 };
-use dashpot_network::parameters::{Dimension, Value};
+use dashpot_network::parameters::{Dimension, ModelValue, Value};
+use dashpot_scene::write_model;
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use super::{Answer, settings::direction};
@@ -202,6 +203,9 @@ impl Serialize for Measure<'_> {
                 Value::Word(word) => map.serialize_entry(name, word)?,
                 Value::Flag => map.serialize_entry(name, &true)?,
                 Value::Table(points) => map.serialize_entry(name, points)?,
+                Value::Model(ModelValue(model)) => {
+                    map.serialize_entry(name, &write_model(model))?;
+                }
                 // Its times stand above, as they were resolved.
                 Value::Window(_) | Value::LeftOut => {}
             }

@@ -3,6 +3,7 @@
 pub(crate) mod comparison;
 pub(crate) mod cost;
 mod energy;
+pub(crate) mod groups;
 mod json;
 mod measures;
 mod page;

@@ -150,6 +150,22 @@ impl<'d> ModelReader<'d> {
         self.run(named, Some(String::new())).map(|(model, _)| model)
     }
 
+    /// The model that stands in `item`: its name, or a table of its own.
+    pub(crate) fn given(&self, item: &'d Item, owner: String, place: Place) -> Option<Model> {
+        let Some(text) = item.text() else {
+            return self.element(item, owner, place, MODEL_KEYS).map(|(model, _)| model);
+        };
+        match self.library.find(0, Shelf::Models, text) {
+            Ok(found) => self.named(found?),
+            Err(fault) => {
+                if !self.faults.damaged() {
+                    self.faults.error(item.place, fault);
+                }
+                None
+            }
+        }
+    }
+
     /// Looks for faults in those models and materials of the scene that no element uses.
     pub(crate) fn check_unused(&self) {
         for reference in SHELVES.into_iter().flat_map(|shelf| self.library.models(0, shelf)) {

@@ -67,6 +67,7 @@ impl Values {
                 json!({ "anyOf": [{ "enum": ["impact", "run"] }, pair(&time, &time)] })
             }
             ParameterKind::Node => json!({ "type": "string" }),
+            ParameterKind::Model => json!({ "anyOf": [{ "type": "string" }, reference("model")] }),
         };
         if parameter.follows {
             let from = parameter.default.unwrap_or_default();

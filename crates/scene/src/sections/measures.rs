@@ -1,12 +1,16 @@
 //! `[measures]`: what is to be reported besides what every run reports.
 
-use dashpot_analysis::{Family, MeasureWish};
+use std::sync::Arc;
+
+use dashpot_analysis::{Family, Measure, MeasureWish};
+use dashpot_network::parameters::{ModelValue, Parameter, ParameterKind, Value};
 
 use super::Reading;
 use crate::{
     document::{Content, Entry, Item},
     fault::Fault,
-    kinds::{MeasureEntry, registers},
+    kinds::{Kind, MeasureEntry, registers},
+    models::ModelReader,
     nearest::list,
     parameters::KindReader,
     source::Place,
@@ -14,12 +18,15 @@ use crate::{
 };
 
 /// Reads the measures that are wanted.
-pub(crate) fn read_measures(reading: &Reading<'_>) -> Vec<MeasureWish> {
+pub(crate) fn read_measures<'d>(
+    reading: &Reading<'d>,
+    models: &ModelReader<'d>,
+) -> Vec<MeasureWish> {
     let mut wishes = Vec::new();
     for entry in reading.section("measures") {
         let family = family_of(reading, &entry.key, entry.key_place);
         for item in one_or_many(&entry.item) {
-            wishes.extend(read_wish(reading, entry, item, family));
+            wishes.extend(read_wish(reading, models, (entry, item), family));
         }
     }
     wishes
@@ -78,13 +85,13 @@ fn other_family(reading: &Reading<'_>, word: &str, family: Family) -> String {
     format!("`{word}` is a measure of {what}: {}", list(&names))
 }
 
-fn read_wish(
-    reading: &Reading<'_>,
-    entry: &Entry,
-    item: &Item,
+fn read_wish<'d>(
+    reading: &Reading<'d>,
+    models: &ModelReader<'d>,
+    (entry, item): (&'d Entry, &'d Item),
     family: Option<Family>,
 ) -> Option<MeasureWish> {
-    let reader = KindReader { other_keys: &["kind"], ..KindReader::new(reading.quantities()) };
+    let reader = reader(reading, &["kind"]);
     let measure = match &item.value {
         Content::Text(word) => {
             let measure = measure_of(reading, word, family, item.place)?;
@@ -99,7 +106,7 @@ fn read_wish(
             };
             let word = text_of(&kind.item, "`kind`", reading.faults)?;
             let measure = measure_of(reading, word, family, kind.item.place)?;
-            reader.read(&measure.kind, item, kind.item.place)?
+            read_table(reading, models, (&entry.key, item), &measure.kind, kind.item.place)?
         }
         _ => {
             let expected = "a word, or a table such as { kind = \"severity-index\" }";
@@ -108,4 +115,41 @@ fn read_wish(
         }
     };
     family.map(|_| MeasureWish { target: entry.key.clone(), measure })
+}
+
+fn reader<'d>(reading: &Reading<'d>, other_keys: &'static [&'static str]) -> KindReader<'d> {
+    KindReader { other_keys, ..KindReader::new(reading.quantities()) }
+}
+
+/// Reads the measure of `kind` in the table `item`, of the node or element `owner`.
+fn read_table<'d>(
+    reading: &Reading<'d>,
+    models: &ModelReader<'d>,
+    (owner, item): (&str, &'d Item),
+    kind: &Kind<Arc<dyn Measure>>,
+    place: Place,
+) -> Option<Arc<dyn Measure>> {
+    let entries = item.table().unwrap_or(&[]);
+    let given = |key: &str| entries.iter().find(|own| own.key == key);
+    for own in kind.parameters.iter().filter(|own| own.kind == ParameterKind::Node) {
+        if let Some(entry) = given(own.name) {
+            reading.node(&entry.item)?;
+        }
+    }
+    let is_model = |own: &Parameter| own.kind == ParameterKind::Model;
+    let model = kind.parameters.iter().position(is_model);
+    let entry = model.and_then(|at| given(kind.parameters[at].name));
+    let (Some(at), Some(entry)) = (model, entry) else {
+        return reader(reading, &["kind"]).read(kind, item, place);
+    };
+    let called = format!("the model of `{}` of `{owner}`", kind.word);
+    let model = models.given(&entry.item, called, entry.key_place)?;
+    let others: Vec<Parameter> =
+        kind.parameters.iter().filter(|own| !is_model(own)).copied().collect();
+    let make = |values: &[Value]| {
+        let mut values = values.to_vec();
+        values.insert(at, Value::Model(ModelValue(model.clone())));
+        (kind.make)(&values)
+    };
+    reader(reading, &["kind", "model"]).read_as((kind.word, &others), &make, item, place)
 }

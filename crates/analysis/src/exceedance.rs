@@ -1,0 +1,166 @@
+//! For how long a signal exceeds a level.
+
+use dashpot_dae::{Panel, Signal, chebyshev};
+
+/// Which times count as those of a level.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Counted {
+    /// All times, added up.
+    Together,
+    /// The times of one stretch, in which the level is never left.
+    AtOnce,
+}
+
+impl Counted {
+    /// The words for them.
+    pub(crate) const WORDS: &'static [&'static str] = &["together", "at-once"];
+
+    /// Its word.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Together => "together",
+            Self::AtOnce => "at-once",
+        }
+    }
+
+    /// That of this word.
+    pub(crate) fn named(word: &str) -> Option<Self> {
+        [Self::Together, Self::AtOnce].into_iter().find(|own| own.word() == word)
+    }
+}
+
+/// The magnitude of a signal over a window, in pieces on which it rises or falls.
+#[derive(Debug)]
+pub(crate) struct Exceedance {
+    pieces: Vec<Piece>,
+}
+
+#[derive(Debug)]
+struct Piece {
+    panel: Panel,
+    /// The signal at both ends.
+    ends: [f64; 2],
+}
+
+/// The level that is reached for a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Level {
+    /// Its value.
+    pub(crate) value: f64,
+    /// Whether it is still reached at the end of the window.
+    pub(crate) reaches_end: bool,
+    /// The least slope with which the signal passes it; 0 where it does not.
+    pub(crate) slope: f64,
+}
+
+impl Exceedance {
+    /// Looks at a signal in a window.
+    pub(crate) fn new(signal: &Signal, window: (f64, f64)) -> Self {
+        let turns = signal.extrema(window).into_iter().map(|own| own.time);
+        let zeros = signal.crossings(0.0, window).into_iter().map(|own| own.time);
+        let mut cuts: Vec<f64> = turns.chain(zeros).collect();
+        cuts.sort_by(f64::total_cmp);
+        let mut pieces = Vec::new();
+        for panel in &signal.panels {
+            let (start, end) = (panel.start.max(window.0), panel.end.min(window.1));
+            if start >= end {
+                continue;
+            }
+            let first = cuts.partition_point(|cut| *cut <= start);
+            let inside = cuts[first..].iter().copied().take_while(|cut| *cut < end);
+            let mut from = start;
+            for to in inside.chain([end]).filter(|to| *to > start) {
+                if to > from {
+                    let part = panel.part(from, to);
+                    let ends = [-1.0, 1.0].map(|x| chebyshev::evaluate(&part.coefficients, x));
+                    pieces.push(Piece { panel: part, ends });
+                }
+                from = to;
+            }
+        }
+        Self { pieces }
+    }
+
+    /// The largest level that is reached for `duration` \[s\], to the last digits.
+    pub(crate) fn level(&self, duration: f64, counted: Counted) -> Level {
+        let ends = self.pieces.iter().flat_map(|piece| piece.ends);
+        let (mut low, mut high) = (0.0, ends.map(f64::abs).fold(0.0, f64::max));
+        // The time falls as the level rises.
+        if longest(&self.stretches(high), counted) >= duration {
+            low = high;
+        } else {
+            while high - low > 2.0 * f64::EPSILON * high {
+                let middle = 0.5 * (low + high);
+                if middle <= low || middle >= high {
+                    break;
+                }
+                let is_reached = longest(&self.stretches(middle), counted) >= duration;
+                *(if is_reached { &mut low } else { &mut high }) = middle;
+            }
+        }
+        let is_passed = |piece: &&Piece| {
+            let [first, last] = piece.ends.map(f64::abs);
+            first.min(last) < low && first.max(last) >= low
+        };
+        let steepness = |piece: &Piece| {
+            let at = passage(piece, low);
+            let slope = chebyshev::evaluate(&piece.panel.derivative().coefficients, at);
+            slope.abs()
+        };
+        let slopes = self.pieces.iter().filter(is_passed).map(steepness);
+        Level {
+            value: low,
+            reaches_end: low > 0.0
+                && self.pieces.last().is_some_and(|piece| piece.ends[1].abs() >= low),
+            slope: slopes.reduce(f64::min).unwrap_or(0.0),
+        }
+    }
+
+    /// The stretches of time in which the magnitude is not below `level`.
+    fn stretches(&self, level: f64) -> Vec<(f64, f64)> {
+        let mut stretches: Vec<(f64, f64)> = Vec::new();
+        for piece in &self.pieces {
+            let [first, last] = piece.ends.map(|own| own.abs() >= level);
+            let (start, end) = (piece.panel.start, piece.panel.end);
+            let passage = || piece.panel.time(passage(piece, level));
+            let (from, to) = match (first, last) {
+                (true, true) => (start, end),
+                (true, false) => (start, passage()),
+                (false, true) => (passage(), end),
+                (false, false) => continue,
+            };
+            match stretches.last_mut() {
+                Some(before) if before.1 >= from => before.1 = to,
+                _ => stretches.push((from, to)),
+            }
+        }
+        stretches
+    }
+}
+
+/// The place in a piece at which its magnitude passes a level between those at its ends.
+fn passage(piece: &Piece, level: f64) -> f64 {
+    let value = |x: f64| chebyshev::evaluate(&piece.panel.coefficients, x).abs() - level;
+    let rises = piece.ends[1].abs() >= piece.ends[0].abs();
+    let (mut from, mut to) = (-1.0_f64, 1.0_f64);
+    // The magnitude is monotone, so halving finds it to the last bit.
+    while to - from > f64::EPSILON {
+        let middle = 0.5 * (from + to);
+        if middle <= from || middle >= to {
+            break;
+        }
+        *(if (value(middle) >= 0.0) == rises { &mut to } else { &mut from }) = middle;
+    }
+    0.5 * (from + to)
+}
+
+fn longest(stretches: &[(f64, f64)], counted: Counted) -> f64 {
+    let lengths = stretches.iter().map(|own| own.1 - own.0);
+    match counted {
+        Counted::Together => lengths.sum(),
+        Counted::AtOnce => lengths.fold(0.0, f64::max),
+    }
+}
+
+#[cfg(test)]
+mod tests;

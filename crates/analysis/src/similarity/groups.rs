@@ -1,0 +1,175 @@
+//! A complete set of independent groups.
+
+use std::fmt::Write as _;
+
+use dashpot_network::{
+    Network, Start,
+    parameters::{Dimension, InvalidParameter},
+};
+
+use super::{
+    basis::Basis,
+    inventory::{Inventory, Quantity},
+};
+
+/// A parameter that is a unit for others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// Its letter in formulas.
+    pub symbol: &'static str,
+    /// What it is; its magnitude is the unit.
+    pub quantity: Quantity,
+}
+
+/// A parameter over its product of powers of the references.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// The parameter.
+    pub quantity: Quantity,
+    /// What it is, for instance `padding.maxwell.spring δ²/(m V²)`.
+    pub formula: String,
+    /// Its value, a number; 0 where the parameter is.
+    pub value: f64,
+}
+
+/// The references of a network and its groups.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Groups {
+    /// The references: as many as the rank of the dimensions.
+    pub references: Vec<Reference>,
+    /// The groups, one for each other parameter.
+    pub groups: Vec<Group>,
+    pub(super) basis: Basis,
+}
+
+/// Letters of references by their dimension.
+const SYMBOLS: [(Dimension, &str); 10] = [
+    (Dimension::MASS, "m"),
+    (Dimension::VELOCITY, "V"),
+    (Dimension::LENGTH, "δ"),
+    (Dimension::STIFFNESS, "K"),
+    (Dimension::DAMPING, "C"),
+    (Dimension::FORCE, "F"),
+    (Dimension::TIME, "T"),
+    (Dimension::ACCELERATION, "g"),
+    (Dimension::FREQUENCY, "ω"),
+    (Dimension::TEMPERATURE, "Θ"),
+];
+
+impl Groups {
+    /// The groups of a network. The references are the mass and the speed of the first impactor and
+    /// the thickness of what it strikes, as far as there are any, then stiffnesses and whatever else
+    /// is independent of these and not zero.
+    ///
+    /// # Errors
+    ///
+    /// A value of the network that is out of range.
+    pub fn of(network: &Network) -> Result<Self, InvalidParameter> {
+        let inventory = Inventory::of(network)?;
+        let mut basis = Basis::default();
+        let mut references = Vec::new();
+        for quantity in candidates(network, &inventory) {
+            let is_unit = quantity.value != 0.0 && quantity.dimension != Dimension::NUMBER;
+            if is_unit && basis.take(quantity.dimension) {
+                let symbol = SYMBOLS.iter().find(|own| own.0 == quantity.dimension);
+                let symbol = symbol.map_or("q", |own| own.1);
+                references.push(Reference { symbol, quantity: quantity.clone() });
+            }
+        }
+        let mut groups = Self { references, groups: Vec::new(), basis };
+        for quantity in inventory.quantities {
+            if groups.references.iter().any(|own| own.quantity.name == quantity.name) {
+                continue;
+            }
+            let (value, formula) = (groups.number(&quantity), groups.formula(&quantity));
+            groups.groups.push(Group { quantity, formula, value });
+        }
+        Ok(groups)
+    }
+
+    /// How many independent dimensions the parameters have.
+    pub fn rank(&self) -> usize {
+        self.basis.len()
+    }
+
+    /// The group of this parameter.
+    pub fn group(&self, name: &str) -> Option<&Group> {
+        self.groups.iter().find(|own| own.quantity.name == name)
+    }
+
+    /// The product of powers of the references that has a dimension. Zero values alone have
+    /// dimensions that the references do not make up; they have none.
+    pub fn unit(&self, dimension: Dimension) -> Option<f64> {
+        let values: Vec<f64> = self.references.iter().map(|own| own.quantity.value.abs()).collect();
+        self.basis.product(&values, dimension)
+    }
+
+    fn number(&self, quantity: &Quantity) -> f64 {
+        if quantity.value == 0.0 {
+            return 0.0;
+        }
+        self.unit(quantity.dimension).map_or(f64::NAN, |unit| quantity.value / unit)
+    }
+
+    fn formula(&self, quantity: &Quantity) -> String {
+        let mut text = quantity.name.clone();
+        let Some(exponents) = self.basis.exponents(quantity.dimension) else { return text };
+        let powers = || self.references.iter().map(|own| own.symbol).zip(&exponents);
+        let above: Vec<String> =
+            powers().filter(|own| *own.1 < 0.0).map(|own| raised(own.0, -own.1)).collect();
+        let below: Vec<String> =
+            powers().filter(|own| *own.1 > 0.0).map(|own| raised(own.0, *own.1)).collect();
+        if !above.is_empty() {
+            let _ = write!(text, " {}", above.join(" "));
+        }
+        match below.as_slice() {
+            [] => {}
+            [only] => {
+                let _ = write!(text, "/{only}");
+            }
+            all => {
+                let _ = write!(text, "/({})", all.join(" "));
+            }
+        }
+        text
+    }
+}
+
+/// A symbol with its exponent.
+fn raised(symbol: &str, exponent: f64) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let whole = (1_u8..10).find(|own| (f64::from(*own) - exponent).abs() < f64::EPSILON);
+    match whole {
+        Some(1) => symbol.to_owned(),
+        Some(own) => format!("{symbol}{}", DIGITS[usize::from(own)]),
+        None => {
+            let parts = (2_u8..=24).find(|own| (exponent * f64::from(*own)).fract() == 0.0);
+            match parts {
+                Some(parts) => format!("{symbol}^({}/{parts})", exponent * f64::from(parts)),
+                None => format!("{symbol}^{exponent}"),
+            }
+        }
+    }
+}
+
+/// The parameters in the order in which they are taken as references.
+fn candidates<'i>(network: &Network, inventory: &'i Inventory) -> Vec<&'i Quantity> {
+    let mut names = Vec::new();
+    let impactor = network.nodes().find(|(_, node)| node.start != Start::Rest && node.mass > 0.0);
+    if let Some((id, node)) = impactor {
+        names.extend([format!("{}.mass", node.name), format!("{}.velocity", node.name)]);
+        let struck = network.connections().iter().filter(|own| own.between.contains(&id));
+        names.extend(struck.map(|own| format!("{}.thickness", own.name)));
+    }
+    let of_dimension =
+        |dimension| inventory.quantities.iter().filter(move |own| own.dimension == dimension);
+    let named = names.iter().filter_map(|name| inventory.quantity(name));
+    let thick = of_dimension(Dimension::LENGTH).filter(|own| own.name.ends_with(".thickness"));
+    named
+        .chain(thick)
+        .chain(of_dimension(Dimension::MASS))
+        .chain(of_dimension(Dimension::STIFFNESS))
+        .chain(of_dimension(Dimension::DAMPING))
+        .chain(&inventory.quantities)
+        .collect()
+}

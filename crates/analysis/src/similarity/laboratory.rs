@@ -1,0 +1,149 @@
+//! The laboratory test that stands for a real impact.
+
+use dashpot_network::{Network, parameters::Dimension};
+
+use super::{
+    Groups, Inventory, Quantity, Scale, SimilarityError, basis::Basis, inventory::with_value,
+    scaled,
+};
+
+/// Wishes that follow from others may differ from them by so much, relatively: they are given with
+/// few digits.
+const SAME: f64 = 1e-9;
+/// The parameter of gravity.
+const GRAVITY: &str = "gravity.value";
+
+/// A value that a laboratory chooses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wish {
+    /// Name of a parameter of the scene, or `mass`, `speed` or `thickness`, which mean the
+    /// references of these dimensions.
+    pub name: String,
+    /// Its value in the laboratory, in SI units.
+    pub value: f64,
+}
+
+/// A parameter in the real scene and in the laboratory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chosen {
+    /// The parameter of the real scene.
+    pub real: Quantity,
+    /// Its value in the laboratory, in SI units.
+    pub value: f64,
+}
+
+/// A scene that is similar to a real one, with the values that a laboratory has.
+#[derive(Debug, Clone)]
+pub struct Laboratory {
+    /// From the real scene to the laboratory.
+    pub scale: Scale,
+    /// The laboratory's network.
+    pub network: Network,
+    /// What was chosen.
+    pub chosen: Vec<Chosen>,
+    /// What stays as it is because nothing was said of it: references of the real scene.
+    pub kept: Vec<Quantity>,
+    /// Gravity in the laboratory \[m/s²\], which is to be that of the real scene times the factor of
+    /// accelerations; `None` where gravity is off.
+    pub gravity: Option<[f64; 2]>,
+}
+
+impl Laboratory {
+    /// The scene that is similar to `real` with these values; what they leave open is kept: the
+    /// references of the real scene, in their order.
+    ///
+    /// # Errors
+    ///
+    /// Any [`SimilarityError`]: unknown names, values that no scale reaches, wishes that contradict
+    /// each other.
+    pub fn design(real: &Network, wishes: &[Wish]) -> Result<Self, SimilarityError> {
+        let (groups, inventory) = (Groups::of(real)?, Inventory::of(real)?);
+        let mut basis = Basis::default();
+        let mut factors: Vec<(Dimension, f64)> = Vec::new();
+        let mut chosen = Vec::new();
+        for wish in wishes {
+            let quantity = named(&groups, &inventory, &wish.name)?;
+            let factor = wish.value / quantity.value;
+            if !(factor > 0.0 && factor.is_finite()) {
+                return Err(SimilarityError::NoFactor {
+                    name: quantity.name.clone(),
+                    from: quantity.value,
+                    to: wish.value,
+                });
+            }
+            let values: Vec<f64> = factors.iter().map(|own| own.1).collect();
+            if let Some(follows) = basis.product(&values, quantity.dimension) {
+                if (factor / follows - 1.0).abs() > SAME {
+                    return Err(SimilarityError::Contradiction {
+                        name: quantity.name.clone(),
+                        to: wish.value,
+                        follows: follows * quantity.value,
+                    });
+                }
+            } else {
+                basis.take(quantity.dimension);
+                factors.push((quantity.dimension, factor));
+            }
+            chosen.push(Chosen { real: quantity.clone(), value: wish.value });
+        }
+        let mut kept = Vec::new();
+        for reference in &groups.references {
+            if basis.take(reference.quantity.dimension) {
+                factors.push((reference.quantity.dimension, 1.0));
+                kept.push(reference.quantity.clone());
+            }
+        }
+        let scale = Scale::from_factors(&factors);
+        let gravity = real.effects().iter().find_map(|effect| effect.gravity());
+        Ok(Self {
+            network: scaled(real, &scale)?,
+            scale,
+            chosen,
+            kept,
+            gravity: gravity.map(|own| [own, own * scale.of(Dimension::ACCELERATION)]),
+        })
+    }
+
+    /// The laboratory's network under the gravity of the real scene: where no laboratory can scale
+    /// gravity, that is what it tests. The same network where gravity is off.
+    ///
+    /// # Errors
+    ///
+    /// A value out of its range.
+    pub fn under_real_gravity(&self) -> Result<Network, SimilarityError> {
+        match self.gravity {
+            Some([real, _]) => Ok(with_value(&self.network, GRAVITY, real)?),
+            None => Ok(self.network.clone()),
+        }
+    }
+
+    /// The parameter that a laboratory chooses by this name.
+    ///
+    /// # Errors
+    ///
+    /// [`SimilarityError::UnknownQuantity`] where the scene has none.
+    pub fn parameter(real: &Network, name: &str) -> Result<Quantity, SimilarityError> {
+        named(&Groups::of(real)?, &Inventory::of(real)?, name).cloned()
+    }
+}
+
+fn named<'q>(
+    groups: &'q Groups,
+    inventory: &'q Inventory,
+    name: &str,
+) -> Result<&'q Quantity, SimilarityError> {
+    let dimension = match name {
+        "mass" => Some(Dimension::MASS),
+        "speed" | "velocity" => Some(Dimension::VELOCITY),
+        "thickness" => Some(Dimension::LENGTH),
+        _ => None,
+    };
+    let reference = dimension.and_then(|dimension| {
+        groups.references.iter().map(|own| &own.quantity).find(|own| own.dimension == dimension)
+    });
+    reference.or_else(|| inventory.quantity(name)).ok_or_else(|| {
+        let own = inventory.quantities.iter().map(|own| own.name.clone());
+        let known = ["mass", "speed", "thickness"].map(str::to_owned).into_iter().chain(own);
+        SimilarityError::UnknownQuantity { name: name.to_owned(), known: known.collect() }
+    })
+}

@@ -1,0 +1,33 @@
+//! Dimensionless groups, similar scenes, and the laboratory test that stands for a real impact.
+//!
+//! A network has parameters in kilogram, metre and second. Three of them that are independent, the
+//! references, are units for all: every other parameter over its product of powers of them is a
+//! number. By Buckingham's theorem `n` parameters whose dimensions have the rank `r` have `n − r`
+//! such groups, and these alone say what the network does: two networks of one structure whose
+//! groups are equal are similar, and their answers differ by a [`Scale`] only.
+
+mod basis;
+mod comparison;
+mod error;
+mod four_parameter;
+mod groups;
+mod inventory;
+mod laboratory;
+mod measured;
+mod names;
+mod registers;
+mod scale;
+mod walk;
+
+#[cfg(test)]
+mod tests;
+
+pub use comparison::{GroupPair, Similarity};
+pub use error::SimilarityError;
+pub use four_parameter::{FourParameterGroups, FourParameterImpact, Ranges};
+pub use groups::{Group, Groups, Reference};
+pub use inventory::{Inventory, Quantity};
+pub use laboratory::{Chosen, Laboratory, Wish};
+pub use measured::{Alone, Measured, alone, measured, similar_settings};
+pub(crate) use scale::scaled_values;
+pub use scale::{Scale, scaled};

@@ -1,0 +1,332 @@
+//! All parameters of a network, one after the other, and the network made of them again.
+
+use std::sync::Arc;
+
+use dashpot_dae::{Piece, Waveform};
+use dashpot_network::{
+    Connection, Effect, Element, Model, Network, Node, Start, Support,
+    layers::{Layer, Layers, Resolution},
+    parameters::{
+        Dimension, InvalidParameter, ModelValue, Parameter, ParameterKind, Value, WindowWish,
+    },
+};
+use dashpot_rheology::{Branch, Tree};
+
+use super::registers;
+use crate::measures::STANDARD_GRAVITY;
+
+/// Area \[m²\].
+const AREA: Dimension = Dimension::new(0, 2, 0);
+/// Density \[kg/m³\].
+const DENSITY: Dimension = Dimension::new(1, -3, 0);
+
+/// Sees the parameters of a network.
+pub(super) trait Visit {
+    /// A number; what is returned stands in its place.
+    fn quantity(&mut self, name: &str, dimension: Dimension, value: f64) -> f64;
+
+    /// What is no number: kinds, words, and what is joined to what.
+    fn word(&mut self, _name: &str, _word: &str) {}
+}
+
+/// Shows all parameters to `visit`, and makes the network of what it returns.
+///
+/// # Errors
+///
+/// The first value that is out of range.
+pub(super) fn walk(network: &Network, visit: &mut dyn Visit) -> Result<Network, InvalidParameter> {
+    let mut again = Network::new();
+    for (id, node) in network.nodes() {
+        if id != network.ground() {
+            let node = walk_node(network, node, visit)?;
+            again.add_node(node);
+        }
+    }
+    for connection in network.connections() {
+        walk_connection(network, connection, &mut again, visit)?;
+    }
+    for load in network.loads() {
+        visit.word(&load.name, &format!("a load on {}", network.node(load.node).name));
+        let force = walk_waveform(&load.name, &load.force, Dimension::FORCE, visit)?;
+        again.add_load(&*load.name, load.node, force);
+    }
+    for effect in network.effects() {
+        again.add_shared_effect(walk_effect(effect, visit)?);
+    }
+    Ok(again)
+}
+
+fn walk_node(
+    network: &Network,
+    node: &Node,
+    visit: &mut dyn Visit,
+) -> Result<Node, InvalidParameter> {
+    let name = &node.name;
+    let mut word = if node.mass > 0.0 { "with mass" } else { "massless" }.to_owned();
+    let mass = if node.mass > 0.0 {
+        visit.quantity(&format!("{name}.mass"), Dimension::MASS, node.mass)
+    } else {
+        0.0
+    };
+    let mut velocity = |velocity: f64| {
+        word += ", an impactor";
+        visit.quantity(&format!("{name}.velocity"), Dimension::VELOCITY, velocity)
+    };
+    let start = match node.start {
+        Start::Rest => Start::Rest,
+        Start::Velocity(own) => Start::Velocity(velocity(own)),
+        // Only its speed counts, and that is one parameter instead of two.
+        Start::Drop(height) => {
+            let gravity = network.effects().iter().find_map(|effect| effect.gravity());
+            let gravity = gravity.unwrap_or(STANDARD_GRAVITY);
+            Start::Velocity(velocity((2.0 * gravity * height).max(0.0).sqrt()))
+        }
+    };
+    let support = match &node.support {
+        Support::Free => Support::Free,
+        Support::Fixed => {
+            word += ", fixed";
+            Support::Fixed
+        }
+        Support::Prescribed(motion) => {
+            word += ", moved";
+            let name = format!("{name}.motion");
+            Support::Prescribed(walk_waveform(&name, motion, Dimension::LENGTH, visit)?)
+        }
+    };
+    visit.word(name, &word);
+    Ok(Node { name: name.clone(), mass, support, start })
+}
+
+fn walk_connection(
+    network: &Network,
+    connection: &Connection,
+    again: &mut Network,
+    visit: &mut dyn Visit,
+) -> Result<(), InvalidParameter> {
+    let name = connection.name.as_str();
+    let [from, to] = connection.between;
+    let ends = [from, to].map(|end| network.node(end).name.as_str());
+    visit.word(name, &format!("between {} and {}", ends[0], ends[1]));
+    if let Some(layers) = &connection.layers {
+        let layers = walk_layers(name, layers, visit)?;
+        let area = connection.area;
+        let area = area.map(|own| visit.quantity(&format!("{name}.area"), AREA, own));
+        again.connect_layers(name, from, to, layers).area = area;
+        return Ok(());
+    }
+    let mut size = |key: &str, dimension, value: Option<f64>| {
+        value.map(|value| visit.quantity(&format!("{name}.{key}"), dimension, value))
+    };
+    let thickness = size("thickness", Dimension::LENGTH, connection.thickness);
+    let area = size("area", AREA, connection.area);
+    let model = walk_model(name, &connection.model, visit)?;
+    let connection = again.connect(name, from, to, model);
+    (connection.thickness, connection.area) = (thickness, area);
+    Ok(())
+}
+
+fn walk_layers(
+    name: &str,
+    layers: &Layers,
+    visit: &mut dyn Visit,
+) -> Result<Layers, InvalidParameter> {
+    let mut all = Vec::with_capacity(layers.all.len());
+    for (at, layer) in layers.all.iter().enumerate() {
+        let name = format!("{name}.{}-{}", layer.name, at + 1);
+        let mut own = |key: &str, dimension, value| {
+            visit.quantity(&format!("{name}.{key}"), dimension, value)
+        };
+        let (thickness, area) =
+            (own("thickness", Dimension::LENGTH, layer.thickness), own("area", AREA, layer.area));
+        let density = own("density", DENSITY, layer.density);
+        let model = walk_model(&name, &layer.model, visit)?;
+        all.push(Layer { name: layer.name.clone(), thickness, area, density, model });
+    }
+    let resolution = match layers.resolution {
+        Resolution::Segments(count) => {
+            visit.word(&format!("{name}.segments"), &count.to_string());
+            Resolution::Segments(count)
+        }
+        Resolution::Accuracy(own) => {
+            let name = format!("{name}.accuracy");
+            Resolution::Accuracy(visit.quantity(&name, Dimension::NUMBER, own))
+        }
+    };
+    Ok(Layers { all, resolution })
+}
+
+/// The parameters of a model, below `name`.
+pub(super) fn walk_model(
+    name: &str,
+    model: &Model,
+    visit: &mut dyn Visit,
+) -> Result<Model, InvalidParameter> {
+    tell_shape(name, model, visit);
+    let mut paths = model.parts().into_iter().map(|(path, _)| path);
+    model.fold(
+        |element| {
+            let path = paths.next().unwrap_or_default();
+            walk_element(name, &path, element, visit).map(Tree::Part)
+        },
+        |node, parts: Vec<Result<Model, InvalidParameter>>| {
+            let parts = parts.into_iter().collect::<Result<Vec<Model>, InvalidParameter>>()?;
+            let branches = node.branches().iter().zip(parts);
+            let branches = branches.map(|(own, tree)| Branch::new(own.name.as_str(), tree));
+            let branches = branches.collect();
+            Ok(if node.is_series() { Tree::Series(branches) } else { Tree::Parallel(branches) })
+        },
+    )
+}
+
+/// Says of each composition what it is.
+fn tell_shape(name: &str, model: &Model, visit: &mut dyn Visit) {
+    let mut left = vec![(format!("{name}.model"), model)];
+    while let Some((path, tree)) = left.pop() {
+        if tree.branches().is_empty() {
+            continue;
+        }
+        let names: Vec<&str> = tree.branches().iter().map(|own| own.name.as_str()).collect();
+        let word = if tree.is_series() { "series" } else { "parallel" };
+        visit.word(&path, &format!("{word} of {}", names.join(", ")));
+        let branches = tree.branches().iter();
+        left.extend(branches.map(|own| (format!("{path}.{}", own.name), &own.tree)));
+    }
+}
+
+fn walk_element(
+    name: &str,
+    path: &str,
+    element: &Arc<dyn Element>,
+    visit: &mut dyn Visit,
+) -> Result<Arc<dyn Element>, InvalidParameter> {
+    let kind = element.kind();
+    let place = if path.is_empty() { name.to_owned() } else { format!("{name}.{path}") };
+    visit.word(&format!("{place}.law"), kind);
+    let Some(maker) = registers::element(kind) else { return Ok(Arc::clone(element)) };
+    let is_said = path.rsplit('.').next() == Some(kind);
+    let prefix = match maker.parameters {
+        [_] if is_said => place,
+        [_] => format!("{place}.{kind}"),
+        _ => place,
+    };
+    let before = element.values();
+    let after = walk_values(&prefix, maker.parameters, &before, visit)?;
+    if after == before { Ok(Arc::clone(element)) } else { (maker.make)(&after) }
+}
+
+fn walk_effect(
+    effect: &Arc<dyn Effect>,
+    visit: &mut dyn Visit,
+) -> Result<Arc<dyn Effect>, InvalidParameter> {
+    let kind = effect.kind();
+    let prefix = match effect.target() {
+        Some(target) => format!("{kind}.{target}"),
+        None => kind.to_owned(),
+    };
+    visit.word(&prefix, "on");
+    let Some(maker) = registers::effect(kind) else { return Ok(Arc::clone(effect)) };
+    let before = effect.values();
+    let mut after = Vec::with_capacity(before.len());
+    for (parameter, value) in maker.parameters.iter().zip(&before) {
+        // An effect has other things by name, so a single parameter keeps its own.
+        let name = format!("{prefix}.{}", parameter.name);
+        after.push(walk_value(&name, parameter, value, visit)?);
+    }
+    if after == before {
+        return Ok(Arc::clone(effect));
+    }
+    (maker.make)(effect.target().unwrap_or_default(), &after)
+}
+
+/// The values of parameters; a single one goes by the `prefix` alone.
+pub(super) fn walk_values(
+    prefix: &str,
+    parameters: &[Parameter],
+    values: &[Value],
+    visit: &mut dyn Visit,
+) -> Result<Vec<Value>, InvalidParameter> {
+    let named = |parameter: &Parameter| match parameters {
+        [_] => prefix.to_owned(),
+        _ => format!("{prefix}.{}", parameter.name),
+    };
+    let pairs = parameters.iter().zip(values);
+    pairs.map(|(own, value)| walk_value(&named(own), own, value, visit)).collect()
+}
+
+fn walk_value(
+    name: &str,
+    parameter: &Parameter,
+    value: &Value,
+    visit: &mut dyn Visit,
+) -> Result<Value, InvalidParameter> {
+    Ok(match (parameter.kind, value) {
+        (ParameterKind::Quantity(dimension), Value::Number(number)) => {
+            Value::Number(visit.quantity(name, dimension, *number))
+        }
+        (ParameterKind::TemperatureDifference, Value::Number(number)) => {
+            Value::Number(visit.quantity(name, Dimension::TEMPERATURE, *number))
+        }
+        (ParameterKind::Curve(first, second), Value::Table(points)) => {
+            let point = |(at, point): (usize, &(f64, f64))| {
+                let x = visit.quantity(&format!("{name}[{at}].x"), first, point.0);
+                (x, visit.quantity(&format!("{name}[{at}].y"), second, point.1))
+            };
+            Value::Table(points.iter().enumerate().map(point).collect())
+        }
+        (_, Value::Window(WindowWish::Times(from, to))) => {
+            let mut time =
+                |key: &str, own| visit.quantity(&format!("{name}.{key}"), Dimension::TIME, own);
+            Value::Window(WindowWish::Times(time("from", *from), time("to", *to)))
+        }
+        (_, Value::Model(ModelValue(model))) => {
+            Value::Model(ModelValue(walk_model(name, model, visit)?))
+        }
+        (_, other) => {
+            visit.word(name, &format!("{other:?}"));
+            other.clone()
+        }
+    })
+}
+
+/// The numbers of a driving function; those that are zero stay so and are not told.
+fn walk_waveform(
+    name: &str,
+    waveform: &Waveform,
+    driven: Dimension,
+    visit: &mut dyn Visit,
+) -> Result<Waveform, InvalidParameter> {
+    let over = |times: i8| Dimension { time: driven.time - times, ..driven };
+    let (per_second, per_second_squared) = (Dimension::FREQUENCY, Dimension::new(0, 0, -2));
+    let mut pieces = Vec::with_capacity(waveform.pieces().len());
+    visit.word(&format!("{name}.pieces"), &waveform.pieces().len().to_string());
+    for (at, own) in waveform.pieces().iter().enumerate() {
+        let mut of = |key: &str, dimension, value: f64| {
+            if value == 0.0 {
+                return 0.0;
+            }
+            visit.quantity(&format!("{name}[{at}].{key}"), dimension, value)
+        };
+        // The first piece holds before its start as well; one that is constant may begin anywhere.
+        let is_open = at == 0 && own.is_constant(0);
+        pieces.push(Piece {
+            start: if is_open { own.start } else { of("start", Dimension::TIME, own.start) },
+            value: of("value", driven, own.value),
+            slope: of("slope", over(1), own.slope),
+            curvature: of("curvature", over(2), own.curvature),
+            jerk: of("jerk", over(3), own.jerk),
+            sine: of("sine", driven, own.sine),
+            cosine: of("cosine", driven, own.cosine),
+            omega: of("omega", per_second, own.omega),
+            sweep: of("sweep", per_second_squared, own.sweep),
+        });
+    }
+    if let [first, second, ..] = pieces.as_mut_slice()
+        && first.is_constant(0)
+    {
+        first.start = second.start.min(0.0) - 1.0 - second.start.abs();
+    }
+    let range = "finite, with its ends apart in double precision";
+    Waveform::new(pieces)
+        .ok_or_else(|| InvalidParameter::new("waveform", range, format!("`{name}`")))
+}
