@@ -15,6 +15,7 @@ use dashpot::{
     scene::{ReadOptions, read, templates, units::parse_quantity},
 };
 
+mod chapters;
 mod equivalent_models;
 mod gallery;
 mod laws;
@@ -22,9 +23,6 @@ mod readme;
 mod registers;
 mod separation;
 mod shown;
-mod sweeps;
-mod thesis;
-mod vibration;
 
 /// Said of what the program has left behind.
 const OUTDATED: &str = "out of date; run UPDATE_DOCS=1 cargo test docs, and look at the changes";

@@ -111,7 +111,7 @@ fn effects_and_other_measures_vary_too() {
         .iter()
         .map(|own| own["key"].as_str().unwrap())
         .collect();
-    assert_eq!(keys, ["head.hic15", "mount.peak-force"]);
+    assert_eq!(keys, ["head.hic15", "mount.peak-force", "padding.peak-deformation"]);
     assert!(
         json["measures"][0]["values"].as_array().unwrap().iter().all(serde_json::Value::is_f64)
     );

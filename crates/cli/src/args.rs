@@ -10,7 +10,6 @@ use clap_complete::Shell;
 use dashpot_analysis::{
     Accuracy,
     rheometer::{ProtocolKind, ProtocolVisitor, visit_protocols},
-    similarity::Similarity,
 };
 use dashpot_dae::methods;
 use dashpot_rheology::conversion::Target;
@@ -411,7 +410,7 @@ pub(crate) struct GroupsArguments {
     #[arg(value_name = "B", conflicts_with_all = ["lab", "from"])]
     pub(crate) second: Option<PathBuf>,
     /// Groups are equal within this, relative.
-    #[arg(long, value_name = "NUMBER", default_value_t = Similarity::WITHIN, value_parser = within)]
+    #[arg(long, value_name = "NUMBER", default_value = "1e-12", value_parser = within)]
     pub(crate) within: f64,
     /// Designs the laboratory test with these values: `mass`, `speed`, `thickness`, or any
     /// parameter by its name; what is left open stays as it is.

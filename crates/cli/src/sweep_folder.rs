@@ -8,7 +8,7 @@ use dashpot_scene::Variation;
 
 use crate::{
     answer::{
-        sweep::{Swept, name},
+        sweep::{self, Swept, name},
         title,
     },
     error::CliError,
@@ -151,7 +151,7 @@ fn number(value: f64) -> String {
 /// The unit in which a column is drawn: that of its largest value.
 fn unit(report: &SweepReport, column: usize) -> Unit {
     let most = report.column(column).filter(|own| own.is_finite()).map(f64::abs);
-    Unit::suiting(most.fold(0.0, f64::max), report.columns[column].unit)
+    sweep::unit(&report.columns[column], most.fold(0.0, f64::max))
 }
 
 fn label(name: &str, unit: &Unit) -> String {

@@ -233,11 +233,16 @@ fn range<'t>(first: &'t str, last: &'t str, rest: &[&str]) -> Result<Numbers<'t>
         match at {
             0 => low,
             _ if at == count - 1 => high,
-            _ if is_logarithmic => low * (high / low).powf(share),
-            _ => low + (high - low) * share,
+            _ if is_logarithmic => handy(low * (high / low).powf(share)),
+            _ => handy(low + (high - low) * share),
         }
     };
     Ok(((0..count).map(value).collect(), unit, is_logarithmic))
+}
+
+/// A number without the rounding in its last digit.
+fn handy(number: f64) -> f64 {
+    format!("{number:.14e}").parse().unwrap_or(number)
 }
 
 fn list<'t>(parts: &[&'t str]) -> Result<Numbers<'t>, VariationFault> {

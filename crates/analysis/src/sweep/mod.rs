@@ -146,8 +146,8 @@ pub fn measure_named(word: &str) -> Option<Arc<dyn Measure>> {
 }
 
 /// The columns of these measures in a scene, and what the scene is to be asked for: all that it reports
-/// where none is named. Behind them stands, for each element with a thickness that they are about, its
-/// peak deformation as a share of that.
+/// where none is named. Behind them stands, for each element with a thickness that they are about, or
+/// that is at a node that they are about, its peak deformation as a share of that.
 ///
 /// # Errors
 ///
@@ -178,11 +178,15 @@ pub fn columns(
     if columns.is_empty() {
         return Err(SweepError::NoneReported);
     }
-    let about = selected.iter().filter(is_wanted);
-    let about = about.filter(|own| own.measure.applies_to() == Family::Element);
-    let mut elements: Vec<usize> = about.map(|own| own.target).collect();
-    elements.dedup();
-    for connection in elements.into_iter().map(|at| &assembly.connections[at]) {
+    let is_about = |at: usize| {
+        let between = assembly.connections[at].between;
+        selected.iter().filter(is_wanted).any(|own| match own.measure.applies_to() {
+            Family::Element => own.target == at,
+            Family::Node => between.iter().any(|end| end.index() == own.target),
+        })
+    };
+    let elements = (0..assembly.connections.len()).filter(|at| is_about(*at));
+    for connection in elements.map(|at| &assembly.connections[at]) {
         let key = format!("{}.{}", connection.name, PeakDeformation::KIND);
         let is_known = columns.iter().any(|own| own.is_share && own.key == key);
         if connection.thickness.is_none() || is_known {

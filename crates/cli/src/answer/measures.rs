@@ -158,12 +158,21 @@ fn units<'r>(
         .filter_map(|reading| reading.value)
         .map(f64::abs)
         .fold(0.0, f64::max);
-    match first.unit {
-        "m/s^2" => vec![Unit::new("g", STANDARD_GRAVITY), Unit::plain(first.unit)],
-        "s" if is_index(first.kind) => vec![Unit::plain("s")],
-        "1" if first.kind == PeakStrain::KIND => vec![Unit::new("%", 0.01)],
-        si if largest > 0.0 => vec![Unit::suiting(largest, si)],
-        _ => vec![zeros.unit(first)],
+    match (unit_of_kind(first.kind, first.unit), first.unit) {
+        (Some(own), "m/s^2") => vec![own, Unit::plain(first.unit)],
+        (Some(own), _) => vec![own],
+        (None, si) if largest > 0.0 => vec![Unit::suiting(largest, si)],
+        (None, _) => vec![zeros.unit(first)],
+    }
+}
+
+/// The unit in which measures of a kind, in SI units `si`, are read whatever their size.
+pub(crate) fn unit_of_kind(kind: &str, si: &str) -> Option<Unit> {
+    match si {
+        "m/s^2" => Some(Unit::new("g", STANDARD_GRAVITY)),
+        "s" if is_index(kind) => Some(Unit::plain("s")),
+        "1" if kind == PeakStrain::KIND => Some(Unit::new("%", 0.01)),
+        _ => None,
     }
 }
 

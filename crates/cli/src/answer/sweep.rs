@@ -9,7 +9,7 @@ use dashpot_plot::Table;
 use dashpot_scene::{Scene, Tunables, Variation, units::si_unit};
 use serde::Serialize;
 
-use super::partial::estimate;
+use super::{measures::unit_of_kind, partial::estimate};
 use crate::numbers::{Unit, apart, bound};
 
 /// Digits of what is computed.
@@ -165,13 +165,19 @@ impl<'a> Document<'a> {
     }
 }
 
+/// The unit in which values of a column are read that are as large as this one.
+pub(crate) fn unit(column: &Column, largest: f64) -> Unit {
+    let kind = column.key.rsplit_once('.').map_or("", |own| own.1);
+    unit_of_kind(kind, column.unit).unwrap_or_else(|| Unit::suiting(largest, column.unit))
+}
+
 /// The smallest and the largest value of each measure.
 pub(crate) fn summary(report: &SweepReport) -> Table {
     let rows = report.columns.iter().enumerate().map(|(at, column)| {
         let finite = || report.column(at).filter(|own| own.is_finite());
         let ends = [finite().reduce(f64::min), finite().reduce(f64::max)];
         let text = |own: Option<f64>| {
-            own.map_or("–".to_owned(), |own| Unit::suiting(own, column.unit).text(own, DIGITS))
+            own.map_or("–".to_owned(), |own| unit(column, own).text(own, DIGITS))
         };
         let [low, high] = ends.map(text);
         vec![name(column), low, high]
@@ -193,6 +199,16 @@ pub(crate) fn remarks(report: &SweepReport) -> Vec<String> {
             format!("{stamped} points stamped from one compiled form, {full} solved in full")
         }
     }];
+    for (at, column) in report.columns.iter().enumerate().filter(|own| own.1.is_share) {
+        let count = report.column(at).filter(|own| *own > 1.0).count();
+        if count > 0 {
+            let element = column.key.rsplit_once('.').map_or("", |own| own.0);
+            all.push(format!(
+                "`{element}` is pressed by more than its thickness at {count} of {points} points: what \
+                 a linear law gives there means nothing"
+            ));
+        }
+    }
     if !report.checked.is_empty() {
         all.push(format!(
             "{} of them solved in full as well: the largest difference is {}",
@@ -236,7 +252,7 @@ pub(crate) fn remarks(report: &SweepReport) -> Vec<String> {
     }
     for (column, reason, count) in told.into_iter().take(MOST_TOLD) {
         let name = name(&report.columns[column]);
-        all.push(format!("`{name}` has no value at {count} points: {reason}"));
+        all.push(format!("`{name}` has no value at {count} of {points} points: {reason}"));
     }
     all
 }

@@ -1,0 +1,21 @@
+//! Chapters whose every text and picture comes from the command.
+
+use super::shown;
+
+/// Chapters with how many texts and figures they show.
+const CHAPTERS: [(&str, usize, usize); 6] = [
+    ("quick-start", 4, 1),
+    ("vibration", 2, 1),
+    ("thesis", 1, 4),
+    ("sweeps", 6, 3),
+    ("similarity", 5, 0),
+    ("injury-measures", 1, 0),
+];
+
+#[test]
+fn chapters_show_what_the_command_prints_and_draws() {
+    for (chapter, texts, figures) in CHAPTERS {
+        let found = shown::check(&format!("docs/{chapter}.md"));
+        assert_eq!(found, (texts, figures), "{chapter}");
+    }
+}
