@@ -291,7 +291,7 @@ fn what_vanishes_is_a_plain_zero() {
     assert!(shown.contains("pad takes up 0 J of 90 J\n"), "{shown}");
     let row = shown.lines().find(|line| line.starts_with("  pad.energy ")).unwrap();
     let words: Vec<&str> = row.split_whitespace().collect();
-    assert_eq!((words[1], words[3], words[4]), ("0", "J", "J"), "{row}");
+    assert!(words[1] == "0" && words[2].starts_with('±') && words[3] == "J", "{row}");
 }
 
 #[test]
@@ -511,13 +511,20 @@ fn scenes_come_from_standard_input_and_models_from_files_beside_the_scene() {
 
 #[test]
 fn wrong_input_ends_with_two_and_says_what_to_do() {
-    let cases: [(&[&str], &str); 7] = [
+    let cases: [(&[&str], &str); 11] = [
         (&["run", "none.toml"], "`none.toml` cannot be read: there is no such file"),
         (&["run", "src"], "it is a folder"),
         (&["run", "--method", "euler"], "possible values"),
         (&["run", "--accuracy", "5 mm"], "0.1%"),
         (&["run", "--rtol", "1"], "`rtol` must be from 1e-13"),
         (&["run", "--set", "K"], "K=25 MN/m"),
+        (&["run", "none.toml", "--set", "K=80", "kN/m"], "quote what belongs together"),
+        (&["run", "--set", "K=80", "kN/m"], "\"K=25 kN/m\""),
+        (&["groups", "reference", "--lab", "drop=2 cm"], "`speed` is that at the end of the drop"),
+        (
+            &["vibrate", "reference", "--drive", "ground", "--at", "9 Hz", "--amplitude", "0.7 g"],
+            "\"0.7 g0\"; `g` is the gram",
+        ),
         (&["fly"], "unrecognized subcommand"),
     ];
     for (arguments, part) in cases {
@@ -550,7 +557,11 @@ fn place_that_cannot_be_written_ends_with_two_before_anything_is_solved() {
 fn name_that_is_nearly_right_is_offered() {
     let folder = TempDir::new().unwrap();
     file(&folder, "soft.toml", SOFT);
-    for (name, meant) in [("soft", "soft.toml"), ("reference.toml", "reference")] {
+    for (name, meant) in [
+        ("soft", "soft.toml"),
+        ("reference.toml", "reference"),
+        ("reference-stif", "reference-stiff"),
+    ] {
         let output = command(&["run", name]).current_dir(folder.path()).output().unwrap();
         assert_eq!(code(&output), 2);
         assert!(err(&output).contains(&format!("did you mean `{meant}`?")), "{}", err(&output));

@@ -124,6 +124,24 @@ def first_root(function, start, step, end):
     return None
 
 
+def damped_joints():
+    """Three masses in a row, the first two joined by a strong dashpot, the second one light."""
+    m, k, c = [exact(own) for own in (1.3, 0.0025, 3.1)], exact(1.01), exact(0.3861)
+    joint = exact(79486.0)
+    for damping in ["1e4", "1e8", "1e12", "1e16", "1e20"]:
+        d = exact(damping)
+        rows = [
+            [0, 1, 0, 0, 0, 0],
+            [-joint / m[0], -d / m[0], joint / m[0], d / m[0], 0, 0],
+            [0, 0, 0, 1, 0, 0],
+            [joint / m[1], d / m[1], -(joint + k) / m[1], -(d + c) / m[1], k / m[1], c / m[1]],
+            [0, 0, 0, 0, 0, 1],
+            [0, 0, k / m[2], c / m[2], -2 * k / m[2], -2 * c / m[2]],
+        ]
+        state = Modes(rows, [0, 1, 0, 1, 0, 0]).at(10)
+        give(f"damped-joint-{damping}", first=state[0], velocity=state[1], third=state[4])
+
+
 def second_hit():
     """A mass with weight on a Maxwell face from which it parts: the face stays where it was left."""
     mp.dps = 50
@@ -191,6 +209,7 @@ many_decades()
 stiff_pads()
 light_nodes()
 stiff_joints()
+damped_joints()
 second_hit()
 moving_support()
 head = "# Reference solutions of hard cases. Regenerate: python3 hard_cases_reference.py (needs mpmath).\n"

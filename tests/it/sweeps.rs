@@ -39,7 +39,8 @@ fn values_are_those_of_single_runs() {
         let scene = read(&text, &ReadOptions::default()).unwrap().value;
         let report = solve(&scene.network, &scene.settings("exact"), &mut Silent).unwrap();
         let mut compared = 0;
-        for (at, name) in records[0].iter().enumerate().skip(2).step_by(2) {
+        let measures = records[0].iter().enumerate().filter(|own| *own.1 != "warnings");
+        for (at, name) in measures.skip(2).step_by(2) {
             let (key, _) = name.split_once(" [").unwrap();
             let (key, thickness) = match key.strip_suffix(" over thickness") {
                 Some(key) => (key, 0.02),
@@ -169,7 +170,7 @@ fn a_folder_holds_table_object_lines_and_maps() {
     assert_eq!(code(&refused), 2);
     let said = err(&refused);
     let said: Vec<&str> = said.split_whitespace().collect();
-    assert!(said.join(" ").contains("was not written by this command"), "{said:?}");
+    assert!(said.join(" ").contains("overwrites its own results only"), "{said:?}");
 }
 
 /// What is said of a wrong command line.
@@ -211,6 +212,28 @@ fn faults_are_named_with_the_nearest_word() {
 }
 
 #[test]
+fn bare_values_are_those_of_the_scene_or_refused() {
+    let thickness = &["sweep", "reference", "--vary", "padding.thickness=20..40,5"];
+    let said = fault(thickness);
+    assert!(said.contains("a bare number is in m, and the scene says 2 cm"), "{said}");
+    assert!(said.contains("help: write \"padding.thickness=20..40 cm\""), "{said}");
+    // Where the scene has none, either, they are in SI units, and what is unusual is warned of.
+    let folder = TempDir::new().unwrap();
+    let scene = reference().replace("thickness = \"2 cm\"", "thickness = 0.02");
+    let path = file(&folder, "scene.toml", &scene);
+    let vary = |values: &'static str| {
+        let arguments = ["sweep", text(&path), "--vary", values, "--measure", "padding.peak-force"];
+        let output = run(&arguments);
+        assert_eq!(code(&output), 0);
+        err(&output)
+    };
+    let told = vary("padding.thickness=20,40");
+    assert!(told.contains("warning: `thickness` is 20 m: did you mean mm?"), "{told}");
+    assert!(told.contains("warning: `thickness` is 40 m: did you mean mm?"), "{told}");
+    assert!(!vary("padding.thickness=0.02,0.04").contains("did you mean"));
+}
+
+#[test]
 fn a_value_that_is_set_cannot_vary_as_well() {
     let folder = TempDir::new().unwrap();
     let scene = reference()
@@ -219,4 +242,75 @@ fn a_value_that_is_set_cannot_vary_as_well() {
     let path = file(&folder, "scene.toml", &scene);
     let said = fault(&["sweep", text(&path), "--vary", "V=1..2 m/s", "--set", "V=5 m/s"]);
     assert!(said.contains("`V` is set and varied"), "{said}");
+}
+
+#[test]
+fn what_a_run_is_warned_of_is_told_with_its_points() {
+    let arguments =
+        ["sweep", "reference", "--vary", "duration=1..30 ms,4", "--measure", "padding.peak-force"];
+    let done = run(&arguments);
+    let said = err(&done).split_whitespace().collect::<Vec<_>>().join(" ");
+    let lasting = "at 1 of 4 points, first at duration = 1 ms: the padding is still in contact";
+    assert!(said.contains(lasting), "{said}");
+    assert!(said.contains("at 3 of 4 points"), "{said}");
+    let table = out(&done);
+    let flags: Vec<&str> = records(&table).iter().map(|own| own[own.len() - 1]).collect();
+    assert_eq!(flags, ["warnings", "1", "2", "2", "2"]);
+    let json = json(&[&arguments[..], &["--json"]].concat());
+    assert_eq!(json["warnings"][0]["points"], serde_json::json!([0]));
+    assert_eq!(json["warnings"][1]["points"], serde_json::json!([1, 2, 3]));
+    // Stamped points pull too, and are pressed through.
+    let speeds = ["sweep", "reference", "--vary", "head.velocity=2,8,14 m/s", "--json"];
+    let json = crate::cli::json(&speeds);
+    assert_eq!(json["stamped"], 3);
+    let told = |at: usize| json["warnings"][at]["text"].as_str().unwrap();
+    assert!(told(0).ends_with("the padding pulls: separation is off"), "{}", told(0));
+    assert_eq!(json["warnings"][0]["points"], serde_json::json!([0, 1, 2]));
+    assert!(told(1).contains("more than its thickness"), "{}", told(1));
+    assert_eq!(json["warnings"][1]["points"], serde_json::json!([2]));
+}
+
+#[test]
+fn a_method_may_be_chosen_and_only_exact_ones_are_stamped() {
+    let by = |method: &str| {
+        let vary = "head.velocity=8,12 m/s";
+        json(&["sweep", "reference", "--vary", vary, "--method", method, "--json"])
+    };
+    let (exact, bdf) = (by("exact"), by("bdf"));
+    assert_eq!((exact["stamped"].as_u64(), bdf["stamped"].as_u64()), (Some(2), Some(0)));
+    for at in 0..2 {
+        let of =
+            |own: &serde_json::Value, what: &str| own["measures"][0][what][at].as_f64().unwrap();
+        let room = of(&bdf, "errors") + of(&exact, "errors");
+        assert!((of(&bdf, "values") - of(&exact, "values")).abs() <= room);
+    }
+    assert!(
+        fault(&["sweep", "reference", "--vary", "head.velocity=8,12 m/s", "--method", "bfd"])
+            .contains("bfd")
+    );
+}
+
+#[test]
+fn three_parameters_have_no_figure_and_many_lines_are_thinned() {
+    let folder = TempDir::new().unwrap();
+    let into = |name: &str| folder.path().join(name).display().to_string();
+    let [one, two, three] = [
+        "head.velocity=8,9 m/s",
+        "padding.maxwell.spring=5..80 MN/m,12,log",
+        "panel.mass=50,100 kg",
+    ];
+    let force = ["--measure", "padding.peak-force", "--out"];
+    let all = ["sweep", "reference", "--vary", one, "--vary", two, "--vary", three];
+    let done = run(&[&all[..], &force, &[&into("three")]].concat());
+    assert!(err(&done).contains("no figures: lines and maps"), "{}", err(&done));
+    let done = run(&[&all[..6], &force, &[&into("two")]].concat());
+    assert_eq!(code(&done), 0, "{}", err(&done));
+    let lines = std::fs::read_to_string(folder.path().join("two/padding.peak-force.svg")).unwrap();
+    assert!(lines.contains("7 of 12 lines"), "{lines}");
+    assert!(lines.contains("= 5 MN/m") && lines.contains("= 80 MN/m"));
+    let flipped = ["sweep", "reference", "--vary", two, "--vary", "padding.thickness=100,400 mm"];
+    let done = run(&[&flipped[..], &force, &[&into("axis")]].concat());
+    assert_eq!(code(&done), 0, "{}", err(&done));
+    let lines = std::fs::read_to_string(folder.path().join("axis/padding.peak-force.svg")).unwrap();
+    assert!(lines.contains("padding.maxwell.spring (MN/m)"), "{lines}");
 }

@@ -255,7 +255,7 @@ fn a_wrong_amplitude_and_a_missing_drive_are_refused() {
     refused(&["--at", "5 Hz", "--amplitude", "0 mm"], "not a positive amplitude");
     refused(&["--at", "5 Hz"], "--amplitude");
     refused(&["--from", "3 rad/s"], "angular frequency");
-    refused(&["--drive", "wall"], "there are floor");
+    refused(&["--drive", "wall"], "there is only");
     let output = run(&["vibrate", "reference"]);
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains("name the drive: ground"), "{}", err(&output));

@@ -20,9 +20,13 @@ pub fn differences(one: &RunReport, other: &RunReport) -> Vec<Difference> {
             let a = measure.value?;
             let opposite = other.measure(&measure.key)?;
             let b = opposite.value?;
-            let size = measure.size.max(opposite.size);
-            let relative = if size > 0.0 { (a - b).abs() / size } else { 0.0 };
+            let relative = over((a - b).abs(), measure.size.max(opposite.size));
             Some(Difference { key: measure.key.clone(), relative })
         })
         .collect()
+}
+
+/// A difference over the size of what differs; 0 where that is zero.
+pub(crate) fn over(difference: f64, size: f64) -> f64 {
+    if size > 0.0 { difference / size } else { 0.0 }
 }

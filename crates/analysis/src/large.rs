@@ -79,10 +79,10 @@ fn outputs(assembly: &Assembly, selected: &[Selected]) -> BTreeSet<usize> {
             }
         }
     }
-    let pads = || assembly.connections.iter().filter(|own| own.thickness.is_some());
+    let pads = || assembly.connections.iter().filter(|own| !own.segments.is_empty());
     let all_pads = pads().count() <= MOST_PADS;
     for (at, own) in assembly.connections.iter().enumerate() {
-        let is_pad = all_pads && own.thickness.is_some();
+        let is_pad = all_pads && !own.segments.is_empty();
         if is_pad || bodies::between(assembly, own).iter().any(|&body| wanted[body]) {
             elements.insert(at);
         }

@@ -97,14 +97,22 @@ pub fn solve_assembly(
         method = next;
     };
     let task = Task { assembly, settings, selected: &selected, method: method.as_ref() };
-    if settings.method == "auto" && method.is_exact() && !task.suffices(&outcome) {
-        // Rounding has spoilt the exact solution; another method may do better.
-        let other = Task { method: &methods::Bdf, ..task };
-        if let Ok(outcome) = other.run(&run, observer)
-            && other.suffices(&outcome)
-        {
-            let why = "the error of `exact` may exceed what is wanted".to_owned();
-            return report(assembly, effects, &other, &run, why, outcome);
+    let is_stuck = method.is_exact() || outcome.obstacle.is_some();
+    if settings.method == "auto" && is_stuck && !task.suffices(&outcome) {
+        // Of second order, the last resort would take too long for what is asked here.
+        let last_resort = methods::TrBdf2.name();
+        for other in others.iter().rev().filter(|own| own.name() != last_resort) {
+            let other = Task { method: other.as_ref(), ..task };
+            if let Ok(outcome) = other.run(&run, observer)
+                && other.suffices(&outcome)
+            {
+                let why = if method.is_exact() {
+                    "the error of `exact` may exceed what is wanted".to_owned()
+                } else {
+                    format!("`{}` does not reach the accuracy that is wanted", method.name())
+                };
+                return report(assembly, effects, &other, &run, why, outcome);
+            }
         }
     }
     report(assembly, effects, &task, &run, why, outcome)
@@ -124,6 +132,23 @@ pub fn reported_measures(
     check_keys(settings, &selected)?;
     guards(assembly, settings)?;
     Ok(selected.into_iter().map(|entry| entry.key).collect())
+}
+
+/// Which measures that [`solve_assembly`] would report can have no value whatever the solution, each
+/// with the reason.
+///
+/// # Errors
+///
+/// [`RunError::UnknownTarget`] for measures of what does not exist.
+pub fn hopeless_measures(
+    assembly: &Assembly,
+    settings: &SolveSettings,
+) -> Result<Vec<(String, &'static str)>, RunError> {
+    let selected = select(assembly, &settings.measures)?;
+    let hopeless = selected.into_iter().filter_map(|own| {
+        own.measure.needs().lacking(assembly, own.target).map(|why| (own.key, why))
+    });
+    Ok(hopeless.collect())
 }
 
 /// The method that `auto` chooses for a run of `duration` \[s\], and why.

@@ -2,16 +2,20 @@
 
 use dashpot_dae::{Direction, Guard, SolveError};
 use dashpot_network::{
-    ConnectionOutputs,
+    ConnectionOutputs, NodeId,
     effects::{EffectKind, Gravity},
     parameters::WindowWish,
 };
 
 use crate::{
     Accuracy, ContactReport, Ledger, MeasureReport, Solution, contacts,
+    extremes::{beyond_measured, pressed_through},
     impact::{Contact, Impact},
     ledger::leak,
-    measures::{CRUSHED, MeasureKind, PeakAcceleration, PeakForce, PeakStrain, Reading},
+    measures::{
+        CRUSHED, Clip, Clip3ms, Hic, Hic15, Hic36, MeasureKind, PeakAcceleration, PeakForce,
+        PeakStrain, Reading, SeverityIndex,
+    },
     solution::is_impactor,
     wording::{percent, quantity},
 };
@@ -29,16 +33,20 @@ pub(crate) struct Findings<'a> {
 }
 
 /// Closure in parts of the energy turned over that rounding may leave.
-const ROUNDING: f64 = 1e-10;
+pub(crate) const ROUNDING: f64 = 1e-10;
 /// Part by which a peak outside the impact must exceed that within to be worth a warning.
-const HARDER: f64 = 0.05;
+pub(crate) const HARDER: f64 = 0.05;
+/// Measures of what a blow does to a body.
+const INJURIES: [&str; 6] =
+    [SeverityIndex::KIND, Hic15::KIND, Hic36::KIND, Hic::KIND, Clip3ms::KIND, Clip::KIND];
 /// How many measures one warning names.
 const NAMED: usize = 4;
 
 /// All warnings, the most important first.
 pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
     let mut warnings = pulling(findings);
-    warnings.extend(beyond_thickness(findings.solution));
+    warnings.extend(pressed_through(findings.solution));
+    warnings.extend(beyond_measured(findings.solution));
     warnings.extend(crushed_layers(findings));
     warnings.extend(energy(findings));
     warnings.extend(stops_that_hold(findings));
@@ -54,10 +62,8 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
 fn pulling(findings: &Findings<'_>) -> Vec<String> {
     let end = findings.solution.end();
     let since = |impact: &Impact| match impact.contact {
-        Contact::Released if impact.end < end => {
-            Some(format!("from {}", quantity(impact.end, "s")))
-        }
-        Contact::Pulling => Some("from the start".to_owned()),
+        Contact::Released if impact.end < end => Some(Some(impact.end)),
+        Contact::Pulling => Some(None),
         _ => None,
     };
     let assembly = findings.solution.assembly();
@@ -66,19 +72,26 @@ fn pulling(findings: &Findings<'_>) -> Vec<String> {
         connection.is_some_and(|connection| contacts::is_glued(assembly, connection))
     };
     let contacts = findings.contacts.iter().map(|own| (own.element.as_str(), own.impact));
-    let warning = |(element, impact): (&str, Impact)| {
-        since(&impact).map(|since| format!("{since} the {element} pulls: separation is off"))
-    };
-    let all = contacts.chain(pads(findings.solution));
+    let warning =
+        |(element, impact): (&str, Impact)| since(&impact).map(|since| pulls(element, since));
+    let all = contacts.chain(pads(findings));
     all.filter(|(element, _)| is_glued(element)).filter_map(warning).collect()
+}
+
+/// Of an element that pulls since a time \[s\], or since the start.
+pub(crate) fn pulls(element: &str, since: Option<f64>) -> String {
+    let since = since.map_or("the start".to_owned(), |since| quantity(since, "s"));
+    format!("from {since} the {element} pulls: separation is off")
 }
 
 /// How the pads between parts that are no impactors are pressed: what has a thickness lies between
 /// its ends and cannot pull at them, while mounts may.
-fn pads<'a>(solution: &'a Solution<'a>) -> impl Iterator<Item = (&'a str, Impact)> {
+fn pads<'a>(findings: &'a Findings<'a>) -> impl Iterator<Item = (&'a str, Impact)> {
+    let solution = findings.solution;
     let connections = solution.assembly().connections.iter();
-    connections.filter_map(|connection| {
-        connection.thickness?;
+    connections.filter_map(move |connection| {
+        let is_pad = connection.thickness.map(drop);
+        is_pad.or_else(|| carries_a_head(findings, connection))?;
         let force = connection.force.filter(|_| !solution.touches_impactor(connection))?;
         if !solution.keeps(force) {
             return None;
@@ -87,27 +100,23 @@ fn pads<'a>(solution: &'a Solution<'a>) -> impl Iterator<Item = (&'a str, Impact
     })
 }
 
-fn beyond_thickness(solution: &Solution<'_>) -> Vec<String> {
-    let connections = solution.assembly().connections.iter();
-    connections
-        .filter_map(|connection| {
-            let thickness =
-                connection.thickness.filter(|_| solution.keeps(connection.deformation))?;
-            let deformation = solution.signal(connection.deformation);
-            let deepest = deformation.maximum((0.0, solution.end()));
-            let noise = deformation.error.unwrap_or(0.0).max(ROUNDING * thickness);
-            (deepest.value > thickness + noise).then(|| {
-                format!(
-                    "the {} is pressed in by {} at {}: {} more than its thickness of {}",
-                    connection.name,
-                    quantity(deepest.value, "m"),
-                    quantity(deepest.time, "s"),
-                    quantity(deepest.value - thickness, "m"),
-                    quantity(thickness, "m"),
-                )
-            })
-        })
-        .collect()
+/// Of an element at a node whose injury is asked for in a run without impactors, where no element
+/// there has a thickness: a pad of which only that is not said.
+fn carries_a_head(findings: &Findings<'_>, connection: &ConnectionOutputs) -> Option<()> {
+    let assembly = findings.solution.assembly();
+    if assembly.nodes.iter().any(is_impactor) {
+        return None;
+    }
+    let injuries = findings.measures.iter().filter(|own| INJURIES.contains(&own.kind));
+    let mut heads = injuries.filter_map(|own| {
+        let is_own = |end: &&NodeId| assembly.nodes[end.index()].name == own.target;
+        connection.between.iter().find(is_own)
+    });
+    let has_pad = |head: &NodeId| {
+        let mut at_head = assembly.connections.iter().filter(|own| own.between.contains(head));
+        at_head.any(|own| own.thickness.is_some())
+    };
+    heads.any(|head| !has_pad(head)).then_some(())
 }
 
 /// Layers that are pressed in by more than their thickness, while the pad as a whole is not.
@@ -117,7 +126,7 @@ fn crushed_layers(findings: &Findings<'_>) -> Vec<String> {
     let crushed = strains.filter_map(|own| {
         let connection = solution.assembly().connection(&own.target)?;
         let (strain, time) = own.value.zip(own.time)?;
-        let is_layered = connection.segments.len() > 1;
+        let is_layered = connection.has_layers;
         let note = own.note.as_ref().filter(|note| is_layered && note.contains(CRUSHED))?;
         let (strain, time) = (percent(strain), quantity(time, "s"));
         Some(format!(

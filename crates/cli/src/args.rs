@@ -5,6 +5,7 @@ use std::{ffi::OsStr, num::NonZero, path::PathBuf};
 use clap::{
     Args, Parser, Subcommand, ValueEnum,
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
+    error::{ContextKind, ContextValue, ErrorKind},
 };
 use clap_complete::Shell;
 use dashpot_analysis::{
@@ -14,6 +15,8 @@ use dashpot_analysis::{
 use dashpot_dae::methods;
 use dashpot_rheology::conversion::Target;
 use dashpot_scene::{templates, units::parse_quantity};
+
+use crate::input::{is_unit, unquoted_help};
 
 /// Impacts on viscoelastic padding: spring-dashpot-mass networks, solved with stated errors.
 #[derive(Debug, Parser)]
@@ -327,6 +330,10 @@ pub(crate) struct SweepArguments {
     /// Measures, such as padding.peak-force [default: all that the scene reports].
     #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
     pub(crate) measure: Vec<String>,
+    /// Method for all points [default: the scene's, if it names one, else auto]; points are stamped by
+    /// auto and exact only.
+    #[arg(long, value_name = "NAME", value_parser = method_names())]
+    pub(crate) method: Option<String>,
     /// Leaves out what moves no measure by more than this, relative, such as 0.5%; verified at
     /// points spread over the sweep [default: the scene's, else nothing].
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -558,6 +565,17 @@ fn test_names() -> PossibleValuesParser {
     let mut collect = Collect(Vec::new());
     visit_protocols(&mut collect);
     PossibleValuesParser::new(collect.0)
+}
+
+/// The error with what to write where a unit stands alone.
+pub(crate) fn explained(mut error: clap::Error) -> clap::Error {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return error };
+    let unit = word.split(',').next().unwrap_or_default();
+    if error.kind() == ErrorKind::UnknownArgument && is_unit(unit) {
+        let help = unquoted_help(unit).into();
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![help]));
+    }
+    error
 }
 
 fn assignment(text: &str) -> Result<(String, String), String> {

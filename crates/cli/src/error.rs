@@ -14,7 +14,7 @@ use dashpot_scene::{Diagnostics, TunableFault, Unwritable, VariationFault, sugge
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
-use crate::input::reason;
+use crate::input::{is_unit, reason, unquoted_help};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -52,7 +52,7 @@ pub(crate) enum CliError {
         similar: Option<String>,
     },
     /// A file that is there already.
-    #[error("`{}` exists already and was not written by this command", .path.display())]
+    #[error("`{}` exists already", .path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
@@ -305,6 +305,9 @@ impl CliError {
     /// What to do, where that can be said.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
+            Self::Unreadable { name, similar: None, .. } if is_unit(name) => {
+                Some(unquoted_help(name))
+            }
             Self::Unreadable { similar: Some(similar), .. } => {
                 Some(format!("did you mean `{similar}`?"))
             }
@@ -338,8 +341,13 @@ impl CliError {
             Self::NotReplaced { .. } => Some(
                 "give the model a table of its own, [models.NAME], and convert that".to_owned(),
             ),
-            Self::Similarity(SimilarityError::UnknownQuantity { known, .. }) => {
-                Some(format!("there are {}", known.join(", ")))
+            Self::Similarity(SimilarityError::UnknownQuantity { name, known }) => {
+                let known = known.join(", ");
+                Some(if name == "drop" {
+                    format!("`speed` is that at the end of the drop, sqrt(2 g0 h); there are {known}")
+                } else {
+                    format!("there are {known}")
+                })
             }
             Self::Vibration(VibrationError::NoDrive { known, .. }) => match known.first() {
                 Some(name) => Some(format!("`--drive {name}` shakes `{name}`")),

@@ -16,6 +16,8 @@ use crate::{
     error::CliError,
     series::curves_and_energies,
     sketch::{MOST_DRAWN, sketch},
+    terminal::{WIDTH, note, print},
+    text::wrapped,
 };
 
 /// The file that also marks a folder as one of results.
@@ -28,6 +30,8 @@ const SCENE: &str = "scene-as-run.toml";
 const DRAWING: &str = "network.svg";
 /// Everything on one page.
 const PAGE: &str = "report.html";
+/// The names of the files of the last results, so that the next ones leave none of them behind.
+const LIST: &str = ".dashpot-files";
 /// A file that is made and removed at once.
 const PROBE: &str = ".dashpot-probe";
 /// Figures show at least so many points, and at most so many.
@@ -67,7 +71,8 @@ fn refuse_foreign(path: &Path, names: impl Iterator<Item = String>) -> Result<()
     match files.find(|file| file.exists()) {
         Some(path) => Err(CliError::Foreign {
             path,
-            help: "choose another folder for `--out`, or move the file away",
+            help: "`--out` overwrites its own results only: choose another folder, or move the file \
+                   away",
         }),
         None => Ok(()),
     }
@@ -119,6 +124,34 @@ pub(crate) fn write(answer: &Answer, path: &Path) -> Result<Vec<String>, CliErro
         written.push(name);
     }
     Ok(written)
+}
+
+/// Removes what earlier results have left in the folder `path` beside the `written` files, and tells
+/// what was done: where results are printed, or on standard error beside a document.
+pub(crate) fn settle(path: &Path, written: &[String], beside: bool) -> Result<(), CliError> {
+    let list = path.join(LIST);
+    let known = fs::read_to_string(&list).unwrap_or_default();
+    // Names alone: nothing outside of the folder is touched.
+    let is_name = |name: &&str| Path::new(name).file_name().is_some_and(|own| own == *name);
+    let is_left = |name: &&str| written.iter().all(|own| own != name) && path.join(name).is_file();
+    let left: Vec<&str> = known.lines().filter(is_name).filter(is_left).collect();
+    for name in &left {
+        let file = path.join(name);
+        fs::remove_file(&file).map_err(unwritable(&file))?;
+    }
+    fs::write(&list, written.join("\n") + "\n").map_err(unwritable(&list))?;
+    let folder = path.display();
+    let mut lines = wrapped(&format!("wrote {} to {folder}", written.join(", ")), WIDTH);
+    if !left.is_empty() {
+        let removed = format!("removed {} of earlier results from {folder}", left.join(", "));
+        lines.extend(wrapped(&removed, WIDTH));
+    }
+    let text = lines.join("\n");
+    if beside {
+        note(&text);
+        return Ok(());
+    }
+    print(&format!("\n{text}\n"))
 }
 
 /// Writes `text` to a file that is not there yet, or in place of one with `force`.

@@ -6,7 +6,9 @@ use std::{
     path::Path,
 };
 
-use dashpot_scene::{Checked, ReadOptions, Scene, read, references, text_of_bytes};
+use dashpot_scene::{
+    Checked, ReadOptions, Scene, nearest, read, references, text_of_bytes, units::parse_dimension,
+};
 
 use crate::error::CliError;
 
@@ -70,14 +72,25 @@ pub(crate) fn read_scene(
     read(input.text()?, &input.options(set)).map_err(CliError::Scene)
 }
 
-/// What may be meant by a name that no file has: the same with or without the ending of a scene.
+/// Whether a word is a unit, which belongs to the quantity before it.
+pub(crate) fn is_unit(word: &str) -> bool {
+    !["", "1"].contains(&word.trim()) && parse_dimension(word).is_ok()
+}
+
+/// What to write where the blank before a unit has divided a quantity.
+pub(crate) fn unquoted_help(unit: &str) -> String {
+    format!("`{unit}` is a unit: quote what belongs together, such as \"K=25 {unit}\"")
+}
+
+/// What may be meant by a name that no file has: the same with or without the ending of a scene, or a
+/// built-in scene.
 fn similar(path: &Path) -> Option<String> {
     let with_ending = path.with_extension("toml");
     if path.extension().is_none() && with_ending.is_file() {
         return Some(with_ending.display().to_string());
     }
     let stem = path.file_stem()?.to_string_lossy();
-    references().iter().find(|shipped| shipped.name == stem).map(|shipped| shipped.name.to_owned())
+    nearest(&stem, references().iter().map(|shipped| shipped.name)).map(str::to_owned)
 }
 
 /// The text of a file of models.

@@ -40,6 +40,7 @@ pub fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(message) => {
+            let message = args::explained(message);
             // Help is asked for, all else is wrong input; a reader that is gone is no matter.
             let _ = message.print();
             return if message.use_stderr() { Status::InputWrong } else { Status::Done }.into();

@@ -8,7 +8,7 @@ use dashpot_scene::Variation;
 
 use crate::{
     answer::{
-        sweep::{self, Swept, name},
+        sweep::{self, Swept, name, shown},
         title,
     },
     error::CliError,
@@ -18,8 +18,12 @@ use crate::{
 
 /// Values at all points.
 const TABLE: &str = "sweep.csv";
-/// A family has at most so many lines.
-const MOST_LINES: usize = 12;
+/// Heading of the numbers of warnings.
+const WARNINGS: &str = "warnings";
+/// A family of at most so many lines is drawn besides its map …
+const MOST_FAMILY: usize = 12;
+/// … and of any family at most so many lines, as many as there are colours.
+const MOST_LINES: usize = 7;
 /// A map has at least so many rows and columns.
 const LEAST_OF_MAP: usize = 4;
 /// What is to be said of a padding that is as deep as it is thick.
@@ -38,11 +42,18 @@ impl Figures {
             [_] => Self { lines: true, map: false },
             [first, second] => {
                 let map = first.len() >= LEAST_OF_MAP && second.len() >= LEAST_OF_MAP;
-                Self { lines: !map || second.len() <= MOST_LINES, map }
+                Self { lines: !map || second.len() <= MOST_FAMILY, map }
             }
             _ => Self { lines: false, map: false },
         }
     }
+}
+
+/// Why there is no figure, where there is none.
+pub(crate) fn undrawn(variations: &[Variation]) -> Option<&'static str> {
+    let figures = Figures::of(variations);
+    let is_drawn = figures.lines || figures.map;
+    (!is_drawn).then_some("no figures: lines and maps are drawn over one parameter or two")
 }
 
 fn line_file(column: &Column) -> String {
@@ -88,7 +99,8 @@ pub(crate) fn write(
     Ok(files.into_iter().map(|own| own.0).collect())
 }
 
-/// Values and errors at all points, in SI units; what is missing is blank.
+/// Values and errors at all points, in SI units, and the numbers of the warnings there; what is missing
+/// is blank.
 pub(crate) fn csv(swept: &Swept<'_>, report: &SweepReport) -> String {
     let mut text = String::new();
     let mut header: Vec<String> = swept
@@ -101,15 +113,23 @@ pub(crate) fn csv(swept: &Swept<'_>, report: &SweepReport) -> String {
         header.push(format!("{} [{}]", name(own), own.unit));
         header.push(format!("error of {} [{}]", name(own), own.unit));
     }
+    header.push(WARNINGS.to_owned());
     push_record(&mut text, header.iter().map(|own| quoted(own)));
     let width = report.columns.len();
     let points = report.values.chunks(width).zip(report.errors.chunks(width));
     let mut places = vec![0; swept.variations.len()];
-    for (values, errors) in points {
+    let mut warned: Vec<_> =
+        report.warnings.iter().map(|own| own.points.iter().peekable()).collect();
+    for (point, (values, errors)) in points.enumerate() {
         let own =
             places.iter().zip(swept.variations).map(|(place, own)| number(own.values[*place]));
         let both = values.iter().zip(errors).flat_map(|(value, error)| [*value, *error]);
-        push_record(&mut text, own.chain(both.map(number)));
+        let raised = warned
+            .iter_mut()
+            .enumerate()
+            .filter_map(|(at, points)| points.next_if_eq(&&point).map(|_| (at + 1).to_string()));
+        let raised = raised.collect::<Vec<_>>().join(" ");
+        push_record(&mut text, own.chain(both.map(number)).chain([raised]));
         for (place, own) in places.iter_mut().zip(swept.variations).rev() {
             *place += 1;
             if *place < own.len() {
@@ -158,22 +178,22 @@ fn label(name: &str, unit: &Unit) -> String {
     if unit.symbol.is_empty() { name.to_owned() } else { format!("{name} ({})", unit.symbol) }
 }
 
-/// Label, scale and places of a parameter: in the unit of the command line, or where it is logarithmic
-/// in the SI unit, whose ticks carry prefixes.
+/// Label, scale and places of a parameter, in the unit of the command line.
 fn axis(swept: &Swept<'_>, parameter: usize) -> (String, Scale, Vec<f64>) {
     let own = &swept.variations[parameter];
-    if own.is_logarithmic {
-        let unit = swept.unit(parameter);
-        let unit = if unit == "1" { String::new() } else { unit };
-        return (own.name.clone(), Scale::logarithmic(&unit), own.values.clone());
-    }
-    let label = if own.unit.is_empty() {
-        let unit = swept.unit(parameter);
-        if unit == "1" { own.name.clone() } else { format!("{} ({unit})", own.name) }
+    let (unit, places) = if own.unit.is_empty() {
+        (swept.unit(parameter), &own.values)
     } else {
-        format!("{} ({})", own.name, own.unit)
+        (own.unit.clone(), &own.numbers)
     };
-    (label, Scale::Linear, own.numbers.clone())
+    let scale = if own.is_logarithmic { Scale::logarithmic("") } else { Scale::Linear };
+    (label(&own.name, &Unit::plain(&unit)), scale, places.clone())
+}
+
+/// Positions of at most [`MOST_LINES`] lines of a family, from its first to its last one.
+fn drawn(count: usize) -> Vec<usize> {
+    let wanted = count.min(MOST_LINES);
+    (0..wanted).map(|at| at * (count - 1) / (wanted - 1).max(1)).collect()
 }
 
 /// A column over the first parameter, one line for each value of the second.
@@ -192,6 +212,8 @@ fn lines(swept: &Swept<'_>, report: &SweepReport, column: usize) -> Chart {
         Series::new(name_of(at), points.collect())
     };
     let own = &report.columns[column];
+    let left_out =
+        if count > MOST_LINES { format!(", {MOST_LINES} of {count} lines") } else { String::new() };
     let limit = ReferenceLine {
         direction: Direction::Horizontal,
         at: 1.0,
@@ -199,27 +221,15 @@ fn lines(swept: &Swept<'_>, report: &SweepReport, column: usize) -> Chart {
         colour: None,
     };
     Chart {
-        title: name(own),
+        title: name(own) + &left_out,
         note: title(swept.scene).to_owned(),
         x_label,
         x_scale,
         y_label: label(&name(own), &unit),
-        series: (0..count).map(line).collect(),
+        series: drawn(count).into_iter().map(line).collect(),
         lines: if own.is_share { vec![limit] } else { Vec::new() },
         ..Chart::default()
     }
-}
-
-/// A value of a parameter to four digits.
-fn shown(own: &Variation, at: usize) -> String {
-    let unit = Unit::new(&own.unit, 1.0);
-    let text = unit.text(own.numbers[at], 4);
-    let (number, rest) = text.split_once(' ').unwrap_or((&text, ""));
-    let short = match number.split_once('.') {
-        Some(_) if !number.contains('e') => number.trim_end_matches('0').trim_end_matches('.'),
-        _ => number,
-    };
-    format!("{short} {rest}").trim_end().to_owned()
 }
 
 /// A column over both parameters, with the line on which a padding is pressed to nothing.

@@ -75,8 +75,9 @@ pub struct ConnectionOutputs {
     pub rate: Option<usize>,
     /// Its primitives in [`Assembly::primitives`].
     pub primitives: Range<usize>,
-    /// The segments of a pad from its first face to the second: all parts of its layers that
-    /// deform, or the whole pad where its thickness is known. None for other elements.
+    /// The parts of a pad whose stress and strain are looked at: of layers all that deform, from the
+    /// first face to the second; else the whole pad where its thickness is known, and all branches
+    /// with a thickness of their own. None for other elements.
     pub segments: Vec<SegmentOutputs>,
     /// Whether it is made of layers.
     pub has_layers: bool,
@@ -85,10 +86,8 @@ pub struct ConnectionOutputs {
 /// Outputs of a part of a pad in which force and strain are the same all over.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SegmentOutputs {
-    /// Name of its layer; `None` where it is a whole pad that is not made of layers.
-    pub layer: Option<String>,
-    /// Depth of its middle below the first face of the pad \[m\].
-    pub depth: f64,
+    /// What it is of the pad.
+    pub place: SegmentPlace,
     /// Thickness \[m\], > 0.
     pub thickness: f64,
     /// Area \[m²\], > 0, where it is known.
@@ -97,6 +96,25 @@ pub struct SegmentOutputs {
     pub force: Option<usize>,
     /// Deformation \[m\], positive in compression.
     pub deformation: usize,
+}
+
+/// What a segment is of its pad.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SegmentPlace {
+    /// All of it.
+    Whole,
+    /// A part of a layer.
+    Layer {
+        /// Name of the layer.
+        name: String,
+        /// Depth of the middle of the segment below the first face of the pad \[m\].
+        depth: f64,
+    },
+    /// A branch of its model.
+    Branch {
+        /// Path of the branch, for instance `padding.top`.
+        path: String,
+    },
 }
 
 /// Outputs of a spring or dashpot.
@@ -119,6 +137,8 @@ pub struct PrimitiveOutputs {
 pub struct DriveOutputs {
     /// What it is, for instance `gravity on head`.
     pub name: String,
+    /// What kind of work it does.
+    pub source: Source,
     /// Number of the node that it acts on, in [`Assembly::nodes`].
     pub node: usize,
     /// Force that it puts on its node \[N\].
@@ -129,6 +149,17 @@ pub struct DriveOutputs {
     /// Times \[s\] at which a prescribed displacement jumps; the work done there is the jump of
     /// the stored energy.
     pub jumps: Vec<f64>,
+}
+
+/// What does work on a network from outside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// A force that is given as a function of time.
+    Load,
+    /// A force that an effect of this word puts on masses.
+    Effect(&'static str),
+    /// What holds a node on its given way.
+    Motion,
 }
 
 impl Assembly {

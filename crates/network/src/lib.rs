@@ -24,6 +24,7 @@ pub mod waveforms;
 
 pub use assembly::{
     Assembly, ConnectionOutputs, DriveOutputs, NodeOutputs, PrimitiveOutputs, SegmentOutputs,
+    SegmentPlace, Source,
 };
 pub use compile::{
     blueprint::{Blueprint, Stamp},
@@ -34,4 +35,4 @@ pub use elements::Element;
 pub use error::{NetworkError, NetworkErrors, Subject};
 pub use influence::{Detail, Influence, Situation};
 pub use linear_model::{first_nonlinear, is_linear, linear_model, model_of, primitive};
-pub use network::{Connection, Load, Model, Network, Node, NodeId, Start, Support, part};
+pub use network::{Connection, InnerPad, Load, Model, Network, Node, NodeId, Start, Support, part};

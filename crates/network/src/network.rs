@@ -120,6 +120,8 @@ pub struct Connection {
     pub thickness: Option<f64>,
     /// Area \[m²\] of the pad that it stands for, where it is known.
     pub area: Option<f64>,
+    /// Branches of its model that are pads with a size of their own, each looked at for itself.
+    pub pads: Vec<InnerPad>,
     /// The layers with mass that it is made of, where it is; its model is that of the pad as if it
     /// had no mass. They are cut into segments when the network is compiled.
     pub layers: Option<Layers>,
@@ -129,6 +131,18 @@ pub struct Connection {
     /// The pieces of layers that each branch of the model stands for, or of the model itself where
     /// nothing hangs between its branches; none before the layers are resolved.
     pub(crate) pieces: Vec<Vec<Piece>>,
+}
+
+/// A branch of the model of a connection that is a pad with a size of its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InnerPad {
+    /// Which branch: its number among all branches and parts of the model, in the order in which
+    /// [`Tree::fold`] is done with them, so that each has its own branches before it.
+    pub at: usize,
+    /// Thickness \[m\], > 0.
+    pub thickness: f64,
+    /// Area \[m²\], > 0, where it is known.
+    pub area: Option<f64>,
 }
 
 impl Connection {
@@ -230,6 +244,7 @@ impl Network {
             model,
             thickness: None,
             area: None,
+            pads: Vec::new(),
             layers: None,
             through: Vec::new(),
             pieces: Vec::new(),
@@ -252,7 +267,7 @@ impl Network {
     }
 
     /// Puts another model in the place of that of a connection, by its position. A pad of layers
-    /// becomes one that has no mass.
+    /// becomes one that has no mass, and inner pads are forgotten.
     ///
     /// # Panics
     ///
@@ -260,7 +275,17 @@ impl Network {
     pub fn set_model(&mut self, connection: usize, model: Model) {
         let connection = &mut self.connections[connection];
         connection.model = model;
+        connection.pads.clear();
         connection.layers = None;
+    }
+
+    /// Gives a node another start.
+    ///
+    /// # Panics
+    ///
+    /// When it is a node of another network.
+    pub fn set_start(&mut self, node: NodeId, start: Start) {
+        self.nodes[node.0].start = start;
     }
 
     /// Lets a force \[N\] act on a node.

@@ -87,8 +87,8 @@ impl Diagnostics {
         render::render(self, color, usize::MAX)
     }
 
-    /// The same with messages, notes and help wrapped to `width` columns; lines of the text that is at
-    /// fault stay as they are.
+    /// The same in `width` columns: messages, notes and help are wrapped, and long lines of the text are
+    /// cut around what is at fault.
     pub fn render_within(&self, color: bool, width: usize) -> String {
         render::render(self, color, width)
     }

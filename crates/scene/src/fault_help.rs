@@ -5,7 +5,7 @@ use dashpot_network::parameters::Dimension;
 use crate::{
     fault::{described, example},
     nearest::suggestion,
-    units::{UnitError, meant_as, parse_dimension, parse_quantity},
+    units::{UnitError, foreign, meant_as, parse_dimension, parse_quantity},
 };
 
 /// What to write in place of degrees Celsius in a product.
@@ -18,6 +18,9 @@ pub(crate) fn unreadable_help(error: &UnitError, expected: Dimension) -> String 
         UnitError::UnknownUnit { symbol, unit, meant } => {
             let meant = meant.as_deref();
             let fitting = meant.filter(|meant| fits(meant, expected));
+            if let Some(one) = foreign(symbol).filter(|_| fitting.is_some()) {
+                return foreign_help(symbol, one);
+            }
             if let Some(meant) = fitting.or_else(|| meant_as(unit, expected)) {
                 return format!(
                     "did you mean `{meant}`? {} is expected, {like}",
@@ -44,12 +47,20 @@ pub(crate) fn unreadable_help(error: &UnitError, expected: Dimension) -> String 
 /// Help for a named value that cannot be read.
 pub(crate) fn bad_value_help(error: &UnitError, example: &str) -> String {
     match error {
-        UnitError::UnknownUnit { meant: Some(meant), .. } => format!("did you mean `{meant}`?"),
+        UnitError::UnknownUnit { symbol, meant: Some(meant), .. } => match foreign(symbol) {
+            Some(one) => foreign_help(symbol, one),
+            None => format!("did you mean `{meant}`?"),
+        },
         UnitError::DecimalComma { text } => comma_help(text, "\""),
         UnitError::Separated { joined, .. } => format!("write \"{joined}\""),
         UnitError::CelsiusInProduct { .. } => KELVIN_HELP.to_owned(),
         _ => format!("a value is a quantity, for example \"{example}\""),
     }
+}
+
+/// Help for a unit that is known but not read.
+fn foreign_help(symbol: &str, one: &str) -> String {
+    format!("1 {symbol} is {one}: write it in that")
 }
 
 /// Help for a number with commas, written between two `quote`s.

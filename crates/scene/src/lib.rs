@@ -54,7 +54,7 @@ pub use document::MAX_BYTES;
 pub use fault::Fault;
 pub use library::Loader;
 pub use named::{NamedModel, read_named_model};
-pub use nearest::suggestion;
+pub use nearest::{nearest, suggestion};
 pub use notes::ModelNote;
 pub use rewrite::with_model;
 pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network, text_of_bytes};

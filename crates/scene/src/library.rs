@@ -11,7 +11,7 @@ use crate::{
     document::{Content, Entry, Item, MAX_BYTES, parse},
     fault::Fault,
     kinds::registers,
-    quantity::{Quantities, Values},
+    quantity::{Quantities, Subject, Values},
     sections::file_named,
     source::{Place, Source},
     table::{check_name, entries_of},
@@ -177,7 +177,14 @@ impl Library {
     /// Reads quantities of a document.
     pub(crate) fn quantities<'d>(&'d self, document: usize, faults: &'d Faults) -> Quantities<'d> {
         let values = &self.documents[document].values;
-        Quantities { values, faults, is_motion: false, basis: Basis::Model, element: None }
+        Quantities {
+            values,
+            faults,
+            is_motion: false,
+            basis: Basis::Model,
+            element: None,
+            subject: Subject::Value,
+        }
     }
 
     /// The values of the scene's own document.

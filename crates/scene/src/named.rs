@@ -101,7 +101,7 @@ pub fn read_named_model(
                     return None;
                 }
                 let keys = ELEMENT_KEYS;
-                (entry, models.element(&entry.item, owner, entry.key_place, keys)?.0)
+                (entry, models.element(&entry.item, owner, entry.key_place, keys)?.model)
             }
         };
         let is_material =

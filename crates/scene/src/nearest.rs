@@ -15,8 +15,13 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("height", "drop"),
 ];
 
+/// The word that is known for what other programs and books call `word`.
+pub(crate) fn synonym(word: &str) -> Option<&'static str> {
+    SYNONYMS.iter().find(|entry| entry.0.eq_ignore_ascii_case(word)).map(|entry| entry.1)
+}
+
 /// The word of `known` that is nearest to `word`, if one is near, or means the same.
-pub(crate) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let lower = word.to_lowercase();
     let limit = match lower.chars().count() {
         0 => return None,
@@ -24,7 +29,7 @@ pub(crate) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) 
         count => (count / 3).max(2),
     };
     let known = known.into_iter().collect::<Vec<_>>();
-    let same = SYNONYMS.iter().find(|entry| entry.0 == lower).map(|entry| entry.1);
+    let same = synonym(&lower);
     if let Some(same) = known.iter().find(|known| same == Some(**known)) {
         return Some(*same);
     }

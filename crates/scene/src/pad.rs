@@ -27,6 +27,8 @@ pub(crate) struct Size {
 pub(crate) struct Surroundings {
     /// What stands beside the law, by the order of [`SIZE`].
     pub(crate) beside: [Option<Size>; 2],
+    /// Whether what stands there is faulty, which has been told.
+    pub(crate) is_faulty: [bool; 2],
     /// The thickness of the element of which the law is a part.
     pub(crate) around: Option<Size>,
     /// Whether it is one of several parts in a row, which are thinner than the whole.
@@ -37,6 +39,23 @@ impl Surroundings {
     /// What stands beside the law under one of the keys [`SIZE`].
     pub(crate) fn beside(&self, key: &str) -> Option<Size> {
         SIZE.iter().position(|known| *known == key).and_then(|at| self.beside[at])
+    }
+
+    /// What is wrong where `owner` has no size of its own under this key.
+    pub(crate) fn missing(&self, key: &'static str, owner: &str) -> Option<Fault> {
+        let at = SIZE.iter().position(|known| *known == key);
+        if at.is_some_and(|at| self.is_faulty[at]) {
+            return None;
+        }
+        let example = if key == SIZE[0] { "2 cm" } else { "100 cm^2" };
+        let what = if self.in_row {
+            "each part of a `series` has a thickness and an area of its own, beside its law"
+        } else {
+            "a material becomes a pad by its thickness and area"
+        };
+        let help = format!("{what}, for example `{key} = \"{example}\"`");
+        let (key, owner) = (key.to_owned(), owner.to_owned());
+        Some(Fault::MissingKey { key, owner, example: String::new() }.with_help(help))
     }
 
     /// Notes where the size `own` of a part contradicts what stands around it.
@@ -68,34 +87,60 @@ pub(crate) struct Extent {
     pub(crate) thickness: Option<f64>,
     /// Area A \[m²\].
     pub(crate) area: Option<f64>,
+    /// Thickness of those parts that have one \[m\]: no pad is thinner.
+    pub(crate) least: f64,
 }
 
 impl Extent {
     /// That of a pad.
     pub(crate) fn of(Pad { thickness, area }: Pad) -> Self {
-        Self { thickness: Some(thickness), area: Some(area) }
+        Self { thickness: Some(thickness), area: Some(area), least: thickness }
     }
 
-    /// That of parts in a row. Of several it says nothing: stress and strain are not the same in
-    /// all of them.
-    pub(crate) fn in_row(parts: impl ExactSizeIterator<Item = Self>) -> Self {
-        Self::only(parts).unwrap_or_default()
+    /// That of parts in a row: as thick as all together where each of them has a thickness, and with
+    /// the area that each of them has.
+    pub(crate) fn in_row(parts: impl ExactSizeIterator<Item = Self> + Clone) -> Self {
+        let least = parts.clone().map(|part| part.least).sum();
+        let thickness = parts.clone().map(|part| part.thickness).sum();
+        Self { thickness, area: same(parts.map(|part| part.area)), least }
     }
 
     /// That of parts side by side: the thickness of those that have one. On what area the force of
     /// all of them acts, they do not say.
     pub(crate) fn beside(parts: impl ExactSizeIterator<Item = Self> + Clone) -> Self {
-        Self::only(parts.clone()).unwrap_or_else(|| {
-            let mut known = parts.filter_map(|part| part.thickness);
-            let is_same = |first: &f64, other: f64| (other - first).abs() <= SAME * first;
-            let first = known.next().filter(|first| known.all(|other| is_same(first, other)));
-            Self { thickness: first, area: None }
-        })
+        let area = if parts.len() == 1 { parts.clone().find_map(|part| part.area) } else { None };
+        let thickness = same(parts.clone().filter_map(|part| part.thickness).map(Some));
+        let least = parts.map(|part| part.least).fold(0.0, f64::max);
+        Self { thickness, area, least }
     }
 
-    fn only(mut parts: impl ExactSizeIterator<Item = Self>) -> Option<Self> {
-        if parts.len() == 1 { parts.next() } else { None }
+    /// Warns where the size that is given for the whole is not that of the parts in it.
+    pub(crate) fn check(&self, owner: &str, [thickness, area]: [Option<Size>; 2], faults: &Faults) {
+        let differs = |size: Size, own: f64| (size.value - own).abs() > SAME * own;
+        let tell = |size: Size, key: &str, dimension, own: f64, why: &str| {
+            let [given, own] = [size.value, own].map(|size| format_short(size, dimension, 6));
+            let message = format!("`{key}` of {owner} is {given}, but {why} {own}");
+            let help = format!("leave `{key}` of {owner} out, or correct one of them");
+            faults.warning(size.place, Fault::odd(message, help));
+        };
+        if let Some(size) = thickness {
+            let parts = self.thickness.filter(|own| differs(size, *own));
+            let least = Some(self.least).filter(|own| size.value < (1.0 - SAME) * own);
+            if let Some(own) = parts.or(least) {
+                let why = "its parts together have";
+                tell(size, SIZE[0], Dimension::LENGTH, own, why);
+            }
+        }
+        if let Some((size, own)) = area.zip(self.area).filter(|(size, own)| differs(*size, *own)) {
+            tell(size, SIZE[1], AREA, own, "each of its parts has");
+        }
     }
+}
+
+/// The size of all, where it is one.
+fn same(mut all: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    let first = all.next()??;
+    all.all(|own| own.is_some_and(|own| (own - first).abs() <= SAME * first)).then_some(first)
 }
 
 fn note(key: &'static str, [own, other]: [Size; 2], help: &str, faults: &Faults) {
@@ -104,14 +149,4 @@ fn note(key: &'static str, [own, other]: [Size; 2], help: &str, faults: &Faults)
     let place = faults.whereabouts(other.place);
     let fault = Fault::SizesDiffer { key, found, expected, place };
     faults.error(own.place, fault.with_help(help));
-}
-
-/// That `owner` has no thickness or area.
-pub(crate) fn missing_size(key: &'static str, owner: &str) -> Fault {
-    let example = if key == SIZE[0] { "2 cm" } else { "100 cm^2" };
-    let help = format!(
-        "a material becomes a pad by its thickness and area, for example `{key} = \"{example}\"`"
-    );
-    let (key, owner) = (key.to_owned(), owner.to_owned());
-    Fault::MissingKey { key, owner, example: String::new() }.with_help(help)
 }

@@ -9,7 +9,7 @@ use crate::{
     document::{Content, Entry, Item},
     fault::Fault,
     kinds::{Example, Kind},
-    pad::{Size, Surroundings, missing_size},
+    pad::{Size, Surroundings},
     plausible,
     quantity::{Quantities, Values},
     source::Place,
@@ -108,10 +108,21 @@ impl<'d> KindReader<'d> {
         }
     }
 
-    /// The quantity `item` of a parameter, with an error where no pad can have it.
+    /// The quantity `item` of a parameter.
     fn quantity(self, name: &'static str, item: &Item, dimension: Dimension) -> Option<f64> {
+        let value = self.quantities.of(name).read(item, dimension)?;
+        self.fitting(name, item, dimension, value)
+    }
+
+    /// The quantity `value`, with an error where no pad can have it.
+    fn fitting(
+        self,
+        name: &'static str,
+        item: &Item,
+        dimension: Dimension,
+        value: f64,
+    ) -> Option<f64> {
         let basis = self.quantities.basis;
-        let value = self.quantities.read(item, dimension)?;
         let Err(invalid) = basis.check(name, dimension, value) else { return Some(value) };
         let fits = |part| basis.check(name, dimension, part).is_ok();
         let fault = self.as_part(Fault::Invalid(invalid), item, fits);
@@ -197,7 +208,7 @@ impl<'d> KindReader<'d> {
                     let entry =
                         table.require(parameter.name, &format!("{} = {value}", parameter.name));
                     places.push(given(entry, place));
-                    values.push(entry.and_then(|entry| self.value_of(parameter, entry)));
+                    values.push(entry.and_then(|entry| self.value(parameter, &entry.item)));
                     continue;
                 }
                 Some(_) => table.take(parameter.name),
@@ -209,18 +220,12 @@ impl<'d> KindReader<'d> {
                 continue;
             }
             values.push(match entry {
-                Some(entry) => self.value_of(parameter, entry),
+                Some(entry) => self.value(parameter, &entry.item),
                 None => self.default(parameter),
             });
         }
         table.finish();
         Some((values.into_iter().collect::<Option<Vec<_>>>()?, places))
-    }
-
-    fn value_of(self, parameter: &Parameter, entry: &Entry) -> Option<Value> {
-        let value = self.value(parameter, &entry.item);
-        plausible::check(self.quantities, entry, value.as_ref().and_then(Value::number));
-        value
     }
 
     fn value(self, parameter: &Parameter, item: &Item) -> Option<Value> {
@@ -234,16 +239,12 @@ impl<'d> KindReader<'d> {
                 self.quantities.read_difference(item).map(Value::Number)
             }
             ParameterKind::Amplitude => self.amplitude(item).map(Value::Number),
-            ParameterKind::TimeTable => self
-                .points(item, &what(), parameter.kind, |pair| self.at_time(pair))
-                .map(Value::Table),
-            ParameterKind::Curve(first, second) => self
-                .points(item, &what(), parameter.kind, |[x, y]| {
-                    let at = self.quantity(parameter.name, x, first);
-                    let value = self.quantity(parameter.name, y, second);
-                    at.zip(value)
-                })
-                .map(Value::Table),
+            ParameterKind::TimeTable => {
+                self.points(item, parameter, [Dimension::TIME, self.driven]).map(Value::Table)
+            }
+            ParameterKind::Curve(first, second) => {
+                self.points(item, parameter, [first, second]).map(Value::Table)
+            }
             ParameterKind::Choice(words) => {
                 let word = text_of(item, &what(), faults)?;
                 if words.contains(&word) {
@@ -289,13 +290,14 @@ impl<'d> KindReader<'d> {
         }
         let size = match (entry, self.size.beside(key)) {
             (Some(entry), _) => {
-                let value = self.value_of(parameter, entry)?.number()?;
+                let value = self.value(parameter, &entry.item)?.number()?;
                 Size { value, place: entry.item.place }
             }
             (None, Some(beside)) => beside,
             (None, None) => {
-                if !faults.damaged() {
-                    faults.error(place, missing_size(key, &format!("`{word}`")));
+                let fault = self.size.missing(key, &format!("`{word}`"));
+                if let Some(fault) = fault.filter(|_| !faults.damaged()) {
+                    faults.error(place, fault);
                 }
                 return None;
             }
@@ -312,15 +314,15 @@ impl<'d> KindReader<'d> {
     fn points(
         self,
         item: &Item,
-        what: &str,
-        kind: ParameterKind,
-        read: impl Fn(&[Item; 2]) -> Option<(f64, f64)>,
+        parameter: &Parameter,
+        dimensions: [Dimension; 2],
     ) -> Option<Vec<(f64, f64)>> {
-        let faults = self.quantities.faults;
+        let (faults, kind) = (self.quantities.faults, parameter.kind);
+        let quiet = Self { quantities: self.quantities.unwatched(), ..self };
         let Content::List(points) = &item.value else {
             let example = self.example().parameter(kind);
             let expected = format!("a list of pairs, for example `{example}`");
-            wrong_type(item, what, &expected, faults);
+            wrong_type(item, &format!("`{}`", parameter.name), &expected, faults);
             return None;
         };
         let point = |item: &Item| {
@@ -336,16 +338,39 @@ impl<'d> KindReader<'d> {
                 };
                 wrong_type(item, "a point", pair, faults);
             }
-            read(pair?)
+            let [first, second] = pair?;
+            let first = quiet.coordinate(parameter, first, dimensions[0]);
+            let second = match kind {
+                ParameterKind::TimeTable => quiet.amplitude(second),
+                _ => quiet.coordinate(parameter, second, dimensions[1]),
+            };
+            first.zip(second)
         };
         // Every point is read, so that all faults are found.
-        points.iter().map(point).collect::<Vec<_>>().into_iter().collect()
+        let read = points.iter().map(point).collect::<Vec<_>>();
+        let read = read.into_iter().collect::<Option<Vec<_>>>()?;
+        self.check_largest(points, &read, dimensions);
+        Some(read)
     }
 
-    fn at_time(self, [time, value]: &[Item; 2]) -> Option<(f64, f64)> {
-        let time = self.quantities.read(time, Dimension::TIME);
-        let value = self.amplitude(value);
-        time.zip(value)
+    fn coordinate(self, parameter: &Parameter, item: &Item, dimension: Dimension) -> Option<f64> {
+        let value = self.quantities.read(item, dimension)?;
+        self.fitting(parameter.name, item, dimension, value)
+    }
+
+    /// Looks whether points are unusual, by the largest of their values in each place.
+    fn check_largest(self, points: &[Item], read: &[(f64, f64)], dimensions: [Dimension; 2]) {
+        let sizes = |at: usize| {
+            let size = move |own: &(f64, f64)| if at == 0 { own.0 } else { own.1 };
+            read.iter().map(size).zip(points)
+        };
+        for (at, dimension) in dimensions.into_iter().enumerate() {
+            let largest = sizes(at).max_by(|first, other| first.0.abs().total_cmp(&other.0.abs()));
+            if let Some((value, Item { value: Content::List(pair), .. })) = largest {
+                let dimension = self.quantities.basis.dimension(dimension);
+                plausible::check(self.quantities, &pair[at], dimension, value);
+            }
+        }
     }
 
     fn window(self, item: &Item) -> Option<WindowWish> {

@@ -9,6 +9,7 @@ use crate::{
     diagnostics::Faults,
     document::{Content, Item},
     fault::Fault,
+    plausible,
     source::Place,
     units::{Quantity, UnitError, format_short, parse_quantity, si_unit},
 };
@@ -81,6 +82,19 @@ pub(crate) struct Quantities<'d> {
     pub(crate) basis: Basis,
     /// The element that they are about, where an effect on one is read.
     pub(crate) element: Option<Target<'d>>,
+    /// What is said of those that are unusual.
+    pub(crate) subject: Subject<'d>,
+}
+
+/// What a quantity is called where it is unusual.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Subject<'d> {
+    /// By its own text.
+    Value,
+    /// By its key.
+    Key(&'d str),
+    /// Nothing is said: it may have any size, or others look at it.
+    Unwatched,
 }
 
 /// An element whose thickness may be what a share is meant of.
@@ -110,10 +124,26 @@ impl Target<'_> {
 /// Digits of a length that a share was meant for.
 const SHARE_DIGITS: usize = 7;
 
-impl Quantities<'_> {
+impl<'d> Quantities<'d> {
+    /// Those of a key.
+    pub(crate) fn of(self, key: &'d str) -> Self {
+        Self { subject: Subject::Key(key), ..self }
+    }
+
+    /// Those of which nothing is said where they are unusual.
+    pub(crate) fn unwatched(self) -> Self {
+        Self { subject: Subject::Unwatched, ..self }
+    }
+
     /// The quantity `item` as written, in SI units, with an error where it does not have the
-    /// dimension that is `expected` in a model.
+    /// dimension that is `expected` in a model, and a warning where it is unusual.
     pub(crate) fn read(self, item: &Item, expected: Dimension) -> Option<f64> {
+        let value = self.read_quietly(item, expected)?;
+        plausible::check(self, item, self.basis.dimension(expected), value);
+        Some(value)
+    }
+
+    fn read_quietly(self, item: &Item, expected: Dimension) -> Option<f64> {
         let in_model = expected;
         let expected = self.basis.dimension(in_model);
         let quantity = match &item.value {
@@ -141,9 +171,12 @@ impl Quantities<'_> {
         expected: Dimension,
         check: impl FnOnce(f64) -> Result<(), E>,
     ) -> Option<f64> {
-        let value = self.read(item, expected)?;
+        let value = self.read_quietly(item, expected)?;
         match check(value) {
-            Ok(()) => Some(value),
+            Ok(()) => {
+                plausible::check(self, item, self.basis.dimension(expected), value);
+                Some(value)
+            }
             Err(fault) => {
                 self.faults.error(item.place, self.traced(item, fault.into()));
                 None
@@ -154,7 +187,7 @@ impl Quantities<'_> {
     /// The difference of temperatures `item` \[K\]. Degrees Celsius are an error: they say a
     /// temperature.
     pub(crate) fn read_difference(self, item: &Item) -> Option<f64> {
-        let value = self.read(item, Dimension::TEMPERATURE)?;
+        let value = self.read_quietly(item, Dimension::TEMPERATURE)?;
         if self.is(item, |quantity| quantity.is_celsius) {
             let fault = Fault::CelsiusDifference { text: self.shown(item) };
             self.faults.error(item.place, self.traced(item, fault));
@@ -193,11 +226,18 @@ impl Quantities<'_> {
     }
 
     /// `item` as it is written.
-    fn shown(self, item: &Item) -> String {
+    pub(crate) fn shown(self, item: &Item) -> String {
         match &item.value {
             Content::Text(text) => text.trim().to_owned(),
             _ => self.faults.text(item.place),
         }
+    }
+
+    /// The quantity that `item` stands for as it is written, where it has a name under that.
+    pub(crate) fn written(self, item: &Item) -> String {
+        let known = self.values.get(item.text().map_or("", str::trim));
+        let definition = known.and_then(|known| known.definition.as_ref());
+        definition.map_or_else(|| self.shown(item), |own| own.text.clone())
     }
 
     /// `fault`, which is about `item`, with the definition of the name that stands there.

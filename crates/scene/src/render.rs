@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use annotate_snippets::{
+    AnnotationKind, Group, Level, Renderer, Snippet, renderer::DEFAULT_TERM_WIDTH,
+};
 
 use crate::{
     diagnostics::{Diagnostic, Diagnostics, Severity},
@@ -18,6 +20,7 @@ const LONG_LINE: usize = 400;
 /// See [`Diagnostics::render`].
 pub(crate) fn render(diagnostics: &Diagnostics, color: bool, width: usize) -> String {
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+    let renderer = renderer.term_width(width.min(DEFAULT_TERM_WIDTH));
     let mut texts: Vec<String> =
         diagnostics.list.iter().map(|diagnostic| one(&renderer, diagnostic, width)).collect();
     if diagnostics.omitted > 0 {
@@ -34,7 +37,7 @@ fn one(renderer: &Renderer, diagnostic: &Diagnostic, width: usize) -> String {
     };
     let title = level.primary_title(wrapped(&diagnostic.message(), width.saturating_sub(LEAD)));
     let mut group = match (&diagnostic.source, &diagnostic.span) {
-        (Some(source), Some(span)) => title.element(snippet(source, span, diagnostic)),
+        (Some(source), Some(span)) => title.element(snippet(source, span, diagnostic, width)),
         (Some(source), None) => {
             title.element(annotate_snippets::Origin::path(source.name.as_str()))
         }
@@ -46,6 +49,8 @@ fn one(renderer: &Renderer, diagnostic: &Diagnostic, width: usize) -> String {
     if let Some(help) = diagnostic.help() {
         group = group.element(Level::HELP.message(wrapped(&help, inner)));
     }
+    // Where no line has a number, the name of the file stands where it would with one.
+    let renderer = renderer.clone().anonymized_snippet_line_numbers(diagnostic.span.is_none());
     renderer.render(&[group])
 }
 
@@ -76,17 +81,28 @@ fn snippet<'a>(
     source: &'a Source,
     span: &Range<usize>,
     diagnostic: &Diagnostic,
+    width: usize,
 ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
     let lines = excerpt(source, span);
     let first_line = source.line_and_column(lines.start).0;
     let start = span.start.clamp(lines.start, lines.end);
     let end = span.end.clamp(start, lines.end);
-    let marked = start - lines.start..end - lines.start;
-    let annotation = AnnotationKind::Primary.span(marked).label(diagnostic.fault.label());
+    let end = start + marked(&source.text[start..end], width.saturating_sub(MARGIN)).len();
+    let span = start - lines.start..end - lines.start;
+    let annotation = AnnotationKind::Primary.span(span).label(diagnostic.fault.label());
     Snippet::source(&source.text[lines])
         .line_start(first_line)
         .path(source.name.as_str())
         .annotation(annotation)
+}
+
+/// Columns beside a mark: the number of the line, and what shows that the line goes on.
+const MARGIN: usize = 20;
+
+/// So much of the text of a place that its line can be cut around the mark under it.
+fn marked(text: &str, room: usize) -> &str {
+    let end = text.char_indices().nth(room).map(|own| own.0);
+    end.filter(|_| !text.contains('\n')).map_or(text, |end| &text[..end])
 }
 
 /// The lines to show: few, and cut where they are very long.

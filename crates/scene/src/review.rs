@@ -117,6 +117,17 @@ pub(crate) fn weightless(network: &Network) -> Vec<ModelNote> {
     notes
 }
 
+/// That weight pulls away from the support, where it does.
+pub(crate) fn upward(network: &Network) -> Option<ModelNote> {
+    let value = network.effects().iter().find_map(|own| own.gravity())?;
+    let shown = format_short(value, Dimension::ACCELERATION, 4);
+    (value < 0.0).then(|| ModelNote {
+        subject: "gravity".to_owned(),
+        text: format!("{shown} pulls away from the support; positive is towards it"),
+        until: None,
+    })
+}
+
 /// Warns of a network in which all that begins at rest stays at rest.
 fn still(reading: &Reading<'_>, network: &Network) {
     let starts = |node: &Node| match node.start {
@@ -231,8 +242,8 @@ fn time_table(reading: &Reading<'_>, driven: &Item, duration: f64) {
         }
         let is_late = |point: &&Item| {
             let Content::List(pair) = &point.value else { return false };
-            let time = pair.first().map(|time| reading.quantities().read(time, Dimension::TIME));
-            time.flatten().is_some_and(|time| time > duration)
+            let time = pair.first().and_then(|time| reading.quantities().peek(time));
+            time.is_some_and(|time| time > duration)
         };
         let late = points.iter().filter(is_late).count();
         if late > 0 {

@@ -15,7 +15,7 @@ use crate::{
     models::ModelReader,
     network_faults::{note_errors, note_warnings},
     notes::ModelNote,
-    review::{outlasted, review, weightless},
+    review::{outlasted, review, upward, weightless},
     sections::{
         Reading, check_stops, read_accuracy, read_effects, read_elements, read_loads,
         read_measures, read_nodes, read_run,
@@ -282,6 +282,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     review(&reading, &network, run.duration);
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
+    notes.extend(upward(&network));
     run.stops = check_stops(&reading, &stops, &assembly);
     let mut values: Vec<NamedValue> = library
         .values()

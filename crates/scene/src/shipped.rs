@@ -18,6 +18,11 @@ const TEMPLATES: &[Shipped] = &[
         text: include_str!("../templates/impact.toml"),
     },
     Shipped {
+        name: "drop",
+        summary: "a fall onto a foam liner that separates and bottoms out",
+        text: include_str!("../templates/drop.toml"),
+    },
+    Shipped {
         name: "chain",
         summary: "a chain of masses with one model between them",
         text: include_str!("../templates/chain.toml"),

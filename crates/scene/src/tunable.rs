@@ -5,26 +5,31 @@
 //! left out, but for the last one. The numbers of a model also go by the elements that are made of it, as
 //! `padding.maxwell.spring`; and a number that stands for a named value is that value.
 
+mod fault;
+
 use std::{collections::BTreeMap, ops::Range, sync::Arc};
 
 use dashpot_network::parameters::Dimension;
-use thiserror::Error;
 
 use crate::{
     Variation,
     diagnostics::{Diagnostics, Faults},
     document::{Content, Item, parse},
-    nearest::{list, nearest},
+    nearest::{nearest, synonym},
     source::Source,
-    units::parse_quantity,
-    variation::{in_words, other_dimension},
+    units::{parse_quantity, si_unit},
+    variation::{Written, in_words, other_dimension},
 };
+
+pub use fault::TunableFault;
 
 /// The tables whose numbers may vary.
 const SECTIONS: [&str; 7] =
     ["values", "models", "materials", "nodes", "elements", "effects", "loads"];
 /// The key under `[run]` that may vary.
 const RUN: (&str, &str) = ("run", "duration");
+/// A node has one of both.
+const START: [&str; 2] = ["drop", "velocity"];
 
 /// A number in the text of a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,67 +42,9 @@ pub struct Tunable {
     pub value: f64,
     /// What it measures, where a unit is given.
     pub dimension: Option<Dimension>,
+    /// Its unit as written, empty where there is none.
+    pub unit: String,
     span: Range<usize>,
-}
-
-/// Why there is no such number.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum TunableFault {
-    /// No number goes by this name.
-    #[error("the scene has no number `{name}`")]
-    Unknown {
-        /// What was given.
-        name: String,
-        /// What was probably meant.
-        near: Option<String>,
-        /// The names that there are.
-        known: Vec<String>,
-    },
-    /// Several numbers do.
-    #[error("`{name}` may be {}", .names.join(" or "))]
-    Ambiguous {
-        /// What was given.
-        name: String,
-        /// What tells them apart.
-        names: Vec<String>,
-    },
-    /// Its values would measure something else.
-    #[error("`{name}`: {reason}")]
-    OtherDimension {
-        /// What was given.
-        name: String,
-        /// What they measure.
-        reason: String,
-    },
-    /// One number is varied twice.
-    #[error("`{first}` and `{second}` are the same number of the scene")]
-    Twice {
-        /// What was given first.
-        first: String,
-        /// What was given then.
-        second: String,
-    },
-}
-
-impl TunableFault {
-    /// What to do.
-    pub fn help(&self) -> Option<String> {
-        match self {
-            Self::Unknown { near, known, .. } => {
-                let listed = format!("its numbers are {}", list(known));
-                Some(match near {
-                    Some(near) => format!("did you mean `{near}`? {listed}"),
-                    None => listed,
-                })
-            }
-            Self::Ambiguous { .. } => {
-                Some("write so much of the path that it is the only one".to_owned())
-            }
-            Self::OtherDimension { .. } => None,
-            Self::Twice { .. } => Some("vary it once".to_owned()),
-        }
-    }
 }
 
 /// The numbers of a scene's text.
@@ -152,6 +99,7 @@ impl Tunables {
                 name: String::new(),
                 value: quantity.value,
                 dimension: quantity.dimension,
+                unit: Written::of(&content).map_or("", |own| own.unit).to_owned(),
                 span,
             });
         }
@@ -202,9 +150,11 @@ impl Tunables {
             [only] => Ok(only),
             [] => {
                 let known: Vec<String> = self.all.iter().map(|own| own.name.clone()).collect();
-                let paths = self.paths.iter().map(|own| own.0[1..].join("."));
-                let words: Vec<String> = known.iter().cloned().chain(paths).collect();
-                let near = nearest(name, words.iter().map(String::as_str)).map(str::to_owned);
+                let near = self.akin(&wanted).or_else(|| {
+                    let paths = self.paths.iter().map(|own| own.0[1..].join("."));
+                    let words: Vec<String> = known.iter().cloned().chain(paths).collect();
+                    nearest(name, words.iter().map(String::as_str)).map(str::to_owned)
+                });
                 Err(TunableFault::Unknown { name: name.to_owned(), near, known })
             }
             ref several => {
@@ -214,12 +164,25 @@ impl Tunables {
         }
     }
 
+    /// The name of the number that goes by another word for the end of a path, or has this end and
+    /// belongs to another part of the scene.
+    fn akin(&self, wanted: &[&str]) -> Option<String> {
+        let (last, owner) = wanted.split_last()?;
+        let start = START.iter().find(|own| *own != last).filter(|_| START.contains(last));
+        let end = start.copied().or_else(|| synonym(last)).unwrap_or(last);
+        let with_owner = [owner, &[end]].concat();
+        let found = [self.led_to(&with_owner), self.led_to(&[end])];
+        let only =
+            found.iter().find_map(|own| if let [only] = own[..] { Some(only) } else { None });
+        only.map(|at| self.all[at].name.clone())
+    }
+
     /// The number that each variation is of.
     ///
     /// # Errors
     ///
-    /// A name that leads to none or several, values of another dimension than the number in the text, and
-    /// two variations of one number.
+    /// A name that leads to none or several, values of another dimension than the number in the text,
+    /// bare ones where that has a unit other than that of SI, and two variations of one number.
     pub fn matched(&self, variations: &[Variation]) -> Result<Vec<usize>, TunableFault> {
         let mut found: Vec<usize> = Vec::with_capacity(variations.len());
         for own in variations {
@@ -230,6 +193,9 @@ impl Tunables {
                 let reason = other_dimension(&own.text(0), given, wanted);
                 return Err(TunableFault::OtherDimension { name: own.name.clone(), reason });
             }
+            if let Some(fault) = self.without_unit(at, own) {
+                return Err(fault);
+            }
             if let Some(before) = found.iter().position(|other| *other == at) {
                 let (first, second) = (variations[before].name.clone(), own.name.clone());
                 return Err(TunableFault::Twice { first, second });
@@ -237,6 +203,24 @@ impl Tunables {
             found.push(at);
         }
         Ok(found)
+    }
+
+    /// What is wrong with a variation that has no unit, where the number has one.
+    fn without_unit(&self, at: usize, variation: &Variation) -> Option<TunableFault> {
+        let number = &self.all[at];
+        let dimension = number.dimension.filter(|own| *own != Dimension::NUMBER)?;
+        let one = parse_quantity(&format!("1 {}", number.unit)).ok()?;
+        #[expect(clippy::float_cmp, reason = "1 is the factor of SI units")]
+        let is_si = one.value == 1.0;
+        if variation.dimension.is_some() || is_si {
+            return None;
+        }
+        Some(TunableFault::NoUnit {
+            bare: variation.with_unit(""),
+            si: si_unit(dimension),
+            scene: self.text[number.span.clone()].trim_matches(['"', '\'']).to_owned(),
+            meant: variation.with_unit(&number.unit),
+        })
     }
 
     /// The text of the scene with other values in the place of some numbers.
@@ -346,95 +330,4 @@ fn collect(item: &Item, path: &mut Vec<String>, found: &mut Found) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{ReadOptions, read, reference};
-
-    const TEXT: &str = r#"
-[values]
-K2 = "20 MN/m"
-
-[models.pad]
-series = [
-  { spring = "K2" },
-  { dashpot = "6 kN s/m" },
-  { parallel = [{ spring = "18 MN/m" }, { dashpot = 4000 }] },
-]
-
-[nodes]
-head = { mass = "10 kg", velocity = "10 m/s" }
-
-[elements]
-padding = { between = ["head", "ground"], model = "pad", thickness = "2 cm" }
-
-[run]
-duration = "20 ms"
-samples = 11
-"#;
-
-    fn tunables() -> Tunables {
-        Tunables::of(TEXT, None).unwrap()
-    }
-
-    fn path(name: &str) -> String {
-        let own = tunables();
-        own.find(name).map_or_else(|fault| fault.to_string(), |at| own.all()[at].path.clone())
-    }
-
-    #[test]
-    fn a_number_goes_by_any_parts_of_its_path_that_tell_it() {
-        assert_eq!(path("head.velocity"), "nodes.head.velocity");
-        assert_eq!(path("velocity"), "nodes.head.velocity");
-        assert_eq!(path("K2"), "values.K2");
-        assert_eq!(path("padding.thickness"), "elements.padding.thickness");
-        assert_eq!(path("padding.parallel.dashpot"), "models.pad.series.3.parallel.2.dashpot");
-        assert_eq!(path("padding.series.2.dashpot"), "models.pad.series.2.dashpot");
-        assert_eq!(path("run.duration"), "run.duration");
-        assert_eq!(path("padding.series.1.spring"), "values.K2", "a named value");
-    }
-
-    #[test]
-    fn what_leads_to_none_or_several_is_said() {
-        assert!(path("samples").contains("no number `samples`"));
-        let fault = tunables().find("head.veloctiy").unwrap_err();
-        assert!(fault.help().unwrap().starts_with("did you mean `head.velocity`?"), "{fault:?}");
-        assert!(path("pad.dashpot").contains(" or "), "{}", path("pad.dashpot"));
-    }
-
-    #[test]
-    fn every_name_that_is_shown_leads_to_its_number() {
-        for text in [TEXT, reference()] {
-            let own = Tunables::of(text, None).unwrap();
-            for (at, tunable) in own.all().iter().enumerate() {
-                assert_eq!(own.find(&tunable.name), Ok(at), "{}", tunable.name);
-                assert_eq!(own.find(&tunable.path), Ok(at), "{}", tunable.path);
-            }
-        }
-    }
-
-    #[test]
-    fn the_text_is_that_of_the_scene_with_the_value_in_its_place() {
-        let own = tunables();
-        let at = own.find("padding.parallel.dashpot").unwrap();
-        let speed = own.find("velocity").unwrap();
-        let text = own.text_with(&[(speed, "5 m/s".to_owned()), (at, "8 kN s/m".to_owned())]);
-        let expected = TEXT.replace("dashpot = 4000", "dashpot = \"8 kN s/m\"");
-        assert_eq!(text, expected.replace("\"10 m/s\"", "\"5 m/s\""));
-        assert!(read(&text, &ReadOptions::default()).is_ok());
-    }
-
-    #[test]
-    fn variations_are_held_to_the_dimension_of_the_number() {
-        let own = tunables();
-        let matched = |texts: &[&str]| {
-            let all: Vec<Variation> =
-                texts.iter().map(|text| Variation::parse(text).unwrap()).collect();
-            own.matched(&all).map_err(|fault| fault.to_string())
-        };
-        assert!(matched(&["K2=5..30 MN/m", "head.mass=1..2"]).is_ok());
-        let fault = matched(&["K2=5..30 mm"]).unwrap_err();
-        assert!(fault.contains("is in m, the value in the scene in N/m"), "{fault}");
-        let fault = matched(&["K2=5..30 MN/m", "values.K2=1..2 MN/m"]).unwrap_err();
-        assert!(fault.contains("are the same number"), "{fault}");
-    }
-}
+mod tests;

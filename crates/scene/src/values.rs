@@ -12,6 +12,7 @@ use crate::{
     diagnostics::Faults,
     document::{Content, Item},
     fault::{Fault, example_text},
+    nearest::list,
     quantity::{Definition, Known, Values},
     source::{Place, SET, Source},
     table::{entries_of, wrong_type},
@@ -54,12 +55,30 @@ impl Overrides {
                 let mut names: Vec<String> =
                     known.iter().flat_map(|values| values.keys().cloned()).collect();
                 names.sort();
+                let help = name.contains('.').then(|| path_help(name, &definition.text, &names));
                 let name = name.clone();
                 let fault = Fault::UnknownName { family: "value", name, known: names };
+                let fault = match help {
+                    Some(help) => fault.with_help(help),
+                    None => fault,
+                };
                 faults.error(Place { start: 0, ..definition.place }, fault);
             }
         }
     }
+}
+
+/// What to do where a path into the scene stands for the name of a value.
+fn path_help(path: &str, text: &str, names: &[String]) -> String {
+    let known = match names {
+        [] => "of which this scene has none".to_owned(),
+        names => format!("here {}", list(names)),
+    };
+    format!(
+        "`--set` takes names under [values], {known}; a path goes with \
+         `dashpot sweep --vary \"{path}={}\"`, one value or many",
+        text.trim()
+    )
 }
 
 /// The values of the table `item`, where the scene has one.

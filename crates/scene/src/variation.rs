@@ -106,14 +106,15 @@ impl VariationFault {
 }
 
 /// A number, its unit, and the text of both.
-struct Written<'t> {
+pub(crate) struct Written<'t> {
     number: f64,
-    unit: &'t str,
+    /// Its unit, empty where it has none.
+    pub(crate) unit: &'t str,
     text: &'t str,
 }
 
 impl<'t> Written<'t> {
-    fn of(text: &'t str) -> Result<Self, VariationFault> {
+    pub(crate) fn of(text: &'t str) -> Result<Self, VariationFault> {
         let text = text.trim();
         parse_quantity(text).map_err(|error| VariationFault::BadValue { error })?;
         // The longest beginning that is a number.
@@ -185,6 +186,13 @@ impl Variation {
     #[expect(clippy::len_without_is_empty, reason = "there is one at least")]
     pub fn len(&self) -> usize {
         self.numbers.len()
+    }
+
+    /// Its name and the range of its values with another unit behind them.
+    pub(crate) fn with_unit(&self, unit: &str) -> String {
+        let [first, last] = [self.numbers[0], self.numbers[self.len() - 1]];
+        let rest = if self.len() == 1 { String::new() } else { format!("..{last}") };
+        format!("{}={first}{rest} {unit}", self.name).trim_end().to_owned()
     }
 
     /// A value as it would be written in a scene.

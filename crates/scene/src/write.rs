@@ -1,4 +1,4 @@
-//! Models and kinds as TOML text that is read back equal, to the last bit.
+//! Models and kinds as TOML text that is read back equal, to the last bits.
 
 use std::collections::HashMap;
 
@@ -11,7 +11,7 @@ use dashpot_rheology::{Branch, Tree};
 use crate::{
     basis::{Basis, is_size},
     kinds::registers,
-    units::exact_quantity,
+    units::{exact_quantity, tidy},
 };
 
 /// A model as an inline table, for instance `{ parallel = [{ spring = "20 MN/m" }, …] }`.
@@ -231,7 +231,7 @@ fn write_element(element: &dyn Element, basis: Basis) -> String {
 /// that `beside`.
 fn write_value(value: &Value, dimension: Dimension, beside: Dimension) -> String {
     let quantity = |value: f64, dimension| match dimension {
-        Dimension::NUMBER => format!("{value:?}"),
+        Dimension::NUMBER => format!("{:?}", tidy(value)),
         dimension => quoted(&exact_quantity(value, dimension)),
     };
     let time = |time: f64| quantity(time, Dimension::TIME);

@@ -17,16 +17,17 @@ use thiserror::Error;
 use crate::{
     basis::{AREA, Basis, DENSITY},
     sections::RunSettings,
-    units::exact_quantity,
+    units::{exact_quantity, tidy},
     write::{comment_lines, key, law, quoted, write_effect, write_material_table, write_pairs},
-    write_waveform::write_waveform,
+    write_waveform::{write_motion, write_waveform},
 };
 
 /// What a scene cannot say.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Unwritable {
-    /// A load or motion that is no line, sine, half-sine or haversine.
+    /// A load that is no line, sine, half-sine or haversine, or a motion that is none and whose
+    /// acceleration is none.
     #[error("`{name}` is driven by a function of time that only its own text describes")]
     Function {
         /// The load, or the node that is moved.
@@ -110,9 +111,9 @@ fn node(node: &Node) -> Result<String, Unwritable> {
         Support::Free => {}
         Support::Fixed => parts.push("fixed = true".to_owned()),
         Support::Prescribed(motion) => {
-            let motion = write_waveform(motion, Dimension::LENGTH);
-            let motion = motion.ok_or_else(|| Unwritable::Function { name: node.name.clone() })?;
-            parts.push(format!("motion = {{ {motion} }}"));
+            let motion = write_motion(motion);
+            let none = || Unwritable::Function { name: node.name.clone() };
+            parts.push(motion.ok_or_else(none)?);
         }
     }
     Ok(parts.join(", "))
@@ -166,7 +167,7 @@ fn layered(
     text.push_str("]\n");
     let _ = match layers.resolution {
         Resolution::Segments(count) => writeln!(text, "segments = {count}"),
-        Resolution::Accuracy(own) => writeln!(text, "accuracy = {own:?}"),
+        Resolution::Accuracy(own) => writeln!(text, "accuracy = {:?}", tidy(own)),
     };
     Ok(())
 }
@@ -257,7 +258,7 @@ fn settings(run: &RunSettings) -> String {
 fn stop(stop: &Stop) -> String {
     let word = if stop.direction == Direction::Rising { "rises-above" } else { "falls-below" };
     // A bare number is in the unit of the output, whatever that is.
-    format!("{{ when = {}, {word} = {:?} }}", quoted(&stop.output), stop.level)
+    format!("{{ when = {}, {word} = {:?} }}", quoted(&stop.output), tidy(stop.level))
 }
 
 /// A quantity as a text in quotes.

@@ -1,6 +1,10 @@
 //! The accuracy that is asked for: found by the program, paid for, and kept.
 
-use dashpot::analysis::{Accuracy, RunReport};
+use dashpot::{
+    analysis::{Accuracy, RunReport, solve},
+    dae::Silent,
+    scene::{ReadOptions, read},
+};
 
 use super::{
     METHODS, SEED, most_outside,
@@ -65,6 +69,20 @@ fn one_in_a_thousand_is_kept_without_asking() {
 #[test]
 fn one_in_ten_thousand_is_kept() {
     accuracy_is_kept(|accuracy| accuracy.default = 1e-4);
+}
+
+#[test]
+fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
+    let text = include_str!("../../../scenes/hip-protector.toml");
+    let scene = read(text, &ReadOptions::default()).unwrap().value;
+    let mut settings = scene.settings("auto");
+    settings.accuracy.default = 1e-5;
+    let report = solve(&scene.network, &settings, &mut Silent).unwrap();
+    assert!(!admits(&report), "{:?}", report.warnings);
+    assert_eq!(report.solver.method, "esdirk34");
+    assert!(report.solver.why.contains("`bdf` does not reach"), "{}", report.solver.why);
+    let by_bdf = solve(&scene.network, &settings.by("bdf"), &mut Silent).unwrap();
+    assert!(admits(&by_bdf), "{:?}", by_bdf.solver);
 }
 
 #[test]

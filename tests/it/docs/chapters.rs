@@ -8,7 +8,7 @@ const CHAPTERS: [(&str, usize, usize); 6] = [
     ("vibration", 2, 1),
     ("thesis", 1, 4),
     ("sweeps", 6, 3),
-    ("similarity", 5, 0),
+    ("similarity", 6, 0),
     ("injury-measures", 1, 0),
 ];
 

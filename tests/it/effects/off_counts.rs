@@ -70,9 +70,9 @@ impl Hanging {
             let node = Node::mass(node, 1.0 + at as f64);
             let mass = network.add_node(if at == last { node.moving(3.0) } else { node });
             let model = match (link.has_spring, link.has_dashpot) {
-                (true, true) => kelvin(1e4, 30.0),
+                (true, true) => kelvin(1e4, 3.0),
                 (true, false) => spring(1e4),
-                _ => dashpot(30.0),
+                _ => dashpot(3.0),
             };
             let behind = link.behind.map_or(network.ground(), |at| masses[at]);
             network.connect(name, mass, behind, model);

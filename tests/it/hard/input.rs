@@ -114,7 +114,7 @@ fn input_that_is_wrong_is_turned_down() {
             refusal(
                 "a table that falls",
                 with("model = \"foam\"", "table-spring = [[0, 0], [1e-3, 10], [2e-3, 5]]"),
-                &["pad"],
+                &["table-spring"],
             ),
             refusal(
                 "five faults at once",

@@ -11,6 +11,7 @@ use super::{
 fn limits() {
     let mut cases: Vec<Case> = ["1e-2", "1e-6", "1e-12", "1e-18", "0"].map(light_node).into();
     cases.extend(["1e4", "1e8", "1e12", "1e16"].map(stiff_joint));
+    cases.extend(["1e4", "1e8", "1e12", "1e16", "1e20"].map(damped_joint));
     cases.push(rigid_joint());
     for damping in [0.0, 1e-300, 1e-12, 1e12, 1e100, 1e300] {
         cases.push(kelvin_of(damping));
@@ -39,6 +40,26 @@ fn light_node(mass: &'static str) -> Case {
         let mass: f64 = mass.parse().unwrap();
         let limit = reference("light-node-0", "head");
         trial.measure_known("head.end-position", limit, 1e-2 * mass);
+    })
+}
+
+/// Two masses that a strong dashpot joins, the lighter of which a weak one holds.
+fn damped_joint(damping: &'static str) -> Case {
+    let ends = "[{ kind = \"end-position\", window = \"run\" }]";
+    let strong = kelvin(79486.0, damping.parse().unwrap());
+    let text = Text::head(1.3, 1.0)
+        .node("link", "mass = 0.0025, velocity = 1")
+        .node("body", "mass = 3.1")
+        .element("joint", ["head", "link"], &strong)
+        .element("pad", ["link", "body"], &kelvin(1.01, 0.3861))
+        .element("mount", ["body", "ground"], &kelvin(1.01, 0.3861))
+        .measure("body", ends)
+        .lasting(10.0);
+    let name = format!("joint of {damping} N s/m between moving masses");
+    Case::new(name, "script", text, move |trial| {
+        let get = |quantity| reference(&format!("damped-joint-{damping}"), quantity);
+        trial.ends("head", get("first"), get("velocity"));
+        trial.measure("body.end-position", get("third"));
     })
 }
 

@@ -3,7 +3,7 @@
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
 use super::{
-    Family, MASSLESS, MeasureKind, Reading,
+    Family, MASSLESS, MeasureKind, Needs, Reading,
     reading::{infinite, integral, with_blows},
     window,
 };
@@ -28,6 +28,7 @@ impl MeasureKind for AverageDeceleration {
     const SUMMARY: &'static str = "mean of what an accelerometer reads [m/s^2]";
     const UNIT: &'static str = "m/s^2";
     const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         window(values, 0).map(|window| Self { window })

@@ -4,7 +4,7 @@ use dashpot_network::parameters::{
     Dimension, InvalidParameter, Parameter, ParameterKind, Value, WindowWish, positive,
 };
 
-use super::{Family, MASSLESS, MeasureKind, Reading, WINDOW, window};
+use super::{Family, MASSLESS, MeasureKind, Needs, Reading, WINDOW, window};
 use crate::{
     Solution,
     exceedance::{Counted, Exceedance},
@@ -73,6 +73,7 @@ impl MeasureKind for Clip {
         WINDOW,
     ];
     const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         let duration = values.first().and_then(Value::number);

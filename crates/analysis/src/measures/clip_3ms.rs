@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dashpot_network::parameters::{InvalidParameter, Parameter, Value, WindowWish};
 
 use super::{
-    Clip, Family, Measure, MeasureKind, Reading, WINDOW,
+    Clip, Family, Measure, MeasureKind, Needs, Reading, WINDOW,
     clip::{COUNTED, counted},
     window,
 };
@@ -38,6 +38,7 @@ impl MeasureKind for Clip3ms {
     const UNIT: &'static str = "m/s^2";
     const PARAMETERS: &'static [Parameter] = &[COUNTED, WINDOW];
     const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         Ok(Self { counted: counted(values, 0)?, window: window(values, 1)? })

@@ -2,7 +2,7 @@
 
 use dashpot_network::parameters::{InvalidParameter, Parameter, Value, WindowWish};
 
-use super::{Family, MeasureKind, Reading, STANDARD_GRAVITY, WHOLE_RUN, window};
+use super::{Family, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WHOLE_RUN, window};
 use crate::{
     Solution,
     driven::{Oscillator, largest_deformation},
@@ -48,6 +48,7 @@ impl MeasureKind for Dri {
     const UNIT: &'static str = "1";
     const PARAMETERS: &'static [Parameter] = &[WHOLE_RUN];
     const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         window(values, 0).map(|window| Self { window })

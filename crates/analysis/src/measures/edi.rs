@@ -12,7 +12,7 @@ use dashpot_network::{
 };
 use dashpot_rheology::Tree;
 
-use super::{Family, MeasureKind, Reading, WHOLE_RUN, window};
+use super::{Family, MeasureKind, Needs, Reading, WHOLE_RUN, window};
 use crate::{
     Solution,
     driven::{Oscillator, largest_deformation},
@@ -76,6 +76,7 @@ impl MeasureKind for Edi {
         WHOLE_RUN,
     ];
     const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         let invalid = |found: &str| {

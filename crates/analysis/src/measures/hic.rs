@@ -5,7 +5,8 @@ use dashpot_network::parameters::{
 };
 
 use super::{
-    Family, MASSLESS, MeasureKind, Reading, STANDARD_GRAVITY, WINDOW, reading::infinite, window,
+    Family, MASSLESS, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW, reading::infinite,
+    window,
 };
 use crate::{Solution, hic_search::optimum};
 
@@ -49,6 +50,7 @@ impl MeasureKind for Hic {
         WINDOW,
     ];
     const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         let range = "positive and finite";

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
-use super::{Family, Hic, Measure, MeasureKind, Reading, window};
+use super::{Family, Hic, Measure, MeasureKind, Needs, Reading, window};
 use crate::{Solution, similarity::Scale};
 
 /// The head injury criterion over intervals of at most 15 ms \[s\]; otherwise as [`Hic`].
@@ -31,6 +31,7 @@ impl MeasureKind for Hic15 {
     const SUMMARY: &'static str = "head injury criterion over intervals up to 15 ms [s]";
     const UNIT: &'static str = "s";
     const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         window(values, 0).map(|window| Self { window })

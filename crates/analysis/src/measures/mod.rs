@@ -16,6 +16,7 @@ mod hic;
 mod hic15;
 mod hic36;
 mod impulse;
+mod needs;
 mod of_segments;
 mod peak_acceleration;
 mod peak_deformation;
@@ -49,6 +50,8 @@ pub use hic::Hic;
 pub use hic15::Hic15;
 pub use hic36::Hic36;
 pub use impulse::Impulse;
+pub(crate) use needs::MASSLESS;
+pub use needs::Needs;
 pub use peak_acceleration::PeakAcceleration;
 pub use peak_deformation::PeakDeformation;
 pub use peak_displacement::PeakDisplacement;
@@ -98,6 +101,9 @@ pub trait Measure: Debug + Send + Sync {
     /// The parameters' values in the order of [`parameters`](Self::parameters).
     fn values(&self) -> Vec<Value>;
 
+    /// What its target must have.
+    fn needs(&self) -> Needs;
+
     /// The power of standard gravity over which its values are given.
     fn gravities(&self) -> f64;
 
@@ -125,6 +131,8 @@ pub trait MeasureKind: Debug + Default + Send + Sync + Sized + 'static {
     const PARAMETERS: &'static [Parameter] = WINDOW_ONLY;
     /// What it is a measure of.
     const APPLIES_TO: Family;
+    /// What its target must have for it to have a value.
+    const NEEDS: Needs = Needs::Nothing;
     /// Whether every run with an impactor reports it: for elements that touch one, or for impactors.
     const BY_DEFAULT: bool = false;
     /// Whether every run without an impactor reports it: for elements that touch a mass, or for
@@ -185,6 +193,10 @@ impl<M: MeasureKind> Measure for M {
 
     fn values(&self) -> Vec<Value> {
         MeasureKind::values(self)
+    }
+
+    fn needs(&self) -> Needs {
+        M::NEEDS
     }
 
     fn gravities(&self) -> f64 {
@@ -280,8 +292,6 @@ impl MeasureVisitor for Collect {
 
 /// Note on a measure of the force of a rigid link in a loop of rigid links.
 const UNDETERMINED_FORCE: &str = "the force is undetermined in a loop of rigid links";
-/// Note on a measure of the acceleration of a node without mass.
-pub(crate) const MASSLESS: &str = "the node has no mass";
 /// Note on a measure of a velocity that is not a function of time.
 const NO_VELOCITY: &str = "the velocity of this massless node jumps with the loads' rates";
 

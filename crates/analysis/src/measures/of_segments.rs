@@ -1,6 +1,6 @@
 //! The largest of what the segments of a pad feel.
 
-use dashpot_network::SegmentOutputs;
+use dashpot_network::{SegmentOutputs, SegmentPlace};
 
 use super::{
     Reading,
@@ -36,9 +36,13 @@ pub(super) fn largest<'s>(
     }
     let (reading, segment, output) = most?;
     let mut reading = Reading { error, noise, ..reading };
-    if let Some(layer) = &segment.layer {
-        let depth = quantity(segment.depth, "m");
-        reading = reading.noting(&format!("in the layer {layer}, {depth} below the first face"));
+    match &segment.place {
+        SegmentPlace::Whole => {}
+        SegmentPlace::Layer { name, depth } => {
+            let depth = quantity(*depth, "m");
+            reading = reading.noting(&format!("in the layer {name}, {depth} below the first face"));
+        }
+        SegmentPlace::Branch { path } => reading = reading.noting(&format!("in {path}")),
     }
     if peaks_below_zero(&signal(output), span) {
         reading = reading.noting(negative);

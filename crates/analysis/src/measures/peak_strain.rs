@@ -2,11 +2,10 @@
 
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
-use super::{Family, MeasureKind, Reading, of_segments::largest, window};
+use super::{
+    Family, MeasureKind, Needs, Reading, needs::NO_THICKNESS, of_segments::largest, window,
+};
 use crate::Solution;
-
-/// Note on the strain of an element whose thickness is not known.
-const NO_THICKNESS: &str = "its thickness is not known: give it a `thickness` or `layers`";
 
 /// Note on a strain that is one in elongation.
 const STRETCHED: &str = "in elongation";
@@ -18,7 +17,8 @@ pub(crate) const CRUSHED: &str = "pressed in by more than its thickness";
 /// its layer; a peak in elongation is noted.
 ///
 /// `y` is the deformation of the segment and `h` its thickness at rest. Pads of layers have segments;
-/// another element with a `thickness` is a single one.
+/// another element with a `thickness` is a single one, and so is each branch of its model with a
+/// thickness of its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PeakStrain {
     /// The part of the run that it looks at.
@@ -37,6 +37,7 @@ impl MeasureKind for PeakStrain {
         "largest strain in any segment of a pad, deformation over thickness [1]";
     const UNIT: &'static str = "1";
     const APPLIES_TO: Family = Family::Element;
+    const NEEDS: Needs = Needs::Thickness;
     const OF_LAYERS: bool = true;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {

@@ -3,20 +3,17 @@
 use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 
 use super::{
-    Family, MeasureKind, Reading, UNDETERMINED_FORCE, of_segments::largest, reading::infinite,
-    window,
+    Family, MeasureKind, Needs, Reading, UNDETERMINED_FORCE, needs::NO_AREA, of_segments::largest,
+    reading::infinite, window,
 };
 use crate::Solution;
-
-/// Note on the stress in an element whose area is not known.
-const NO_AREA: &str = "its area is not known: give it `thickness` and `area`, or `layers`";
 
 /// The largest magnitude of the stress in any segment of a pad, `max |F(t)|/A` \[Pa\], with its time
 /// and its layer; a peak in tension is noted.
 ///
 /// `F` is the force in the segment and `A` the area of its layer: the stress is that on the undeformed
 /// area. Pads of layers have segments; another element with a `thickness` and an `area` is a single
-/// one. Without an area there is no stress, and where masses meet in the element and speeds jump, it
+/// one, and so is each branch of its model with a size of its own. Without an area there is no stress, and where masses meet in the element and speeds jump, it
 /// is infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PeakStress {
@@ -35,6 +32,7 @@ impl MeasureKind for PeakStress {
     const SUMMARY: &'static str = "largest stress in any segment of a pad, force over area [Pa]";
     const UNIT: &'static str = "Pa";
     const APPLIES_TO: Family = Family::Element;
+    const NEEDS: Needs = Needs::Area;
     const OF_LAYERS: bool = true;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {

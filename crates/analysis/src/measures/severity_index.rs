@@ -5,7 +5,7 @@ use dashpot_network::parameters::{
 };
 
 use super::{
-    Family, MASSLESS, MeasureKind, Reading, STANDARD_GRAVITY, WINDOW,
+    Family, MASSLESS, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
     reading::{infinite, with_blows},
     window,
 };
@@ -48,6 +48,7 @@ impl MeasureKind for SeverityIndex {
         WINDOW,
     ];
     const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
     const BY_DEFAULT: bool = true;
     const WITHOUT_IMPACTOR: bool = false;
 

@@ -9,7 +9,7 @@ use dashpot_network::{
 };
 
 use super::{
-    Family, MASSLESS, MeasureKind, Reading, WINDOW,
+    Family, MASSLESS, MeasureKind, Needs, Reading, WINDOW,
     reading::{infinite, peak},
     window,
 };
@@ -43,6 +43,7 @@ impl MeasureKind for Transmissibility {
         WINDOW,
     ];
     const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         match values.first() {

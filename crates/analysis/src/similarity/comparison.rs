@@ -7,6 +7,7 @@ use super::{
     inventory::Inventory,
     names::renamed,
     scale::Scale,
+    views::{completed, drawn_as_burgers, mirrored, sorted, sorted_like},
 };
 
 /// A group of two networks.
@@ -42,16 +43,23 @@ pub struct Similarity {
     pub within: f64,
     /// The references and groups of the first one.
     pub first: Groups,
-    /// The second network with the names of the first.
-    pub second: Network,
+    /// Both networks as they are compared, the second one with the names of the first.
+    pub networks: [Network; 2],
 }
 
 impl Similarity {
     /// Groups are equal within this, if nothing else is said.
     pub const WITHIN: f64 = 1e-12;
+    /// Constants of a model that is drawn in another way agree within this.
+    pub const DRAWN: f64 = 1e-11;
 
     /// Compares two networks. Nodes, elements and branches with other names are taken by their
     /// places.
+    ///
+    /// What one can draw in several ways is one: the order of branches; a four-parameter padding as a
+    /// Burgers model or as two Maxwell elements, whose constants are compared within
+    /// [`DRAWN`](Self::DRAWN) if `within` is less; the whole seen from the other side. Gravity and
+    /// mass on a face that are not there count as 0.
     ///
     /// # Errors
     ///
@@ -61,6 +69,36 @@ impl Similarity {
         second: &Network,
         within: f64,
     ) -> Result<Self, InvalidParameter> {
+        let mut best = Self::as_drawn(first, second, within)?;
+        if best.is_similar() {
+            return Ok(best);
+        }
+        let first = &completed(first, second)?;
+        let second = &completed(second, first)?;
+        for second in [second.clone(), mirrored(second)?] {
+            let drawn = drawn_as_burgers(first).zip(drawn_as_burgers(&second));
+            let ordered = sorted(first);
+            let like = sorted_like(&second, &ordered);
+            let views = [
+                Some((first.clone(), second.clone(), within)),
+                Some((ordered, like, within)),
+                drawn.map(|(one, other)| (one, other, within.max(Self::DRAWN))),
+            ];
+            for (first, second, within) in views.into_iter().flatten() {
+                let found = Self::as_drawn(&first, &second, within)?;
+                if found.is_similar() {
+                    return Ok(found);
+                }
+                if found.structure.len() < best.structure.len() {
+                    best = found;
+                }
+            }
+        }
+        Ok(best)
+    }
+
+    /// Compares two networks as they are drawn.
+    fn as_drawn(first: &Network, second: &Network, within: f64) -> Result<Self, InvalidParameter> {
         let own = Inventory::of(first)?;
         let mut second = second.clone();
         let mut other = Inventory::of(&second)?;
@@ -111,13 +149,26 @@ impl Similarity {
             scale: Scale::from_factors(&factors),
             within,
             first: groups,
-            second,
+            networks: [first.clone(), second],
         })
     }
 
     /// Whether both have one structure and equal groups.
     pub fn is_similar(&self) -> bool {
         self.structure.is_empty() && self.different().next().is_none()
+    }
+
+    /// Whether effects are all that is built in another way.
+    pub fn differs_in_effects(&self) -> bool {
+        let effects = self.networks.iter().flat_map(Network::effects);
+        let names: Vec<String> = effects
+            .map(|own| match own.target() {
+                Some(target) => format!("`{}.{target}", own.kind()),
+                None => format!("`{}", own.kind()),
+            })
+            .collect();
+        let is_of_effect = |line: &String| names.iter().any(|name| line.starts_with(name.as_str()));
+        !self.structure.is_empty() && self.structure.iter().all(is_of_effect)
     }
 
     /// The groups that differ.
@@ -136,21 +187,27 @@ fn apart(one: f64, other: f64) -> f64 {
 fn differences(first: &Inventory, second: &Inventory) -> Vec<String> {
     let mut all = Vec::new();
     for (name, word) in &first.structure {
-        match second.structure.get(name) {
-            Some(other) if other == word => {}
-            Some(other) => {
-                all.push(format!("`{name}` is {word} in the first, {other} in the second"));
-            }
-            None => all.push(format!("`{name}` ({word}) is in the first only")),
+        if let Some(other) = second.structure.get(name).filter(|own| *own != word) {
+            all.push(format!("`{name}` is {word} in the first, {other} in the second"));
         }
     }
-    let added = second.structure.iter().filter(|own| !first.structure.contains_key(own.0));
-    all.extend(added.map(|(name, word)| format!("`{name}` ({word}) is in the second only")));
-    let missing = |own: &Inventory, other: &Inventory, word: &str| -> Vec<String> {
-        let names = own.quantities.iter().filter(|own| other.quantity(&own.name).is_none());
-        names.map(|own| format!("`{}` is in the {word} only", own.name)).collect()
-    };
-    all.extend(missing(first, second, "first"));
-    all.extend(missing(second, first, "second"));
+    all.extend(alone(first, second).map(|own| format!("{own} is in the first only")));
+    all.extend(alone(second, first).map(|own| format!("{own} is in the second only")));
     all
+}
+
+/// What one has and the other has not; of a thing and what it says, the thing alone.
+fn alone<'i>(own: &'i Inventory, other: &'i Inventory) -> impl Iterator<Item = String> + 'i {
+    let is_new = |name: &str| other.quantity(name).is_none() && !other.structure.contains_key(name);
+    let is_part = move |name: &str| {
+        name.match_indices('.')
+            .any(|(at, _)| own.structure.contains_key(&name[..at]) && is_new(&name[..at]))
+    };
+    let words = own.structure.iter().map(|(name, word)| (name.as_str(), word.as_str()));
+    let numbers = own.quantities.iter().map(|own| (own.name.as_str(), ""));
+    let new = words.chain(numbers).filter(move |own| is_new(own.0) && !is_part(own.0));
+    new.map(|(name, word)| match word {
+        "" | "on" => format!("`{name}`"),
+        word => format!("`{name}` ({word})"),
+    })
 }

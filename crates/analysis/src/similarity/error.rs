@@ -1,7 +1,9 @@
 //! What can go wrong with similar scenes.
 
-use dashpot_network::parameters::InvalidParameter;
+use dashpot_network::parameters::{Dimension, InvalidParameter};
 use thiserror::Error;
+
+use super::Ranges;
 
 /// Why there is no similar scene.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -16,17 +18,27 @@ pub enum SimilarityError {
         known: Vec<String>,
     },
     /// A parameter that cannot be scaled.
-    #[error("`{name}` is {from} in the scene, so no scale makes it {to}")]
+    #[error(
+        "`{name}` is {} in the scene, so no scale makes it {}",
+        said(*.from, *.dimension),
+        said(*.to, *.dimension)
+    )]
     NoFactor {
         /// The parameter.
         name: String,
-        /// Its value in the scene.
+        /// Its value in the scene, in SI units.
         from: f64,
-        /// The value wanted.
+        /// The value wanted, in SI units.
         to: f64,
+        /// What it measures.
+        dimension: Dimension,
     },
     /// Wishes that contradict each other.
-    #[error("`{name}` cannot be {to} as well: the other wishes make it {follows}")]
+    #[error(
+        "`{name}` cannot be {} as well: the other wishes make it {}",
+        said(*.to, *.dimension),
+        said(*.follows, *.dimension)
+    )]
     Contradiction {
         /// The parameter.
         name: String,
@@ -34,12 +46,29 @@ pub enum SimilarityError {
         to: f64,
         /// What follows from the wishes before, in SI units.
         follows: f64,
+        /// What it measures.
+        dimension: Dimension,
     },
     /// A group that a scene of this form cannot have.
-    #[error("no padding has these groups: q = a - b c/d - d/c is {q:.6}, and must be positive")]
+    #[error("the group {name} is {value}, and must be {range}")]
+    GroupOutOfRange {
+        /// The group.
+        name: &'static str,
+        /// The value wanted.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// Groups that no padding has together.
+    #[error(
+        "no padding has these groups: q = a − b c/d − d/c is {q:.6}, and must be positive; with the \
+         other groups as they are there is one for: {ranges}"
+    )]
     NoPadding {
         /// The value of q.
         q: f64,
+        /// Where there is one.
+        ranges: Box<Ranges>,
     },
     /// A scene that has not the form in question.
     #[error("the scene has not the form of the thesis: {reason}")]
@@ -50,4 +79,12 @@ pub enum SimilarityError {
     /// A value out of its range.
     #[error(transparent)]
     Invalid(#[from] InvalidParameter),
+}
+
+/// A value with its unit, where that has a name.
+fn said(value: f64, dimension: Dimension) -> String {
+    match dimension.named().filter(|_| dimension != Dimension::NUMBER) {
+        Some((_, unit)) => format!("{value} {unit}"),
+        None => value.to_string(),
+    }
 }

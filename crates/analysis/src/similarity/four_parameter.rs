@@ -1,15 +1,21 @@
 //! The groups of the thesis, for impacts of its form.
 
+mod groups;
+mod parts;
 mod read;
+mod rewrite;
+#[cfg(test)]
+mod tests;
 
 use dashpot_network::{
     Model, Network, Node,
     effects::{Face, Gravity, GravityStart, Touch},
-    elements::{Dashpot, Spring},
-    part,
 };
-use dashpot_rheology::{Branch, Tree};
 
+pub use self::{
+    groups::{FourParameterGroups, Ranges},
+    parts::{FourParameterPadding, FourParameterSupport, ImpactScales},
+};
 use super::SimilarityError;
 
 /// An impact of the thesis' form: a mass `m1` at the speed `V0` on a four-parameter padding, whose
@@ -29,7 +35,7 @@ pub struct FourParameterImpact {
     pub thickness: f64,
     /// Mass of the face of the padding m₂ \[kg\], ≥ 0.
     pub face_mass: f64,
-    /// Gravitational acceleration g \[m/s²\]; 0 where gravity is off.
+    /// Gravitational acceleration g \[m/s²\], which acts on each mass; 0 where gravity is off.
     pub gravity: f64,
     /// Spring of the Kelvin–Voigt element K₁ \[N/m\].
     pub k1: f64,
@@ -47,43 +53,6 @@ pub struct FourParameterImpact {
     pub support_damping: f64,
 }
 
-/// The nine groups of the thesis (2.27–2.36), with `J = δ/V0`, and `p1…p4`, of which `a…d` are made.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FourParameterGroups {
-    /// Gravity, `A = B g δ/V0²`.
-    pub gravity: f64,
-    /// Share of the impactor in the moving mass, `B = m1/(m1 + m2)`, 0 … 1.
-    pub share: f64,
-    /// `a = (1 + p1 + p2) p3/p1`.
-    pub a: f64,
-    /// `b = p2 p3²/p1`.
-    pub b: f64,
-    /// `c = p3/p4 = K2 J²/m1`; the start slope e is the same.
-    pub c: f64,
-    /// `d = b/p4`.
-    pub d: f64,
-    /// `α = J C3/m3`.
-    pub alpha: f64,
-    /// `β = J² K3/m3`.
-    pub beta: f64,
-    /// `γ = m1/m3`.
-    pub gamma: f64,
-}
-
-/// The open ranges of `a`, `b`, `c` and `d`, each with the others as they are, in which there is a
-/// padding; `None` where there is none.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ranges {
-    /// That of `a`, which has no upper end.
-    pub a: (f64, f64),
-    /// That of `b`.
-    pub b: Option<(f64, f64)>,
-    /// That of `c`.
-    pub c: Option<(f64, f64)>,
-    /// That of `d`.
-    pub d: Option<(f64, f64)>,
-}
-
 impl FourParameterImpact {
     /// Reads a network of this form.
     ///
@@ -94,9 +63,28 @@ impl FourParameterImpact {
         read::read(network).map_err(|reason| SimilarityError::OtherForm { reason })
     }
 
+    /// What its groups refer to.
+    pub fn scales(&self) -> ImpactScales {
+        ImpactScales { mass: self.mass, speed: self.speed, thickness: self.thickness }
+    }
+
+    /// Its padding.
+    pub fn padding(&self) -> FourParameterPadding {
+        FourParameterPadding { k1: self.k1, c1: self.c1, k2: self.k2, c2: self.c2 }
+    }
+
+    /// Its support.
+    pub fn support(&self) -> FourParameterSupport {
+        FourParameterSupport {
+            mass: self.support_mass,
+            stiffness: self.support_stiffness,
+            damping: self.support_damping,
+        }
+    }
+
     /// `J = δ/V0` \[s\].
     pub fn time(&self) -> f64 {
-        self.thickness / self.speed
+        self.scales().time()
     }
 
     /// `p1 = C1/C2`, `p2 = K1/K2`, `p3 = K2 J/C2`, `p4 = m1/(J C2)`.
@@ -112,127 +100,112 @@ impl FourParameterImpact {
 
     /// Its groups.
     pub fn groups(&self) -> FourParameterGroups {
-        let (time, [p1, p2, p3, p4]) = (self.time(), self.ratios());
-        let share = self.mass / (self.mass + self.face_mass);
-        let b = p2 * p3 * p3 / p1;
         FourParameterGroups {
-            gravity: share * self.gravity * self.thickness / (self.speed * self.speed),
-            share,
-            a: (1.0 + p1 + p2) * p3 / p1,
-            b,
-            c: p3 / p4,
-            d: b / p4,
-            alpha: time * self.support_damping / self.support_mass,
-            beta: time * time * self.support_stiffness / self.support_mass,
-            gamma: self.mass / self.support_mass,
+            gravity: self.gravity * self.thickness / (self.speed * self.speed),
+            share: self.mass / (self.mass + self.face_mass),
+            ..FourParameterGroups::of(&self.scales(), &self.padding(), &self.support())
         }
     }
 
-    /// The impact with other groups and the same `m1`, `V0` and `δ`: `K2 = c m1/J²`,
-    /// `C2 = d m1/(b J)`, `C1 = c m1/(q J)`, `K1 = d m1/(q J²)` (appendix D, its misprints mended).
+    /// The impact with other groups and the same `m1`, `V0` and `δ` (appendix D). What belongs to
+    /// groups that stay the same stays the same to the last digit.
     ///
     /// # Errors
     ///
-    /// [`SimilarityError::NoPadding`] where `q ≤ 0` or one of `b`, `c`, `d` is not positive.
+    /// [`SimilarityError::GroupOutOfRange`] and [`SimilarityError::NoPadding`].
+    #[expect(clippy::float_cmp, reason = "what stays is the same to the last digit")]
     pub fn with_groups(&self, groups: &FourParameterGroups) -> Result<Self, SimilarityError> {
-        let FourParameterGroups { b, c, d, .. } = *groups;
-        let q = groups.q();
-        if !(q > 0.0 && b > 0.0 && c > 0.0 && d > 0.0 && q.is_finite()) {
-            return Err(SimilarityError::NoPadding { q });
+        groups.validate()?;
+        let (before, scales) = (self.groups(), self.scales());
+        let of_padding = |own: &FourParameterGroups| [own.a, own.b, own.c, own.d];
+        let of_support = |own: &FourParameterGroups| [own.alpha, own.beta, own.gamma];
+        let mut again = self.clone();
+        if of_padding(groups) != of_padding(&before) {
+            let none = || {
+                let (q, ranges) = (groups.q(), Box::new(groups.ranges()));
+                SimilarityError::NoPadding { q, ranges }
+            };
+            let FourParameterPadding { k1, c1, k2, c2 } =
+                groups.padding(&scales).ok_or_else(none)?;
+            (again.k1, again.c1, again.k2, again.c2) = (k1, c1, k2, c2);
         }
-        let (time, mass) = (self.time(), self.mass);
-        let support_mass = mass / groups.gamma;
-        Ok(Self {
-            face_mass: (mass / groups.share - mass).max(0.0),
-            gravity: groups.gravity * self.speed * self.speed / (groups.share * self.thickness),
-            k1: d * mass / (q * time * time),
-            c1: c * mass / (q * time),
-            k2: c * mass / (time * time),
-            c2: d * mass / (b * time),
-            support_mass,
-            support_stiffness: groups.beta * support_mass / (time * time),
-            support_damping: groups.alpha * support_mass / time,
-            ..self.clone()
-        })
+        if of_support(groups) != of_support(&before) {
+            let FourParameterSupport { mass, stiffness, damping } = groups.support(&scales);
+            again.support_mass = mass;
+            (again.support_stiffness, again.support_damping) = (stiffness, damping);
+        }
+        if [groups.share] != [before.share] {
+            again.face_mass = face_mass(groups.share, &scales);
+        }
+        if [groups.gravity] != [before.gravity] {
+            again.gravity = acceleration(groups.gravity, &scales);
+        }
+        Ok(again)
     }
 
     /// The impact as a network. A face with mass begins with the speed of the impactor, as in the
     /// thesis, and gravity with the support in balance.
     pub fn network(&self) -> Network {
-        let [impactor, padding, support, mount] = &self.names;
-        let mut network = Network::new();
-        let head = network.add_node(Node::mass(&**impactor, self.mass).moving(self.speed));
-        let panel = network.add_node(Node::mass(&**support, self.support_mass));
-        let model = Tree::Series(vec![
-            Branch::new("spring", part(Spring { stiffness: self.k2 })),
-            Branch::new("dashpot", part(Dashpot { damping: self.c2 })),
-            Branch::new("parallel", kelvin(self.k1, self.c1)),
-        ]);
-        network.connect(&**padding, head, panel, model).thickness = Some(self.thickness);
-        let holder = kelvin(self.support_stiffness, self.support_damping);
-        network.connect(&**mount, panel, network.ground(), holder);
-        if self.face_mass > 0.0 {
-            let (element, at) = (padding.clone(), Some(impactor.clone()));
-            let touch = Touch::Moving;
-            network.add_effect(Face { element, mass: self.face_mass, at, touch });
-        }
-        if self.gravity != 0.0 {
-            let (acceleration, start) = (self.gravity, GravityStart::Equilibrium);
-            network.add_effect(Gravity { acceleration, start });
-        }
-        network
+        let beside = (self.face_mass, self.gravity);
+        let model = self.padding().model();
+        network(&self.names, &self.scales(), model, &self.support(), beside)
     }
 }
 
 impl FourParameterGroups {
-    /// `q = a − b c/d − d/c`; there is a padding only where it is positive.
-    pub fn q(&self) -> f64 {
-        self.a - self.b * self.c / self.d - self.d / self.c
+    /// The impact with these groups: `head` on `padding` on `panel` on `mount`. `None` where q ≤ 0.
+    ///
+    /// The weight of the support is borne by its spring from the beginning, as in 2.9.
+    pub fn network(&self, scales: &ImpactScales) -> Option<Network> {
+        Some(self.network_with(scales, self.padding(scales)?.model()))
     }
 
-    /// Where there is a padding.
-    pub fn ranges(&self) -> Ranges {
-        let Self { a, b, c, d, .. } = *self;
-        // q > 0 is a quadratic in c and in d; the smaller root is a quotient, so that nothing cancels.
-        let root = (a * a - 4.0 * b).sqrt();
-        let between = |from: f64, to: f64| (from < to).then_some((from, to));
-        let of_c = between(2.0 * d / (a + root), d * (a + root) / (2.0 * b));
-        let of_d = between(2.0 * b * c / (a + root), c * (a + root) / 2.0);
-        let most = (a - d / c) * d / c;
-        Ranges { a: (b * c / d + d / c, f64::INFINITY), b: between(0.0, most), c: of_c, d: of_d }
-    }
-
-    /// The groups with others in place of those named `A`, `B`, `a`, `b`, `c`, `d`, `alpha`, `beta`,
-    /// `gamma` (or `α`, `β`, `γ`).
-    ///
-    /// # Errors
-    ///
-    /// [`SimilarityError::UnknownQuantity`] for any other name.
-    pub fn with(mut self, name: &str, value: f64) -> Result<Self, SimilarityError> {
-        let place = match name {
-            "A" => &mut self.gravity,
-            "B" => &mut self.share,
-            "a" => &mut self.a,
-            "b" => &mut self.b,
-            "c" | "e" => &mut self.c,
-            "d" => &mut self.d,
-            "alpha" | "α" => &mut self.alpha,
-            "beta" | "β" => &mut self.beta,
-            "gamma" | "γ" => &mut self.gamma,
-            _ => {
-                let known = ["A", "B", "a", "b", "c", "d", "alpha", "beta", "gamma"];
-                let known = known.map(str::to_owned).to_vec();
-                return Err(SimilarityError::UnknownQuantity { name: name.to_owned(), known });
-            }
-        };
-        *place = value;
-        Ok(self)
+    /// The same with another model as the padding.
+    pub fn network_with(&self, scales: &ImpactScales, padding: Model) -> Network {
+        let names = ["head", "padding", "panel", "mount"].map(str::to_owned);
+        let beside = (face_mass(self.share, scales), acceleration(self.gravity, scales));
+        network(&names, scales, padding, &self.support(scales), beside)
     }
 }
 
-fn kelvin(stiffness: f64, damping: f64) -> Model {
-    Tree::Parallel(vec![
-        Branch::new("spring", part(Spring { stiffness })),
-        Branch::new("dashpot", part(Dashpot { damping })),
-    ])
+/// The mass m₂ with a share B.
+fn face_mass(share: f64, scales: &ImpactScales) -> f64 {
+    (scales.mass / share - scales.mass).max(0.0)
+}
+
+/// The gravitational acceleration of a group A.
+fn acceleration(gravity: f64, scales: &ImpactScales) -> f64 {
+    gravity * scales.speed * scales.speed / scales.thickness
+}
+
+fn network(
+    [impactor, padding, panel, mount]: &[String; 4],
+    scales: &ImpactScales,
+    model: Model,
+    support: &FourParameterSupport,
+    (face_mass, gravity): (f64, f64),
+) -> Network {
+    let mut network = Network::new();
+    let head = network.add_node(Node::mass(&**impactor, scales.mass).moving(scales.speed));
+    let held = network.add_node(Node::mass(&**panel, support.mass));
+    network.connect(&**padding, head, held, model).thickness = Some(scales.thickness);
+    network.connect(&**mount, held, network.ground(), support.mount());
+    if face_mass > 0.0 {
+        network.add_effect(face(padding, impactor, face_mass));
+    }
+    if gravity != 0.0 {
+        network.add_effect(weight(gravity));
+    }
+    network
+}
+
+/// A face with mass that begins with the speed of the impactor.
+fn face(padding: &str, impactor: &str, mass: f64) -> Face {
+    let (element, at) = (padding.to_owned(), Some(impactor.to_owned()));
+    Face { element, mass, at, touch: Touch::Moving }
+}
+
+/// Gravity with the support in balance.
+fn weight(acceleration: f64) -> Gravity {
+    Gravity { acceleration, start: GravityStart::Equilibrium }
 }

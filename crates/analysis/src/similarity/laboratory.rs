@@ -69,6 +69,7 @@ impl Laboratory {
                     name: quantity.name.clone(),
                     from: quantity.value,
                     to: wish.value,
+                    dimension: quantity.dimension,
                 });
             }
             let values: Vec<f64> = factors.iter().map(|own| own.1).collect();
@@ -78,6 +79,7 @@ impl Laboratory {
                         name: quantity.name.clone(),
                         to: wish.value,
                         follows: follows * quantity.value,
+                        dimension: quantity.dimension,
                     });
                 }
             } else {
@@ -132,18 +134,23 @@ fn named<'q>(
     inventory: &'q Inventory,
     name: &str,
 ) -> Result<&'q Quantity, SimilarityError> {
-    let dimension = match name {
-        "mass" => Some(Dimension::MASS),
-        "speed" | "velocity" => Some(Dimension::VELOCITY),
-        "thickness" => Some(Dimension::LENGTH),
-        _ => None,
+    let reference = |short: &str| {
+        let (dimension, ending) = match short {
+            "mass" => (Dimension::MASS, ".mass"),
+            "speed" | "velocity" => (Dimension::VELOCITY, ".velocity"),
+            "thickness" => (Dimension::LENGTH, ".thickness"),
+            _ => return None,
+        };
+        let mut all = groups.references.iter().map(|own| &own.quantity);
+        all.find(|own| own.dimension == dimension && own.name.ends_with(ending))
     };
-    let reference = dimension.and_then(|dimension| {
-        groups.references.iter().map(|own| &own.quantity).find(|own| own.dimension == dimension)
-    });
-    reference.or_else(|| inventory.quantity(name)).ok_or_else(|| {
+    reference(name).or_else(|| inventory.quantity(name)).ok_or_else(|| {
+        let short = ["mass", "speed", "thickness"].into_iter();
+        let short = short.filter(|own| reference(own).is_some()).map(str::to_owned);
         let own = inventory.quantities.iter().map(|own| own.name.clone());
-        let known = ["mass", "speed", "thickness"].map(str::to_owned).into_iter().chain(own);
-        SimilarityError::UnknownQuantity { name: name.to_owned(), known: known.collect() }
+        SimilarityError::UnknownQuantity {
+            name: name.to_owned(),
+            known: short.chain(own).collect(),
+        }
     })
 }

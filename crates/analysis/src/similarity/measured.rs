@@ -5,8 +5,15 @@ use dashpot_network::{Network, parameters::Dimension};
 
 use super::{Scale, Similarity, inventory::with_value};
 use crate::{
-    MeasureReport, MeasureWish, RunError, RunReport, SolveSettings, Stop, selection::select, solve,
+    MeasureReport, MeasureWish, RunError, RunReport, SolveSettings, Stop, difference::over,
+    selection::select, solve,
 };
+
+/// Differences below this part of a measure's size are those of rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// What is smaller than this part of its size is what rounding leaves of zero.
+const VANISHING: f64 = 1e-12;
 
 /// A measure of one scene, and of another at the scale of the first.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,12 +25,25 @@ pub struct Measured {
     /// Its values, where it has any: that of the first, and that of the second over the factor of
     /// the measure.
     pub values: [Option<f64>; 2],
-    /// How far they are apart, in parts of the larger size, to which errors refer as well.
+    /// How far they are apart, over the larger one of the two values.
     pub apart: Option<f64>,
-    /// By how much errors alone may part them, in the same parts; `None` where they are not known.
+    /// By how much errors alone may part them, over the same; `None` where they are not known.
     pub error: Option<f64>,
+    /// How far they are apart over the larger size, which is that of what the measure is made of: a
+    /// small rest of large terms is no closer than these.
+    pub of_size: Option<f64>,
+    /// What cannot be told from zero: the errors of both, or rounding, in the units of the values.
+    pub noise: [f64; 2],
     /// The factor of the measure from the first scene to the second one.
     pub factor: f64,
+}
+
+impl Measured {
+    /// Whether errors alone, or rounding, may part the two.
+    pub fn is_within_errors(&self) -> bool {
+        let is_known = self.apart.zip(self.error).is_some_and(|(apart, error)| apart <= error);
+        is_known || self.of_size.is_some_and(|own| own <= ROUNDING)
+    }
 }
 
 /// By how much one group alone moves the measures.
@@ -64,6 +84,17 @@ pub fn similar_settings(settings: &SolveSettings, scale: &Scale) -> (SolveSettin
     (similar, left_out)
 }
 
+/// How long \[s\] the second run is to be: from touch on as long as the first one, at its scale. A free
+/// fall before it takes its own time, which is another one where gravity is not to scale.
+fn similar_duration(duration: f64, scale: &Scale, networks: [&Network; 2]) -> f64 {
+    let [own, other] = networks.map(Network::time_of_fall);
+    let is_of_scale = (own * scale.time - other).abs() <= ROUNDING * other;
+    if is_of_scale || own >= duration {
+        return duration * scale.time;
+    }
+    (duration - own) * scale.time + other
+}
+
 /// Solves two scenes of one structure, the second one as long and with the same measures as the
 /// first at its `scale`, and compares what is measured.
 ///
@@ -77,7 +108,8 @@ pub fn measured(
     settings: &SolveSettings,
 ) -> Result<Vec<Measured>, RunError> {
     let own = with_counterparts(settings, scale);
-    let (similar, _) = similar_settings(&own, scale);
+    let (mut similar, _) = similar_settings(&own, scale);
+    similar.duration = similar_duration(own.duration, scale, [first, second]);
     let one = solve(first, &own, &mut Silent)?;
     let other = solve(second, &similar, &mut Silent)?;
     side_by_side(&one, &other, scale, &own)
@@ -103,7 +135,8 @@ pub fn alone(
         let Some(value) = unit.map(|unit| unit * pair.values[1]) else { continue };
         let changed = with_value(first, &pair.name, value);
         let Ok(changed) = changed else { continue };
-        let other = solve(&changed, &own, &mut Silent)?;
+        let duration = similar_duration(own.duration, &Scale::ONE, [first, &changed]);
+        let other = solve(&changed, &SolveSettings { duration, ..own.clone() }, &mut Silent)?;
         let measures = side_by_side(&one, &other, &Scale::ONE, &own)?;
         all.push(Alone { name: pair.name.clone(), measures });
     }
@@ -127,7 +160,8 @@ fn side_by_side(
     let wished = kinds.iter().zip(&one.measures);
     let pairs = wished.enumerate().filter_map(|(at, (selected, own))| {
         // Measures with times of their own have other words there, so their place tells them.
-        let opposite = other.measures.get(at)?;
+        let is_alike = one.measures.len() == other.measures.len();
+        let opposite = if is_alike { other.measures.get(at) } else { other.measure(&own.key) }?;
         Some(pair(own, opposite, scale.of_measure(selected.measure.as_ref())))
     });
     Ok(pairs.collect())
@@ -135,15 +169,23 @@ fn side_by_side(
 
 fn pair(own: &MeasureReport, opposite: &MeasureReport, factor: f64) -> Measured {
     let second = opposite.value.map(|value| value / factor);
-    let size = own.size.max(opposite.size / factor);
-    let over = |number: f64| if size > 0.0 { number / size } else { 0.0 };
-    let errors = own.error.zip(opposite.error);
+    let both = own.value.zip(second);
+    let larger = both.map_or(0.0, |(one, other)| one.abs().max(other.abs()));
+    let difference = both.map(|(one, other)| (one - other).abs());
+    let errors = own.error.zip(opposite.error).map(|(one, other)| one + other / factor);
     Measured {
         key: own.key.clone(),
         unit: own.unit,
         values: [own.value, second],
-        apart: own.value.zip(second).map(|(one, other)| over((one - other).abs())),
-        error: errors.map(|(one, other)| over(one + other / factor)),
+        apart: difference.map(|own| over(own, larger)),
+        error: errors.map(|own| over(own, larger)),
+        of_size: difference.map(|by| over(by, own.size.max(opposite.size / factor))),
+        noise: [noise(own), noise(opposite) / factor],
         factor,
     }
+}
+
+/// What of a measure cannot be told from zero.
+fn noise(own: &MeasureReport) -> f64 {
+    own.error.filter(|error| error.is_finite()).unwrap_or(0.0).max(VANISHING * own.size)
 }

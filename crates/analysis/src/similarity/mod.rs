@@ -17,6 +17,7 @@ mod measured;
 mod names;
 mod registers;
 mod scale;
+mod views;
 mod walk;
 
 #[cfg(test)]
@@ -24,7 +25,10 @@ mod tests;
 
 pub use comparison::{GroupPair, Similarity};
 pub use error::SimilarityError;
-pub use four_parameter::{FourParameterGroups, FourParameterImpact, Ranges};
+pub use four_parameter::{
+    FourParameterGroups, FourParameterImpact, FourParameterPadding, FourParameterSupport,
+    ImpactScales, Ranges,
+};
 pub use groups::{Group, Groups, Reference};
 pub use inventory::{Inventory, Quantity};
 pub use laboratory::{Chosen, Laboratory, Wish};

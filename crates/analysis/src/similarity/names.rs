@@ -47,6 +47,7 @@ pub(super) fn renamed(
             let model = with_names(&own.model, &other.model);
             let connection = again.connect(&*other.name, from, to, model);
             (connection.thickness, connection.area) = (own.thickness, own.area);
+            connection.pads.clone_from(&own.pads);
         }
     }
     for (load, other) in network.loads().iter().zip(like.loads()) {
@@ -59,7 +60,7 @@ pub(super) fn renamed(
 }
 
 /// The model with the names of branches of another, as far as both have the same shape.
-fn with_names(model: &Model, like: &Model) -> Model {
+pub(super) fn with_names(model: &Model, like: &Model) -> Model {
     // The places of both at which names are to be found, in the order in which a fold meets them.
     let mut names: Vec<Vec<String>> = Vec::new();
     let mut left = vec![(model, Some(like))];
@@ -92,7 +93,7 @@ fn with_names(model: &Model, like: &Model) -> Model {
 }
 
 /// The effect on the element, and at the node, of another name.
-fn retargeted(
+pub(super) fn retargeted(
     effect: &Arc<dyn Effect>,
     names: &HashMap<&str, &str>,
 ) -> Result<Arc<dyn Effect>, InvalidParameter> {

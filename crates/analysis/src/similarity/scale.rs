@@ -74,6 +74,10 @@ impl Visit for Scale {
     fn quantity(&mut self, _name: &str, dimension: Dimension, value: f64) -> f64 {
         value * self.of(dimension)
     }
+
+    fn size(&mut self, dimension: Dimension, value: f64) -> f64 {
+        value * self.of(dimension)
+    }
 }
 
 /// The similar network: every parameter times the factor of its dimension.

@@ -1,3 +1,6 @@
+mod laboratory;
+mod of_the_thesis;
+
 use dashpot_dae::{Piece, Silent, Waveform};
 use dashpot_network::{
     Model, Network, Node,
@@ -95,123 +98,6 @@ fn close(found: f64, expected: f64, relative: f64) {
         (found - expected).abs() <= relative * expected.abs(),
         "{found} is not {expected} within {relative}"
     );
-}
-
-#[test]
-fn reference_has_the_groups_that_the_thesis_prints() {
-    let impact = FourParameterImpact::of(&reference()).unwrap();
-    let groups = impact.groups();
-    close(groups.a, 80.0 / 3.0, 1e-14);
-    close(groups.b, 200.0 / 3.0, 1e-14);
-    close(groups.c, 8.0, 1e-14);
-    close(groups.d, 80.0, 1e-14);
-    close(groups.alpha, 0.2, 1e-14);
-    close(groups.beta, 2.0, 1e-14);
-    close(groups.gamma, 0.1, 1e-14);
-    assert!((groups.gravity, groups.share) == (0.0, 1.0));
-    close(impact.time(), 2e-3, 1e-15);
-    let [p1, p2, p3, p4] = impact.ratios();
-    close(groups.a, (1.0 + p1 + p2) * p3 / p1, 1e-15);
-    close(groups.c, p3 / p4, 1e-15);
-}
-
-#[test]
-fn gravity_and_a_mass_on_the_face_make_two_more_groups() {
-    let mut network = reference();
-    network.add_effect(Gravity { acceleration: 9.8, start: GravityStart::Equilibrium });
-    let (element, at) = ("padding".to_owned(), Some("head".to_owned()));
-    network.add_effect(Face { element, mass: 2.5, at, touch: Touch::Moving });
-    let groups = FourParameterImpact::of(&network).unwrap().groups();
-    close(groups.share, 0.8, 1e-15);
-    close(groups.gravity, 0.8 * 9.8 * 0.02 / 100.0, 1e-14);
-    // Twelve parameters of rank three: nine groups.
-    let all = Groups::of(&network).unwrap();
-    assert_eq!((all.groups.len() + all.references.len(), all.rank(), all.groups.len()), (12, 3, 9));
-}
-
-#[test]
-fn any_model_that_is_a_burgers_model_from_outside_has_its_groups() {
-    // Appendix A: two Maxwell elements side by side.
-    let mut network = reference();
-    let (k1, c1, k2, c2) = (2e7_f64, 4e3, 2e7, 6e3);
-    let alpha = 0.5 * (k2 / c2 + k2 / c1 + k1 / c1);
-    let beta = (alpha * alpha - k1 * k2 / (c1 * c2)).sqrt();
-    let k3 = k2 * (k1 / c1 - alpha + beta) / (2.0 * beta);
-    let k4 = k2 - k3;
-    let branches = [(k3, k3 / (alpha - beta)), (k4, k4 / (alpha + beta))];
-    let branches = branches.map(|(k, c)| Tree::series([spring(k), dashpot(c)]));
-    network.set_model(0, Tree::parallel(branches));
-    let groups = FourParameterImpact::of(&network).unwrap().groups();
-    close(groups.a, 80.0 / 3.0, 1e-12);
-    close(groups.d, 80.0, 1e-12);
-}
-
-#[test]
-fn groups_lead_back_to_the_parameters_where_there_is_a_padding() {
-    let impact = FourParameterImpact::of(&reference()).unwrap();
-    let groups = impact.groups();
-    let again = impact.with_groups(&groups).unwrap();
-    for (found, own) in [
-        (again.k1, 2e7),
-        (again.c1, 4e3),
-        (again.k2, 2e7),
-        (again.c2, 6e3),
-        (again.support_mass, 100.0),
-        (again.support_stiffness, 5e7),
-        (again.support_damping, 1e4),
-    ] {
-        close(found, own, 1e-12);
-    }
-    // The printed groups are truncated: they stand for K1 = 20.13 MN/m and C1 = 4027 N s/m.
-    let printed = groups.with("a", 26.6).unwrap().with("b", 66.66).unwrap();
-    let printed = impact.with_groups(&printed).unwrap();
-    close(printed.k1, 20.13e6, 5e-4);
-    close(printed.c1, 4027.0, 5e-4);
-    let solved = FourParameterImpact::of(&printed.network()).unwrap().groups();
-    close(solved.a, 26.6, 1e-12);
-    close(solved.b, 66.66, 1e-12);
-}
-
-#[test]
-fn paddings_exist_within_the_ranges_and_not_beyond() {
-    let impact = FourParameterImpact::of(&reference()).unwrap();
-    let groups = impact.groups().with("a", 26.6).unwrap().with("b", 66.66).unwrap();
-    let ranges = groups.ranges();
-    let (from, to) = ranges.c.unwrap();
-    close(from, 3.361, 2e-4);
-    close(to, 28.562, 2e-5);
-    let ends = [("a", Some((ranges.a.0, 1e3))), ("b", ranges.b), ("c", ranges.c), ("d", ranges.d)];
-    for (name, range) in ends {
-        let (from, to) = range.unwrap();
-        for (value, exists) in [
-            (from + 1e-6 * to, true),
-            (to * (1.0 - 1e-6), true),
-            (from * (1.0 - 1e-6), false),
-            (to * (1.0 + 1e-6), name == "a"),
-        ] {
-            let found = impact.with_groups(&groups.with(name, value).unwrap());
-            assert_eq!(found.is_ok(), exists, "{name} = {value}");
-        }
-    }
-    let none = groups.with("a", 10.0).unwrap();
-    assert!(none.ranges().c.is_none() && none.ranges().d.is_none());
-    assert!(matches!(impact.with_groups(&none), Err(SimilarityError::NoPadding { .. })));
-    assert!(groups.with("f", 1.0).is_err());
-}
-
-#[test]
-fn other_forms_are_told_from_that_of_the_thesis() {
-    let reason = |network: &Network| match FourParameterImpact::of(network) {
-        Err(SimilarityError::OtherForm { reason }) => reason,
-        other => panic!("{other:?}"),
-    };
-    assert!(reason(&mixed()).contains("load"));
-    let mut network = reference();
-    network.set_model(0, spring(1e6));
-    assert!(reason(&network).contains("four-parameter"));
-    let mut network = reference();
-    network.set_model(1, Tree::series([spring(1e6), dashpot(1e3)]));
-    assert!(reason(&network).contains("side by side"));
 }
 
 #[test]
@@ -315,7 +201,7 @@ fn similar_scenes_have_equal_dimensionless_answers() {
         for own in measured(&network, &other, &scale, &settings).unwrap() {
             let [one, other] = own.values;
             assert_eq!(one.is_some(), other.is_some(), "{}", own.key);
-            let apart = own.apart.unwrap_or(0.0);
+            let apart = own.of_size.unwrap_or(0.0);
             assert!(apart <= 1e-12, "{}: {apart:e} at {scale:?}", own.key);
         }
     }
@@ -349,7 +235,7 @@ fn near_similar_scenes_differ_as_predicted() {
     assert_eq!(different[0].name, "pad.spring");
     close(different[0].apart, 0.21 / 1.21, 1e-12);
     let settings = SolveSettings::lasting(0.1).by("exact");
-    let pairs = measured(&first, &found.second, &found.scale, &settings).unwrap();
+    let pairs = measured(&first, &found.networks[1], &found.scale, &settings).unwrap();
     let ratio = |key: &str| {
         let own = pairs.iter().find(|own| own.key == key).unwrap();
         own.values[1].unwrap() / own.values[0].unwrap()
@@ -363,69 +249,6 @@ fn near_similar_scenes_differ_as_predicted() {
     assert_eq!(alone.len(), 1);
     let force = alone[0].measures.iter().find(|own| own.key == "pad.peak-force").unwrap();
     close(force.apart.unwrap(), 0.1 / 1.1, 1e-11);
-}
-
-#[test]
-fn laboratory_tests_are_similar_and_their_measures_map_back() {
-    let real = reference();
-    let wish = |name: &str, value| Wish { name: name.to_owned(), value };
-    let wishes = [wish("mass", 1.0), wish("speed", 2.0), wish("thickness", 0.005)];
-    let found = Laboratory::design(&real, &wishes).unwrap();
-    close(found.scale.mass, 0.1, 1e-15);
-    close(found.scale.length, 0.25, 1e-15);
-    close(found.scale.time, 1.25, 1e-15);
-    assert!(Similarity::between(&real, &found.network, 1e-14).unwrap().is_similar());
-    let settings = SolveSettings::lasting(0.02).by("exact");
-    let (similar, _) = similar_settings(&settings, &found.scale);
-    let one = solve(&real, &settings, &mut Silent).unwrap();
-    let other = solve(&found.network, &similar, &mut Silent).unwrap();
-    let force = |report: &crate::RunReport| report.measure("padding.peak-force").unwrap().value;
-    // Forces go with m V²/δ.
-    close(force(&other).unwrap() / force(&one).unwrap(), 0.1 * 0.04 / 0.25, 1e-12);
-    let severity = |report: &crate::RunReport| report.measure("head.severity-index").unwrap().value;
-    let factor = (0.25_f64 / 1.25 / 1.25).powf(2.5) * 1.25;
-    close(severity(&other).unwrap() / severity(&one).unwrap(), factor, 1e-12);
-    close(found.scale.of_measure(&SeverityIndex::default()), factor, 1e-14);
-}
-
-#[test]
-fn wishes_of_a_laboratory_may_be_few_but_not_contradictory() {
-    let real = reference();
-    let wish = |name: &str, value| Wish { name: name.to_owned(), value };
-    let found = Laboratory::design(&real, &[wish("panel.mass", 10.0)]).unwrap();
-    let kept: Vec<&str> = found.kept.iter().map(|own| own.name.as_str()).collect();
-    assert_eq!(kept, ["head.velocity", "padding.thickness"]);
-    close(found.scale.mass, 0.1, 1e-15);
-    let both = [wish("mass", 1.0), wish("panel.mass", 20.0)];
-    assert!(matches!(
-        Laboratory::design(&real, &both),
-        Err(SimilarityError::Contradiction { follows, .. }) if (follows - 10.0).abs() < 1e-12
-    ));
-    assert!(Laboratory::design(&real, &[wish("mass", 1.0), wish("panel.mass", 10.0)]).is_ok());
-    assert!(matches!(
-        Laboratory::design(&real, &[wish("speed", -2.0)]),
-        Err(SimilarityError::NoFactor { .. })
-    ));
-    assert!(matches!(
-        Laboratory::design(&real, &[wish("size", 1.0)]),
-        Err(SimilarityError::UnknownQuantity { .. })
-    ));
-}
-
-#[test]
-fn gravity_that_cannot_be_scaled_is_told() {
-    let mut real = reference();
-    real.add_effect(Gravity { acceleration: 9.8, start: GravityStart::Equilibrium });
-    let wish = |name: &str, value| Wish { name: name.to_owned(), value };
-    let wishes = [wish("speed", 5.0), wish("thickness", 0.02)];
-    let found = Laboratory::design(&real, &wishes).unwrap();
-    let [own, needed] = found.gravity.unwrap();
-    close(own, 9.8, 1e-15);
-    close(needed, 9.8 / 4.0, 1e-14);
-    let under = found.under_real_gravity().unwrap();
-    let different = Similarity::between(&real, &under, 1e-12).unwrap();
-    let names: Vec<&str> = different.different().map(|own| own.name.as_str()).collect();
-    assert_eq!(names, ["gravity.value"]);
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! All parameters of a network, one after the other, and the network made of them again.
 
+mod sizes;
+mod waveforms;
+
 use std::sync::Arc;
 
-use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{
-    Connection, Effect, Element, Model, Network, Node, Start, Support,
+    Connection, Effect, Element, Model, Network, Node, NodeId, Start, Support,
     layers::{Layer, Layers, Resolution},
     parameters::{
         Dimension, InvalidParameter, ModelValue, Parameter, ParameterKind, Value, WindowWish,
@@ -12,13 +14,15 @@ use dashpot_network::{
 };
 use dashpot_rheology::{Branch, Tree};
 
+use self::{
+    sizes::{Pad, Stresses},
+    waveforms::{walk_motion, walk_waveform},
+};
 use super::registers;
 use crate::measures::STANDARD_GRAVITY;
 
 /// Area \[m²\].
 const AREA: Dimension = Dimension::new(0, 2, 0);
-/// Density \[kg/m³\].
-const DENSITY: Dimension = Dimension::new(1, -3, 0);
 
 /// Sees the parameters of a network.
 pub(super) trait Visit {
@@ -27,6 +31,12 @@ pub(super) trait Visit {
 
     /// What is no number: kinds, words, and what is joined to what.
     fn word(&mut self, _name: &str, _word: &str) {}
+
+    /// A size that acts only in products with others, which are told; what is returned stands in its
+    /// place.
+    fn size(&mut self, _dimension: Dimension, value: f64) -> f64 {
+        value
+    }
 }
 
 /// Shows all parameters to `visit`, and makes the network of what it returns.
@@ -53,7 +63,24 @@ pub(super) fn walk(network: &Network, visit: &mut dyn Visit) -> Result<Network, 
     for effect in network.effects() {
         again.add_shared_effect(walk_effect(effect, visit)?);
     }
+    drop_again(network, &mut again);
     Ok(again)
+}
+
+/// Lets fall what falls under gravity, from where it has its speed at touch.
+fn drop_again(network: &Network, again: &mut Network) {
+    let gravity = |own: &Network| own.effects().iter().find_map(|effect| effect.gravity());
+    let (Some(_), Some(pull)) = (gravity(network), gravity(again).filter(|own| *own > 0.0)) else {
+        return;
+    };
+    let pairs: Vec<(NodeId, Start)> =
+        again.nodes().zip(network.nodes()).map(|((id, _), (_, old))| (id, old.start)).collect();
+    for (id, before) in pairs {
+        let speed = again.node(id).start;
+        if let (Start::Drop(_), Start::Velocity(speed)) = (before, speed) {
+            again.set_start(id, Start::Drop(0.5 * speed * speed / pull));
+        }
+    }
 }
 
 fn walk_node(
@@ -90,8 +117,7 @@ fn walk_node(
         }
         Support::Prescribed(motion) => {
             word += ", moved";
-            let name = format!("{name}.motion");
-            Support::Prescribed(walk_waveform(&name, motion, Dimension::LENGTH, visit)?)
+            Support::Prescribed(walk_motion(name, motion, visit)?)
         }
     };
     visit.word(name, &word);
@@ -111,21 +137,31 @@ fn walk_connection(
     if let Some(layers) = &connection.layers {
         let layers = walk_layers(name, layers, visit)?;
         let area = connection.area;
-        let area = area.map(|own| visit.quantity(&format!("{name}.area"), AREA, own));
+        let area = area.map(|own| visit.size(AREA, own));
         again.connect_layers(name, from, to, layers).area = area;
         return Ok(());
     }
-    let mut size = |key: &str, dimension, value: Option<f64>| {
-        value.map(|value| visit.quantity(&format!("{name}.{key}"), dimension, value))
+    let thickness = connection.thickness;
+    let thickness =
+        thickness.map(|own| visit.quantity(&format!("{name}.thickness"), Dimension::LENGTH, own));
+    let area = connection.area.map(|own| visit.size(AREA, own));
+    let model = match connection.thickness.zip(thickness) {
+        Some((before, after)) => {
+            walk_model(name, &connection.model, &mut Pad { visit, before, after })?
+        }
+        None => walk_model(name, &connection.model, visit)?,
     };
-    let thickness = size("thickness", Dimension::LENGTH, connection.thickness);
-    let area = size("area", AREA, connection.area);
-    let model = walk_model(name, &connection.model, visit)?;
+    let mut pads = connection.pads.clone();
+    for pad in &mut pads {
+        pad.thickness = visit.size(Dimension::LENGTH, pad.thickness);
+        pad.area = pad.area.map(|own| visit.size(AREA, own));
+    }
     let connection = again.connect(name, from, to, model);
-    (connection.thickness, connection.area) = (thickness, area);
+    (connection.thickness, connection.area, connection.pads) = (thickness, area, pads);
     Ok(())
 }
 
+#[expect(clippy::float_cmp, reason = "what stays is the same to the last digit")]
 fn walk_layers(
     name: &str,
     layers: &Layers,
@@ -134,12 +170,14 @@ fn walk_layers(
     let mut all = Vec::with_capacity(layers.all.len());
     for (at, layer) in layers.all.iter().enumerate() {
         let name = format!("{name}.{}-{}", layer.name, at + 1);
-        let mut own = |key: &str, dimension, value| {
-            visit.quantity(&format!("{name}.{key}"), dimension, value)
-        };
-        let (thickness, area) =
-            (own("thickness", Dimension::LENGTH, layer.thickness), own("area", AREA, layer.area));
-        let density = own("density", DENSITY, layer.density);
+        let named = |key: &str| format!("{name}.{key}");
+        let thickness = visit.quantity(&named("thickness"), Dimension::LENGTH, layer.thickness);
+        // The stiffness of the layer is known, so that area and density act by its mass alone.
+        let before = layer.density * layer.area * layer.thickness;
+        let mass = visit.quantity(&named("mass"), Dimension::MASS, before);
+        let area = visit.size(AREA, layer.area);
+        let is_same = [mass, thickness, area] == [before, layer.thickness, layer.area];
+        let density = if is_same { layer.density } else { mass / (area * thickness) };
         let model = walk_model(&name, &layer.model, visit)?;
         all.push(Layer { name: layer.name.clone(), thickness, area, density, model });
     }
@@ -211,7 +249,17 @@ fn walk_element(
         _ => place,
     };
     let before = element.values();
-    let after = walk_values(&prefix, maker.parameters, &before, visit)?;
+    let area = maker.parameters.iter().position(|own| own.kind == ParameterKind::Quantity(AREA));
+    let after = match area.zip(area.and_then(|at| before.get(at))) {
+        Some((at, Value::Number(area))) => {
+            let after = visit.size(AREA, *area);
+            let mut stresses = Stresses { visit, before: *area, after };
+            let mut values = walk_values(&prefix, maker.parameters, &before, &mut stresses)?;
+            values[at] = Value::Number(after);
+            values
+        }
+        _ => walk_values(&prefix, maker.parameters, &before, visit)?,
+    };
     if after == before { Ok(Arc::clone(element)) } else { (maker.make)(&after) }
 }
 
@@ -282,51 +330,22 @@ fn walk_value(
         (_, Value::Model(ModelValue(model))) => {
             Value::Model(ModelValue(walk_model(name, model, visit)?))
         }
+        (_, Value::LeftOut) => Value::LeftOut,
         (_, other) => {
-            visit.word(name, &format!("{other:?}"));
+            visit.word(name, &word_of(other));
             other.clone()
         }
     })
 }
 
-/// The numbers of a driving function; those that are zero stay so and are not told.
-fn walk_waveform(
-    name: &str,
-    waveform: &Waveform,
-    driven: Dimension,
-    visit: &mut dyn Visit,
-) -> Result<Waveform, InvalidParameter> {
-    let over = |times: i8| Dimension { time: driven.time - times, ..driven };
-    let (per_second, per_second_squared) = (Dimension::FREQUENCY, Dimension::new(0, 0, -2));
-    let mut pieces = Vec::with_capacity(waveform.pieces().len());
-    visit.word(&format!("{name}.pieces"), &waveform.pieces().len().to_string());
-    for (at, own) in waveform.pieces().iter().enumerate() {
-        let mut of = |key: &str, dimension, value: f64| {
-            if value == 0.0 {
-                return 0.0;
-            }
-            visit.quantity(&format!("{name}[{at}].{key}"), dimension, value)
-        };
-        // The first piece holds before its start as well; one that is constant may begin anywhere.
-        let is_open = at == 0 && own.is_constant(0);
-        pieces.push(Piece {
-            start: if is_open { own.start } else { of("start", Dimension::TIME, own.start) },
-            value: of("value", driven, own.value),
-            slope: of("slope", over(1), own.slope),
-            curvature: of("curvature", over(2), own.curvature),
-            jerk: of("jerk", over(3), own.jerk),
-            sine: of("sine", driven, own.sine),
-            cosine: of("cosine", driven, own.cosine),
-            omega: of("omega", per_second, own.omega),
-            sweep: of("sweep", per_second_squared, own.sweep),
-        });
+/// A value that is no number of a dimension, in words.
+fn word_of(value: &Value) -> String {
+    match value {
+        Value::Word(own) => own.clone(),
+        Value::Number(own) => own.to_string(),
+        Value::Flag => "set".to_owned(),
+        Value::Window(WindowWish::Impact) => "the impact".to_owned(),
+        Value::Window(WindowWish::Run) => "the run".to_owned(),
+        other => format!("{other:?}"),
     }
-    if let [first, second, ..] = pieces.as_mut_slice()
-        && first.is_constant(0)
-    {
-        first.start = second.start.min(0.0) - 1.0 - second.start.abs();
-    }
-    let range = "finite, with its ends apart in double precision";
-    Waveform::new(pieces)
-        .ok_or_else(|| InvalidParameter::new("waveform", range, format!("`{name}`")))
 }

@@ -17,6 +17,12 @@ const PULSE: Duration = Duration::from_millis(20);
 /// Tells how many points of how many are done; `Break` ends the sweep.
 pub type Watch<'w> = dyn FnMut(usize, usize) -> ControlFlow<()> + 'w;
 
+/// How many of some threads find work in so many rows.
+pub(super) fn hands(threads: usize, rows: usize) -> u32 {
+    let hands = threads.clamp(1, rows.div_ceil(SHARE).max(1));
+    u32::try_from(hands).unwrap_or(u32::MAX)
+}
+
 /// Does something for each of some `rows`, by so many threads, each with a `tool` of its own. False
 /// where the watcher broke it off.
 pub(super) fn share<R: Send, T>(
@@ -27,7 +33,7 @@ pub(super) fn share<R: Send, T>(
     watch: &mut Watch<'_>,
 ) -> bool {
     let count = rows.len();
-    let threads = threads.clamp(1, count.div_ceil(SHARE).max(1));
+    let threads = hands(threads, count) as usize;
     if threads == 1 {
         return alone(rows, &mut tool(), work, watch);
     }

@@ -14,14 +14,15 @@ pub(super) struct Full<'f> {
 }
 
 impl Full<'_> {
-    /// Writes the columns of a point and their errors, and notes why values are missing.
+    /// Writes the columns of a point and their errors, notes why values are missing, and returns what the
+    /// run is warned of.
     pub(super) fn write(
         &self,
         point: usize,
         values: &mut [f64],
         errors: &mut [f64],
         gaps: &mut Vec<Gap>,
-    ) {
+    ) -> Vec<String> {
         values.fill(f64::NAN);
         errors.fill(f64::NAN);
         let solved = (self.pose)(&self.grid.places(point)).and_then(|posed| {
@@ -29,7 +30,10 @@ impl Full<'_> {
         });
         let report = match solved {
             Ok(report) => report,
-            Err(reason) => return gaps.push(Gap { point, column: None, reason }),
+            Err(reason) => {
+                gaps.push(Gap { point, column: None, reason });
+                return Vec::new();
+            }
         };
         for (at, column) in self.columns.iter().enumerate() {
             let gap = |reason: String| Gap { point, column: Some(at), reason };
@@ -48,5 +52,6 @@ impl Full<'_> {
                 None => gaps.push(gap(measure.note.clone().unwrap_or_default())),
             }
         }
+        report.warnings
     }
 }

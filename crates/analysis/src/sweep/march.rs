@@ -14,6 +14,7 @@ use super::{
     bracket::{Flank, Step},
     sums::Sums,
 };
+use crate::warnings::HARDER;
 
 /// A step is so long, in units of the shortest time of the system, where only peaks are looked for …
 const COARSE: f64 = 3.0;
@@ -70,6 +71,8 @@ pub(super) struct Impact {
     pub(super) force: Figure,
     /// The largest deformation \[m\].
     pub(super) depth: Figure,
+    /// That of the whole run \[m\], and when it is reached.
+    pub(super) deepest: (f64, f64),
     /// When the force falls through zero.
     pub(super) release: Figure,
     /// `∫ F^n dt`.
@@ -86,14 +89,24 @@ pub(super) struct Impact {
 #[derive(Debug, Clone, Copy)]
 struct Peak {
     value: f64,
+    time: f64,
     /// What it may be between nodes where it is not known to run straight.
     doubtful: f64,
+}
+
+impl Peak {
+    fn meet(&mut self, value: f64, time: f64) {
+        if value > self.value {
+            (self.value, self.time) = (value, time);
+        }
+    }
 }
 
 impl<const N: usize> Posed<'_, N> {
     /// Solves the impact. `None` where it is not of the plain kind: the force does not push from the
     /// start, or does not fall through zero within the run, or comes near to zero before, or one of
-    /// both turns twice within a step where it is largest, or the system is too stiff.
+    /// both turns twice within a step where it is largest, or the force gets beyond its peak after the
+    /// impact, or the system is too stiff.
     pub(super) fn solve(&self, wanted: Wanted) -> Option<Impact> {
         let mut march = March::new(self, wanted)?;
         while march.start() < self.end {
@@ -158,7 +171,7 @@ impl<'p, const N: usize> March<'p, N> {
         } else {
             seen[1] > noise(&force_rate)
         };
-        let peak = |value: f64| Peak { value: value.max(0.0), doubtful: 0.0 };
+        let peak = |value: f64| Peak { value: value.max(0.0), time: 0.0, doubtful: 0.0 };
         begins.then(|| Self {
             posed,
             wanted,
@@ -201,21 +214,23 @@ impl<'p, const N: usize> March<'p, N> {
                 return None;
             }
             self.shallowest = self.shallowest.min(depth);
-            self.peaks[1].value = self.peaks[1].value.max(depth);
+            self.peaks[1].meet(depth, self.start() + time);
             self.fall = found[1].min(self.seen[1]).abs();
             until = Some(time);
         } else {
             if self.seen[1] < 0.0 && found[1] > 0.0 {
                 self.lowest = self.lowest.min(whole.turn(&flanks[0], 0)?.1);
             }
-            self.peaks[0].value = self.peaks[0].value.max(found[0]);
-            self.peaks[1].value = self.peaks[1].value.max(found[3]);
+            let end = self.start() + self.step;
+            self.peaks[0].meet(found[0], end);
+            self.peaks[1].meet(found[3], end);
         }
+        let start = self.start();
         for ((peak, flank), place) in self.peaks.iter_mut().zip(&flanks).zip([0, 3]) {
             if flank.rises_then_falls() {
                 let (time, value) = whole.turn(flank, place)?;
                 if time <= until.unwrap_or(self.step) {
-                    peak.value = peak.value.max(value);
+                    peak.meet(value, start + time);
                 }
             } else if !flank.is_straight(self.step) {
                 peak.doubtful = peak.doubtful.max(flank.bound(self.step));
@@ -237,6 +252,42 @@ impl<'p, const N: usize> March<'p, N> {
         Some(ControlFlow::Continue(()))
     }
 
+    /// The largest deformation of the whole run. `None` where the magnitude of the force gets so far
+    /// beyond its peak after the impact that runs are warned of it, or it cannot be told.
+    fn deepest(&self) -> Option<Peak> {
+        let (matrix, looks) = (self.posed.matrix, &self.looks);
+        let [force, mut deepest] = self.peaks;
+        let hardest = force.value * (1.0 + HARDER);
+        let (carry, length) = if self.sums.is_some() {
+            // Nothing is summed up here, so that three steps are taken at once.
+            let twice = self.carry.map(|column| apply(&self.carry, &column));
+            (twice.map(|column| apply(&self.carry, &column)), 3.0 * self.step)
+        } else {
+            (self.carry, self.step)
+        };
+        let (mut z, mut seen, mut start) = (self.z, self.seen, self.start());
+        while start < self.posed.end {
+            let next = apply(&carry, &z);
+            let found = apply(looks, &next);
+            let step = Step { matrix, looks, length, ends: [&z, &next] };
+            let (push, depth) = (Flank::of(&seen, &found, 0), Flank::of(&seen, &found, 3));
+            let turn = push.turn_above(&step, 0, push.value.map(f64::abs), hardest)?;
+            if turn.map_or(0.0, |own| own.1.abs()).max(found[0].abs()) > hardest {
+                return None;
+            }
+            let turn = depth.turn_above(&step, 3, depth.value, deepest.value)?;
+            for (time, value) in turn.into_iter().chain([(length, found[3])]) {
+                if start + time <= self.posed.end {
+                    deepest.meet(value, start + time);
+                } else if value > deepest.value {
+                    return None;
+                }
+            }
+            (z, seen, start) = (next, found, start + length);
+        }
+        Some(deepest)
+    }
+
     /// What is known of the impact that ends so long after the beginning of the last step.
     fn impact(&self, time: f64) -> Option<Impact> {
         let [force, depth] = self.peaks;
@@ -248,6 +299,7 @@ impl<'p, const N: usize> March<'p, N> {
         if !is_clear {
             return None;
         }
+        let deepest = self.deepest()?;
         let steps = f64::from(self.at) + 16.0 + self.rate * release;
         let grown = ROUNDINGS * steps * N as f64;
         let noise = grown * size(self.posed.force, &self.most);
@@ -255,6 +307,7 @@ impl<'p, const N: usize> March<'p, N> {
         let mut impact = Impact {
             force: figure(force.value, noise),
             depth: figure(depth.value, grown * size(self.posed.deformation, &self.most)),
+            deepest: (deepest.value, deepest.time),
             release: figure(release, noise / self.fall + 4.0 * f64::EPSILON * release),
             ..Impact::default()
         };

@@ -1,7 +1,7 @@
 //! Points of a sweep that are solved by stamping: one compiled form, other numbers.
 
 use dashpot_network::{
-    Blueprint, Stamp,
+    Blueprint, ConnectionOutputs, SegmentPlace, Stamp,
     parameters::{Value, WindowWish},
 };
 
@@ -9,10 +9,12 @@ use super::{
     Column, Grid, Pose, Posed as Scene,
     march::{Figure, Impact, Posed, Wanted},
     table::Table,
+    warned::Notice,
 };
 use crate::{
     measures::STANDARD_GRAVITY,
     selection::{Selected, select},
+    warnings::ROUNDING,
 };
 
 /// A value that is less certain than this part of itself is left to the full solution.
@@ -37,8 +39,12 @@ enum Shown {
 pub(super) struct Plan<'g> {
     grid: &'g Grid,
     blueprint: Blueprint,
+    /// The element that is struck.
+    element: String,
     table: Table,
     shown: Vec<Shown>,
+    /// For each column the part of a value that it may be off by.
+    loosest: Vec<f64>,
     wanted: Wanted,
     duration: f64,
 }
@@ -61,7 +67,17 @@ impl<'g> Plan<'g> {
         if blueprint.states() > MOST_STATES {
             return None;
         }
-        let assembly = first.network.compile(duration).ok()?;
+        let struck = blueprint.element();
+        let assembly =
+            first.network.compile(duration).ok().filter(|own| own.warnings.is_empty())?;
+        // Another padding, or a part of one, would have to be watched as well.
+        let is_other = |(at, own): (usize, &ConnectionOutputs)| {
+            let has_parts = own.segments.iter().any(|part| part.place != SegmentPlace::Whole);
+            has_parts || at != struck && own.thickness.is_some()
+        };
+        if assembly.connections.iter().enumerate().any(is_other) {
+            return None;
+        }
         let selected = select(&assembly, &settings.measures).ok()?;
         let mut wanted = Wanted::default();
         let mut shown = Vec::with_capacity(columns.len());
@@ -70,8 +86,16 @@ impl<'g> Plan<'g> {
             let own = shown_by(own, &blueprint, &mut wanted)?;
             shown.push(if column.is_share { Shown::Share } else { own });
         }
+        let loosest =
+            columns.iter().map(|own| settings.accuracy.of(&own.key).min(LOOSEST)).collect();
         let table = Table::of(&blueprint, grid, pose, duration)?;
-        Some(Self { grid, blueprint, table, shown, wanted, duration })
+        let element = first.network.connections()[struck].name.clone();
+        Some(Self { grid, blueprint, element, table, shown, loosest, wanted, duration })
+    }
+
+    /// The element that is struck.
+    pub(super) fn element(&self) -> &str {
+        &self.element
     }
 
     /// Whether the numbers at a point are those of its network.
@@ -101,6 +125,21 @@ impl<'g> Plan<'g> {
             places: vec![0; self.grid.counts().len()],
             numbers: vec![0.0; self.table.len()],
         }))
+    }
+
+    fn notice(&self, impact: &Impact, numbers: &[f64]) -> Notice {
+        let time = self.blueprint.time_scale();
+        let thickness = numbers[numbers.len() - 1];
+        let ((depth, at), error) = (impact.deepest, impact.depth.error);
+        let release = impact.release.value * time;
+        Notice {
+            pulls: (release < self.duration).then_some(release),
+            pressed: (depth > thickness + error.max(ROUNDING * thickness)).then_some([
+                depth,
+                at * time,
+                thickness,
+            ]),
+        }
     }
 
     fn figure(&self, shown: Shown, impact: &Impact, numbers: &[f64]) -> Figure {
@@ -180,10 +219,10 @@ fn shown_by(own: &Selected, blueprint: &Blueprint, wanted: &mut Wanted) -> Optio
 
 /// Solves points, one after the other.
 pub(super) trait Stamper {
-    /// Writes the columns of a point and their errors. False where the point has to be solved in full:
-    /// it is of another form, or its impact is not of the plain kind, or not certain enough. Nothing is
-    /// allocated.
-    fn write(&mut self, point: usize, values: &mut [f64], errors: &mut [f64]) -> bool;
+    /// Writes the columns of a point and their errors, and returns what is to be said of it. `None` where
+    /// the point has to be solved in full: it is of another form, or its impact is not of the plain kind,
+    /// or not certain enough. Nothing is allocated.
+    fn write(&mut self, point: usize, values: &mut [f64], errors: &mut [f64]) -> Option<Notice>;
 }
 
 struct Sized<'p, const N: usize> {
@@ -194,11 +233,11 @@ struct Sized<'p, const N: usize> {
 }
 
 impl<const N: usize> Stamper for Sized<'_, N> {
-    fn write(&mut self, point: usize, values: &mut [f64], errors: &mut [f64]) -> bool {
+    fn write(&mut self, point: usize, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
         let plan = self.plan;
         plan.grid.locate(point, &mut self.places);
         if !plan.table.write(&self.places, &mut self.numbers) {
-            return false;
+            return None;
         }
         plan.blueprint.fill(&self.numbers, &mut self.stamp);
         let stamp = &self.stamp;
@@ -209,14 +248,15 @@ impl<const N: usize> Stamper for Sized<'_, N> {
             deformation: &stamp.deformation,
             end: plan.duration / plan.blueprint.time_scale(),
         };
-        let Some(impact) = posed.solve(plan.wanted) else { return false };
-        for ((shown, value), error) in plan.shown.iter().zip(values).zip(errors) {
+        let impact = posed.solve(plan.wanted)?;
+        let places = plan.shown.iter().zip(&plan.loosest).zip(values).zip(errors);
+        for (((shown, loosest), value), error) in places {
             let own = plan.figure(*shown, &impact, &self.numbers);
-            if own.error.is_nan() || own.error > LOOSEST * own.value.abs() {
-                return false;
+            if own.error.is_nan() || own.error > loosest * own.value.abs() {
+                return None;
             }
             (*value, *error) = (own.value, own.error);
         }
-        true
+        Some(plan.notice(&impact, &self.numbers))
     }
 }

@@ -11,7 +11,7 @@ use dashpot_network::{
 };
 use dashpot_rheology::Tree;
 
-use super::*;
+use super::{warned::form, *};
 use crate::solve;
 
 /// Numbers of a generator of its own, so that a failure can be repeated.
@@ -84,6 +84,18 @@ fn swept(networks: &[Network], keys: &[&str], threads: usize) -> SweepReport {
     sweep(&grid, &pose, &columns, threads, &mut |_, _| ControlFlow::Continue(())).unwrap()
 }
 
+/// What a sweep is warned of at a point, but for numbers.
+fn warned_at(found: &SweepReport, point: usize) -> Vec<String> {
+    let here = found.warnings.iter().filter(|own| own.points.contains(&point));
+    sorted(here.map(|own| form(&own.text)))
+}
+
+fn sorted(all: impl Iterator<Item = String>) -> Vec<String> {
+    let mut all: Vec<String> = all.collect();
+    all.sort();
+    all
+}
+
 #[test]
 fn stamped_values_are_those_of_full_runs_within_their_errors() {
     let mut random = Random(7);
@@ -99,6 +111,7 @@ fn stamped_values_are_those_of_full_runs_within_their_errors() {
         let width = found.columns.len();
         for (at, network) in networks.iter().enumerate() {
             let full = solve(network, &SolveSettings::lasting(0.04), &mut Silent).unwrap();
+            assert_eq!(warned_at(&found, at), sorted(full.warnings.iter().map(|own| form(own))));
             for (place, column) in found.columns.iter().enumerate() {
                 let measure = full.measure(&column.key).unwrap();
                 let unit = if column.is_share { 0.02 } else { 1.0 };
@@ -154,6 +167,71 @@ fn scenes_of_another_kind_are_solved_in_full() {
 }
 
 #[test]
+fn stamped_points_are_warned_of_what_full_ones_are() {
+    // The head of 10 kg throws the light plate off; what stops both comes after the impact.
+    let struck_twice = |(mass, damping): (f64, f64)| {
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
+        let plate = network.add_node(Node::mass("plate", mass));
+        let pad = Tree::parallel([spring(1e6), dashpot(damping)]);
+        network.connect("padding", head, plate, pad).thickness = Some(0.02);
+        let mount = Tree::parallel([spring(1e5), dashpot(10.0)]);
+        network.connect("mount", plate, network.ground(), mount);
+        network
+    };
+    let networks: Vec<Network> =
+        [(0.1, 10.0), (0.2, 10.0), (20.0, 1e3), (40.0, 1e3)].map(struck_twice).to_vec();
+    let found = swept(&networks, &["padding.peak-force"], 1);
+    for (at, network) in networks.iter().enumerate() {
+        let full = solve(network, &SolveSettings::lasting(0.04), &mut Silent).unwrap();
+        assert_eq!(warned_at(&found, at), sorted(full.warnings.iter().map(|own| form(own))));
+    }
+    let harder = found.warnings.iter().find(|own| own.text.contains("harder blow")).unwrap();
+    assert_eq!(harder.points, [0, 1]);
+    let pulls = found.warnings.iter().find(|own| own.text.contains("pulls")).unwrap();
+    assert_eq!(pulls.points, [0, 1, 2, 3]);
+    assert_eq!(found.stamped, 2, "{:?}", found.warnings);
+}
+
+#[test]
+fn a_run_that_ends_in_contact_is_warned_of() {
+    let mut random = Random(5);
+    let network = struck(pad(0, &mut random), 1e4);
+    let (columns, wishes) =
+        columns(&posed(network.clone()), &["padding.peak-force".to_owned()]).unwrap();
+    let pose = |places: &[usize]| {
+        let mut own = posed(network.clone());
+        own.settings.duration = [1e-3, 2e-3, 0.03, 0.04][places[0]];
+        own.settings.measures.clone_from(&wishes);
+        Ok(own)
+    };
+    let grid = Grid::new(vec![4]).unwrap();
+    let found = sweep(&grid, &pose, &columns, 1, &mut |_, _| ControlFlow::Continue(())).unwrap();
+    let lasting = found.warnings.iter().find(|own| own.text.contains("still in contact")).unwrap();
+    assert_eq!(lasting.points, [0, 1]);
+    assert!(lasting.text.contains("at 1.00 ms"), "{}", lasting.text);
+}
+
+#[test]
+fn another_padding_is_watched_too() {
+    let mut random = Random(9);
+    let mut networks = Vec::new();
+    for thickness in [1e-4, 0.5] {
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
+        let panel = network.add_node(Node::mass("panel", 1.0));
+        network.connect("padding", head, panel, pad(0, &mut random));
+        let below = Tree::parallel([spring(5e6), dashpot(1e3)]);
+        network.connect("below", panel, network.ground(), below).thickness = Some(thickness);
+        networks.push(network);
+    }
+    let found = swept(&networks, &["padding.peak-force"], 1);
+    let pressed = found.warnings.iter().find(|own| own.text.contains("pressed in")).unwrap();
+    assert!(pressed.text.contains("below"));
+    assert_eq!(pressed.points, [0]);
+}
+
+#[test]
 fn a_measure_that_is_not_known_is_named_with_those_that_are() {
     let mut random = Random(1);
     let scene = posed(struck(pad(0, &mut random), 1e4));
@@ -161,7 +239,8 @@ fn a_measure_that_is_not_known_is_named_with_those_that_are() {
     let SweepError::NoMeasure { known, .. } = &fault else { panic!("{fault}") };
     assert!(known.contains(&"padding.peak-force".to_owned()), "{fault}");
     let (found, wishes) = columns(&scene, &["head.hic15".to_owned()]).unwrap();
-    assert_eq!((found.len(), wishes.len()), (1, 1));
+    let shares: Vec<bool> = found.iter().map(|own| own.is_share).collect();
+    assert_eq!((shares.as_slice(), wishes.len()), (&[false, true][..], 1));
 }
 
 #[test]

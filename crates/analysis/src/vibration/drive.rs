@@ -139,6 +139,7 @@ impl Driven {
             let copy = driven.connect(name, from, to, model);
             copy.thickness = connection.thickness;
             copy.area = connection.area;
+            copy.pads.clone_from(&connection.pads);
             copy.layers.clone_from(&connection.layers);
         }
         for load in network.loads().iter().filter(|_| drive.kind == DriveKind::Load) {

@@ -35,7 +35,7 @@ pub enum VibrationError {
         known: Vec<String>,
     },
     /// There is no such load, and no such node that is moved or fixed.
-    #[error("`{name}` is no load, and no node that is moved or fixed; there are {}", .known.join(", "))]
+    #[error("`{name}` is no load, and no node that is moved or fixed; {}", there_is(.known))]
     UnknownDrive {
         /// What was asked for.
         name: String,
@@ -51,7 +51,7 @@ pub enum VibrationError {
         node: String,
     },
     /// There is no such node to be looked at.
-    #[error("`{name}` is no {sought}; there are {}", .known.join(", "))]
+    #[error("`{name}` is no {sought}; {}", there_is(.known))]
     UnknownNode {
         /// What was asked for.
         name: String,
@@ -82,6 +82,15 @@ pub enum VibrationError {
         /// The frequency \[Hz\].
         frequency: f64,
     },
+}
+
+/// What there is, in words.
+fn there_is(known: &[String]) -> String {
+    match known {
+        [] => "there is none".to_owned(),
+        [only] => format!("there is only `{only}`"),
+        several => format!("there are {}", several.join(", ")),
+    }
 }
 
 /// What can drive, in words.

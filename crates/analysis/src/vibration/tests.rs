@@ -418,12 +418,15 @@ fn what_cannot_be_is_refused_by_name() {
     let text = refused(&network, None).to_string();
     assert_eq!(text, "neither a load nor a motion drives the network; name the drive: ground");
     let text = refused(&network, Some("floor")).to_string();
-    assert_eq!(text, "`floor` is no load, and no node that is moved or fixed; there are ground");
+    assert_eq!(
+        text,
+        "`floor` is no load, and no node that is moved or fixed; there is only `ground`"
+    );
     let vibration = shaken(&network);
     let wrong = |settings: SweepSettings| vibration.sweep(&settings).unwrap_err().to_string();
     let of = vec!["head".to_owned()];
     let text = wrong(SweepSettings { of, ..SweepSettings::default() });
-    assert_eq!(text, "`head` is no node that can move; there are device");
+    assert_eq!(text, "`head` is no node that can move; there is only `device`");
     assert_eq!(wrong(range(-1.0, 2.0, 5)), "`from` must be a positive frequency, but it is -1");
     assert_eq!(wrong(range(3.0, 2.0, 5)), "`to` must be above the lowest frequency, but it is 2");
     assert_eq!(wrong(range(1.0, 2.0, 1)), "`points` must be from 2 to 1000000, but it is 1");

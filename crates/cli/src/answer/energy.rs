@@ -1,6 +1,7 @@
 //! The energy ledger, summed over each element.
 
 use dashpot_analysis::{Ledger, RunReport};
+use dashpot_network::{DriveOutputs, Source};
 use dashpot_plot::Table;
 
 use crate::numbers::{Unit, quantity, share};
@@ -11,6 +12,17 @@ const SMALL: f64 = 1e-4;
 const MOST: usize = 6;
 /// More decimals are never shown.
 const MOST_DECIMALS: usize = 2;
+
+/// What does the work from outside, where it is of one kind.
+fn work_of(drives: &[DriveOutputs]) -> String {
+    let first = drives.first().map(|own| own.source);
+    match first.filter(|first| drives.iter().all(|own| own.source == *first)) {
+        Some(Source::Effect(word)) => format!("work of {word}"),
+        Some(Source::Load) => "work of loads".to_owned(),
+        Some(Source::Motion) => "work of motions".to_owned(),
+        None => "put in from outside".to_owned(),
+    }
+}
 
 /// Where the energy came from and where it is, at the end of the impact and of the run.
 pub(crate) fn energy_table(run: &RunReport) -> Table {
@@ -34,7 +46,7 @@ pub(crate) fn energy_table(run: &RunReport) -> Table {
     };
     let mut rows = vec![row("there at the start", &|ledger| ledger.start)];
     if !run.energy.work_in.is_empty() {
-        rows.push(row("put in from outside", &Ledger::total_work_in));
+        rows.push(row(&work_of(&run.assembly.drives), &Ledger::total_work_in));
     }
     rows.push(row("kinetic", &|ledger| ledger.kinetic));
     let sums: Vec<Vec<(&str, f64, f64)>> =

@@ -190,11 +190,8 @@ fn error(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
         return "–".to_owned();
     };
     if zeros.has(measure) || measure.is_next_to_nothing() {
-        return if absolute == 0.0 {
-            "±0".to_owned()
-        } else {
-            format!("±{} {}", unit.number(absolute, 1), unit.symbol).trim_end().to_owned()
-        };
+        // The unit stands behind it.
+        return format!("±{}", unit.number(absolute, 1));
     }
     match measure.relative_error() {
         Some(error) => format!("±{}", bound(error)),

@@ -31,6 +31,13 @@ const MARGIN: f64 = 1e-3;
 /// What follows the release.
 const GLUED: &str = ", then it pulls as if glued (separation is off)";
 
+/// A peak within this part of the run from its end is where the run ends.
+const LAST: f64 = 1e-9;
+/// Of a peak where the run ends.
+const SO_FAR: &str = " so far, still rising at the end of the run";
+/// What the errors of a run that ends in contact do not say.
+const CUT: &str = "; the run ends in contact, so that figures are those so far";
+
 /// One line of the verdict.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Line {
@@ -92,7 +99,23 @@ fn whereabouts(answer: &Answer, measure: &MeasureReport) -> String {
     // Which way it points, as in `in tension`; other notes stand below the table.
     let note = measure.note.as_ref().filter(|note| note.starts_with("in "));
     let note = note.map(|note| format!(" ({note})"));
-    format!(" in {}{}{}", measure.target, time.unwrap_or_default(), note.unwrap_or_default())
+    let (time, note) = (time.unwrap_or_default(), note.unwrap_or_default());
+    let so_far = if is_so_far(answer, measure) { SO_FAR } else { "" };
+    format!(" in {}{time}{so_far}{note}", measure.target)
+}
+
+/// Whether a peak is one of a run that ends before the peak.
+fn is_so_far(answer: &Answer, measure: &MeasureReport) -> bool {
+    let is_last = |run: &RunReport| {
+        let end = run.trajectory.t_end;
+        is_cut(run) && measure.time.is_some_and(|time| time >= (1.0 - LAST) * end)
+    };
+    answer.best().is_some_and(is_last)
+}
+
+/// Whether the run ends while something is still pressed.
+fn is_cut(run: &RunReport) -> bool {
+    run.contacts.iter().any(|own| own.impact.contact == Contact::Lasting)
 }
 
 /// The force of a padding and its stop together, where it is more than that of each: at the contact of
@@ -206,8 +229,8 @@ fn energy(answer: &Answer, run: &RunReport) -> Option<String> {
     let Some(work) = work_in(run, until) else {
         return Some(format!("{name} takes up {amount}"));
     };
-    if impact <= ZERO * run.energy.turned_over {
-        // What falls begins without energy.
+    if impact <= LITTLE * work {
+        // What falls begins without energy, or with what little its layers hold at rest.
         let whole = rounded(work, "J", TIME_DIGITS);
         let part =
             if value <= work { format!(" ({})", share(value / work)) } else { String::new() };
@@ -434,7 +457,8 @@ fn how_wrong(answer: &Answer, run: &RunReport) -> Option<String> {
         }
         _ => format!("; all methods are within {}", bound(apart)),
     });
-    Some(own + &apart.unwrap_or_default())
+    let cut = if is_cut(run) { CUT } else { "" };
+    Some(own + cut + &apart.unwrap_or_default())
 }
 
 /// That errors include what was left out, where anything was.

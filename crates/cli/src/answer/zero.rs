@@ -11,13 +11,16 @@ const ROUNDING: f64 = 1e-12;
 pub(super) struct Zeros {
     /// Each SI unit with the largest value that is measured in it.
     largest: Vec<(&'static str, f64)>,
+    /// The coarsest relative tolerance: without errors, digits beyond it are not to be told from zero.
+    tolerance: f64,
 }
 
 impl Zeros {
     /// Looks at all measures of these runs, and at the energy that they turn over.
     pub(super) fn of(runs: &[RunReport]) -> Self {
-        let mut zeros = Self { largest: Vec::new() };
+        let mut zeros = Self { largest: Vec::new(), tolerance: 0.0 };
         for run in runs {
+            zeros.tolerance = zeros.tolerance.max(run.solver.rtol.unwrap_or(0.0));
             for measure in &run.measures {
                 zeros.add(measure.unit, measure.value.unwrap_or(0.0).abs());
             }
@@ -45,7 +48,8 @@ impl Zeros {
             "J" | "N" | "m" | "N s" => self.largest(measure.unit),
             _ => 0.0,
         };
-        let rounding = ROUNDING * measure.size.max(of_unit);
+        let tolerance = if measure.error.is_none() { self.tolerance } else { 0.0 };
+        let rounding = tolerance.max(ROUNDING) * measure.size.max(of_unit);
         measure.value.is_some_and(|value| value.abs() <= error.max(rounding))
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dashpot_analysis::{RunError, reported_measures};
+use dashpot_analysis::{RunError, hopeless_measures, reported_measures};
 use dashpot_dae::{Run, methods};
 use dashpot_scene::Scene;
 
@@ -40,6 +40,7 @@ fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
     can_run(&scene)?;
+    hopeless(&scene)?.iter().for_each(|text| terminal.warn(text));
     notes(&scene).iter().for_each(|text| remark(text));
     let system = &scene.assembly.system;
     let nodes = scene.network.nodes().count() - 1;
@@ -73,6 +74,14 @@ fn can_run(scene: &Scene) -> Result<(), CliError> {
         }
     }
     Ok(())
+}
+
+/// What is to be said about measures that can have no value.
+pub(crate) fn hopeless(scene: &Scene) -> Result<Vec<String>, CliError> {
+    let Some(method) = scene.run.methods.first() else { return Ok(Vec::new()) };
+    let found = hopeless_measures(&scene.assembly, &scene.settings(method))?;
+    let text = |(key, why): &(String, &str)| format!("`{key}` can have no value: {why}");
+    Ok(found.iter().map(text).collect())
 }
 
 fn counted(count: usize, what: &str) -> String {

@@ -14,11 +14,11 @@ use crate::{
     args::CostArguments,
     cost_folder::{file_names, write},
     error::{CliError, Status},
-    folder::prepare_for,
+    folder::{prepare_for, settle},
     input::read_scene,
     operand::tell,
     progress::Bar,
-    terminal::{Terminal, Tone, WIDTH, note, print},
+    terminal::{Terminal, Tone, WIDTH, print},
     text::{side_by_side, table, wrapped},
 };
 
@@ -45,9 +45,7 @@ pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Stat
     }
     if let Some(path) = &arguments.out {
         let names = write(path, &json, &scene, &report, &accuracies)?;
-        let listing = format!("wrote {} to {}", names.join(", "), path.display());
-        let listing = wrapped(&listing, WIDTH).join("\n");
-        if arguments.json { note(&listing) } else { print(&format!("\n{listing}\n"))? }
+        settle(path, &names, arguments.json)?;
     }
     Ok(if report.points.is_empty() { Status::RunFailed } else { Status::Done })
 }

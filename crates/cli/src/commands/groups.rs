@@ -1,6 +1,6 @@
 //! `dashpot groups`.
 
-use std::{fmt::Write as _, path::Path, sync::Arc};
+use std::{fmt::Write as _, path::Path};
 
 use dashpot_analysis::{
     SolveSettings,
@@ -84,16 +84,11 @@ fn read(
 }
 
 fn with_groups(network: &Network, wanted: &[(String, String)]) -> Result<Network, CliError> {
-    let impact = FourParameterImpact::of(network)?;
-    let mut groups = impact.groups();
+    let mut groups = FourParameterImpact::of(network)?.groups();
     for (name, text) in wanted {
         groups = groups.with(name, quantity(name, text, Dimension::NUMBER)?)?;
     }
-    let mut again = impact.with_groups(&groups)?.network();
-    for effect in network.effects().iter().filter(|own| own.kind() == "separation") {
-        again.add_shared_effect(Arc::clone(effect));
-    }
-    Ok(again)
+    Ok(groups.put_into(network)?)
 }
 
 fn side_by_side(
@@ -106,15 +101,24 @@ fn side_by_side(
     let mut found = SideBySide::of(names, &similarity);
     let settings = first.settings("auto");
     found.left_out = similar_settings(&settings, &similarity.scale).1;
-    if similarity.structure.is_empty() {
-        let pairs = measured(&first.network, &similarity.second, &similarity.scale, &settings)?;
+    found.other_pads = other_pads(&similarity.networks);
+    if similarity.structure.is_empty() || similarity.differs_in_effects() {
+        let [one, other] = &similarity.networks;
+        let pairs = measured(one, other, &similarity.scale, &settings)?;
         found.measures = pairs.iter().map(Opposed::of).collect();
         if similarity.different().count() <= MOST_ALONE {
-            let movers = alone(&first.network, &similarity, &settings)?;
+            let movers = alone(one, &similarity, &settings)?;
             found.alone = movers.iter().map(Mover::of).collect();
         }
     }
     Ok(found)
+}
+
+/// The elements whose parts have thicknesses of their own in one of two scenes only.
+fn other_pads([first, second]: &[Network; 2]) -> Vec<String> {
+    let pairs = first.connections().iter().zip(second.connections());
+    let differ = pairs.filter(|(one, other)| one.pads.len() != other.pads.len());
+    differ.map(|own| own.0.name.clone()).collect()
 }
 
 fn laboratory(scene: &Scene, arguments: &GroupsArguments) -> Result<Test, CliError> {
@@ -199,15 +203,16 @@ fn text(told: &Told, terminal: Terminal) -> String {
         section(&mut text, &thesis.table(), terminal);
         text.push('\n');
         paragraph(&mut text, &thesis.parameters());
+        paragraph(&mut text, &thesis.independent());
         paragraph(&mut text, &thesis.region());
     }
     section(&mut text, &told.table(), terminal);
     text.push('\n');
-    let count = told.groups.len();
+    let count = told.count();
     paragraph(
         &mut text,
         &format!(
-            "{} parameters, whose dimensions have the rank {}: {count} groups, by {}.",
+            "{} parameters, whose dimensions have the rank {}: {count}, by {}.",
             told.parameters,
             told.rank,
             told.references()
@@ -229,13 +234,26 @@ fn similarity(text: &mut String, found: &SideBySide, terminal: Terminal) {
     for line in &found.structure {
         paragraph(text, line);
     }
-    if !found.similar && found.structure.is_empty() {
+    if !found.similar {
         section(text, &found.different(), terminal);
     }
-    section(text, &found.scale.table("From the first to the second"), terminal);
+    if found.structure.is_empty() && !found.scale.is_one() {
+        section(text, &found.scale.table("From the first to the second"), terminal);
+    }
     section(text, &found.measures(), terminal);
     section(text, &found.movers(), terminal);
     left_out(text, &found.left_out);
+    if !found.other_pads.is_empty() {
+        let names = found.other_pads.join(", ");
+        text.push('\n');
+        paragraph(
+            text,
+            &format!(
+                "Parts of {names} have thicknesses of their own in one of both only: there strains are \
+                 those of the parts, here those of the whole."
+            ),
+        );
+    }
 }
 
 fn laboratory_text(text: &mut String, test: &Test, terminal: Terminal) {

@@ -75,6 +75,21 @@ fn shipped(shipped: &Shipped) -> Entry {
     Entry::plain(shipped.name, shipped.summary)
 }
 
+/// The text of a scene in lines of at most `room` columns, broken behind commas, where it may be read in
+/// so.
+fn parted(example: &str, room: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for part in example.split_inclusive(", ") {
+        let last = lines.len() - 1;
+        if !lines[last].is_empty() && columns(&lines[last]) + columns(part.trim_end()) > room {
+            lines.push(String::new());
+        }
+        let last = lines.len() - 1;
+        lines[last] += part;
+    }
+    lines.iter().map(|line| line.trim_end().to_owned()).collect()
+}
+
 fn described(entry: &Entry, widest: usize) -> String {
     let mut text = String::new();
     let room = WIDTH - widest - 4;
@@ -83,7 +98,10 @@ fn described(entry: &Entry, widest: usize) -> String {
         let _ = writeln!(text, "  {name:widest$}  {line}");
     }
     if let Some(example) = &entry.example {
-        let _ = writeln!(text, "      {example}");
+        for (at, line) in parted(example, WIDTH - 10).iter().enumerate() {
+            let indent = if at == 0 { "" } else { "  " };
+            let _ = writeln!(text, "      {indent}{line}");
+        }
     }
     for detail in &entry.details {
         for (at, line) in wrapped(detail, WIDTH - 10).iter().enumerate() {

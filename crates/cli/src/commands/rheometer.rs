@@ -16,10 +16,10 @@ use crate::{
     },
     args::{RheometerArguments, When},
     error::{CliError, Status},
-    folder::prepare_for,
+    folder::{prepare_for, settle},
     operand::{Operand, canonical_model},
     rheometer_folder::{figure, file_names, write},
-    terminal::{Terminal, Tone, WIDTH, note, print, remark},
+    terminal::{Terminal, Tone, WIDTH, print, remark},
     text::{table, wrapped},
 };
 
@@ -60,9 +60,7 @@ pub(crate) fn rheometer(
     }
     if let Some(path) = &arguments.out {
         let names = write(path, &json, units, (&operand.word, &specimen), &reports)?;
-        let listing = format!("wrote {} to {}", names.join(", "), path.display());
-        let listing = wrapped(&listing, WIDTH).join("\n");
-        if arguments.json { note(&listing) } else { print(&format!("\n{listing}\n"))? }
+        settle(path, &names, arguments.json)?;
     }
     Ok(Status::Done)
 }

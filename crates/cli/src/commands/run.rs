@@ -1,6 +1,6 @@
 //! `dashpot run`.
 
-use std::{fmt::Write as _, fs, path::Path, sync::Arc, time::Instant};
+use std::{fmt::Write as _, fs, sync::Arc, time::Instant};
 
 use dashpot_analysis::{Accuracy, RunReport, SolveSettings, solve_partial};
 use dashpot_plot::{
@@ -15,13 +15,14 @@ use crate::{
     },
     args::{RunArguments, Switch, When},
     as_run::Changes,
+    commands::check::hopeless,
     error::{CliError, Status},
     folder,
     input::read_scene,
     operand::tell,
     progress::Bar,
     series::curves,
-    terminal::{Terminal, Tone, WIDTH, note, print},
+    terminal::{Terminal, Tone, WIDTH, print},
     text::{indented, labelled, table},
 };
 
@@ -41,6 +42,9 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
         Some(path) => folder::prepare(path)?.then_some(path),
         None => None,
     };
+    if let Ok(texts) = hopeless(&checked.value) {
+        texts.iter().for_each(|text| terminal.warn(text));
+    }
     let answer = solve_all(checked.value, arguments, terminal);
     tell_failures(&answer, terminal);
     let status = answer.failed.iter().map(|(_, error)| error.status()).max();
@@ -136,12 +140,7 @@ fn show(answer: &Answer, arguments: &RunArguments, terminal: Terminal) -> Result
     let Some(path) = arguments.out.as_deref().filter(|_| !answer.runs.is_empty()) else {
         return Ok(());
     };
-    let listing = listing(path, &folder::write(answer, path)?);
-    if arguments.json {
-        note(listing.trim_end());
-        return Ok(());
-    }
-    print(&format!("\n{listing}"))
+    folder::settle(path, &folder::write(answer, path)?, arguments.json)
 }
 
 /// The warnings but those that the scene's own text has brought already.
@@ -202,10 +201,4 @@ fn section(content: &Table, terminal: Terminal) -> String {
         let _ = writeln!(text, "  {row}");
     }
     text
-}
-
-fn listing(path: &Path, files: &[String]) -> String {
-    let files = files.join(", ");
-    let text = format!("wrote to {}: {files}", path.display());
-    crate::text::wrapped(&text, WIDTH).join("\n  ") + "\n"
 }

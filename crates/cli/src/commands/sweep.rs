@@ -3,7 +3,7 @@
 use std::{fmt::Write as _, num::NonZero, thread::available_parallelism};
 
 use dashpot_analysis::sweep::{Column, Grid, Pose, Posed, SweepReport, columns, sweep as solve};
-use dashpot_scene::{Scene, Tunables, Variation, read};
+use dashpot_scene::{Diagnostics, Scene, Tunables, Variation, read};
 
 use crate::{
     answer::{
@@ -12,11 +12,11 @@ use crate::{
     },
     args::SweepArguments,
     error::{CliError, Status},
-    folder::prepare_for,
+    folder::{prepare_for, settle},
     input::Input,
     progress::Count,
-    sweep_folder::{csv, file_names, write},
-    terminal::{Terminal, Tone, WIDTH, note, print, remark},
+    sweep_folder::{csv, file_names, undrawn, write},
+    terminal::{Terminal, Tone, WIDTH, print, remark},
     text::{table, wrapped},
 };
 
@@ -38,11 +38,12 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         .filter(|grid| grid.len() <= MOST)
         .ok_or(CliError::TooManyPoints { most: MOST })?;
     let posed = |scene: Scene| {
-        let method = match &scene.run.methods[..] {
-            [only] => only.clone(),
-            _ => "auto".to_owned(),
+        let method = match (&arguments.method, &scene.run.methods[..]) {
+            (Some(wanted), _) => wanted,
+            (None, [only]) => only,
+            _ => "auto",
         };
-        let mut settings = scene.settings(&method);
+        let mut settings = scene.settings(method);
         settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
         Posed { network: scene.network, settings }
     };
@@ -63,11 +64,16 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         posed.settings.measures.clone_from(&wishes);
         Ok(posed)
     };
+    let mut told = checked.warnings.list;
+    let before = told.len();
     // A fault at the ends of a range is shown in the scene's text, with the value under a caret.
     for point in grid.corners().into_iter().take(MOST_CORNERS) {
         let text = text_at(&tunables, &variations, &matched, &grid.places(point));
-        read(&text, &input.options(set)).map_err(CliError::Scene)?;
+        let found = read(&text, &input.options(set)).map_err(CliError::Scene)?.warnings;
+        let known: Vec<String> = told.iter().map(dashpot_scene::Diagnostic::message).collect();
+        told.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
     }
+    terminal.diagnose(&Diagnostics { list: told.split_off(before), omitted: 0 });
     let report = solved(arguments, &grid, &pose, &columns, terminal)?;
     show(arguments, terminal, &swept, &report)
 }
@@ -123,13 +129,12 @@ fn show(
         print(&text(swept, report, terminal))?;
     }
     if arguments.json || arguments.out.is_none() {
-        remarks(report).iter().for_each(|own| remark(own));
+        remarks(swept, report).iter().for_each(|own| remark(own));
     }
     if let Some(path) = &arguments.out {
         let names = write(path, &json, swept, report)?;
-        let listing = format!("wrote {} to {}", names.join(", "), path.display());
-        let listing = wrapped(&listing, WIDTH).join("\n");
-        if arguments.json { note(&listing) } else { print(&format!("\n{listing}\n"))? }
+        settle(path, &names, arguments.json)?;
+        undrawn(swept.variations).into_iter().for_each(remark);
     }
     let failed = report.gaps.iter().filter(|own| own.column.is_none()).count();
     let points = report.values.len() / report.columns.len().max(1);
@@ -149,7 +154,7 @@ fn text(swept: &Swept<'_>, report: &SweepReport, terminal: Terminal) -> String {
     for line in [header].iter().chain(&rows) {
         let _ = writeln!(text, "  {line}");
     }
-    for line in remarks(report).iter().flat_map(|own| wrapped(own, WIDTH - 2)) {
+    for line in remarks(swept, report).iter().flat_map(|own| wrapped(own, WIDTH - 2)) {
         let _ = writeln!(text, "  {line}");
     }
     text

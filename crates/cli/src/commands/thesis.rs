@@ -8,8 +8,8 @@ use crate::{
     answer::thesis::Document,
     args::ThesisArguments,
     error::{CliError, Status},
-    folder::prepare_for,
-    terminal::{Terminal, Tone, WIDTH, note, print},
+    folder::{prepare_for, settle},
+    terminal::{Terminal, Tone, WIDTH, print},
     text::{labelled, wrapped},
     thesis_folder::{file_names, write},
 };
@@ -31,9 +31,7 @@ pub(crate) fn thesis(arguments: &ThesisArguments, terminal: Terminal) -> Result<
     }
     if let Some(path) = &arguments.out {
         let names = write(path, &json, &all)?;
-        let listing = format!("wrote {} to {}", names.join(", "), path.display());
-        let listing = wrapped(&listing, WIDTH).join("\n");
-        if arguments.json { note(&listing) } else { print(&format!("\n{listing}\n"))? }
+        settle(path, &names, arguments.json)?;
     }
     Ok(Status::Done)
 }

@@ -14,9 +14,9 @@ use crate::{
     },
     args::{VibrateArguments, When},
     error::{CliError, Status},
-    folder::prepare_for,
+    folder::{prepare_for, settle},
     input::read_scene,
-    terminal::{Terminal, Tone, WIDTH, note, print},
+    terminal::{Terminal, Tone, WIDTH, print},
     text::{table, wrapped},
     vibration_folder::{file_names, series, write},
 };
@@ -60,9 +60,7 @@ pub(crate) fn vibrate(
     }
     if let Some(path) = &arguments.out {
         let names = write(path, &json, &sweep)?;
-        let listing = format!("wrote {} to {}", names.join(", "), path.display());
-        let listing = wrapped(&listing, WIDTH).join("\n");
-        if arguments.json { note(&listing) } else { print(&format!("\n{listing}\n"))? }
+        settle(path, &names, arguments.json)?;
     }
     Ok(Status::Done)
 }
@@ -79,7 +77,12 @@ fn amplitude(vibration: &Vibration, frequency: f64, text: &str) -> Result<f64, C
         (DriveKind::Motion, Some(Dimension::ACCELERATION)) => quantity.value / (omega * omega),
         (DriveKind::Motion, Some(_)) => {
             let wanted = "a displacement or an acceleration is wanted, such as \"1 mm\" or";
-            return Err(wrong(format!("{wanted} \"0.5 g0\"")));
+            let grams = text.trim().strip_suffix('g').map(str::trim);
+            let grams = grams.filter(|number| number.parse::<f64>().is_ok());
+            let number = grams.unwrap_or("0.5");
+            let gram = "; `g` is the gram, the acceleration of gravity is `g0`";
+            let gram = if grams.is_some() { gram } else { "" };
+            return Err(wrong(format!("{wanted} \"{number} g0\"{gram}")));
         }
         (DriveKind::Load, Some(_)) => {
             return Err(wrong("a force is wanted, such as \"10 N\"".to_owned()));

@@ -37,6 +37,8 @@ struct Reading {
 enum Origin {
     /// The velocity of a joint.
     Velocity(usize),
+    /// The velocity of one joint less that of another.
+    Slip([usize; 2]),
     /// The place of a body, that of a joint less its offset.
     Place(usize, f64),
     /// The place of one joint less that of another, less a difference of offsets.
@@ -106,6 +108,7 @@ impl Carry {
     pub(super) fn unknowns(&self, state: &State) -> Vec<f64> {
         let value = |origin: &Origin| match *origin {
             Origin::Velocity(joint) => state.velocity[joint],
+            Origin::Slip([a, b]) => state.velocity[a] - state.velocity[b],
             Origin::Place(joint, offset) => state.position[joint] - offset,
             Origin::Between([a, b], offset) => state.position[a] - state.position[b] - offset,
             Origin::Along(primitive, sign) => sign * state.deformation[primitive],
@@ -118,11 +121,18 @@ impl Carry {
 fn origins(parts: &Parts<'_>, system: &System) -> Vec<Origin> {
     let mut origins = vec![Origin::Balance; system.len()];
     let offset = |joint: usize| parts.bodies.offset[joint];
+    let massive = |body: usize| {
+        let joints = &parts.bodies.all[body].joints;
+        let found = joints.iter().find(|&&joint| parts.masses[joint] > 0.0);
+        *found.unwrap_or(&joints[0])
+    };
     for (at, body) in parts.bodies.all.iter().enumerate() {
         let first = body.joints[0];
         if let Some(unknown) = parts.places.velocity[at] {
-            let massive = body.joints.iter().find(|&&joint| parts.masses[joint] > 0.0);
-            origins[unknown] = Origin::Velocity(*massive.unwrap_or(&first));
+            origins[unknown] = match parts.places.pace[at] {
+                None => Origin::Velocity(massive(at)),
+                Some(other) => Origin::Slip([massive(at), massive(other)]),
+            };
         }
         let Some(unknown) = parts.places.unknown[at] else { continue };
         origins[unknown] = match parts.places.parent[at] {

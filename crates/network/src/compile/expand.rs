@@ -105,7 +105,7 @@ fn says(name: &str, kind: &str) -> bool {
 }
 
 /// Longest path that is written out in full; deeper parts are named by their number.
-const LONGEST_PATH: usize = 160;
+pub(super) const LONGEST_PATH: usize = 160;
 
 struct Pending<'a> {
     model: &'a Model,

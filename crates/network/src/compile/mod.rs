@@ -14,6 +14,7 @@ mod carry;
 mod dashpots;
 pub(crate) mod expand;
 mod form;
+mod inner_pads;
 mod mesh;
 mod motion;
 mod outputs;
@@ -24,6 +25,7 @@ mod review;
 mod row;
 mod scales;
 mod segments;
+mod speeds;
 mod springs;
 mod structure;
 mod system;
@@ -50,12 +52,13 @@ use self::{
     system::Scaling,
     unknowns::{Inputs, Places},
 };
-use crate::{Assembly, Network, NetworkErrors, Support, effects, layers};
+use crate::{Assembly, Network, NetworkErrors, Source, Support, effects, layers};
 
 /// What acts on a body from outside.
 #[derive(Debug, Clone)]
 struct Drive {
     name: String,
+    source: Source,
     node: usize,
     body: usize,
     /// The force \[N\]; `None` where the motion is given.
@@ -239,7 +242,7 @@ impl Network {
         sizes: &mut Drives,
     ) -> Vec<Drive> {
         let mut drives = Vec::new();
-        let mut force = |name: String, node: usize, force: Waveform, is_body_force: bool| {
+        let mut force = |name: String, node: usize, force: Waveform, source: Source| {
             let body = bodies.of_joint[node];
             let (largest, impulse) = (force.bound(duration), force.area_bound(duration));
             sizes.forces.push(Force { body, largest, impulse });
@@ -247,22 +250,23 @@ impl Network {
             let force = Some(inputs.row(waveform, 0));
             drives.push(Drive {
                 name,
+                source,
                 node,
                 body,
                 force,
                 inertia: Row::default(),
-                is_body_force,
+                is_body_force: matches!(source, Source::Effect(_)),
                 jumps: Vec::new(),
             });
         };
         for load in &self.loads {
-            force(load.name.clone(), load.node.0, load.force.clone(), false);
+            force(load.name.clone(), load.node.0, load.force.clone(), Source::Load);
         }
         for effect in &self.effects {
             for (node, weight) in effect.body_forces(self) {
                 if weight.bound(duration) > 0.0 {
                     let name = format!("{} on {}", effect.kind(), self.nodes[node.0].name);
-                    force(name, node.0, weight, true);
+                    force(name, node.0, weight, Source::Effect(effect.kind()));
                 }
             }
         }
@@ -280,6 +284,7 @@ impl Network {
                 drives.push(Drive {
                     inertia,
                     name: format!("motion of {}", self.nodes[node].name),
+                    source: Source::Motion,
                     node,
                     body: at,
                     force: None,

@@ -156,7 +156,7 @@ fn known_velocities(bodies: &Bodies, places: &Places, inputs: &mut Inputs) -> Ve
     let of = |(at, role): (usize, Role)| match role {
         Role::Fixed => Some(Row::default()),
         Role::Prescribed(_) => Some(inputs.rate(&places.position[at])),
-        Role::Mass(_) => places.velocity[at].map(Row::unknown),
+        Role::Mass(_) => places.velocity_of(at),
         Role::Massless => None,
     };
     bodies.all.iter().map(|body| body.role).enumerate().map(of).collect()
@@ -189,7 +189,11 @@ fn unknown_rates(
     places: &mut Places,
 ) {
     let of = |body: usize| velocity[body].clone().unwrap_or_default();
-    for (at, body) in bodies.all.iter().enumerate() {
+    let acceleration = |body: usize| match bodies.all[body].role {
+        Role::Mass(mass) => net[body].total().times(Twofold::ONE / mass),
+        _ => Row::default(),
+    };
+    for at in 0..bodies.all.len() {
         if let Some(unknown) = places.unknown[at] {
             let cluster = structure.cluster_of[at];
             let anchors = cluster.map(|cluster| &structure.clusters[cluster].anchors);
@@ -206,8 +210,11 @@ fn unknown_rates(
                 (Some(parent), _) => of(at).plus(-1.0, &of(parent)),
             };
         }
-        if let (Some(unknown), Role::Mass(mass)) = (places.velocity[at], body.role) {
-            places.drafts[unknown].row = net[at].total().times(Twofold::ONE / mass);
+        if let Some(unknown) = places.velocity[at] {
+            let base = places.pace[at].map(acceleration);
+            let own = acceleration(at);
+            places.drafts[unknown].row =
+                base.map_or_else(|| own.clone(), |base| own.plus(-1.0, &base));
         }
     }
 }

@@ -238,6 +238,7 @@ impl<'s> Outputs<'s> {
             let name = drive.name.clone();
             let outputs = DriveOutputs {
                 node: drive.node,
+                source: drive.source,
                 force: self.add(format!("{name}.force"), "N", &force),
                 velocity: velocity.map(|row| self.add(format!("{name}.velocity"), "m/s", &row)),
                 jumps: drive.jumps.clone(),

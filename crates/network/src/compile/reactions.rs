@@ -78,10 +78,8 @@ fn balance(network: &Network, parts: &Parts<'_>, joints: &[usize], sign: f64) ->
     let mass: f64 =
         joints.iter().filter_map(|&joint| network.nodes.get(joint)).map(|node| node.mass).sum();
     let body = parts.bodies.of_joint[joints[0]];
-    match (parts.bodies.all[body].role, parts.places.velocity[body]) {
-        (Role::Mass(_), Some(unknown)) => {
-            sum.add(-sign * mass, &parts.places.drafts[unknown].row);
-        }
+    match (parts.bodies.all[body].role, parts.places.acceleration_of(body)) {
+        (Role::Mass(_), Some(acceleration)) => sum.add(-sign * mass, &acceleration),
         (Role::Prescribed(_), _) if mass > 0.0 => {
             let share = mass / parts.bodies.all[body].whole_mass;
             let given = parts.drives.iter().filter(|own| own.body == body && own.force.is_none());

@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use super::{
     Parts,
     expand::Shape,
+    inner_pads::{Located, located},
     outputs::{Outputs, total},
     row::{Combination, Row},
 };
-use crate::{Connection, ConnectionOutputs, SegmentOutputs, layers::Piece};
+use crate::{Connection, ConnectionOutputs, InnerPad, SegmentOutputs, SegmentPlace, layers::Piece};
 
 /// Where the outputs of primitives stand, by the number of the primitive; those that take no part
 /// have none.
@@ -33,15 +34,20 @@ impl Outputs<'_> {
             let name = format!("{}.transmitted-force", connection.name);
             outputs.transmitted = force.map(|row| self.add(name, "N", &row));
         }
-        if connection.pieces.is_empty() {
-            outputs.segments = connection
-                .thickness
-                .map(|own| whole(own, connection, outputs))
-                .into_iter()
-                .collect();
+        let whole = connection.thickness.filter(|_| connection.pieces.is_empty());
+        outputs.segments.extend(whole.map(|own| self::whole(own, connection, outputs)));
+        if connection.pieces.is_empty() && connection.pads.is_empty() {
             return;
         }
-        let deformations = deformations(parts, shapes);
+        let composed =
+            Composed { shapes, forces, listed, deformations: deformations(parts, shapes) };
+        if connection.pieces.is_empty() {
+            for (pad, Located { shape, path }) in located(connection, shapes) {
+                let found = self.of_shape(parts, &composed, (shape, &path), outputs);
+                outputs.segments.extend(found.map(|found| inner(pad, path, found)));
+            }
+            return;
+        }
         for (at, (&branch, pieces)) in branches.iter().zip(&connection.pieces).enumerate() {
             let in_row = connection.model.branches().get(at).filter(|_| branch != 0);
             let path = in_row
@@ -55,34 +61,55 @@ impl Outputs<'_> {
                 _ => vec![(branch, path)],
             };
             for ((shape, name), piece) in of_pieces.into_iter().zip(pieces) {
-                let found = match &shapes[shape] {
-                    Shape::Leaf(primitive) => listed.get(primitive).map(|&own| {
-                        let own = &self.primitives[own];
-                        (Some(own.force), own.deformation)
-                    }),
-                    _ if shape == 0 => Some((outputs.force, outputs.deformation)),
-                    _ => {
-                        let deformation = deformations[shape].clone();
-                        let deformation = deformation.or_else(|| between(parts, shapes, shape));
-                        let deformation = deformation.unwrap_or_default();
-                        let force = forces[shape].clone();
-                        let force = force.map(|row| self.add(format!("{name}.force"), "N", &row));
-                        Some((force, self.add(format!("{name}.deformation"), "m", &deformation)))
-                    }
-                };
-                // What takes no part carries nothing.
-                let Some((force, deformation)) = found else { continue };
-                outputs.segments.push(segment(piece, force, deformation));
+                let found = self.of_shape(parts, &composed, (shape, &name), outputs);
+                outputs.segments.extend(found.map(|found| segment(piece, found)));
+            }
+        }
+    }
+
+    /// Force and deformation of a shape, which are added where they are not among the outputs yet;
+    /// `None` for what takes no part and carries nothing.
+    fn of_shape(
+        &mut self,
+        parts: &Parts<'_>,
+        composed: &Composed<'_>,
+        (shape, name): (usize, &str),
+        outputs: &ConnectionOutputs,
+    ) -> Option<Found> {
+        let Composed { shapes, forces, listed, deformations } = composed;
+        match &shapes[shape] {
+            Shape::Leaf(primitive) => listed.get(primitive).map(|&own| {
+                let own = &self.primitives[own];
+                (Some(own.force), own.deformation)
+            }),
+            _ if shape == 0 => Some((outputs.force, outputs.deformation)),
+            _ => {
+                let deformation = deformations[shape].clone();
+                let deformation = deformation.or_else(|| between(parts, shapes, shape));
+                let deformation = deformation.unwrap_or_default();
+                let force = forces[shape].clone();
+                let force = force.map(|row| self.add(format!("{name}.force"), "N", &row));
+                Some((force, self.add(format!("{name}.deformation"), "m", &deformation)))
             }
         }
     }
 }
 
+/// The shapes of a connection with what is known of them.
+struct Composed<'a> {
+    shapes: &'a [Shape],
+    forces: &'a [Option<Row>],
+    listed: &'a Listed,
+    deformations: Vec<Option<Row>>,
+}
+
+/// The outputs of the force, where it is determined, and of the deformation.
+type Found = (Option<usize>, usize);
+
 /// A pad that is one segment.
 fn whole(thickness: f64, connection: &Connection, outputs: &ConnectionOutputs) -> SegmentOutputs {
     SegmentOutputs {
-        layer: None,
-        depth: 0.5 * thickness,
+        place: SegmentPlace::Whole,
         thickness,
         area: connection.area,
         force: outputs.force,
@@ -90,15 +117,16 @@ fn whole(thickness: f64, connection: &Connection, outputs: &ConnectionOutputs) -
     }
 }
 
-fn segment(piece: &Piece, force: Option<usize>, deformation: usize) -> SegmentOutputs {
-    SegmentOutputs {
-        layer: Some(piece.layer.clone()),
-        depth: piece.from + 0.5 * piece.thickness,
-        thickness: piece.thickness,
-        area: Some(piece.area),
-        force,
-        deformation,
-    }
+fn segment(piece: &Piece, (force, deformation): Found) -> SegmentOutputs {
+    let (name, depth) = (piece.layer.clone(), piece.from + 0.5 * piece.thickness);
+    let place = SegmentPlace::Layer { name, depth };
+    let (thickness, area) = (piece.thickness, Some(piece.area));
+    SegmentOutputs { place, thickness, area, force, deformation }
+}
+
+fn inner(pad: &InnerPad, path: String, (force, deformation): Found) -> SegmentOutputs {
+    let InnerPad { thickness, area, .. } = *pad;
+    SegmentOutputs { place: SegmentPlace::Branch { path }, thickness, area, force, deformation }
 }
 
 /// The deformation of each shape as that of what takes part in it; `None` where that does not tell.

@@ -8,6 +8,7 @@ use dashpot_dae::{Piece, Waveform};
 use super::{
     bodies::{Bodies, Body, Groups, Role, joint_name},
     expand::Expansion,
+    speeds,
 };
 use crate::{Network, NetworkError, Support};
 
@@ -43,6 +44,8 @@ pub(super) struct Structure {
     pub(super) held: Vec<bool>,
     /// For each body the first time at which its given displacement jumps \[s\], if it does.
     pub(super) first_jump: Vec<Option<f64>>,
+    /// The mass that each mass's velocity is counted from, if any.
+    pub(super) pace: Vec<Option<usize>>,
 }
 
 impl Structure {
@@ -81,6 +84,7 @@ impl Structure {
         structure.first_jump = bodies.all.iter().map(first_jump).collect();
         structure.find_clusters(bodies, &held);
         structure.held = held;
+        structure.pace = speeds::parents(bodies, &structure, duration);
         let mut errors = structure.undetermined(network, expansion, bodies);
         errors.extend(structure.steps_across_dashpots(network, expansion, bodies));
         errors.extend(structure.motions_of_masses(network, bodies, duration));

@@ -7,7 +7,7 @@ use dashpot_dae::{Input, UnknownKind, Waveform};
 use super::{
     bodies::{Bodies, Role, joint_name},
     expand::Expansion,
-    row::{Combination, Row},
+    row::{Combination, Row, RowSum},
     scales::{Scales, power_of_two},
     structure::{Edge, Structure},
     tree,
@@ -143,6 +143,8 @@ pub(super) struct Places {
     pub(super) unknown: Vec<Option<usize>>,
     /// Velocity unknown of each mass.
     pub(super) velocity: Vec<Option<usize>>,
+    /// The mass that a mass's velocity unknown is counted from.
+    pub(super) pace: Vec<Option<usize>>,
     /// The body that a body's position unknown is counted from.
     pub(super) parent: Vec<Option<usize>>,
     /// The part whose deformation a body's position unknown is, where one is between it and its
@@ -154,7 +156,8 @@ pub(super) struct Places {
 
 /// Chooses the unknowns that have a rate.
 ///
-/// Masses have position and velocity. So that forces do not come from small differences of large
+/// Masses have position and velocity, which where dashpots of different strength hold a mass is
+/// counted from another mass ([`speeds`](super::speeds)). So that forces do not come from small differences of large
 /// numbers, deformations along a [`tree`] of springs and dashpots stand for positions in small
 /// networks, each the very deformation of its part, whatever rigid links are held at; massless bodies that dashpots tie to one anchor are else counted from that anchor, and
 /// those of an algebraic cluster from its first body.
@@ -171,6 +174,7 @@ pub(super) fn choose(
     let mut places = Places {
         unknown: vec![None; count],
         velocity: vec![None; count],
+        pace: structure.pace.clone(),
         parent: tree::parents(bodies, structure, scales.time),
         along: vec![None; count],
         position: vec![Row::default(); count],
@@ -217,13 +221,17 @@ pub(super) fn choose(
             term: None,
         });
         if let Role::Mass(_) = bodies.all[body].role {
+            let pace = places.pace[body];
+            let relative =
+                pace.map_or(String::new(), |other| format!(" relative to {}", name(other)));
+            let base = pace.map_or(0.0, |other| bodies.all[other].velocity);
             places.velocity[body] = Some(places.drafts.len());
             places.drafts.push(Draft {
-                name: format!("velocity of {}", name(body)),
+                name: format!("velocity of {}{relative}", name(body)),
                 kind: UnknownKind::Differential,
                 unit: "m/s",
                 scale: scales.velocity[body],
-                initial: bodies.all[body].velocity,
+                initial: bodies.all[body].velocity - base,
                 row: Row::default(),
                 term: None,
             });
@@ -234,6 +242,27 @@ pub(super) fn choose(
 }
 
 impl Places {
+    /// The velocity of a mass.
+    pub(super) fn velocity_of(&self, mass: usize) -> Option<Row> {
+        let mut sum = Row::unknown(self.velocity[mass]?);
+        let mut at = mass;
+        while let Some(other) = self.pace[at] {
+            sum = sum.plus(1.0, &Row::unknown(self.velocity[other]?));
+            at = other;
+        }
+        Some(sum)
+    }
+
+    /// The acceleration of a mass, once the rows are complete.
+    pub(super) fn acceleration_of(&self, mass: usize) -> Option<Row> {
+        let velocity = self.velocity_of(mass)?;
+        let mut sum = RowSum::default();
+        for &(unknown, factor) in velocity.unknowns.terms() {
+            sum.add(factor, &self.drafts[unknown].row);
+        }
+        Some(sum.total())
+    }
+
     /// Adds the unknowns up along the chain of parents.
     fn add_up(&mut self, motions: &BTreeMap<usize, Row>, inputs: &mut Inputs) {
         let mut is_done = vec![false; self.position.len()];

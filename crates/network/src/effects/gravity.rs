@@ -80,10 +80,9 @@ impl Effect for Gravity {
         }
         let g = self.acceleration.abs();
         if let Some(impact) = &situation.impact {
-            let of_impactor = impact.mass / (impact.mass + impact.face_mass);
             let length = if impact.thickness.is_some() { "δ" } else { "y" };
-            let formula = format!("A = m1/(m1 + m2) · g {length}/V0²");
-            let value = of_impactor * g * impact.length() / impact.speed.powi(2);
+            let formula = format!("A = g {length}/V0²");
+            let value = g * impact.length() / impact.speed.powi(2);
             return vec![Influence::new(formula, value)];
         }
         let network = situation.network;

@@ -80,6 +80,12 @@ pub trait Element: Debug + Send + Sync {
         false
     }
 
+    /// The deformations \[m\] between which its law is known, where it is one of measured points; the
+    /// force beyond is extrapolated.
+    fn measured(&self) -> Option<(f64, f64)> {
+        None
+    }
+
     /// Checks the parameters.
     ///
     /// # Errors

@@ -18,7 +18,8 @@ use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, V
 /// # Limits
 ///
 /// Beyond the first and the last point the curve goes on as a straight line with the slope that it
-/// has there. So a table that begins at (0, 0) says nothing of tension: the spring pulls with the
+/// has there: for three points or more that of the parabola through the last three, so it is
+/// steeper or flatter than the last interval. A run warns of it. So a table that begins at (0, 0) says nothing of tension: the spring pulls with the
 /// slope at rest, which is zero where the curve begins bent upwards. A first point such as
 /// `["-10 mm", "0 N"]` keeps it from pulling.
 ///
@@ -248,6 +249,10 @@ impl Element for TableSpring {
         Law::Nonlinear { stiffness: (last.1 - first.1) / (last.0 - first.0), damping: 0.0 }
     }
 
+    fn measured(&self) -> Option<(f64, f64)> {
+        Some((self.points[0].0, self.points[self.points.len() - 1].0))
+    }
+
     fn validate(&self) -> Result<(), InvalidParameter> {
         check(&self.points)
     }
@@ -264,7 +269,8 @@ impl ElementKind for TableSpring {
     const PARAMETERS: &'static [Parameter] = &[Parameter::required(
         POINTS,
         ParameterKind::Curve(Dimension::LENGTH, Dimension::FORCE),
-        "points of deformation [m] and force [N], rising, one of them [0, 0]",
+        "points of deformation [m] and force [N], rising, one of them [0, 0]; straight on beyond \
+         them, which a run warns of",
     )];
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {

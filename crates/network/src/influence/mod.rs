@@ -17,7 +17,7 @@ pub use self::{
 /// A dimensionless number that measures how much a detail of a network matters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Influence {
-    /// What it is, as a formula, for instance `A = m1/(m1 + m2) · g δ/V0²`.
+    /// What it is, as a formula, for instance `A = g δ/V0²`.
     pub formula: String,
     /// Its value \[1\], ≥ 0; the detail matters little where it is far below 1.
     pub value: f64,

@@ -41,8 +41,6 @@ pub struct ImpactScales {
     pub node: NodeId,
     /// Its mass `m1` \[kg\], > 0.
     pub mass: f64,
-    /// Mass `m2` \[kg\] that effects put on the faces that it touches.
-    pub face_mass: f64,
     /// Its speed `V0` \[m/s\], > 0.
     pub speed: f64,
     /// Positions of the connections that it strikes.
@@ -91,7 +89,7 @@ impl<'n> Situation<'n> {
         Self {
             network,
             duration,
-            impact: impact(network, rewritten),
+            impact: impact(network),
             load: loads.sum(),
             weight: body_forces.sum(),
             motion: motions.sum(),
@@ -148,7 +146,7 @@ fn frequency(models: &[&Model], mass: f64) -> Option<f64> {
 }
 
 /// The impactor with the largest energy, and what it strikes.
-fn impact(network: &Network, rewritten: &Network) -> Option<ImpactScales> {
+fn impact(network: &Network) -> Option<ImpactScales> {
     let energy = |id: NodeId| {
         let node = network.node(id);
         node.mass * start_velocity(network, node.start).powi(2)
@@ -164,17 +162,8 @@ fn impact(network: &Network, rewritten: &Network) -> Option<ImpactScales> {
     let models: Vec<&Model> = connections().map(|own| &own.model).collect();
     let omega = frequency(&models, mass)?;
     let thickness = connections().filter_map(|own| own.thickness).reduce(f64::min);
-    let is_face = |id: &NodeId| {
-        id.0 >= network.nodes.len()
-            && rewritten
-                .connections
-                .iter()
-                .any(|own| own.between.contains(id) && own.between.contains(&node))
-    };
-    let faces = rewritten.nodes().filter(|(id, _)| is_face(id));
-    let face_mass = faces.map(|(_, face)| face.mass).sum();
     let stiffness = mass * omega * omega;
-    Some(ImpactScales { node, mass, face_mass, speed, struck, stiffness, thickness })
+    Some(ImpactScales { node, mass, speed, struck, stiffness, thickness })
 }
 
 /// Whether a mass falls before it touches: it is dropped, gravity pulls it towards the support, and

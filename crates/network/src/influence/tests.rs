@@ -66,7 +66,8 @@ fn gravity_is_the_group_a_of_the_thesis() {
     network.add_effect(gravity());
     assert_close(number(&network, "gravity"), 9.81 * 0.02 / 100.0);
     network.add_effect(face(2.5));
-    assert_close(number(&network, "gravity"), 0.8 * 9.81 * 0.02 / 100.0);
+    // It acts on m2 as well, so that ζ″ = g δ/V0² − B φ.
+    assert_close(number(&network, "gravity"), 9.81 * 0.02 / 100.0);
     assert_close(number(&network, "face.padding"), 0.25);
 }
 

@@ -72,6 +72,10 @@ impl Element for Slice {
         self.of.phases().map(|_| self as &dyn Phases)
     }
 
+    fn measured(&self) -> Option<(f64, f64)> {
+        self.of.measured().map(|(first, last)| (first / self.count, last / self.count))
+    }
+
     fn validate(&self) -> Result<(), InvalidParameter> {
         self.of.validate()
     }

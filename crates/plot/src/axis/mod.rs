@@ -113,6 +113,17 @@ impl Axis {
         }
     }
 
+    /// Label of a value that stands away from the axis: with the power of ten that its ticks leave out.
+    pub(crate) fn label_apart(&self, value: f64) -> String {
+        let label = self.tick_label(value);
+        match &self.labels {
+            Labels::Linear { exponent, .. } if *exponent != 0 && value != 0.0 => {
+                format!("{label}·{}", power_of_ten(*exponent))
+            }
+            _ => label,
+        }
+    }
+
     /// `label` followed by what the tick labels leave out: the power of ten, or the unit.
     pub(crate) fn title(&self, label: &str) -> String {
         match &self.labels {
@@ -228,6 +239,7 @@ mod tests {
         let axis = Axis::over([0.0, 2.4e7].into_iter(), false, 5);
         assert_eq!(axis.title("force (N)"), "force (N) × 10⁶");
         assert_eq!(labels(&axis), ["0", "5", "10", "15", "20"]);
+        assert_eq!((axis.label_apart(5e6), axis.label_apart(0.0)), ("5·10⁶".into(), "0".into()));
         assert_eq!(Axis::over([0.0, 3e-5].into_iter(), false, 3).title("y"), "y × 10⁻⁶");
     }
 

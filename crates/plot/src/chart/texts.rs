@@ -47,7 +47,7 @@ impl Chart {
         };
         let mut placer = labels::Placer::new(bounds, curves);
         let limits = self.limits(frame);
-        limits.iter().for_each(|(_, ends)| placer.avoid_path(ends));
+        limits.iter().for_each(|(_, ends)| placer.avoid_line(*ends));
         let (x_zero, y_zero) = frame.at(0.0, 0.0);
         if frame.x.holds(0.0) {
             placer.avoid_path(&[(x_zero, frame.top), (x_zero, frame.bottom)]);

@@ -1,6 +1,9 @@
 //! Maps: a value over two quantities, as colours with lines of equal value.
 
 mod contours;
+mod lines;
+mod marks;
+mod surround;
 mod svg;
 
 use crate::{Scale, axis::Axis};

@@ -10,9 +10,8 @@ use crate::{
     fault::Fault,
     kinds::{Example, registers},
     library::{Library, Shelf},
-    pad::{Size, Surroundings, missing_size},
+    pad::{Size, Surroundings},
     parameters::KindReader,
-    plausible,
     table::wrong_type,
 };
 
@@ -87,12 +86,13 @@ impl<'d> Besides<'d> {
             entry.and_then(|entry| self.size(spot, key, entry))
         });
         context.size.beside = [None; 2];
+        context.size.is_faulty = [false; 2];
         let is_element = spot.other_keys.contains(&"between");
         if law.key == Shelf::Materials.word() {
             for (key, (entry, size)) in SIZE.into_iter().zip(given.into_iter().zip(beside)) {
                 match size {
                     Some(size) => around.check(key, size, self.faults),
-                    None if entry.is_none() => self.missing(spot, key),
+                    None if entry.is_none() => self.missing(spot, around, key),
                     None => {}
                 }
             }
@@ -101,6 +101,8 @@ impl<'d> Besides<'d> {
         } else if registers().element(&law.key).is_some_and(|kind| is_sized(kind.parameters)) {
             // The reader of the law checks them with those in its own table.
             context.size.beside = beside;
+            context.size.is_faulty =
+                [0, 1].map(|at: usize| given[at].is_some() && beside[at].is_none());
         } else if is_element {
             context.size.around = beside[0].take();
         } else {
@@ -118,15 +120,14 @@ impl<'d> Besides<'d> {
     fn size(&self, spot: &Spot<'d>, key: &'static str, entry: &Entry) -> Option<Size> {
         let quantities = self.library.quantities(spot.document, self.faults);
         let dimension = if key == SIZE[0] { Dimension::LENGTH } else { AREA };
-        let size = quantities.read_checked(&entry.item, dimension, |size| positive(key, size));
-        plausible::check(quantities, entry, size);
+        let check = |size| positive(key, size);
+        let size = quantities.of(key).read_checked(&entry.item, dimension, check);
         size.map(|value| Size { value, place: entry.item.place })
     }
 
     /// Notes a size that a material needs.
-    fn missing(&self, spot: &Spot<'d>, key: &'static str) {
-        if !self.faults.damaged() {
-            let fault = missing_size(key, &spot.owner);
+    fn missing(&self, spot: &Spot<'d>, around: Surroundings, key: &'static str) {
+        if let Some(fault) = around.missing(key, &spot.owner).filter(|_| !self.faults.damaged()) {
             self.faults.error(spot.place, fault);
         }
     }

@@ -121,7 +121,7 @@ fn extent_of(element: &dyn Element, parameters: &[Parameter]) -> Extent {
         let at = parameters.iter().position(|own| is_size(own) && own.name == key)?;
         values.get(at)?.number()
     });
-    Extent { thickness, area }
+    Extent { thickness, area, least: thickness.unwrap_or(0.0) }
 }
 
 #[expect(clippy::float_cmp, reason = "1 is the factor where there is no shift at all")]

@@ -15,12 +15,12 @@ use std::{
     collections::HashSet,
 };
 
-use dashpot_network::Model;
+use dashpot_network::{InnerPad, Model};
 use dashpot_rheology::Tree;
 
 use self::{context::Context, laws::LawReader};
 use crate::{
-    basis::Basis,
+    basis::{Basis, Pad},
     diagnostics::Faults,
     document::Item,
     fault::Fault,
@@ -107,6 +107,46 @@ struct Done<'d> {
     extent: Extent,
 }
 
+/// A model that an element is made of.
+pub(crate) struct Read {
+    /// The model.
+    pub(crate) model: Model,
+    /// The size of the pad that it is.
+    pub(crate) extent: Extent,
+    /// Its branches that are pads with a size of their own.
+    pub(crate) pads: Vec<InnerPad>,
+}
+
+/// The branches with a size of their own among all that has been read, each behind its own branches.
+#[derive(Default)]
+struct Pads {
+    count: usize,
+    all: Vec<InnerPad>,
+    /// What had been read when each model that is open by name was entered.
+    entered: Vec<usize>,
+}
+
+impl Pads {
+    /// Goes on by a tree of so many parts and compositions, which is a pad where it has a thickness.
+    fn read(&mut self, parts: usize, Extent { thickness, area, .. }: Extent) {
+        self.count += parts;
+        let at = self.count.saturating_sub(1);
+        self.all.extend(thickness.map(|thickness| InnerPad { at, thickness, area }));
+    }
+
+    /// Makes one pad of all that has been read since a model was entered.
+    fn merge(&mut self, from: usize, pad: Pad) {
+        self.all.retain(|own| own.at < from);
+        self.read(0, Extent::of(pad));
+    }
+
+    /// Those within the model, which is the last that has been read.
+    fn within(mut self) -> Vec<InnerPad> {
+        self.all.retain(|own| own.at + 1 < self.count);
+        self.all
+    }
+}
+
 /// Models that have been entered and not left yet.
 struct Open {
     order: Vec<Reference>,
@@ -129,15 +169,14 @@ impl<'d> ModelReader<'d> {
         }
     }
 
-    /// The model in the table of an element of the scene, and the size of the pad that it is;
-    /// `other_keys` are read by the caller.
+    /// The model in the table of an element of the scene; `other_keys` are read by the caller.
     pub(crate) fn element(
         &self,
         item: &'d Item,
         owner: String,
         place: Place,
         other_keys: &'static [&'static str],
-    ) -> Option<(Model, Extent)> {
+    ) -> Option<Read> {
         let outer = Some(owner.clone());
         let (owner, context) = (owner.into(), Context::of(Shelf::Models));
         self.run(Task::Read(Spot { item, owner, place, document: 0, context, other_keys }), outer)
@@ -147,13 +186,13 @@ impl<'d> ModelReader<'d> {
     pub(crate) fn named(&self, reference: Reference) -> Option<Model> {
         self.visited.borrow_mut().insert(reference);
         let named = Task::Enter(Entrance::plain(reference));
-        self.run(named, Some(String::new())).map(|(model, _)| model)
+        self.run(named, Some(String::new())).map(|own| own.model)
     }
 
     /// The model that stands in `item`: its name, or a table of its own.
     pub(crate) fn given(&self, item: &'d Item, owner: String, place: Place) -> Option<Model> {
         let Some(text) = item.text() else {
-            return self.element(item, owner, place, MODEL_KEYS).map(|(model, _)| model);
+            return self.element(item, owner, place, MODEL_KEYS).map(|own| own.model);
         };
         match self.library.find(0, Shelf::Models, text) {
             Ok(found) => self.named(found?),
@@ -201,31 +240,36 @@ impl<'d> ModelReader<'d> {
     /// Works off `first` and all that follows from it; notes on tables without a name are about
     /// `outer`. Without it, models that have been visited before are not looked at again, nothing
     /// is noted, and the result is of no use.
-    fn run(&self, first: Task<'d>, outer: Option<String>) -> Option<(Model, Extent)> {
+    fn run(&self, first: Task<'d>, outer: Option<String>) -> Option<Read> {
         let mut tasks = vec![first];
         let mut done: Vec<Done<'d>> = Vec::new();
         let mut open = Open { order: Vec::new(), set: HashSet::new(), outer };
+        let mut pads = Pads::default();
         while let Some(task) = tasks.pop() {
             match task {
                 Task::Compose { series, count, given } => {
                     let branches = done.split_off(done.len() - count);
                     done.push(self.composed(series, branches, given));
+                    pads.read(1, Extent::default());
                 }
                 Task::Enter(entrance) => {
                     open.order.push(entrance.reference);
                     open.set.insert(entrance.reference);
+                    pads.entered.push(pads.count);
                     tasks.push(Task::Leave(entrance));
                     tasks.push(Task::Read(self.spot(&entrance)));
                 }
                 Task::Leave(Entrance { reference, given, context }) => {
                     open.order.pop();
                     open.set.remove(&reference);
+                    let from = pads.entered.pop();
                     if let Some(last) = done.last_mut() {
                         (last.word, last.given) = (&self.library.entry(reference).key, given);
                         if let (Shelf::Materials, Basis::Material(pad)) =
                             (reference.shelf, context.basis)
                         {
                             last.extent = Extent::of(pad);
+                            pads.merge(from.unwrap_or(0), pad);
                         }
                     }
                 }
@@ -242,6 +286,7 @@ impl<'d> ModelReader<'d> {
                             // The first part has been counted with its table.
                             let inner = model.model.as_ref().map_or(0, |model| parts(model) - 1);
                             self.count(inner, spot.place)?;
+                            pads.read(1 + inner, model.extent);
                             done.push(model);
                         }
                         Step::Compose { series, branches, context, given } => {
@@ -268,7 +313,9 @@ impl<'d> ModelReader<'d> {
                 }
             }
         }
-        done.pop().and_then(|last| Some((last.model?, last.extent)))
+        done.pop().and_then(|last| {
+            Some(Read { model: last.model?, extent: last.extent, pads: pads.within() })
+        })
     }
 
     /// Counts parts; `None` where there are too many by now.

@@ -7,11 +7,11 @@ use dashpot_network::{
 
 use super::{Reading, layers::read_layers};
 use crate::{
-    basis::AREA,
+    basis::{AREA, SIZE},
     document::{Content, Entry},
     fault::Fault,
-    models::ModelReader,
-    plausible,
+    models::{ModelReader, Read},
+    pad::Size,
     table::{Table, check_name, wrong_type},
 };
 
@@ -50,26 +50,28 @@ fn read_element<'d>(
         network.connect_layers(&*entry.key, from, to, layers);
         return Some(());
     }
-    let thickness = table.take("thickness").map(|own| {
-        let check = |thickness| positive("thickness", thickness);
-        let quantities = reading.quantities();
-        let thickness = quantities.read_checked(&own.item, Dimension::LENGTH, check);
-        plausible::check(quantities, own, thickness);
-        thickness
-    });
-    // The model reader tells what is wrong with it.
-    let area = table.take("area").and_then(|own| {
-        let check = |area| positive("area", area);
-        reading.quantities().read_checked(&own.item, AREA, check)
-    });
+    let size = |key: &'static str, dimension| {
+        let own = table.take(key)?;
+        let check = |size| positive(key, size);
+        let value = reading.quantities().of(key).read_checked(&own.item, dimension, check)?;
+        Some(Size { value, place: own.item.place })
+    };
+    // The model reader tells what is wrong with the area.
+    let sizes = [size(SIZE[0], Dimension::LENGTH), size(SIZE[1], AREA)];
     // The model reader looks at the other keys.
     table.finish_missing();
     let Table { owner, place, .. } = table;
     let model = models.element(&entry.item, owner, place, ELEMENT_KEYS);
-    let ([from, to], (model, extent)) = between.zip(model)?;
+    let ([from, to], Read { model, extent, pads }) = between.zip(model)?;
+    // What is a pad by itself has been compared with its own size.
+    if !pads.is_empty() {
+        extent.check(&format!("`{}`", entry.key), sizes, reading.faults);
+    }
+    let [thickness, area] = sizes.map(|size| size.map(|own| own.value));
     let pad = network.connect(&*entry.key, from, to, model);
-    pad.thickness = thickness.unwrap_or(extent.thickness);
+    pad.thickness = thickness.or(extent.thickness);
     pad.area = area.or(extent.area);
+    pad.pads = pads;
     Some(())
 }
 

@@ -11,7 +11,6 @@ use crate::{
     document::{Content, Entry, Item},
     fault::Fault,
     models::ModelReader,
-    plausible,
     table::{Table, list_of, text_of, wrong_type},
 };
 
@@ -58,15 +57,14 @@ fn read_layer<'d>(
     // The model reader looks at the size, too; what is wrong with it is told once.
     let size = |key: &'static str, dimension| {
         let entry = table.take(key)?;
-        let size = quantities.read_checked(&entry.item, dimension, |size| positive(key, size));
-        plausible::check(quantities, entry, size);
-        size
+        let check = |size| positive(key, size);
+        quantities.unwatched().read_checked(&entry.item, dimension, check)
     };
     let material = table.require("material", "material = \"eva\"");
     let density = table.require("density", "density = \"120 kg/m^3\"");
     let density = density.and_then(|own| {
         let check = |density| non_negative("density", density);
-        quantities.read_checked(&own.item, DENSITY, check)
+        quantities.of("density").read_checked(&own.item, DENSITY, check)
     });
     let thickness = size("thickness", Dimension::LENGTH);
     let area = size("area", AREA);
@@ -75,7 +73,7 @@ fn read_layer<'d>(
     let name = text_of(&material?.item, "`material`", reading.faults)?;
     let name = name.rsplit(':').next().unwrap_or(name).to_owned();
     let Table { owner, place, .. } = table;
-    let (model, _) = models.element(item, owner, place, LAYER_KEYS)?;
+    let model = models.element(item, owner, place, LAYER_KEYS)?.model;
     Some(Layer { name, thickness: thickness?, area: area?, density: density?, model })
 }
 

@@ -10,7 +10,6 @@ use super::Reading;
 use crate::{
     document::{Content, Entry},
     fault::Fault,
-    plausible,
     table::{check_name, wrong_type},
 };
 
@@ -36,9 +35,7 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
     let quantities = reading.quantities();
     let mass = table.take("mass").map(|own| {
         let check = |mass| non_negative("mass", mass);
-        let mass = quantities.read_checked(&own.item, Dimension::MASS, check);
-        plausible::check(quantities, own, mass);
-        mass
+        quantities.of("mass").read_checked(&own.item, Dimension::MASS, check)
     });
     let velocity = table.take("velocity");
     let drop = table.take("drop");
@@ -50,8 +47,7 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         velocity.map(|own| quantities.read(&own.item, Dimension::VELOCITY).map(Start::Velocity));
     let drop = drop.map(|own| {
         let check = |height| non_negative("drop", height);
-        let height = quantities.read_checked(&own.item, Dimension::LENGTH, check);
-        plausible::check(quantities, own, height);
+        let height = quantities.of("drop").read_checked(&own.item, Dimension::LENGTH, check);
         height.map(Start::Drop)
     });
     let supports = ["fixed", "motion", "acceleration"].map(|key| (key, table.take(key)));

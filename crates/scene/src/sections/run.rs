@@ -12,7 +12,6 @@ use crate::{
     document::{Content, Entry, Item},
     fault::Fault,
     kinds::registers,
-    plausible,
     table::{Table, list_of, one_or_many, text_of, wrong_type},
     units::parse_dimension,
 };
@@ -71,9 +70,7 @@ pub(crate) fn read_run<'d>(reading: &Reading<'d>) -> (RunSettings, Vec<StopText<
     let quantities = reading.quantities();
     let duration = table.require("duration", "duration = \"20 ms\"").and_then(|own| {
         let check = |time| non_negative("duration", time);
-        let duration = quantities.read_checked(&own.item, Dimension::TIME, check);
-        plausible::check(quantities, own, duration);
-        duration
+        quantities.of("run.duration").read_checked(&own.item, Dimension::TIME, check)
     });
     let samples = table.take("samples").and_then(|own| samples(reading, own));
     let methods = table.take("methods").and_then(|own| methods_of(reading, own));

@@ -204,3 +204,68 @@ fn the_slips_leave_sound_texts_alone() {
     is_single(&shown);
     has(&shown, &["`duration` is given twice"]);
 }
+
+#[test]
+fn a_size_that_is_faulty_is_not_told_as_missing() {
+    let foam = "foam = { modulus = \"2 MPa\", plateau = \"0.1 MPa\", densification = \"20 kPa\", \
+                exponent = 3 }, thickness = \"2 cm\", area = \"A\"";
+    let text = format!("[values]\nA = \"80 cm^2\"\n{}", on_model(foam));
+    let set = [("A".to_owned(), "3 kg".to_owned())];
+    let shown = read(&text, &ReadOptions { set: &set, ..ReadOptions::default() });
+    let shown = shown.unwrap_err().render(false);
+    is_single(&shown);
+    has(&shown, &["`A` is a mass (kg); an area (m^2) is expected here", "set by `--set`"]);
+}
+
+#[test]
+fn each_part_of_a_series_has_a_size_of_its_own() {
+    let eps =
+        "modulus = \"2 MPa\", plateau = \"0.1 MPa\", densification = \"20 kPa\", exponent = 3";
+    let size = "thickness = \"2 cm\", area = \"100 cm^2\"";
+    let help =
+        "help: each part of a `series` has a thickness and an area of its own, beside its law";
+    let shown = messages(&on_model(&format!("series = [{{ foam = {{ {eps} }} }}], {size}")));
+    has(&shown, &["`foam` has no `thickness`", help, "for example `thickness = \"2 cm\"`"]);
+    let eps = format!("[materials]\neps = {{ foam = {{ {eps} }} }}\n");
+    let shown = messages(&format!(
+        "{eps}{}",
+        on_model(&format!("series = [{{ material = \"eps\", thickness = \"2 cm\" }}], {size}"))
+    ));
+    is_single(&shown);
+    has(&shown, &["this branch has no `area`", help]);
+}
+
+#[test]
+fn a_unit_that_is_not_read_is_told_with_its_factor() {
+    let material = |value: &str| {
+        let eps = format!("[materials]\neps = {{ spring = \"{value}\" }}\n");
+        let pad = "material = \"eps\", thickness = \"2 cm\", area = \"100 cm^2\"";
+        messages(&format!("{eps}{}", on_model(pad)))
+    };
+    has(&material("7 bar"), &["`bar` is not a known unit", "help: 1 bar is 100 kPa"]);
+    has(&material("30 psi"), &["help: 1 psi is 6.894757 kPa: write it in that"]);
+    let named = format!("[values]\nE = \"7 bar\"\n{}", on_model("spring = \"E\""));
+    has(&messages(&named), &["help: 1 bar is 100 kPa: write it in that"]);
+    // Where a pressure is out of place, its unit is not what is wrong.
+    has(&messages(&on_model("spring = \"7 bar\"")), &["help: a stiffness (N/m) is expected"]);
+}
+
+#[test]
+fn a_path_in_place_of_a_named_value_is_told_where_it_goes() {
+    let told = |values: &str| {
+        let set = [("pad.spring".to_owned(), "3 kN/m".to_owned())];
+        let text = format!("{values}{}", on_model("spring = \"1 kN/m\""));
+        let read = read(&text, &ReadOptions { set: &set, ..ReadOptions::default() });
+        read.unwrap_err().render(false)
+    };
+    has(&told("[values]\nK = 1\n"), &["names under [values], here K; a path goes with"]);
+    let shown = told("");
+    has(&shown, &["of which this scene has none", "`dashpot sweep --vary \"pad.spring=3 kN/m\"`"]);
+}
+
+#[test]
+fn what_has_no_place_stands_in_line_with_its_help() {
+    let text = with(HEAD, PAD, "").replace("[run]\nduration = \"20 ms\"\n", "");
+    let shown = messages(&text);
+    has(&shown, &["has no [run]\n  --> scene.toml\n   = help: for example:"]);
+}

@@ -184,7 +184,7 @@ fn notes_of_composites_are_about_the_place_that_describes_them() {
             "[run]",
             "two = { between = [\"head\", \"ground\"], model = \"felt\" }\n\
              three = { between = [\"head\", \"ground\"], series = [{ spring = 1 }, \
-             { prony = { terms = [[2, 2], [1, 1]] }, name = \"core\" }] }\n[run]"
+             { prony = { terms = [[\"2 s\", 2], [1, 1]] }, name = \"core\" }] }\n[run]"
         )
     );
     let checked = read_text(&text).unwrap();

@@ -113,7 +113,7 @@ impl ElementVisitor for Kinds {
 
 impl FormVisitor for Kinds {
     fn visit<F: Form>(&mut self) {
-        let mut value = 0.1;
+        let mut value = 1.0 / 3.0;
         let mut leaf = |_: &[&'static str], role: Role| {
             value *= 1.7;
             let spring = dashpot_network::elements::Spring { stiffness: value };

@@ -41,10 +41,52 @@ fn bare_numbers_that_cannot_be_meant_are_told() {
     let shown = warnings("head = { mass = 250000, velocity = 1 }", PAD, RUN);
     has(&shown, &["`mass` is 250000 kg: did you mean g?"]);
     let shown = warnings(HEAD, PAD, "[run]\nduration = 20\n");
-    has(&shown, &["`duration` is 20 s: did you mean ms?", "\"20 ms\""]);
+    has(&shown, &["`run.duration` is 20 s: did you mean ms?", "\"20 ms\""]);
     assert_eq!(warnings(HEAD, PAD, "[run]\nduration = \"20 s\"\n"), "");
     let named = format!("[values]\nT = 20\n{}", RUN.replace("50 ms", "T"));
     has(&warnings(HEAD, PAD, &named), &["did you mean ms?"]);
+}
+
+#[test]
+fn bare_numbers_are_looked_at_wherever_a_kind_has_a_parameter() {
+    let load = |force: &str| {
+        let load = format!("{RUN}[loads.f]\non = \"head\"\nforce = {{ {force} }}\n");
+        warnings(HEAD, PAD, &load)
+    };
+    let pulse = load("half-sine = { peak = 100, duration = 6 }");
+    has(&pulse, &["`duration` is 6 s: did you mean ms?", "write it with its unit: \"6 ms\""]);
+    assert_eq!(load("half-sine = { peak = 100, duration = \"6 s\" }"), "");
+    let measured = |own: &str| warnings(HEAD, PAD, &format!("{RUN}[measures]\nhead = {{ {own} }}"));
+    has(&measured("kind = \"hic\", cap = 15"), &["`cap` is 15 s: did you mean ms?"]);
+    has(&measured("kind = \"clip\", duration = 3"), &["`duration` is 3 s: did you mean ms?"]);
+    let shown = measured("kind = \"peak-acceleration\", window = [0, 15]");
+    has(&shown, &["`15` is 15 s: did you mean ms?"]);
+    let pad = |law: &str| warnings(HEAD, &PAD.replace("spring = \"1 kN/m\"", law), RUN);
+    // Of a table only the largest value is told.
+    let shown = pad("table-spring = [[0, 0], [2, 300], [4, 800]]");
+    has(&shown, &["`4` is 4 m: did you mean mm?"]);
+    assert_eq!(shown.matches("warning").count(), 1, "{shown}");
+    assert_eq!(pad("table-spring = [[0, 0], [0.002, 300], [0.004, 800]]"), "");
+    let shown = pad("prony = { terms = [[\"5\", \"60 kN/m\"], [\"1 ms\", \"1 kN/m\"]] }");
+    has(&shown, &["`5` is 5 s: did you mean ms?"]);
+    let gravity = |own: &str| warnings(HEAD, PAD, &format!("{RUN}[effects]\ngravity = {own}\n"));
+    has(&gravity("{ value = 981 }"), &["`value` is 981 m/s^2: did you mean cm/s^2?"]);
+    assert_eq!(gravity("{ value = 9.81 }") + &gravity("{ value = \"100 g0\" }"), "");
+}
+
+#[test]
+fn a_small_letter_in_place_of_a_capital_one_is_told() {
+    let pad = |law: &str| warnings(HEAD, &PAD.replace("spring = \"1 kN/m\"", law), RUN);
+    let shown = pad("spring = \"20 mN/m\"");
+    has(&shown, &["\"20 mN/m\" has a small `m`, for milli: did you mean MN/m?", "\"20 MN/m\""]);
+    let foam = |modulus: &str| {
+        pad(&format!(
+            "foam = {{ modulus = \"{modulus}\", plateau = \"10 kPa\", densification = \"1 kPa\", \
+             exponent = 3 }}, thickness = \"2 cm\", area = \"1 dm^2\""
+        ))
+    };
+    has(&foam("0.6 mPa"), &["\"0.6 mPa\" has a small `m`", "did you mean MPa?"]);
+    assert_eq!(foam("0.6 MPa") + &foam("600 kPa") + &pad("spring = \"0.02 N/m\""), "");
 }
 
 #[test]
@@ -189,6 +231,20 @@ fn a_drop_without_gravity_is_noted() {
 }
 
 #[test]
+fn weight_away_from_the_support_is_noted() {
+    let notes = |value: &str| {
+        let text = format!(
+            "{RUN}[effects]\ngravity = {{ value = \"{value}\" }}\n[nodes]\n{HEAD}\n[elements]\n{PAD}\n"
+        );
+        read_text(&text).unwrap().value.notes
+    };
+    let told = notes("-1 g0");
+    assert_eq!((told.len(), told[0].subject.as_str()), (1, "gravity"));
+    has(&told[0].text, &["-9.807 m/s^2 pulls away from the support; positive is towards it"]);
+    assert!(notes("1 g0").is_empty());
+}
+
+#[test]
 fn a_reversed_pair_is_written_out() {
     let nodes = format!("{HEAD}\npanel = {{ mass = 1 }}");
     let elements = "pad = { between = [\"panel\", \"head\"], spring = 1 }\n\
@@ -198,17 +254,19 @@ fn a_reversed_pair_is_written_out() {
 }
 
 #[test]
-fn long_messages_are_wrapped_and_quoted_lines_are_not() {
+fn long_messages_are_wrapped_and_long_lines_are_cut_around_the_place() {
     let nodes = format!("{HEAD}\npanel = {{ mass = 1 }}");
     let elements = "pad = { between = [\"panel\", \"head\"], spring = 1 }";
     let text = format!("{RUN}\n[nodes]\n{nodes}\n[elements]\n{elements}\n");
     let warnings = read_text(&text).unwrap().warnings;
     let shown = warnings.render_within(false, 40);
-    assert!(
-        shown.lines().all(|line| line.chars().count() <= 40 || line.contains(" | ")),
-        "{shown}"
-    );
-    has(&shown, &["\n8 | pad = { between = [\"panel\", \"head\"], spring = 1 }\n"]);
-    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert_eq!(words(&shown), words(&warnings.render(false)));
+    assert!(shown.lines().all(|line| line.chars().count() <= 40), "{shown}");
+    has(&shown, &["...een = [\"panel\", \"head\"], sprin..."]);
+    let words = |text: &str| {
+        let plain = text.lines().filter(|line| !line.contains(" | "));
+        plain.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
+    };
+    let whole = warnings.render(false);
+    has(&whole, &["\n8 | pad = { between = [\"panel\", \"head\"], spring = 1 }\n"]);
+    assert_eq!(words(&shown), words(&whole));
 }

@@ -14,7 +14,7 @@ fn scales(dimension: Dimension) -> &'static [(&'static str, i32)] {
         Dimension::VELOCITY => &[("µm/s", -6), ("mm/s", -3), ("m/s", 0), ("km/s", 3)],
         Dimension::ACCELERATION => &[("mm/s^2", -3), ("m/s^2", 0)],
         Dimension::FORCE => &[("µN", -6), ("mN", -3), ("N", 0), ("kN", 3), ("MN", 6), ("GN", 9)],
-        Dimension::STIFFNESS => &[("mN/m", -3), ("N/m", 0), ("kN/m", 3), ("MN/m", 6), ("GN/m", 9)],
+        Dimension::STIFFNESS => &[("N/m", 0), ("kN/m", 3), ("MN/m", 6), ("GN/m", 9)],
         Dimension::DAMPING => {
             &[("mN s/m", -3), ("N s/m", 0), ("kN s/m", 3), ("MN s/m", 6), ("GN s/m", 9)]
         }
@@ -59,10 +59,26 @@ pub fn format_short(value: f64, dimension: Dimension, digits: usize) -> String {
     written(value, &format!("{mantissa}e{exponent}"), dimension)
 }
 
-/// A value as text that is read back to the same bits.
+/// A value as text that is read back to the same bits, or as [`tidy`].
 pub(crate) fn exact_quantity(value: f64, dimension: Dimension) -> String {
     let molar = if dimension == Dimension::ENERGY { exact_molar(value) } else { None };
+    let value = tidy(value);
     molar.unwrap_or_else(|| written(value, &format!("{value:e}"), dimension))
+}
+
+/// The value, or where it is a number of few digits but for the rounding of what it was computed by,
+/// that number: 2 for 1.9999999999999998. Both differ by 4.5e-16 at most, relatively.
+pub(crate) fn tidy(value: f64) -> f64 {
+    const ROUNDING: f64 = 2.0 * f64::EPSILON;
+    /// Of 15 digits.
+    const FEW: usize = 12;
+    let text = format!("{value:.14e}");
+    let mantissa = text.split_once('e').map_or("", |own| own.0).trim_end_matches('0');
+    let digits = mantissa.chars().filter(char::is_ascii_digit).count();
+    match text.parse::<f64>() {
+        Ok(near) if digits <= FEW && (near - value).abs() <= ROUNDING * value.abs() => near,
+        _ => value,
+    }
 }
 
 /// The energy \[J\] of one molecule as that of a mole, where its shortest text is short and comes

@@ -11,10 +11,10 @@ mod format;
 mod symbols;
 
 use dashpot_network::parameters::Dimension;
-pub(crate) use format::exact_quantity;
+pub(crate) use format::{exact_quantity, tidy};
 pub use format::{format_quantity, format_short, si_unit};
 use symbols::Unit;
-pub(crate) use symbols::meant_as;
+pub(crate) use symbols::{foreign, meant_as};
 use thiserror::Error;
 
 /// A quantity is not longer than this, in bytes.

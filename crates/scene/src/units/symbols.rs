@@ -129,6 +129,16 @@ const SPOKEN: &[(&str, &str)] = &[
     ("kmh", "km/h"),
 ];
 
+/// Units that are not read, and what one of them is.
+const FOREIGN: &[(&str, &str)] = &[
+    ("bar", "100 kPa"),
+    ("mbar", "0.1 kPa"),
+    ("atm", "101.325 kPa"),
+    ("psi", "6.894757 kPa"),
+    ("ksi", "6.894757 MPa"),
+    ("oz", "28.34952 g"),
+];
+
 /// Units with a prefix that are offered in place of an unknown one, the usual ones first.
 const USUAL: &[&str] = &[
     "kN", "MN", "GN", "mN", "kg", "mm", "cm", "km", "µm", "ms", "µs", "ns", "kHz", "kJ", "mJ",
@@ -156,10 +166,18 @@ pub(crate) fn symbol(word: &str) -> Option<Unit> {
     Some(Unit { exponent: base.exponent + exponent, ..base })
 }
 
+/// What one of a unit is that is known but not read.
+pub(crate) fn foreign(word: &str) -> Option<&'static str> {
+    FOREIGN.iter().find(|entry| entry.0.eq_ignore_ascii_case(word)).map(|entry| entry.1)
+}
+
 /// What was probably meant by a symbol that is not known.
 pub(crate) fn meant(word: &str) -> Option<String> {
     if let Some((_, symbol)) = SPOKEN.iter().find(|entry| entry.0.eq_ignore_ascii_case(word)) {
         return Some((*symbol).to_owned());
+    }
+    if let Some((_, unit)) = foreign(word).and_then(|one| one.split_once(' ')) {
+        return Some(unit.to_owned());
     }
     let known = || {
         let symbols = SYMBOLS.iter().map(|symbol| symbol.word);
@@ -207,6 +225,16 @@ mod tests {
     }
 
     #[test]
+    fn every_symbol_is_in_the_document() {
+        let document = include_str!("../../../../docs/scene-format.md");
+        let (_, rest) = document.split_once("### Symbols").unwrap();
+        let (table, _) = rest.split_once("\nPrefixes are").unwrap();
+        for Symbol { word, .. } in SYMBOLS {
+            assert!(table.contains(&format!("`{word}`")), "{word}");
+        }
+    }
+
+    #[test]
     fn an_unknown_symbol_is_understood() {
         assert_eq!(meant("KN").as_deref(), Some("kN"));
         assert_eq!(meant("Ns").as_deref(), Some("N s"));
@@ -216,5 +244,11 @@ mod tests {
         assert_eq!(meant("degc").as_deref(), Some("degC"));
         assert_eq!(meant("kelvin").as_deref(), Some("K"));
         assert_eq!(meant("furlong"), None);
+        for (word, one) in FOREIGN {
+            let value = super::super::parse_quantity(one).unwrap();
+            let meant = super::super::parse_dimension(&meant(word).unwrap());
+            assert_eq!(Some(meant.unwrap()), value.dimension, "{word}");
+            assert!(symbol(word).is_none(), "{word}");
+        }
     }
 }

@@ -20,18 +20,14 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ThesisError> {
 
 /// Values of a group between which a padding exists, all else at base; the upper one may be infinite.
 fn existence(varied: Varied) -> (f64, f64) {
-    let base = Groups::PRINTED;
-    let Groups { a, b, c, d, .. } = base;
-    match varied {
-        Varied::A => (b * c / d + d / c, f64::INFINITY),
-        Varied::B => (0.0, (a - d / c) * d / c),
-        Varied::C => base.range_of_c().unwrap_or((f64::NAN, f64::NAN)),
-        // d/c + b c/d < a is the same quadratic for d/c as for c.
-        _ => {
-            let root = (a * a - 4.0 * b).sqrt();
-            (2.0 * b * c / (a + root), 0.5 * c * (a + root))
-        }
-    }
+    let ranges = Groups::PRINTED.ranges();
+    let found = match varied {
+        Varied::A => Some(ranges.a),
+        Varied::B => ranges.b,
+        Varied::C => ranges.c,
+        _ => ranges.d,
+    };
+    found.unwrap_or((f64::NAN, f64::NAN))
 }
 
 fn thickness(study: &Study) -> Result<Claim, ThesisError> {
@@ -111,7 +107,7 @@ fn validity() -> Result<Claim, ThesisError> {
         }
     }
     let within = cases.iter().filter(|own| own.1).count();
-    let exists = Groups::PRINTED.range_of_c().map_or_else(String::new, |(low, high)| {
+    let exists = Groups::PRINTED.ranges().c.map_or_else(String::new, |(low, high)| {
         let scales = Scales::CHAPTER_4;
         let stiffness = |c: f64| significant(c * scales.mass / scales.time().powi(2) / 1e6, 3);
         format!(

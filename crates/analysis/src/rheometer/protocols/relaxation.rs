@@ -10,6 +10,7 @@ use crate::rheometer::{
     rig::Control,
     trial::Trial,
 };
+use crate::wording::quantity;
 
 /// Part of the model's fastest time that a step takes where it cannot be sudden.
 const QUICK: f64 = 0.01;
@@ -97,8 +98,8 @@ impl ProtocolKind for Relaxation {
         if rise.is_chosen && is_blocked {
             report.notes.push(format!(
                 "a dashpot beside all else answers a sudden deformation with an infinite force: \
-                 the deformation rises within {:e} s instead",
-                rise.value
+                 the deformation rises within {} instead",
+                quantity(rise.value, "s")
             ));
         }
         if specimen.linear().kelvin().is_none() {

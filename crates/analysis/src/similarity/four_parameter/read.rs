@@ -5,7 +5,7 @@ use dashpot_network::{
     parameters::Value,
 };
 
-use super::FourParameterImpact;
+use super::{FourParameterImpact, rewrite::constants};
 use crate::measures::STANDARD_GRAVITY;
 
 /// The impact that a network is, or what is different.
@@ -72,22 +72,13 @@ pub(super) fn read(network: &Network) -> Result<FourParameterImpact, &'static st
 
 /// K1, C1, K2, C2 of a padding.
 fn burgers(padding: &Connection) -> Result<[f64; 4], &'static str> {
-    const OTHER: &str = "the padding is no four-parameter model";
     if padding.layers.is_some() {
         return Err("the padding is made of layers");
     }
     if first_nonlinear(&padding.model).is_some() {
         return Err("the padding is not linear");
     }
-    let linear = linear_model(&padding.model);
-    let form = linear.kelvin().ok_or(OTHER)?;
-    let elements = form.elements();
-    let [only] = elements.as_slice() else { return Err(OTHER) };
-    let (compliance, fluidity) = (form.spring_compliance(), form.fluidity());
-    if !(compliance > 0.0 && fluidity > 0.0) {
-        return Err(OTHER);
-    }
-    Ok([only.stiffness, only.damping, compliance.recip(), fluidity.recip()])
+    constants(&padding.model).ok_or("the padding is no four-parameter model")
 }
 
 /// K3 and C3 of the mount.

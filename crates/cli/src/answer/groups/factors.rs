@@ -10,7 +10,6 @@ use crate::numbers::significant;
 
 /// Factors from one scene to another.
 #[derive(Serialize)]
-#[serde(rename_all = "kebab-case")]
 pub(crate) struct Factors {
     mass: f64,
     length: f64,
@@ -44,6 +43,11 @@ impl Factors {
             pressure: scale.of(Dimension::PRESSURE),
             severity_index: scale.of_measure(&SeverityIndex::default()),
         }
+    }
+
+    /// Whether both scenes have one scale.
+    pub(crate) fn is_one(&self) -> bool {
+        [self.mass, self.length, self.time].iter().all(|own| (own - 1.0).abs() <= 1e-12)
     }
 
     /// The factors and the way back.

@@ -13,7 +13,6 @@ use crate::numbers::{constant, quantity, significant};
 
 /// A laboratory test.
 #[derive(Serialize)]
-#[serde(rename_all = "kebab-case")]
 pub(crate) struct Test {
     chosen: Vec<Choice>,
     kept: Vec<Reference>,

@@ -24,7 +24,6 @@ const DIGITS: usize = 6;
 
 /// All that is told.
 #[derive(Serialize)]
-#[serde(rename_all = "kebab-case")]
 pub(crate) struct Told {
     /// What the groups are of.
     pub(crate) scene: String,
@@ -91,6 +90,15 @@ impl Told {
             format!("{} = {} = {}", own.symbol, own.name, constant(own.value, &own.unit))
         };
         self.references.iter().map(one).collect::<Vec<_>>().join(", ")
+    }
+
+    /// How many groups there are.
+    pub(crate) fn count(&self) -> String {
+        let (all, zero) = (self.groups.len(), self.groups.iter().filter(|own| own.value == 0.0));
+        match zero.count() {
+            0 => format!("{all} groups"),
+            zero => format!("{all} groups, {zero} of them 0 and not shown"),
+        }
     }
 
     /// The groups that are not zero.

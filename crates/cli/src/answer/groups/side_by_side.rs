@@ -9,7 +9,6 @@ use crate::numbers::{apart, significant};
 
 /// Two scenes.
 #[derive(Serialize)]
-#[serde(rename_all = "kebab-case")]
 pub(crate) struct SideBySide {
     pub(crate) compared: [String; 2],
     pub(crate) similar: bool,
@@ -23,6 +22,8 @@ pub(crate) struct SideBySide {
     pub(crate) alone: Vec<Mover>,
     /// What was not compared.
     pub(crate) left_out: Vec<String>,
+    /// Elements whose parts have thicknesses of their own in one of both only.
+    pub(crate) other_pads: Vec<String>,
 }
 
 /// A group of both.
@@ -53,6 +54,7 @@ impl SideBySide {
             measures: Vec::new(),
             alone: Vec::new(),
             left_out: Vec::new(),
+            other_pads: Vec::new(),
         }
     }
 
@@ -84,7 +86,8 @@ impl SideBySide {
     /// What each group moves by itself: the measure that it moves the most, and the first one.
     pub(crate) fn movers(&self) -> Table {
         let row = |own: &Mover| {
-            let moved = own.measures.iter().filter_map(|own| Some((own.apart?, own)));
+            let moved = own.measures.iter().filter(|own| !own.within_errors);
+            let moved = moved.filter_map(|own| Some((own.apart?, own)));
             let most = moved.max_by(|one, other| one.0.total_cmp(&other.0));
             let most = most.filter(|own| own.0 > 0.0);
             let text = most.map_or("nothing".to_owned(), |(by, own)| {

@@ -9,7 +9,6 @@ use crate::numbers::{constant, quantity, significant};
 
 /// The groups of the thesis.
 #[derive(Serialize)]
-#[serde(rename_all = "kebab-case")]
 pub(crate) struct Thesis {
     #[serde(skip)]
     impact: FourParameterImpact,
@@ -41,7 +40,7 @@ impl Thesis {
         let all = impact.groups();
         let [p1, p2, p3, p4] = impact.ratios();
         let groups = [
-            ("A", "B g δ/V0²", all.gravity),
+            ("A", "g δ/V0²", all.gravity),
             ("B", "m1/(m1 + m2)", all.share),
             ("a", "(1 + p1 + p2) p3/p1", all.a),
             ("b", "p2 p3²/p1", all.b),
@@ -110,24 +109,23 @@ impl Thesis {
         self.parameters.iter().map(one).collect::<Vec<_>>().join(", ")
     }
 
+    /// Which of the groups are independent.
+    pub(crate) fn independent(&self) -> String {
+        let parameters = self.parameters.len();
+        format!(
+            "{parameters} parameters of rank 3 make {} independent groups: A, B, a, b, c, d, α, β, \
+             γ; e is c, and p1, p2, p3 and p4 stand for a, b, c and d.",
+            parameters - 3
+        )
+    }
+
     /// Where there is a padding.
     pub(crate) fn region(&self) -> String {
-        let one = |own: &Range| {
-            let number = |value: f64| significant(value, 5);
-            match (own.from, own.to) {
-                (Some(from), Some(to)) => {
-                    format!("{} < {} < {}", number(from), own.group, number(to))
-                }
-                (Some(from), None) => format!("{} > {}", own.group, number(from)),
-                _ => format!("no {}", own.group),
-            }
-        };
-        let all: Vec<String> = self.padding_for.iter().map(one).collect();
         format!(
             "A padding exists where q = a − b c/d − d/c is positive; here q = {}. With the other \
              groups as they are: {}.",
             significant(self.all.q(), DIGITS),
-            all.join("; ")
+            self.all.ranges()
         )
     }
 }

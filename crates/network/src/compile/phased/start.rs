@@ -274,6 +274,20 @@ fn balanced(
     Ok((0..expansion.joints).map(place).collect())
 }
 
+impl Network {
+    /// How long \[s\] what is dropped falls freely before it touches anything; 0 where all begins at
+    /// touch, or the network cannot be compiled.
+    pub fn time_of_fall(&self) -> f64 {
+        let Ok(network) = self.rewritten() else { return 0.0 };
+        let expansion = Expansion::of(&network);
+        let Ok(bodies) = Bodies::of(&network, &expansion) else { return 0.0 };
+        let pull = self.effects.iter().find_map(|effect| effect.gravity()).unwrap_or(0.0);
+        let all = bodies.all.iter();
+        let heights = all.filter_map(|body| flight(&network, &expansion, body.joints.as_slice()));
+        heights.map(|height| (2.0 * height / pull).sqrt()).fold(0.0, f64::max)
+    }
+}
+
 /// The height \[m\] from which a body begins to fall freely: it is dropped, gravity pulls it towards
 /// the support, and only what never pulls touches it, each of them between it and something that does not begin
 /// with a speed. All others begin at touch, with the speed of the fall.

@@ -1,0 +1,86 @@
+//! What a sweep reports of each point, by the keys of measures.
+
+use std::sync::Arc;
+
+use super::{Column, Posed, SweepError};
+use crate::{
+    MeasureWish, RunError,
+    measures::{Family, Measure, MeasureKind, MeasureVisitor, PeakDeformation, visit_measures},
+    selection::{Selected, select},
+};
+
+/// The measure of this word with its parameters as they are by default.
+pub fn measure_named(word: &str) -> Option<Arc<dyn Measure>> {
+    struct Find<'w>(&'w str, Option<Arc<dyn Measure>>);
+    impl MeasureVisitor for Find<'_> {
+        fn visit<M: MeasureKind>(&mut self) {
+            if M::KIND == self.0 {
+                self.1 = Some(Arc::new(M::default()));
+            }
+        }
+    }
+    let mut find = Find(word, None);
+    visit_measures(&mut find);
+    find.1
+}
+
+/// The columns of these measures in a scene, and what the scene is to be asked for: all that it reports
+/// where none is named. Behind them stands, for each element with a thickness that they are about, or
+/// that is at a node that they are about, its peak deformation as a share of that.
+///
+/// # Errors
+///
+/// A measure that the scene does not have, and faults of the scene.
+pub fn columns(
+    scene: &Posed,
+    keys: &[String],
+) -> Result<(Vec<Column>, Vec<MeasureWish>), SweepError> {
+    let assembly = scene.network.compile(scene.settings.duration).map_err(RunError::from)?;
+    let mut wishes = scene.settings.measures.clone();
+    let reported = select(&assembly, &wishes)?;
+    for key in keys.iter().filter(|key| !reported.iter().any(|own| own.key == **key)) {
+        let Some(wish) = wish(key) else {
+            return Err(SweepError::NoMeasure {
+                key: key.clone(),
+                known: reported.iter().map(|own| own.key.clone()).collect(),
+            });
+        };
+        wishes.push(wish);
+    }
+    let selected = select(&assembly, &wishes)?;
+    let is_wanted = |own: &&Selected| keys.is_empty() || keys.contains(&own.key);
+    let mut columns: Vec<Column> = selected
+        .iter()
+        .filter(is_wanted)
+        .map(|own| Column { key: own.key.clone(), unit: own.measure.unit(), is_share: false })
+        .collect();
+    if columns.is_empty() {
+        return Err(SweepError::NoneReported);
+    }
+    let is_about = |at: usize| {
+        let between = assembly.connections[at].between;
+        selected.iter().filter(is_wanted).any(|own| match own.measure.applies_to() {
+            Family::Element => own.target == at,
+            Family::Node => between.iter().any(|end| end.index() == own.target),
+        })
+    };
+    let elements = (0..assembly.connections.len()).filter(|at| is_about(*at));
+    for connection in elements.map(|at| &assembly.connections[at]) {
+        let key = format!("{}.{}", connection.name, PeakDeformation::KIND);
+        let is_known = columns.iter().any(|own| own.is_share && own.key == key);
+        if connection.thickness.is_none() || is_known {
+            continue;
+        }
+        if !selected.iter().any(|own| own.key == key) {
+            wishes.push(MeasureWish::new(connection.name.clone(), PeakDeformation::default()));
+        }
+        columns.push(Column { key, unit: "1", is_share: true });
+    }
+    Ok((columns, wishes))
+}
+
+/// The measure that a key is of, where its word is known.
+fn wish(key: &str) -> Option<MeasureWish> {
+    let (target, word) = key.rsplit_once('.')?;
+    Some(MeasureWish { target: target.to_owned(), measure: measure_named(word)? })
+}

@@ -1,0 +1,241 @@
+//! Which kind a driving function is, told from its pieces.
+
+use std::f64::consts::{PI, TAU};
+
+use dashpot_dae::{Piece, Waveform};
+
+use super::{Constant, HalfSine, Haversine, Sine, Table, WaveformKind, before};
+use crate::parameters::{InvalidParameter, Parameter, Value};
+
+/// How far, relatively, the function of the kind may be from the one that was told: some kinds have
+/// other numbers than their pieces.
+const SAME: f64 = 1e-13;
+
+/// A driving function by its kind and the values of that.
+///
+/// Straight lines with jumps are tables, whatever they were made as.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{
+///     parameters::Value,
+///     waveforms::{HalfSine, Recognized, WaveformKind},
+/// };
+///
+/// let pulse = HalfSine { peak: 400.0, duration: 0.011, start: 0.0 }.waveform()?;
+/// let motion = pulse.integral().and_then(|speed| speed.integral()).unwrap();
+/// let found = Recognized::as_acceleration(&motion).unwrap();
+/// assert_eq!(found.word, "half-sine");
+/// assert!(matches!(found.values[0], Value::Number(peak) if (peak - 400.0).abs() < 1e-10));
+/// # Ok::<(), dashpot_network::parameters::InvalidParameter>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Recognized {
+    /// Word for the kind.
+    pub word: &'static str,
+    /// Its parameters.
+    pub parameters: &'static [Parameter],
+    /// Their values.
+    pub values: Vec<Value>,
+    make: fn(&[Value]) -> Result<Waveform, InvalidParameter>,
+}
+
+impl Recognized {
+    /// The kind of a function; `None` where its pieces do not show it.
+    pub fn of(waveform: &Waveform) -> Option<Self> {
+        line(waveform)
+            .or_else(|| of_kind(waveform, &sine(waveform)?))
+            .or_else(|| of_kind(waveform, &half_sine(waveform)?))
+            .or_else(|| of_kind(waveform, &haversine(waveform)?))
+    }
+
+    /// The kind of the acceleration of a motion that begins at rest, at zero, at `t = 0`; `None` where
+    /// it is no such motion, or its pieces do not show the kind.
+    pub fn as_acceleration(motion: &Waveform) -> Option<Self> {
+        let pieces =
+            motion.pieces().iter().map(second_derivative).collect::<Option<Vec<Piece>>>()?;
+        let is_of = |own: &Self| {
+            let again = (own.make)(&own.values).ok();
+            let again = again.and_then(|own| own.integral()).and_then(|own| own.integral());
+            again.is_some_and(|again| is_same(motion, &again))
+        };
+        // What lies before t = 0 is not kept by the motion.
+        let quiet = Piece { start: before(pieces.first()?.start), ..Piece::default() };
+        let with_quiet = std::iter::once(quiet).chain(pieces.iter().copied()).collect();
+        let acceleration = [Waveform::new(pieces), Waveform::new(with_quiet)];
+        acceleration.into_iter().flatten().filter_map(|own| Self::of(&own)).find(is_of)
+    }
+
+    /// A function of the same kind with other values.
+    ///
+    /// # Errors
+    ///
+    /// A value that is out of range.
+    pub fn with(&self, values: &[Value]) -> Result<Waveform, InvalidParameter> {
+        (self.make)(values)
+    }
+
+    fn named<W: WaveformKind>(kind: &W) -> Self {
+        Self {
+            word: W::KIND,
+            parameters: W::PARAMETERS,
+            values: kind.values(),
+            make: |values| W::from_values(values).and_then(|own| own.waveform()),
+        }
+    }
+}
+
+fn of_kind<W: WaveformKind>(waveform: &Waveform, kind: &W) -> Option<Recognized> {
+    let again = kind.waveform().ok()?;
+    is_same(waveform, &again).then(|| Recognized::named(kind))
+}
+
+/// The second derivative of a piece; `None` where its frequency is swept.
+fn second_derivative(own: &Piece) -> Option<Piece> {
+    if own.is_swept() {
+        return None;
+    }
+    let factor = -own.omega * own.omega;
+    let wave = |amplitude: f64| if amplitude == 0.0 { 0.0 } else { factor * amplitude };
+    Some(Piece {
+        start: own.start,
+        value: own.curvature,
+        slope: own.jerk,
+        sine: wave(own.sine),
+        cosine: wave(own.cosine),
+        omega: own.omega,
+        ..Piece::default()
+    })
+}
+
+/// Straight lines and jumps as a table.
+fn line(waveform: &Waveform) -> Option<Recognized> {
+    let pieces = waveform.pieces();
+    let is_straight = |own: &Piece| {
+        !own.is_wave() && own.curvature == 0.0 && own.jerk == 0.0 && own.cosine == 0.0
+    };
+    let (first, last) = (pieces.first()?, pieces.last()?);
+    if !pieces.iter().all(is_straight) || first.slope != 0.0 || last.slope != 0.0 {
+        return None;
+    }
+    if pieces.len() == 1 {
+        return Some(Recognized::named(&Constant { value: first.value, start: 0.0 }));
+    }
+    let border = |pair: &[Piece]| {
+        let at = pair[1].start;
+        [(at, pair[0].derivative(0, at)), (at, pair[1].value)]
+    };
+    let mut points: Vec<(f64, f64)> = pieces.windows(2).flat_map(border).collect();
+    points.dedup();
+    let size = points.iter().map(|point| point.1.abs()).fold(0.0, f64::max);
+    let table = Table { points };
+    let again = table.waveform().ok()?;
+    let ends = pieces.iter().skip(1).map(|own| own.start);
+    let close = |t: f64| (waveform.value(t) - again.value(t)).abs() <= 1e-12 * size;
+    ends.chain([0.0]).all(close).then(|| Recognized::named(&table))
+}
+
+fn sine(waveform: &Waveform) -> Option<Sine> {
+    let [only] = waveform.pieces() else { return None };
+    let amplitude = only.sine.hypot(only.cosine);
+    let frequency = only.omega / TAU;
+    Some(Sine { amplitude, frequency, phase: only.cosine.atan2(only.sine) })
+}
+
+fn half_sine(waveform: &Waveform) -> Option<HalfSine> {
+    let [_, arch, after] = waveform.pieces() else { return None };
+    let duration = PI / arch.omega;
+    let is_arch = (arch.start + duration - after.start).abs() <= 1e-9 * duration;
+    is_arch.then_some(HalfSine { peak: arch.sine, duration, start: arch.start })
+}
+
+fn haversine(waveform: &Waveform) -> Option<Haversine> {
+    let [_, wave, after] = waveform.pieces() else { return None };
+    let duration = TAU / wave.omega;
+    let is_wave = (wave.start + duration - after.start).abs() <= 1e-9 * duration;
+    is_wave.then_some(Haversine { peak: 2.0 * wave.value, duration, start: wave.start })
+}
+
+/// Whether both have the same pieces to rounding; where the first one begins does not matter.
+fn is_same(one: &Waveform, other: &Waveform) -> bool {
+    let (first, second) = (one.pieces(), other.pieces());
+    // Rounding is that of the largest of each kind of number.
+    let numbers = |own: &Piece| {
+        [
+            [own.value, own.sine, own.cosine].map(f64::abs).into_iter().fold(0.0, f64::max),
+            own.slope.abs(),
+            own.curvature.abs(),
+            own.jerk.abs(),
+            own.omega.abs(),
+            own.sweep.abs(),
+        ]
+    };
+    let mut sizes = [0.0_f64; 6];
+    for own in first.iter().chain(second) {
+        sizes.iter_mut().zip(numbers(own)).for_each(|(size, own)| *size = size.max(own));
+    }
+    let close = |a: f64, b: f64, size: f64| (a - b).abs() <= SAME * size;
+    let pair = |(at, (one, other)): (usize, (&Piece, &Piece))| {
+        (at == 0 && !one.is_wave()
+            || close(one.start, other.start, one.start.abs() + other.start.abs()))
+            && close(one.value, other.value, sizes[0])
+            && close(one.sine, other.sine, sizes[0])
+            && close(one.cosine, other.cosine, sizes[0])
+            && close(one.slope, other.slope, sizes[1])
+            && close(one.curvature, other.curvature, sizes[2])
+            && close(one.jerk, other.jerk, sizes[3])
+            && (!one.is_wave() || close(one.omega, other.omega, sizes[4]))
+            && (!one.is_wave() || close(one.sweep, other.sweep, sizes[5]))
+    };
+    first.len() == second.len() && first.iter().zip(second).enumerate().all(pair)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(own: &Recognized) -> Vec<f64> {
+        let number = |value: &Value| match value {
+            Value::Number(own) => *own,
+            _ => f64::NAN,
+        };
+        own.values.iter().map(number).collect()
+    }
+
+    #[test]
+    fn pulses_and_the_motions_made_of_them_show_their_kind() {
+        for (peak, duration, start) in [(3.0, 0.011, 0.0), (-7e3, 2.3e-4, 0.2), (1e-6, 40.0, 1e-3)]
+        {
+            let pulses = [
+                (HalfSine { peak, duration, start }.waveform().unwrap(), HalfSine::KIND),
+                (Haversine { peak, duration, start }.waveform().unwrap(), Haversine::KIND),
+            ];
+            for (pulse, word) in pulses {
+                let motion = pulse.integral().and_then(|own| own.integral()).unwrap();
+                let found = [Recognized::of(&pulse), Recognized::as_acceleration(&motion)]
+                    .map(Option::unwrap);
+                for own in found {
+                    assert_eq!(own.word, word);
+                    for (found, known) in numbers(&own).iter().zip([peak, duration, start]) {
+                        assert!((found - known).abs() <= 1e-13 * known.abs(), "{own:?}");
+                    }
+                    let again = own.with(&own.values).unwrap();
+                    assert!(is_same(&again, &pulse));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn other_functions_are_not_taken_for_a_kind() {
+        let half = HalfSine { peak: 1.0, duration: 1.0, start: 0.0 }.waveform().unwrap();
+        let mut pieces = half.pieces().to_vec();
+        pieces[2].value = 1e-9;
+        assert!(Recognized::of(&Waveform::new(pieces).unwrap()).is_none());
+        // A motion that does not begin at zero is not that of its acceleration alone.
+        let mut motion = half.integral().and_then(|own| own.integral()).unwrap().pieces().to_vec();
+        motion[0].value += 1e-6;
+        assert!(Recognized::as_acceleration(&Waveform::new(motion).unwrap()).is_none());
+    }
+}

@@ -1,0 +1,112 @@
+//! Numbers of a scene by name.
+
+use super::*;
+use crate::{ReadOptions, read, reference};
+
+const TEXT: &str = r#"
+[values]
+K2 = "20 MN/m"
+
+[models.pad]
+series = [
+  { spring = "K2" },
+  { dashpot = "6 kN s/m" },
+  { parallel = [{ spring = "18 MN/m" }, { dashpot = 4000 }] },
+]
+
+[nodes]
+head = { mass = "10 kg", velocity = "10 m/s" }
+
+[elements]
+padding = { between = ["head", "ground"], model = "pad", thickness = "2 cm" }
+
+[run]
+duration = "20 ms"
+samples = 11
+"#;
+
+fn tunables() -> Tunables {
+    Tunables::of(TEXT, None).unwrap()
+}
+
+fn path(name: &str) -> String {
+    let own = tunables();
+    own.find(name).map_or_else(|fault| fault.to_string(), |at| own.all()[at].path.clone())
+}
+
+#[test]
+fn a_number_goes_by_any_parts_of_its_path_that_tell_it() {
+    assert_eq!(path("head.velocity"), "nodes.head.velocity");
+    assert_eq!(path("velocity"), "nodes.head.velocity");
+    assert_eq!(path("K2"), "values.K2");
+    assert_eq!(path("padding.thickness"), "elements.padding.thickness");
+    assert_eq!(path("padding.parallel.dashpot"), "models.pad.series.3.parallel.2.dashpot");
+    assert_eq!(path("padding.series.2.dashpot"), "models.pad.series.2.dashpot");
+    assert_eq!(path("run.duration"), "run.duration");
+    assert_eq!(path("padding.series.1.spring"), "values.K2", "a named value");
+}
+
+#[test]
+fn what_leads_to_none_or_several_is_said() {
+    assert!(path("samples").contains("no number `samples`"));
+    let fault = tunables().find("head.veloctiy").unwrap_err();
+    assert!(fault.help().unwrap().starts_with("did you mean `head.velocity`?"), "{fault:?}");
+    assert!(path("pad.dashpot").contains(" or "), "{}", path("pad.dashpot"));
+    let help = |name: &str| tunables().find(name).unwrap_err().help().unwrap();
+    for (name, meant) in [
+        ("head.thickness", "padding.thickness"),
+        ("head.drop", "head.velocity"),
+        ("head.speed", "head.velocity"),
+    ] {
+        let start = format!("did you mean `{meant}`? its numbers are ");
+        assert!(help(name).starts_with(&start), "{name}: {}", help(name));
+    }
+    assert!(help("head.colour").starts_with("its numbers are "), "{}", help("head.colour"));
+}
+
+#[test]
+fn every_name_that_is_shown_leads_to_its_number() {
+    for text in [TEXT, reference()] {
+        let own = Tunables::of(text, None).unwrap();
+        for (at, tunable) in own.all().iter().enumerate() {
+            assert_eq!(own.find(&tunable.name), Ok(at), "{}", tunable.name);
+            assert_eq!(own.find(&tunable.path), Ok(at), "{}", tunable.path);
+        }
+    }
+}
+
+#[test]
+fn the_text_is_that_of_the_scene_with_the_value_in_its_place() {
+    let own = tunables();
+    let at = own.find("padding.parallel.dashpot").unwrap();
+    let speed = own.find("velocity").unwrap();
+    let text = own.text_with(&[(speed, "5 m/s".to_owned()), (at, "8 kN s/m".to_owned())]);
+    let expected = TEXT.replace("dashpot = 4000", "dashpot = \"8 kN s/m\"");
+    assert_eq!(text, expected.replace("\"10 m/s\"", "\"5 m/s\""));
+    assert!(read(&text, &ReadOptions::default()).is_ok());
+}
+
+#[test]
+fn variations_are_held_to_the_dimension_of_the_number() {
+    let own = tunables();
+    let matched = |texts: &[&str]| {
+        let all: Vec<Variation> =
+            texts.iter().map(|text| Variation::parse(text).unwrap()).collect();
+        own.matched(&all).map_err(|fault| fault.to_string())
+    };
+    assert!(matched(&["K2=5..30 MN/m", "head.mass=1..2"]).is_ok());
+    let fault = matched(&["K2=5..30 mm"]).unwrap_err();
+    assert!(fault.contains("is in m, the value in the scene in N/m"), "{fault}");
+    let fault = matched(&["padding.thickness=20..40"]).unwrap_err();
+    assert_eq!(
+        fault,
+        "`padding.thickness=20..40` has no unit: a bare number is in m, and the scene says 2 cm"
+    );
+    let bare = Variation::parse("padding.thickness=20..40,5,log").unwrap();
+    let help = own.matched(&[bare]).unwrap_err().help();
+    let expected = "write \"padding.thickness=20..40 cm\", or with `m` if that is meant";
+    assert_eq!(help.as_deref(), Some(expected));
+    assert!(matched(&["padding.parallel.dashpot=1..2"]).is_ok(), "bare in the scene");
+    let fault = matched(&["K2=5..30 MN/m", "values.K2=1..2 MN/m"]).unwrap_err();
+    assert!(fault.contains("are the same number"), "{fault}");
+}
