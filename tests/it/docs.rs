@@ -16,6 +16,7 @@ use dashpot::{
 };
 
 mod chapters;
+mod cost;
 mod equivalent_models;
 mod gallery;
 mod laws;

@@ -160,6 +160,7 @@ fn a_bound_that_is_no_share_is_refused() {
         ("0", "more than 0 and at most 20%"),
         ("5 mm", "0.1%"),
         ("1", "a bare 1 is 100%; write \"1%\""),
+        ("0.1", "a bare 0.1 is 10%; write \"0.1%\" or \"10%\""),
         ("0.5", "write \"0.5%\""),
         ("21%", "at most 20%"),
     ] {

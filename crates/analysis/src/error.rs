@@ -39,11 +39,8 @@ pub enum RunError {
         /// Names of that family.
         known: Vec<String>,
     },
-    /// An accuracy is asked of a measure that is not reported.
-    #[error(
-        "an accuracy is asked of `{key}`, which is not reported; reported: {}",
-        .known.join(", ")
-    )]
+    /// A measure that an accuracy is asked of, or a cost, and that is not reported.
+    #[error("`{key}` is not among the measures that are reported")]
     UnknownMeasure {
         /// What was asked for.
         key: String,

@@ -35,7 +35,7 @@ pub(crate) struct Findings<'a> {
 /// Closure in parts of the energy turned over that rounding may leave.
 pub(crate) const ROUNDING: f64 = 1e-10;
 /// Part by which a peak outside the impact must exceed that within to be worth a warning.
-pub(crate) const HARDER: f64 = 0.05;
+const HARDER: f64 = 0.05;
 /// Measures of what a blow does to a body.
 const INJURIES: [&str; 6] =
     [SeverityIndex::KIND, Hic15::KIND, Hic36::KIND, Hic::KIND, Clip3ms::KIND, Clip::KIND];

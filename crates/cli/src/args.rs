@@ -598,13 +598,18 @@ fn share(text: &str) -> Result<f64, String> {
     let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
     let is_number = quantity.dimension.is_none_or(|own| own == Dimension::NUMBER);
     let value = quantity.value;
-    if is_number && value > 0.0 && value <= Accuracy::LOOSEST {
+    // A bare number of this size may be meant in percent.
+    let is_doubtful = quantity.dimension.is_none()
+        && !text.contains('%')
+        && (0.01..=100.0 * Accuracy::LOOSEST).contains(&value);
+    if is_number && value > 0.0 && value <= Accuracy::LOOSEST && !is_doubtful {
         return Ok(value);
     }
-    let is_bare = quantity.dimension.is_none() && !text.contains('%');
-    let is_percent = (Accuracy::LOOSEST..=100.0 * Accuracy::LOOSEST).contains(&value);
-    Err(if is_bare && is_percent {
-        format!("a bare {value} is {:.0}%; write \"{value}%\"", 100.0 * value)
+    Err(if is_doubtful {
+        let percent = 100.0 * value;
+        let other =
+            if value > Accuracy::LOOSEST { String::new() } else { format!(" or \"{percent}%\"") };
+        format!("a bare {value} is {percent}%; write \"{value}%\"{other}")
     } else {
         "\n  it must be more than 0 and at most 20%, such as 0.1% or 1e-3".to_owned()
     })

@@ -313,7 +313,8 @@ impl CliError {
             }
             Self::Variation(fault) => Some(fault.help()),
             Self::Tunable(fault) => fault.help(),
-            Self::Sweep(SweepError::NoMeasure { key, known }) => {
+            Self::Sweep(SweepError::NoMeasure { key, known })
+            | Self::Run(RunError::UnknownMeasure { key, known }) => {
                 suggestion(key, "measures", known)
             }
             Self::UnknownKind { .. } => Some("`dashpot list` names every kind".to_owned()),

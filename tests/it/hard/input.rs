@@ -112,7 +112,7 @@ fn input_that_is_wrong_is_turned_down() {
                 &["foam"],
             ),
             refusal(
-                "a table that falls",
+                "a table that falls (snap-through)",
                 with("model = \"foam\"", "table-spring = [[0, 0], [1e-3, 10], [2e-3, 5]]"),
                 &["table-spring"],
             ),

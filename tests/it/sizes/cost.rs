@@ -6,6 +6,7 @@ use allocation_counter::measure;
 use dashpot::{
     analysis::{SolveSettings, solve, solve_assembly},
     dae::Silent,
+    plot::{Chart, Scale, Series},
     scene::{ReadOptions, read},
 };
 
@@ -18,11 +19,10 @@ const SIZE: &str = "DASHPOT_SIZE";
 
 /// Where the table stands in the document.
 const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/sizes.md");
+/// The figure in it.
+const FIGURE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/figures/cost-and-size.svg");
 const PLACE: (&str, &str) = ("<!-- measured: sizes -->", "<!-- end -->");
 
-/// Most that ten times as many masses may multiply the time of a step by, and that of the whole.
-const MOST_PER_STEP: f64 = 12.5;
-const MOST_IN_ALL: f64 = 16.0;
 /// Most memory \[kB\] that solving may take for each mass, beyond the network and its equations.
 const MOST_MEMORY: f64 = 2.0;
 
@@ -107,6 +107,29 @@ fn numbers(row: &str) -> Vec<f64> {
     row.split('|').filter_map(|cell| cell.trim().parse().ok()).collect()
 }
 
+/// Times over the number of masses.
+fn figure(rows: &[Vec<f64>]) -> String {
+    let line = |name: &str, of: &dyn Fn(&[f64]) -> f64| {
+        let points = rows.iter().map(|row| (row[0], of(row))).filter(|point| point.1 > 0.0);
+        Series::new(name, points.collect())
+    };
+    let chart = Chart {
+        title: "Cost against size".to_owned(),
+        note: "Impact on a chain of masses and Kelvin links, 20 ms, by `bdf`".to_owned(),
+        x_label: "masses".to_owned(),
+        y_label: "processor time".to_owned(),
+        x_scale: Scale::logarithmic(""),
+        y_scale: Scale::logarithmic("s"),
+        series: vec![
+            line("from text to report", &|row| row[1] + row[2]),
+            line("parse and compile", &|row| row[1]),
+            line("a step", &|row| row[2] / row[3]),
+        ],
+        ..Chart::default()
+    };
+    chart.svg().unwrap()
+}
+
 #[test]
 #[ignore = "takes minutes"]
 fn curve() {
@@ -139,12 +162,12 @@ fn curve() {
         before[0], last[0]
     );
     println!("{text}");
-    assert!(per_step <= MOST_PER_STEP && in_all <= MOST_IN_ALL, "{per_step} {in_all}");
-    assert!(before[6].max(last[6]) <= MOST_MEMORY, "{rows:?}");
     if std::env::var_os("UPDATE_DOCS").is_some() {
+        fs::write(FIGURE, figure(&rows)).unwrap();
         let own = fs::read_to_string(DOCUMENT).unwrap();
         let (head, rest) = own.split_once(PLACE.0).unwrap();
         let (_, tail) = rest.split_once(PLACE.1).unwrap();
         fs::write(DOCUMENT, format!("{head}{}\n\n{text}\n\n{}{tail}", PLACE.0, PLACE.1)).unwrap();
     }
+    assert!(before[6].max(last[6]) <= MOST_MEMORY, "{rows:?}");
 }

@@ -20,7 +20,7 @@ pub(super) fn slips(point: &CostPoint) -> Vec<Slip> {
     let is_wrong = |own: &Deviation| !warned && own.is_resolved() && own.value > WRONG;
     let state = point.state.filter(is_wrong);
     let state = state.map(|own| slip(Subject::State, own.value, None, warned));
-    let events = error_of_events(&point.events);
+    let events = error_of_events(point);
     let events = events.filter(is_wrong).map(|own| slip(Subject::Events, own.value, None, warned));
     let measures = point.measures.iter().enumerate().filter_map(|(at, own)| {
         let deviation = own.deviation.filter(|deviation| is_untold(deviation, own))?;
@@ -29,12 +29,15 @@ pub(super) fn slips(point: &CostPoint) -> Vec<Slip> {
     state.into_iter().chain(events).chain(measures).collect()
 }
 
-/// The error of the times of events; infinite where one is missing or there is one too many.
-fn error_of_events(events: &Timing) -> Option<Deviation> {
-    if events.missed + events.extra > 0 {
-        return Some(Deviation { value: f64::INFINITY, known_within: 0.0 });
+/// The error of the times of events; infinite where one is missing or there is one too many, and that
+/// is felt in the state: touches that move nothing any more are below what a tolerance resolves.
+fn error_of_events(point: &CostPoint) -> Option<Deviation> {
+    let Timing { deviation, missed, extra } = point.events;
+    if missed + extra == 0 {
+        return deviation;
     }
-    events.deviation
+    let is_felt = point.state.is_none_or(|own| own.value > WRONG);
+    is_felt.then_some(Deviation { value: f64::INFINITY, known_within: 0.0 })
 }
 
 /// Whether an error is larger than its bar, more than the truth may be off.
@@ -86,9 +89,11 @@ mod tests {
     }
 
     #[test]
-    fn an_event_that_is_missing_is_a_slip() {
+    fn an_event_that_is_missing_is_a_slip_where_the_state_feels_it() {
         let mut own = point(0.0, None);
         own.events.missed = 1;
+        assert!(subjects(&own).is_empty());
+        own.state = None;
         assert_eq!(subjects(&own), [Subject::Events]);
     }
 }

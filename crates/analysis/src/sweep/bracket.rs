@@ -58,24 +58,6 @@ impl Flank {
         self.value[0].min(self.value[1]) + step * self.steepest(step)
     }
 
-    /// The turn within a step that may be above `most` in the sense of `ends`, which are the signal or its
-    /// magnitude at both ends; nothing where none is. `None` where it cannot be told.
-    #[expect(clippy::option_option, reason = "that there is no turn is known, or nothing is")]
-    pub(super) fn turn_above<const N: usize>(
-        &self,
-        step: &Step<'_, N>,
-        place: usize,
-        ends: [f64; 2],
-        most: f64,
-    ) -> Option<Option<(f64, f64)>> {
-        let reach = 0.5 * (ends[0] + ends[1] + step.length * self.steepest(step.length));
-        if reach <= most || self.is_steady(step.length) {
-            return Some(None);
-        }
-        let turns = self.rate[0] * self.rate[1] < 0.0;
-        step.turn(self, place).filter(|_| turns).map(Some)
-    }
-
     fn steepest(&self, step: f64) -> f64 {
         self.cubic(step).into_iter().fold(0.0, |most: f64, own| most.max(own.abs()))
     }

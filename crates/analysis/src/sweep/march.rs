@@ -14,7 +14,6 @@ use super::{
     bracket::{Flank, Step},
     sums::Sums,
 };
-use crate::warnings::HARDER;
 
 /// A step is so long, in units of the shortest time of the system, where only peaks are looked for …
 const COARSE: f64 = 3.0;
@@ -26,6 +25,8 @@ const FEWEST: f64 = 16.0;
 const MOST: f64 = 20_000.0;
 /// A force that comes so near to zero without passing it, in parts of its peak, is not judged here.
 const GRAZING: f64 = 1e-6;
+/// A force that comes up to this part of its peak again may exceed it between two looks.
+const NEARLY: f64 = 0.8;
 /// What is less than this part of its terms cannot be told from zero.
 const NOTHING: f64 = 64.0 * f64::EPSILON;
 /// What the error of a value is counted in: roundings per unit of norm times time.
@@ -71,8 +72,8 @@ pub(super) struct Impact {
     pub(super) force: Figure,
     /// The largest deformation \[m\].
     pub(super) depth: Figure,
-    /// That of the whole run \[m\], and when it is reached.
-    pub(super) deepest: (f64, f64),
+    /// When it is reached.
+    pub(super) deepest_at: f64,
     /// When the force falls through zero.
     pub(super) release: Figure,
     /// `∫ F^n dt`.
@@ -105,7 +106,7 @@ impl Peak {
 impl<const N: usize> Posed<'_, N> {
     /// Solves the impact. `None` where it is not of the plain kind: the force does not push from the
     /// start, or does not fall through zero within the run, or comes near to zero before, or one of
-    /// both turns twice within a step where it is largest, or the force gets beyond its peak after the
+    /// both turns twice within a step where it is largest, or comes near to its peak once more after the
     /// impact, or the system is too stiff.
     pub(super) fn solve(&self, wanted: Wanted) -> Option<Impact> {
         let mut march = March::new(self, wanted)?;
@@ -252,40 +253,21 @@ impl<'p, const N: usize> March<'p, N> {
         Some(ControlFlow::Continue(()))
     }
 
-    /// The largest deformation of the whole run. `None` where the magnitude of the force gets so far
-    /// beyond its peak after the impact that runs are warned of it, or it cannot be told.
-    fn deepest(&self) -> Option<Peak> {
-        let (matrix, looks) = (self.posed.matrix, &self.looks);
-        let [force, mut deepest] = self.peaks;
-        let hardest = force.value * (1.0 + HARDER);
-        let (carry, length) = if self.sums.is_some() {
-            // Nothing is summed up here, so that three steps are taken at once.
-            let twice = self.carry.map(|column| apply(&self.carry, &column));
-            (twice.map(|column| apply(&self.carry, &column)), 3.0 * self.step)
-        } else {
-            (self.carry, self.step)
-        };
-        let (mut z, mut seen, mut start) = (self.z, self.seen, self.start());
-        while start < self.posed.end {
-            let next = apply(&carry, &z);
-            let found = apply(looks, &next);
-            let step = Step { matrix, looks, length, ends: [&z, &next] };
-            let (push, depth) = (Flank::of(&seen, &found, 0), Flank::of(&seen, &found, 3));
-            let turn = push.turn_above(&step, 0, push.value.map(f64::abs), hardest)?;
-            if turn.map_or(0.0, |own| own.1.abs()).max(found[0].abs()) > hardest {
-                return None;
+    /// Whether the force may get beyond its peak after the impact. It is looked at every other node, and what
+    /// comes near to the peak there counts.
+    fn may_strike_again(&self) -> bool {
+        let twice = self.carry.map(|column| apply(&self.carry, &column));
+        let most = NEARLY * self.peaks[0].value;
+        let (mut z, mut time) = (self.z, self.start());
+        while time < self.posed.end {
+            z = apply(&twice, &z);
+            let force: f64 = self.posed.force.iter().zip(&z).map(|(row, own)| row * own).sum();
+            if force.abs() > most {
+                return true;
             }
-            let turn = depth.turn_above(&step, 3, depth.value, deepest.value)?;
-            for (time, value) in turn.into_iter().chain([(length, found[3])]) {
-                if start + time <= self.posed.end {
-                    deepest.meet(value, start + time);
-                } else if value > deepest.value {
-                    return None;
-                }
-            }
-            (z, seen, start) = (next, found, start + length);
+            time += 2.0 * self.step;
         }
-        Some(deepest)
+        false
     }
 
     /// What is known of the impact that ends so long after the beginning of the last step.
@@ -296,10 +278,9 @@ impl<'p, const N: usize> March<'p, N> {
             && depth.doubtful <= depth.value
             && self.lowest > GRAZING * force.value
             && -self.shallowest <= depth.value;
-        if !is_clear {
+        if !is_clear || self.may_strike_again() {
             return None;
         }
-        let deepest = self.deepest()?;
         let steps = f64::from(self.at) + 16.0 + self.rate * release;
         let grown = ROUNDINGS * steps * N as f64;
         let noise = grown * size(self.posed.force, &self.most);
@@ -307,7 +288,7 @@ impl<'p, const N: usize> March<'p, N> {
         let mut impact = Impact {
             force: figure(force.value, noise),
             depth: figure(depth.value, grown * size(self.posed.deformation, &self.most)),
-            deepest: (deepest.value, deepest.time),
+            deepest_at: depth.time,
             release: figure(release, noise / self.fall + 4.0 * f64::EPSILON * release),
             ..Impact::default()
         };

@@ -130,13 +130,13 @@ impl<'g> Plan<'g> {
     fn notice(&self, impact: &Impact, numbers: &[f64]) -> Notice {
         let time = self.blueprint.time_scale();
         let thickness = numbers[numbers.len() - 1];
-        let ((depth, at), error) = (impact.deepest, impact.depth.error);
+        let Figure { value: depth, error } = impact.depth;
         let release = impact.release.value * time;
         Notice {
             pulls: (release < self.duration).then_some(release),
             pressed: (depth > thickness + error.max(ROUNDING * thickness)).then_some([
                 depth,
-                at * time,
+                impact.deepest_at * time,
                 thickness,
             ]),
         }
