@@ -382,7 +382,11 @@ fn check_finds_what_no_method_could_do() {
     let scene = SOFT.to_owned() + "[accuracy]\npad.peak-rate = 0.1\n";
     let output = run(&["check", text(&file(&folder, "b.toml", &scene))]);
     assert_eq!(code(&output), 2);
-    assert!(err(&output).contains("`pad.peak-rate` is not among the measures that are reported"), "{}", err(&output));
+    assert!(
+        err(&output).contains("`pad.peak-rate` is not among the measures that are reported"),
+        "{}",
+        err(&output)
+    );
 }
 
 #[test]
