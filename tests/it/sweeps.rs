@@ -119,6 +119,15 @@ fn effects_and_other_measures_vary_too() {
 }
 
 #[test]
+fn counts_vary_too() {
+    let vary = ["--vary", "bar.segments=10,20", "--measure", "bar.peak-stress", "--json"];
+    let json = json(&[&["sweep", "scenes/polymer-bar.toml"][..], &vary].concat());
+    let stresses = json["measures"][0]["values"].as_array().unwrap();
+    let [few, many] = [0, 1].map(|at| stresses[at].as_f64().unwrap());
+    assert!((few / many - 1.0).abs() < 0.2 && few.to_bits() != many.to_bits(), "{few} {many}");
+}
+
+#[test]
 fn what_matters_little_is_left_out_after_a_proof() {
     let json = json(&[
         "sweep",

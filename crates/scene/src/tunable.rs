@@ -232,9 +232,9 @@ impl Tunables {
         let mut from = 0;
         for (span, value) in values {
             text.push_str(&self.text[from..span.start]);
-            text.push('"');
-            text.push_str(value);
-            text.push('"');
+            // Counts have to stand without quotes, quantities with their units within.
+            let quote = if value.parse::<f64>().is_ok() { "" } else { "\"" };
+            text.extend([quote, value, quote]);
             from = span.end;
         }
         text.push_str(&self.text[from..]);
