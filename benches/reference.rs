@@ -85,7 +85,7 @@ fn ours(method: &dyn Method, system: &System, rtol: f64, times: &[f64]) -> Vec<f
 
 /// The force \[N\] from our unknowns.
 fn force(assembly: &Assembly, states: &[f64]) -> Vec<f64> {
-    let output = &assembly.system.outputs[assembly.output("padding.force").expect("force")];
+    let output = assembly.system.outputs.at(assembly.output("padding.force").expect("force"));
     states.chunks(assembly.system.len()).map(|z| output.scale * output.unknowns.at(z)).collect()
 }
 

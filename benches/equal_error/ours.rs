@@ -53,7 +53,7 @@ pub(crate) fn job<'a>(
         if problem.assembly.switching.is_some() || run.keep != Keep::Everything {
             return Ok(trajectory.signal(system, problem.output).sample(times));
         }
-        let output = &system.outputs[problem.output];
+        let output = system.outputs.at(problem.output);
         let states = trajectory.dense.sample(system, &own);
         let states = states.chunks_exact(system.len());
         Ok(states.map(|state| output.scale * output.unknowns.at(state)).collect())

@@ -22,4 +22,5 @@ mod separation;
 mod stops;
 mod sweeps;
 mod trial;
+mod two_curves;
 mod waves;

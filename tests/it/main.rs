@@ -16,6 +16,7 @@ mod conformance;
 mod conversions;
 mod cost;
 mod docs;
+mod driven_contacts;
 mod effects;
 mod equivalence;
 mod error_bars;

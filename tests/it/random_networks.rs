@@ -189,7 +189,7 @@ fn forces_balance_at_massless_nodes_and_energy_closes() {
                         continue;
                     }
                     sum += sign * force.value(*t);
-                    let output = &system.outputs[assembly.connections[at].force.unwrap()];
+                    let output = system.outputs.at(assembly.connections[at].force.unwrap());
                     let products = output.scale * output.unknowns.magnitude_at(state);
                     doubt += force.error.unwrap() + 32.0 * f64::EPSILON * products;
                 }
@@ -200,7 +200,7 @@ fn forces_balance_at_massless_nodes_and_energy_closes() {
             }
         }
         let products = |output: usize| {
-            let output = &system.outputs[output];
+            let output = system.outputs.at(output);
             let products = |state| output.scale * output.unknowns.magnitude_at(state);
             states.chunks(system.len()).map(products).fold(0.0, f64::max)
         };

@@ -139,15 +139,12 @@ fn what_cannot_be_shaken_is_told_with_what_to_do_instead() {
         assert_eq!(code(&output), 2);
         err(&output).split_whitespace().collect::<Vec<_>>().join(" ")
     };
-    let switching = told("truck-parcel", &[]);
-    for part in
-        ["`cushion.contact` is not linear (contact)", "`dashpot run` solves it in time", "sine"]
-    {
-        assert!(switching.contains(part), "{switching}");
-    }
     assert!(told("helmet-drop", &[]).contains("help: `--drive ground` shakes `ground`"));
     assert!(told("hockey-pad", &[]).contains("there is nothing to shake"));
-    assert!(told("crash-mat", &["--drive", "ground"]).contains("is not linear"));
+    let switching = told("crash-mat", &["--drive", "ground"]);
+    for part in ["is not linear", "`dashpot run` solves it in time", "sine"] {
+        assert!(switching.contains(part), "{switching}");
+    }
 }
 
 #[test]

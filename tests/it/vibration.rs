@@ -187,13 +187,27 @@ fn what_is_not_linear_is_refused_by_name() {
     let refused = Vibration::new(&network, 1.0, None).unwrap_err();
     let VibrationError::NotLinear { part, .. } = &refused else { panic!("{refused}") };
     assert_eq!(part, "the element `snubber`");
-    let output = run(&["vibrate", "scenes/truck-parcel.toml"]);
+    let folder = TempDir::new().unwrap();
+    let slider = "snubber = { between = [\"board\", \"case\"], friction = \"5 N\" }\nstandoff =";
+    let scene = file(&folder, "snubbed.toml", &SCENE.replace("standoff =", slider));
+    let output = run(&["vibrate", text(&scene)]);
     assert_eq!(code(&output), 2);
-    assert!(
-        err(&output).contains("the element `cushion.contact` is not linear"),
-        "{}",
-        err(&output)
-    );
+    let told = err(&output);
+    assert!(told.contains("the element `snubber` is not linear (friction)"), "{told}");
+}
+
+#[test]
+fn a_parcel_that_only_stands_lifts_off_where_its_weight_is_exceeded() {
+    let output = run(&["vibrate", "scenes/truck-parcel.toml"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let shown = out(&output);
+    assert!(shown.contains("`cushion.contact` parts first at 15.4 Hz"), "{shown}");
+    let at = ["vibrate", "scenes/truck-parcel.toml", "--at", "9 Hz", "--amplitude"];
+    let told = |amplitude: &str| err(&run(&[&at[..], &[amplitude]].concat()));
+    let found = told("5 mm");
+    assert!(found.contains("warning: `cushion.contact` parts at 9.00 Hz"), "{found}");
+    // 12 kg · 1 g0 over the 274.4 N at 5 mm: up to 2.144 mm it stays.
+    assert!(told("2.14 mm").is_empty() && !told("2.15 mm").is_empty());
 }
 
 #[test]

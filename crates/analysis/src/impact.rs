@@ -133,6 +133,16 @@ impl Impact {
         matches!(self.contact, Contact::Released | Contact::Parted)
     }
 
+    /// The span over which its force pushes \[s\]; `None` where it has no length.
+    pub(crate) fn pushing(self) -> Option<(f64, f64)> {
+        (self.takes_place() && self.end > self.start).then_some((self.start, self.end))
+    }
+
+    /// The same impact if it ends by release at `time` \[s\].
+    pub(crate) fn ending(self, time: f64) -> Self {
+        Self { end: time, end_error: None, contact: Contact::Released, ..self }
+    }
+
     /// The impact of a node that nothing touches.
     pub(crate) fn unloaded(run_end: f64) -> Self {
         Self { start: 0.0, end: run_end, end_error: Some(0.0), contact: Contact::Unloaded }

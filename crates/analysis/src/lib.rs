@@ -24,6 +24,7 @@ mod large;
 pub mod ledger;
 mod magnitude;
 pub mod measures;
+mod open_end;
 mod padding;
 pub mod partial;
 mod refinement;

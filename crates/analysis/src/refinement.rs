@@ -13,6 +13,7 @@ use crate::{
     large::keep_also,
     ledger::ledger,
     magnitude::largest,
+    open_end::OpenEnd,
     selection::Selected,
     solution::doubt_at,
 };
@@ -21,6 +22,9 @@ use crate::{
 pub(crate) const MOST_LOST: f64 = 0.01;
 /// The first tolerance that is tried, 1e-4, in half decades below 1.
 const COARSEST: i32 = 8;
+/// How many solutions are good enough, but for an impact whose end is open, before no finer one is made for
+/// its sake.
+const SOLUTIONS_FOR_ENDS: usize = 2;
 /// The last tolerance that is tried, 1e-12, in half decades below 1.
 const FINEST: i32 = 24;
 
@@ -38,6 +42,8 @@ pub(crate) struct Solved {
     pub(crate) rtol: f64,
     /// Part of the largest contact force below which a pull counts as an error of the method.
     pub(crate) doubt: f64,
+    /// The most that a contact pulls with, in parts of what it pushes with.
+    tension: f64,
     /// How deep each contact force first pulls.
     pulls: Vec<Option<f64>>,
     pub(crate) trajectory: Trajectory,
@@ -46,6 +52,11 @@ pub(crate) struct Solved {
 }
 
 impl Solved {
+    /// The solution as the measures have been read off it.
+    pub(crate) fn as_read<'a>(&'a self, assembly: &'a Assembly) -> Solution<'a> {
+        Solution::new(assembly, &self.trajectory).doubting(self.doubt)
+    }
+
     /// What it tells of errors.
     fn told(&self) -> (f64, &[Reading]) {
         (self.rtol, &self.readings)
@@ -56,10 +67,22 @@ impl Solved {
 pub(crate) struct Outcome {
     pub(crate) solved: Solved,
     pub(crate) errors: Vec<Option<f64>>,
+    /// The same without what is open about the end of an impact, which no other method may mend.
+    pub(crate) of_method: Vec<Option<f64>>,
+    /// Whether it is open when an impact ends.
+    pub(crate) open_end: Option<OpenEnd>,
     pub(crate) solves_for_error: usize,
     pub(crate) wall_for_error: Duration,
     /// What kept the accuracy from being reached.
     pub(crate) obstacle: Option<SolveError>,
+}
+
+/// The errors of the measures of a solution.
+struct Bars {
+    errors: Vec<Option<f64>>,
+    /// Without what is open about the end of an impact.
+    of_method: Vec<Option<f64>>,
+    open_end: Option<OpenEnd>,
 }
 
 impl Task<'_> {
@@ -79,7 +102,15 @@ impl Task<'_> {
 
     /// Whether the solution is as accurate as is wanted, as far as is known.
     pub(crate) fn suffices(&self, outcome: &Outcome) -> bool {
-        self.is_good_enough(&outcome.solved, &outcome.errors)
+        self.knows(outcome) && self.is_good_enough(&outcome.solved, &outcome.of_method)
+    }
+
+    /// Whether every value that is asked for has an error, where errors are asked for.
+    pub(crate) fn knows(&self, outcome: &Outcome) -> bool {
+        let mut values = outcome.solved.readings.iter().zip(&outcome.of_method);
+        let is_known =
+            |(reading, error): (&Reading, &Option<f64>)| reading.value.is_none() || error.is_some();
+        !self.settings.estimate || values.all(is_known)
     }
 
     /// A solution with its measures. Where only a part of it is kept, and that turns out not to be all
@@ -109,13 +140,16 @@ impl Task<'_> {
         let solution = Solution::new(self.assembly, &trajectory).doubting(doubt);
         let readings = self.read(&solution);
         let pulls = if doubt > 0.0 { solution.first_pulls() } else { Vec::new() };
+        let tension = if doubt > 0.0 { solution.tension() } else { None };
+        let tension = tension.map_or(0.0, |own| own.part);
         let energy = ledger(&solution, solution.end());
         let missing = solution.missing();
         drop(solution);
-        Ok((Solved { rtol: run.rtol, doubt, pulls, trajectory, readings, energy }, missing))
+        let rtol = run.rtol;
+        Ok((Solved { rtol, doubt, tension, pulls, trajectory, readings, energy }, missing))
     }
 
-    fn read(&self, solution: &Solution<'_>) -> Vec<Reading> {
+    pub(crate) fn read(&self, solution: &Solution<'_>) -> Vec<Reading> {
         let read = |entry: &Selected| entry.measure.read(solution, entry.target);
         self.selected.iter().map(read).collect()
     }
@@ -127,8 +161,8 @@ impl Task<'_> {
         for (solved, doubt) in solved.iter_mut().zip(doubts) {
             if solved.doubt.to_bits() != doubt.to_bits() {
                 solved.doubt = doubt;
-                let solution = Solution::new(self.assembly, &solved.trajectory).doubting(doubt);
-                solved.readings = self.read(&solution);
+                let readings = self.read(&solved.as_read(self.assembly));
+                solved.readings = readings;
             }
         }
     }
@@ -142,7 +176,9 @@ impl Task<'_> {
         let errors: Vec<Option<f64>> = errors.collect();
         self.settle_zeros(&mut solved, &errors);
         Ok(Outcome {
+            of_method: errors.clone(),
             errors,
+            open_end: None,
             solved,
             solves_for_error: 0,
             wall_for_error: Duration::ZERO,
@@ -157,6 +193,7 @@ impl Task<'_> {
         let mut solves = 0;
         let mut wall = Duration::ZERO;
         let mut obstacle = None;
+        let mut left = SOLUTIONS_FOR_ENDS;
         for rtol in tolerances(self.settings.rtol) {
             match self.solve(&run.clone().with_rtol(rtol), observer) {
                 Ok(finer) => {
@@ -184,16 +221,25 @@ impl Task<'_> {
             if last.len() == SOLUTIONS {
                 obstacle = None;
                 self.settle_doubts(&mut last);
-                let errors = self.errors(&last);
+                let bars = self.bars(&last);
                 if let Some(finest) = last.last_mut() {
-                    self.settle_zeros(finest, &errors);
-                    if self.is_good_enough(finest, &errors) {
+                    self.settle_zeros(finest, &bars.errors);
+                    if self.is_good_enough(finest, &bars.errors) {
+                        break;
+                    }
+                    if self.is_good_enough(finest, &bars.of_method) {
+                        left -= 1;
+                    }
+                    if left == 0 {
                         break;
                     }
                 }
             }
         }
-        let errors = self.errors(&last);
+        let Bars { mut errors, of_method, open_end } = self.bars(&last);
+        for &at in open_end.iter().flat_map(|own| &own.undecided) {
+            errors[at] = Some(f64::INFINITY);
+        }
         let Some(solved) = last.pop() else {
             return Err(obstacle.unwrap_or(SolveError::NotApplicable {
                 method: self.method.name(),
@@ -201,14 +247,24 @@ impl Task<'_> {
             }));
         };
         let wall_for_error = wall.saturating_sub(solved.trajectory.statistics.wall);
-        Ok(Outcome { errors, solved, solves_for_error: solves - 1, wall_for_error, obstacle })
+        let solves_for_error = solves - 1;
+        Ok(Outcome {
+            solved,
+            errors,
+            of_method,
+            open_end,
+            solves_for_error,
+            wall_for_error,
+            obstacle,
+        })
     }
 
     /// The error of each measure of the last of some solutions; unknown if there are too few.
-    fn errors(&self, solved: &[Solved]) -> Vec<Option<f64>> {
+    fn bars(&self, solved: &[Solved]) -> Bars {
         let Some((finest, others)) = solved.split_last().filter(|_| solved.len() == SOLUTIONS)
         else {
-            return vec![None; self.selected.len()];
+            let none = vec![None; self.selected.len()];
+            return Bars { errors: none.clone(), of_method: none, open_end: None };
         };
         let lost = (finest.energy.closure(), finest.energy.turned_over);
         let least = |(entry, reading): (&Selected, &Reading)| {
@@ -220,7 +276,10 @@ impl Task<'_> {
             least: self.selected.iter().zip(&finest.readings).map(least).collect(),
             fall: self.method.fall(),
         };
-        evidence.error_bars()
+        let of_method = evidence.error_bars();
+        let mut errors = of_method.clone();
+        let open_end = OpenEnd::cover(self, solved, &mut errors);
+        Bars { errors, of_method, open_end }
     }
 
     /// Gives values that are as good as zero the size of what they are the remainder of, or of the
@@ -253,7 +312,10 @@ impl Task<'_> {
         let mut excesses = measures
             .map(|((entry, reading), &error)| excess(reading, error, accuracy.of(&entry.key)));
         let closure = solved.energy.closure().abs();
-        excesses.all(|excess| excess <= 1.0) && closure <= accuracy.strictest().min(MOST_LOST)
+        let strictest = accuracy.strictest();
+        excesses.all(|excess| excess <= 1.0)
+            && closure <= strictest.min(MOST_LOST)
+            && solved.tension <= strictest
     }
 }
 

@@ -52,8 +52,8 @@ pub fn table_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -
     let numbers: Vec<usize> = all.filter(|&at| trajectory.keeps(system, at)).collect();
     if assembly.switching.is_some() || trajectory.digest().is_some() {
         let column = |&at: &usize| Column {
-            name: system.outputs[at].name.clone(),
-            unit: system.outputs[at].unit,
+            name: system.outputs.at(at).name.to_owned(),
+            unit: system.outputs.at(at).unit,
             values: trajectory.signal(system, at).sample(&times),
         };
         let columns = numbers.iter().map(column).collect();
@@ -73,7 +73,7 @@ pub fn table_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -
         }
     }
     let columns = outputs.iter().zip(values).map(|(output, values)| Column {
-        name: output.name.clone(),
+        name: output.name.to_owned(),
         unit: output.unit,
         values,
     });

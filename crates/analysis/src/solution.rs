@@ -12,9 +12,17 @@ use dashpot_network::{Assembly, ConnectionOutputs, NodeId, NodeOutputs};
 use crate::{
     blows::{self, Blow},
     bodies, contacts,
-    impact::{Impact, NO_PULL, first_felt, first_pull, first_way},
+    impact::{Impact, NO_PULL, first_felt, first_way},
     padding::{self, FaceContact, Struck, Through},
 };
+
+mod grazing;
+mod rest;
+mod tension;
+
+use grazing::Feels;
+pub(crate) use grazing::{Grazes, grazes};
+use rest::only_at_rest;
 
 /// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
 /// are 100 to 700, of whatever method, at tolerances from 1e-4 to 1e-10.
@@ -41,6 +49,7 @@ pub struct Solution<'a> {
     blows: OnceCell<Vec<Vec<Blow>>>,
     has_impactor: Vec<bool>,
     doubt: f64,
+    ends: Grazes,
     scene_impact: OnceCell<Impact>,
 }
 
@@ -59,6 +68,7 @@ impl<'a> Solution<'a> {
             blows: OnceCell::new(),
             has_impactor: bodies::with_impactor(assembly),
             doubt: 0.0,
+            ends: Grazes::new(),
             scene_impact: OnceCell::new(),
         }
     }
@@ -96,7 +106,14 @@ impl<'a> Solution<'a> {
             if !self.keeps(output) {
                 self.missing.borrow_mut().insert(output);
             }
-            Box::new(self.trajectory.signal(&self.assembly.system, output))
+            let signal = self.trajectory.signal(&self.assembly.system, output);
+            // Laws that are not linear may give no force at all by themselves.
+            let is_linear = self.assembly.system.is_linear();
+            Box::new(if is_linear {
+                only_at_rest(signal, &self.trajectory.switches)
+            } else {
+                signal
+            })
         })
     }
 
@@ -191,12 +208,11 @@ impl<'a> Solution<'a> {
                 return Box::new(through.whole);
             }
             Box::new(match connection.force {
-                Some(force) if self.touches_impactor(connection) => Impact::of_contact(
-                    self.signal(force),
-                    self.element_blows(element),
-                    self.end(),
-                    self.doubt_of(connection),
-                ),
+                Some(force) if self.touches_impactor(connection) => {
+                    let (blows, doubt) = (self.element_blows(element), self.doubt_of(connection));
+                    let impact = Impact::of_contact(self.signal(force), blows, self.end(), doubt);
+                    self.ended(impact, Feels::Element(element))
+                }
                 _ if connection.is_rigid => self.node_impact(connection.between[0].index()),
                 _ => self.scene_impact(),
             })
@@ -212,14 +228,18 @@ impl<'a> Solution<'a> {
     /// of a body that is struck from behind.
     pub fn node_impact(&self, node: usize) -> Impact {
         let body = self.assembly.nodes[node].body;
-        if !self.has_impactor[body] {
-            return self.scene_impact();
-        }
+        if self.has_impactor[body] { self.body_impact(body) } else { self.scene_impact() }
+    }
+
+    /// The impact as the body number `body` feels it, to which an impactor belongs.
+    fn body_impact(&self, body: usize) -> Impact {
         **self.body_impacts[body].get_or_init(|| {
             let own = match self.push_on(body) {
                 Some(force) => {
                     let doubt = self.doubt_of_body(body);
-                    Impact::of_contact(&force, &self.body_blows(body), self.end(), doubt)
+                    let blows = self.body_blows(body);
+                    let impact = Impact::of_contact(&force, &blows, self.end(), doubt);
+                    self.ended(impact, Feels::Body(body))
                 }
                 None => Impact::unloaded(self.end()),
             };
@@ -297,23 +317,6 @@ impl<'a> Solution<'a> {
         let body = self.assembly.nodes[node].body;
         let own = self.assembly.nodes.iter().filter(|node| node.body == body);
         own.map(|node| node.mass).sum()
-    }
-
-    /// How deep each contact force first pulls, in parts of its largest magnitude: those of the
-    /// elements that touch an impactor and of the bodies with one. `None` where it never does.
-    pub(crate) fn first_pulls(&self) -> Vec<Option<f64>> {
-        let touching =
-            self.assembly.connections.iter().filter(|connection| self.touches_impactor(connection));
-        let own = touching.map(|connection| {
-            let force = connection.force.filter(|_| !connection.never_pulls)?;
-            first_pull(self.signal(force), self.end())
-        });
-        let bodies = (0..self.has_impactor.len()).filter(|&body| self.has_impactor[body]);
-        let sums = bodies.map(|body| {
-            let pulls = self.doubt_of_body(body) < NO_PULL;
-            first_pull(&self.push_on(body).filter(|_| pulls)?, self.end())
-        });
-        own.chain(sums).collect()
     }
 
     /// The force on a body with the sign with which what acts on it begins; `None` if nothing

@@ -98,15 +98,18 @@ pub fn solve_assembly(
     };
     let task = Task { assembly, settings, selected: &selected, method: method.as_ref() };
     let is_stuck = method.is_exact() || outcome.obstacle.is_some();
+    let is_known = task.knows(&outcome);
     if settings.method == "auto" && is_stuck && !task.suffices(&outcome) {
         // Of second order, the last resort would take too long for what is asked here.
         let last_resort = methods::TrBdf2.name();
         for other in others.iter().rev().filter(|own| own.name() != last_resort) {
             let other = Task { method: other.as_ref(), ..task };
             if let Ok(outcome) = other.run(&run, observer)
-                && other.suffices(&outcome)
+                && (other.suffices(&outcome) || (!is_known && other.knows(&outcome)))
             {
-                let why = if method.is_exact() {
+                let why = if !is_known {
+                    format!("the error of `{}` is not known", method.name())
+                } else if method.is_exact() {
                     "the error of `exact` may exceed what is wanted".to_owned()
                 } else {
                     format!("`{}` does not reach the accuracy that is wanted", method.name())
@@ -210,10 +213,10 @@ pub(crate) fn guards(
     let guard = |stop: &crate::Stop| {
         let output = assembly.output(&stop.output).ok_or_else(|| RunError::UnknownOutput {
             output: stop.output.clone(),
-            known: assembly.system.outputs.iter().map(|output| output.name.clone()).collect(),
+            known: assembly.system.outputs.iter().map(|output| output.name.to_owned()).collect(),
         })?;
         Ok(Guard {
-            name: condition(stop, assembly.system.outputs[output].unit),
+            name: condition(stop, assembly.system.outputs.at(output).unit),
             output,
             level: stop.level,
             direction: stop.direction,
@@ -243,7 +246,8 @@ fn report(
     why: String,
     outcome: Outcome,
 ) -> Result<RunReport, RunError> {
-    let Outcome { solved, errors, solves_for_error, wall_for_error, obstacle } = outcome;
+    let Outcome { solved, errors, open_end, solves_for_error, wall_for_error, obstacle, .. } =
+        outcome;
     if let Some(error) = lost(assembly, &solved) {
         return Err(error);
     }
@@ -271,6 +275,8 @@ fn report(
         measures: &measures,
         contacts: &contacts,
         energy: &energy,
+        estimate: task.settings.estimate,
+        open_end: open_end.as_ref(),
         obstacle: obstacle.as_ref(),
         guards: &run.guards,
         effects,
@@ -278,7 +284,7 @@ fn report(
     let missing = solution.missing();
     if !missing.is_empty() {
         let names = missing.iter().filter_map(|&at| assembly.system.outputs.get(at));
-        let outputs = names.map(|output| output.name.clone()).collect();
+        let outputs = names.map(|output| output.name.to_owned()).collect();
         return Err(RunError::NotKept { outputs });
     }
     drop(solution);

@@ -16,6 +16,7 @@ use crate::{
         CRUSHED, Clip, Clip3ms, Hic, Hic15, Hic36, MeasureKind, PeakAcceleration, PeakForce,
         PeakStrain, Reading, SeverityIndex,
     },
+    open_end::OpenEnd,
     solution::is_impactor,
     wording::{percent, quantity},
 };
@@ -27,6 +28,9 @@ pub(crate) struct Findings<'a> {
     pub(crate) measures: &'a [MeasureReport],
     pub(crate) contacts: &'a [ContactReport],
     pub(crate) energy: &'a Ledger,
+    /// Whether errors are asked for.
+    pub(crate) estimate: bool,
+    pub(crate) open_end: Option<&'a OpenEnd>,
     pub(crate) obstacle: Option<&'a SolveError>,
     pub(crate) guards: &'a [Guard],
     pub(crate) effects: &'a [&'static str],
@@ -52,6 +56,8 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
     warnings.extend(stops_that_hold(findings));
     warnings.extend(still_falling(findings.solution));
     warnings.extend(still_in_contact(findings.contacts));
+    warnings.extend(contacts_that_pull(findings));
+    warnings.extend(open_end(findings));
     warnings.extend(harder_outside(findings));
     warnings.extend(flying_away(findings));
     warnings.extend(accuracy(findings));
@@ -209,6 +215,30 @@ fn still_in_contact(contacts: &[ContactReport]) -> Vec<String> {
         .collect()
 }
 
+/// A contact whose release has not been seen.
+fn contacts_that_pull(findings: &Findings<'_>) -> Option<String> {
+    let solution = findings.solution;
+    let tension = solution.tension().filter(|own| own.part > findings.accuracy.strictest())?;
+    let name = &solution.assembly().connections[tension.connection].name;
+    let (pull, time) = (quantity(tension.pull, "N"), quantity(tension.time, "s"));
+    Some(format!(
+        "{name} pulls with {pull} at {time}, {} of what it pushes with at most, which no contact does: its \
+         release has been missed, and what follows is wrong; use a smaller `rtol` or another method",
+        percent(tension.part)
+    ))
+}
+
+/// An impact of which it cannot be told whether it ends.
+fn open_end(findings: &Findings<'_>) -> Option<String> {
+    let OpenEnd { time, measures, .. } = findings.open_end?;
+    let names = measures.iter().map(|&at| format!("`{}`", findings.measures[at].key));
+    let (time, names) = (quantity(*time, "s"), listed(&names.collect::<Vec<_>>()));
+    Some(format!(
+        "the contact force comes within its error of zero at {time} and pushes on: whether the impact ends \
+         there is open, and the errors cover both ends: {names}"
+    ))
+}
+
 /// Peaks of forces and accelerations that lie outside the impact, and above those within.
 fn harder_outside(findings: &Findings<'_>) -> Option<String> {
     let solution = findings.solution;
@@ -277,6 +307,17 @@ fn flying_away(findings: &Findings<'_>) -> Option<String> {
 
 fn accuracy(findings: &Findings<'_>) -> Vec<String> {
     let mut warnings = Vec::new();
+    let is_unknown =
+        |own: &&MeasureReport| own.value.is_some() && own.error.is_none() && own.size > 0.0;
+    let unknown = findings.measures.iter().filter(is_unknown).map(|own| format!("`{}`", own.key));
+    let unknown: Vec<String> = unknown.collect();
+    if findings.estimate && !unknown.is_empty() {
+        let why = findings.obstacle.map_or(String::new(), |error| format!(" ({error})"));
+        let names = listed(&unknown);
+        warnings.push(format!(
+            "the errors are not known, as no further solutions came about to tell them: {names}{why}"
+        ));
+    }
     let undecided: Vec<String> = findings
         .measures
         .iter()

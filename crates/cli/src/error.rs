@@ -6,7 +6,7 @@ use dashpot_analysis::{
     RunError, rheometer::RheometerError, similarity::SimilarityError, sweep::SweepError,
     vibration::VibrationError,
 };
-use dashpot_dae::SolveError;
+use dashpot_dae::{MethodKind as _, SolveError, methods::Tsit45};
 use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
@@ -356,7 +356,14 @@ impl CliError {
                     "hold a node with `fixed = true`, or put a load on one under [loads]".to_owned(),
                 ),
             },
-            Self::Vibration(VibrationError::NotLinear { .. }) => Some(
+            Self::Vibration(VibrationError::Loose { .. }) => Some(
+                "gravity presses parts together, `[effects]` with `gravity = { value = \"1 g0\" }`; \
+                 or leave out the separation: then it pulls as it pushes"
+                    .to_owned(),
+            ),
+            Self::Vibration(
+                VibrationError::NotLinear { .. } | VibrationError::OnStop { .. },
+            ) => Some(
                 "`dashpot run` solves it in time: give the node that shakes \
                  `motion = { sine = { amplitude = \"1 mm\", frequency = \"20 Hz\" } }` (a load \
                  likewise a `force`), a `duration` of many periods, and ask for its measures with \
@@ -367,12 +374,17 @@ impl CliError {
                 SolveError::NotApplicable { .. } => {
                     Some("`--method auto` chooses one that can".to_owned())
                 }
-                SolveError::TooManySteps { .. }
-                | SolveError::StepTooSmall { .. }
-                | SolveError::NewtonFailed { .. } => Some(
-                    "`--method auto` chooses a method that suits; `--accuracy 1%` asks for less"
-                        .to_owned(),
-                ),
+                SolveError::TooManySteps { method, .. }
+                | SolveError::StepTooSmall { method, .. }
+                | SolveError::NewtonFailed { method, .. } => Some(if *method == Tsit45::KIND {
+                    "an explicit method takes short steps where parts are stiff, whatever the \
+                     accuracy; `--method auto` chooses one that suits"
+                        .to_owned()
+                } else {
+                    "`--method auto` tries another method where one gets stuck; `--accuracy 1%` asks \
+                     for less"
+                        .to_owned()
+                }),
                 _ => None,
             },
             _ => None,

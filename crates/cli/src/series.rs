@@ -37,7 +37,7 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
     let table = table_at(&report.assembly, &report.trajectory, times);
     let outputs = &report.assembly.system.outputs;
     let values = |output: Option<usize>| {
-        let name = output.and_then(|at| outputs.get(at)).map(|output| output.name.as_str());
+        let name = output.and_then(|at| outputs.get(at)).map(|output| output.name);
         let column = name.and_then(|name| table.columns.iter().find(|own| own.name == name));
         column.map_or_else(Vec::new, |column| column.values.clone())
     };

@@ -8,28 +8,69 @@ mod roots;
 
 pub use gauss::GaussLegendre;
 pub use interpolation::Interpolation;
-pub use roots::{bracketed_root, is_monotone, sign_changes};
+pub use roots::{bracketed_root, sign_changes};
+
+/// Places that are worked on side by side, so that the recurrences do not wait for each other.
+const LANES: usize = 6;
 
 /// The value `p(x)`, `x` in `[−1, 1]`, by Clenshaw's recurrence in Reinsch's form, which keeps its
 /// accuracy at the ends of the interval.
 pub fn evaluate(coefficients: &[f64], x: f64) -> f64 {
-    let Some((&first, rest)) = coefficients.split_first() else { return 0.0 };
-    let (mut b, mut difference) = (0.0, 0.0);
-    if x < 0.0 {
-        let shift = x + 1.0;
-        for &c in rest.iter().rev() {
-            difference = c + 2.0 * shift * b - difference;
-            b = difference - b;
-        }
-        first + shift * b - difference
-    } else {
-        let shift = x - 1.0;
-        for &c in rest.iter().rev() {
-            difference += c + 2.0 * shift * b;
-            b += difference;
-        }
-        first + shift * b + difference
+    let [value] = clenshaw(coefficients, [x]);
+    value
+}
+
+/// The values at each of the `places`, the same as by [`evaluate`] but quicker.
+///
+/// # Panics
+///
+/// When `values` is shorter than `places`.
+pub fn evaluate_all(coefficients: &[f64], places: &[f64], values: &mut [f64]) {
+    assert!(values.len() >= places.len(), "a value for each place");
+    for (places, values) in places.chunks(LANES).zip(values.chunks_mut(LANES)) {
+        let mut lanes = [0.0; LANES];
+        lanes[..places.len()].copy_from_slice(places);
+        let found = clenshaw(coefficients, lanes);
+        values[..places.len()].copy_from_slice(&found[..places.len()]);
     }
+}
+
+/// The values at `x` of two polynomials, the second of which has no more coefficients than the first,
+/// the same as by [`evaluate`] but in the time of one.
+pub fn evaluate_both(first: &[f64], second: &[f64], x: f64) -> (f64, f64) {
+    let pairs =
+        first.iter().enumerate().map(|(k, &one)| [one, second.get(k).copied().unwrap_or(0.0)]);
+    let [one, other] = recurrence(pairs, [x, x]);
+    (one, other)
+}
+
+fn clenshaw<const N: usize>(coefficients: &[f64], places: [f64; N]) -> [f64; N] {
+    recurrence(coefficients.iter().map(|&c| [c; N]), places)
+}
+
+/// The values of `N` polynomials, each at its own place.
+fn recurrence<const N: usize>(
+    mut coefficients: impl DoubleEndedIterator<Item = [f64; N]>,
+    places: [f64; N],
+) -> [f64; N] {
+    let Some(first) = coefficients.next() else { return [0.0; N] };
+    // It starts from the nearer end of the interval, and goes with the sign of that.
+    let sides = places.map(|x| if x < 0.0 { -1.0 } else { 1.0 });
+    let (mut shifts, mut b, mut differences) = ([0.0; N], [0.0; N], [0.0; N]);
+    for i in 0..N {
+        shifts[i] = places[i] - sides[i];
+    }
+    for c in coefficients.rev() {
+        for i in 0..N {
+            differences[i] = c[i] + 2.0 * shifts[i] * b[i] + sides[i] * differences[i];
+            b[i] = differences[i] + sides[i] * b[i];
+        }
+    }
+    let mut values = [0.0; N];
+    for i in 0..N {
+        values[i] = first[i] + shifts[i] * b[i] + sides[i] * differences[i];
+    }
+    values
 }
 
 /// The coefficients of `p′`, one fewer than those of `p` but at least one.
@@ -76,16 +117,13 @@ pub fn integral_over(coefficients: &[f64], a: f64, b: f64) -> f64 {
 pub fn restrict(coefficients: &[f64], a: f64, b: f64) -> Vec<f64> {
     let degree = coefficients.len().saturating_sub(1);
     let interpolation = Interpolation::of_degree(degree);
-    let value = |&node: &f64| {
+    let place = |&node: &f64| {
         // Exact at both ends, so that adjoining restrictions share their border.
-        let x = if node < 0.0 {
-            a + 0.5 * (b - a) * (1.0 + node)
-        } else {
-            b - 0.5 * (b - a) * (1.0 - node)
-        };
-        evaluate(coefficients, x)
+        if node < 0.0 { a + 0.5 * (b - a) * (1.0 + node) } else { b - 0.5 * (b - a) * (1.0 - node) }
     };
-    let values: Vec<f64> = interpolation.nodes().iter().map(value).collect();
+    let places: Vec<f64> = interpolation.nodes().iter().map(place).collect();
+    let mut values = vec![0.0; degree + 1];
+    evaluate_all(coefficients, &places, &mut values);
     let mut restricted = vec![0.0; degree + 1];
     interpolation.coefficients(&values, &mut restricted);
     restricted

@@ -67,7 +67,7 @@ impl Derivatives {
     /// # Panics
     ///
     /// When `k` is beyond the highest order, or `output` is one of another system.
-    pub fn output(&self, output: &Output, k: usize) -> (f64, f64) {
+    pub fn output(&self, output: Output<'_>, k: usize) -> (f64, f64) {
         let Output { scale, unknowns, inputs, .. } = output;
         let value = unknowns.at(&self.values[k]) + inputs.at(&self.inputs[k]);
         let magnitude = unknowns.magnitude_at(&self.magnitudes[k])

@@ -66,13 +66,13 @@ impl Instant {
 
     /// An output in SI units.
     pub(crate) fn value(&self, system: &System, output: usize) -> f64 {
-        let output = &system.outputs[output];
+        let output = system.outputs.at(output);
         output.scale * (output.unknowns.at(&self.state) + output.inputs.at(&self.inputs))
     }
 
     /// The size of an output's terms in SI units, which its rounding follows.
     pub(crate) fn magnitude(&self, system: &System, output: usize) -> f64 {
-        let output = &system.outputs[output];
+        let output = system.outputs.at(output);
         let terms =
             output.unknowns.magnitude_at(&self.state) + output.inputs.magnitude_at(&self.inputs);
         output.scale.abs() * terms

@@ -185,16 +185,16 @@ impl Harmonic<'_> {
         let (mut value, mut slope) = (Complex::<f64>::default(), Complex::<f64>::default());
         let mut size = 0.0;
         for &(at, factor) in sum {
-            let output = &self.system.outputs[at];
+            let output = self.system.outputs.at(at);
             let factor = factor * output.scale;
-            for &(unknown, weight) in output.unknowns.terms() {
+            for (unknown, weight) in output.unknowns.terms() {
                 let weight = factor * weight;
                 value += self.state[unknown] * weight;
                 slope += self.slope[unknown] * weight;
                 size += (self.state[unknown] * weight).norm();
                 adjoint[unknown] += weight;
             }
-            for &(input, weight) in output.inputs.terms() {
+            for (input, weight) in output.inputs.terms() {
                 let weight = factor * weight;
                 value += self.inputs[input] * weight;
                 slope += self.input_slopes[input] * weight;

@@ -107,3 +107,56 @@ impl LinearForm {
         self.terms.iter().map(|&(i, c)| (c * z[i]).abs()).sum()
     }
 }
+
+/// A [`LinearForm`] that lies among others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FormRef<'f> {
+    variables: &'f [u32],
+    coefficients: &'f [f64],
+}
+
+impl<'f> FormRef<'f> {
+    /// The form of these variables, in rising order, and as many coefficients.
+    pub(crate) fn new(variables: &'f [u32], coefficients: &'f [f64]) -> Self {
+        Self { variables, coefficients }
+    }
+
+    /// The terms `(variable, coefficient)` in rising order of the variable; none is zero.
+    pub fn terms(self) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone + 'f {
+        let variables = self.variables.iter().map(|&variable| variable as usize);
+        variables.zip(self.coefficients.iter().copied())
+    }
+
+    /// Whether no variable appears.
+    pub fn is_zero(self) -> bool {
+        self.variables.is_empty()
+    }
+
+    /// The coefficient of `variable`, zero where it does not appear.
+    pub fn coefficient(self, variable: usize) -> f64 {
+        self.terms().find(|term| term.0 == variable).map_or(0.0, |term| term.1)
+    }
+
+    /// The value at the point `z`.
+    ///
+    /// # Panics
+    ///
+    /// When a variable of the form lies beyond the end of `z`.
+    pub fn at(self, z: &[f64]) -> f64 {
+        self.terms().map(|(i, c)| c * z[i]).sum()
+    }
+
+    /// `Σ |cᵢ zᵢ|`, the scale of the rounding error of [`at`](Self::at).
+    ///
+    /// # Panics
+    ///
+    /// When a variable of the form lies beyond the end of `z`.
+    pub fn magnitude_at(self, z: &[f64]) -> f64 {
+        self.terms().map(|(i, c)| (c * z[i]).abs()).sum()
+    }
+
+    /// The same form by itself.
+    pub fn to_form(self) -> LinearForm {
+        LinearForm { terms: self.terms().collect() }
+    }
+}

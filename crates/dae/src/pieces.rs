@@ -8,8 +8,6 @@ mod stream;
 #[cfg(test)]
 mod tests;
 
-use std::borrow::Cow;
-
 use crate::{Dense, Digest, Keep, Output, Panel, Run, Signal, System, chebyshev::Interpolation};
 use lagrange::Lagrange;
 use stream::Stream;
@@ -173,7 +171,7 @@ impl Pieces {
     }
 
     /// The output over the steps from number `from` on.
-    pub(crate) fn signal_from(&self, system: &System, output: &Output, from: usize) -> Signal {
+    pub(crate) fn signal_from(&self, system: &System, output: Output<'_>, from: usize) -> Signal {
         let mut panels = Vec::with_capacity(self.steps.len() - from);
         let mut magnitude = 0.0_f64;
         let mut values = Vec::new();
@@ -196,12 +194,11 @@ impl Pieces {
     }
 
     /// The terms of an output over the values of a row; `None` where not all of them are kept.
-    fn places<'o>(&self, output: &'o Output) -> Option<Cow<'o, [(usize, f64)]>> {
+    fn places(&self, output: Output<'_>) -> Option<Vec<(usize, f64)>> {
         let terms = output.unknowns.terms();
-        let Some(kept) = &self.kept else { return Some(Cow::Borrowed(terms)) };
-        let place =
-            |&(unknown, factor): &(usize, f64)| Some((kept.binary_search(&unknown).ok()?, factor));
-        terms.iter().map(place).collect::<Option<Vec<_>>>().map(Cow::Owned)
+        let Some(kept) = &self.kept else { return Some(terms.collect()) };
+        let place = |(unknown, factor)| Some((kept.binary_search(&unknown).ok()?, factor));
+        terms.map(place).collect()
     }
 
     /// The sum of `terms` at the Chebyshev–Lobatto points of a step, and how large they are.
@@ -240,7 +237,7 @@ impl Pieces {
 
 impl Dense for Pieces {
     fn signal(&self, system: &System, output: usize) -> Signal {
-        self.signal_from(system, &system.outputs[output], 0)
+        self.signal_from(system, system.outputs.at(output), 0)
     }
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {

@@ -23,7 +23,7 @@ use std::fmt;
 
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
-use crate::{Input, LinearForm, Output, Piece, System, Unknown, UnknownKind, Waveform};
+use crate::{Input, LinearForm, Outputs, Piece, System, Unknown, UnknownKind, Waveform};
 
 /// A system with its solution.
 pub struct Problem {
@@ -107,16 +107,13 @@ impl Parts<'_> {
         };
         let unknown = |(name, kind)| Unknown { name, kind, scale: SCALE, unit: "m" };
         let unknowns: Vec<Unknown> = self.unknowns.into_iter().map(unknown).collect();
-        let output = |(at, unknown): (usize, &Unknown)| Output {
-            name: unknown.name.clone(),
-            unit: unknown.unit,
-            scale: unknown.scale,
-            unknowns: LinearForm::term(at, 1.0),
-            inputs: LinearForm::zero(),
-        };
+        let mut outputs = Outputs::new();
+        for (at, Unknown { name, unit, scale, .. }) in unknowns.iter().enumerate() {
+            outputs.push(name, unit, *scale, &LinearForm::term(at, 1.0), &LinearForm::zero());
+        }
         let input = |waveform| Input { waveform, derivative: 0 };
         System {
-            outputs: unknowns.iter().enumerate().map(output).collect(),
+            outputs,
             unknowns,
             jacobian: matrix(size, self.jacobian),
             input_matrix: matrix(self.waveforms.len(), self.input_matrix),

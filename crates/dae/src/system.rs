@@ -2,7 +2,7 @@
 
 use nalgebra_sparse::CsrMatrix;
 
-use crate::{LinearForm, Term, Waveform};
+use crate::{Outputs, Term, Waveform};
 
 /// How an unknown enters the system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,21 +36,6 @@ pub struct Input {
     pub derivative: u32,
 }
 
-/// A named scalar that the system can report: `scale · (unknowns·y + inputs·w)`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Output {
-    /// Its name, for instance `padding.force`.
-    pub name: String,
-    /// SI unit of the reported value.
-    pub unit: &'static str,
-    /// SI value of the dimensionless value 1.
-    pub scale: f64,
-    /// Coefficients over the unknowns.
-    pub unknowns: LinearForm,
-    /// Coefficients over the inputs.
-    pub inputs: LinearForm,
-}
-
 /// The differential–algebraic system `M ẏ = J y + B w(t) + n(y, w)`, `M = diag(1…1, 0…0)`.
 ///
 /// The terms `n` that are not linear stand in rows of algebraic unknowns; most systems have none.
@@ -76,7 +61,7 @@ pub struct System {
     /// solve the balances before they start.
     pub initial: Vec<f64>,
     /// What can be reported.
-    pub outputs: Vec<Output>,
+    pub outputs: Outputs,
     /// Seconds in one unit of dimensionless time \[s\].
     pub time_scale: f64,
 }

@@ -175,6 +175,6 @@ impl Assembly {
 
     /// The output of the given name, for instance `padding.force`.
     pub fn output(&self, name: &str) -> Option<usize> {
-        self.system.outputs.iter().position(|output| output.name == name)
+        self.system.outputs.find(name)
     }
 }

@@ -128,12 +128,15 @@ pub enum NetworkError {
     },
     /// The prescribed motion of a mass asks for an infinite force.
     #[error(
-        "the motion of `{node}` {fault} at {time} s, and {node} has mass: the force would be \
-         infinite; prescribe the motion of a node without mass, or one that is smooth"
+        "the motion of `{node}` {fault} at {time} s, and {} mass: the force would be infinite; \
+         prescribe the motion of a node without mass, or one that is smooth",
+        bearer(.node, .heavy)
     )]
     MotionOfMass {
         /// The node.
         node: String,
+        /// What has the mass: the node, or one that moves with it.
+        heavy: String,
         /// `jumps` or `has a kink`.
         fault: &'static str,
         /// When \[s\].
@@ -210,6 +213,20 @@ pub enum NetworkError {
         /// Path of the part.
         element: String,
     },
+    /// All that moves a network that switches is so small that it cannot be divided by.
+    #[error(
+        "nothing moves by enough to be solved for: where a network switches, speeds, forces and \
+         motions may not all be as small as this; {what} is {value:e} {unit}, and one over that is \
+         beyond the range of numbers"
+    )]
+    TooFaint {
+        /// What is too small.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
     /// A number became too large or too small for double precision.
     #[error("the constants of the network are too far apart: {what} is {value:e} in {unit}")]
     OutOfScale {
@@ -252,7 +269,7 @@ impl NetworkError {
                 let name = path.next().unwrap_or_default();
                 Some(Subject::Element { name, path: path.collect() })
             }
-            Self::OutOfScale { .. } => None,
+            Self::OutOfScale { .. } | Self::TooFaint { .. } => None,
         }
     }
 }
@@ -278,6 +295,15 @@ impl std::error::Error for NetworkErrors {}
 impl From<NetworkError> for NetworkErrors {
     fn from(error: NetworkError) -> Self {
         Self(vec![error])
+    }
+}
+
+/// What has the mass that a given motion moves.
+fn bearer(node: &str, heavy: &str) -> String {
+    if node == heavy {
+        format!("{node} has")
+    } else {
+        format!("`{heavy}`, which moves with it, has")
     }
 }
 

@@ -72,6 +72,12 @@ pub trait Phases: Debug + Send + Sync {
     /// The ways out of a phase.
     fn exits(&self, phase: Phase) -> Vec<Exit>;
 
+    /// The force \[N\] at which it slides, of a dry slider. Those between the same two places share a
+    /// force in this proportion.
+    fn capacity(&self) -> Option<f64> {
+        None
+    }
+
     /// The part of the speed of approach with which masses part that meet as a phase of
     /// [`PhaseLaw::Held`] begins, from 0 to 1.
     fn restitution(&self) -> f64 {

@@ -1,12 +1,17 @@
 //! A TOML text as a tree of values that know their places.
 
-use std::sync::Arc;
+mod blocks;
+mod word;
+
+use std::{ops::Range, sync::Arc};
 
 use toml::{
     Spanned,
     de::{DeTable, DeValue},
 };
 
+pub(crate) use self::word::Word;
+use self::word::Words;
 use crate::{
     diagnostics::Faults,
     fault::Fault,
@@ -40,24 +45,24 @@ pub(crate) struct Item {
 #[derive(Debug)]
 pub(crate) enum Content {
     /// A string.
-    Text(String),
+    Text(Word),
     /// An integer or a float, as decimal digits.
-    Number(String),
+    Number(Word),
     /// `true` or `false`.
     Switch(bool),
     /// A date or a time.
     Date,
     /// A list.
-    List(Vec<Item>),
+    List(Box<[Item]>),
     /// A table, in the order of the text.
-    Table(Vec<Entry>),
+    Table(Box<[Entry]>),
 }
 
 /// A key and its value.
 #[derive(Debug)]
 pub(crate) struct Entry {
     /// The key.
-    pub(crate) key: String,
+    pub(crate) key: Word,
     /// Where the key stands.
     pub(crate) key_place: Place,
     /// The value.
@@ -154,11 +159,15 @@ fn on_deep_stack(text: &str, number: u32) -> Result<Parsed, String> {
 }
 
 fn parse_text(text: &str, number: u32) -> Parsed {
+    let mut builder = Builder { number, words: Words::default() };
+    if let Some(root) = blocks::root(text, &mut builder) {
+        return (Some(root), Vec::new());
+    }
     let (root, errors) = DeTable::parse_recoverable(text);
-    let span = root.span();
-    let entries = entries(root.into_inner(), number);
+    let place = Place::new(number, &root.span());
+    let entries = builder.entries(root.into_inner(), 0);
     let faults = errors.iter().map(|error| syntax_fault(text, number, error)).collect();
-    (Some(Item { value: Content::Table(entries), place: Place::new(number, &span) }), faults)
+    (Some(Item { value: Content::Table(entries.into_boxed_slice()), place }), faults)
 }
 
 fn syntax_fault(text: &str, number: u32, error: &toml::de::Error) -> (Place, Fault) {
@@ -174,34 +183,55 @@ fn syntax_fault(text: &str, number: u32, error: &toml::de::Error) -> (Place, Fau
     (Place::new(number, &span), fault)
 }
 
-fn entries(table: DeTable<'_>, number: u32) -> Vec<Entry> {
-    let mut entries: Vec<Entry> = table
-        .into_iter()
-        .map(|(key, value)| Entry {
-            key_place: Place::new(number, &key.span()),
-            key: key.into_inner().into_owned(),
-            item: item(value, number),
-        })
-        .collect();
-    // The parser sorts by key; the order of the text decides the order of nodes and branches.
-    entries.sort_by_key(|entry| entry.key_place.start);
-    entries
+/// Makes items of what the parser found.
+struct Builder {
+    /// Number of the source.
+    number: u32,
+    words: Words,
 }
 
-fn item(value: Spanned<DeValue<'_>>, number: u32) -> Item {
-    let place = Place::new(number, &value.span());
-    let value = match value.into_inner() {
-        DeValue::String(text) => Content::Text(text.into_owned()),
-        DeValue::Integer(integer) => Content::Number(decimal(integer.as_str(), integer.radix())),
-        DeValue::Float(float) => Content::Number(float.as_str().to_owned()),
-        DeValue::Boolean(switch) => Content::Switch(switch),
-        DeValue::Datetime(_) => Content::Date,
-        DeValue::Array(items) => {
-            Content::List(items.into_iter().map(|value| item(value, number)).collect())
+impl Builder {
+    /// The entries of a table in the part of the text that begins at the byte `start`.
+    fn entries(&mut self, table: DeTable<'_>, start: usize) -> Vec<Entry> {
+        let mut entries = Vec::with_capacity(table.len());
+        for (key, value) in table {
+            entries.push(Entry {
+                key_place: self.place(&key.span(), start),
+                key: self.words.word(key.get_ref()),
+                item: self.item(value, start),
+            });
         }
-        DeValue::Table(table) => Content::Table(entries(table, number)),
-    };
-    Item { value, place }
+        // The parser sorts by key; the order of the text decides the order of nodes and branches.
+        entries.sort_by_key(|entry| entry.key_place.start);
+        entries
+    }
+
+    fn item(&mut self, value: Spanned<DeValue<'_>>, start: usize) -> Item {
+        let place = self.place(&value.span(), start);
+        let value = match value.into_inner() {
+            DeValue::String(text) => Content::Text(self.words.word(&text)),
+            DeValue::Integer(integer) => {
+                let digits = decimal(integer.as_str(), integer.radix());
+                Content::Number(self.words.word(&digits))
+            }
+            DeValue::Float(float) => Content::Number(self.words.word(float.as_str())),
+            DeValue::Boolean(switch) => Content::Switch(switch),
+            DeValue::Datetime(_) => Content::Date,
+            DeValue::Array(items) => {
+                let mut list = Vec::with_capacity(items.len());
+                for value in items {
+                    list.push(self.item(value, start));
+                }
+                Content::List(list.into_boxed_slice())
+            }
+            DeValue::Table(table) => Content::Table(self.entries(table, start).into_boxed_slice()),
+        };
+        Item { value, place }
+    }
+
+    fn place(&self, span: &Range<usize>, start: usize) -> Place {
+        Place::new(self.number, &(start + span.start..start + span.end))
+    }
 }
 
 fn decimal(digits: &str, radix: u32) -> String {
@@ -226,12 +256,12 @@ mod tests {
         let (item, errors) = parsed("z = 1\na = 2\n[m]\nc = 0x10\nb = true\n");
         let item = item.unwrap();
         let keys = |item: &Item| {
-            item.table().unwrap().iter().map(|entry| entry.key.clone()).collect::<Vec<_>>()
+            item.table().unwrap().iter().map(|entry| entry.key.to_string()).collect::<Vec<_>>()
         };
         assert_eq!(keys(&item), ["z", "a", "m"]);
         let inner = &item.table().unwrap()[2].item;
         assert_eq!(keys(inner), ["c", "b"]);
-        assert!(matches!(&inner.table().unwrap()[0].item.value, Content::Number(n) if n == "16"));
+        assert!(matches!(&inner.table().unwrap()[0].item.value, Content::Number(n) if *n == "16"));
         assert!(errors.is_empty());
     }
 

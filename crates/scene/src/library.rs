@@ -262,7 +262,7 @@ impl Library {
             }
             for (index, entry) in shelf.entries(&root).iter().enumerate() {
                 check_name(&entry.key, entry.key_place, faults);
-                models.insert((shelf, entry.key.clone()), index);
+                models.insert((shelf, entry.key.to_string()), index);
             }
         }
         self.documents.push(Document { path: path.to_owned(), root, values, models });

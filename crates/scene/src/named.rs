@@ -106,7 +106,8 @@ pub fn read_named_model(
         };
         let is_material =
             matches!(found, Found::OnShelf(reference) if reference.shelf == Shelf::Materials);
-        let (name, mut notes, span) = (entry.key.clone(), models.notes(), lines_of(&source, entry));
+        let (name, mut notes, span) =
+            (entry.key.to_string(), models.notes(), lines_of(&source, entry));
         if is_shared {
             let subject = match found {
                 Found::OnShelf(reference) => format!("{} `{name}`", reference.shelf.word()),
@@ -167,7 +168,7 @@ fn shared(name: &str) -> String {
 fn known(library: &Library, elements: &[Entry]) -> Vec<String> {
     let shelves = SHELVES.into_iter().flat_map(|shelf| library.names(0, shelf));
     let mut known: Vec<String> =
-        shelves.chain(elements.iter().map(|entry| entry.key.clone())).collect();
+        shelves.chain(elements.iter().map(|entry| entry.key.to_string())).collect();
     known.sort();
     known.dedup();
     known

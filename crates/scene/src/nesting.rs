@@ -1,24 +1,50 @@
 //! How deeply a text nests, found before it is parsed.
 
+use std::ops::Range;
+
 /// The deepest nesting of arrays, tables and dotted keys in a TOML text, bounded from above, and
 /// the byte at which it is reached.
 ///
 /// Strings and comments are skipped; a text that is not TOML gets a number as well.
 pub(crate) fn depth(text: &str) -> (usize, usize) {
-    let bytes = text.as_bytes();
     let mut scan = Scan::default();
+    walk(text, |byte, at| scan.step(byte, at));
+    (scan.deepest, scan.place)
+}
+
+/// A TOML text cut at ends of lines that are in no brackets: before every line that begins with a
+/// bracket, and where a part is longer than `most` bytes.
+pub(crate) fn blocks(text: &str, most: usize) -> Vec<Range<usize>> {
+    let mut scan = Scan::default();
+    let (mut blocks, mut start) = (Vec::new(), 0);
+    walk(text, |byte, at| {
+        scan.step(byte, at);
+        let next = at + 1;
+        let is_end = byte == b'\n' && scan.level == 0;
+        let has_header = || text[next..].trim_start_matches([' ', '\t']).starts_with('[');
+        if is_end && (next - start >= most || has_header()) {
+            blocks.push(start..next);
+            start = next;
+        }
+    });
+    blocks.push(start..text.len());
+    blocks
+}
+
+/// Shows all bytes that are in no string and no comment, and where they stand, to `see`.
+fn walk(text: &str, mut see: impl FnMut(u8, usize)) {
+    let bytes = text.as_bytes();
     let mut at = 0;
     while at < bytes.len() {
         match bytes[at] {
             b'#' => at = skip_to_newline(bytes, at),
             quote @ (b'"' | b'\'') => at = skip_string(bytes, at, quote),
             byte => {
-                scan.step(byte, at);
+                see(byte, at);
                 at += 1;
             }
         }
     }
-    (scan.deepest, scan.place)
 }
 
 #[derive(Default)]

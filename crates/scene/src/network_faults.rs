@@ -80,12 +80,12 @@ impl<'d> Entries<'d> {
                 self.nodes.get(name.as_str()).copied().or_else(|| self.named(&name))?
             }
             Subject::Element { name, .. } => self.named(&name)?,
-            Subject::Load(name) => self.loads.iter().find(|entry| entry.key == name)?,
+            Subject::Load(name) => self.loads.iter().find(|entry| entry.key == name.as_str())?,
             Subject::Effect(word) => self.effects.iter().find(|entry| entry.key == word)?,
             Subject::EffectOn(word, element) => {
                 let of_kind = self.effects.iter().find(|entry| entry.key == word)?;
                 let own = of_kind.item.table().unwrap_or(&[]).iter();
-                own.clone().find(|entry| entry.key == element).unwrap_or(of_kind)
+                own.clone().find(|entry| entry.key == element.as_str()).unwrap_or(of_kind)
             }
         };
         let keys: &[&str] = match error {

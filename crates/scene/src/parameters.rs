@@ -163,7 +163,7 @@ impl<'d> KindReader<'d> {
 
     /// The thing of `kind` with all keys left out.
     pub(crate) fn defaults<T>(self, kind: &Kind<T>, place: Place) -> Option<T> {
-        self.read(kind, &Item { value: Content::Table(Vec::new()), place }, place)
+        self.read(kind, &Item { value: Content::Table(Box::default()), place }, place)
     }
 
     fn values<'i>(
@@ -327,7 +327,7 @@ impl<'d> KindReader<'d> {
         };
         let point = |item: &Item| {
             let pair: Option<&[Item; 2]> = match &item.value {
-                Content::List(pair) => pair.as_slice().try_into().ok(),
+                Content::List(pair) => (**pair).try_into().ok(),
                 _ => None,
             };
             if pair.is_none() {
@@ -383,7 +383,7 @@ impl<'d> KindReader<'d> {
                 from.zip(to).map(|(from, to)| WindowWish::Times(from, to))
             }
             Content::Text(word) => {
-                let (family, word) = ("a window".to_owned(), word.clone());
+                let (family, word) = ("a window".to_owned(), word.to_string());
                 let fault = Fault::UnknownWord { family, word, known: vec!["impact", "run"] };
                 let fault = fault.with_help(
                     "write \"impact\", \"run\" for the whole run, or a pair of times such as \
@@ -408,7 +408,7 @@ impl<'d> KindReader<'d> {
         }
         let content = match parameter.kind {
             ParameterKind::Flag => Content::Switch(text == "true"),
-            _ => Content::Text(text.to_owned()),
+            _ => Content::Text(text.into()),
         };
         let place = Place { source: u32::MAX, start: 0, end: 0 };
         let without_names =

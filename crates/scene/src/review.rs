@@ -62,7 +62,7 @@ pub(crate) fn review(reading: &Reading<'_>, network: &Network, duration: f64) {
 fn unused_values(reading: &Reading<'_>) {
     let entries = reading.library.section("values").and_then(|entry| entry.item.table());
     for entry in entries.unwrap_or(&[]) {
-        let known = reading.library.values().get(&entry.key);
+        let known = reading.library.values().get(entry.key.as_str());
         if known.is_some_and(|known| !known.is_used.get()) {
             let message = format!("nothing uses the value `{}`", entry.key);
             let help = format!("write \"{}\" where it is meant, or remove it", entry.key);

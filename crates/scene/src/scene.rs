@@ -17,7 +17,7 @@ use crate::{
     notes::ModelNote,
     review::{outlasted, review, upward, weightless},
     sections::{
-        Reading, check_stops, read_accuracy, read_effects, read_elements, read_loads,
+        Reading, Targets, check_stops, read_accuracy, read_effects, read_elements, read_loads,
         read_measures, read_nodes, read_run,
     },
     source::Source,
@@ -237,7 +237,7 @@ impl<'d> Parts<'d> {
     fn read(library: &'d Library, faults: &'d Faults) -> Self {
         let is_stranger = |own: &&Entry| !SECTIONS.contains(&own.key.as_str()) && !faults.damaged();
         for entry in library.sections().iter().filter(is_stranger) {
-            let (key, owner) = (entry.key.clone(), "the scene".to_owned());
+            let (key, owner) = (entry.key.to_string(), "the scene".to_owned());
             let fault = Fault::UnknownKey { key, owner, known: SECTIONS.to_vec() };
             let fault = match home_of(&entry.key) {
                 Some(help) => fault.with_help(help),
@@ -255,9 +255,10 @@ impl<'d> Parts<'d> {
         read_elements(&mut reading, &models, &mut network);
         read_effects(&reading, &mut network);
         read_loads(&reading, &mut network);
-        let measures = read_measures(&reading, &models);
+        let targets = Targets::new(&reading, &network);
+        let measures = read_measures(&reading, &targets, &models);
         models.check_unused();
-        let accuracy = read_accuracy(&reading);
+        let accuracy = read_accuracy(&reading, &targets);
         Self { reading, network, title, measures, accuracy, notes: models.notes() }
     }
 }

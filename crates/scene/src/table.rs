@@ -62,7 +62,7 @@ impl<'d> Table<'d> {
         let asked = self.asked.borrow();
         self.finish_missing();
         for entry in self.strangers() {
-            let (key, owner) = (entry.key.clone(), self.owner.clone());
+            let (key, owner) = (entry.key.to_string(), self.owner.clone());
             let fault = Fault::UnknownKey { key, owner, known: asked.clone() };
             self.faults.error(entry.key_place, fault);
         }

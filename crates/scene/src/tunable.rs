@@ -79,7 +79,7 @@ impl Tunables {
         let mut found = Found::default();
         for entry in root.table().unwrap_or(&[]) {
             if SECTIONS.contains(&entry.key.as_str()) {
-                collect(&entry.item, &mut vec![entry.key.clone()], &mut found);
+                collect(&entry.item, &mut vec![entry.key.to_string()], &mut found);
             } else if entry.key == RUN.0 {
                 let own = entry.item.table().unwrap_or(&[]).iter().filter(|own| own.key == RUN.1);
                 let path = || vec![RUN.0.to_owned(), RUN.1.to_owned()];
@@ -302,15 +302,15 @@ fn holds(path: &[String], wanted: &[&str]) -> bool {
 fn collect(item: &Item, path: &mut Vec<String>, found: &mut Found) {
     match &item.value {
         Content::Number(digits) => {
-            found.numbers.push((path.clone(), item.place.span(), digits.clone()));
+            found.numbers.push((path.clone(), item.place.span(), digits.to_string()));
         }
         Content::Text(text) if parse_quantity(text).is_ok() => {
-            found.numbers.push((path.clone(), item.place.span(), text.clone()));
+            found.numbers.push((path.clone(), item.place.span(), text.to_string()));
         }
         Content::Text(text) => found.words.push((path.clone(), text.trim().to_owned())),
         Content::Table(entries) => {
             for entry in entries {
-                path.push(entry.key.clone());
+                path.push(entry.key.to_string());
                 collect(&entry.item, path, found);
                 path.pop();
             }

@@ -89,18 +89,18 @@ pub(crate) fn read(item: Option<&Item>, overrides: &Overrides, faults: &Faults) 
     for entry in entries {
         if entry.key.trim() != entry.key || parse_quantity(&entry.key).is_ok() {
             let reason = "it reads like a number";
-            faults.error(entry.key_place, Fault::BadName { name: entry.key.clone(), reason });
+            faults.error(entry.key_place, Fault::BadName { name: entry.key.to_string(), reason });
         }
         let own = match &entry.item.value {
-            Content::Text(text) => Some(text.clone()),
-            Content::Number(digits) => Some(digits.clone()),
+            Content::Text(text) => Some(text.to_string()),
+            Content::Number(digits) => Some(digits.to_string()),
             _ => {
                 wrong_type(&entry.item, "a value", "a number or a quantity in quotes", faults);
                 None
             }
         };
         let own = own.map(|text| Definition { text, place: entry.item.place });
-        let set = overrides.definitions.get(&entry.key).cloned();
+        let set = overrides.definitions.get(entry.key.as_str()).cloned();
         definitions.insert(entry.key.as_str(), set.or(own));
         order.push(entry.key.as_str());
     }

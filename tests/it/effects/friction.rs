@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{
     reference::Case,
-    trial::{ALL, Side, Trial, judge},
+    trial::{ALL, Side, Trial, judge, run},
 };
 
 const STUCK: [&str; 2] = ["slider", "stuck"];
@@ -168,4 +168,106 @@ fn a_spring_and_a_slider_in_series_are_elastic_and_perfectly_plastic() {
         duration = 0.03
         ";
     judge(Case::of("slider-in-series"), ALL, text, yields);
+}
+
+/// Judge: one slider with the sum of the forces, of which each bears its part.
+#[test]
+fn sliders_side_by_side_are_one_with_the_sum_of_their_forces() {
+    let text = |sliders: &str| {
+        format!(
+            "[nodes]\nbody = {{ mass = 2, velocity = 3 }}\n[elements]\n{sliders}\n\
+             spring = {{ between = [\"body\", \"ground\"], spring = 900 }}\n\
+             [run]\nduration = 1.5\n"
+        )
+    };
+    let one = text("a = { between = [\"body\", \"ground\"], friction = 50 }");
+    let apart = "a = { between = [\"body\", \"ground\"], friction = 20 }\n\
+                 b = { between = [\"ground\", \"body\"], friction = 30 }";
+    let inside = "a = { between = [\"body\", \"ground\"], parallel = [{ friction = 20 }, { friction = 30 }] }";
+    for method in ALL {
+        let whole = run(&one, method);
+        for (sliders, names) in
+            [(apart, ["a.friction", "b.friction"]), (inside, ["a.friction", "a.friction-2"])]
+        {
+            let report = run(&text(sliders), method);
+            let (own, other) = (report.solution(), whole.solution());
+            let signal = |name: &str| own.signal(report.assembly.output(name).expect(name));
+            let single = |name: &str| other.signal(whole.assembly.output(name).expect(name));
+            let turned = if sliders == apart { -1.0 } else { 1.0 };
+            for part in 1..60 {
+                let time = 1.5 * f64::from(part) / 60.0;
+                let near = |found: f64, exact: f64, scale: f64| {
+                    assert!(
+                        (found - exact).abs() <= 1e-11 * scale,
+                        "{method} {time}: {found} {exact}"
+                    );
+                };
+                near(signal("body.position").value(time), single("body.position").value(time), 0.2);
+                let force = single("a.friction.force").value(time);
+                near(signal(&format!("{}.force", names[0])).value(time), 0.4 * force, 50.0);
+                near(
+                    signal(&format!("{}.force", names[1])).value(time),
+                    turned * 0.6 * force,
+                    50.0,
+                );
+            }
+            let lost = |name: &str, report: &dashpot::analysis::RunReport| {
+                let found = report.energy.dissipated.iter().find(|own| own.0 == name);
+                found.unwrap_or_else(|| panic!("no {name}")).1
+            };
+            let all = lost("a.friction", &whole);
+            for (name, part) in names.into_iter().zip([0.4, 0.6]) {
+                assert!((lost(name, &report) / (part * all) - 1.0).abs() < 1e-10, "{name}");
+            }
+            let near = if *method == "exact" { 1e-10 } else { 1e-3 };
+            assert!(report.energy.closure().abs() < near, "{method}");
+        }
+    }
+}
+
+/// A body with mass stays where it is while a motion jumps, so the contact beyond it does not notice.
+#[test]
+fn a_motion_may_jump_where_no_contact_jumps_with_it() {
+    let text = |between: &str, rise: f64| {
+        let table = format!("[[0, 0], [0.01, 0], [{:?}, 1e-3], [1, 1e-3]]", 0.01 + rise);
+        format!(
+            "[nodes]\nbelt = {{ motion = {{ table = {table} }} }}\n\
+             other = {{ mass = 2 }}\nball = {{ mass = 1, velocity = 2 }}\n[elements]\n\
+             spring = {{ between = [\"belt\", \"other\"], spring = 3e4 }}\n\
+             pad = {{ between = {between}, kelvin-voigt = {{ spring = 4e4, dashpot = 20 }} }}\n\
+             [effects]\nseparation.pad = {{}}\n[run]\nduration = 0.06\n"
+        )
+    };
+    let ends = "[\"ball\", \"other\"]";
+    for method in ALL {
+        let jumped = run(&text(ends, 0.0), method);
+        let opened = |report: &dashpot::analysis::RunReport| {
+            let parted = report.trajectory.switches.iter().find(|own| own.what == "open");
+            parted.map(|own| own.time)
+        };
+        // The limit of shorter and shorter rises, whose difference halves with them.
+        let near = |rise: f64| {
+            let slow = run(&text(ends, rise), method);
+            let [a, b] = [&jumped, &slow].map(|own| {
+                let ball = own.assembly.output("ball.velocity").expect("a velocity");
+                own.solution().signal(ball).value(0.06)
+            });
+            let [parted, later] = [&jumped, &slow].map(opened);
+            assert!(
+                (parted.unwrap() - later.unwrap()).abs() <= rise,
+                "{method} {parted:?} {later:?}"
+            );
+            (a - b).abs()
+        };
+        // A stepping method is good to 0.1 % of the largest value.
+        let own = if *method == "exact" { 0.0 } else { 2e-3 };
+        assert!(near(1e-5) < 1e-2 + own && near(1e-7) < 2e-4 + own, "{method}");
+        let near = if *method == "exact" { 1e-10 } else { 1e-3 };
+        assert!(jumped.energy.closure().abs() < near, "{method}");
+    }
+    let refused = dashpot::scene::read(
+        &text("[\"ball\", \"belt\"]", 0.0),
+        &dashpot::scene::ReadOptions::default(),
+    );
+    assert!(refused.unwrap_err().to_string().contains("it may jump through a contact"));
 }

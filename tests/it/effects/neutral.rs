@@ -36,7 +36,7 @@ fn difference(one: &RunReport, two: &RunReport) -> f64 {
     let mut worst = 0.0_f64;
     let mut common = 0;
     for (at, output) in outputs.iter().enumerate() {
-        let Some(other) = two.assembly.output(&output.name) else { continue };
+        let Some(other) = two.assembly.output(output.name) else { continue };
         common += 1;
         let (a, b) = (first.signal(at), second.signal(other));
         let size = scale(output.unit);
@@ -132,6 +132,10 @@ fn neutral_element(kind: &str) -> (&'static str, &'static str) {
             "hysteretic-foam = { modulus = 1e6, plateau = 1e5, densification = 1e4, exponent = 3, thickness = 1, area = 0.01, set = 0.1, unloading-exponent = 2 }",
             "",
         ),
+        "hysteretic-table" => (
+            "hysteretic-table = { loading = [[0, 0], [1, 1e4]], unloading = [[0.1, 0], [1, 1e4]] }",
+            "",
+        ),
         "rate-spring" => (
             "rate-spring = { force = 100, at = 0.01, exponent = 1, gain = 0, reference-rate = 0.1 }",
             spring,
@@ -156,7 +160,7 @@ impl ElementVisitor for Elements {
         let (law, linear) = neutral_element(E::KIND);
         let ends = match E::KIND {
             "rigid" => "\"head\", \"tip\"",
-            "hysteretic-foam" => "\"ground\", \"head\"",
+            "hysteretic-foam" | "hysteretic-table" => "\"ground\", \"head\"",
             _ => "\"head\", \"ground\"",
         };
         let element = |law: &str| {

@@ -43,7 +43,11 @@ fn resonance(beside: f64) -> Case {
         .pad("spring = 100")
         .with(&format!("[loads]\nram = {{ on = \"head\", force = {{ sine = {{ amplitude = 1.0, frequency = {frequency:?} }} }} }}"))
         .lasting(20.0);
-    let name = format!("driven at 1 + {beside:e} of its own frequency");
+    let name = if beside > 0.0 {
+        format!("driven at 1 + {beside:e} of its own frequency")
+    } else {
+        "driven at its own frequency".to_owned()
+    };
     Case::new(name, "closed form", text, move |trial| {
         let (own, drive, end) = (10.0, TAU * frequency, 20.0);
         // (sin Ωt − (Ω/ω) sin ωt)/(ω² − Ω²), without the difference of equals.

@@ -99,12 +99,20 @@ fn rigid_joint() -> Case {
     })
 }
 
+/// A power of ten, or nothing at all, as it stands in a name.
+fn number(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:e}") }
+}
+
 fn kelvin_of(damping: f64) -> Case {
     let text = Text::head(1.0, 1.0).pad(&kelvin(100.0, damping)).lasting(1.0);
     // Steps grow from 10⁻³⁰⁰ s on, and whether it has released takes finer tolerances to tell.
     let steps = if damping > 1e50 { 300_000 } else { 60_000 };
-    let case =
-        Case::new(format!("Kelvin–Voigt with C = {damping:e}"), "limit", text, move |trial| {
+    let case = Case::new(
+        format!("Kelvin–Voigt with C = {}", number(damping)),
+        "limit",
+        text,
+        move |trial| {
             let (sine, cosine) = 10.0_f64.sin_cos();
             if damping < 1.0 {
                 let off = damping;
@@ -115,7 +123,8 @@ fn kelvin_of(damping: f64) -> Case {
                 trial.measure("head.peak-displacement", 1.0 / damping);
                 trial.measure("head.end-position", (-100.0 / damping).exp() / damping);
             }
-        });
+        },
+    );
     case.steps(steps)
 }
 
@@ -126,7 +135,7 @@ fn maxwell_of(damping: f64) -> Case {
         maxwell(100.0, damping)
     };
     let text = Text::head(1.0, 1.0).pad(&pad).lasting(1.0);
-    Case::new(format!("Maxwell with C = {damping:e}"), "limit", text, move |trial| {
+    Case::new(format!("Maxwell with C = {}", number(damping)), "limit", text, move |trial| {
         if damping < 1.0 {
             // Nothing holds it but m v' = −C v.
             trial.ends("head", 1.0 - 0.5 * damping, 1.0 - damping);

@@ -6,8 +6,9 @@
 //! that the report states. What came out is kept in `docs/hard-cases.md`, which the tests write with
 //! `UPDATE_DOCS=1` and compare otherwise; errors there are powers of ten that must not be exceeded.
 //!
-//! `FULL_SIZE=1` solves the largest cases at full size, `HARD_CASE=text` those whose name has that
-//! text, and prints all that is checked.
+//! `FULL_SIZE=1` solves the largest networks at full size (names and outcomes differ from those of the
+//! page then, so it is for `HARD_CASE`), `HARD_CASE=text` those cases alone whose name has that text, and
+//! prints all that is checked.
 
 mod attempt;
 mod case;

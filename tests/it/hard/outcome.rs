@@ -32,8 +32,10 @@ pub(super) enum Outcome {
 /// The worst errors of all claims, relative to their scales.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Errors {
-    /// The largest true error.
+    /// The largest true error, beyond what the judge leaves open.
     pub(super) truth: f64,
+    /// The most that the judge leaves open.
+    pub(super) open: f64,
     /// The largest error that was stated.
     pub(super) stated: f64,
 }
@@ -46,7 +48,8 @@ impl Outcome {
         let truth = largest(&mut checks.iter().map(|own| relative(own.error, own.scale)));
         let stated =
             largest(&mut checks.iter().map(|own| relative(own.bar.unwrap_or(0.0), own.scale)));
-        let errors = Errors { truth, stated };
+        let open = largest(&mut checks.iter().map(|own| relative(own.open, own.scale)));
+        let errors = Errors { truth, open, stated };
         let is_off = |own: &&Check| own.error.is_nan() || own.error > own.allowed;
         let silent = checks.iter().filter(|own| !own.is_warned).find(is_off);
         if let Some(check) = silent {
@@ -117,7 +120,13 @@ impl Outcome {
 
 impl Errors {
     fn cell(self) -> String {
-        format!("{} ({})", power_above(self.truth), power_above(self.stated))
+        // What the judge cannot tell from right is no smaller than it can tell.
+        let truth = if self.truth < self.open {
+            format!("≤{}", power_above(self.open))
+        } else {
+            power_above(self.truth)
+        };
+        format!("{truth} ({})", power_above(self.stated))
     }
 }
 
@@ -127,5 +136,16 @@ fn power_above(error: f64) -> String {
         return "inf".to_owned();
     }
     let exponent = (3.0 * error).max(1e-16).log10().ceil();
-    format!("1e{exponent:.0}")
+    // What is not small reads better as a plain number.
+    if (0.0..=3.0).contains(&exponent) {
+        format!("{:.0}", 10_f64.powf(exponent))
+    } else {
+        format!("1e{exponent:.0}")
+    }
+}
+
+#[test]
+fn powers_read_as_numbers_where_they_are_not_small() {
+    let texts = [0.0, 1e-9, 0.2, 0.9, 30.0, 1e5, f64::INFINITY].map(power_above);
+    assert_eq!(texts, ["1e-16", "1e-8", "1", "10", "100", "1e6", "inf"]);
 }

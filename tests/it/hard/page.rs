@@ -52,7 +52,7 @@ fn is_kept(old: &str, new: &str) -> bool {
 fn is_kept_cell(old: &str, new: &str) -> bool {
     let (old, new): (Vec<&str>, Vec<&str>) =
         (old.split_whitespace().collect(), new.split_whitespace().collect());
-    let number = |word: &str| word.trim_matches(['(', ')']).parse::<f64>().ok();
+    let number = |word: &str| word.trim_matches(['(', ')', '≤']).parse::<f64>().ok();
     old.len() == new.len()
         && old.iter().zip(&new).all(|(old, new)| match (number(old), number(new)) {
             (Some(old), Some(new)) => new <= old,

@@ -65,7 +65,8 @@ fn times_nearly_equal() -> Vec<Case> {
             .element("pad", ["plate", "ground"], &branches(0.0, &[(1.0, 1.0), (1.0, 1.0 + gap)]))
             .measure("pad", FORCES)
             .lasting(5.0);
-        let name = format!("relaxation times {gap:e} apart, under a step");
+        let are_apart = if gap > 0.0 { format!("{gap:e} apart") } else { "equal".to_owned() };
+        let name = format!("relaxation times {are_apart}, under a step");
         cases.push(Case::new(name, "closed form", text, move |trial| {
             let force = |t: f64| 1e-3 * ((-t).exp() + (-t / (1.0 + gap)).exp());
             trial.measure("pad.peak-force", 2e-3);
@@ -83,7 +84,7 @@ fn times_nearly_equal() -> Vec<Case> {
             .measure("pad", FORCES)
             .with("[loads]\nram = { on = \"plate\", force = { constant = 1.0 } }")
             .lasting(5.0);
-        let name = format!("retardation times {gap:e} apart, under a load");
+        let name = format!("retardation times {are_apart}, under a load");
         cases.push(Case::new(name, "closed form", text, move |trial| {
             let way = |t: f64| -((-t).exp_m1() + (-t / (1.0 + gap)).exp_m1());
             trial.measure("pad.end-deformation", way(5.0));

@@ -30,8 +30,10 @@ pub(super) struct Check {
     pub(super) what: String,
     /// Size to which errors refer.
     pub(super) scale: f64,
-    /// How far what was found is from what is claimed.
+    /// How far what was found is from what is claimed, beyond what the claim itself leaves open.
     pub(super) error: f64,
+    /// What the claim itself leaves open.
+    pub(super) open: f64,
     /// What the report, or the method's tolerance, says of that; `None` where nothing is said.
     pub(super) bar: Option<f64>,
     /// How large the error may be.
@@ -62,7 +64,8 @@ impl<'a> Trial<'a> {
         self.measure_known(key, truth, 0.0);
     }
 
-    /// A measure whose true value is known to `doubt` only.
+    /// A measure whose true value is known to `doubt` only: a limit that is not quite reached, a printed
+    /// number of few digits, a time that is rounded.
     pub(super) fn measure_known(&self, key: &str, truth: f64, doubt: f64) {
         let wanted = key.split_once('.').and_then(|(target, kind)| {
             let is_whole = |own: &&MeasureReport| own.window_wish == Some(WindowWish::Run);
@@ -81,15 +84,16 @@ impl<'a> Trial<'a> {
             || own.error.is_some_and(f64::is_infinite)
             || self.report.warnings.iter().any(names_it);
         let error = own.value.map_or(f64::INFINITY, |value| (value - truth).abs());
-        let slack = doubt + ROUNDINGS * scale;
+        // Not a number stays none.
+        let error = if error <= doubt { 0.0 } else { error - doubt };
         let wanted = if self.is_exact() { 0.0 } else { self.wish * scale };
-        let allowed = own.error.unwrap_or(0.0).max(wanted) + slack;
+        let allowed = own.error.unwrap_or(0.0).max(wanted) + ROUNDINGS * scale;
         let what = format!(
             "{key} = {:?}, not {truth:e}; {}",
             own.value,
             own.note.as_deref().unwrap_or("")
         );
-        self.add(Check { what, scale, error, bar: own.error, allowed, is_warned });
+        self.add(Check { what, scale, error, open: doubt, bar: own.error, allowed, is_warned });
     }
 
     /// Place and speed of a node at the end.
@@ -137,6 +141,7 @@ impl<'a> Trial<'a> {
             what: format!("{what}: {found:e}, not {truth:e}"),
             scale,
             error: (found - truth).abs(),
+            open: 0.0,
             bar,
             allowed: bar.unwrap_or(0.0).max(wanted) + ROUNDINGS * scale,
             is_warned: false,
@@ -150,6 +155,7 @@ impl<'a> Trial<'a> {
             what: what.into(),
             scale: 1.0,
             error,
+            open: 0.0,
             bar: Some(0.0),
             allowed: 0.0,
             is_warned: false,

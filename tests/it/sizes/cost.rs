@@ -25,6 +25,8 @@ const PLACE: (&str, &str) = ("<!-- measured: sizes -->", "<!-- end -->");
 
 /// Most memory \[kB\] that solving may take for each mass, beyond the network and its equations.
 const MOST_MEMORY: f64 = 2.0;
+/// Most memory \[kB\] that the whole process may hold for each mass of the longest chain.
+const MOST_IN_ALL: f64 = 7.0;
 
 /// The scene of the struck chain.
 fn text(count: usize) -> String {
@@ -169,5 +171,5 @@ fn curve() {
         let (_, tail) = rest.split_once(PLACE.1).unwrap();
         fs::write(DOCUMENT, format!("{head}{}\n\n{text}\n\n{}{tail}", PLACE.0, PLACE.1)).unwrap();
     }
-    assert!(before[6].max(last[6]) <= MOST_MEMORY, "{rows:?}");
+    assert!(before[6].max(last[6]) <= MOST_MEMORY && last[5] <= MOST_IN_ALL, "{rows:?}");
 }

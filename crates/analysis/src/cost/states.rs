@@ -1,6 +1,6 @@
 //! The state of a run at dense times, and how far another run is from it.
 
-use dashpot_dae::{LinearForm, Output, System, Trajectory, UnknownKind};
+use dashpot_dae::{LinearForm, System, Trajectory, UnknownKind};
 use dashpot_network::Assembly;
 
 use crate::{measures::Family, sample::regular_times, selection::Selected};
@@ -146,7 +146,7 @@ impl<'a> Probe<'a> {
     fn sizes(&self, largest: &[f64]) -> Vec<f64> {
         let unit = |at: usize| match &self.quantities {
             Quantities::Unknowns(numbers, system) => system.unknowns[numbers[at]].unit,
-            Quantities::Outputs(numbers) => self.assembly.system.outputs[numbers[at]].unit,
+            Quantities::Outputs(numbers) => self.assembly.system.outputs.at(numbers[at]).unit,
         };
         let of_unit = |wanted: &str| {
             let same = largest.iter().enumerate().filter(|(at, _)| unit(*at) == wanted);
@@ -190,13 +190,8 @@ fn with_outputs(system: &System, numbers: &[usize]) -> System {
     let mut system = system.clone();
     for &at in numbers {
         let unknown = &system.unknowns[at];
-        system.outputs.push(Output {
-            name: unknown.name.clone(),
-            unit: unknown.unit,
-            scale: unknown.scale,
-            unknowns: LinearForm::term(at, 1.0),
-            inputs: LinearForm::zero(),
-        });
+        let (own, none) = (LinearForm::term(at, 1.0), LinearForm::zero());
+        system.outputs.push(&unknown.name, unknown.unit, unknown.scale, &own, &none);
     }
     system
 }

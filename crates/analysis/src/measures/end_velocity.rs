@@ -53,7 +53,7 @@ impl MeasureKind for EndVelocity {
         // The velocity is what the acceleration has added up to, though it may have cancelled.
         let summed = solution.assembly().nodes[target].acceleration.map_or(0.0, |acceleration| {
             let window = (0.0, span.to);
-            solution.signal(acceleration).integral_of(window, &[0.0], f64::abs)
+            solution.signal(acceleration).absolute_integral(window)
         });
         let noise = reading.noise.max(4.0 * f64::EPSILON * summed);
         reading.above(noise)

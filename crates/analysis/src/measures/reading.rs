@@ -1,7 +1,7 @@
 //! What a measure yields, and how errors of signals become errors of measures.
 
 use dashpot_dae::{Extremum, Signal};
-use dashpot_network::ConnectionOutputs;
+use dashpot_network::{ConnectionOutputs, PrimitiveOutputs};
 
 use crate::{
     Solution,
@@ -146,7 +146,7 @@ pub(crate) fn end_value(signal: &Signal, span: &Span) -> Reading {
 
 /// The integral of a signal over a span.
 pub(crate) fn integral(signal: &Signal, span: &Span) -> Reading {
-    let size = signal.integral_of(span.window(), &[0.0], f64::abs);
+    let size = signal.absolute_integral(span.window());
     let last = signal.left_value(span.to).abs();
     let error = signal.error.zip(span.to_error);
     let error = error.map(|(error, shift)| error * span.length() + last * shift);
@@ -186,7 +186,7 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     let last = (force.left_value(span.to) * rate.left_value(span.to)).abs();
     let (value, error) = if span.length() <= 0.0 {
         (0.0, Some(0.0))
-    } else if connection.has_layers || rate.error.is_none() {
+    } else if connection.has_layers || rate.error.is_none() || stores_all(solution, connection) {
         work_of_parts(solution, connection, window)
     } else {
         let steps = ledger::steps(solution, connection.primitives.clone(), window);
@@ -203,7 +203,7 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     } else {
         magnitude(deformation)
     };
-    let area = |signal: &Signal| signal.integral_of(window, &[0.0], f64::abs);
+    let area = |signal: &Signal| signal.absolute_integral(window);
     let noise = force.noise * area(&rate) + rate.noise * area(force);
     let blows = blows::within(solution.element_blows(target), window);
     let lost: f64 = blows.iter().map(|own| own.lost).sum();
@@ -217,9 +217,17 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     with_blows(reading, lost, lost.abs(), error_of_lost)
 }
 
+/// Whether an element is made of springs alone: then its work is a matter of both ends of the window,
+/// and errors on the way do not add up.
+fn stores_all(solution: &Solution<'_>, connection: &ConnectionOutputs) -> bool {
+    let parts = solution.assembly().primitives.get(connection.primitives.clone());
+    let own = |part: &PrimitiveOutputs| Accounts::of(part.element.as_ref());
+    parts.is_some_and(|parts| parts.iter().all(|part| own(part).stores && !own(part).dissipates))
+}
+
 /// The work \[J\] that an element takes up as the sum over its parts, and a bound of its error: in
-/// networks that switch, where elements have no rate of their own, and of layers with masses between
-/// them, which do not all feel one force.
+/// networks that switch, where elements have no rate of their own, of springs alone, and of layers with
+/// masses between them, which do not all feel one force.
 fn work_of_parts(
     solution: &Solution<'_>,
     connection: &ConnectionOutputs,

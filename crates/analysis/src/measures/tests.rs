@@ -27,13 +27,13 @@ impl Debug for Written {
 impl Dense for Written {
     fn signal(&self, system: &System, output: usize) -> Signal {
         const PANELS: u32 = 8;
-        let output = &system.outputs[output];
+        let output = system.outputs.at(output);
         let interpolation = Interpolation::of_degree(15);
         let border = |at: u32| self.end * f64::from(at) / f64::from(PANELS);
         let panels = (0..PANELS).map(|at| {
             let (start, end) = (border(at), border(at + 1));
             let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
-            let value = |x: &f64| (self.signal)(&output.name, time(x));
+            let value = |x: &f64| (self.signal)(output.name, time(x));
             let values: Vec<f64> = interpolation.nodes().iter().map(value).collect();
             let mut coefficients = vec![0.0; 16];
             interpolation.coefficients(&values, &mut coefficients);

@@ -64,9 +64,9 @@ impl Shaker {
             right[row] += inputs[column] * *value;
         }
         let state = solve(matrix, right)?;
-        let output = &system.outputs[self.force];
-        let own = output.unknowns.terms().iter().map(|&(at, weight)| state[at] * weight);
-        let given = output.inputs.terms().iter().map(|&(at, weight)| inputs[at] * weight);
+        let output = system.outputs.at(self.force);
+        let own = output.unknowns.terms().map(|(at, weight)| state[at] * weight);
+        let given = output.inputs.terms().map(|(at, weight)| inputs[at] * weight);
         let force = own.chain(given).sum::<Complex<f64>>() * output.scale;
         (force.re.is_finite() && force.im.is_finite()).then_some(force)
     }

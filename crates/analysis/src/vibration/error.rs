@@ -19,6 +19,30 @@ pub enum VibrationError {
         /// Its law, in words.
         law: String,
     },
+    /// Nothing keeps a contact closed.
+    #[error(
+        "nothing presses `{contact}` together at rest, so it parts in every oscillation: what is \
+         shaken in a sine does not answer with one"
+    )]
+    Loose {
+        /// The contact.
+        contact: String,
+    },
+    /// A stop bears force at rest.
+    #[error(
+        "`{stop}` is reached at rest, so it is met in every oscillation: what is shaken in a sine \
+         does not answer with one"
+    )]
+    OnStop {
+        /// The stop.
+        stop: String,
+    },
+    /// It cannot be told how the network rests under its weights.
+    #[error("how it rests under its weights cannot be told: {error}")]
+    Rest {
+        /// Why, in words.
+        error: String,
+    },
     /// The equations cannot be solved over frequency.
     #[error(transparent)]
     Frequency(#[from] FrequencyError),

@@ -6,6 +6,9 @@
 //! follows from the equations of the network at `s = iω`, without time stepping. Start speeds,
 //! weights and the functions of time of the scene do not matter.
 //!
+//! Contacts of separated elements count as closed, and stops as not reached. That holds as long as
+//! the oscillation is smaller than what weights make of them at rest: these [`Limit`]s are told.
+//!
 //! # Examples
 //!
 //! ```
@@ -24,6 +27,7 @@
 //! # Ok::<(), dashpot_analysis::vibration::VibrationError>(())
 //! ```
 
+mod contacts;
 mod drive;
 mod error;
 mod extrema;
@@ -34,6 +38,8 @@ mod steady;
 mod sweep;
 
 #[cfg(test)]
+mod contact_tests;
+#[cfg(test)]
 mod tests;
 
 use dashpot_dae::frequency::{FrequencyResponse, Harmonic};
@@ -42,6 +48,7 @@ use nalgebra::Complex;
 
 use self::drive::Driven;
 pub use self::{
+    contacts::{Limit, LimitKind, Onset},
     drive::{Drive, DriveKind, drives},
     error::VibrationError,
     resonance::Resonance,
@@ -75,6 +82,7 @@ pub struct Vibration {
     node: NodeId,
     waveform: usize,
     unit: f64,
+    limits: Vec<Limit>,
 }
 
 impl Vibration {
@@ -94,6 +102,8 @@ impl Vibration {
     ) -> Result<Self, VibrationError> {
         linearity::require_linear(network)?;
         let drive = drive::chosen(network, drive)?;
+        let (network, limits) = contacts::closed(network, duration)?;
+        let network = &*network;
         let still = network.compile(duration)?;
         linearity::require_linear_system(&still)?;
         let driven = Driven::new(network, &still, &drive, duration)?;
@@ -113,7 +123,7 @@ impl Vibration {
         let waveform = waveforms.iter().position(|own| sine(own) != 0.0).unwrap_or(waveforms.len());
         let unit = waveforms.get(waveform).map_or(0.0, sine);
         FrequencyResponse::new(&assembly.system, waveform, unit)?;
-        Ok(Self { drive, network: driven.network, assembly, node, waveform, unit })
+        Ok(Self { drive, network: driven.network, assembly, node, waveform, unit, limits })
     }
 
     /// What shakes the network.

@@ -61,6 +61,11 @@ impl Observed {
         own.force.map(|force| Self::new(&own.name, vec![(Some(force), 0)]))
     }
 
+    /// An output over `(iω)^order`.
+    pub(super) fn output(name: &str, output: usize, order: u32) -> Self {
+        Self::new(name, vec![(Some(output), order)])
+    }
+
     /// The force of all elements on a body that is held \[N\], positive as all forces on nodes.
     pub(super) fn support(assembly: &Assembly, body: usize, name: &str) -> Self {
         let mut sum = Vec::new();

@@ -127,7 +127,8 @@ impl Vibration {
             drive: self.drive.clone(),
             frequency,
             amplitude,
-            warnings: warnings(&elements),
+            warnings: [self.exceeded(&harmonic, frequency, amplitude), warnings(&elements)]
+                .concat(),
             nodes,
             elements,
             supports: held,

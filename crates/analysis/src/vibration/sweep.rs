@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{
-    Drive, DriveKind, Resonance, Swing, Vibration, VibrationError,
+    Drive, DriveKind, Onset, Resonance, Swing, Vibration, VibrationError,
     extrema::Curve,
     observed::{Observed, selected, supports},
     resonance::resonances,
@@ -54,6 +54,8 @@ pub struct Sweep {
     pub frequencies: Vec<f64>,
     /// What arrives at each node or support.
     pub transmissions: Vec<Transmission>,
+    /// Where each contact parts and each stop is reached first, at its smallest drive.
+    pub onsets: Vec<Onset>,
     /// What should be known about it.
     pub notes: Vec<String>,
 }
@@ -108,6 +110,8 @@ impl Vibration {
             ));
         }
         let poles = poles.unwrap_or_default();
+        let onsets = self.onsets(range, &poles);
+        notes.extend(onsets.iter().map(|own| own.text(&self.drive)));
         let slowest = poles.iter().map(|own| own.0.hypot(own.1)).fold(TAU * range[0], f64::min);
         let transmission = |observed: &Observed| {
             let curve = Curve { vibration: self, observed };
@@ -124,7 +128,8 @@ impl Vibration {
             }
         };
         let transmissions = self.receivers(&settings.of)?.iter().map(transmission).collect();
-        Ok(Sweep { drive: self.drive.clone(), frequencies, transmissions, notes })
+        let drive = self.drive.clone();
+        Ok(Sweep { drive, frequencies, transmissions, onsets, notes })
     }
 
     /// What is looked at: masses, or supports.

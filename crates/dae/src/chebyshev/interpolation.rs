@@ -12,7 +12,7 @@ const KEPT: usize = 32;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interpolation {
     nodes: Vec<f64>,
-    /// `c_k = Σ_j transform[k (d+1) + j] v_j`.
+    /// `c_k = Σ_j transform[j (d+1) + k] v_j`.
     transform: Vec<f64>,
 }
 
@@ -28,8 +28,8 @@ impl Interpolation {
         let nodes = (0..count).map(|j| (FRAC_PI_2 * (2.0 * order(j) - d) / d).sin()).collect();
         let half = |index: usize| if index == 0 || index == degree { 0.5 } else { 1.0 };
         let mut transform = Vec::with_capacity(count * count);
-        for k in 0..count {
-            for j in 0..count {
+        for j in 0..count {
+            for k in 0..count {
                 // T_k(x_j) = cos(π k (d − j)/d), with the argument reduced exactly.
                 let angle = PI * order(k * (degree - j) % (2 * degree)) / d;
                 transform.push(2.0 / d * half(k) * half(j) * angle.cos());
@@ -63,7 +63,15 @@ impl Interpolation {
     ///
     /// When `values` or `out` has not `degree + 1` entries.
     pub fn coefficients(&self, values: &[f64], out: &mut [f64]) {
-        self.coefficients_of_columns(values, 1, out);
+        let count = self.nodes.len();
+        assert_eq!(values.len(), count, "a value for each node");
+        assert_eq!(out.len(), count, "a coefficient for each node");
+        out.fill(0.0);
+        for (value, weights) in values.iter().zip(self.transform.chunks_exact(count)) {
+            for (sum, weight) in out.iter_mut().zip(weights) {
+                *sum += weight * value;
+            }
+        }
     }
 
     /// As [`coefficients`](Self::coefficients) for many functions at a time: row `j` of `values`
@@ -80,10 +88,10 @@ impl Interpolation {
         if columns == 0 {
             return;
         }
-        for (row, weights) in out.chunks_exact_mut(columns).zip(self.transform.chunks_exact(count))
-        {
-            row.fill(0.0);
-            for (value_row, weight) in values.chunks_exact(columns).zip(weights) {
+        out.fill(0.0);
+        let weights = self.transform.chunks_exact(count);
+        for (value_row, weights) in values.chunks_exact(columns).zip(weights) {
+            for (row, weight) in out.chunks_exact_mut(columns).zip(weights) {
                 for (sum, value) in row.iter_mut().zip(value_row) {
                     *sum += weight * value;
                 }

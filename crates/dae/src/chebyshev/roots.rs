@@ -1,9 +1,15 @@
 //! Zeros of polynomials on `[−1, 1]`.
 
-use super::{bound, derivative, evaluate, restrict, variation};
+use std::borrow::Cow;
+
+use super::{bound, derivative, evaluate, evaluate_both, restrict, variation};
 
 /// Intervals shorter than this are not divided further.
 const NARROWEST: f64 = 1e-15;
+/// A step of Newton's method after which nothing is left to be found, if it is by so much smaller than
+/// the one before: at a simple zero steps are squared.
+const SETTLED: f64 = 1e-10;
+const SETTLING: f64 = 1e-3;
 /// What rounding leaves of the values of a polynomial whose coefficients have lost their digits, in the
 /// range below full precision: some of the smallest numbers.
 const SMALLEST: f64 = 64.0 * f64::MIN_POSITIVE * f64::EPSILON;
@@ -11,7 +17,7 @@ const SMALLEST: f64 = 64.0 * f64::MIN_POSITIVE * f64::EPSILON;
 /// Whether the coefficients prove that `p` rises all the way, or falls all the way; a constant does.
 ///
 /// `false` proves nothing.
-pub fn is_monotone(coefficients: &[f64]) -> bool {
+fn is_monotone(coefficients: &[f64]) -> bool {
     if coefficients.len() <= 2 {
         return true;
     }
@@ -36,7 +42,11 @@ pub fn sign_changes(coefficients: &[f64]) -> Vec<f64> {
     let ends = (evaluate(coefficients, -1.0), evaluate(coefficients, 1.0));
     let mut open = vec![((-1.0, ends.0), (1.0, ends.1))];
     while let Some((a, b)) = open.pop() {
-        let part = restrict(coefficients, a.0, b.0);
+        let part = if b.0 - a.0 < 2.0 {
+            Cow::Owned(restrict(coefficients, a.0, b.0))
+        } else {
+            Cow::Borrowed(coefficients)
+        };
         let spread = variation(&part);
         if part[0].abs() > spread + noise {
             continue;
@@ -69,7 +79,7 @@ pub fn bracketed_root(
     let (mut a, mut b) = (start, end);
     // The secant's zero is a good first guess, as the piece is monotone as a rule.
     let mut x = a.0 + (b.0 - a.0) * (a.1 / (a.1 - b.1));
-    let mut last_width = b.0 - a.0;
+    let (mut last_width, mut last_step) = (b.0 - a.0, f64::INFINITY);
     for _ in 0..100 {
         if !(x > a.0 && x < b.0) {
             x = 0.5 * (a.0 + b.0);
@@ -77,7 +87,7 @@ pub fn bracketed_root(
                 break;
             }
         }
-        let value = evaluate(coefficients, x);
+        let (value, rate) = evaluate_both(coefficients, slope, x);
         if value == 0.0 {
             return x;
         }
@@ -86,10 +96,19 @@ pub fn bracketed_root(
         } else {
             b = (x, value);
         }
-        let step = value / evaluate(slope, x);
+        let step = value / rate;
         if step.abs() <= 0.25 * f64::EPSILON {
             return x;
         }
+        // Where steps shrink so fast, the next one would be below rounding.
+        if step.abs() <= SETTLED
+            && step.abs() <= SETTLING * last_step
+            && x - step > a.0
+            && x - step < b.0
+        {
+            return x - step;
+        }
+        last_step = step.abs();
         // Where Newton's method does not at least halve its step, halve the bracket.
         if step.abs() < 0.5 * last_width {
             x -= step;

@@ -1,7 +1,7 @@
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use super::*;
-use crate::{LinearForm, Unknown, UnknownKind, problems};
+use crate::{LinearForm, Outputs, Unknown, UnknownKind, problems};
 
 /// Rounding errors in parts of `ε` times the magnitude that are accepted.
 const ROUNDING: f64 = 16.0;
@@ -133,7 +133,7 @@ fn difference_of_large_numbers() -> System {
         waveforms: Vec::new(),
         terms: Vec::new(),
         initial: vec![0.0; 3],
-        outputs: Vec::new(),
+        outputs: Outputs::new(),
         time_scale: 1.0,
     }
 }
@@ -152,17 +152,14 @@ fn magnitudes_tell_what_cancels() {
 fn outputs_are_scaled_and_carry_their_magnitude() {
     let system = problems::driven_by_sine().system;
     let found = derivatives(&system, &[3.0, 2.0], 1).unwrap();
-    let output = Output {
-        name: "sum".to_owned(),
-        unit: "N",
-        scale: -10.0,
-        unknowns: LinearForm::sum(vec![(0, 1.0), (1, -2.0)]),
-        inputs: LinearForm::term(0, 0.5),
-    };
-    let (value, magnitude) = found.output(&output, 0);
+    let mut outputs = Outputs::new();
+    let unknowns = LinearForm::sum(vec![(0, 1.0), (1, -2.0)]);
+    outputs.push("sum", "N", -10.0, &unknowns, &LinearForm::term(0, 0.5));
+    let output = outputs.at(0);
+    let (value, magnitude) = found.output(output, 0);
     assert!((value - 10.0).abs() < 1e-13 && (magnitude - 70.0).abs() < 1e-13);
     // x′ = 2, x″ = −3.8, and the force begins with the rate 2.
-    let (value, magnitude) = found.output(&output, 1);
+    let (value, magnitude) = found.output(output, 1);
     assert!((value + 10.0 * (2.0 + 7.6 + 1.0)).abs() < 1e-12, "{value}");
     assert!((magnitude - 10.0 * (2.0 + 7.6 + 1.0)).abs() < 1e-12, "{magnitude}");
 }

@@ -112,9 +112,9 @@ impl Augmented {
     }
 
     /// The output, dimensionless, as a form over `z`.
-    pub(super) fn form(&self, output: &Output) -> Vec<(usize, f64)> {
-        let mut form = output.unknowns.clone();
-        for &(input, coefficient) in output.inputs.terms() {
+    pub(super) fn form(&self, output: Output<'_>) -> Vec<(usize, f64)> {
+        let mut form = output.unknowns.to_form();
+        for (input, coefficient) in output.inputs.terms() {
             form = form.plus(coefficient, &self.inputs[input]);
         }
         form.terms().iter().map(|&(i, c)| (i, c * self.units[i])).collect()

@@ -107,21 +107,22 @@ impl Block {
     /// Bounds of `|row · e^{D_i t} c|` and of `|row| |D_i h/4|^n/n! |e^{D_i t} c|` for all `t` in
     /// `[0, h]`: how large the block's part of an output can be, and how far a polynomial of degree
     /// `n − 1` can miss it, but for a factor.
+    ///
+    /// `sizes` are those of the coordinates `c` at the panel's start.
     pub(super) fn sizes_on_panel(
         &self,
         row: &[f64],
-        c: &[Complex],
+        sizes: &[f64],
         h: f64,
         n: usize,
     ) -> (f64, f64) {
-        if let ([row], [c]) = (row, c) {
+        if let ([row], [own]) = (row, sizes) {
             let rate = self.matrix[(0, 0)];
-            let size = row * c.norm() * (rate.re * h).exp().max(1.0);
+            let size = row * own * (rate.re * h).exp().max(1.0);
             let step = 0.25 * h * rate.norm();
-            return (size, (1..=n).fold(size, |term, order| term * (step / number(order))));
+            return (size, size * taylor_weight(step, n));
         }
-        let sizes: Vec<f64> = c.iter().map(|c| c.norm()).collect();
-        let largest = self.largest(h, &sizes);
+        let largest = self.largest(h, sizes);
         let weights = self.derivative_weights(row, 0.25 * h, n);
         let sum = |weights: &[f64]| weights.iter().zip(&largest).map(|(w, c)| w * c).sum();
         (sum(row), sum(&weights))
@@ -141,6 +142,12 @@ impl Block {
         }
         weights
     }
+}
+
+/// `x^n/n!`; infinite or zero where a power leaves the range of numbers.
+fn taylor_weight(x: f64, n: usize) -> f64 {
+    let factorial: f64 = (2..=n).map(number).product();
+    x.powi(i32::try_from(n).unwrap_or(i32::MAX)) / factorial
 }
 
 /// The largest `x^k e^{exponent x}` for `x` in `[0, 1]`.
@@ -174,6 +181,13 @@ mod tests {
         let area = jordan.integral(100.0, &[0.0, 1.0], 0.0)[0];
         assert!((1.0..1.1).contains(&(top / (1.5 / 1_f64.exp()))), "{top}");
         assert!((1.0..1.1).contains(&(area / 0.75)), "{area}");
+    }
+
+    #[test]
+    fn taylor_weights_are_those_of_the_exponential() {
+        let sum: f64 = (0..40).map(|n| taylor_weight(3.0, n)).sum();
+        assert!((sum / 3_f64.exp() - 1.0).abs() < 1e-15, "{sum}");
+        assert_eq!((taylor_weight(1e300, 17), taylor_weight(1e-300, 17)), (f64::INFINITY, 0.0));
     }
 
     #[test]

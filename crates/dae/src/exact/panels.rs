@@ -44,7 +44,10 @@ pub(super) struct Piece {
 #[derive(Debug, Clone)]
 pub(super) struct ModalRow {
     row: Vec<Complex>,
+    /// `|r_j|`.
     sizes: Vec<f64>,
+    /// What each `|c_j|` adds at most to the size of the output's rate.
+    rates: Vec<f64>,
 }
 
 /// What is known about a piecewise polynomial as a whole.
@@ -73,8 +76,15 @@ impl ModalRow {
                 row[j] = Complex::new(re.value(), im.value()) * block.weight;
             }
         }
-        let sizes = row.iter().map(|r| r.norm()).collect();
-        Self { row, sizes }
+        let sizes: Vec<f64> = row.iter().map(|r| r.norm()).collect();
+        let mut rates = vec![0.0; modes.len()];
+        for block in modes.blocks.iter().filter(|block| block.weight > 0.0) {
+            for (rate, column) in rates[block.range()].iter_mut().zip(block.matrix.column_iter()) {
+                let pushed = column.iter().zip(&sizes[block.range()]);
+                *rate = pushed.map(|(d, r)| d.norm() * r).sum();
+            }
+        }
+        Self { row, sizes, rates }
     }
 
     /// The value where the modal coordinates are `c`.
@@ -82,22 +92,14 @@ impl ModalRow {
         self.row.iter().zip(c).map(|(r, c)| (r * c).re).sum()
     }
 
-    /// The sum of all terms' sizes where the modal coordinates are `c`.
-    fn size_at(&self, c: &[Complex]) -> f64 {
-        self.sizes.iter().zip(c).map(|(r, c)| r * c.norm()).sum()
+    /// The sum of all terms' sizes where those of the modal coordinates are `c`.
+    fn size_at(&self, c: &[f64]) -> f64 {
+        self.sizes.iter().zip(c).map(|(r, c)| r * c).sum()
     }
 
-    /// A bound of the output's rate where the modal coordinates are `c`.
-    fn rate_at(&self, modes: &Modes, c: &[Complex]) -> f64 {
-        let part = |block: &Block| {
-            let entry = |(b, j): (usize, usize)| {
-                let column = block.matrix.column(b);
-                let pushed = column.iter().zip(&self.sizes[block.range()]);
-                pushed.map(|(d, r)| d.norm() * r).sum::<f64>() * c[j].norm()
-            };
-            block.range().enumerate().map(entry).sum::<f64>()
-        };
-        modes.blocks.iter().filter(|block| block.weight > 0.0).map(part).sum()
+    /// A bound of the output's rate where the sizes of the modal coordinates are `c`.
+    fn rate_at(&self, c: &[f64]) -> f64 {
+        self.rates.iter().zip(c).map(|(rate, c)| rate * c).sum()
     }
 
     /// An upper bound of the sum of all terms' sizes over a span.
@@ -138,7 +140,8 @@ impl ModalRow {
         let (mut at, mut width) = (0.0, length);
         loop {
             let coordinates = coordinates_at(modes, &span.start, at);
-            let local = self.size_at(&coordinates);
+            let sizes = sizes_of(&coordinates);
+            let local = self.size_at(&sizes);
             quality.size = quality.size.max(local);
             let tolerance = 2.0 * f64::EPSILON * (local + FLOOR * scale);
             let remaining = length - at;
@@ -149,8 +152,8 @@ impl ModalRow {
                 (NARROWEST * length).max(4.0 * f64::EPSILON * at)
             };
             width = (4.0 * width).min(remaining).max(least);
-            let missed = self.narrow(modes, &coordinates, tolerance, least, &mut width);
-            let shifted = TIMING * (start + at + width) * self.rate_at(modes, &coordinates);
+            let missed = self.narrow(modes, &sizes, tolerance, least, &mut width);
+            let shifted = TIMING * (start + at + width) * self.rate_at(&sizes);
             let missed = missed + shifted;
             worst = if missed.is_finite() { worst.max(missed) } else { f64::INFINITY };
             let end = if width >= remaining { length } else { at + width };
@@ -164,9 +167,9 @@ impl ModalRow {
             }
         }
         // The sizes at the starts of all panels are known, and here that at the very end.
-        let last = coordinates_at(modes, &span.start, length);
+        let last = sizes_of(&coordinates_at(modes, &span.start, length));
         quality.size = quality.size.max(self.size_at(&last));
-        worst = worst.max(TIMING * (start + length) * self.rate_at(modes, &last));
+        worst = worst.max(TIMING * (start + length) * self.rate_at(&last));
         let error = inherited + worst;
         // Also where it is not a number: then nothing is known.
         quality.error = if error.is_finite() { quality.error.max(error) } else { f64::INFINITY };
@@ -176,13 +179,13 @@ impl ModalRow {
     fn narrow(
         &self,
         modes: &Modes,
-        coordinates: &[Complex],
+        sizes: &[f64],
         tolerance: f64,
         least: f64,
         width: &mut f64,
     ) -> f64 {
         loop {
-            let missed = self.missed(modes, coordinates, *width);
+            let missed = self.missed(modes, sizes, *width);
             if missed <= tolerance || *width <= least {
                 return missed;
             }
@@ -193,15 +196,16 @@ impl ModalRow {
         }
     }
 
-    /// The bound of the interpolation error of a panel of this width.
-    fn missed(&self, modes: &Modes, coordinates: &[Complex], width: f64) -> f64 {
+    /// The bound of the interpolation error of a panel of this width, at whose start the modal
+    /// coordinates are of these sizes.
+    fn missed(&self, modes: &Modes, sizes: &[f64], width: f64) -> f64 {
         let part = |block: &Block| {
             let range = block.range();
             let rows = &self.sizes[range.clone()];
             if rows.iter().all(|&r| r == 0.0) {
                 return 0.0;
             }
-            let (size, missed) = block.sizes_on_panel(rows, &coordinates[range], width, DEGREE + 1);
+            let (size, missed) = block.sizes_on_panel(rows, &sizes[range], width, DEGREE + 1);
             // A product of an overflow and an underflow is not a number: then the size counts.
             if missed < size { 4.0 * missed } else { UNRESOLVED * size }
         };
@@ -247,6 +251,10 @@ pub(super) fn coordinates_at(modes: &Modes, start: &[Complex], t: f64) -> Vec<Co
         }
     }
     coordinates
+}
+
+fn sizes_of(coordinates: &[Complex]) -> Vec<f64> {
+    coordinates.iter().map(|c| c.norm()).collect()
 }
 
 /// `e^{λ t}` of all single modes at the nodes of a panel of one width.

@@ -223,7 +223,7 @@ impl Solution {
 
 impl Dense for Solution {
     fn signal(&self, system: &System, output: usize) -> Signal {
-        let output = &system.outputs[output];
+        let output = system.outputs.at(output);
         let Modal { modes, spans } = self.modal();
         let row = ModalRow::new(modes, &self.system.form(output));
         let lengths = || self.system.spans.iter().zip(spans);

@@ -1,7 +1,7 @@
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use super::*;
-use crate::{Input, LinearForm, Output, Unknown, Waveform};
+use crate::{Input, LinearForm, Outputs, Unknown, Waveform};
 
 /// `(row, column, value)`.
 type Triplets<'a> = &'a [(usize, usize, f64)];
@@ -22,13 +22,11 @@ fn system(
     };
     let unknown =
         |&kind: &UnknownKind| Unknown { name: "y".to_owned(), kind, scale: 1.0, unit: "m" };
-    let output = |at: usize| Output {
-        name: format!("y{at}"),
-        unit: "m",
-        scale: 4.0,
-        unknowns: LinearForm::term(at, 0.25),
-        inputs: LinearForm::zero(),
-    };
+    let mut outputs = Outputs::new();
+    for at in 0..kinds.len() {
+        let (name, own) = (format!("y{at}"), LinearForm::term(at, 0.25));
+        outputs.push(&name, "m", 4.0, &own, &LinearForm::zero());
+    }
     System {
         unknowns: kinds.iter().map(unknown).collect(),
         jacobian: matrix(kinds.len(), jacobian),
@@ -37,7 +35,7 @@ fn system(
         waveforms: vec![Waveform::constant(0.0)],
         terms: Vec::new(),
         initial: vec![0.0; kinds.len()],
-        outputs: (0..kinds.len()).map(output).collect(),
+        outputs,
         time_scale: TIME_SCALE,
     }
 }

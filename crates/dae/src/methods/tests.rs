@@ -25,7 +25,7 @@ fn solve(method: &dyn Method, problem: &Problem, rtol: f64) -> (Trajectory, f64,
     for (&time, row) in times.iter().zip(samples.chunks_exact(system.len())) {
         for (at, exact) in problem.exact(time).into_iter().enumerate() {
             in_samples = in_samples.max((row[at] - exact).abs());
-            let value = signals[at].value(time) / system.outputs[at].scale;
+            let value = signals[at].value(time) / system.outputs.at(at).scale;
             in_signals = in_signals.max((value - exact).abs());
         }
     }
@@ -175,7 +175,7 @@ fn a_short_pulse_inside_a_long_run_is_not_missed() {
         let trajectory =
             by_name(name).unwrap().integrate(&problem.system, &run, &mut Silent).unwrap();
         let velocity = trajectory.signal(&problem.system, 1);
-        let scale = problem.system.outputs[1].scale;
+        let scale = problem.system.outputs.at(1).scale;
         assert_eq!(velocity.value(0.49 * problem.t_end), 0.0, "{name}");
         let gained = velocity.value(problem.t_end) / scale;
         let impulse = problem.exact(problem.t_end)[1];

@@ -23,14 +23,13 @@ struct Term {
 /// step's nodes. `magnitude` grows to the size of the terms.
 pub(super) fn add(
     system: &System,
-    output: &Output,
+    output: Output<'_>,
     step: &Step,
     values: &[f64],
     panels: &mut Vec<Panel>,
     magnitude: &mut f64,
 ) {
-    let terms: Vec<Term> =
-        output.inputs.terms().iter().map(|term| term_of(system, step, *term)).collect();
+    let terms: Vec<Term> = output.inputs.terms().map(|term| term_of(system, step, term)).collect();
     let omega = terms.iter().map(|term| term.omega(step)).fold(0.0, f64::max);
     let half = 0.5 * omega * (step.end - step.start);
     let parts = count((half / LONGEST).ceil()).max(1);

@@ -5,7 +5,7 @@ use super::{
     lagrange::{HIGHEST, Lagrange},
     stream::Row,
 };
-use crate::{LinearForm, Product, System, chebyshev::GaussLegendre};
+use crate::{FormRef, LinearForm, Product, System, chebyshev::GaussLegendre};
 
 /// Products that are worked on at once, so that they stay in the processor's nearest memory.
 const BLOCK: usize = 256;
@@ -56,20 +56,20 @@ impl Products {
         let (mut squared, mut first, mut second) = (Vec::new(), Vec::new(), Vec::new());
         let mut driven = (Vec::new(), Vec::new());
         for (index, &[a, b]) in wanted.iter().enumerate() {
-            let (a, b) = (&system.outputs[a], &system.outputs[b]);
+            let (a, b) = (system.outputs.at(a), system.outputs.at(b));
             let factor = a.scale * b.scale * system.time_scale;
             let sum = Sum { index, factor, total: 0.0, largest: 0.0 };
             if !(a.inputs.is_zero() && b.inputs.is_zero()) {
-                products.driven.push((sum, [a.inputs.clone(), b.inputs.clone()]));
-                driven.0.push(&a.unknowns);
-                driven.1.push(&b.unknowns);
-            } else if let Some(ratio) = ratio(&a.unknowns, &b.unknowns) {
+                products.driven.push((sum, [a.inputs.to_form(), b.inputs.to_form()]));
+                driven.0.push(a.unknowns);
+                driven.1.push(b.unknowns);
+            } else if let Some(ratio) = ratio(a.unknowns, b.unknowns) {
                 products.squares.push(Sum { factor: factor * ratio, ..sum });
-                squared.push(&b.unknowns);
+                squared.push(b.unknowns);
             } else {
                 products.pairs.push(sum);
-                first.push(&a.unknowns);
-                second.push(&b.unknowns);
+                first.push(a.unknowns);
+                second.push(b.unknowns);
             }
         }
         let all = [squared, first, second, driven.0, driven.1];
@@ -165,14 +165,14 @@ impl Products {
 }
 
 /// By how much `a` is larger than `b`, if it is a multiple of it.
-fn ratio(a: &LinearForm, b: &LinearForm) -> Option<f64> {
+fn ratio(a: FormRef<'_>, b: FormRef<'_>) -> Option<f64> {
     let (a, b) = (a.terms(), b.terms());
-    let ratio = a.first()?.1 / b.first()?.1;
-    let is_same = |(one, other): (&(usize, f64), &(usize, f64))| {
+    let ratio = a.clone().next()?.1 / b.clone().next()?.1;
+    let is_same = |(one, other): ((usize, f64), (usize, f64))| {
         let rest = one.1 - ratio * other.1;
         one.0 == other.0 && rest.abs() <= ROUNDINGS * f64::EPSILON * one.1.abs()
     };
-    (a.len() == b.len() && a.iter().zip(b).all(is_same)).then_some(ratio)
+    (a.len() == b.len() && a.zip(b).all(is_same)).then_some(ratio)
 }
 
 /// A place in a step: what it weighs in an integral, and the shares of the step's rows in the values
@@ -208,10 +208,10 @@ struct Forms {
 }
 
 impl Forms {
-    fn new<'f>(forms: impl Iterator<Item = &'f LinearForm>) -> Self {
+    fn new<'f>(forms: impl Iterator<Item = FormRef<'f>>) -> Self {
         let mut all = Self::default();
         for form in forms {
-            all.terms.extend_from_slice(form.terms());
+            all.terms.extend(form.terms());
             all.ends.push(all.terms.len());
         }
         all.ends.shrink_to_fit();

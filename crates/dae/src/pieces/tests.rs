@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::{
-    Direction, Guard, Keep, LinearForm, Method, Output, Part, Run, Silent, Trajectory,
+    Direction, Guard, Keep, LinearForm, Method, Part, Run, Silent, Trajectory,
     methods::{Bdf, Esdirk34, TrBdf2},
     problems::{self, Problem},
 };
@@ -18,15 +18,9 @@ fn problem(own: Problem) -> Problem {
         LinearForm::sum((0..count).map(term).collect())
     };
     let inputs = LinearForm::sum((0..system.inputs.len()).map(|at| (at, 0.5)).collect());
-    let output = |name: &str, unknowns: LinearForm, inputs: LinearForm| Output {
-        name: name.to_owned(),
-        unit: "m",
-        scale: 0.25,
-        unknowns,
-        inputs,
-    };
-    system.outputs.push(output("sum", form(system.unknowns.len(), 1.0), LinearForm::zero()));
-    system.outputs.push(output("driven", form(2, -1.0), inputs));
+    let sum = form(system.unknowns.len(), 1.0);
+    system.outputs.push("sum", "m", 0.25, &sum, &LinearForm::zero());
+    system.outputs.push("driven", "m", 0.25, &form(2, -1.0), &inputs);
     own
 }
 
@@ -104,7 +98,7 @@ fn ends_and_products_are_those_of_the_full_run() {
 fn ends_and_products_reach_to_a_stop_within_a_step() {
     for own in [problems::vibrating_chain(), problems::underdamped()].map(problem) {
         for method in methods() {
-            let level = 0.3 * own.system.outputs[0].scale * own.exact(0.0)[0];
+            let level = 0.3 * own.system.outputs.at(0).scale * own.exact(0.0)[0];
             let guard = Guard {
                 name: "stop".to_owned(),
                 output: 0,

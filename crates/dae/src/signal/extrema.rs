@@ -1,7 +1,7 @@
 //! Largest and smallest values.
 
 use super::{Extremum, Signal};
-use crate::chebyshev::{self, evaluate, is_monotone, sign_changes};
+use crate::chebyshev::{self, evaluate, sign_changes};
 
 /// What is to be as large as possible.
 #[derive(Debug, Clone, Copy)]
@@ -61,9 +61,7 @@ impl Signal {
         for panel in self.panels_in(window) {
             let noise = self.floor(&panel, 0.0);
             let mut places = vec![-1.0];
-            if !is_monotone(&panel.coefficients) {
-                places.extend(sign_changes(&chebyshev::derivative(&panel.coefficients)));
-            }
+            places.extend(sign_changes(&chebyshev::derivative(&panel.coefficients)));
             places.push(1.0);
             for x in places {
                 let value = evaluate(&panel.coefficients, x);
@@ -113,7 +111,7 @@ impl Signal {
         }
         for panel in panels {
             let coefficients = &panel.coefficients;
-            if goal.bound(coefficients) < most || is_monotone(coefficients) {
+            if goal.bound(coefficients) < most {
                 continue;
             }
             for x in sign_changes(&chebyshev::derivative(coefficients)) {

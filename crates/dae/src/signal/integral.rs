@@ -30,6 +30,26 @@ impl Signal {
         sum.value()
     }
 
+    /// `∫ |self| dt` over the window \[unit·s\], exact up to rounding: the area on both sides of zero.
+    pub fn absolute_integral(&self, window: (f64, f64)) -> f64 {
+        let mut sum = Sum::default();
+        for panel in self.panels_in(window) {
+            let zeros = sign_changes(&panel.coefficients);
+            if zeros.is_empty() {
+                sum.add(panel.integral().abs());
+                continue;
+            }
+            let area = chebyshev::antiderivative(&panel.coefficients);
+            let mut before = evaluate(&area, -1.0);
+            for x in zeros.into_iter().chain([1.0]) {
+                let after = evaluate(&area, x);
+                sum.add(0.5 * panel.length() * (after - before).abs());
+                before = after;
+            }
+        }
+        sum.value()
+    }
+
     /// `∫ f(s(t)) dt` over the window to about 1e-13 of `∫ |f(s(t))| dt`.
     ///
     /// `f` must be smooth but at the `breaks`, values of the signal at which it may have a kink, a

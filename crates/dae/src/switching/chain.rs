@@ -52,8 +52,11 @@ impl Dense for Chain {
                 let between = self.difference(at, output, &own);
                 difference = difference.zip(between).map(|(most, own)| most.max(own));
             }
-            let last = own.panels.len().saturating_sub(1);
-            panels.extend(own.panels.into_iter().enumerate().map(|(at, panel)| Panel {
+            // What drives may jump where the leg ends, and nothing else has the new value yet.
+            let ends = own.panels.iter().rposition(|panel| leg.start + panel.start < leg.end);
+            let last = ends.unwrap_or(0);
+            let within = own.panels.into_iter().take(last + 1);
+            panels.extend(within.enumerate().map(|(at, panel)| Panel {
                 // The sums may be rounded beyond the end of the leg.
                 start: (leg.start + panel.start).min(leg.end),
                 end: if at == last { leg.end } else { (leg.start + panel.end).min(leg.end) },

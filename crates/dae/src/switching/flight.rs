@@ -162,7 +162,7 @@ pub(super) fn follow(
             let value = guard.level + inside * guard.level.abs().max(1.0);
             return Signal::new(vec![Panel::constant(0.0, whole, value)], None, 0.0);
         }
-        let output = &system.outputs[guard.output];
+        let output = system.outputs.at(guard.output);
         let mut signal = pieces.signal_from(system, output, 0);
         let largest = signal.noise / (ROUNDING * f64::EPSILON);
         if !method.is_exact() {
@@ -255,7 +255,7 @@ mod tests {
         for speed in [1e-3, 1e-7, 1e-12] {
             let system = thrown(speed);
             let (found, height) = flight(&system).unwrap();
-            let scale = system.outputs[0].scale;
+            let scale = system.outputs.at(0).scale;
             // x = −1 + e^(−0.2 t) (cos ω t + (v + 0.2)/ω sin ω t), whose −1 cancels.
             let (t, omega) = (found.length, 0.96_f64.sqrt());
             let (half, decay) = ((0.5 * omega * t).sin(), (-0.2 * t).exp_m1());

@@ -23,7 +23,7 @@ impl Walls {
     fn leg(state: [f64; 2], switches: Vec<Switch>) -> Leg {
         let mut system = problems::free_motion().system;
         system.initial = state.to_vec();
-        let scale = system.outputs[0].scale;
+        let scale = system.outputs.at(0).scale;
         let guard = |(wall, direction): (usize, Direction)| Guard {
             name: NAMES[wall].to_owned(),
             output: 0,
@@ -120,7 +120,7 @@ fn a_body_between_walls_hits_them_at_the_times_of_the_closed_form() {
         let system = problems::free_motion().system;
         let velocity = found.signal(&system, 1);
         let first = found.switches[0].time;
-        let unit = system.outputs[1].scale;
+        let unit = system.outputs.at(1).scale;
         assert!((velocity.left_value(first) + SPEED * unit).abs() < 1e-13);
         assert!((velocity.value(first) - restitution * SPEED * unit).abs() < 1e-13);
         assert_eq!(velocity.end(), run.t_end);
@@ -141,7 +141,7 @@ fn exact_states_an_error_that_covers_the_closed_form_through_all_legs() {
     let (mut before, mut place, mut speed) = (0.0, 0.25, -SPEED);
     for hit in hits(restitution).take_while(|&time| time < 20.0) {
         let middle = 0.5 * (before + hit);
-        let expected = (place + speed * (middle - before)) * system.outputs[0].scale;
+        let expected = (place + speed * (middle - before)) * system.outputs.at(0).scale;
         let value = position.value(middle * scale());
         assert!((value - expected).abs() <= error + 1e-15, "{value} {expected} {error:e}");
         (before, place) = (hit, if speed < 0.0 { 0.0 } else { 1.0 });
@@ -151,7 +151,7 @@ fn exact_states_an_error_that_covers_the_closed_form_through_all_legs() {
 
 #[test]
 fn guards_of_the_user_are_watched_across_legs() {
-    let unit = problems::free_motion().system.outputs[0].scale;
+    let unit = problems::free_motion().system.outputs.at(0).scale;
     for method in methods() {
         let walls = Walls { restitution: 1.0 };
         // The middle is passed once between two hits, which are 2 apart.
@@ -170,7 +170,7 @@ fn guards_of_the_user_are_watched_across_legs() {
 
 #[test]
 fn a_stop_in_a_later_leg_ends_the_run_there() {
-    let unit = problems::free_motion().system.outputs[0].scale;
+    let unit = problems::free_motion().system.outputs.at(0).scale;
     for method in methods() {
         let walls = Walls { restitution: 0.5 };
         let guards =
@@ -237,7 +237,7 @@ fn a_run_of_no_length_has_one_leg_and_its_start() {
         assert_eq!((found.t_end, found.outcome), (0.0, Outcome::Finished));
         assert!(found.switches.is_empty() && found.events.is_empty());
         let system = problems::free_motion().system;
-        assert_eq!(found.signal(&system, 0).value(0.0), 0.25 * system.outputs[0].scale);
+        assert_eq!(found.signal(&system, 0).value(0.0), 0.25 * system.outputs.at(0).scale);
     }
 }
 

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use dashpot_rheology::Tree;
 
+use super::sliders::{self, Share};
 use crate::{
     Network,
     elements::{Element, Law},
@@ -26,6 +27,8 @@ pub(crate) struct Primitive {
     pub(crate) held: f64,
     /// A force that it puts on its ends whatever they do \[N\].
     pub(crate) push: f64,
+    /// What it bears of the force of a slider that stands for it and others beside it.
+    pub(crate) share: Option<Share>,
     /// Its ends; joints below the number of nodes are the nodes themselves.
     pub(crate) ends: [usize; 2],
 }
@@ -122,6 +125,7 @@ impl Expansion {
             let shape = expansion.expand(connection);
             expansion.shapes.push(shape);
         }
+        sliders::share(&mut expansion.primitives);
         expansion
     }
 
@@ -145,7 +149,8 @@ impl Expansion {
                 }
                 PhaseLaw::Force(force) => {
                     primitive.law = Law::Spring(0.0);
-                    primitive.push = force;
+                    // The part of it that is its own is what its law says.
+                    primitive.push = force / primitive.share.map_or(1.0, |own| own.part);
                 }
                 PhaseLaw::Element(element) => {
                     primitive.law = element.law();
@@ -178,6 +183,7 @@ impl Expansion {
                         law,
                         held: 0.0,
                         push: 0.0,
+                        share: None,
                         ends,
                     });
                 }

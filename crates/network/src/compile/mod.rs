@@ -25,6 +25,7 @@ mod review;
 mod row;
 mod scales;
 mod segments;
+mod sliders;
 mod speeds;
 mod springs;
 mod structure;
@@ -100,7 +101,7 @@ impl Network {
     /// All that is wrong with the network, by name: [`NetworkErrors`] of its names and numbers, or
     /// else of its topology.
     pub fn compile(&self, duration: f64) -> Result<Assembly, NetworkErrors> {
-        let network = self.rewritten()?;
+        let network = self.with_effects()?;
         let expansion = Expansion::of(&network);
         let faults = validate::faults(&network, &expansion);
         if !faults.is_empty() {
@@ -116,8 +117,13 @@ impl Network {
         Ok(assembly)
     }
 
-    /// The network with what its effects put into it.
-    pub(crate) fn rewritten(&self) -> Result<Cow<'_, Self>, NetworkErrors> {
+    /// The network with the nodes and elements that its effects and layers put into it, as it is
+    /// compiled.
+    ///
+    /// # Errors
+    ///
+    /// What keeps an effect or a layer from having a place in the network.
+    pub fn with_effects(&self) -> Result<Cow<'_, Self>, NetworkErrors> {
         if !effects::rewrites(self) {
             return Ok(Cow::Borrowed(self));
         }
@@ -173,6 +179,7 @@ impl Network {
             &mut inputs,
             &mut places,
         );
+        drop((pushes, loads));
         pushes::complete(expansion, &motion, &mut places);
         if !expansion.switches {
             self.start(expansion, &bodies, &structure, &drives, &inputs, &mut places)?;
@@ -194,11 +201,12 @@ impl Network {
             masses: &masses,
         };
         let scaling = Scaling::of(&places, &inputs, &scales, duration);
+        let mut system =
+            system::dimensionless(expansion, &motion, &places, &inputs, &scaling, duration)?;
         let Outputs { list, nodes, connections, primitives, drives: driven, .. } =
             Outputs::of(self, &parts, &scaling)?;
+        system.outputs = list;
         let warnings = review::warnings(self, &parts);
-        let system =
-            system::dimensionless(expansion, &motion, &places, &inputs, &scaling, list, duration)?;
         let carry = expansion.switches.then(|| Carry::of(&parts, &inputs, &system, duration));
         let assembly = Assembly {
             system,

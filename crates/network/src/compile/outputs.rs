@@ -1,8 +1,6 @@
 //! What the assembled system can report, by name.
 
-use std::sync::Arc;
-
-use dashpot_dae::Output;
+use std::{collections::BTreeMap, sync::Arc};
 
 use super::{
     Drive, Parts,
@@ -22,9 +20,11 @@ use crate::{
 #[derive(Debug)]
 pub(super) struct Outputs<'s> {
     scaling: &'s Scaling,
+    /// The last name.
+    name: String,
     /// One of them that is out of scale.
     fault: Option<NetworkError>,
-    pub(super) list: Vec<Output>,
+    pub(super) list: dashpot_dae::Outputs,
     pub(super) nodes: Vec<NodeOutputs>,
     pub(super) connections: Vec<ConnectionOutputs>,
     pub(super) primitives: Vec<PrimitiveOutputs>,
@@ -41,8 +41,9 @@ impl<'s> Outputs<'s> {
     ) -> Result<Self, NetworkError> {
         let mut outputs = Self {
             scaling,
+            name: String::new(),
             fault: None,
-            list: Vec::new(),
+            list: dashpot_dae::Outputs::new(),
             nodes: Vec::with_capacity(network.nodes.len()),
             connections: Vec::with_capacity(network.connections.len()),
             primitives: Vec::with_capacity(parts.expansion.primitives.len()),
@@ -50,19 +51,36 @@ impl<'s> Outputs<'s> {
         };
         let contact = contact_forces(parts);
         outputs.add_nodes(network, parts, &contact);
+        let held = parts.drives.iter().map(|drive| {
+            drive.force.is_none().then(|| held_force(parts, drive, &contact[drive.body]))
+        });
+        let held: Vec<Option<Row>> = held.collect();
+        drop(contact);
         outputs.add_connections(network, parts)?;
-        outputs.add_drives(network, parts, &contact);
+        outputs.add_drives(network, parts, held);
         outputs.list.shrink_to_fit();
         outputs.fault.take().map_or(Ok(outputs), Err)
     }
 
     /// Adds an output, whose row is in SI units.
-    pub(super) fn add(&mut self, name: String, unit: &'static str, row: &Row) -> usize {
-        match self.scaling.output(name, unit, row) {
-            Ok(output) => self.list.push(output),
-            Err(fault) => self.fault = Some(fault),
+    pub(super) fn add(
+        &mut self,
+        owner: &str,
+        quantity: &str,
+        unit: &'static str,
+        row: &Row,
+    ) -> usize {
+        match self.scaling.scaled(row) {
+            Ok((scale, [unknowns, inputs])) => {
+                self.name.clear();
+                self.name.extend([owner, ".", quantity]);
+                self.list.push(&self.name, unit, scale, &unknowns, &inputs)
+            }
+            Err(fault) => {
+                self.fault = Some(fault);
+                0
+            }
         }
-        self.list.len().saturating_sub(1)
     }
 
     fn add_nodes(&mut self, network: &Network, parts: &Parts<'_>, contact: &[RowSum]) {
@@ -70,14 +88,14 @@ impl<'s> Outputs<'s> {
             let body = parts.bodies.of_joint[at];
             let name = &node.name;
             let place = parts.motion.position[body].plus(1.0, &parts.offsets[at]);
-            let position = self.add(format!("{name}.position"), "m", &place);
+            let position = self.add(name, "position", "m", &place);
             let is_known = !parts.expansion.switches || moves_by_itself(node);
             let velocity = parts.motion.velocity[body]
                 .clone()
                 .filter(|_| is_known)
-                .map(|row| self.add(format!("{name}.velocity"), "m/s", &row));
+                .map(|row| self.add(name, "velocity", "m/s", &row));
             let acceleration = accelerometer(network, parts, at, &contact[body])
-                .map(|row| self.add(format!("{name}.acceleration"), "m/s^2", &row));
+                .map(|row| self.add(name, "acceleration", "m/s^2", &row));
             self.nodes.push(NodeOutputs {
                 name: name.clone(),
                 mass: node.mass,
@@ -98,9 +116,13 @@ impl<'s> Outputs<'s> {
     ) -> Result<(), NetworkError> {
         let reactions = rigid_forces(network, parts);
         let primitives = &parts.expansion.primitives;
-        let force = |at: usize| match primitives[at].law {
-            Law::Rigid => reactions[at].clone(),
+        let whole = |at: usize| match primitives[at].law {
+            Law::Rigid => reactions.get(&at).cloned(),
             _ => Some(parts.motion.force[at].clone().unwrap_or_default()),
+        };
+        let force = |at: usize| match primitives[at].share {
+            Some(share) => whole(share.of).map(|row| row.times(share.part)),
+            None => whole(at),
         };
         for (connection, shapes) in network.connections.iter().zip(&parts.expansion.shapes) {
             let first = self.primitives.len();
@@ -143,11 +165,11 @@ impl<'s> Outputs<'s> {
             let own = own.map(|own| (own.force, own.deformation));
             let force = match own {
                 Some((force, _)) => Some(force),
-                None => forces[0].clone().map(|row| self.add(format!("{name}.force"), "N", &row)),
+                None => forces[0].clone().map(|row| self.add(name, "force", "N", &row)),
             };
             let deformation = match own {
                 Some((_, deformation)) => deformation,
-                None => self.add(format!("{name}.deformation"), "m", &position),
+                None => self.add(name, "deformation", "m", &position),
             };
             let mut outputs = ConnectionOutputs {
                 name: name.clone(),
@@ -158,7 +180,7 @@ impl<'s> Outputs<'s> {
                 force,
                 transmitted: force,
                 deformation,
-                rate: velocity.map(|row| self.add(format!("{name}.rate"), "m/s", &row)),
+                rate: velocity.map(|row| self.add(name, "rate", "m/s", &row)),
                 primitives: first..self.primitives.len(),
                 segments: Vec::new(),
                 has_layers: connection.layers.is_some(),
@@ -173,9 +195,16 @@ impl<'s> Outputs<'s> {
     fn add_primitive(
         &mut self,
         parts: &Parts<'_>,
-        reactions: &[Option<Row>],
+        reactions: &BTreeMap<usize, Row>,
         at: usize,
     ) -> Result<(), NetworkError> {
+        let own = &parts.expansion.primitives[at];
+        // Of sliders side by side the first one stands for all.
+        let at = own.share.map_or(at, |share| share.of);
+        let turned = |row: Row| match own.share {
+            Some(share) if share.sign() < 0.0 => row.times(-1.0),
+            _ => row,
+        };
         let primitive = &parts.expansion.primitives[at];
         let switches = parts.expansion.switches;
         let is_taking_part =
@@ -183,13 +212,15 @@ impl<'s> Outputs<'s> {
         if !is_taking_part && (!switches || primitive.is_link) {
             return Ok(());
         }
-        let name = &primitive.name;
+        let name = &own.name;
         let force = match primitive.law {
-            Law::Rigid => reactions[at]
-                .clone()
+            Law::Rigid => reactions
+                .get(&at)
+                .cloned()
                 .ok_or_else(|| NetworkError::UndeterminedForce { element: name.clone() })?,
             _ => parts.motion.force[at].clone().unwrap_or_default(),
         };
+        let force = own.share.map_or_else(|| force.clone(), |share| force.times(share.part));
         let rate = if switches {
             let ends = primitive.ends.map(|joint| parts.bodies.of_joint[joint]);
             let is_still = ends[0] == ends[1] || !is_taking_part && !primitive.is_phased();
@@ -210,17 +241,18 @@ impl<'s> Outputs<'s> {
         }
         let outputs = PrimitiveOutputs {
             name: name.clone(),
-            element: Arc::clone(&primitive.origin),
-            force: self.add(format!("{name}.force"), "N", &force),
-            deformation: self.add(format!("{name}.deformation"), "m", &deformation(parts, at)),
-            rate: rate.map(|row| self.add(format!("{name}.rate"), "m/s", &row)),
+            element: Arc::clone(&own.origin),
+            force: self.add(name, "force", "N", &force),
+            deformation: self.add(name, "deformation", "m", &turned(deformation(parts, at))),
+            rate: rate.map(|row| self.add(name, "rate", "m/s", &turned(row))),
         };
         self.primitives.push(outputs);
         Ok(())
     }
 
-    fn add_drives(&mut self, network: &Network, parts: &Parts<'_>, contact: &[RowSum]) {
-        for drive in parts.drives {
+    /// The drives, with the forces that hold those whose motion is given.
+    fn add_drives(&mut self, network: &Network, parts: &Parts<'_>, held: Vec<Option<Row>>) {
+        for (drive, held) in parts.drives.iter().zip(held) {
             let velocity = parts.motion.velocity[drive.body].clone();
             let switches = parts.expansion.switches;
             let is_known = !switches || moves_by_itself(&network.nodes[drive.node]);
@@ -228,10 +260,7 @@ impl<'s> Outputs<'s> {
                 continue;
             }
             let velocity = velocity.filter(|_| is_known);
-            let force = match &drive.force {
-                Some(force) => force.clone(),
-                None => held_force(parts, drive, &contact[drive.body]),
-            };
+            let force = held.or_else(|| drive.force.clone()).unwrap_or_default();
             if force.is_zero() && !switches {
                 continue;
             }
@@ -239,8 +268,8 @@ impl<'s> Outputs<'s> {
             let outputs = DriveOutputs {
                 node: drive.node,
                 source: drive.source,
-                force: self.add(format!("{name}.force"), "N", &force),
-                velocity: velocity.map(|row| self.add(format!("{name}.velocity"), "m/s", &row)),
+                force: self.add(&name, "force", "N", &force),
+                velocity: velocity.map(|row| self.add(&name, "velocity", "m/s", &row)),
                 jumps: drive.jumps.clone(),
                 name,
             };

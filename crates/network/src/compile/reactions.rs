@@ -1,5 +1,7 @@
 //! Forces in rigid links, from the balance of what hangs on one side.
 
+use std::collections::BTreeMap;
+
 use super::{
     Parts,
     bodies::Role,
@@ -7,11 +9,11 @@ use super::{
 };
 use crate::{Network, Support, elements::Law};
 
-/// For each primitive that is a rigid link its force, if it is determined: the link must be the
-/// only way between its sides, and one side must be free of supports.
-pub(super) fn rigid_forces(network: &Network, parts: &Parts<'_>) -> Vec<Option<Row>> {
+/// The force of each primitive that is a rigid link, by its number, if it is determined: the link must
+/// be the only way between its sides, and one side must be free of supports.
+pub(super) fn rigid_forces(network: &Network, parts: &Parts<'_>) -> BTreeMap<usize, Row> {
     let primitives = &parts.expansion.primitives;
-    let mut forces = vec![None; primitives.len()];
+    let mut forces = BTreeMap::new();
     let links: Vec<usize> =
         (0..primitives.len()).filter(|&at| primitives[at].law == Law::Rigid).collect();
     if links.is_empty() {
@@ -34,12 +36,14 @@ pub(super) fn rigid_forces(network: &Network, parts: &Parts<'_>) -> Vec<Option<R
                 network.nodes.get(joint).is_some_and(|node| node.support != Support::Free)
             })
         };
-        forces[link] = if is_held(&first) {
-            let second = side(&neighbours, b, link);
-            (!is_held(&second)).then(|| balance(network, parts, &second, -1.0))
-        } else {
-            Some(balance(network, parts, &first, 1.0))
-        };
+        if !is_held(&first) {
+            forces.insert(link, balance(network, parts, &first, 1.0));
+            continue;
+        }
+        let second = side(&neighbours, b, link);
+        if !is_held(&second) {
+            forces.insert(link, balance(network, parts, &second, -1.0));
+        }
     }
     forces
 }

@@ -149,7 +149,23 @@ impl Scales {
             lift,
         };
         scales.check()?;
+        if switches {
+            scales.check_unlifted()?;
+        }
         Ok(scales)
+    }
+
+    /// Whether amplitudes that are not lifted can be divided by.
+    fn check_unlifted(&self) -> Result<(), NetworkError> {
+        let is_faint = |value: &&f64| value.recip().is_infinite();
+        let too_faint = |what, value, unit| Err(NetworkError::TooFaint { what, value, unit });
+        if let Some(&value) = self.velocity.iter().find(is_faint) {
+            return too_faint("the scale of a velocity", value, "m/s");
+        }
+        if let Some(&value) = self.length.iter().find(is_faint) {
+            return too_faint("the scale of a displacement", value, "m");
+        }
+        Ok(())
     }
 
     fn check(&self) -> Result<(), NetworkError> {

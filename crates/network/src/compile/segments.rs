@@ -31,8 +31,8 @@ impl Outputs<'_> {
         };
         if let (Shape::Row(_), Some(&last)) = (&shapes[0], branches.last()) {
             let force = forces[last].clone();
-            let name = format!("{}.transmitted-force", connection.name);
-            outputs.transmitted = force.map(|row| self.add(name, "N", &row));
+            let name = &connection.name;
+            outputs.transmitted = force.map(|row| self.add(name, "transmitted-force", "N", &row));
         }
         let whole = connection.thickness.filter(|_| connection.pieces.is_empty());
         outputs.segments.extend(whole.map(|own| self::whole(own, connection, outputs)));
@@ -88,8 +88,8 @@ impl Outputs<'_> {
                 let deformation = deformation.or_else(|| between(parts, shapes, shape));
                 let deformation = deformation.unwrap_or_default();
                 let force = forces[shape].clone();
-                let force = force.map(|row| self.add(format!("{name}.force"), "N", &row));
-                Some((force, self.add(format!("{name}.deformation"), "m", &deformation)))
+                let force = force.map(|row| self.add(name, "force", "N", &row));
+                Some((force, self.add(name, "deformation", "m", &deformation)))
             }
         }
     }

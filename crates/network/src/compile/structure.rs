@@ -173,8 +173,11 @@ impl Structure {
             let jump = self.first_jump[at].map(|time| ("jumps", time));
             let kink = || first_kink(motion, duration).map(|time| ("has a kink", time));
             if let Some((fault, time)) = jump.or_else(kink) {
+                let nodes = || body.joints.iter().filter_map(|&joint| network.nodes.get(joint));
+                let heavy = nodes().find(|own| own.mass > 0.0).map(|own| own.name.clone());
                 let node = network.nodes[node].name.clone();
-                errors.push(NetworkError::MotionOfMass { node, fault, time });
+                let heavy = heavy.unwrap_or_else(|| node.clone());
+                errors.push(NetworkError::MotionOfMass { node, heavy, fault, time });
             }
         }
         errors

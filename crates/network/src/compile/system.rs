@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use dashpot_dae::{
-    Argument, Characteristic, LinearForm, Output, System, Term, Unknown, UnknownKind,
+    Argument, Characteristic, LinearForm, Outputs, System, Term, Unknown, UnknownKind,
 };
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
@@ -55,35 +55,23 @@ impl Scaling {
         Self { columns, input_columns: input_columns.collect(), time, lift }
     }
 
-    /// The output of this row, in units of its largest coefficient.
-    pub(super) fn output(
-        &self,
-        mut name: String,
-        unit: &'static str,
-        row: &Row,
-    ) -> Result<Output, NetworkError> {
+    /// The forms of a row over unknowns and inputs in units of its largest coefficient, and this in SI
+    /// units.
+    pub(super) fn scaled(&self, row: &Row) -> Result<(f64, [LinearForm; 2]), NetworkError> {
         let (own, given) = scaled(row, &self.columns, &self.input_columns);
         let scale = largest(&own).max(largest(&given));
         let scale = finite(power_of_two(if scale > 0.0 { scale } else { 1.0 }))?;
-        name.shrink_to_fit();
-        Ok(Output {
-            name,
-            unit,
-            scale: scale / self.lift,
-            unknowns: divided(&own, scale),
-            inputs: divided(&given, scale),
-        })
+        Ok((scale / self.lift, [divided(&own, scale), divided(&given, scale)]))
     }
 }
 
-/// The system of all rows.
+/// The system of all rows, without outputs.
 pub(super) fn dimensionless(
     expansion: &Expansion,
     motion: &Motion,
     places: &Places,
     inputs: &Inputs,
     scaling: &Scaling,
-    outputs: Vec<Output>,
     duration: f64,
 ) -> Result<System, NetworkError> {
     let Scaling { columns, input_columns, time, lift } = scaling;
@@ -150,7 +138,7 @@ pub(super) fn dimensionless(
             .collect(),
         terms,
         initial: places.drafts.iter().map(|draft| draft.initial * lift / draft.scale).collect(),
-        outputs,
+        outputs: Outputs::new(),
         time_scale: time,
     })
 }

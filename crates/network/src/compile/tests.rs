@@ -35,7 +35,7 @@ fn reference(pad: Model) -> Network {
 
 /// Value of an output at the start.
 fn at_start(assembly: &Assembly, name: &str) -> f64 {
-    let output = &assembly.system.outputs[assembly.output(name).unwrap()];
+    let output = assembly.system.outputs.at(assembly.output(name).unwrap());
     let mut w = vec![0.0; assembly.system.inputs.len()];
     assembly.system.inputs_at(0.0, 0.0, &mut w);
     output.scale * (output.unknowns.at(&assembly.system.initial) + output.inputs.at(&w))
@@ -97,7 +97,7 @@ fn stiffnesses_twelve_decades_apart_keep_all_digits() {
     let squared = -system.jacobian.get_entry(1, 0).unwrap().into_value() * v / (l * t);
     assert!((squared - 1.0 / (1.0 + 1e-12)).abs() < 4.0 * f64::EPSILON, "{squared:.17}");
     for name in ["soft.force", "stiff.force"] {
-        let output = &system.outputs[assembly.output(name).unwrap()];
+        let output = system.outputs.at(assembly.output(name).unwrap());
         let stiffness = output.scale * output.unknowns.coefficient(0) / l;
         assert!((stiffness - 1.0 / (1.0 + 1e-12)).abs() < 4.0 * f64::EPSILON, "{name}");
     }
@@ -285,6 +285,14 @@ fn jumps_and_kinks_in_the_motion_of_a_mass_are_refused() {
         let base = network.add_node(Node { mass: 2.0, ..Node::prescribed("base", motion.clone()) });
         network.connect("pad", base, network.ground(), spring(50.0));
         assert!(error(&network).to_string().contains(fault));
+        // The face of a pad that the motion moves says that it is the face.
+        let mut network = Network::new();
+        let base = network.add_node(Node::prescribed("base", motion.clone()));
+        network.connect("pad", base, network.ground(), spring(50.0));
+        let (element, touch) = ("pad".to_owned(), crate::effects::Touch::Impact);
+        network.add_effect(crate::effects::Face { element, mass: 0.1, at: None, touch });
+        let told = error(&network).to_string();
+        assert!(told.contains("and `pad.face`, which moves with it, has mass"), "{told}");
         let mut network = Network::new();
         let base = network.add_node(Node::prescribed("base", motion));
         network.connect("pad", base, network.ground(), spring(50.0));

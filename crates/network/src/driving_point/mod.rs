@@ -150,7 +150,7 @@ impl Network {
     /// # Ok::<(), dashpot_network::driving_point::DrivingPointError>(())
     /// ```
     pub fn driving_point(&self, a: NodeId, b: NodeId) -> Result<Response, DrivingPointError> {
-        let Some(circuit) = Circuit::of(&*self.rewritten()?, a, b)? else {
+        let Some(circuit) = Circuit::of(&*self.with_effects()?, a, b)? else {
             let model = LinearModel::primitive(Primitive::Rigid);
             return Ok(Response::Massless(Massless { model, hidden: Vec::new(), error: 0.0 }));
         };

@@ -1,6 +1,6 @@
 //! Separation at one end of an element.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, sync::Arc};
 
 use super::{
     Effect, EffectKind, Face,
@@ -85,6 +85,22 @@ impl Effect for Separation {
         }
         site.put_face(network, Node::massless(face_of(&self.element)), part(self.contact()));
         Ok(())
+    }
+
+    fn leave(&self, network: &mut Network) {
+        let Some(at) = &self.at else { return };
+        // The face stays where it is: without a place of its own it would be on the other side.
+        let is_ours = |own: &&mut Arc<dyn Effect>| {
+            own.kind() == Face::KIND && own.target() == Some(&self.element)
+        };
+        for own in network.effects.iter_mut().filter(is_ours) {
+            let mut values = own.values();
+            let Some(place @ Value::LeftOut) = values.get_mut(1) else { continue };
+            *place = Value::Word(at.clone());
+            if let Ok(face) = Face::from_values(&self.element, &values) {
+                *own = Arc::new(face);
+            }
+        }
     }
 
     fn influences(&self, situation: &Situation<'_>) -> Vec<Influence> {

@@ -262,7 +262,7 @@ fn dropped(effects: Vec<Arc<dyn Effect>>) -> [f64; 2] {
     let phased = assembly.switching.clone().unwrap();
     let leg = dashpot_dae::Switching::first(phased.as_ref(), 1e-12).unwrap();
     ["head.position", "head.velocity"].map(|name| {
-        let output = &leg.system.outputs[assembly.output(name).unwrap()];
+        let output = leg.system.outputs.at(assembly.output(name).unwrap());
         let mut inputs = vec![0.0; leg.system.inputs.len()];
         leg.system.inputs_at(0.0, 0.0, &mut inputs);
         output.scale * (output.unknowns.at(&leg.system.initial) + output.inputs.at(&inputs))
@@ -283,4 +283,21 @@ fn a_drop_is_a_flight_where_gravity_and_separation_are_on() {
     case(vec![Arc::new(separation()), Arc::new(face(0.2)), gravity(9.81)], [-1.5, 0.0]);
     case(vec![Arc::new(separation())], [0.0, speed(9.806_65)]);
     case(vec![Arc::new(separation()), gravity(-9.81)], [0.0, speed(9.81)]);
+}
+
+#[test]
+fn a_face_stays_where_it_is_without_its_separation() {
+    let mut network = impact();
+    let at = Some("panel".to_owned());
+    network.add_effect(face(0.2));
+    network.add_effect(Separation { at, ..separation() });
+    let place = |network: &Network| {
+        let mut made = network.clone();
+        rewrite(&mut made).unwrap();
+        outline(&made).split_off(2)
+    };
+    let [with, without] = [place(&network), place(&network.without(&[crate::Detail::Effect(1)]))];
+    assert_eq!(with, ["padding.contact: padding.face → panel: contact 0 0"]);
+    let [link] = without.as_slice() else { panic!("{without:?}") };
+    assert!(link.starts_with("padding.contact: padding.face → panel: rigid"), "{link}");
 }

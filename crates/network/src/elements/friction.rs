@@ -21,7 +21,9 @@ use crate::{
 ///
 /// `F_c` does not depend on a normal force, on the speed or on the time of rest. Between two given
 /// motions it cannot stick: it slides the way they go, and while they pause it keeps the force that
-/// it had.
+/// it had. Sliders side by side between the same two places slide together, and each reports its part
+/// of their force in proportion to its `F_c`, also while they stick: how they would share it then
+/// depends on how each of them came to rest, which this law does not know.
 ///
 /// # References
 ///
@@ -73,6 +75,10 @@ impl Phases for Friction {
             BACKWARD => vec![stop(true)],
             _ => vec![slip(self.force, true, FORWARD), slip(-self.force, false, BACKWARD)],
         }
+    }
+
+    fn capacity(&self) -> Option<f64> {
+        Some(self.force)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Spring with a measured curve.
 
-use super::{Element, ElementKind, Law, Tangent};
+use super::{Element, ElementKind, Law, Tangent, monotone::MonotoneCurve};
 use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
 
 /// A spring whose force is interpolated between points `(y_i, F_i)` of a measured curve.
@@ -39,12 +39,8 @@ use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, V
 /// `fritsch1980` and `fritsch1984` in `docs/references.bib`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableSpring {
-    points: Vec<(f64, f64)>,
-    /// Slope of the curve at each point \[N/m\].
-    slopes: Vec<f64>,
-    /// Integral of the force from the first point to each \[J\].
-    areas: Vec<f64>,
-    /// The integral from the first point to zero deformation \[J\].
+    curve: MonotoneCurve,
+    /// The integral of the curve from the first point to zero deformation \[J\].
     at_rest: f64,
 }
 
@@ -59,10 +55,9 @@ impl TableSpring {
     /// that do not rise, forces that fall, a force that is the same everywhere, and points of which
     /// none is (0, 0).
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, InvalidParameter> {
-        check(&points)?;
+        check(POINTS, &points)?;
         let spring = Self::through(points);
-        let is_finite = |all: &[f64]| all.iter().all(|own| own.is_finite());
-        if is_finite(&spring.slopes) && is_finite(&spring.areas) {
+        if spring.curve.is_finite() {
             Ok(spring)
         } else {
             let range = "such that the slopes and areas of the curve fit into double precision";
@@ -71,89 +66,21 @@ impl TableSpring {
     }
 
     /// The spring through points that are in order.
-    fn through(points: Vec<(f64, f64)>) -> Self {
-        let slopes = slopes(&points);
-        let mut spring = Self { points, slopes, areas: vec![0.0], at_rest: 0.0 };
-        for at in 1..spring.points.len() {
-            let area = spring.areas[at - 1] + spring.interval(at - 1).area(1.0);
-            spring.areas.push(area);
-        }
-        let rest = spring.points.iter().position(|&(at, _)| at.abs() <= 0.0);
-        spring.at_rest = rest.map_or(0.0, |at| spring.areas[at]);
-        spring
+    pub(super) fn through(points: Vec<(f64, f64)>) -> Self {
+        let curve = MonotoneCurve::through(points);
+        let at_rest = curve.area(0.0);
+        Self { curve, at_rest }
     }
 
     /// Points of deformation \[m\] and force \[N\].
     pub fn points(&self) -> &[(f64, f64)] {
-        &self.points
-    }
-
-    fn interval(&self, at: usize) -> Interval {
-        let [(from, start), (to, end)] = [self.points[at], self.points[at + 1]];
-        let width = to - from;
-        let rise = end - start;
-        let [first, last] = [self.slopes[at] * width, self.slopes[at + 1] * width];
-        Interval {
-            width,
-            // The cubic over the part s of the interval, from 0 to 1.
-            coefficients: [
-                start,
-                first,
-                3.0 * rise - 2.0 * first - last,
-                first + last - 2.0 * rise,
-            ],
-        }
-    }
-
-    /// Where a deformation lies.
-    fn place(&self, deformation: f64) -> Place {
-        let last = self.points.len() - 1;
-        if deformation < self.points[0].0 {
-            return Place::Outside(0, deformation - self.points[0].0);
-        }
-        if deformation > self.points[last].0 {
-            return Place::Outside(last, deformation - self.points[last].0);
-        }
-        let at = self.points.partition_point(|point| point.0 <= deformation).clamp(1, last) - 1;
-        let interval = self.interval(at);
-        Place::Inside(at, (deformation - self.points[at].0) / interval.width, interval)
+        self.curve.points()
     }
 }
 
-/// Where a deformation lies in a table.
-enum Place {
-    /// Beyond the point of this number, by so much \[m\].
-    Outside(usize, f64),
-    /// At this part of the interval of this number.
-    Inside(usize, f64, Interval),
-}
-
-/// A cubic over the part of an interval.
-struct Interval {
-    width: f64,
-    coefficients: [f64; 4],
-}
-
-impl Interval {
-    fn value(&self, part: f64) -> f64 {
-        let [a, b, c, d] = self.coefficients;
-        a + part * (b + part * (c + part * d))
-    }
-
-    fn slope(&self, part: f64) -> f64 {
-        let [_, b, c, d] = self.coefficients;
-        (b + part * (2.0 * c + part * 3.0 * d)) / self.width
-    }
-
-    /// The integral of the value from the interval's beginning.
-    fn area(&self, part: f64) -> f64 {
-        let [a, b, c, d] = self.coefficients;
-        self.width * part * (a + part * (b / 2.0 + part * (c / 3.0 + part * d / 4.0)))
-    }
-}
-
-fn check(points: &[(f64, f64)]) -> Result<(), InvalidParameter> {
-    let invalid = |range: &'static str, found: String| InvalidParameter::new(POINTS, range, found);
+/// Refuses points that are no curve of a spring.
+pub(super) fn check(name: &'static str, points: &[(f64, f64)]) -> Result<(), InvalidParameter> {
+    let invalid = |range: &'static str, found: String| InvalidParameter::new(name, range, found);
     if points.len() < 2 {
         return Err(invalid("two points or more", format!("{}", points.len())));
     }
@@ -182,83 +109,38 @@ fn check(points: &[(f64, f64)]) -> Result<(), InvalidParameter> {
     }
 }
 
-/// Slopes at the points: between two intervals the weighted harmonic mean of theirs, at the ends
-/// that of the parabola through three points, bounded so that the curve does not fall.
-fn slopes(points: &[(f64, f64)]) -> Vec<f64> {
-    let widths: Vec<f64> = points.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
-    let secants: Vec<f64> = points
-        .windows(2)
-        .zip(&widths)
-        .map(|(pair, width)| (pair[1].1 - pair[0].1) / width)
-        .collect();
-    let last = secants.len() - 1;
-    if last == 0 {
-        return vec![secants[0]; 2];
-    }
-    let inner = |at: usize| {
-        let (before, after) = (secants[at - 1], secants[at]);
-        if before <= 0.0 || after <= 0.0 {
-            return 0.0;
-        }
-        let (w, z) = (widths[at - 1] + 2.0 * widths[at], 2.0 * widths[at - 1] + widths[at]);
-        (w + z) / (w / before + z / after)
-    };
-    let end = |own: usize, next: usize| {
-        let (h, s) = (widths[own], secants[own]);
-        let slope = s + (s - secants[next]) * h / (h + widths[next]);
-        slope.clamp(0.0, 3.0 * s)
-    };
-    let mut slopes = vec![end(0, 1)];
-    slopes.extend((1..=last).map(inner));
-    slopes.push(end(last, last - 1));
-    slopes
-}
-
 impl Element for TableSpring {
     fn kind(&self) -> &'static str {
         Self::KIND
     }
 
     fn force(&self, deformation: f64, _rate: f64) -> f64 {
-        match self.place(deformation) {
-            Place::Outside(at, beyond) => self.points[at].1 + self.slopes[at] * beyond,
-            Place::Inside(_, part, interval) => interval.value(part),
-        }
+        self.curve.value(deformation)
     }
 
     fn tangent(&self, deformation: f64, _rate: f64) -> Tangent {
-        let stiffness = match self.place(deformation) {
-            Place::Outside(at, _) => self.slopes[at],
-            Place::Inside(_, part, interval) => interval.slope(part),
-        };
-        Tangent { stiffness, damping: 0.0 }
+        Tangent { stiffness: self.curve.slope(deformation), damping: 0.0 }
     }
 
     fn stored(&self, deformation: f64) -> f64 {
-        let area = match self.place(deformation) {
-            Place::Outside(at, beyond) => {
-                self.areas[at] + (self.points[at].1 + 0.5 * self.slopes[at] * beyond) * beyond
-            }
-            Place::Inside(at, part, interval) => self.areas[at] + interval.area(part),
-        };
-        area - self.at_rest
+        self.curve.area(deformation) - self.at_rest
     }
 
     fn law(&self) -> Law {
-        let [first, last] = [self.points[0], self.points[self.points.len() - 1]];
+        let [first, last] = self.curve.ends();
         Law::Nonlinear { stiffness: (last.1 - first.1) / (last.0 - first.0), damping: 0.0 }
     }
 
     fn measured(&self) -> Option<(f64, f64)> {
-        Some((self.points[0].0, self.points[self.points.len() - 1].0))
+        Some(self.curve.ends().map(|own| own.0).into())
     }
 
     fn validate(&self) -> Result<(), InvalidParameter> {
-        check(&self.points)
+        check(POINTS, self.points())
     }
 
     fn values(&self) -> Vec<Value> {
-        vec![Value::Table(self.points.clone())]
+        vec![Value::Table(self.points().to_vec())]
     }
 }
 

@@ -43,6 +43,15 @@ fn for_each_law(mut look: impl FnMut(&dyn Element)) {
     }));
 }
 
+/// The law of the first loading, of one that unloads on another curve.
+fn first_curve(law: &dyn Element) -> Option<Arc<dyn Element>> {
+    match law.kind() {
+        HystereticFoam::KIND => Some(Arc::new(HystereticFoam::sample())),
+        HystereticTable::KIND => Some(Arc::new(HystereticTable::sample())),
+        _ => None,
+    }
+}
+
 /// Slope of a function by central differences, and how wrong it may be: the difference of two step
 /// widths, and the rounding of the values.
 fn slope(f: impl Fn(f64) -> f64, at: f64) -> (f64, f64) {
@@ -92,8 +101,8 @@ fn what_is_stored_rises_by_no_more_than_the_work_done() {
             for v in RATES {
                 let excess = (stored - law.force(y, v)) * v.signum();
                 // While it is pressed for the first time, foam with a set loses energy for good.
-                let is_first = law.kind() == HystereticFoam::KIND
-                    && law.force(y, v).to_bits() == HystereticFoam::sample().force(y, v).to_bits();
+                let is_first = first_curve(law)
+                    .is_some_and(|own| law.force(y, v).to_bits() == own.force(y, v).to_bits());
                 assert!(is_first && v < 0.0 || excess <= error, "{law:?} at {y}, {v}: {excess}");
                 assert!(law.stored(y) >= 0.0, "{law:?} at {y}");
             }
@@ -104,7 +113,7 @@ fn what_is_stored_rises_by_no_more_than_the_work_done() {
 #[test]
 fn at_rest_the_force_is_the_slope_of_what_is_stored() {
     for_each_law(|law| {
-        if law.kind() == HystereticFoam::KIND {
+        if first_curve(law).is_some() {
             return;
         }
         for y in DEFORMATIONS {

@@ -3,6 +3,7 @@
 //! A number is an estimate of the part by which a detail changes what is felt, from scales alone:
 //! nothing is solved. The scales are those of [`Situation`].
 
+mod depth;
 mod detail;
 mod situation;
 

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use dashpot_rheology::Tree;
 
+use super::depth;
 use crate::{
     Connection, Model, Network, NodeId, Start, Support,
     compile::bodies::start_velocity,
@@ -98,10 +99,15 @@ impl<'n> Situation<'n> {
     }
 
     /// The depth \[m\] to which a connection is pressed in at most, as far as scales tell:
-    /// `V0 √(m1/K)` by an impact, at which its spring would hold all of the energy, `F/K` by forces,
+    /// `V0 √(m1/K)` by an impact, at which its spring would hold all of the energy (of a law that is
+    /// not linear, the depth at which it has taken that up), `F/K` by forces,
     /// and the given motions. `None` where nothing acts on it, or nothing resists.
     pub fn depth(&self, connection: &Connection) -> Option<f64> {
         let struck = self.impact.as_ref().and_then(|impact| {
+            let energy = 0.5 * impact.mass * impact.speed * impact.speed;
+            if let Some(depth) = depth::at_energy(&connection.model, energy) {
+                return Some(depth);
+            }
             let omega = frequency(&[&connection.model], impact.mass)?;
             Some(impact.speed / omega)
         });

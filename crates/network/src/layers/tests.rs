@@ -205,8 +205,8 @@ fn a_pad_reports_the_force_on_its_face() {
     assert_eq!(assembly.connections[0].primitives, 0..5);
     assert_eq!(assembly.system.states(), 10);
     let row = |name: &str| {
-        let output = &assembly.system.outputs[assembly.output(name).unwrap()];
-        (output.unknowns.clone(), output.scale)
+        let output = assembly.system.outputs.at(assembly.output(name).unwrap());
+        (output.unknowns, output.scale)
     };
     assert_eq!(row("pad.force"), row("pad.front.force"));
     assert_ne!(row("pad.force"), row("pad.back.force"));

@@ -144,13 +144,13 @@ impl<'d> Besides<'d> {
             own.iter().filter(|own| !known().contains(&own.key.as_str())).peekable();
         if strangers.peek().is_some() {
             for stranger in strangers {
-                let (key, owner) = (stranger.key.clone(), "`shift`".to_owned());
+                let (key, owner) = (stranger.key.to_string(), "`shift`".to_owned());
                 let fault = Fault::UnknownKey { key, owner, known: known() };
                 self.faults.error(stranger.key_place, fault);
             }
             return None;
         }
-        let [only] = own.as_slice() else {
+        let [only] = &**own else {
             let found = match own.len() {
                 0 => "an empty table".to_owned(),
                 count => format!("a table of {count} shifts"),

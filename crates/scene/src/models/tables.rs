@@ -70,7 +70,7 @@ impl<'d> ModelReader<'d> {
         let has_strangers = strangers.peek().is_some();
         for stranger in strangers {
             let known = spot.other_keys.iter().chain(&self.words).copied().collect();
-            let (key, owner) = (stranger.key.clone(), spot.owner.to_string());
+            let (key, owner) = (stranger.key.to_string(), spot.owner.to_string());
             self.faults.error(stranger.key_place, Fault::UnknownKey { key, owner, known });
         }
         let mut laws = entries.iter().filter(is_law);
@@ -80,7 +80,7 @@ impl<'d> ModelReader<'d> {
             self.faults.error(spot.place, fault);
         }
         if let Some(second) = laws.next() {
-            let words = entries.iter().filter(is_law).map(|entry| entry.key.clone()).collect();
+            let words = entries.iter().filter(is_law).map(|entry| entry.key.to_string()).collect();
             let fault = Fault::SeveralLaws { owner: spot.owner.to_string(), words };
             self.faults.error(second.key_place, fault);
             return None;
@@ -117,7 +117,7 @@ impl<'d> ModelReader<'d> {
         }
         let from = open.order.iter().position(|&passed| passed == reference).unwrap_or(0);
         let circle = open.order[from..].iter().chain([&reference]);
-        let names = circle.map(|&model| self.library.entry(model).key.clone()).collect();
+        let names = circle.map(|&model| self.library.entry(model).key.to_string()).collect();
         self.faults.error(item.place, Fault::ModelInItself { family: shelf.word(), names });
         None
     }

@@ -1,16 +1,17 @@
 //! `[accuracy]`: how accurate the measures are to be, and what may be left out.
 
-use dashpot_analysis::Accuracy;
+use dashpot_analysis::{Accuracy, Family};
 use dashpot_network::parameters::{Dimension, InvalidParameter};
 
-use super::{
-    Reading,
-    measures::{family_of, measure_of},
+use super::{Reading, Targets, measures::measure_of};
+use crate::{
+    document::{Content, Entry},
+    fault::Fault,
+    source::Place,
 };
-use crate::document::{Content, Entry};
 
 /// Reads the wishes, relative to the size of each measure.
-pub(crate) fn read_accuracy(reading: &Reading<'_>) -> Accuracy {
+pub(crate) fn read_accuracy(reading: &Reading<'_>, targets: &Targets<'_, '_>) -> Accuracy {
     let mut accuracy = Accuracy::default();
     for entry in reading.section("accuracy") {
         if entry.key == "default" {
@@ -22,31 +23,70 @@ pub(crate) fn read_accuracy(reading: &Reading<'_>) -> Accuracy {
             continue;
         }
         if let Content::Table(measures) = &entry.item.value {
-            let family = family_of(reading, &entry.key, entry.key_place);
-            for own in measures {
-                check_measure(reading, &own.key, family, own);
-                let key = format!("{}.{}", entry.key, own.key);
-                accuracy.by_measure.extend(wish(reading, own).map(|wish| (key, wish)));
-            }
+            let mut found = Vec::new();
+            read_target(reading, targets, (&entry.key, entry.key_place), measures, &mut found);
+            accuracy.by_measure.extend(found);
             continue;
         }
-        let (target, measure) = entry.key.rsplit_once('.').unwrap_or((&entry.key, ""));
-        if let Some(family) = family_of(reading, target, entry.key_place) {
+        let Some((target, measure)) = entry.key.rsplit_once('.') else {
+            if let Some(family) = targets.family(&entry.key, entry.key_place) {
+                without_measure(reading, family, entry);
+            }
+            continue;
+        };
+        if let Some(family) = targets.family(target, entry.key_place) {
             check_measure(reading, measure, Some(family), entry);
         }
-        let key = entry.key.clone();
+        let key = entry.key.to_string();
         accuracy.by_measure.extend(wish(reading, entry).map(|wish| (key, wish)));
     }
     accuracy
 }
 
-/// Notes a measure that does not exist. The second one of a kind has `-2` at its end.
-fn check_measure(
+/// Notes a wish for all of an element or a node.
+fn without_measure(reading: &Reading<'_>, family: Family, entry: &Entry) {
+    let measure = match family {
+        Family::Element => "peak-force",
+        Family::Node => "peak-acceleration",
+    };
+    let fault = Fault::WrongType {
+        what: format!("the accuracy of `{}`", entry.key),
+        expected: "a table of its measures".to_owned(),
+        found: entry.item.type_name(),
+    };
+    let help = format!(
+        "name a measure, as in `{}.{measure} = \"1 %\"`; `default = \"1 %\"` is for all of them",
+        entry.key
+    );
+    reading.faults.error(entry.key_place, fault.with_help(help));
+}
+
+/// Reads the wishes for the measures of one target, and of what an effect has put beside it:
+/// `pad.stop.peak-force` without quotes is a table `stop` within `pad`.
+fn read_target(
     reading: &Reading<'_>,
-    word: &str,
-    family: Option<dashpot_analysis::Family>,
-    entry: &Entry,
+    targets: &Targets<'_, '_>,
+    (target, place): (&str, Place),
+    measures: &[Entry],
+    found: &mut Vec<(String, f64)>,
 ) {
+    let family = targets.family(target, place);
+    for own in measures {
+        let key = format!("{target}.{}", own.key);
+        match &own.item.value {
+            Content::Table(inner) if targets.is_made(&key) => {
+                read_target(reading, targets, (&key, own.key_place), inner, found);
+            }
+            _ => {
+                check_measure(reading, &own.key, family, own);
+                found.extend(wish(reading, own).map(|wish| (key, wish)));
+            }
+        }
+    }
+}
+
+/// Notes a measure that does not exist. The second one of a kind has `-2` at its end.
+fn check_measure(reading: &Reading<'_>, word: &str, family: Option<Family>, entry: &Entry) {
     let number = |end: &str| !end.is_empty() && end.bytes().all(|byte| byte.is_ascii_digit());
     let plain = word.rsplit_once('-').filter(|(_, end)| number(end)).map_or(word, |(word, _)| word);
     measure_of(reading, plain, family, entry.key_place);

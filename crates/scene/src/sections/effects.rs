@@ -23,7 +23,7 @@ pub(crate) fn read_effects(reading: &Reading<'_>, network: &mut Network) {
     for entry in reading.section("effects") {
         let Some(kind) = registers().effect(&entry.key) else {
             let known = registers().effects.iter().map(|kind| kind.word).collect();
-            let (key, owner) = (entry.key.clone(), "[effects]".to_owned());
+            let (key, owner) = (entry.key.to_string(), "[effects]".to_owned());
             reading.faults.error(entry.key_place, Fault::UnknownKey { key, owner, known });
             continue;
         };
@@ -107,7 +107,7 @@ impl Wanted<'_> {
         let name = item.text()?;
         self.reading.node(item)?;
         let Content::List(ends) = &value_of(element, "between")?.value else { return None };
-        let [from, to] = ends.as_slice() else { return None };
+        let [from, to] = &**ends else { return None };
         let ends = [from.text()?, to.text()?];
         if !ends.contains(&name) {
             let help = format!("write \"{}\" or \"{}\"", ends[0], ends[1]);
@@ -130,7 +130,7 @@ impl Wanted<'_> {
             note_bare_value(reading, path, entry, first);
             return None;
         }
-        let defaults = Item { value: Content::Table(Vec::new()), place: entry.item.place };
+        let defaults = Item { value: Content::Table(Box::default()), place: entry.item.place };
         let is_on = optional && matches!(entry.item.value, Content::Switch(true));
         let item = if is_on { &defaults } else { &entry.item };
         let quantities = Quantities { element: self.element(), ..reading.quantities() };
@@ -167,9 +167,9 @@ fn note_bare_value(reading: &Reading<'_>, path: &str, entry: &Entry, first: &Par
         (Content::Text(text), ParameterKind::Quantity(dimension))
             if parse_quantity(text).is_ok_and(|own| own.dimension == Some(dimension)) =>
         {
-            text.clone()
+            text.to_string()
         }
-        (Content::Text(text), ParameterKind::Node) => text.clone(),
+        (Content::Text(text), ParameterKind::Node) => text.to_string(),
         _ if first.follows => "…".to_owned(),
         _ => first.default.unwrap_or_default().to_owned(),
     };

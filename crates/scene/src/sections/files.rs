@@ -134,7 +134,7 @@ impl<'d> Reading<'d> {
         let pair = |key: &'static str, expected: &str| {
             let Some(entry) = table.take(key) else { return Some(None) };
             if let Content::List(items) = &entry.item.value
-                && let [time, value] = items.as_slice()
+                && let [time, value] = &**items
             {
                 return Some(Some([time, value]));
             }
@@ -154,7 +154,7 @@ impl<'d> Reading<'d> {
                 let number = digits.parse::<usize>().ok().and_then(|own| own.checked_sub(1));
                 let found = number.filter(|own| *own < csv.columns);
                 if found.is_none() {
-                    let (wanted_text, count) = (digits.clone(), csv.columns);
+                    let (wanted_text, count) = (digits.to_string(), csv.columns);
                     let fault = CsvFault::NoColumn { wanted: wanted_text, count };
                     self.faults.error(wanted.place, Fault::Csv(fault));
                 }
@@ -166,7 +166,7 @@ impl<'d> Reading<'d> {
                 let found = names().position(|own| own == name.trim());
                 if found.is_none() {
                     let known = names().map(str::to_owned).collect();
-                    let (family, name) = ("column", name.clone());
+                    let (family, name) = ("column", name.to_string());
                     self.faults.error(wanted.place, Fault::UnknownName { family, name, known });
                 }
                 found
@@ -190,7 +190,7 @@ impl<'d> Reading<'d> {
         reader: Quantities<'_>,
     ) -> Option<Option<f64>> {
         let one = |unit: &str, place| {
-            let item = Item { value: Content::Text(format!("1 {unit}")), place };
+            let item = Item { value: Content::Text(format!("1 {unit}").into()), place };
             reader.read(&item, expected)
         };
         let Some(given) = given else {

@@ -36,7 +36,7 @@ fn read_load<'d>(reading: &Reading<'d>, entry: &'d Entry, network: &mut Network)
 fn note_bare_force(reading: &Reading<'_>, entry: &Entry) {
     let Entry { key, item, .. } = entry;
     let force = match &item.value {
-        Content::Text(text) => text.clone(),
+        Content::Text(text) => text.to_string(),
         Content::Number(digits) => format!("{digits} N"),
         _ => "2 kN".to_owned(),
     };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dashpot_analysis::{Family, Measure, MeasureWish};
 use dashpot_network::parameters::{ModelValue, Parameter, ParameterKind, Value};
 
-use super::Reading;
+use super::{Reading, Targets};
 use crate::{
     document::{Content, Entry, Item},
     fault::Fault,
@@ -20,29 +20,36 @@ use crate::{
 /// Reads the measures that are wanted.
 pub(crate) fn read_measures<'d>(
     reading: &Reading<'d>,
+    targets: &Targets<'_, 'd>,
     models: &ModelReader<'d>,
 ) -> Vec<MeasureWish> {
     let mut wishes = Vec::new();
     for entry in reading.section("measures") {
-        let family = family_of(reading, &entry.key, entry.key_place);
-        for item in one_or_many(&entry.item) {
-            wishes.extend(read_wish(reading, models, (entry, item), family));
+        let inner = inner_targets(targets, entry);
+        let own = inner.is_empty().then(|| (entry.key.to_string(), entry));
+        for (target, entry) in inner.into_iter().chain(own) {
+            let family = targets.family(&target, entry.key_place);
+            for item in one_or_many(&entry.item) {
+                wishes.extend(read_wish(reading, (targets, models), (&target, item), family));
+            }
         }
     }
     wishes
 }
 
-/// Whether a name is that of an element or a node, with an error where it is neither.
-pub(super) fn family_of(reading: &Reading<'_>, name: &str, place: Place) -> Option<Family> {
-    if reading.elements.contains_key(name) {
-        return Some(Family::Element);
+/// What `pad.stop = […]` says without quotes, which is a table `stop` within `pad`; none where the
+/// entry is that of a measure.
+fn inner_targets<'d>(targets: &Targets<'_, 'd>, entry: &'d Entry) -> Vec<(String, &'d Entry)> {
+    let entries = entry.item.table().unwrap_or(&[]);
+    let named = |own: &'d Entry| (format!("{}.{}", entry.key, own.key), own);
+    let is_target = |(name, own): &(String, &Entry)| {
+        matches!(own.item.value, Content::List(_)) || targets.is_made(name)
+    };
+    if entries.iter().any(|own| own.key == "kind") {
+        return Vec::new();
     }
-    if reading.nodes.contains_key(name) {
-        return Some(Family::Node);
-    }
-    let known = reading.elements.keys().chain(reading.nodes.keys()).copied();
-    reading.unknown("element or node", name, place, known);
-    None
+    let inner: Vec<_> = entries.iter().map(named).collect();
+    if inner.iter().any(is_target) { inner } else { Vec::new() }
 }
 
 /// The measure of this word for a family, with an error where there is none.
@@ -87,8 +94,8 @@ fn other_family(reading: &Reading<'_>, word: &str, family: Family) -> String {
 
 fn read_wish<'d>(
     reading: &Reading<'d>,
-    models: &ModelReader<'d>,
-    (entry, item): (&'d Entry, &'d Item),
+    (targets, models): (&Targets<'_, 'd>, &ModelReader<'d>),
+    (target, item): (&str, &'d Item),
     family: Option<Family>,
 ) -> Option<MeasureWish> {
     let reader = reader(reading, &["kind"]);
@@ -99,14 +106,14 @@ fn read_wish<'d>(
         }
         Content::Table(entries) => {
             let Some(kind) = entries.iter().find(|own| own.key == "kind") else {
-                let (key, owner) = ("kind".to_owned(), format!("this measure of `{}`", entry.key));
+                let (key, owner) = ("kind".to_owned(), format!("this measure of `{target}`"));
                 let example = "kind = \"severity-index\"".to_owned();
                 reading.faults.error(item.place, Fault::MissingKey { key, owner, example });
                 return None;
             };
             let word = text_of(&kind.item, "`kind`", reading.faults)?;
             let measure = measure_of(reading, word, family, kind.item.place)?;
-            read_table(reading, models, (&entry.key, item), &measure.kind, kind.item.place)?
+            read_table(reading, (targets, models), (target, item), &measure.kind, kind.item.place)?
         }
         _ => {
             let expected = "a word, or a table such as { kind = \"severity-index\" }";
@@ -114,7 +121,7 @@ fn read_wish<'d>(
             return None;
         }
     };
-    family.map(|_| MeasureWish { target: entry.key.clone(), measure })
+    family.map(|_| MeasureWish { target: target.to_owned(), measure })
 }
 
 fn reader<'d>(reading: &Reading<'d>, other_keys: &'static [&'static str]) -> KindReader<'d> {
@@ -124,7 +131,7 @@ fn reader<'d>(reading: &Reading<'d>, other_keys: &'static [&'static str]) -> Kin
 /// Reads the measure of `kind` in the table `item`, of the node or element `owner`.
 fn read_table<'d>(
     reading: &Reading<'d>,
-    models: &ModelReader<'d>,
+    (targets, models): (&Targets<'_, 'd>, &ModelReader<'d>),
     (owner, item): (&str, &'d Item),
     kind: &Kind<Arc<dyn Measure>>,
     place: Place,
@@ -133,7 +140,7 @@ fn read_table<'d>(
     let given = |key: &str| entries.iter().find(|own| own.key == key);
     for own in kind.parameters.iter().filter(|own| own.kind == ParameterKind::Node) {
         if let Some(entry) = given(own.name) {
-            reading.node(&entry.item)?;
+            targets.node(&entry.item)?;
         }
     }
     let is_model = |own: &Parameter| own.kind == ParameterKind::Model;

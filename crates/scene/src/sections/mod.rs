@@ -9,6 +9,7 @@ mod loads;
 mod measures;
 mod nodes;
 mod run;
+mod targets;
 
 pub(crate) use accuracy::read_accuracy;
 pub(crate) use effects::read_effects;
@@ -19,6 +20,7 @@ pub(crate) use measures::read_measures;
 pub(crate) use nodes::read_nodes;
 pub use run::RunSettings;
 pub(crate) use run::{check_stops, read_run};
+pub(crate) use targets::Targets;
 
 use std::collections::HashMap;
 
@@ -118,12 +120,12 @@ impl<'d> Reading<'d> {
         for own in entries {
             match kinds.iter().find(|kind| kind.word == own.key) {
                 None => {
-                    let (key, owner) = (own.key.clone(), what.clone());
+                    let (key, owner) = (own.key.to_string(), what.clone());
                     let fault = Fault::UnknownKey { key, owner, known: known() };
                     self.faults.error(own.key_place, fault);
                 }
                 Some(_) if found.is_some() => {
-                    let words = entries.iter().map(|entry| entry.key.clone()).collect();
+                    let words = entries.iter().map(|entry| entry.key.to_string()).collect();
                     self.faults.error(own.key_place, Fault::SeveralFunctions { words });
                 }
                 Some(kind) => found = Some((kind, own)),

@@ -19,7 +19,7 @@ pub(crate) fn read_nodes(reading: &mut Reading<'_>, network: &mut Network) {
     for entry in reading.section("nodes") {
         if entry.key == "ground" {
             let reason = "`ground` is the fixed node that every scene has";
-            let fault = Fault::BadName { name: entry.key.clone(), reason };
+            let fault = Fault::BadName { name: entry.key.to_string(), reason };
             reading.faults.error(entry.key_place, fault);
             continue;
         }
@@ -72,7 +72,7 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         (None, None) => Support::Free,
     };
     Some(Node {
-        name: entry.key.clone(),
+        name: entry.key.to_string(),
         mass: mass.unwrap_or(Some(0.0))?,
         support,
         start: velocity.or(drop).unwrap_or(Some(Start::Rest))?,

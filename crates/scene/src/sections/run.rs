@@ -108,7 +108,7 @@ fn methods_of(reading: &Reading<'_>, entry: &Entry) -> Option<Vec<String>> {
     let known = &registers().methods;
     let items = one_or_many(&entry.item);
     if items.is_empty() {
-        let fault = Fault::EmptyList { key: entry.key.clone() };
+        let fault = Fault::EmptyList { key: entry.key.to_string() };
         reading.faults.error(entry.item.place, fault);
     }
     let mut methods = Vec::with_capacity(items.len());
@@ -174,7 +174,7 @@ pub(crate) fn check_stops(
         let outputs = &assembly.system.outputs;
         let Some(output) = outputs.iter().find(|output| output.name == name) else {
             let owner = name.split('.').next().unwrap_or_default();
-            let mut family: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
+            let mut family: Vec<&str> = outputs.iter().map(|output| output.name).collect();
             family.retain(|known| known.split('.').next() == Some(owner));
             reading.unknown("output", name, stop.when.place, family.into_iter());
             return None;

@@ -97,3 +97,62 @@ fn what_a_stop_watches_must_exist() {
     assert!(shown.contains("a force (N) is expected here"), "{shown}");
     assert!(messages(&with("when = \"pad.force\"")).contains("`falls-below` or `rises-above`"));
 }
+
+#[test]
+fn measures_are_asked_of_what_effects_put_there() {
+    let text = |rest: &str| {
+        let effects = "[effects]\nseparation.pad = {}\nface.pad = { mass = 0.1 }\n\
+                       stop.pad = { at = \"5 mm\", stiffness = \"1 MN/m\" }\n";
+        format!("{}{effects}{rest}", on_model("spring = 1"))
+    };
+    let asked = |read: &crate::Scene| -> Vec<String> {
+        read.measures.iter().map(|own| format!("{}.{}", own.target, own.measure.kind())).collect()
+    };
+    for stop in ["\"pad.stop\"", "pad.stop"] {
+        let read = scene(&text(&format!(
+            "[measures]\n{stop} = [\"peak-rate\", {{ kind = \"impulse\", window = \"run\" }}]\n\
+             \"pad.face\" = \"hic15\"\npad.contact = \"peak-rate\"\n\
+             head = {{ kind = \"transmissibility\", from = \"pad.face\" }}\n\
+             [accuracy]\npad.peak-force = 0.02\n{stop}.peak-force = 0.03\n\
+             \"pad.face.hic15\" = 0.04\n"
+        )));
+        let mut found = asked(&read);
+        found.sort();
+        let wanted = [
+            "head.transmissibility",
+            "pad.contact.peak-rate",
+            "pad.face.hic15",
+            "pad.stop.impulse",
+            "pad.stop.peak-rate",
+        ];
+        assert_eq!(found, wanted);
+        for (key, wish) in
+            [("pad.peak-force", 0.02), ("pad.stop.peak-force", 0.03), ("pad.face.hic15", 0.04)]
+        {
+            assert!(is_close(read.accuracy.of(key), wish), "{key}");
+        }
+    }
+    let said = |rest: &str| messages(&text(rest));
+    let found = said("[measures]\npad.stpo = [\"peak-force\"]\n");
+    assert!(found.contains("no element or node named `pad.stpo`"), "{found}");
+    let found = said("[measures]\npad.stop = [\"hic15\"]\n");
+    assert!(found.contains("`hic15` is not a measure of an element"), "{found}");
+    let found = said("[accuracy]\npad.stop.hic15 = 0.01\n");
+    assert!(found.contains("`hic15` is not a measure of an element"), "{found}");
+    let found = said("[measures]\npad = { window = \"run\" }\n");
+    assert!(found.contains("this measure of `pad` has no `kind`"), "{found}");
+    // Without the effect there is nothing of the name.
+    let found =
+        messages(&format!("{}[measures]\n\"pad.stop\" = \"impulse\"\n", on_model("spring = 1")));
+    assert!(found.contains("no element or node named `pad.stop`"), "{found}");
+}
+
+#[test]
+fn an_accuracy_of_no_measure_is_told_what_is_missing() {
+    for name in ["pad", "head"] {
+        let text = format!("{}[accuracy]\n{name} = \"1 %\"\n", on_model("spring = 1"));
+        let shown = messages(&text);
+        assert!(shown.contains(&format!("the accuracy of `{name}` is a table")), "{shown}");
+        assert!(shown.contains("default"), "{shown}");
+    }
+}

@@ -57,6 +57,13 @@ pub(crate) fn truth(report: &CostReport) -> Vec<String> {
          length of the run; ≤ stands where the truth is not known better"
             .to_owned(),
     );
+    if report.asked.len() > 1 {
+        said.push(
+            "of several measures it is the worst one; `--measure` asks for one, `--out` and \
+             `--json` hold the error of each"
+                .to_owned(),
+        );
+    }
     said
 }
 
@@ -152,7 +159,12 @@ pub(crate) fn answer(report: &CostReport, accuracies: &[f64]) -> String {
         let at = point.rtol.map_or(String::new(), |rtol| format!(" at rtol {rtol:e}"));
         let digit = match report.next_digit(accuracy) {
             None => "the next digit is not reached".to_owned(),
-            Some(ratio) if ratio < NOTHING => "the next digit costs nothing".to_owned(),
+            Some(ratio) if ratio < NOTHING => match report.cheapest(0.1 * accuracy) {
+                Some(next) if next.rtol.is_none() => {
+                    format!("the next digit costs nothing: `{}` has it", next.method)
+                }
+                _ => "the next digit costs nothing".to_owned(),
+            },
             Some(ratio) => {
                 format!("the next digit takes {} times as long", significant(ratio, 2))
             }

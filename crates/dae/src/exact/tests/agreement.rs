@@ -99,7 +99,7 @@ fn without_eigenvalues_the_values_are_still_right() {
     let augmented = Augmented::new(&system, 8.0);
     let modes = Modes::undivided(&augmented);
     let spans = follow(&augmented, &modes);
-    let row = ModalRow::new(&modes, &augmented.form(&system.outputs[0]));
+    let row = ModalRow::new(&modes, &augmented.form(system.outputs.at(0)));
     let (mut quality, mut pieces) = (Quality::default(), Vec::new());
     row.interpolate(&modes, &spans[0], (0.0, 8.0), 0.2, &mut quality, &mut pieces);
     let w = 24.9375_f64.sqrt();

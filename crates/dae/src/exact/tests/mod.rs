@@ -20,7 +20,7 @@ mod thesis;
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use crate::{
-    Input, LinearForm, Method, Output, Run, Signal, Silent, System, Trajectory, Unknown,
+    Input, LinearForm, Method, Outputs, Run, Signal, Silent, System, Trajectory, Unknown,
     UnknownKind, Waveform, methods::Exact,
 };
 
@@ -74,18 +74,17 @@ impl Scene {
         let unit = |i: usize| (0..size).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
         let plain = (0..size).map(|i| (unit(i), None));
         let mut next = self.drives.len();
-        let outputs =
-            plain.chain(self.outputs.iter().cloned()).map(|(form, input): (Vec<f64>, _)| {
-                let mut inputs = LinearForm::zero();
-                if input.is_some() {
-                    inputs = LinearForm::term(next, 1.0);
-                    next += 1;
-                }
-                let unknowns = form.iter().enumerate().fold(LinearForm::zero(), |sum, (i, &c)| {
-                    sum.plus(c, &LinearForm::term(i, 1.0))
-                });
-                Output { name: "output".to_owned(), unit: "", scale: 1.0, unknowns, inputs }
-            });
+        let mut outputs = Outputs::new();
+        for (form, input) in plain.chain(self.outputs.iter().cloned()) {
+            let form: Vec<f64> = form;
+            let mut inputs = LinearForm::zero();
+            if input.is_some() {
+                inputs = LinearForm::term(next, 1.0);
+                next += 1;
+            }
+            let unknowns = LinearForm::sum(form.into_iter().enumerate().collect());
+            outputs.push("output", "", 1.0, &unknowns, &inputs);
+        }
         System {
             unknowns: (0..size)
                 .map(|i| Unknown {
@@ -97,7 +96,7 @@ impl Scene {
                 .collect(),
             jacobian: CsrMatrix::from(&jacobian),
             input_matrix: CsrMatrix::from(&matrix),
-            outputs: outputs.collect(),
+            outputs,
             inputs,
             waveforms: self.waveforms.clone(),
             terms: Vec::new(),

@@ -31,6 +31,8 @@ const SHORTEST: f64 = 1e-300;
 /// Largest first step in parts of the time in which a driving function goes and comes back: a longer one
 /// may see nothing of a pulse that is zero where it begins and ends.
 const OF_SWING: f64 = 1.0 / 32.0;
+/// The tolerance down to which it is that.
+const COARSE: f64 = 1e-4;
 
 /// The first step that is guessed where nothing moves yet, and the tolerance for which it is taken as it
 /// is.
@@ -130,10 +132,18 @@ pub(super) fn enter<M: Algebra>(
         common.h = guess * (problem.rtol / tolerance).powf(0.25);
     }
     let swing = problem.eqn.system().shortest_swing((start, start + length));
-    let longest = swing.map_or(length, |own| length.min(OF_SWING * own));
+    let longest =
+        swing.map_or(length, |own| length.min(OF_SWING * own * share(problem.rtol, order)));
     // Extreme slopes make the estimate zero, or no number.
     common.h = common.h.min(longest).max(smallest);
     Ok(common)
+}
+
+/// By what the longest first step of a method of this order shrinks with the tolerance. Its error is that of its order
+/// and stays in the solution: where no smaller step is asked for, it would be the same at all tolerances.
+fn share(rtol: f64, order: usize) -> f64 {
+    let power = u32::try_from(order + 1).map_or(1.0, |own| f64::from(own).recip());
+    (rtol / COARSE).powf(power).min(1.0)
 }
 
 /// The smallest step in a span of this length where the largest coefficient of the equations is

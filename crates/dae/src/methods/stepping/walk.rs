@@ -138,13 +138,13 @@ impl Walk<'_> {
         let mut signals = Vec::with_capacity(self.run.guards.len());
         let mut roundings = Vec::with_capacity(self.run.guards.len());
         for (guard, largest) in self.run.guards.iter().zip(&mut self.largest) {
-            let output = &self.system.outputs[guard.output];
+            let output = self.system.outputs.at(guard.output);
             let mut signal = self.pieces.signal_from(self.system, output, steps - 1);
             // A small difference of large terms is known no better than they are, and what balances
             // determine no better than the absolute tolerance.
             let is_algebraic =
                 |unknown: usize| self.system.unknowns[unknown].kind == UnknownKind::Algebraic;
-            let algebraic = output.unknowns.terms().iter().filter(|term| is_algebraic(term.0));
+            let algebraic = output.unknowns.terms().filter(|term| is_algebraic(term.0));
             let least = output.scale.abs() * algebraic.map(|term| term.1.abs()).sum::<f64>();
             *largest = largest.max(signal.noise / (pieces::ROUNDING * f64::EPSILON)).max(least);
             roundings.push(signal.noise);

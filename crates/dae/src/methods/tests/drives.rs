@@ -3,7 +3,7 @@
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use super::*;
-use crate::{Input, LinearForm, Output, Piece, Unknown, UnknownKind, Waveform};
+use crate::{Input, LinearForm, Outputs, Piece, Unknown, UnknownKind, Waveform};
 
 const STEPPERS: [&str; 4] = ["bdf", "tr-bdf2", "esdirk34", "tsit45"];
 
@@ -25,11 +25,13 @@ fn oscillator(drive: &Waveform) -> System {
         scale: 1.0,
         unit: "m",
     };
-    let output =
-        |unknowns, inputs| Output { name: String::new(), unit: "m", scale: 1.0, unknowns, inputs };
-    let one = |at| LinearForm::term(at, 1.0);
-    let mut outputs: Vec<Output> = (0..2).map(|at| output(one(at), LinearForm::zero())).collect();
-    outputs.extend((0..3).map(|at| output(LinearForm::zero(), one(at))));
+    let (mut outputs, none) = (Outputs::new(), LinearForm::zero());
+    for at in 0..2 {
+        outputs.push("", "m", 1.0, &LinearForm::term(at, 1.0), &none);
+    }
+    for at in 0..3 {
+        outputs.push("", "m", 1.0, &none, &LinearForm::term(at, 1.0));
+    }
     System {
         unknowns: vec![unknown("x"), unknown("v")],
         jacobian: CsrMatrix::from(&jacobian),

@@ -44,9 +44,10 @@ fn a_stopping_guard_cuts_the_run_at_its_crossing() {
 fn guards_at_one_instant_are_all_reported_in_order() {
     // Position and twice the position cross their levels together, as do both directions' guards.
     let mut problem = problems::underdamped();
-    let mut double = problem.system.outputs[0].clone();
-    double.scale *= 2.0;
-    problem.system.outputs.push(double);
+    let own = problem.system.outputs.at(0);
+    let (unit, scale, unknowns, inputs) =
+        (own.unit, 2.0 * own.scale, own.unknowns.to_form(), own.inputs.to_form());
+    problem.system.outputs.push("double", unit, scale, &unknowns, &inputs);
     let guards = vec![
         guard(2, 0.0, Direction::Falling, false),
         guard(0, 0.0, Direction::Falling, true),

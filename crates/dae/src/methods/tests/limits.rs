@@ -3,7 +3,7 @@ use std::ops::ControlFlow;
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use super::*;
-use crate::{Input, LinearForm, Outcome, Output, Piece, Progress, Unknown, UnknownKind, Waveform};
+use crate::{Input, LinearForm, Outcome, Outputs, Piece, Progress, Unknown, UnknownKind, Waveform};
 
 /// A system of unknowns `u0, u1, …` with this matrix and no input.
 fn system(kinds: &[UnknownKind], entries: &[(usize, usize, f64)], initial: &[f64]) -> System {
@@ -20,7 +20,7 @@ fn system(kinds: &[UnknownKind], entries: &[(usize, usize, f64)], initial: &[f64
         waveforms: Vec::new(),
         terms: Vec::new(),
         initial: initial.to_vec(),
-        outputs: Vec::new(),
+        outputs: Outputs::new(),
         time_scale: 1.0,
     }
 }
@@ -150,8 +150,8 @@ fn without_unknowns_the_outputs_follow_the_inputs() {
     still.inputs = vec![Input { waveform: 0, derivative: 0 }, Input { waveform: 0, derivative: 1 }];
     still.input_matrix = CsrMatrix::zeros(0, 2);
     let inputs = LinearForm::term(0, 3.0).plus(1.0, &LinearForm::term(1, 0.25));
-    let (name, unit) = ("sum".to_owned(), "N");
-    still.outputs = vec![Output { name, unit, scale: 2.0, unknowns: LinearForm::zero(), inputs }];
+    still.outputs = Outputs::new();
+    still.outputs.push("sum", "N", 2.0, &LinearForm::zero(), &inputs);
     for method in steppers() {
         let trajectory = method.integrate(&still, &Run::to(5.0), &mut Silent).unwrap();
         let signal = trajectory.signal(&still, 0);

@@ -122,7 +122,7 @@ impl PhasedNetwork {
         for (at, (part, (output, exit))) in guards().enumerate() {
             let again = judge.is_again(part, phases[part], exit);
             let fault = Fault { part, towards: Some(exit.to) };
-            let output = &mode.system.outputs[output];
+            let output = mode.system.outputs.at(output);
             let stays = match judge.returns(part, exit, output, flights[at], system.time_scale) {
                 Some(stay) => stay,
                 None => judge.stays(part, &motion, output, exit, again),
@@ -138,7 +138,7 @@ impl PhasedNetwork {
             return Verdict::Fails(faults);
         }
         let is_flying = guards().zip(&flights).any(|((part, (output, _)), own)| {
-            let output = &mode.system.outputs[output];
+            let output = mode.system.outputs.at(output);
             own.is_some_and(|(_, height)| judge.is_followed(part, height, output))
         });
         let next = flights.into_iter().flatten().map(|own| own.0);
@@ -244,7 +244,7 @@ impl Judge<'_> {
     fn levels(&self, mode: &Mode, motion: &Derivatives, phases: &[Phase]) -> Vec<f64> {
         let guards = mode.of_guard.iter().zip(mode.of_guard_exits());
         let level = |(&(part, _), (output, exit)): (&(usize, usize), (usize, &Exit))| {
-            let output = &mode.system.outputs[output];
+            let output = mode.system.outputs.at(output);
             let (value, size) = motion.output(output, 0);
             let outward = if exit.rising { 1.0 } else { -1.0 };
             let beyond = (outward * (value - exit.level)).max(0.0);
@@ -280,7 +280,7 @@ impl Judge<'_> {
         &self,
         part: usize,
         motion: &Derivatives,
-        output: &Output,
+        output: Output<'_>,
         exit: &Exit,
         again: bool,
     ) -> Stay {
@@ -292,12 +292,14 @@ impl Judge<'_> {
         let noise = doubt * (size.max(output.scale.abs()) + exit.level.abs());
         // The method's error may leave it a little off the level that it has reached; what is farther
         // off has jumped there.
-        let is_reached = self.on_level.contains(&(part, exit.watched, exit.level))
-            && gap.abs() <= doubt.sqrt() * (size + exit.level.abs());
+        let fired = self.on_level.contains(&(part, exit.watched, exit.level));
+        let is_reached = fired && gap.abs() <= doubt.sqrt() * (size + exit.level.abs());
         if gap.abs() > noise && !is_reached {
             return told(gap > 0.0);
         }
-        if gap > 0.0 && !may_change {
+        // A force that is small when something else happens pushes on: it may take its time to end.
+        let pushes_on = exit.watched == Watched::Force && !fired && gap > SEEN * noise;
+        if gap > 0.0 && (!may_change || pushes_on) {
             // It has not been reached yet, however near it is.
             return Stay::Yes;
         }

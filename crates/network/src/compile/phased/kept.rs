@@ -34,7 +34,7 @@ impl PhasedNetwork {
         let turns_back = |own: &(usize, usize)| {
             let guard = mode.of_guard.iter().position(|other| other == own);
             let Some((guard, exit)) = guard.zip(exit_of(own)) else { return false };
-            let output = &mode.system.outputs[mode.guards[guard].output];
+            let output = mode.system.outputs.at(mode.guards[guard].output);
             let inward = if exit.rising { -1.0 } else { 1.0 };
             let (value, size) = motion.output(output, 0);
             let [rate, bend] = [1, 2].map(|order| inward * motion.output(output, order).0);

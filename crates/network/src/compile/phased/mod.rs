@@ -8,6 +8,7 @@ mod choice;
 mod groups;
 mod impacts;
 mod judge;
+mod jumps;
 mod kept;
 mod returns;
 mod search;
@@ -79,8 +80,8 @@ pub(super) fn compile(
     parts: Vec<usize>,
     duration: f64,
 ) -> Result<Assembly, NetworkErrors> {
-    jumps_through(&network, &expansion, &parts, duration)?;
     let apart = start::bodies_apart(&network, &expansion, &parts, duration).map_err(loose)?;
+    jumps::through_contacts(&network, &expansion, (&parts, &apart), duration)?;
     let (start, first) = start::state(&network, &expansion, &parts, &apart, duration)?;
     let mut phased = PhasedNetwork {
         network,
@@ -95,34 +96,12 @@ pub(super) fn compile(
     };
     let Compiled { mut assembly, .. } = phased.compiled(&phased.first)?;
     let speeds = assembly.nodes.iter().filter_map(|node| node.velocity);
-    let speeds = speeds.map(|at| assembly.system.outputs[at].scale.abs());
+    let speeds = speeds.map(|at| assembly.system.outputs.at(at).scale.abs());
     phased.speed = speeds.fold(0.0, f64::max);
     phased.join_bodies(&mut assembly);
     phased.modes = Mutex::default();
     assembly.switching = Some(Arc::new(phased));
     Ok(assembly)
-}
-
-/// Refuses motions that jump where there are contacts: what a jump passes through cannot be told.
-fn jumps_through(
-    network: &Network,
-    expansion: &Expansion,
-    parts: &[usize],
-    duration: f64,
-) -> Result<(), NetworkErrors> {
-    let has_contact =
-        parts.iter().any(|&at| expansion.primitives[at].origin.phases().is_some_and(is_contact));
-    let jumping = network.nodes.iter().filter_map(|node| match &node.support {
-        crate::Support::Prescribed(motion) if has_contact => {
-            let mut times = super::structure::jumps(network, motion, duration).into_iter();
-            // Where it begins away from zero, the state begins there as well.
-            let time = times.find(|&time| time > 0.0)?;
-            Some(NetworkError::StepThroughContact { node: node.name.clone(), time })
-        }
-        _ => None,
-    });
-    let errors: Vec<NetworkError> = jumping.collect();
-    if errors.is_empty() { Ok(()) } else { Err(NetworkErrors(errors)) }
 }
 
 /// The same errors, with the reason why something is undetermined.

@@ -35,7 +35,7 @@ impl Judge<'_> {
             let Look { doubt, pace, .. } = self.looks[part];
             let is_place = mode.exits[part][exit].watched == Watched::Deformation;
             // What has just parted is where it parted, whatever that is rounded to.
-            let here = motion.output(&mode.system.outputs[guard.output], 0).0;
+            let here = motion.output(mode.system.outputs.at(guard.output), 0).0;
             let level = if pace.is_some() { here } else { level };
             let guard = Guard { level, ..guard.clone() };
             Flight::of(system, motion, (at, &guard), doubt).filter(|_| is_place)
@@ -49,7 +49,7 @@ impl Judge<'_> {
         &self,
         part: usize,
         exit: &Exit,
-        output: &Output,
+        output: Output<'_>,
         flight: Option<(Flight, f64)>,
         time_scale: f64,
     ) -> Option<Stay> {
@@ -66,7 +66,7 @@ impl Judge<'_> {
 
     /// Whether a part's sides have just parted, and come back from so near that they are followed without a
     /// method.
-    pub(super) fn is_followed(&self, part: usize, height: f64, output: &Output) -> bool {
+    pub(super) fn is_followed(&self, part: usize, height: f64, output: Output<'_>) -> bool {
         let Look { doubt, pace, .. } = self.looks[part];
         pace.is_some_and(|own| own != Pace::Told)
             && height <= LOW * doubt.sqrt() * output.scale.abs()

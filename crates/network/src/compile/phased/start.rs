@@ -278,7 +278,7 @@ impl Network {
     /// How long \[s\] what is dropped falls freely before it touches anything; 0 where all begins at
     /// touch, or the network cannot be compiled.
     pub fn time_of_fall(&self) -> f64 {
-        let Ok(network) = self.rewritten() else { return 0.0 };
+        let Ok(network) = self.with_effects() else { return 0.0 };
         let expansion = Expansion::of(&network);
         let Ok(bodies) = Bodies::of(&network, &expansion) else { return 0.0 };
         let pull = self.effects.iter().find_map(|effect| effect.gravity()).unwrap_or(0.0);

@@ -86,3 +86,21 @@ fn the_spring_behind_a_closed_contact_is_an_unknown_without_offset() {
     let sum = force("velocity of head", 1.0) + force("velocity of body", 3.0);
     assert!(sum.abs() <= 2.0 * f64::EPSILON * force("velocity of head", 1.0).abs());
 }
+
+#[test]
+fn amplitudes_too_small_for_switching_are_refused_in_so_many_words() {
+    let compiled = |speed: f64| {
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", 1.0).moving(speed));
+        let face = part(Contact { gap: 0.0, restitution: 0.0 });
+        let pad = Tree::series([face, spring(100.0)]);
+        network.connect("pad", head, network.ground(), pad);
+        network.compile(1.0).map(drop)
+    };
+    assert!(compiled(1e-300).is_ok());
+    for speed in [1e-310, 1e-322] {
+        let words = compiled(speed).unwrap_err().to_string();
+        assert!(words.contains("as small as this"), "{words}");
+        assert!(words.contains("m/s"), "{words}");
+    }
+}

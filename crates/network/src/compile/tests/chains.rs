@@ -171,7 +171,7 @@ fn every_coefficient_of_a_mass_on_a_chain_is_right_to_its_last_digits() {
         let deformation: Vec<Dense> = parts
             .iter()
             .map(|part| {
-                let output = &system.outputs[primitives.next().unwrap().deformation];
+                let output = system.outputs.at(primitives.next().unwrap().deformation);
                 if part.0 > 0.0 && part.1 > 0.0 {
                     primitives.next();
                 }
@@ -422,7 +422,7 @@ fn the_fastest_element_of_a_chain_is_the_one_beside_the_tree() {
     let parts = parts(&[], 8, 12, true);
     let assembly = compiled(&Head::Striking, model(&parts), 1.0);
     for (at, pair) in assembly.primitives.chunks(2).enumerate() {
-        let output = &assembly.system.outputs[pair[0].deformation];
+        let output = assembly.system.outputs.at(pair[0].deformation);
         assert_eq!(output.unknowns.terms().len(), if at == 0 { 8 } else { 1 }, "element {at}");
     }
 }

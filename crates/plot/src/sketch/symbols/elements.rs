@@ -72,6 +72,7 @@ pub(in crate::sketch) const SYMBOLS: &[Symbol] = &[
     nonlinear("table-spring", ["table spring", "table springs"]),
     nonlinear("foam", ["foam", "foams"]),
     nonlinear("hysteretic-foam", ["hysteretic foam", "hysteretic foams"]),
+    nonlinear("hysteretic-table", ["hysteretic table", "hysteretic tables"]),
     nonlinear("rate-spring", ["rate spring", "rate springs"]),
     symbol("power-dashpot", ["power dashpot", "power dashpots"], "]↗=", ARROW, nonlinear_dashpot),
     striking("hunt-crossley", ["Hunt–Crossley contact", "Hunt–Crossley contacts"]),

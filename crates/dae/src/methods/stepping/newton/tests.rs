@@ -5,8 +5,8 @@ use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use super::*;
 use crate::{
-    Argument, Characteristic, LinearForm, Method, Run, Silent, SolveError, System, Term, Unknown,
-    UnknownKind, derivatives,
+    Argument, Characteristic, LinearForm, Method, Outputs, Run, Silent, SolveError, System, Term,
+    Unknown, UnknownKind, derivatives,
     methods::{Bdf, Esdirk34, TrBdf2},
 };
 
@@ -66,7 +66,7 @@ fn system(
         waveforms: Vec::new(),
         terms: terms.iter().map(term).collect(),
         initial: initial.to_vec(),
-        outputs: Vec::new(),
+        outputs: Outputs::new(),
         time_scale: 1.0,
     }
 }

@@ -1,0 +1,66 @@
+//! What is zero by rounding and what is at rest.
+
+use dashpot_dae::{Panel, Signal, Switch};
+
+/// A signal of a system that is linear between switches, zero over a whole panel only where it rests: where it comes to zero without a switch, by
+/// rounding alone, it holds the smallest number.
+///
+/// A contact that opens does so by a switch. Strong dashpots push with what is left of the difference of two
+/// speeds, and that may be no digit at all.
+pub(super) fn only_at_rest(mut signal: Signal, switches: &[Switch]) -> Signal {
+    let mut last: Option<(f64, bool)> = None;
+    for panel in &mut signal.panels {
+        let is_zero = panel.coefficients.iter().all(|own| *own == 0.0);
+        let is_switched =
+            |from: f64| switches.iter().any(|own| from < own.time && own.time < panel.end);
+        let by_rounding = is_zero && last.is_some_and(|(from, acts)| acts && !is_switched(from));
+        if by_rounding {
+            *panel = Panel::constant(panel.start, panel.end, f64::MIN_POSITIVE);
+        }
+        last = Some((panel.start, !is_zero || by_rounding));
+    }
+    signal
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn signal(values: &[f64]) -> Signal {
+        let panel =
+            |(at, value): (usize, &f64)| Panel::constant(at as f64, at as f64 + 1.0, *value);
+        Signal::new(values.iter().enumerate().map(panel).collect(), None, 0.0)
+    }
+
+    fn switch(time: f64) -> Switch {
+        Switch {
+            time,
+            part: 0,
+            name: "contact".to_owned(),
+            phase: 0,
+            what: "open",
+            memory: 0.0,
+            impulse: 0.0,
+            lost: 0.0,
+            worked: 0.0,
+        }
+    }
+
+    fn rests(values: &[f64], switches: &[Switch]) -> Vec<bool> {
+        let found = only_at_rest(signal(values), switches);
+        found.panels.iter().map(|own| own.coefficients == [0.0]).collect()
+    }
+
+    #[test]
+    fn zero_before_anything_acts_and_after_a_switch_is_rest() {
+        let values = [0.0, 0.0, 1.0, 0.0, 0.0];
+        assert_eq!(rests(&values, &[switch(3.0)]), [true, true, false, true, true]);
+    }
+
+    #[test]
+    fn zero_that_no_switch_makes_is_rounding() {
+        let values = [0.0, 1.0, 0.0, 0.0, 2.0, 0.0];
+        assert_eq!(rests(&values, &[]), [true, false, false, false, false, false]);
+        assert_eq!(rests(&values, &[switch(5.0)]), [true, false, false, false, false, true]);
+    }
+}

@@ -1,0 +1,259 @@
+//! Contacts and stops of a network that shakes. As long as a weight keeps a contact closed, and a
+//! stop is not reached, the network answers as if it had neither.
+
+use std::borrow::Cow;
+
+use dashpot_dae::Silent;
+use dashpot_network::{
+    Connection, Detail, Network, Start,
+    effects::{EffectKind, Gravity, GravityStart, Separation, Stop},
+    parameters::Value,
+};
+
+use super::{
+    Drive, DriveKind, Vibration, VibrationError, drive::Driven, linearity, observed::Observed,
+};
+use crate::{Solution, SolveSettings, solve_assembly, wording::quantity};
+
+/// A contact counts as loose at rest where it carries less than this part of the largest force.
+const LOOSE: f64 = 1e-9;
+
+/// Why a response holds for small oscillations only.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LimitKind {
+    /// A contact parts where its force swings by more than a weight presses on it \[N\].
+    Parting,
+    /// An element reaches its stop where its deformation swings by more than it has left \[m\].
+    Stop,
+}
+
+/// A contact or stop of the network, which is as at rest in small oscillations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limit {
+    /// What happens beyond it.
+    pub kind: LimitKind,
+    /// The contact or stop, for instance `padding.contact`.
+    pub name: String,
+    /// By how much its force \[N\] or deformation \[m\] may swing: the force at rest, or what is left
+    /// to the stop.
+    pub reserve: f64,
+    element: String,
+    /// Whether it is the second end of the element that parts.
+    at_second: bool,
+}
+
+/// Where an oscillation reaches a limit first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Onset {
+    /// The limit.
+    pub limit: Limit,
+    /// The frequency \[Hz\] at which the smallest drive does: the smallest force of a load, or the
+    /// smallest acceleration of a motion.
+    pub frequency: f64,
+    /// The amplitude of the drive there \[N or m\].
+    pub amplitude: f64,
+}
+
+/// The network without its separations and stops, and what they limit.
+pub(super) fn closed(
+    network: &Network,
+    duration: f64,
+) -> Result<(Cow<'_, Network>, Vec<Limit>), VibrationError> {
+    let is_limit = |kind: &str| kind == Separation::KIND || kind == Stop::KIND;
+    let effects = network.effects().iter().enumerate();
+    let found: Vec<_> = effects.filter(|(_, own)| is_limit(own.kind())).collect();
+    if found.is_empty() {
+        return Ok((Cow::Borrowed(network), Vec::new()));
+    }
+    let details: Vec<Detail> = found.iter().map(|own| Detail::Effect(own.0)).collect();
+    let linear = network.without(&details);
+    let mut limits = Vec::new();
+    let rest = Rest::of(&linear, duration)?;
+    let solution = rest.report.solution();
+    for (_, effect) in found {
+        let named = |own: &&Connection| effect.target() == Some(&own.name);
+        let Some(element) = network.connections().iter().find(named) else { continue };
+        let first = effect.values().into_iter().next();
+        let limit = if effect.kind() == Separation::KIND {
+            let ends = element.between.map(|id| &network.node(id).name);
+            let at_second = matches!(&first, Some(Value::Word(at)) if at == ends[1]);
+            parting(&solution, &element.name, at_second)?
+        } else {
+            let at = first.as_ref().and_then(Value::number).or(element.thickness);
+            let Some(at) = at else { continue };
+            stop(&solution, &element.name, at)?
+        };
+        limits.push(limit);
+    }
+    Ok((Cow::Owned(linear), limits))
+}
+
+/// A linear network under its weights, with nothing that moves.
+struct Rest {
+    report: crate::RunReport,
+}
+
+impl Rest {
+    fn of(network: &Network, duration: f64) -> Result<Self, VibrationError> {
+        let assembly = network.compile(duration)?;
+        linearity::require_linear_system(&assembly)?;
+        let silence = Drive {
+            name: String::new(),
+            kind: DriveKind::Load,
+            node: network.node(network.ground()).name.clone(),
+        };
+        let still = Driven::new(network, &assembly, &silence, duration)?.network;
+        let own = still.effects().iter().enumerate();
+        let own: Vec<_> = own.filter_map(|(at, own)| Some((at, own.gravity()?))).collect();
+        let weights: Vec<Detail> = own.iter().map(|own| Detail::Effect(own.0)).collect();
+        let mut still = still.without(&weights);
+        let ids: Vec<_> = still.nodes().map(|own| own.0).collect();
+        ids.into_iter().for_each(|id| still.set_start(id, Start::Rest));
+        for (_, acceleration) in own {
+            still.add_effect(Gravity { acceleration, start: GravityStart::Equilibrium });
+        }
+        let settings = SolveSettings { estimate: false, ..SolveSettings::lasting(duration) };
+        let assembly = std::sync::Arc::new(still.compile(duration)?);
+        let report = solve_assembly(&assembly, &[], &settings, &mut Silent);
+        Ok(Self {
+            report: report.map_err(|error| VibrationError::Rest { error: error.to_string() })?,
+        })
+    }
+}
+
+/// The force \[N\] that presses the contact of an element together.
+fn contact_force(
+    assembly: &dashpot_network::Assembly,
+    element: &str,
+    at_second: bool,
+) -> Option<usize> {
+    // A face with mass is linked by a contact of its own.
+    let contact = assembly.connection(&format!("{element}.contact"));
+    let own = assembly.connection(element)?;
+    contact.map_or(if at_second { own.transmitted } else { own.force }, |contact| contact.force)
+}
+
+fn parting(rest: &Solution<'_>, element: &str, at_second: bool) -> Result<Limit, VibrationError> {
+    let assembly = rest.assembly();
+    let force = |at: usize| rest.signal(at).value(0.0);
+    let reserve = contact_force(assembly, element, at_second).map_or(0.0, force);
+    let all = assembly.connections.iter().filter_map(|own| own.force);
+    let largest = all.map(|at| force(at).abs()).fold(0.0, f64::max);
+    let name = format!("{element}.contact");
+    if reserve > LOOSE * largest {
+        let element = element.to_owned();
+        Ok(Limit { kind: LimitKind::Parting, name, reserve, element, at_second })
+    } else {
+        Err(VibrationError::Loose { contact: name })
+    }
+}
+
+fn stop(rest: &Solution<'_>, element: &str, at: f64) -> Result<Limit, VibrationError> {
+    let own = rest.assembly().connection(element).map(|own| own.deformation);
+    let reserve = at - own.map_or(0.0, |own| rest.signal(own).value(0.0));
+    let name = format!("{element}.stop");
+    if reserve > 0.0 {
+        let element = element.to_owned();
+        Ok(Limit { kind: LimitKind::Stop, name, reserve, element, at_second: false })
+    } else {
+        Err(VibrationError::OnStop { stop: name })
+    }
+}
+
+impl Limit {
+    /// What swings up to the reserve, over `(iω)^order`.
+    fn observed(&self, vibration: &Vibration, order: u32) -> Option<Observed> {
+        let assembly = &vibration.assembly;
+        let output = match self.kind {
+            LimitKind::Parting => contact_force(assembly, &self.element, self.at_second)?,
+            LimitKind::Stop => assembly.connection(&self.element)?.deformation,
+        };
+        Some(Observed::output(&self.name, output, order))
+    }
+
+    /// What happens where it swings by `amplitude`.
+    pub(super) fn warning(&self, frequency: f64, amplitude: f64) -> String {
+        let (name, frequency) = (&self.name, quantity(frequency, "Hz"));
+        match self.kind {
+            LimitKind::Parting => format!(
+                "`{name}` parts at {frequency}: its force would swing by {}, and only {} press it \
+                 together at rest; these amplitudes do not hold",
+                quantity(amplitude, "N"),
+                quantity(self.reserve, "N")
+            ),
+            LimitKind::Stop => format!(
+                "`{name}` is reached at {frequency}: the deformation would swing by {}, and {} are \
+                 left at rest; these amplitudes do not hold",
+                quantity(amplitude, "m"),
+                quantity(self.reserve, "m")
+            ),
+        }
+    }
+}
+
+impl Onset {
+    /// It in words; `drive` is what shakes the network.
+    pub(super) fn text(&self, drive: &Drive) -> String {
+        let what = match self.limit.kind {
+            LimitKind::Parting => "parts",
+            LimitKind::Stop => "is reached",
+        };
+        let omega = std::f64::consts::TAU * self.frequency;
+        let size = match drive.kind {
+            DriveKind::Load => quantity(self.amplitude, "N"),
+            DriveKind::Motion => format!(
+                "{} ({})",
+                quantity(self.amplitude, "m"),
+                quantity(self.amplitude * omega * omega, "m/s^2")
+            ),
+        };
+        format!(
+            "`{}` {what} first at {}, where `{}` swings by more than {size}; the ratios hold below \
+             that",
+            self.limit.name,
+            quantity(self.frequency, "Hz"),
+            drive.name
+        )
+    }
+}
+
+impl Vibration {
+    /// The contacts and stops beyond which the response does not hold.
+    pub fn limits(&self) -> &[Limit] {
+        &self.limits
+    }
+
+    /// The limits that an oscillation of this amplitude exceeds, in words.
+    pub(super) fn exceeded(
+        &self,
+        harmonic: &dashpot_dae::frequency::Harmonic<'_>,
+        frequency: f64,
+        amplitude: f64,
+    ) -> Vec<String> {
+        let omega = std::f64::consts::TAU * frequency;
+        let over = |limit: &Limit| {
+            let found = limit.observed(self, 0)?.at(harmonic, omega)?;
+            let swing = found.value.norm() * amplitude;
+            (swing > limit.reserve).then(|| limit.warning(frequency, swing))
+        };
+        self.limits.iter().filter_map(over).collect()
+    }
+
+    /// Where each limit is reached first, over a range of frequencies \[Hz\].
+    pub(super) fn onsets(&self, range: [f64; 2], poles: &[(f64, f64)]) -> Vec<Onset> {
+        let tau = std::f64::consts::TAU;
+        let order = if self.drive.kind == DriveKind::Motion { 2 } else { 0 };
+        let onset = |limit: &Limit| {
+            let observed = limit.observed(self, order)?;
+            let curve = super::extrema::Curve { vibration: self, observed: &observed };
+            let extrema = curve.extrema(tau * range[0], tau * range[1], poles);
+            let first =
+                extrema.iter().max_by(|a, b| a.probe.level.total_cmp(&b.probe.level))?.probe;
+            let size = limit.reserve / (0.5 * first.level).exp();
+            let over = if order == 0 { 1.0 } else { first.omega * first.omega };
+            let (frequency, amplitude) = (first.omega / tau, size / over);
+            Some(Onset { limit: limit.clone(), frequency, amplitude })
+        };
+        self.limits.iter().filter_map(onset).collect()
+    }
+}

@@ -1,0 +1,55 @@
+//! Values as arguments.
+
+use dashpot_analysis::Accuracy;
+use dashpot_scene::units::parse_quantity;
+
+pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').unwrap_or((text, ""));
+    if name.trim().is_empty() || value.trim().is_empty() {
+        return Err("write a name, `=` and a value, such as \"K=25 MN/m\"".to_owned());
+    }
+    Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+pub(super) fn within(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(number) if (0.0..=1.0).contains(&number) => Ok(number),
+        _ => Err("it must be a number from 0 to 1, such as 1e-12".to_owned()),
+    }
+}
+
+pub(super) fn share(text: &str) -> Result<f64, String> {
+    use dashpot_network::parameters::Dimension;
+    let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
+    let is_number = quantity.dimension.is_none_or(|own| own == Dimension::NUMBER);
+    let value = quantity.value;
+    // A bare number of this size may be meant in percent.
+    let is_doubtful = quantity.dimension.is_none()
+        && !text.contains('%')
+        && (0.01..=100.0 * Accuracy::LOOSEST).contains(&value);
+    if is_number && value > 0.0 && value <= Accuracy::LOOSEST && !is_doubtful {
+        return Ok(value);
+    }
+    Err(if is_doubtful {
+        let percent = 100.0 * value;
+        let other =
+            if value > Accuracy::LOOSEST { String::new() } else { format!(" or \"{percent}%\"") };
+        format!("a bare {value} is {percent}%; write \"{value}%\"{other}")
+    } else {
+        "\n  it must be more than 0 and at most 20%, such as 0.1% or 1e-3".to_owned()
+    })
+}
+
+pub(super) fn frequency(text: &str) -> Result<f64, String> {
+    use dashpot_network::parameters::Dimension;
+    let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
+    let is_frequency = quantity.dimension.is_none_or(|own| own == Dimension::FREQUENCY);
+    if quantity.angle != 0 {
+        let frequency = quantity.value / std::f64::consts::TAU;
+        Err(format!("that is an angular frequency; write \"{frequency:.6} Hz\""))
+    } else if is_frequency && quantity.value > 0.0 {
+        Ok(quantity.value)
+    } else {
+        Err("it must be a positive frequency, such as \"20 Hz\"".to_owned())
+    }
+}

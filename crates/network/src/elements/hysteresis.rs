@@ -1,0 +1,245 @@
+//! Laws of two curves: one for the first loading, another one for all that follows.
+
+use std::sync::Arc;
+
+use super::{Element, Law, Tangent};
+use crate::{
+    parameters::{InvalidParameter, Value},
+    phases::{Exit, Phase, PhaseLaw, Phases, Watched},
+};
+
+/// A law with the force `f(y)` while it is pressed deeper than ever before, and `f(y) φ(y, y_m)`
+/// once it has turned back at `y_m`: up to that depth again, and down to the set, where the force
+/// is zero. It never pulls.
+///
+/// `φ` rises with `y` from 0 or more to 1 at `y_m`, and never rises with `y_m`. So the second curve
+/// never lies above the first, and what it gives back grows by no more than the work that goes
+/// deeper: no history creates energy.
+pub(super) trait Hysteresis: Phases + Clone + 'static {
+    /// Word for the element.
+    fn word(&self) -> &'static str;
+
+    /// The first curve `f`, for deformations ≥ 0.
+    fn loading(&self) -> &dyn Element;
+
+    /// The deformation below which it is slack once it was pressed to `deepest` \[m\].
+    fn kept(&self, deepest: f64) -> f64;
+
+    /// `φ` and its slope over the deformation \[1/m\].
+    fn factor(&self, deformation: f64, deepest: f64) -> (f64, f64);
+
+    /// Energy \[J\] that unloading from `deepest` gives back from `deformation` on: the integral of
+    /// `f φ` from the set.
+    fn recoverable(&self, deformation: f64, deepest: f64) -> f64;
+
+    /// Checks the parameters.
+    fn check(&self) -> Result<(), InvalidParameter>;
+
+    /// The values of the parameters.
+    fn numbers(&self) -> Vec<Value>;
+}
+
+pub(super) const SLACK: usize = 0;
+pub(super) const LOADING: usize = 1;
+pub(super) const UNLOADING: usize = 2;
+
+pub(super) const NAMES: &[&str] = &["slack", "loading", "unloading"];
+
+/// The phase in which such a law begins.
+pub(super) fn first(deformation: f64) -> Phase {
+    let index = if deformation < 0.0 { SLACK } else { LOADING };
+    Phase { index, memory: 0.0 }
+}
+
+/// What holds in a phase of such a law.
+pub(super) fn law(of: &impl Hysteresis, phase: Phase) -> PhaseLaw {
+    let curve = |deepest| PhaseLaw::Element(Arc::new(Curve { law: of.clone(), deepest }));
+    match phase.index {
+        LOADING => curve(None),
+        UNLOADING if phase.memory > 0.0 => curve(Some(phase.memory)),
+        _ => PhaseLaw::Open,
+    }
+}
+
+/// The ways out of a phase of such a law.
+pub(super) fn exits(of: &impl Hysteresis, phase: Phase) -> Vec<Exit> {
+    let kept = of.kept(phase.memory);
+    let pass = |level, rising, to| Exit {
+        watched: Watched::Deformation,
+        level,
+        rising,
+        to,
+        remembers: false,
+    };
+    match phase.index {
+        LOADING => vec![Exit {
+            watched: Watched::Rate,
+            level: 0.0,
+            rising: false,
+            to: UNLOADING,
+            remembers: true,
+        }],
+        UNLOADING => vec![pass(phase.memory, true, LOADING), pass(kept, false, SLACK)],
+        _ => vec![pass(kept, true, if phase.memory > 0.0 { UNLOADING } else { LOADING })],
+    }
+}
+
+/// One of the two curves.
+#[derive(Debug)]
+struct Curve<H> {
+    law: H,
+    /// The deformation from which it unloads \[m\]; none while it is loaded for the first time.
+    deepest: Option<f64>,
+}
+
+impl<H: Hysteresis> Curve<H> {
+    fn factor(&self, deformation: f64) -> (f64, f64) {
+        self.deepest.map_or((1.0, 0.0), |deepest| self.law.factor(deformation, deepest))
+    }
+}
+
+impl<H: Hysteresis> Element for Curve<H> {
+    fn kind(&self) -> &'static str {
+        self.law.word()
+    }
+
+    fn force(&self, deformation: f64, rate: f64) -> f64 {
+        if deformation <= 0.0 {
+            return 0.0;
+        }
+        self.law.loading().force(deformation, rate) * self.factor(deformation).0
+    }
+
+    fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
+        let (factor, slope) = self.factor(deformation);
+        if deformation <= 0.0 || factor <= 0.0 {
+            return Tangent::default();
+        }
+        let loading = self.law.loading();
+        let stiffness = loading.tangent(deformation, rate).stiffness * factor
+            + loading.force(deformation, rate) * slope;
+        Tangent { stiffness, damping: 0.0 }
+    }
+
+    fn stored(&self, deformation: f64) -> f64 {
+        self.law.recoverable(deformation, self.deepest.unwrap_or(deformation))
+    }
+
+    fn law(&self) -> Law {
+        self.law.loading().law()
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.law.check()
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.law.numbers()
+    }
+}
+
+impl<H: Hysteresis> Element for H {
+    fn kind(&self) -> &'static str {
+        self.word()
+    }
+
+    fn force(&self, deformation: f64, rate: f64) -> f64 {
+        if deformation > 0.0 { self.loading().force(deformation, rate) } else { 0.0 }
+    }
+
+    fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
+        if deformation > 0.0 {
+            self.loading().tangent(deformation, rate)
+        } else {
+            Tangent::default()
+        }
+    }
+
+    fn stored(&self, deformation: f64) -> f64 {
+        self.recoverable(deformation, deformation)
+    }
+
+    fn law(&self) -> Law {
+        Law::Phased
+    }
+
+    fn phases(&self) -> Option<&dyn Phases> {
+        Some(self)
+    }
+
+    fn never_pulls(&self) -> bool {
+        true
+    }
+
+    fn measured(&self) -> Option<(f64, f64)> {
+        self.loading().measured()
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.check()
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.numbers()
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Follows the exits as a run would, in small steps, on a way through these turning points.
+    pub(in super::super) fn travelled(of: &impl Phases, turns: &[f64]) -> (f64, Phase, f64) {
+        let mut phase = of.first(turns[0]);
+        let mut work = 0.0;
+        let mut lowest = f64::INFINITY;
+        let steps = 4000;
+        for pair in turns.windows(2) {
+            let step = (pair[1] - pair[0]) / f64::from(steps);
+            for at in 0..steps {
+                let from = pair[0] + step * f64::from(at);
+                let middle = from + 0.5 * step;
+                // Several exits may follow one another at one instant.
+                for _ in 0..3 {
+                    let left = of.exits(phase).into_iter().find(|exit| {
+                        let now = if exit.watched == Watched::Rate { step } else { middle };
+                        if exit.rising { now > exit.level } else { now < exit.level }
+                    });
+                    let Some(exit) = left else { break };
+                    let memory = if exit.remembers { from } else { phase.memory };
+                    phase = Phase { index: exit.to, memory };
+                }
+                let force = match of.law(phase) {
+                    PhaseLaw::Element(element) => element.force(middle, step),
+                    _ => 0.0,
+                };
+                work += force * step;
+                lowest = lowest.min(work);
+            }
+        }
+        (work, phase, lowest)
+    }
+
+    /// Sends a law through many turning points up to a depth: it never gives more than it took,
+    /// neither in all nor from any time on at which it is slack.
+    pub(in super::super) fn never_gives_more_than_it_took(of: &impl Phases, most: f64) {
+        let mut state = 11_u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let turns: Vec<f64> = (0..24).map(|_| 1.1 * most * next() - 0.1 * most).collect();
+        let (work, _, lowest) = travelled(of, &[&[-0.05 * most][..], &turns].concat());
+        assert!(work > 0.0 && lowest >= 0.0, "{of:?}: {work} {lowest}");
+        // Cycles that go deeper each time dissipate no less than the ones before.
+        let lost = |cycles: u32| {
+            let depths = (1..=cycles).map(|at| most * f64::from(at) / 5.0);
+            let turns: Vec<f64> = depths.flat_map(|depth| [depth, -0.05 * most]).collect();
+            travelled(of, &[&[-0.05 * most][..], &turns].concat()).0
+        };
+        for cycles in 1..5 {
+            let (before, after) = (lost(cycles), lost(cycles + 1));
+            assert!(after >= before * (1.0 - 1e-6), "{of:?}: {before} {after}");
+        }
+    }
+}

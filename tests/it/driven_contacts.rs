@@ -1,0 +1,149 @@
+//! Contacts and sliders under loads and motions, by the methods that take steps.
+
+use dashpot::{
+    analysis::{RunReport, SolveSettings, solve},
+    dae::Silent,
+    scene::{ReadOptions, read},
+};
+
+const STEPPING: [&str; 3] = ["bdf", "esdirk34", "tr-bdf2"];
+const GRAVITY: f64 = 9.80665;
+
+fn run_at(text: &str, method: &str, rtol: Option<f64>) -> RunReport {
+    let scene = read(text, &ReadOptions::default()).unwrap().value;
+    let settings = SolveSettings { rtol, ..scene.settings(method) };
+    solve(&scene.network, &settings, &mut Silent).unwrap()
+}
+
+fn run(text: &str, method: &str) -> RunReport {
+    run_at(text, method, None)
+}
+
+fn value(report: &RunReport, key: &str) -> (f64, f64) {
+    let found = report.measure(key).unwrap();
+    (found.value.unwrap(), found.error.unwrap())
+}
+
+/// A parcel on a bed that falls away under it and comes back.
+const SHAKEN: &str = "[nodes]\n\
+    parcel = { mass = \"4 kg\" }\n\
+    bed = { motion = { haversine = { peak = \"0.7 mm\", duration = \"21 ms\" } } }\n\
+    [elements.cushion]\n\
+    between = [\"parcel\", \"bed\"]\n\
+    parallel = [{ cubic-spring = { stiffness = \"500 kN/m\", cubic = 1e6 } }, { dashpot = \"1.3 kN s/m\" }]\n\
+    [effects]\n\
+    gravity = { start = \"unloaded\" }\n\
+    separation.cushion = { at = \"parcel\" }\n\
+    [measures]\n\
+    parcel = [{ kind = \"peak-acceleration\", window = \"run\" }]\n\
+    [run]\n\
+    duration = \"0.2 s\"\n";
+
+#[test]
+fn parcel_that_a_bed_falls_away_from_meets_it_when_its_free_fall_does() {
+    let bed = |time: f64| 0.7e-3 * (std::f64::consts::PI * time / 21e-3).sin().powi(2);
+    let (mut before, mut after) = (5e-3, 20e-3);
+    for _ in 0..60 {
+        let time: f64 = 0.5 * (before + after);
+        if 0.5 * GRAVITY * time * time < bed(time) { before = time } else { after = time }
+    }
+    let accurate = run_at(SHAKEN, "esdirk34", Some(1e-9));
+    let (peak, own) = value(&accurate, "parcel.peak-acceleration");
+    for method in STEPPING {
+        let report = run(SHAKEN, method);
+        let met = report.events.iter().find(|event| event.what.contains("meets")).unwrap();
+        assert!((met.time / after - 1.0).abs() < 1e-4, "{method}: {} of {after}", met.time);
+        let (found, error) = value(&report, "parcel.peak-acceleration");
+        let gap = (found - peak).abs();
+        assert!(gap <= error + own && error <= 1e-3 * peak, "{method}: {gap:e} of {error:e}");
+    }
+}
+
+#[test]
+fn slider_that_a_jump_of_the_load_sets_going_never_holds_more_than_its_force() {
+    let text = "[nodes]\n\
+        a = { mass = \"1 kg\" }\n\
+        [elements]\n\
+        f = { between = [\"a\", \"ground\"], friction = \"100 N\" }\n\
+        s = { between = [\"a\", \"ground\"], cubic-spring = { stiffness = \"1 N/m\", cubic = 1 } }\n\
+        [loads.p]\n\
+        on = \"a\"\n\
+        force = { trapezoid = { peak = \"500 N\", start = \"20 ms\", rise = \"0 s\", hold = \"5 ms\", \
+        fall = \"0 s\" } }\n\
+        [run]\n\
+        duration = \"0.1 s\"\n";
+    for method in STEPPING {
+        let report = run(text, method);
+        let (slider, _) = value(&report, "f.peak-force");
+        assert!((slider - 100.0).abs() < 1e-9, "{method}: {slider}");
+        let (acceleration, _) = value(&report, "a.peak-acceleration");
+        assert!((acceleration - 400.0).abs() < 1e-6, "{method}: {acceleration}");
+    }
+}
+
+/// A parcel on a stiffening cushion, whose bed is stopped: for a while the contact force is small beside
+/// what the equations are scaled for.
+const STOPPED: &str = "[nodes]\n\
+    parcel = { mass = \"5.6 kg\" }\n\
+    bed = { acceleration = { half-sine = { peak = \"-15 g0\", duration = \"21 ms\", start = \"21 ms\" } } }\n\
+    [elements.cushion]\n\
+    between = [\"parcel\", \"bed\"]\n\
+    parallel = [{ cubic-spring = { stiffness = \"400 kN/m\", cubic = 6e13 } }, { dashpot = \"250 N s/m\" }]\n\
+    [effects]\n\
+    gravity = true\n\
+    separation.cushion = { at = \"parcel\" }\n\
+    [run]\n\
+    duration = \"53 ms\"\n";
+
+/// The energy that the cushion of [`STOPPED`] takes up \[J\], by the Runge-Kutta method of order four in steps of
+/// 1 µs, until the contact force falls to zero; it does not come back.
+fn taken_up_until_release() -> f64 {
+    const STEP: f64 = 1e-6;
+    let cushion = |y: f64, v: f64| 4e5 * y + 6e13 * y.powi(3) + 250.0 * v;
+    let stop = |time: f64| {
+        let phase = (time - 21e-3) / 21e-3;
+        let inside = (0.0..=1.0).contains(&phase);
+        if inside { -15.0 * GRAVITY * (std::f64::consts::PI * phase).sin() } else { 0.0 }
+    };
+    let slopes = |time: f64, [y, v, _]: [f64; 3]| {
+        let force = cushion(y, v);
+        [v, GRAVITY - stop(time) - force / 5.6, force * v]
+    };
+    let mut state = [1e-4, 0.0, 0.0];
+    for _ in 0..100 {
+        let y: f64 = state[0];
+        state[0] -= (cushion(y, 0.0) - 5.6 * GRAVITY) / (4e5 + 1.8e14 * y * y);
+    }
+    let mut time = 21e-3;
+    while cushion(state[0], state[1]) > 0.0 {
+        let moved = |by: f64, slope: [f64; 3]| [0, 1, 2].map(|at| state[at] + by * slope[at]);
+        let first = slopes(time, state);
+        let second = slopes(time + 0.5 * STEP, moved(0.5 * STEP, first));
+        let third = slopes(time + 0.5 * STEP, moved(0.5 * STEP, second));
+        let last = slopes(time + STEP, moved(STEP, third));
+        state = [0, 1, 2].map(|at| {
+            state[at] + STEP / 6.0 * (first[at] + 2.0 * (second[at] + third[at]) + last[at])
+        });
+        time += STEP;
+    }
+    assert!((43.5e-3..43.53e-3).contains(&time), "{time}");
+    state[2]
+}
+
+#[test]
+fn no_contact_that_pulls_is_taken_for_accurate() {
+    let energy = taken_up_until_release();
+    for method in STEPPING {
+        let report = run(STOPPED, method);
+        let (found, error) = value(&report, "cushion.energy");
+        assert!((found - energy).abs() <= error + 1e-7, "{method}: {found} {energy} by {error:e}");
+        assert!(report.warnings.iter().all(|own| !own.contains("pulls")), "{:?}", report.warnings);
+    }
+}
+
+#[test]
+fn contact_that_pulls_at_a_given_tolerance_is_warned_of() {
+    let report = run_at(STOPPED, "esdirk34", Some(1e-6));
+    let told = |own: &&String| own.contains("cushion.contact pulls with 82");
+    assert_eq!(report.warnings.iter().filter(told).count(), 1, "{:?}", report.warnings);
+}
