@@ -105,12 +105,12 @@ impl Task<'_> {
         self.knows(outcome) && self.is_good_enough(&outcome.solved, &outcome.of_method)
     }
 
-    /// Whether every value that is asked for has an error, where errors are asked for.
+    /// Whether anything is known of the errors of what is asked for, where errors are asked for.
     pub(crate) fn knows(&self, outcome: &Outcome) -> bool {
-        let mut values = outcome.solved.readings.iter().zip(&outcome.of_method);
-        let is_known =
-            |(reading, error): (&Reading, &Option<f64>)| reading.value.is_none() || error.is_some();
-        !self.settings.estimate || values.all(is_known)
+        let values = outcome.solved.readings.iter().zip(&outcome.of_method);
+        let mut values = values.filter(|(reading, _)| reading.value.is_some()).peekable();
+        let has_values = values.peek().is_some();
+        !self.settings.estimate || !has_values || values.any(|(_, error)| error.is_some())
     }
 
     /// A solution with its measures. Where only a part of it is kept, and that turns out not to be all

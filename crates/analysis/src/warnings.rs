@@ -307,17 +307,7 @@ fn flying_away(findings: &Findings<'_>) -> Option<String> {
 
 fn accuracy(findings: &Findings<'_>) -> Vec<String> {
     let mut warnings = Vec::new();
-    let is_unknown =
-        |own: &&MeasureReport| own.value.is_some() && own.error.is_none() && own.size > 0.0;
-    let unknown = findings.measures.iter().filter(is_unknown).map(|own| format!("`{}`", own.key));
-    let unknown: Vec<String> = unknown.collect();
-    if findings.estimate && !unknown.is_empty() {
-        let why = findings.obstacle.map_or(String::new(), |error| format!(" ({error})"));
-        let names = listed(&unknown);
-        warnings.push(format!(
-            "the errors are not known, as no further solutions came about to tell them: {names}{why}"
-        ));
-    }
+    warnings.extend(unknown_errors(findings));
     let undecided: Vec<String> = findings
         .measures
         .iter()
@@ -349,6 +339,27 @@ fn accuracy(findings: &Findings<'_>) -> Vec<String> {
         warnings.push(format!("the accuracy wanted is not reached: {}{why}", listed(&missed)));
     }
     warnings
+}
+
+/// That nothing is known of any error.
+fn unknown_errors(findings: &Findings<'_>) -> Option<String> {
+    let mut valued = findings.measures.iter().filter(|own| own.value.is_some()).peekable();
+    valued.peek().filter(|_| findings.estimate)?;
+    if valued.any(|own| own.error.is_some()) {
+        return None;
+    }
+    Some(match findings.obstacle {
+        Some(error) => {
+            format!(
+                "the errors are not known: further solutions, which would tell them, fail ({error})"
+            )
+        }
+        None => {
+            "the errors are not known: with the last digits of its state shaken, the run switches \
+                 otherwise"
+                .to_owned()
+        }
+    })
 }
 
 /// The error of a value that cannot be told from zero.

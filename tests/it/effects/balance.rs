@@ -6,6 +6,8 @@ use dashpot::{
     scene::{ReadOptions, read},
 };
 
+use super::trial::run;
+
 const G: f64 = 9.806_65;
 
 /// Solves a scene at rest under gravity by both methods.
@@ -121,4 +123,82 @@ fn a_stiffening_pad_under_a_contact_carries_the_weight() {
         "separation.pad = {}",
     ];
     by(&["bdf"], scene, |report| carries(report, "pad", 4.0 * G));
+}
+
+const MAXWELL: &str = "maxwell = { spring = 100000, dashpot = 1000 }";
+const BURGERS: &str = "burgers = { maxwell = { spring = 100000, dashpot = 1000 }, \
+                       kelvin = { spring = 60000, dashpot = 800 } }";
+const KELVIN_VOIGT: &str = "kelvin-voigt = { spring = 100000, dashpot = 1000 }";
+const FOAM: &str = "hysteretic-foam = { modulus = 2e5, plateau = 2e4, densification = 500, \
+                    exponent = 1.5, thickness = 0.02, area = 0.0166, set = 0.2, unloading-exponent = 2 }";
+/// Stiffness under the panel \[N/m\], whose mass is 3 kg.
+const MOUNT: f64 = 50_000.0;
+
+/// A head on a pad on a panel that sags by 3 g/`MOUNT`.
+fn struck_panel(start: &str, pad: &str, effects: &str) -> String {
+    format!(
+        "[nodes]\nhead = {{ mass = 5, {start} }}\npanel = {{ mass = 3 }}\n\
+         [elements]\npad = {{ between = [\"head\", \"panel\"], {pad} }}\n\
+         mount = {{ between = [\"panel\", \"ground\"], kelvin-voigt = {{ spring = {MOUNT}, dashpot = 100 }} }}\n\
+         [effects]\ngravity = {{}}\n{effects}\n[run]\nduration = 0.06\n"
+    )
+}
+
+fn starts_at(report: &RunReport, output: &str, expected: f64) {
+    let solution = report.solution();
+    let signal = solution.signal(report.assembly.output(output).unwrap());
+    let off = signal.value(0.0) - expected;
+    assert!(off.abs() <= 1e-14, "{}: {output} is {off} off", report.solver.method);
+}
+
+#[test]
+fn an_impactor_meets_an_undeformed_pad_on_a_panel_that_has_sagged() {
+    let sag = 3.0 * G / MOUNT;
+    for pad in [MAXWELL, BURGERS, KELVIN_VOIGT] {
+        let glued = run(&struck_panel("velocity = 2", pad, ""), "exact");
+        for at in ["head", "panel"] {
+            let text =
+                struck_panel("velocity = 2", pad, &format!("separation.pad = {{ at = \"{at}\" }}"));
+            for method in ["exact", "bdf", "esdirk34"] {
+                let report = run(&text, method);
+                starts_at(&report, "head.position", sag);
+                starts_at(&report, "panel.position", sag);
+                starts_at(&report, "pad.deformation", 0.0);
+                // As long as it pushes, a pad does not know that it could part.
+                for measure in ["pad.peak-force", "pad.contact-time", "head.peak-acceleration"] {
+                    let value =
+                        |report: &RunReport| report.measure(measure).unwrap().value.unwrap();
+                    let (found, expected) = (value(&report), value(&glued));
+                    let allowed = report.solver.rtol.map_or(1e-9, |rtol| 1e3 * rtol);
+                    let off = (found / expected - 1.0).abs();
+                    assert!(off <= allowed, "{method}, {pad}, {at}: {measure} is {off} off");
+                }
+            }
+        }
+    }
+    let foam = run(&struck_panel("velocity = 2", FOAM, ""), "bdf");
+    starts_at(&foam, "head.position", sag);
+    starts_at(&foam, "pad.deformation", 0.0);
+}
+
+#[test]
+fn what_is_dropped_falls_its_height_to_what_has_sagged() {
+    let (sag, height) = (3.0 * G / MOUNT, 0.002);
+    for pad in [MAXWELL, KELVIN_VOIGT] {
+        let text = struck_panel("drop = 0.002", pad, "separation.pad = {}");
+        let report = run(&text, "exact");
+        starts_at(&report, "head.position", sag - height);
+        let touch = report.trajectory.switches.first().unwrap().time;
+        assert!((touch - (2.0 * height / G).sqrt()).abs() <= 1e-12, "touches at {touch}");
+    }
+}
+
+#[test]
+fn a_panel_that_is_struck_without_a_pad_has_sagged_all_the_same() {
+    let report = run(&struck_panel("velocity = 2", "contact = { gap = 0.001 }", ""), "exact");
+    let sag = 3.0 * G / MOUNT;
+    starts_at(&report, "head.position", sag);
+    let report = run(&struck_panel("velocity = 2", "contact = {}", ""), "exact");
+    starts_at(&report, "head.position", sag);
+    starts_at(&report, "panel.position", sag);
 }

@@ -2,7 +2,7 @@
 
 use super::{
     reference::Case,
-    trial::{ALL, Side, Trial, judge},
+    trial::{ALL, Side, Trial, judge, run},
 };
 
 const OPEN: [&str; 2] = ["pad.contact", "open"];
@@ -303,5 +303,29 @@ fn two_interfaces_let_go_one_after_the_other() {
             let kinetic = case.get("horizon.kinetic");
             trial.number("kinetic energy", energy.kinetic, kinetic, kinetic);
         });
+    }
+}
+
+#[test]
+fn a_pad_that_begins_stretched_is_met_where_it_lies() {
+    // Its base begins that much away: half a period of contact begins that much later.
+    let (mass, stiffness, speed): (f64, f64, f64) = (5.0, 1e5, 2.0);
+    for away in [1e-9, 1e-7, 1e-6, 1e-5, 1e-4] {
+        let text = format!(
+            "[nodes]\nhead = {{ mass = {mass}, velocity = {speed} }}\n\
+             base = {{ motion = {{ constant = {away} }} }}\n\
+             [elements]\npad = {{ between = [\"head\", \"base\"], spring = {stiffness} }}\n\
+             [effects]\nseparation.pad = {{ at = \"head\" }}\n[run]\nduration = 0.1\n"
+        );
+        for method in ALL {
+            let report = run(&text, method);
+            let contact = report.measure("pad.contact-time").unwrap().value.unwrap();
+            let off = contact - std::f64::consts::PI * (mass / stiffness).sqrt();
+            let near = report.solver.rtol.map_or(1e-13, |rtol| 1e3 * rtol * contact);
+            assert!(off.abs() <= near, "{method}, {away} m away: {off} s off {contact}");
+            let release = report.trajectory.switches.last().unwrap().time;
+            let off = release - contact - away / speed;
+            assert!(off.abs() <= near, "{method}, {away} m away: lets go {off} s off {release}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     reference::Case,
-    trial::{ALL, Side, judge},
+    trial::{ALL, Side, judge, run},
 };
 
 fn scene(stop: &str, others: &str, duration: &str) -> String {
@@ -100,4 +100,55 @@ fn a_stop_that_gives_lets_go_before_the_pad() {
         trial.loss("pad", end, "pad.dissipated");
         trial.value("pad.deformation", end, Side::Before, "horizon.pad-deformation");
     });
+}
+
+#[test]
+fn a_head_that_comes_back_to_a_pad_still_at_its_stop_is_thrown_back_by_the_stop() {
+    // A dashpot does not come back: m ẍ = m g − c ẋ until the stop, and then flights between hits at
+    // the same place.
+    let (g, speed, depth, end): (f64, f64, f64, f64) = (9.806_65, 2.0, 0.005, 0.3);
+    for (damping, restitution) in [(50.0_f64, 0.5), (50.0, 0.3), (20.0, 0.7)] {
+        let text = format!(
+            "[nodes]\nhead = {{ mass = 1, velocity = {speed} }}\n\
+             [elements]\npad = {{ between = [\"head\", \"ground\"], dashpot = {damping} }}\n\
+             [effects]\ngravity = {{ start = \"unloaded\" }}\nseparation.pad = {{ at = \"head\" }}\n\
+             stop.pad = {{ at = {depth}, restitution = {restitution} }}\n\
+             [run]\nduration = {end}\n"
+        );
+        let terminal = g / damping;
+        let left = |time: f64| (-damping * time).exp();
+        let place =
+            |time: f64| terminal * time + (speed - terminal) * (1.0 - left(time)) / damping - depth;
+        // It is pressed without a turn: bisection.
+        let (mut low, mut time) = (0.0, 0.1);
+        for _ in 0..200 {
+            let middle = 0.5 * (low + time);
+            if place(middle) < 0.0 { low = middle } else { time = middle }
+        }
+        let mut approach = terminal + (speed - terminal) * left(time);
+        let mut hits: Vec<(f64, f64)> = Vec::new();
+        while time < end && hits.len() < 4 {
+            hits.push((time, (1.0 + restitution) * approach));
+            approach *= restitution;
+            time += 2.0 * approach / g;
+        }
+        for method in ALL {
+            let report = run(&text, method);
+            let on_stop =
+                report.trajectory.switches.iter().filter(|own| own.name.starts_with("pad.stop"));
+            let found: Vec<_> = on_stop.filter(|own| own.impulse > 0.0).collect();
+            let near = report.solver.rtol.map_or(1e-11, |rtol| 1e4 * rtol);
+            for (&(time, impulse), own) in hits.iter().zip(&found) {
+                assert!(
+                    (own.time - time).abs() <= near * end,
+                    "{method}: hit at {} {time}",
+                    own.time
+                );
+                let off = (own.impulse - impulse).abs();
+                assert!(off <= near * speed, "{method}: {} N s, not {impulse}", own.impulse);
+            }
+            assert!(found.len() >= hits.len(), "{method}: {} of {}", found.len(), hits.len());
+            assert!(report.energy.closure().abs() <= near, "{method}: energy");
+        }
+    }
 }

@@ -7,7 +7,11 @@ use std::f64::consts::PI;
 use dashpot_dae::{
     Dense, Outcome, Panel, Signal, Statistics, System, Trajectory, chebyshev::Interpolation,
 };
-use dashpot_network::{Assembly, Network, Node, elements::Spring, part};
+use dashpot_network::{
+    Assembly, Model, Network, Node,
+    elements::{Dashpot, Spring},
+    part,
+};
 
 use super::*;
 use crate::Counted;
@@ -51,7 +55,8 @@ fn scene() -> Assembly {
     let mut network = Network::new();
     let head = network.add_node(Node::mass("head", 2.0).moving(1.0));
     let ground = network.ground();
-    network.connect("pad", head, ground, part(Spring { stiffness: 1.0 }));
+    let parts = [part(Spring { stiffness: 1.0 }), part(Dashpot { damping: 1.0 })];
+    network.connect("pad", head, ground, Model::parallel(parts));
     network.compile(1.0).unwrap()
 }
 

@@ -428,13 +428,12 @@ fn and_segments(run: &RunReport) -> String {
 
 fn how_wrong(answer: &Answer, run: &RunReport) -> Option<String> {
     let method = run.solver.method;
-    let has_none =
-        |own: &MeasureReport| own.value.is_some_and(|own| own != 0.0) && own.error.is_none();
-    let is_unknown = run.measures.iter().any(has_none);
+    let mut valued = run.measures.iter().filter(|own| own.value.is_some_and(|own| own != 0.0));
+    let is_unknown = valued.clone().next().is_some() && valued.all(|own| own.error.is_none());
     let own = match run.worst_relative_error() {
         None if run.measures.is_empty() => return None,
         None if answer.asked.iter().any(|asked| asked.estimate) && is_unknown => {
-            "no error is known: no further solutions came about to tell one".to_owned()
+            "it is not known: no further solutions came about to tell errors".to_owned()
         }
         None if answer.asked.iter().any(|asked| asked.estimate) => {
             "no figure has a size to be wrong by".to_owned()

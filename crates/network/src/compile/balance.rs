@@ -10,11 +10,20 @@ use super::{
 };
 use crate::{Network, NetworkError};
 
+/// Two bodies between which nothing acts as long as they are apart.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touch {
+    pub(super) ends: [usize; 2],
+    /// Distance of the places of the bodies \[m\], first less second, at the start: what it was
+    /// unloaded.
+    pub(super) distance: f64,
+}
+
 /// Displacement of each body \[m\] at the start, counted from unloaded.
 ///
 /// Springs carry `weights` \[N\] (one for each body), linear or not; dashpots carry nothing, and keep
-/// the place of what only they hold. `given` is the displacement of bodies whose motion is
-/// prescribed.
+/// the place of what only they hold. What nothing holds goes with what it can touch. `given` is the
+/// displacement of bodies whose motion is prescribed.
 ///
 /// # Errors
 ///
@@ -26,6 +35,7 @@ pub(super) fn positions(
     structure: &Structure,
     weights: &[f64],
     given: &[f64],
+    touches: &[Touch],
 ) -> Result<Vec<f64>, Vec<NetworkError>> {
     let count = bodies.all.len();
     let is_given = |body: usize| matches!(bodies.all[body].role, Role::Fixed | Role::Prescribed(_));
@@ -60,6 +70,13 @@ pub(super) fn positions(
         vec![NetworkError::NoBalance { nodes: sinking.iter().map(name).collect() }]
     })?;
     place_by_dashpots(structure, &mut groups, &members, &mut values, &mut is_placed);
+    while let Some((body, value)) = next_by_touch(bodies, touches, &values, &is_placed) {
+        for &member in &members[&groups.of(body)] {
+            values[member] = value;
+            is_placed[member] = true;
+        }
+        place_by_dashpots(structure, &mut groups, &members, &mut values, &mut is_placed);
+    }
     Ok(values)
 }
 
@@ -230,4 +247,31 @@ fn place_by_dashpots(
             }
         }
     }
+}
+
+/// The next body that touches what is placed, and its place: where it has come to that which it meets
+/// first on its way, or else where it leaves what is behind it.
+fn next_by_touch(
+    bodies: &Bodies,
+    touches: &[Touch],
+    values: &[f64],
+    is_placed: &[bool],
+) -> Option<(usize, f64)> {
+    let reaches = |own: &Touch| {
+        let [a, b] = own.ends;
+        match [is_placed[a], is_placed[b]] {
+            [false, true] => Some((a, true, values[b] + own.distance)),
+            [true, false] => Some((b, false, values[a] - own.distance)),
+            _ => None,
+        }
+    };
+    let body = touches.iter().find_map(reaches)?.0;
+    let goes_up = bodies.all[body].velocity < 0.0;
+    let places = |is_below: bool| {
+        let of_body = touches.iter().filter_map(reaches).filter(move |own| own.0 == body);
+        let places = of_body.filter(move |own| own.1 == is_below).map(|own| own.2);
+        // The nearest of them.
+        places.reduce(if is_below { f64::min } else { f64::max })
+    };
+    places(!goes_up).or_else(|| places(goes_up)).map(|place| (body, place))
 }

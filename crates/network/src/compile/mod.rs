@@ -340,8 +340,9 @@ impl Network {
                 _ => 0.0,
             })
             .collect();
-        let positions = balance::positions(self, expansion, bodies, structure, &weights, &given)
-            .map_err(NetworkErrors)?;
+        let positions =
+            balance::positions(self, expansion, bodies, structure, &weights, &given, &[])
+                .map_err(NetworkErrors)?;
         for body in 0..bodies.all.len() {
             if let Some(unknown) = places.unknown[body] {
                 let base = places.parent[body].map_or(0.0, |parent| positions[parent]);

@@ -124,6 +124,9 @@ impl PhasedNetwork {
         loop {
             searches.iter().for_each(|search| search.enter(&mut tried));
             let size = (length, self.own_speed(state));
+            let all = searches.iter().flat_map(|own| &own.impacts);
+            let parted = all.filter(|own| own.pace.is_some()).map(|own| (own.part, own.sides));
+            let parted: Vec<(usize, [usize; 2])> = parted.collect();
             let judge = Judge {
                 time,
                 state,
@@ -132,6 +135,7 @@ impl PhasedNetwork {
                 at_level: &instant.at_level,
                 kept: &kept,
                 looks: &looks,
+                parted: &parted,
                 size,
             };
             let mut faults = Vec::new();

@@ -21,6 +21,8 @@ pub(super) struct Impact {
     pub(super) worked: f64,
     /// How its sides part again, if by their own restitution.
     pub(super) pace: Option<Pace>,
+    /// The bodies that met, on both sides of what is massless.
+    pub(super) sides: [usize; 2],
 }
 
 /// How fast sides part after an impact.
@@ -181,13 +183,13 @@ impl PhasedNetwork {
         let mut met: Vec<Impact> = Vec::new();
         for (own, &impulse) in pushes.filter(|own| *own.1 > 0.0) {
             let (lost, worked) = ((lost + work) * impulse / total, work * impulse / total);
-            met.push(Impact { part: own.part, impulse, lost, worked, pace: own.pace });
+            let own_impact =
+                Impact { part: own.part, impulse, lost, worked, pace: own.pace, sides: own.ends };
+            met.push(own_impact);
             for &part in &own.through {
                 match met.iter_mut().find(|impact| impact.part == part) {
                     Some(passed) => passed.impulse += impulse,
-                    None => {
-                        met.push(Impact { part, impulse, lost: 0.0, worked: 0.0, pace: None });
-                    }
+                    None => met.push(Impact { part, lost: 0.0, worked: 0.0, ..own_impact }),
                 }
             }
         }
@@ -212,7 +214,7 @@ impl PhasedNetwork {
                 if !self.apart.all[ends[side]].is_massless() {
                     continue;
                 }
-                match self.carrier(ends[side], side, phases) {
+                match self.carrier(ends[side], side, meeting) {
                     Some((carrier, contact)) => {
                         ends[side] = carrier;
                         through.push(contact);
@@ -250,7 +252,7 @@ impl PhasedNetwork {
                 && meeting.at_level.iter().any(|own| own.0 == part);
             found.push(Candidate { part, ends, through, restitution, pace, approach, settles });
         }
-        found
+        one_of_each_chain(found)
     }
 
     /// The bodies on both sides of a primitive.
@@ -258,12 +260,18 @@ impl PhasedNetwork {
         self.expansion.primitives[primitive].ends.map(|joint| self.apart.of_joint[joint])
     }
 
-    /// The body with mass or a given motion on which a massless one lies, behind it as seen from its
-    /// contact on the given side, and the closed contact between the two.
-    fn carrier(&self, massless: usize, side: usize, phases: &[Phase]) -> Option<(usize, usize)> {
+    /// The body with mass or a given motion on which a massless one lies, or comes to lie at this
+    /// instant, behind it as seen from its contact on the given side, and the contact between the two.
+    fn carrier(
+        &self,
+        massless: usize,
+        side: usize,
+        meeting: &Meeting<'_>,
+    ) -> Option<(usize, usize)> {
         self.parts.iter().enumerate().find_map(|(part, &at)| {
             let own = self.phases_of(at).filter(|own| is_contact(*own))?;
-            let is_closed = matches!(own.law(phases[part]), PhaseLaw::Held(_));
+            let is_held = matches!(own.law(meeting.phases[part]), PhaseLaw::Held(_));
+            let is_closed = is_held || meeting.touching[part];
             let ends = self.sides(at);
             let other = ends[side];
             let bears = ends[1 - side] == massless && !self.apart.all[other].is_massless();
@@ -313,4 +321,21 @@ impl PhasedNetwork {
         };
         (0..self.parts.len()).map(at_level).collect()
     }
+}
+
+/// Of the contacts on both sides of what is massless only that of the larger restitution: masses that
+/// meet through both have one impact, and of the two it is what throws them back that stops them.
+fn one_of_each_chain(candidates: Vec<Candidate>) -> Vec<Candidate> {
+    let mut kept: Vec<Candidate> = Vec::with_capacity(candidates.len());
+    for own in candidates {
+        let is_of_chain = |other: &Candidate| {
+            other.through.contains(&own.part) && own.through.contains(&other.part)
+        };
+        match kept.iter_mut().find(|other| is_of_chain(other)) {
+            None => kept.push(own),
+            Some(other) if own.restitution > other.restitution => *other = own,
+            Some(_) => {}
+        }
+    }
+    kept
 }

@@ -70,6 +70,8 @@ pub(super) struct Judge<'a> {
     pub(super) kept: &'a [(usize, Watched, f64)],
     /// How closely each part is looked at.
     pub(super) looks: &'a [Look],
+    /// Parts by which impacts have let bodies part, and these bodies.
+    pub(super) parted: &'a [(usize, [usize; 2])],
     /// A length \[m\] and a speed \[m/s\] of the network's own.
     pub(super) size: (f64, f64),
 }
@@ -166,12 +168,19 @@ impl PhasedNetwork {
                 judge.looks[part].doubt.max(SAME) * (length + level.abs()).max(deformation.abs());
             let is_elsewhere =
                 (deformation - level).abs() > near && !judge.at_level.contains(&(part, level));
-            // What an impact has parted is not held, however slowly it goes.
-            if is_elsewhere || judge.looks[part].pace.is_some() {
+            if is_elsewhere {
                 faults.push(Fault { part, towards: None });
             }
             let [a, b] = self.sides(at);
             joined.join(a, b);
+        }
+        // What an impact has parted is not held, however slowly it goes; where something massless is
+        // between, one of its sides is free.
+        let is_held = |part: usize| held.iter().any(|own| own.0 == part);
+        for &(part, [a, b]) in judge.parted.iter().filter(|own| is_held(own.0)) {
+            if joined.of(a) == joined.of(b) {
+                faults.push(Fault { part, towards: None });
+            }
         }
         // Slowest and fastest of the bodies that the phases make one.
         let mut span = vec![(f64::INFINITY, f64::NEG_INFINITY); self.apart.all.len()];

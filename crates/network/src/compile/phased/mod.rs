@@ -11,6 +11,7 @@ mod judge;
 mod jumps;
 mod kept;
 mod returns;
+mod sag;
 mod search;
 mod start;
 
@@ -263,6 +264,8 @@ impl PhasedNetwork {
     }
 }
 
+/// Rounding of a state that is given, in parts of its terms.
+const GIVEN: f64 = 1e3 * f64::EPSILON;
 /// Most modes that are kept.
 const MOST_KEPT: usize = 4096;
 
@@ -298,8 +301,16 @@ impl fmt::Debug for PhasedNetwork {
 
 impl Switching for PhasedNetwork {
     fn first(&self, doubt: f64) -> Result<Leg, SolveError> {
-        let mut state = self.start.clone();
-        let (choice, switches) = self.choose(&mut state, 0.0, &self.first, &[], doubt)?;
+        let choose = |doubt: f64| {
+            let mut state = self.start.clone();
+            self.choose(&mut state, 0.0, &self.first, &[], doubt)
+        };
+        // The start has no error of the method. What parts at once by an impact is followed as at any
+        // other instant.
+        let (choice, switches) = match choose(doubt.min(GIVEN)) {
+            Ok(known) if known.1.iter().all(|own| own.impulse == 0.0) => known,
+            _ => choose(doubt)?,
+        };
         // Phases that hold from the start are no switchings.
         let switches = switches.into_iter().filter(|own| own.impulse > 0.0).collect();
         Ok(Self::leg(choice, switches))

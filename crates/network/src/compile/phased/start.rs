@@ -2,13 +2,13 @@
 
 use super::{
     super::{
-        balance,
         bodies::{Bodies, Body, Groups, Role, start_velocity},
         carry::State,
         expand::Expansion,
         structure::Structure,
     },
     is_contact, moving,
+    sag::Loads,
 };
 use crate::{
     Network, NetworkError, NetworkErrors, Start, Support,
@@ -171,9 +171,10 @@ pub(super) fn state(
     };
     let mut first = phases(&deformation)?;
     if network.effects.iter().any(|effect| effect.starts_in_balance()) {
+        let loads = Loads { network, expansion, parts, apart, duration };
+        let unloaded = position.clone();
         for _ in 0..=parts.len() {
-            let settled = expansion.in_phases(parts, &first);
-            position = balanced(network, &settled, &position, duration)?;
+            position = loads.balanced(&first, &unloaded, &velocity)?;
             deformation = deformations(&position);
             let reached = phases(&deformation)?;
             let mut changed = false;
@@ -239,41 +240,6 @@ fn overlaps(
     if errors.is_empty() { Ok(()) } else { Err(NetworkErrors(errors)) }
 }
 
-/// Places of all joints in balance under the weight of what has no start speed.
-fn balanced(
-    network: &Network,
-    expansion: &Expansion,
-    given: &[f64],
-    duration: f64,
-) -> Result<Vec<f64>, NetworkErrors> {
-    let bodies = Bodies::of(network, expansion).map_err(NetworkErrors)?;
-    let structure = Structure::of(network, expansion, &bodies, duration).map_err(NetworkErrors)?;
-    let mut weights = vec![0.0; bodies.all.len()];
-    let forces = network.effects.iter().flat_map(|effect| effect.body_forces(network));
-    for (node, weight) in forces {
-        let body = bodies.of_joint[node.index()];
-        if !bodies.all[body].is_impactor {
-            weights[body] += weight.value(0.0);
-        }
-    }
-    let places: Vec<f64> = bodies
-        .all
-        .iter()
-        .map(|body| match body.role {
-            Role::Prescribed(_) => given[body.joints[0]] - bodies.offset[body.joints[0]],
-            _ => 0.0,
-        })
-        .collect();
-    let places = balance::positions(network, expansion, &bodies, &structure, &weights, &places)
-        .map_err(NetworkErrors)?;
-    let place = |joint: usize| {
-        let body = bodies.of_joint[joint];
-        let is_free = bodies.all[body].is_impactor;
-        if is_free { given[joint] } else { places[body] + bodies.offset[joint] }
-    };
-    Ok((0..expansion.joints).map(place).collect())
-}
-
 impl Network {
     /// How long \[s\] what is dropped falls freely before it touches anything; 0 where all begins at
     /// touch, or the network cannot be compiled.
@@ -291,7 +257,7 @@ impl Network {
 /// The height \[m\] from which a body begins to fall freely: it is dropped, gravity pulls it towards
 /// the support, and only what never pulls touches it, each of them between it and something that does not begin
 /// with a speed. All others begin at touch, with the speed of the fall.
-fn flight(network: &Network, expansion: &Expansion, joints: &[usize]) -> Option<f64> {
+pub(super) fn flight(network: &Network, expansion: &Expansion, joints: &[usize]) -> Option<f64> {
     let gravity = network.effects.iter().find_map(|effect| effect.gravity())?;
     let mut nodes = joints.iter().filter_map(|&joint| network.nodes.get(joint));
     let height = nodes.find_map(|node| match node.start {
