@@ -7,9 +7,10 @@ use crate::{MeasureReport, RunReport};
 pub struct Cost {
     /// Key of the measure, for instance `padding.peak-force`.
     pub measure: String,
-    /// The difference over the larger of both sizes; infinite where only one has a value.
+    /// The difference over the larger of both values, or over a twentieth of the larger size where the values
+    /// are next to nothing beside it; infinite where only one has a value.
     pub relative: f64,
-    /// How far it may be off, by the errors of both, in parts of the same size; 0 where they were
+    /// How far it may be off, by the errors of both, in the same parts; 0 where they were
     /// not estimated.
     pub uncertainty: f64,
 }
@@ -84,8 +85,16 @@ fn infinite(measure: &MeasureReport) -> Cost {
     Cost { measure: measure.key.clone(), relative: f64::INFINITY, uncertainty: 0.0 }
 }
 
+/// Part of its size below which a value is the small remainder of something larger.
+const REMAINDER: f64 = 0.05;
+
+/// What a move of a measure is a part of: its value or, where that is next to nothing, a part of its size.
+fn scale(measure: &MeasureReport) -> f64 {
+    measure.value.map_or(0.0, f64::abs).max(REMAINDER * measure.size)
+}
+
 fn cost(full: &MeasureReport, reduced: &MeasureReport) -> Cost {
-    let size = full.size.max(reduced.size);
+    let size = scale(full).max(scale(reduced));
     let (difference, errors) = match (full.value, reduced.value) {
         (Some(one), Some(other)) => {
             let errors = full.error.unwrap_or(0.0) + reduced.error.unwrap_or(0.0);
@@ -99,5 +108,40 @@ fn cost(full: &MeasureReport, reduced: &MeasureReport) -> Cost {
         measure: full.key.clone(),
         relative: over_size(difference),
         uncertainty: over_size(errors),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn energy(value: f64, size: f64) -> MeasureReport {
+        MeasureReport {
+            key: "pad.energy".to_owned(),
+            target: "pad".to_owned(),
+            kind: "energy",
+            unit: "J",
+            value: Some(value),
+            time: None,
+            window: None,
+            error: Some(0.0),
+            note: None,
+            window_wish: None,
+            parameters: Vec::new(),
+            size,
+            excess: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_move_is_a_part_of_the_value_however_much_has_gone_to_and_fro() {
+        let moved = cost(&energy(28.8, 110.0), &energy(32.0, 110.0));
+        assert!((moved.relative - 0.1).abs() < 1e-12, "{}", moved.relative);
+    }
+
+    #[test]
+    fn a_move_of_what_is_given_back_is_a_part_of_what_went_to_and_fro() {
+        let moved = cost(&energy(0.0, 100.0), &energy(0.01, 100.0));
+        assert!((moved.relative - 0.002).abs() < 1e-12, "{}", moved.relative);
     }
 }

@@ -39,7 +39,7 @@ use crate::{RunError, RunReport, SolveSettings, segmentation, solve_assembly};
 /// What was left out of a run, and what it cost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Partial {
-    /// The bound: the part of its size by which a measure may move.
+    /// The bound: the part of its value, or of a twentieth of its size, by which a measure may move.
     pub bound: f64,
     /// What was left out, the largest influence first.
     pub left_out: Vec<Neglected>,
