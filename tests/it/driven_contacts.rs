@@ -147,3 +147,32 @@ fn contact_that_pulls_at_a_given_tolerance_is_warned_of() {
     let told = |own: &&String| own.contains("cushion.contact pulls with 82");
     assert_eq!(report.warnings.iter().filter(told).count(), 1, "{:?}", report.warnings);
 }
+
+/// A head on a spring and sliders side by side, which come to hold it until a load moves it again.
+fn held(sliders: &[f64]) -> String {
+    let slider = |(at, force): (usize, &f64)| {
+        format!("slider{at} = {{ between = [\"head\", \"ground\"], friction = \"{force} N\" }}\n")
+    };
+    let sliders: String = sliders.iter().enumerate().map(slider).collect();
+    format!(
+        "[nodes]\nhead = {{ mass = \"2 kg\", velocity = \"1.3 m/s\" }}\n[elements]\n\
+         spring = {{ between = [\"head\", \"ground\"], spring = \"1 kN/m\" }}\n{sliders}\
+         [loads.push]\non = \"head\"\nforce = {{ table = [[0, 0], [0.2, 0], [0.2, 500]] }}\n\
+         [run]\nduration = \"0.4 s\"\n"
+    )
+}
+
+#[test]
+fn impact_of_what_sliders_hold_ends_however_many_share_the_force() {
+    let (one, own) = value(&run(&held(&[100.0]), "exact"), "head.severity-index");
+    for sliders in [&[30.0, 70.0][..], &[26.2, 73.8], &[20.0, 33.0, 47.0]] {
+        for method in ["exact", "bdf"] {
+            let (found, error) = value(&run(&held(sliders), method), "head.severity-index");
+            let gap = (found - one).abs();
+            assert!(
+                gap <= error + own && error < 1e-3 * one,
+                "{method} {sliders:?}: {found} {one}"
+            );
+        }
+    }
+}

@@ -22,7 +22,7 @@ mod tension;
 
 use grazing::Feels;
 pub(crate) use grazing::{Grazes, grazes};
-use rest::only_at_rest;
+use rest::{only_at_rest, resting_from_switches};
 
 /// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
 /// are 100 to 700, of whatever method, at tolerances from 1e-4 to 1e-10.
@@ -322,7 +322,7 @@ impl<'a> Solution<'a> {
     /// The force on a body with the sign with which what acts on it begins; `None` if nothing
     /// touches it.
     fn push_on(&self, body: usize) -> Option<Signal> {
-        let force = self.force_on(body)?;
+        let force = resting_from_switches(self.force_on(body)?, &self.trajectory.switches);
         let pushes = first_pushes(&force, &self.body_blows(body));
         Some(if pushes { force } else { force.scaled(-1.0) })
     }

@@ -22,6 +22,26 @@ pub(super) fn only_at_rest(mut signal: Signal, switches: &[Switch]) -> Signal {
     signal
 }
 
+/// Roundings of the terms of a sum, in parts of its noise, that may be left where they cancel.
+const LEFT: f64 = 8.0;
+
+/// The sum of the forces on a body, zero where a switch makes them cancel but for their rounding, as where a
+/// slider holds it.
+pub(super) fn resting_from_switches(mut sum: Signal, switches: &[Switch]) -> Signal {
+    let floor = LEFT * sum.noise;
+    let (mut before, mut rests) = (f64::INFINITY, false);
+    for panel in &mut sum.panels {
+        let is_faint = panel.coefficients.iter().map(|own| own.abs()).sum::<f64>() <= floor;
+        let is_switched = || switches.iter().any(|own| before < own.time && own.time < panel.end);
+        rests = is_faint && (rests || is_switched());
+        before = panel.start;
+        if rests {
+            *panel = Panel::constant(panel.start, panel.end, 0.0);
+        }
+    }
+    sum
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -49,6 +69,21 @@ mod tests {
     fn rests(values: &[f64], switches: &[Switch]) -> Vec<bool> {
         let found = only_at_rest(signal(values), switches);
         found.panels.iter().map(|own| own.coefficients == [0.0]).collect()
+    }
+
+    #[test]
+    fn what_cancels_from_a_switch_on_rests_and_what_dies_down_does_not() {
+        let sum = |values: &[f64]| {
+            let own = signal(values);
+            Signal::new(own.panels, None, 1e-15)
+        };
+        let rests = |values: &[f64], switches: &[Switch]| -> Vec<bool> {
+            let found = resting_from_switches(sum(values), switches);
+            found.panels.iter().map(|own| own.coefficients == [0.0]).collect()
+        };
+        let values = [1.0, 1e-15, -2e-15, 1.0, 1e-15];
+        assert_eq!(rests(&values, &[switch(1.0)]), [false, true, true, false, false]);
+        assert_eq!(rests(&values, &[]), [false; 5]);
     }
 
     #[test]

@@ -97,6 +97,8 @@ pub(super) struct Look {
 const ORDERS: usize = 6;
 /// What turns back before it is so far from its level is not seen to leave it, in parts of the doubt.
 const SEEN: f64 = 0.02;
+/// The same where it may be seen to be a force that something else leaves as it is.
+const TOLD: f64 = 1e-3;
 /// Parts of a length or a speed below which places and speeds that a phase joins are the same.
 const SAME: f64 = 1e-9;
 
@@ -307,7 +309,7 @@ impl Judge<'_> {
             return told(gap > 0.0);
         }
         // A force that is small when something else happens pushes on: it may take its time to end.
-        let pushes_on = exit.watched == Watched::Force && !fired && gap > SEEN * noise;
+        let pushes_on = exit.watched == Watched::Force && !fired && gap > TOLD * noise;
         if gap > 0.0 && (!may_change || pushes_on) {
             // It has not been reached yet, however near it is.
             return Stay::Yes;
