@@ -129,7 +129,7 @@ fn factor(
     let there = loading.force(depth, 0.0);
     if (most - there).abs() > ROUNDING * there {
         let range = "a curve that ends on that of `loading`, from where it was unloaded";
-        return invalid(range, format!("{most:?} at {depth:?}, where that has {there:?}"));
+        return invalid(range, format!("{most:?} N at {depth:?} m, where that has {there:?} N"));
     }
     let slack = unloading.iter().rposition(|point| point.1 <= 0.0).unwrap_or(0);
     let mut parts: Vec<(f64, f64)> = vec![(unloading[slack].0 / depth, 0.0)];
@@ -138,14 +138,14 @@ fn factor(
         let above = loading.force(at, 0.0);
         if force > above * (1.0 + ROUNDING) {
             let range = "nowhere above the curve of `loading`: it would create energy";
-            return invalid(range, format!("{force:?} at {at:?}, where that has {above:?}"));
+            return invalid(range, format!("{force:?} N at {at:?} m, where that has {above:?} N"));
         }
         let part = (force / above).min(1.0);
         if part < last - ROUNDING {
             let range =
                 "a part of the curve of `loading` that never falls as the deformation rises";
             let [before, after] = [last, part].map(|own| 100.0 * own);
-            return invalid(range, format!("{after:.4} % of it at {at:?}, after {before:.4} %"));
+            return invalid(range, format!("{after:.4} % of it at {at:?} m, after {before:.4} %"));
         }
         last = part.max(last);
         parts.push((at / depth, last));
@@ -179,17 +179,17 @@ fn check_order(points: &[(f64, f64)]) -> Result<(), InvalidParameter> {
         let [(from, start), (to, end)] = [pair[0], pair[1]];
         if to <= from {
             let range = "in rising order of the deformation, whichever way it was measured";
-            return invalid(range, format!("{to:?} after {from:?}"));
+            return invalid(range, format!("{to:?} m after {from:?} m"));
         }
         if end < start {
             let range = "of forces that never fall as the deformation rises";
-            return invalid(range, format!("{end:?} after {start:?}"));
+            return invalid(range, format!("{end:?} N after {start:?} N"));
         }
     }
     let first = points[0];
     if first.0 < 0.0 || first.1.abs() > 0.0 {
         let range = "a curve that begins at the set, where its force is zero";
-        return invalid(range, format!("{first:?}"));
+        return invalid(range, format!("{:?} N at {:?} m", first.1, first.0));
     }
     Ok(())
 }
@@ -400,10 +400,10 @@ mod tests {
             HystereticTable::new(loading, unloading.to_vec()).unwrap_err().to_string()
         };
         let found = reason(&[(0.0, 0.0), (1.0, 150.0), (2.0, 200.0)]);
-        assert!(found.contains("nowhere above") && found.contains("150.0 at 1.0"), "{found}");
+        assert!(found.contains("nowhere above") && found.contains("150.0 N at 1.0 m"), "{found}");
         let found = reason(&[(0.0, 0.0), (1.0, 90.0), (3.0, 150.0), (4.0, 400.0)]);
         assert!(
-            found.contains("never falls") && found.contains("50.0000 % of it at 3.0"),
+            found.contains("never falls") && found.contains("50.0000 % of it at 3.0 m"),
             "{found}"
         );
         assert!(reason(&[(0.5, 0.0), (2.0, 150.0)]).contains("ends on that of `loading`"));
