@@ -7,6 +7,7 @@ mod cost;
 
 use std::{f64::consts::PI, sync::Arc};
 
+use allocation_counter::measure;
 use dashpot::{
     analysis::{
         MeasureKind, MeasureWish, RunReport, Solution, SolveSettings,
@@ -16,15 +17,16 @@ use dashpot::{
     },
     dae::{Method, Piece, Run, Silent, Trajectory, Waveform, methods::Bdf},
     network::{
-        Assembly, Network, Node, NodeId,
+        Assembly, Model, Network, Node, NodeId,
         effects::{Gravity, GravityStart},
-        elements::Spring,
+        elements::{CubicSpring, Rigid, Spring},
         parameters::WindowWish,
         part,
     },
+    rheology::{Branch, Tree},
 };
 
-use crate::thesis::{kelvin, spring};
+use crate::thesis::{dashpot, kelvin, spring};
 
 /// Stiffness \[N/m\] and mass \[kg\] of uniform chains, whose ω is 1000 rad/s.
 const STIFFNESS: f64 = 1e6;
@@ -260,4 +262,45 @@ fn assert_alike(errors: &[f64]) {
     });
     assert!(most <= 1.05 * least, "{errors:?}");
     assert!(most <= 1e-3 * SPEED, "{errors:?}");
+}
+
+/// Rows of bodies and elements of every kind, all tied to the ground or to each other.
+fn long_network(count: usize, link: impl Fn(usize) -> Model, to_ground: &Model) -> Network {
+    let mut network = Network::new();
+    let ground = network.ground();
+    let mut last = network.add_node(Node::mass("struck", MASS).moving(SPEED));
+    let struck = last;
+    for at in 0..count {
+        let next = network.add_node(Node::mass(format!("m{at}"), MASS));
+        network.connect(format!("l{at}"), last, next, link(at));
+        network.connect(format!("g{at}"), next, ground, to_ground.clone());
+        network.add_load(format!("p{at}"), struck, Waveform::constant(1.0));
+        last = next;
+    }
+    network
+}
+
+#[test]
+fn compiling_takes_memory_in_proportion_to_the_size() {
+    let cubic = || part(CubicSpring { stiffness: STIFFNESS, cubic: STIFFNESS });
+    let maxwell = || {
+        Tree::Series(vec![
+            Branch::new("spring", spring(STIFFNESS)),
+            Branch::new("dashpot", dashpot(STIFFNESS)),
+        ])
+    };
+    let rigid = |at: usize| if at.is_multiple_of(2) { spring(STIFFNESS) } else { part(Rigid) };
+    let networks: [&dyn Fn(usize) -> Network; 3] = [
+        &|count| long_network(count, |_| spring(STIFFNESS), &cubic()),
+        &|count| long_network(count, |_| maxwell(), &kelvin(STIFFNESS, 1.0)),
+        &|count| long_network(count, rigid, &spring(STIFFNESS)),
+    ];
+    for (at, network) in networks.iter().enumerate() {
+        let [small, large] = [1000, 4000].map(|count| {
+            let network = network(count);
+            measure(|| drop(network.compile(0.01).unwrap())).bytes_max as f64
+        });
+        // Tables grow by doubling.
+        assert!(large < 8.0 * small, "network {at}: {small} and {large} bytes");
+    }
 }

@@ -116,11 +116,6 @@ pub struct FormRef<'f> {
 }
 
 impl<'f> FormRef<'f> {
-    /// The form of these variables, in rising order, and as many coefficients.
-    pub(crate) fn new(variables: &'f [u32], coefficients: &'f [f64]) -> Self {
-        Self { variables, coefficients }
-    }
-
     /// The terms `(variable, coefficient)` in rising order of the variable; none is zero.
     pub fn terms(self) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone + 'f {
         let variables = self.variables.iter().map(|&variable| variable as usize);
@@ -159,4 +154,68 @@ impl<'f> FormRef<'f> {
     pub fn to_form(self) -> LinearForm {
         LinearForm { terms: self.terms().collect() }
     }
+}
+
+/// Many linear forms, one behind the other: each takes four bytes and twelve for each term.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Forms {
+    /// Where the terms of each form end.
+    ends: Vec<u32>,
+    variables: Vec<u32>,
+    coefficients: Vec<f64>,
+}
+
+impl Forms {
+    /// Adds a form of these terms, in rising order of the variable.
+    ///
+    /// # Panics
+    ///
+    /// When there are 2³² terms in all, or as many variables.
+    pub(crate) fn push(&mut self, terms: impl Iterator<Item = (usize, f64)>) {
+        for (variable, coefficient) in terms {
+            self.variables.push(packed(variable));
+            self.coefficients.push(coefficient);
+        }
+        self.ends.push(packed(self.variables.len()));
+    }
+
+    /// The form of this number.
+    ///
+    /// # Panics
+    ///
+    /// When there are not so many.
+    pub(crate) fn form(&self, at: usize) -> FormRef<'_> {
+        let start = at.checked_sub(1).map_or(0, |before| self.ends[before]);
+        self.between(start, self.ends[at])
+    }
+
+    /// All forms in order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = FormRef<'_>> {
+        let starts = std::iter::once(&0).chain(&self.ends);
+        starts.zip(&self.ends).map(|(&start, &end)| self.between(start, end))
+    }
+
+    fn between(&self, start: u32, end: u32) -> FormRef<'_> {
+        let place = start as usize..end as usize;
+        FormRef {
+            variables: &self.variables[place.clone()],
+            coefficients: &self.coefficients[place],
+        }
+    }
+
+    /// Gives back memory that was set aside for more.
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.ends.shrink_to_fit();
+        self.variables.shrink_to_fit();
+        self.coefficients.shrink_to_fit();
+    }
+}
+
+/// A number in four bytes.
+///
+/// # Panics
+///
+/// When it has no room there.
+pub(crate) fn packed(number: usize) -> u32 {
+    u32::try_from(number).unwrap_or_else(|_| panic!("{number} has no room in 32 bits"))
 }

@@ -1,11 +1,14 @@
 //! Named outputs, packed.
 //!
 //! A large network has some twelve of them for each of its masses. They lie one behind the other in a
-//! few vectors: an output takes 21 bytes, its name and 12 bytes for each term.
+//! few vectors: an output takes 24 bytes, its name and 12 bytes for each term.
 
 use std::fmt;
 
-use crate::{FormRef, LinearForm};
+use crate::{
+    FormRef, LinearForm,
+    linear_form::{Forms, packed},
+};
 
 /// A named scalar that a system can report: `scale · (unknowns·y + inputs·w)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,18 +46,14 @@ pub struct Outputs {
     units: Vec<&'static str>,
     heads: Vec<Head>,
     scales: Vec<f64>,
-    /// The variables of all terms: for each output those of its unknowns, then of its inputs.
-    variables: Vec<u32>,
-    /// Their coefficients.
-    coefficients: Vec<f64>,
+    /// For each output that over its unknowns, then that over its inputs.
+    forms: Forms,
 }
 
-/// Where the parts of an output end; each begins where that of the one before ends.
+/// Where the name of an output ends; it begins where that of the one before ends.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Head {
     name: u32,
-    unknowns: u32,
-    inputs: u32,
     /// Which of the units.
     unit: u8,
 }
@@ -84,14 +83,10 @@ impl Outputs {
             self.units.len() - 1
         });
         self.names.push_str(name);
-        let mut end_of = |form: &LinearForm| {
-            self.variables.extend(form.terms().iter().map(|term| packed(term.0)));
-            self.coefficients.extend(form.terms().iter().map(|term| term.1));
-            packed(self.variables.len())
-        };
-        let (unknowns, inputs) = (end_of(unknowns), end_of(inputs));
+        self.forms.push(unknowns.terms().iter().copied());
+        self.forms.push(inputs.terms().iter().copied());
         let unit = u8::try_from(unit).unwrap_or_else(|_| panic!("too many units"));
-        self.heads.push(Head { name: packed(self.names.len()), unknowns, inputs, unit });
+        self.heads.push(Head { name: packed(self.names.len()), unit });
         self.scales.push(scale);
         self.heads.len() - 1
     }
@@ -101,8 +96,7 @@ impl Outputs {
         self.names.shrink_to_fit();
         self.heads.shrink_to_fit();
         self.scales.shrink_to_fit();
-        self.variables.shrink_to_fit();
-        self.coefficients.shrink_to_fit();
+        self.forms.shrink_to_fit();
     }
 
     /// How many there are.
@@ -128,16 +122,12 @@ impl Outputs {
     pub fn at(&self, at: usize) -> Output<'_> {
         let head = self.heads[at];
         let before = at.checked_sub(1).map_or(Head::default(), |before| self.heads[before]);
-        let form = |from: u32, to: u32| {
-            let range = from as usize..to as usize;
-            FormRef::new(&self.variables[range.clone()], &self.coefficients[range])
-        };
         Output {
             name: &self.names[before.name as usize..head.name as usize],
             unit: self.units[usize::from(head.unit)],
             scale: self.scales[at],
-            unknowns: form(before.inputs, head.unknowns),
-            inputs: form(head.unknowns, head.inputs),
+            unknowns: self.forms.form(2 * at),
+            inputs: self.forms.form(2 * at + 1),
         }
     }
 
@@ -156,10 +146,6 @@ impl fmt::Debug for Outputs {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.debug_list().entries(self.iter()).finish()
     }
-}
-
-fn packed(number: usize) -> u32 {
-    u32::try_from(number).unwrap_or_else(|_| panic!("too many outputs for 32 bits"))
 }
 
 #[cfg(test)]

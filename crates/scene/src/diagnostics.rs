@@ -190,6 +190,16 @@ impl Faults {
         })
     }
 
+    /// How many faults are kept so far.
+    pub(crate) fn kept(&self) -> usize {
+        self.state.borrow().list.len()
+    }
+
+    /// Takes back what was noted after so many were kept.
+    pub(crate) fn take_back(&self, kept: usize) {
+        self.state.borrow_mut().list.truncate(kept);
+    }
+
     /// All that was found, errors first, in the order of the text.
     pub(crate) fn finish(self) -> Diagnostics {
         let mut state = self.state.into_inner();

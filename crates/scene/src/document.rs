@@ -33,7 +33,7 @@ const SHALLOW: usize = 48;
 const DEEP_STACK: usize = 16 << 20;
 
 /// A value and its place.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Item {
     /// The value.
     pub(crate) value: Content,
@@ -42,7 +42,7 @@ pub(crate) struct Item {
 }
 
 /// What a value is.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) enum Content {
     /// A string.
     Text(Word),
@@ -59,7 +59,7 @@ pub(crate) enum Content {
 }
 
 /// A key and its value.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Entry {
     /// The key.
     pub(crate) key: Word,

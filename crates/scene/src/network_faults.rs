@@ -19,19 +19,19 @@ pub(crate) fn value_of<'d>(entry: &'d Entry, key: &str) -> Option<&'d Item> {
 /// The entries of a scene by what they describe.
 struct Entries<'d> {
     nodes: HashMap<&'d str, &'d Entry>,
-    elements: &'d HashMap<&'d str, &'d Entry>,
+    elements: HashMap<&'d str, &'d Entry>,
     loads: &'d [Entry],
     effects: &'d [Entry],
 }
 
 /// Notes all errors of a network.
-pub(crate) fn note_errors(reading: &Reading<'_>, errors: NetworkErrors) {
+pub(crate) fn note_errors(reading: &Reading<'_>, errors: &NetworkErrors) {
     let entries = Entries::of(reading);
-    for error in errors.0 {
-        let place = entries.place_of(&error);
+    for error in &errors.0 {
+        let place = entries.place_of(error);
         let fault = match error {
-            NetworkError::Invalid { invalid, .. } => Fault::Invalid(invalid),
-            error => Fault::Network(error),
+            NetworkError::Invalid { invalid, .. } => Fault::Invalid(invalid.clone()),
+            error => Fault::Network(error.clone()),
         };
         reading.faults.error(place, fault);
     }
@@ -61,7 +61,7 @@ impl<'d> Entries<'d> {
         let by_name = |entry: &'d Entry| (entry.key.as_str(), entry);
         Self {
             nodes: reading.section("nodes").iter().map(by_name).collect(),
-            elements: &reading.elements,
+            elements: reading.section("elements").iter().map(by_name).collect(),
             loads: reading.section("loads"),
             effects: reading.section("effects"),
         }

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use dashpot_analysis::{Accuracy, MeasureWish, SolveSettings};
-use dashpot_network::{Assembly, Network};
+use dashpot_analysis::{Accuracy, MeasureWish, SolveSettings, Stop};
+use dashpot_network::{Assembly, Network, NetworkErrors};
 
 pub use crate::sections::RunSettings;
 use crate::{
@@ -17,8 +17,8 @@ use crate::{
     notes::ModelNote,
     review::{outlasted, review, upward, weightless},
     sections::{
-        Reading, Targets, check_stops, read_accuracy, read_effects, read_elements, read_loads,
-        read_measures, read_nodes, read_run,
+        Reading, StopText, Targets, check_stops, read_accuracy, read_effects, read_elements,
+        read_loads, read_measures, read_nodes, read_run,
     },
     source::Source,
     table::text_of,
@@ -272,19 +272,11 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     if faults.errors() > 0 {
         return None;
     }
-    let assembly = match network.compile(run.duration) {
-        Ok(assembly) => assembly,
-        Err(errors) => {
-            note_errors(&reading, errors);
-            return None;
-        }
-    };
-    note_warnings(&reading, &assembly.warnings);
+    let kept = faults.kept();
     review(&reading, &network, run.duration);
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
     notes.extend(upward(&network));
-    run.stops = check_stops(&reading, &stops, &assembly);
     let mut values: Vec<NamedValue> = library
         .values()
         .iter()
@@ -295,6 +287,18 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         })
         .collect();
     values.sort_by(|a, b| a.name.cmp(&b.name));
+    // The entries of a large text take more memory than anything that the compiler makes of them.
+    drop(reading);
+    drop(library);
+    let compiled = network.compile(run.duration);
+    if compiled.is_err() {
+        // What is odd about a scene is of no interest while it has no answer.
+        faults.take_back(kept);
+    }
+    if !stops.is_empty() || compiled.as_ref().map_or(true, |own| !own.warnings.is_empty()) {
+        run.stops = place(text, options, (&compiled, &stops), faults)?;
+    }
+    let Ok(assembly) = compiled else { return None };
     Some(Scene {
         title,
         file: options.file.map(str::to_owned),
@@ -307,4 +311,23 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         values,
         text: Arc::clone(&source.text),
     })
+}
+
+/// Reads the text once more for the places of what the compiler says, and looks up what the conditions to
+/// stop name; returns these.
+fn place(
+    text: &str,
+    options: &ReadOptions<'_>,
+    (compiled, stops): (&Result<Assembly, NetworkErrors>, &[StopText]),
+    faults: &Faults,
+) -> Option<Vec<Stop>> {
+    // What is wrong with the text itself has been said.
+    let silent = Faults::default();
+    let (library, _) = load(text, options, &silent)?;
+    let reading = Reading::new(&library, faults);
+    match compiled {
+        Err(errors) => note_errors(&reading, errors),
+        Ok(assembly) => note_warnings(&reading, &assembly.warnings),
+    }
+    Some(check_stops(&reading, stops, compiled.as_ref().ok()?))
 }

@@ -17,7 +17,7 @@ mod verdict;
 pub(crate) mod vibration;
 mod zero;
 
-use std::time::Duration;
+use std::{collections::HashMap, time::Duration};
 
 use dashpot_analysis::{Difference, RunReport, differences};
 use dashpot_scene::Scene;
@@ -63,12 +63,14 @@ impl Answer {
     /// All warnings, the most important first; those that not every run gives name their methods.
     pub(crate) fn warnings(&self) -> Vec<String> {
         let mut said: Vec<(&str, Vec<&str>)> = Vec::new();
+        let mut places = HashMap::new();
         for run in &self.runs {
             for warning in &run.warnings {
-                match said.iter_mut().find(|(known, _)| *known == warning.as_str()) {
-                    Some((_, methods)) => methods.push(run.solver.method),
-                    None => said.push((warning.as_str(), vec![run.solver.method])),
-                }
+                let place = *places.entry(warning.as_str()).or_insert_with(|| {
+                    said.push((warning.as_str(), Vec::new()));
+                    said.len() - 1
+                });
+                said[place].1.push(run.solver.method);
             }
         }
         let text = |(warning, methods): (&str, Vec<&str>)| {

@@ -1,11 +1,13 @@
 //! Integrals of products of outputs, step by step.
 
+use nalgebra::DMatrix;
+
 use super::{
     Step, between, inputs,
     lagrange::{HIGHEST, Lagrange},
     stream::Row,
 };
-use crate::{FormRef, LinearForm, Product, System, chebyshev::GaussLegendre};
+use crate::{FormRef, LinearForm, Product, System, chebyshev::GaussLegendre, linear_form::Forms};
 
 /// Products that are worked on at once, so that they stay in the processor's nearest memory.
 const BLOCK: usize = 256;
@@ -17,7 +19,9 @@ const ROUNDINGS: f64 = 8.0;
 /// that gives it its unit.
 ///
 /// A product of two polynomials is integrated by a Gauss rule that is exact for it. Most products are
-/// those of a dashpot, whose force is a multiple of its rate: they are squares.
+/// those of a dashpot, whose force is a multiple of its rate: they are squares, and their integral is
+/// `‖A f‖²` with the root of each point's weight times the shares of the rows in a row of `A`. With
+/// the triangle `R` of `A = Q R` in its place half of the work is left.
 #[derive(Debug, Default)]
 pub(super) struct Products {
     squares: Vec<Sum>,
@@ -73,13 +77,15 @@ impl Products {
             }
         }
         let all = [squared, first, second, driven.0, driven.1];
-        products.forms = Forms::new(all.into_iter().flatten());
+        all.into_iter().flatten().for_each(|form| products.forms.push(form.terms()));
+        products.forms.shrink_to_fit();
         products
     }
 
     /// The factors of all products where the unknowns are `state`.
     pub(super) fn factors(&self, state: &[f64], values: &mut Vec<f64>) {
-        self.forms.at(state, values);
+        values.clear();
+        values.extend(self.forms.iter().map(|form| form.at(state)));
     }
 
     /// Adds the integrals over one step, whose polynomials pass through `rows`.
@@ -102,14 +108,13 @@ impl Products {
             })
             .collect();
         let (squares, pairs) = (self.squares.len(), self.pairs.len());
+        let triangle = triangle(&points);
         for (at, sums) in self.squares.chunks_mut(BLOCK).enumerate() {
             let first = at * BLOCK;
             let mut work = [0.0; BLOCK];
-            for point in &points {
-                let values = point.values(rows, first, sums.len());
-                for (work, value) in work.iter_mut().zip(values) {
-                    *work += point.weight * value * value;
-                }
+            for (at, shares) in triangle.iter().enumerate() {
+                let values = values(&shares[at..], &rows[at..], first, sums.len());
+                work.iter_mut().zip(values).for_each(|(work, value)| *work += value * value);
             }
             sums.iter_mut().zip(work).for_each(|(sum, work)| sum.add(work));
         }
@@ -117,8 +122,8 @@ impl Products {
             let first = squares + at * BLOCK;
             let mut work = [0.0; BLOCK];
             for point in &points {
-                let ones = point.values(rows, first, sums.len());
-                let others = point.values(rows, first + pairs, sums.len());
+                let ones = values(&point.shares, rows, first, sums.len());
+                let others = values(&point.shares, rows, first + pairs, sums.len());
                 for ((work, one), other) in work.iter_mut().zip(ones).zip(others) {
                     *work += point.weight * one * other;
                 }
@@ -182,52 +187,32 @@ struct Point {
     shares: [f64; HIGHEST + 1],
 }
 
-impl Point {
-    /// The values of `count` factors from number `first` on; the rest is zero.
-    fn values(&self, rows: &[&Row], first: usize, count: usize) -> [f64; BLOCK] {
-        let mut values = [0.0; BLOCK];
-        for (share, row) in self.shares.iter().zip(rows) {
-            let own = &row.factors[first..first + count];
-            values.iter_mut().zip(own).for_each(|(value, own)| *value += share * own);
-        }
-        values
+/// The sums of the rows' factors from number `first` on, `count` of them, with these shares; the rest
+/// is zero.
+fn values(shares: &[f64], rows: &[&Row], first: usize, count: usize) -> [f64; BLOCK] {
+    let mut values = [0.0; BLOCK];
+    for (share, row) in shares.iter().zip(rows) {
+        let own = &row.factors[first..first + count];
+        values.iter_mut().zip(own).for_each(|(value, own)| *value += share * own);
     }
+    values
+}
 
+/// The triangle `R` of `A = Q R`, where `A` has a row for each point: the root of its weight times the
+/// shares of as many rows as there are points.
+fn triangle(points: &[Point]) -> Vec<[f64; HIGHEST + 1]> {
+    let count = points.len();
+    let entry = |row: usize, column: usize| points[row].weight.sqrt() * points[row].shares[column];
+    let upper = DMatrix::from_fn(count, count, entry).qr().unpack_r();
+    let row = |row: usize| {
+        std::array::from_fn(|column| if column < count { upper[(row, column)] } else { 0.0 })
+    };
+    (0..count).map(row).collect()
+}
+
+impl Point {
     /// The value of one factor.
     fn value(&self, rows: &[&Row], at: usize) -> f64 {
         self.shares.iter().zip(rows).map(|(share, row)| share * row.factors[at]).sum()
-    }
-}
-
-/// Many linear forms over the unknowns, one behind the other.
-#[derive(Debug, Default)]
-struct Forms {
-    /// Where the terms of each form end.
-    ends: Vec<usize>,
-    terms: Vec<(usize, f64)>,
-}
-
-impl Forms {
-    fn new<'f>(forms: impl Iterator<Item = FormRef<'f>>) -> Self {
-        let mut all = Self::default();
-        for form in forms {
-            all.terms.extend(form.terms());
-            all.ends.push(all.terms.len());
-        }
-        all.ends.shrink_to_fit();
-        all.terms.shrink_to_fit();
-        all
-    }
-
-    /// Their values where the unknowns are `state`.
-    fn at(&self, state: &[f64], values: &mut Vec<f64>) {
-        values.clear();
-        values.reserve_exact(self.ends.len());
-        let mut start = 0;
-        for &end in &self.ends {
-            let terms = &self.terms[start..end];
-            values.push(terms.iter().map(|&(unknown, factor)| factor * state[unknown]).sum());
-            start = end;
-        }
     }
 }

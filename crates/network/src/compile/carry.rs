@@ -69,19 +69,19 @@ impl Carry {
         };
         let place = |joint: usize| {
             let body = parts.bodies.of_joint[joint];
-            parts.motion.position[body].plus(1.0, &parts.offsets[joint])
+            parts.motion.position.row(body).plus(1.0, &parts.offsets.row(joint))
         };
         let primitives = &parts.expansion.primitives;
         let deformation =
-            primitives.iter().enumerate().map(|(at, own)| match &parts.motion.deformation[at] {
-                Some(row) => reading(row),
+            primitives.iter().enumerate().map(|(at, own)| match parts.motion.deformation.get(at) {
+                Some(row) => reading(&row),
                 None => reading(&place(own.ends[0]).plus(-1.0, &place(own.ends[1]))),
             });
         let joints = 0..parts.expansion.joints;
         let velocity = joints.clone().map(|joint| {
             let body = parts.bodies.of_joint[joint];
             let moves = parts.bodies.all[body].role != Role::Massless;
-            parts.motion.velocity[body].as_ref().filter(|_| moves).map(reading)
+            parts.motion.velocity.get(body).filter(|_| moves).as_ref().map(reading)
         });
         Self {
             deformation: deformation.collect(),

@@ -6,7 +6,7 @@ use dashpot_dae::UnknownKind;
 
 use super::{
     mesh::{Mesh, Solution},
-    row::{Row, RowSum},
+    row::{Row, RowSum, Rows},
     structure::Structure,
     unknowns::{Draft, Places},
 };
@@ -51,12 +51,15 @@ impl<'a> DashpotBalance<'a> {
     pub(super) fn solve(
         structure: &'a Structure,
         net: &[RowSum],
-        velocity: &[Option<Row>],
+        velocity: &Rows,
         most_bodies: usize,
         places: &mut Places,
         draft: impl Fn(usize) -> (String, f64),
     ) -> Self {
         let ends = Ends::of(structure);
+        if structure.clusters.is_empty() {
+            return Self { structure, ends, solution: Solution::default() };
+        }
         let mut mesh = Mesh::<Row>::new(net.len() + ends.anchors.len());
         for dashpot in &structure.dashpots {
             if let Some([p, q]) = ends.numbers(structure, dashpot.ends) {
@@ -66,7 +69,7 @@ impl<'a> DashpotBalance<'a> {
         let mut values = vec![Row::default(); net.len() + ends.anchors.len()];
         for (&(cluster, anchor), &at) in &ends.anchors {
             if structure.clusters[cluster].anchors.len() > 1 {
-                values[at] = velocity[anchor].clone().unwrap_or_default();
+                values[at] = velocity.row(anchor);
             }
         }
         let (mut solved, mut kept) = (Vec::new(), Vec::new());
@@ -90,13 +93,13 @@ impl<'a> DashpotBalance<'a> {
                 balance.add(link.conductance, &values[other]);
             }
             let (name, scale) = draft(body);
+            places.rows.set(places.drafts.len(), &balance.total());
             places.drafts.push(Draft {
                 name: format!("velocity of {name}"),
                 kind: UnknownKind::Algebraic,
                 unit: "m/s",
                 scale,
                 initial: 0.0,
-                row: balance.total(),
                 term: None,
             });
         }

@@ -41,6 +41,11 @@ impl Form {
         Self { terms: merged }
     }
 
+    /// The form of these terms, each of another variable, in rising order; none is zero.
+    pub(super) fn of(terms: Vec<(usize, Twofold)>) -> Self {
+        Self { terms }
+    }
+
     /// The terms `(variable, coefficient)` in rising order of the variable; none is zero.
     pub(super) fn terms(&self) -> &[(usize, Twofold)] {
         &self.terms

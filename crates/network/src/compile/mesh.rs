@@ -42,7 +42,7 @@ pub(super) struct Eliminated<R> {
 }
 
 /// All places, and the differences along all links.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Solution<R> {
     values: Vec<R>,
     differences: HashMap<(usize, usize), R>,

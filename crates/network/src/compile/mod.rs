@@ -7,6 +7,7 @@
 //! diagonal, and rows have twice the digits of a double ([`form`]) until they are complete. They are
 //! in SI; `system` rounds them and makes them dimensionless.
 
+mod acting;
 mod balance;
 pub(crate) mod blueprint;
 pub(crate) mod bodies;
@@ -42,12 +43,13 @@ use std::{borrow::Cow, collections::BTreeMap};
 use dashpot_dae::Waveform;
 
 use self::{
+    acting::Acting,
     bodies::{Bodies, Role, joint_name},
     carry::Carry,
     expand::Expansion,
     motion::Motion,
     outputs::Outputs,
-    row::{Combination, Row},
+    row::{Row, RowSum, Rows},
     scales::{Drives, Force, Scales},
     structure::Structure,
     system::Scaling,
@@ -80,8 +82,9 @@ struct Parts<'a> {
     motion: &'a Motion,
     places: &'a Places,
     drives: &'a [Drive],
+    acting: &'a Acting,
     /// How far each joint is from the place of its body.
-    offsets: &'a [Row],
+    offsets: &'a Rows,
     /// Own mass of each joint \[kg\].
     masses: &'a [f64],
 }
@@ -149,10 +152,10 @@ impl Network {
         }
         let scales = Scales::of(&bodies, &structure, &sizes, duration, expansion.switches)?;
 
-        let mut loads = vec![Row::default(); bodies.all.len()];
+        let mut loads = vec![RowSum::default(); bodies.all.len()];
         for drive in &drives {
             if let Some(force) = &drive.force {
-                loads[drive.body] = loads[drive.body].plus(1.0, force);
+                loads[drive.body].add(1.0, force);
             }
         }
         let mut places =
@@ -173,20 +176,25 @@ impl Network {
                 bodies: &bodies,
                 structure: &structure,
                 scales: &scales,
-                loads: &loads,
                 names: &|body| joint_name(self, expansion, bodies.all[body].joints[0]),
             },
+            loads,
             &mut inputs,
             &mut places,
         );
-        drop((pushes, loads));
+        drop(pushes);
         pushes::complete(expansion, &motion, &mut places);
         if !expansion.switches {
             self.start(expansion, &bodies, &structure, &drives, &inputs, &mut places)?;
         }
 
-        let offsets: Vec<Row> =
-            bodies.offset.iter().map(|&offset| inputs.constant(offset)).collect();
+        let mut offsets = Rows::default();
+        for (joint, &offset) in bodies.offset.iter().enumerate().filter(|own| *own.1 != 0.0) {
+            offsets.set(joint, &inputs.constant(offset));
+        }
+        let scaling = Scaling::of(&places, &inputs, &scales, duration);
+        let mut system =
+            system::dimensionless(expansion, &motion, &mut places, &inputs, &scaling, duration)?;
         let masses: Vec<f64> = (0..expansion.joints)
             .map(|joint| self.nodes.get(joint).map_or(0.0, |node| node.mass))
             .collect();
@@ -197,12 +205,10 @@ impl Network {
             motion: &motion,
             places: &places,
             drives: &drives,
+            acting: &Acting::of(expansion, &drives),
             offsets: &offsets,
             masses: &masses,
         };
-        let scaling = Scaling::of(&places, &inputs, &scales, duration);
-        let mut system =
-            system::dimensionless(expansion, &motion, &places, &inputs, &scaling, duration)?;
         let Outputs { list, nodes, connections, primitives, drives: driven, .. } =
             Outputs::of(self, &parts, &scaling)?;
         system.outputs = list;
@@ -336,7 +342,7 @@ impl Network {
             .iter()
             .enumerate()
             .map(|(at, body)| match body.role {
-                Role::Prescribed(_) => places.position[at].inputs.at(&at_start),
+                Role::Prescribed(_) => places.position.row(at).inputs.at(&at_start),
                 _ => 0.0,
             })
             .collect();

@@ -7,7 +7,7 @@ use super::{
     bodies::{Bodies, Role},
     dashpots::DashpotBalance,
     expand::Primitive,
-    row::{Combination, Row, RowSum},
+    row::{Combination, Row, RowSum, Rows},
     scales::Scales,
     springs::SpringBalance,
     structure::Structure,
@@ -19,15 +19,15 @@ use crate::elements::Law;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Motion {
     /// Position of each body.
-    pub(super) position: Vec<Row>,
+    pub(super) position: Rows,
     /// Velocity of each body, where it does not depend on the rate of a kept algebraic unknown.
-    pub(super) velocity: Vec<Option<Row>>,
+    pub(super) velocity: Rows,
     /// Deformation of each primitive that takes part.
-    pub(super) deformation: Vec<Option<Row>>,
+    pub(super) deformation: Rows,
     /// Deformation rate of each primitive that takes part.
-    pub(super) rate: Vec<Option<Row>>,
+    pub(super) rate: Rows,
     /// Force of each primitive that takes part.
-    pub(super) force: Vec<Option<Row>>,
+    pub(super) force: Rows,
 }
 
 /// Up to this many massless bodies in all, every balance is eliminated.
@@ -40,41 +40,47 @@ pub(super) struct Given<'a> {
     pub(super) primitives: &'a [Primitive],
     /// What each primitive pushes with besides a linear spring's and dashpot's force \[N\]; it is
     /// among the loads.
-    pub(super) pushes: &'a [Option<Row>],
+    pub(super) pushes: &'a Rows,
     pub(super) bodies: &'a Bodies,
     pub(super) structure: &'a Structure,
     pub(super) scales: &'a Scales,
-    /// Force on each body from outside \[N\].
-    pub(super) loads: &'a [Row],
     /// Name of a body.
     pub(super) names: &'a dyn Fn(usize) -> String,
 }
 
-/// Builds all rows and completes the drafts of the unknowns.
-pub(super) fn build(given: &Given<'_>, inputs: &mut Inputs, places: &mut Places) -> Motion {
-    let Given { primitives, pushes, bodies, structure, scales, loads, names } = *given;
+/// Builds all rows and completes those of the unknowns; `loads` are the forces on the bodies from outside
+/// \[N\].
+pub(super) fn build(
+    given: &Given<'_>,
+    loads: Vec<RowSum>,
+    inputs: &mut Inputs,
+    places: &mut Places,
+) -> Motion {
+    let Given { pushes, bodies, structure, scales, names, .. } = *given;
     let massless = structure.cluster_of.iter().flatten().count();
     let most = if massless <= SMALL { usize::MAX } else { MOST_LINKS };
     let mut motion = Motion {
-        position: Vec::new(),
+        position: Rows::default(),
         velocity: known_velocities(bodies, places, inputs),
-        deformation: vec![None; primitives.len()],
-        rate: vec![None; primitives.len()],
-        force: pushes.to_vec(),
+        deformation: Rows::default(),
+        rate: Rows::default(),
+        force: pushes.clone(),
     };
 
-    let springs = SpringBalance::solve(structure, loads, most, places, inputs, |body| {
+    let springs = SpringBalance::solve(structure, &loads, most, places, inputs, |body| {
         (names(body), scales.length[body])
     });
-    motion.position = (0..bodies.all.len()).map(|body| springs.position(places, body)).collect();
-    let mut net: Vec<RowSum> = loads.iter().map(RowSum::from).collect();
+    for body in 0..bodies.all.len() {
+        motion.position.set(body, &springs.position(places, body));
+    }
+    let mut net = loads;
     for spring in &structure.springs {
         let deformation =
             springs.difference(places, spring.ends).plus(1.0, &inputs.constant(spring.offset));
         let force = deformation.times(spring.constant);
         push_apart(&mut net, spring.ends, &force);
-        motion.deformation[spring.primitive] = Some(deformation);
-        add_to(&mut motion.force[spring.primitive], force);
+        motion.deformation.set(spring.primitive, &deformation);
+        add_to(&mut motion.force, spring.primitive, force);
     }
 
     let dashpots = DashpotBalance::solve(structure, &net, &motion.velocity, most, places, |body| {
@@ -83,17 +89,16 @@ pub(super) fn build(given: &Given<'_>, inputs: &mut Inputs, places: &mut Places)
     cluster_velocities(structure, &dashpots, &mut motion);
     for dashpot in &structure.dashpots {
         let [a, b] = dashpot.ends;
-        let rate = dashpots.rate(dashpot.ends).unwrap_or_else(|| {
-            let velocity = |body: usize| motion.velocity[body].clone().unwrap_or_default();
-            velocity(a).plus(-1.0, &velocity(b))
-        });
+        let rate = dashpots
+            .rate(dashpot.ends)
+            .unwrap_or_else(|| motion.velocity.row(a).plus(-1.0, &motion.velocity.row(b)));
         let force = rate.times(dashpot.constant);
         push_apart(&mut net, dashpot.ends, &force);
-        motion.deformation[dashpot.primitive] = Some(
-            springs.difference(places, dashpot.ends).plus(1.0, &inputs.constant(dashpot.offset)),
-        );
-        motion.rate[dashpot.primitive] = Some(rate);
-        add_to(&mut motion.force[dashpot.primitive], force);
+        let deformation =
+            springs.difference(places, dashpot.ends).plus(1.0, &inputs.constant(dashpot.offset));
+        motion.deformation.set(dashpot.primitive, &deformation);
+        motion.rate.set(dashpot.primitive, &rate);
+        add_to(&mut motion.force, dashpot.primitive, force);
     }
     unknown_rates(bodies, &net, &dashpots, structure, &motion.velocity, places);
     derived_rates(structure, inputs, places, &mut motion);
@@ -101,11 +106,12 @@ pub(super) fn build(given: &Given<'_>, inputs: &mut Inputs, places: &mut Places)
     motion
 }
 
-fn add_to(sum: &mut Option<Row>, row: Row) {
-    *sum = Some(match sum.take() {
+fn add_to(sums: &mut Rows, at: usize, row: Row) {
+    let sum = match sums.get(at) {
         Some(sum) => sum.plus(1.0, &row),
         None => row,
-    });
+    };
+    sums.set(at, &sum);
 }
 
 /// How what only pushes is deformed.
@@ -117,7 +123,7 @@ fn pushed(
     motion: &mut Motion,
 ) {
     for (at, primitive) in given.primitives.iter().enumerate() {
-        if motion.deformation[at].is_some() {
+        if motion.deformation.has(at) {
             continue;
         }
         let ends = primitive.ends.map(|joint| given.bodies.of_joint[joint]);
@@ -131,19 +137,18 @@ fn pushed(
             } else {
                 offset.times(stiffness)
             };
-            motion.deformation[at] = Some(offset);
-            motion.rate[at] = Some(Row::default());
-            motion.force[at] = Some(force);
+            motion.deformation.set(at, &offset);
+            motion.rate.set(at, &Row::default());
+            motion.force.set(at, &force);
             continue;
         }
-        if given.pushes[at].is_none() {
+        if !given.pushes.has(at) {
             continue;
         }
-        motion.deformation[at] = Some(springs.difference(places, ends).plus(1.0, &offset));
-        motion.rate[at] = match ends.map(|end| motion.velocity[end].as_ref()) {
-            [Some(a), Some(b)] => Some(a.plus(-1.0, b)),
-            _ => None,
-        };
+        motion.deformation.set(at, &springs.difference(places, ends).plus(1.0, &offset));
+        if let [Some(a), Some(b)] = ends.map(|end| motion.velocity.get(end)) {
+            motion.rate.set(at, &a.plus(-1.0, &b));
+        }
     }
 }
 
@@ -152,14 +157,20 @@ fn push_apart(net: &mut [RowSum], [a, b]: [usize; 2], force: &Row) {
     net[b].add(1.0, force);
 }
 
-fn known_velocities(bodies: &Bodies, places: &Places, inputs: &mut Inputs) -> Vec<Option<Row>> {
-    let of = |(at, role): (usize, Role)| match role {
-        Role::Fixed => Some(Row::default()),
-        Role::Prescribed(_) => Some(inputs.rate(&places.position[at])),
-        Role::Mass(_) => places.velocity_of(at),
-        Role::Massless => None,
-    };
-    bodies.all.iter().map(|body| body.role).enumerate().map(of).collect()
+fn known_velocities(bodies: &Bodies, places: &Places, inputs: &mut Inputs) -> Rows {
+    let mut velocities = Rows::default();
+    for (at, body) in bodies.all.iter().enumerate() {
+        let known = match body.role {
+            Role::Fixed => Some(Row::default()),
+            Role::Prescribed(_) => Some(inputs.rate(&places.position.row(at))),
+            Role::Mass(_) => places.velocity_of(at),
+            Role::Massless => None,
+        };
+        if let Some(row) = known {
+            velocities.set(at, &row);
+        }
+    }
+    velocities
 }
 
 /// Velocities of the bodies that dashpots tie to an anchor.
@@ -171,10 +182,13 @@ fn cluster_velocities(structure: &Structure, dashpots: &DashpotBalance<'_>, moti
         let anchor = (cluster.anchors.len() == 1).then(|| cluster.anchors.first()).flatten();
         for &body in &cluster.bodies {
             let own = dashpots.velocity(body);
-            motion.velocity[body] = match anchor {
-                Some(&anchor) => motion.velocity[anchor].as_ref().map(|base| base.plus(1.0, own)),
+            let velocity = match anchor {
+                Some(&anchor) => motion.velocity.get(anchor).map(|base| base.plus(1.0, own)),
                 None => Some(own.clone()),
             };
+            if let Some(velocity) = velocity {
+                motion.velocity.set(body, &velocity);
+            }
         }
     }
 }
@@ -185,10 +199,10 @@ fn unknown_rates(
     net: &[RowSum],
     dashpots: &DashpotBalance<'_>,
     structure: &Structure,
-    velocity: &[Option<Row>],
+    velocity: &Rows,
     places: &mut Places,
 ) {
-    let of = |body: usize| velocity[body].clone().unwrap_or_default();
+    let of = |body: usize| velocity.row(body);
     let acceleration = |body: usize| match bodies.all[body].role {
         Role::Mass(mass) => net[body].total().times(Twofold::ONE / mass),
         _ => Row::default(),
@@ -197,7 +211,7 @@ fn unknown_rates(
         if let Some(unknown) = places.unknown[at] {
             let cluster = structure.cluster_of[at];
             let anchors = cluster.map(|cluster| &structure.clusters[cluster].anchors);
-            places.drafts[unknown].row = match (places.parent[at], anchors) {
+            let rate = match (places.parent[at], anchors) {
                 (None, _) => of(at),
                 (Some(parent), Some(_)) if structure.cluster_of[parent] == cluster => {
                     dashpots.difference(at, parent)
@@ -209,12 +223,13 @@ fn unknown_rates(
                 }
                 (Some(parent), _) => of(at).plus(-1.0, &of(parent)),
             };
+            places.rows.set(unknown, &rate);
         }
         if let Some(unknown) = places.velocity[at] {
             let base = places.pace[at].map(acceleration);
             let own = acceleration(at);
-            places.drafts[unknown].row =
-                base.map_or_else(|| own.clone(), |base| own.plus(-1.0, &base));
+            let rate = base.map_or_else(|| own.clone(), |base| own.plus(-1.0, &base));
+            places.rows.set(unknown, &rate);
         }
     }
 }
@@ -224,24 +239,28 @@ fn derived_rates(structure: &Structure, inputs: &mut Inputs, places: &Places, mo
     let mut rate_of = |row: &Row| {
         let mut sum = RowSum::default();
         for &(unknown, coefficient) in row.unknowns.terms() {
-            let draft = &places.drafts[unknown];
-            if draft.kind == UnknownKind::Algebraic {
+            if places.drafts[unknown].kind == UnknownKind::Algebraic {
                 return None;
             }
-            sum.add(coefficient, &draft.row);
+            sum.add(coefficient, &places.rows.row(unknown));
         }
         sum.add(1.0, &inputs.rate(row));
         Some(sum.total())
     };
     for spring in &structure.springs {
-        if motion.rate[spring.primitive].is_none() {
-            motion.rate[spring.primitive] =
-                motion.deformation[spring.primitive].as_ref().and_then(&mut rate_of);
+        let at = spring.primitive;
+        if !motion.rate.has(at)
+            && let Some(rate) = motion.deformation.get(at).as_ref().and_then(&mut rate_of)
+        {
+            motion.rate.set(at, &rate);
         }
     }
     for (body, cluster) in structure.cluster_of.iter().enumerate() {
-        if cluster.is_some() && motion.velocity[body].is_none() {
-            motion.velocity[body] = rate_of(&motion.position[body]);
+        if cluster.is_some()
+            && !motion.velocity.has(body)
+            && let Some(rate) = rate_of(&motion.position.row(body))
+        {
+            motion.velocity.set(body, &rate);
         }
     }
 }

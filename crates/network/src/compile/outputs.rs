@@ -4,6 +4,7 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use super::{
     Drive, Parts,
+    acting::contact_force,
     bodies::{Role, start_velocity},
     expand::Shape,
     reactions::rigid_forces,
@@ -49,15 +50,9 @@ impl<'s> Outputs<'s> {
             primitives: Vec::with_capacity(parts.expansion.primitives.len()),
             drives: Vec::with_capacity(parts.drives.len()),
         };
-        let contact = contact_forces(parts);
-        outputs.add_nodes(network, parts, &contact);
-        let held = parts.drives.iter().map(|drive| {
-            drive.force.is_none().then(|| held_force(parts, drive, &contact[drive.body]))
-        });
-        let held: Vec<Option<Row>> = held.collect();
-        drop(contact);
+        outputs.add_nodes(network, parts);
         outputs.add_connections(network, parts)?;
-        outputs.add_drives(network, parts, held);
+        outputs.add_drives(network, parts);
         outputs.list.shrink_to_fit();
         outputs.fault.take().map_or(Ok(outputs), Err)
     }
@@ -83,18 +78,20 @@ impl<'s> Outputs<'s> {
         }
     }
 
-    fn add_nodes(&mut self, network: &Network, parts: &Parts<'_>, contact: &[RowSum]) {
+    fn add_nodes(&mut self, network: &Network, parts: &Parts<'_>) {
         for (at, node) in network.nodes.iter().enumerate() {
             let body = parts.bodies.of_joint[at];
             let name = &node.name;
-            let place = parts.motion.position[body].plus(1.0, &parts.offsets[at]);
+            let place = parts.motion.position.row(body).plus(1.0, &parts.offsets.row(at));
             let position = self.add(name, "position", "m", &place);
             let is_known = !parts.expansion.switches || moves_by_itself(node);
-            let velocity = parts.motion.velocity[body]
-                .clone()
+            let velocity = parts
+                .motion
+                .velocity
+                .get(body)
                 .filter(|_| is_known)
                 .map(|row| self.add(name, "velocity", "m/s", &row));
-            let acceleration = accelerometer(network, parts, at, &contact[body])
+            let acceleration = accelerometer(network, parts, at)
                 .map(|row| self.add(name, "acceleration", "m/s^2", &row));
             self.nodes.push(NodeOutputs {
                 name: name.clone(),
@@ -118,7 +115,7 @@ impl<'s> Outputs<'s> {
         let primitives = &parts.expansion.primitives;
         let whole = |at: usize| match primitives[at].law {
             Law::Rigid => reactions.get(&at).cloned(),
-            _ => Some(parts.motion.force[at].clone().unwrap_or_default()),
+            _ => Some(parts.motion.force.row(at)),
         };
         let force = |at: usize| match primitives[at].share {
             Some(share) => whole(share.of).map(|row| row.times(share.part)),
@@ -135,9 +132,9 @@ impl<'s> Outputs<'s> {
                 }
             }
             let deformation = |at: usize| Some(deformation(parts, at));
-            let rate = |at: usize| match parts.motion.deformation[at] {
-                Some(_) => parts.motion.rate[at].clone(),
-                None => Some(Row::default()),
+            let rate = |at: usize| {
+                let is_known = !parts.motion.deformation.has(at);
+                parts.motion.rate.get(at).or_else(|| is_known.then(Row::default))
             };
             let name = &connection.name;
             let ends = connection.between.map(|id| parts.bodies.of_joint[id.0]);
@@ -145,18 +142,16 @@ impl<'s> Outputs<'s> {
             let is_placed = |body: usize| parts.structure.algebraic_cluster(body).is_none();
             let [a, b] = ends;
             let position = if ends.iter().all(|&end| is_placed(end)) || parts.expansion.switches {
-                let offset = connection.between.map(|id| &parts.offsets[id.0]);
-                parts.motion.position[a]
-                    .plus(-1.0, &parts.motion.position[b])
-                    .plus(1.0, offset[0])
-                    .plus(-1.0, offset[1])
+                let [p, q] = connection.between.map(|id| parts.offsets.row(id.0));
+                let position = |body: usize| parts.motion.position.row(body);
+                position(a).plus(-1.0, &position(b)).plus(1.0, &p).plus(-1.0, &q)
             } else {
                 summed(shapes, &deformation).unwrap_or_default()
             };
-            let velocity = match (&parts.motion.velocity[a], &parts.motion.velocity[b]) {
+            let velocity = match ends.map(|end| parts.motion.velocity.get(end)) {
                 _ if parts.expansion.switches => None,
-                (Some(va), Some(vb)) if ends.iter().all(|&end| is_placed(end)) => {
-                    Some(va.plus(-1.0, vb))
+                [Some(va), Some(vb)] if ends.iter().all(|&end| is_placed(end)) => {
+                    Some(va.plus(-1.0, &vb))
                 }
                 _ => summed(shapes, &rate),
             };
@@ -207,8 +202,7 @@ impl<'s> Outputs<'s> {
         };
         let primitive = &parts.expansion.primitives[at];
         let switches = parts.expansion.switches;
-        let is_taking_part =
-            parts.motion.force[at].is_some() && parts.motion.deformation[at].is_some();
+        let is_taking_part = parts.motion.force.has(at) && parts.motion.deformation.has(at);
         if !is_taking_part && (!switches || primitive.is_link) {
             return Ok(());
         }
@@ -218,23 +212,23 @@ impl<'s> Outputs<'s> {
                 .get(&at)
                 .cloned()
                 .ok_or_else(|| NetworkError::UndeterminedForce { element: name.clone() })?,
-            _ => parts.motion.force[at].clone().unwrap_or_default(),
+            _ => parts.motion.force.row(at),
         };
         let force = own.share.map_or_else(|| force.clone(), |share| force.times(share.part));
         let rate = if switches {
             let ends = primitive.ends.map(|joint| parts.bodies.of_joint[joint]);
             let is_still = ends[0] == ends[1] || !is_taking_part && !primitive.is_phased();
             let is_open = !is_taking_part && !is_still;
-            let known = match ends.map(|end| parts.motion.velocity[end].as_ref()) {
+            let known = match ends.map(|end| parts.motion.velocity.get(end)) {
                 _ if is_still => Some(Row::default()),
-                _ if !is_open => parts.motion.rate[at].clone(),
-                [Some(a), Some(b)] => Some(a.plus(-1.0, b)),
+                _ if !is_open => parts.motion.rate.get(at),
+                [Some(a), Some(b)] => Some(a.plus(-1.0, &b)),
                 // Without force no work is done at whatever rate.
                 _ => Some(Row::default()),
             };
             known.filter(|_| primitive.needs_rate())
         } else {
-            parts.motion.rate[at].clone()
+            parts.motion.rate.get(at)
         };
         if switches && primitive.needs_rate() && rate.is_none() {
             return Err(NetworkError::UndeterminedRate { element: name.clone() });
@@ -251,16 +245,16 @@ impl<'s> Outputs<'s> {
     }
 
     /// The drives, with the forces that hold those whose motion is given.
-    fn add_drives(&mut self, network: &Network, parts: &Parts<'_>, held: Vec<Option<Row>>) {
-        for (drive, held) in parts.drives.iter().zip(held) {
-            let velocity = parts.motion.velocity[drive.body].clone();
+    fn add_drives(&mut self, network: &Network, parts: &Parts<'_>) {
+        for drive in parts.drives {
+            let velocity = parts.motion.velocity.get(drive.body);
             let switches = parts.expansion.switches;
             let is_known = !switches || moves_by_itself(&network.nodes[drive.node]);
             if velocity.is_none() && !switches {
                 continue;
             }
             let velocity = velocity.filter(|_| is_known);
-            let force = held.or_else(|| drive.force.clone()).unwrap_or_default();
+            let force = drive.force.clone().unwrap_or_else(|| held_force(parts, drive));
             if force.is_zero() && !switches {
                 continue;
             }
@@ -285,44 +279,24 @@ fn moves_by_itself(node: &Node) -> bool {
 
 /// The deformation of a primitive; zero where it takes no part.
 fn deformation(parts: &Parts<'_>, at: usize) -> Row {
-    match &parts.motion.deformation[at] {
-        Some(deformation) => deformation.clone(),
+    match parts.motion.deformation.get(at) {
+        Some(deformation) => deformation,
         None if !parts.expansion.switches => Row::default(),
         None => {
             let [a, b] = parts.expansion.primitives[at].ends;
             let [p, q] = [a, b].map(|joint| parts.bodies.of_joint[joint]);
-            parts.motion.position[p]
-                .plus(-1.0, &parts.motion.position[q])
-                .plus(1.0, &parts.offsets[a])
-                .plus(-1.0, &parts.offsets[b])
+            let position = |body: usize| parts.motion.position.row(body);
+            let [offset, other] = [a, b].map(|joint| parts.offsets.row(joint));
+            position(p).plus(-1.0, &position(q)).plus(1.0, &offset).plus(-1.0, &other)
         }
     }
-}
-
-/// Sum of the forces of springs and dashpots on each body, with the loads that an accelerometer
-/// feels.
-fn contact_forces(parts: &Parts<'_>) -> Vec<RowSum> {
-    let mut contact = vec![RowSum::default(); parts.bodies.all.len()];
-    for (primitive, force) in parts.expansion.primitives.iter().zip(&parts.motion.force) {
-        let Some(force) = force else { continue };
-        let [a, b] = primitive.ends.map(|joint| parts.bodies.of_joint[joint]);
-        contact[a].add(-1.0, force);
-        contact[b].add(1.0, force);
-    }
-    for drive in parts.drives.iter().filter(|drive| !drive.is_body_force) {
-        if let Some(force) = &drive.force {
-            contact[drive.body].add(1.0, force);
-        }
-    }
-    contact
 }
 
 /// The force that keeps a body on its prescribed way: what accelerates it less what acts on it.
-fn held_force(parts: &Parts<'_>, drive: &Drive, contact: &RowSum) -> Row {
+fn held_force(parts: &Parts<'_>, drive: &Drive) -> Row {
     let mut sum = RowSum::from(&drive.inertia);
-    sum.add(-1.0, &contact.total());
-    for other in parts.drives.iter().filter(|other| other.body == drive.body && other.is_body_force)
-    {
+    sum.add(-1.0, &contact_force(parts, drive.body));
+    for other in parts.acting.drives(parts.drives, drive.body).filter(|own| own.is_body_force) {
         if let Some(weight) = &other.force {
             sum.add(-1.0, weight);
         }
@@ -331,12 +305,7 @@ fn held_force(parts: &Parts<'_>, drive: &Drive, contact: &RowSum) -> Row {
 }
 
 /// What an accelerometer on the node reads: its acceleration less the body force per mass.
-fn accelerometer(
-    network: &Network,
-    parts: &Parts<'_>,
-    node: usize,
-    contact: &RowSum,
-) -> Option<Row> {
+fn accelerometer(network: &Network, parts: &Parts<'_>, node: usize) -> Option<Row> {
     let mass = network.nodes[node].mass;
     if mass <= 0.0 || network.nodes[node].support != Support::Free {
         return None;
@@ -348,14 +317,14 @@ fn accelerometer(
         Role::Massless => return None,
         Role::Fixed | Role::Prescribed(_) => return resting(parts, node, mass),
     };
-    sum.add(1.0 / total, &contact.total());
+    sum.add(1.0 / total, &contact_force(parts, body));
     let is_alone = parts.bodies.all[body].joints.iter().all(|&joint| {
         joint == node || network.nodes.get(joint).is_none_or(|other| other.mass == 0.0)
     });
     if is_alone {
         return Some(sum.total());
     }
-    for drive in parts.drives.iter().filter(|drive| drive.body == body && drive.is_body_force) {
+    for drive in parts.acting.drives(parts.drives, body).filter(|drive| drive.is_body_force) {
         if let Some(force) = &drive.force {
             sum.add(1.0 / total, force);
             if drive.node == node {
@@ -375,7 +344,7 @@ fn resting(parts: &Parts<'_>, node: usize, mass: f64) -> Option<Row> {
     let body = parts.bodies.of_joint[node];
     let whole: f64 = parts.bodies.all[body].whole_mass;
     let mut sum = RowSum::default();
-    for drive in parts.drives.iter().filter(|drive| drive.body == body) {
+    for drive in parts.acting.drives(parts.drives, body) {
         if drive.force.is_none() && whole > 0.0 {
             sum.add(1.0 / whole, &drive.inertia);
         }
@@ -447,7 +416,7 @@ pub(super) fn total(rows: &[&Row]) -> Row {
 fn softest(parts: &Parts<'_>) -> impl Fn(usize) -> f64 {
     move |at: usize| match parts.expansion.primitives[at].law {
         Law::Rigid => f64::INFINITY,
-        _ if parts.motion.force[at].is_none() => -1.0,
+        _ if !parts.motion.force.has(at) => -1.0,
         Law::Spring(stiffness) => stiffness,
         Law::Nonlinear { stiffness, .. } if stiffness > 0.0 => stiffness,
         _ => f64::MAX,

@@ -12,7 +12,7 @@ use super::{
     bodies::Bodies,
     expand::{Expansion, Primitive},
     motion::Motion,
-    row::{Combination, Row},
+    row::{Combination, Row, RowSum, Rows},
     scales::{Scales, power_of_two},
     structure::Structure,
     unknowns::{Draft, Inputs, Places},
@@ -27,9 +27,9 @@ pub(super) fn add(
     scales: &Scales,
     inputs: &mut Inputs,
     places: &mut Places,
-    loads: &mut [Row],
-) -> Vec<Option<Row>> {
-    let mut pushes = vec![None; expansion.primitives.len()];
+    loads: &mut [RowSum],
+) -> Rows {
+    let mut pushes = Rows::default();
     for (at, primitive) in expansion.primitives.iter().enumerate() {
         let ends = primitive.ends.map(|joint| bodies.of_joint[joint]);
         if ends[0] == ends[1] || !(structure.held[ends[0]] || structure.held[ends[1]]) {
@@ -44,9 +44,10 @@ pub(super) fn add(
         } else {
             continue;
         };
-        loads[ends[0]] = loads[ends[0]].plus(-1.0, &push);
-        loads[ends[1]] = loads[ends[1]].plus(1.0, &push);
-        pushes[at] = Some(push);
+        for (end, sign) in ends.into_iter().zip([-1.0, 1.0]) {
+            loads[end].add(sign, &push);
+        }
+        pushes.set(at, &push);
     }
     pushes
 }
@@ -61,23 +62,22 @@ fn draft(at: usize, primitive: &Primitive, ends: [usize; 2], scales: &Scales) ->
         unit: "N",
         scale: power_of_two(if force > 0.0 && force.is_finite() { force } else { 1.0 }),
         initial: 0.0,
-        row: Row::default(),
         term: Some(at),
     }
 }
 
 /// Completes the balances of the unknowns `φ`, but for the laws themselves.
 pub(super) fn complete(expansion: &Expansion, motion: &Motion, places: &mut Places) {
-    for (unknown, draft) in places.drafts.iter_mut().enumerate() {
+    for (unknown, draft) in places.drafts.iter().enumerate() {
         let Some(at) = draft.term else { continue };
         let [stiffness, damping] = expansion.primitives[at].slopes();
         let mut row = Row::unknown(unknown).times(-1.0);
-        if let Some(deformation) = &motion.deformation[at] {
-            row = row.plus(-stiffness, deformation);
+        if let Some(deformation) = motion.deformation.get(at) {
+            row = row.plus(-stiffness, &deformation);
         }
-        if let Some(rate) = motion.rate[at].as_ref().filter(|_| damping > 0.0) {
-            row = row.plus(-damping, rate);
+        if let Some(rate) = motion.rate.get(at).filter(|_| damping > 0.0) {
+            row = row.plus(-damping, &rate);
         }
-        draft.row = row;
+        places.rows.set(unknown, &row);
     }
 }

@@ -1,9 +1,10 @@
 //! Forces in rigid links, from the balance of what hangs on one side.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use super::{
     Parts,
+    acting::add_forces,
     bodies::Role,
     row::{Row, RowSum},
 };
@@ -50,10 +51,11 @@ pub(super) fn rigid_forces(network: &Network, parts: &Parts<'_>) -> BTreeMap<usi
 
 fn side(neighbours: &[Vec<(usize, usize)>], from: usize, cut: usize) -> Vec<usize> {
     let mut reached = vec![from];
+    let mut known = HashSet::from([from]);
     let mut at = 0;
     while at < reached.len() {
         for &(next, link) in &neighbours[reached[at]] {
-            if link != cut && !reached.contains(&next) {
+            if link != cut && known.insert(next) {
                 reached.push(next);
             }
         }
@@ -66,27 +68,21 @@ fn side(neighbours: &[Vec<(usize, usize)>], from: usize, cut: usize) -> Vec<usiz
 /// accelerates them.
 fn balance(network: &Network, parts: &Parts<'_>, joints: &[usize], sign: f64) -> Row {
     let mut sum = RowSum::default();
-    for (at, primitive) in parts.expansion.primitives.iter().enumerate() {
-        let Some(force) = &parts.motion.force[at] else { continue };
-        for (end, factor) in primitive.ends.iter().zip([-1.0, 1.0]) {
-            if joints.contains(end) {
-                sum.add(sign * factor, force);
-            }
-        }
-    }
-    for drive in parts.drives {
+    let body = parts.bodies.of_joint[joints[0]];
+    add_forces(parts, joints, sign, &mut sum);
+    for drive in parts.acting.drives(parts.drives, body) {
         if let Some(force) = drive.force.as_ref().filter(|_| joints.contains(&drive.node)) {
             sum.add(sign, force);
         }
     }
     let mass: f64 =
         joints.iter().filter_map(|&joint| network.nodes.get(joint)).map(|node| node.mass).sum();
-    let body = parts.bodies.of_joint[joints[0]];
     match (parts.bodies.all[body].role, parts.places.acceleration_of(body)) {
         (Role::Mass(_), Some(acceleration)) => sum.add(-sign * mass, &acceleration),
         (Role::Prescribed(_), _) if mass > 0.0 => {
             let share = mass / parts.bodies.all[body].whole_mass;
-            let given = parts.drives.iter().filter(|own| own.body == body && own.force.is_none());
+            let own = parts.acting.drives(parts.drives, body);
+            let given = own.filter(|own| own.force.is_none());
             given.for_each(|own| sum.add(-sign * share, &own.inertia));
         }
         _ => {}

@@ -1,6 +1,6 @@
 //! What is odd about a network, but not wrong.
 
-use std::collections::VecDeque;
+use std::collections::{HashMap, VecDeque};
 
 use super::{
     Parts,
@@ -17,20 +17,25 @@ use crate::{
 pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
     let distance = distances(network, parts);
     let direction = direction(parts);
+    let ahead = direction.map(|forward| ahead(network, parts, &distance, forward));
+    let mut linked = None;
     let mut warnings = Vec::new();
     for (at, connection) in network.connections.iter().enumerate() {
         let [a, b] = connection.between.map(|id| parts.bodies.of_joint[id.0]);
         let name = &connection.name;
         if a == b {
-            if !is_rigid(parts, at) && is_linked(parts, connection.between.map(|id| id.0)) {
+            let ends = connection.between.map(|id| id.0);
+            if !is_rigid(parts, at)
+                && is_linked(parts, linked.get_or_insert_with(|| links(parts)), ends)
+            {
                 warnings.push(format!(
                     "rigid links join both ends of `{name}`: it never deforms and carries no force"
                 ));
             }
         } else if let (Some(from), Some(to)) = (distance[a], distance[b])
-            && let Some(forward) = direction
+            && let (Some(forward), Some(ahead)) = (direction, &ahead)
             && is_against(forward, [from, to])
-            && !is_behind(network, parts, &distance, (forward, if from < to { a } else { b }))
+            && !ahead[if from < to { a } else { b }]
         {
             warnings.push(format!(
                 "`{name}` looks reversed: `between` runs along the impactor's way, so that \
@@ -46,26 +51,20 @@ pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
 /// Contacts between the same bodies that close at one deformation: what each of them carries is not
 /// determined, their sum is.
 fn shared_contacts(parts: &Parts<'_>) -> Vec<String> {
-    let contacts: Vec<(&Primitive, [usize; 2], f64)> = parts
-        .expansion
-        .primitives
-        .iter()
-        .filter_map(|own| {
-            let level = closing_level(own.origin.phases()?)?;
-            Some((own, own.ends.map(|joint| parts.bodies.of_joint[joint]), level))
-        })
-        .collect();
+    let mut last: HashMap<([usize; 2], u64), &Primitive> = HashMap::new();
     let mut warnings = Vec::new();
-    for (at, (one, ends, level)) in contacts.iter().enumerate() {
-        let same = |other: &&(&Primitive, [usize; 2], f64)| {
-            other.1 == *ends && other.2.to_bits() == level.to_bits() && ends[0] != ends[1]
-        };
-        if let Some((other, ..)) = contacts[at + 1..].iter().find(same) {
+    for own in &parts.expansion.primitives {
+        let ends = own.ends.map(|joint| parts.bodies.of_joint[joint]);
+        let Some(level) = own.origin.phases().and_then(closing_level) else { continue };
+        if ends[0] == ends[1] {
+            continue;
+        }
+        if let Some(one) = last.insert((ends, level.to_bits()), own) {
             warnings.push(format!(
                 "`{}` and `{}` close at once between the same masses: how they share force and \
                  impulse is not determined, only the sum is; a stiffness in one of them settles it",
                 told(&one.name),
-                told(&other.name)
+                told(&own.name)
             ));
         }
     }
@@ -93,21 +92,23 @@ fn is_against(forward: bool, [from, to]: [usize; 2]) -> bool {
     if forward { from > to } else { from < to }
 }
 
-/// Whether `body` has something before it in the impactor's way: what runs the other way from it then
-/// lies behind it, and is pressed when it comes back.
-fn is_behind(
+/// Whether each body has something before it in the impactor's way: what runs the other way from it
+/// then lies behind it, and is pressed when it comes back.
+fn ahead(
     network: &Network,
     parts: &Parts<'_>,
     distance: &[Option<usize>],
-    (forward, body): (bool, usize),
-) -> bool {
-    network.connections.iter().any(|connection| {
+    forward: bool,
+) -> Vec<bool> {
+    let mut ahead = vec![false; distance.len()];
+    for connection in &network.connections {
         let [a, b] = connection.between.map(|id| parts.bodies.of_joint[id.0]);
         let near = if forward { a } else { b };
-        let ends = [distance[a], distance[b]];
-        let [Some(from), Some(to)] = ends else { return false };
-        near == body && from != to && !is_against(forward, [from, to])
-    })
+        if let (Some(from), Some(to)) = (distance[a], distance[b]) {
+            ahead[near] |= from != to && !is_against(forward, [from, to]);
+        }
+    }
+    ahead
 }
 
 /// Restitutions that do nothing: they act between masses, and a part without mass takes the speed of
@@ -155,14 +156,19 @@ fn direction(parts: &Parts<'_>) -> Option<bool> {
     ways.all(|way| way == first).then_some(first)
 }
 
-/// Whether rigid links make one body of two joints; in a network that switches, parts that hold for
-/// the moment may do so as well.
-fn is_linked(parts: &Parts<'_>, joints: [usize; 2]) -> bool {
+/// The joints that rigid links make one body of.
+fn links(parts: &Parts<'_>) -> Groups {
     let mut groups = Groups::new(parts.expansion.joints);
     for link in parts.expansion.primitives.iter().filter(|own| own.is_link) {
         groups.join(link.ends[0], link.ends[1]);
     }
-    !parts.expansion.switches || groups.of(joints[0]) == groups.of(joints[1])
+    groups
+}
+
+/// Whether rigid links make one body of two joints; in a network that switches, parts that hold for
+/// the moment may do so as well.
+fn is_linked(parts: &Parts<'_>, links: &mut Groups, joints: [usize; 2]) -> bool {
+    !parts.expansion.switches || links.of(joints[0]) == links.of(joints[1])
 }
 
 /// Whether a connection consists of rigid links only.

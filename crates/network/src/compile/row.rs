@@ -54,6 +54,78 @@ impl Combination for Row {
     }
 }
 
+/// Numbered rows, one behind the other: a large network has some ten for each of its masses. A row takes
+/// 12 bytes and 20 for each term.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Rows {
+    places: Vec<Place>,
+    variables: Vec<u32>,
+    coefficients: Vec<Twofold>,
+}
+
+/// Where a row's terms over unknowns begin and end, and where those over inputs end.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    start: u32,
+    middle: u32,
+    end: u32,
+}
+
+impl Place {
+    /// That of a row that is not there.
+    const NONE: Self = Self { start: u32::MAX, middle: 0, end: 0 };
+}
+
+impl Rows {
+    /// Where the row is, if it is there.
+    fn place(&self, at: usize) -> Option<Place> {
+        self.places.get(at).copied().filter(|place| place.start != Place::NONE.start)
+    }
+
+    /// Whether the row is there.
+    pub(super) fn has(&self, at: usize) -> bool {
+        self.place(at).is_some()
+    }
+
+    /// The row, if it is there.
+    pub(super) fn get(&self, at: usize) -> Option<Row> {
+        let Place { start, middle, end } = self.place(at)?;
+        let form = |from: u32, to: u32| {
+            let place = from as usize..to as usize;
+            let variables = self.variables[place.clone()].iter().map(|&own| own as usize);
+            Form::of(variables.zip(self.coefficients[place].iter().copied()).collect())
+        };
+        Some(Row { unknowns: form(start, middle), inputs: form(middle, end) })
+    }
+
+    /// The row, zero if it is not there.
+    pub(super) fn row(&self, at: usize) -> Row {
+        self.get(at).unwrap_or_default()
+    }
+
+    /// Puts a row in the place of the one that may be there.
+    ///
+    /// # Panics
+    ///
+    /// When there are 2³² terms in all, or as many variables.
+    pub(super) fn set(&mut self, at: usize, row: &Row) {
+        let mut end_of = |form: &Form| {
+            self.variables.extend(form.terms().iter().map(|term| packed(term.0)));
+            self.coefficients.extend(form.terms().iter().map(|term| term.1));
+            packed(self.variables.len())
+        };
+        let start = end_of(&Form::default());
+        let middle = end_of(&row.unknowns);
+        let place = Place { start, middle, end: end_of(&row.inputs) };
+        self.places.resize(self.places.len().max(at + 1), Place::NONE);
+        self.places[at] = place;
+    }
+}
+
+fn packed(number: usize) -> u32 {
+    u32::try_from(number).unwrap_or_else(|_| panic!("too many terms for 32 bits"))
+}
+
 /// A sum of many rows, formed in one pass.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RowSum {
@@ -79,5 +151,27 @@ impl From<&Row> for RowSum {
         let mut sum = Self::default();
         sum.add(1.0, row);
         sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_come_back_as_they_were_put_in() {
+        let third = Twofold::ONE / 3.0;
+        let one = Row::unknown(7).plus(third, &Row::unknown(2)).plus(-1.0, &Row::input(1));
+        let mut rows = Rows::default();
+        rows.set(2, &one);
+        rows.set(0, &Row::default());
+        assert_eq!(
+            (rows.get(2), rows.get(0), rows.get(1)),
+            (Some(one), Some(Row::default()), None)
+        );
+        assert!(rows.has(0) && !rows.has(1) && !rows.has(3) && rows.row(1).is_zero());
+        rows.set(2, &Row::input(4));
+        rows.set(1, &Row::unknown(0));
+        assert_eq!((rows.row(2), rows.row(1)), (Row::input(4), Row::unknown(0)));
     }
 }

@@ -134,7 +134,7 @@ fn deformations(parts: &Parts<'_>, shapes: &[Shape]) -> Vec<Option<Row>> {
     let mut found: Vec<Option<Row>> = vec![None; shapes.len()];
     for (at, shape) in shapes.iter().enumerate().rev() {
         found[at] = match shape {
-            Shape::Leaf(primitive) => parts.motion.deformation[*primitive].clone(),
+            Shape::Leaf(primitive) => parts.motion.deformation.get(*primitive),
             Shape::Series(children) => {
                 let rows = children.iter().map(|&child| found[child].as_ref());
                 rows.collect::<Option<Vec<&Row>>>().map(|rows| total(&rows))
@@ -151,7 +151,7 @@ fn between(parts: &Parts<'_>, shapes: &[Shape], shape: usize) -> Option<Row> {
     let position = |end: usize| {
         let joint = joint(parts, shapes, shape, end)?;
         let body = parts.bodies.of_joint[joint];
-        Some(parts.motion.position[body].plus(1.0, &parts.offsets[joint]))
+        Some(parts.motion.position.row(body).plus(1.0, &parts.offsets.row(joint)))
     };
     Some(position(0)?.plus(-1.0, &position(1)?))
 }

@@ -12,7 +12,8 @@ use super::{
 /// Positions of the algebraic clusters and differences along the springs.
 pub(super) struct SpringBalance<'a> {
     structure: &'a Structure,
-    solution: Solution<Row>,
+    /// `None` where there is no algebraic cluster.
+    solution: Option<Solution<Row>>,
 }
 
 /// The mesh's number of a body: its algebraic cluster, or the body itself behind the clusters.
@@ -23,7 +24,7 @@ fn place(structure: &Structure, body: usize) -> usize {
 /// Position of a body relative to its algebraic cluster; zero for all others.
 fn within(structure: &Structure, places: &Places, body: usize) -> Row {
     match structure.algebraic_cluster(body) {
-        Some(_) => places.position[body].clone(),
+        Some(_) => places.position.row(body),
         None => Row::default(),
     }
 }
@@ -34,14 +35,18 @@ impl<'a> SpringBalance<'a> {
     /// `length` as their scale.
     pub(super) fn solve(
         structure: &'a Structure,
-        loads: &[Row],
+        loads: &[RowSum],
         most_links: usize,
         places: &mut Places,
         inputs: &mut Inputs,
         draft: impl Fn(usize) -> (String, f64),
     ) -> Self {
         let clusters = structure.clusters.len();
-        let mut mesh = Mesh::<Row>::new(clusters + loads.len());
+        if !(0..clusters).any(|cluster| structure.is_algebraic(cluster)) {
+            return Self { structure, solution: None };
+        }
+        let bodies = structure.cluster_of.len();
+        let mut mesh = Mesh::<Row>::new(clusters + bodies);
         for spring in &structure.springs {
             let [a, b] = spring.ends;
             let (p, q) = (place(structure, a), place(structure, b));
@@ -56,7 +61,7 @@ impl<'a> SpringBalance<'a> {
             (0..clusters).filter(|&cluster| structure.is_algebraic(cluster)).collect();
         for &cluster in &algebraic {
             for &body in &structure.clusters[cluster].bodies {
-                mesh.load(cluster, 1.0, &loads[body]);
+                mesh.load(cluster, 1.0, &loads[body].total());
             }
         }
         let eliminated = mesh.eliminate(&algebraic, most_links);
@@ -65,7 +70,7 @@ impl<'a> SpringBalance<'a> {
         eliminated.places().for_each(|cluster| is_kept[cluster] = false);
         let kept: Vec<usize> = (0..clusters).filter(|&cluster| is_kept[cluster]).collect();
         let mut values = vec![Row::default(); clusters];
-        values.extend(places.position.iter().cloned());
+        values.extend((0..bodies).map(|body| places.position.row(body)));
         for (at, &cluster) in kept.iter().enumerate() {
             values[cluster] = Row::unknown(places.drafts.len() + at);
         }
@@ -78,32 +83,37 @@ impl<'a> SpringBalance<'a> {
                 balance.add(-link.conductance, &link.offset);
             }
             let (name, scale) = draft(structure.clusters[cluster].bodies[0]);
+            places.rows.set(places.drafts.len(), &balance.total());
             places.drafts.push(Draft {
                 name: format!("position of {name}"),
                 kind: UnknownKind::Algebraic,
                 unit: "m",
                 scale,
                 initial: 0.0,
-                row: balance.total(),
                 term: None,
             });
         }
-        Self { structure, solution: eliminated.solve(values) }
+        Self { structure, solution: Some(eliminated.solve(values)) }
     }
 
     /// Position of a body.
     pub(super) fn position(&self, places: &Places, body: usize) -> Row {
-        match self.structure.algebraic_cluster(body) {
-            Some(cluster) => self.solution.value(cluster).plus(1.0, &places.position[body]),
-            None => places.position[body].clone(),
+        match self.structure.algebraic_cluster(body).zip(self.solution.as_ref()) {
+            Some((cluster, solution)) => {
+                solution.value(cluster).plus(1.0, &places.position.row(body))
+            }
+            None => places.position.row(body),
         }
     }
 
     /// How far apart the places of two bodies are, the deformation of what has no offset.
     pub(super) fn difference(&self, places: &Places, [a, b]: [usize; 2]) -> Row {
+        let Some(solution) = &self.solution else {
+            return places.position.row(a).plus(-1.0, &places.position.row(b));
+        };
         let (p, q) = (place(self.structure, a), place(self.structure, b));
         let offset =
             within(self.structure, places, a).plus(-1.0, &within(self.structure, places, b));
-        if p == q { offset } else { self.solution.difference(p, q).plus(1.0, &offset) }
+        if p == q { offset } else { solution.difference(p, q).plus(1.0, &offset) }
     }
 }

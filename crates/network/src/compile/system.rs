@@ -65,11 +65,11 @@ impl Scaling {
     }
 }
 
-/// The system of all rows, without outputs.
+/// The system of all rows, without outputs; it takes the names of the drafts.
 pub(super) fn dimensionless(
     expansion: &Expansion,
     motion: &Motion,
-    places: &Places,
+    places: &mut Places,
     inputs: &Inputs,
     scaling: &Scaling,
     duration: f64,
@@ -83,7 +83,7 @@ pub(super) fn dimensionless(
     let mut jacobian = CooMatrix::new(count, count);
     let mut input_matrix = CooMatrix::new(count, inputs.entries.len());
     for (at, draft) in places.drafts.iter().enumerate() {
-        let (own, given) = scaled(&draft.row, columns, input_columns);
+        let (own, given) = scaled(&places.rows.row(at), columns, input_columns);
         let factor = match draft.kind {
             UnknownKind::Differential => time / draft.scale,
             UnknownKind::Algebraic => {
@@ -94,19 +94,18 @@ pub(super) fn dimensionless(
             }
         };
         if let Some(primitive) = draft.term {
-            let argument = |row: &Option<Row>| {
-                let row = row.clone().unwrap_or_default();
+            let argument = |row: Row| {
                 let (unknowns, inputs) = scaled(&row, columns, input_columns);
                 Argument { scale: lift.recip(), unknowns, inputs }
             };
             let element = &expansion.primitives[primitive];
             let [_, damping] = element.slopes();
-            let rate = if damping > 0.0 { &motion.rate[primitive] } else { &None };
+            let rate = if damping > 0.0 { motion.rate.row(primitive) } else { Row::default() };
             terms.push(Term {
                 row: at,
                 factor: finite(factor * lift)?,
                 law: Arc::new(OfElement(Arc::clone(&element.element))),
-                arguments: [argument(&motion.deformation[primitive]), argument(rate)],
+                arguments: [argument(motion.deformation.row(primitive)), argument(rate)],
             });
         }
         for &(column, value) in own.terms() {
@@ -119,9 +118,9 @@ pub(super) fn dimensionless(
     Ok(System {
         unknowns: places
             .drafts
-            .iter()
+            .iter_mut()
             .map(|draft| Unknown {
-                name: draft.name.clone(),
+                name: std::mem::take(&mut draft.name),
                 kind: draft.kind,
                 scale: draft.scale / lift,
                 unit: draft.unit,

@@ -7,7 +7,7 @@ use dashpot_dae::{Input, UnknownKind, Waveform};
 use super::{
     bodies::{Bodies, Role, joint_name},
     expand::Expansion,
-    row::{Combination, Row, RowSum},
+    row::{Combination, Row, RowSum, Rows},
     scales::{Scales, power_of_two},
     structure::{Edge, Structure},
     tree,
@@ -24,8 +24,6 @@ pub(super) struct Draft {
     pub(super) scale: f64,
     /// SI value at the start.
     pub(super) initial: f64,
-    /// Rate of a differential unknown, balance of an algebraic one; SI.
-    pub(super) row: Row,
     /// Number of the primitive whose force, that is not linear, stands in the row.
     pub(super) term: Option<usize>,
 }
@@ -115,30 +113,36 @@ pub(super) struct Along {
     pub(super) offset: f64,
 }
 
-impl Along {
-    /// The part that determines the unknown best: the stiffest spring, or else the strongest dashpot.
-    fn between(structure: &Structure, body: usize, parent: usize) -> Option<Self> {
-        let strongest = |edges: &[Edge]| {
-            let between = edges.iter().filter_map(|edge| {
-                let sign = match edge.ends {
-                    [a, b] if (a, b) == (body, parent) => 1.0,
-                    [a, b] if (b, a) == (body, parent) => -1.0,
-                    _ => return None,
-                };
-                let own = Self { primitive: edge.primitive, sign, offset: sign * edge.offset };
-                Some((edge.constant, own))
-            });
-            between.reduce(|best, next| if next.0 > best.0 { next } else { best })
-        };
-        let found = strongest(&structure.springs).or_else(|| strongest(&structure.dashpots));
-        found.map(|(_, own)| own)
+/// The part between each body and its parent that determines the unknown best, where one is there: the
+/// stiffest spring, or else the strongest dashpot.
+fn along(structure: &Structure, parents: &[Option<usize>]) -> Vec<Option<Along>> {
+    let mut found: Vec<Option<Along>> = vec![None; parents.len()];
+    for edges in [&structure.springs, &structure.dashpots] {
+        let mut strongest: HashMap<usize, &Edge> = HashMap::new();
+        for edge in edges {
+            let [a, b] = edge.ends;
+            for (body, other) in [(a, b), (b, a)] {
+                let is_open = parents[body] == Some(other) && found[body].is_none();
+                if is_open && strongest.get(&body).is_none_or(|own| edge.constant > own.constant) {
+                    strongest.insert(body, edge);
+                }
+            }
+        }
+        for (body, edge) in strongest {
+            let sign = if edge.ends[0] == body { 1.0 } else { -1.0 };
+            let (primitive, offset) = (edge.primitive, sign * edge.offset);
+            found[body] = Some(Along { primitive, sign, offset });
+        }
     }
+    found
 }
 
 /// Where every body is, as far as it is not algebraic.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Places {
     pub(super) drafts: Vec<Draft>,
+    /// Rate of each differential unknown, balance of each algebraic one; SI.
+    pub(super) rows: Rows,
     /// Position unknown of each body that has one.
     pub(super) unknown: Vec<Option<usize>>,
     /// Velocity unknown of each mass.
@@ -151,7 +155,7 @@ pub(super) struct Places {
     /// parent.
     pub(super) along: Vec<Option<Along>>,
     /// Position of each body; of bodies in algebraic clusters relative to the cluster.
-    pub(super) position: Vec<Row>,
+    pub(super) position: Rows,
 }
 
 /// Chooses the unknowns that have a rate.
@@ -176,9 +180,10 @@ pub(super) fn choose(
         velocity: vec![None; count],
         pace: structure.pace.clone(),
         parent: tree::parents(bodies, structure, scales.time),
-        along: vec![None; count],
-        position: vec![Row::default(); count],
+        along: Vec::new(),
+        position: Rows::default(),
         drafts: Vec::new(),
+        rows: Rows::default(),
     };
     let name = |body: usize| joint_name(network, expansion, bodies.all[body].joints[0]);
     for cluster in 0..structure.clusters.len() {
@@ -194,6 +199,7 @@ pub(super) fn choose(
             places.parent[body] = places.parent[body].or(reference);
         }
     }
+    places.along = along(structure, &places.parent);
     for body in 0..count {
         let is_reference = structure
             .algebraic_cluster(body)
@@ -204,10 +210,9 @@ pub(super) fn choose(
             Role::Fixed | Role::Prescribed(_) => false,
         };
         if !is_moved {
+            places.along[body] = None;
             continue;
         }
-        places.along[body] =
-            places.parent[body].and_then(|parent| Along::between(structure, body, parent));
         let relative = places.parent[body]
             .map_or(String::new(), |parent| format!(" relative to {}", name(parent)));
         places.unknown[body] = Some(places.drafts.len());
@@ -217,7 +222,6 @@ pub(super) fn choose(
             unit: "m",
             scale: scales.length[body],
             initial: 0.0,
-            row: Row::default(),
             term: None,
         });
         if let Role::Mass(_) = bodies.all[body].role {
@@ -232,7 +236,6 @@ pub(super) fn choose(
                 unit: "m/s",
                 scale: scales.velocity[body],
                 initial: bodies.all[body].velocity - base,
-                row: Row::default(),
                 term: None,
             });
         }
@@ -258,15 +261,15 @@ impl Places {
         let velocity = self.velocity_of(mass)?;
         let mut sum = RowSum::default();
         for &(unknown, factor) in velocity.unknowns.terms() {
-            sum.add(factor, &self.drafts[unknown].row);
+            sum.add(factor, &self.rows.row(unknown));
         }
         Some(sum.total())
     }
 
     /// Adds the unknowns up along the chain of parents.
     fn add_up(&mut self, motions: &BTreeMap<usize, Row>, inputs: &mut Inputs) {
-        let mut is_done = vec![false; self.position.len()];
-        for body in 0..self.position.len() {
+        let mut is_done = vec![false; self.parent.len()];
+        for body in 0..self.parent.len() {
             let mut chain = vec![body];
             while let Some(parent) = self.parent[chain[chain.len() - 1]]
                 && !is_done[parent]
@@ -276,12 +279,13 @@ impl Places {
             for &body in chain.iter().rev() {
                 let own = self.unknown[body].map_or_else(Row::default, Row::unknown);
                 let given = motions.get(&body).cloned().unwrap_or_default();
-                let base = self.parent[body].map(|parent| self.position[parent].clone());
+                let base = self.parent[body].map(|parent| self.position.row(parent));
                 let offset = self.along[body].map_or(0.0, |along| along.offset);
-                self.position[body] = own
+                let position = own
                     .plus(1.0, &given)
                     .plus(1.0, &base.unwrap_or_default())
                     .plus(-1.0, &inputs.constant(offset));
+                self.position.set(body, &position);
                 is_done[body] = true;
             }
         }

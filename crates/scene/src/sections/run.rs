@@ -12,6 +12,7 @@ use crate::{
     document::{Content, Entry, Item},
     fault::Fault,
     kinds::registers,
+    source::Place,
     table::{Table, list_of, one_or_many, text_of, wrong_type},
     units::parse_dimension,
 };
@@ -41,14 +42,16 @@ pub struct RunSettings {
 }
 
 /// A condition whose output has not been looked up yet.
-pub(crate) struct StopText<'d> {
-    when: &'d Item,
-    level: &'d Item,
+pub(crate) struct StopText {
+    /// Name of the output, and where it stands.
+    name: String,
+    place: Place,
+    level: Item,
     direction: Direction,
 }
 
 /// Reads the settings and the conditions to stop.
-pub(crate) fn read_run<'d>(reading: &Reading<'d>) -> (RunSettings, Vec<StopText<'d>>) {
+pub(crate) fn read_run(reading: &Reading<'_>) -> (RunSettings, Vec<StopText>) {
     let methods = vec!["auto".to_owned()];
     let mut run = RunSettings {
         duration: 0.0,
@@ -129,7 +132,7 @@ fn methods_of(reading: &Reading<'_>, entry: &Entry) -> Option<Vec<String>> {
     (!methods.is_empty()).then_some(methods)
 }
 
-fn stop<'d>(reading: &Reading<'d>, item: &'d Item) -> Option<StopText<'d>> {
+fn stop(reading: &Reading<'_>, item: &Item) -> Option<StopText> {
     let table = Table::new(item, "a condition in `stop`", item.place, reading.faults)?;
     let when = table.require("when", "when = \"padding.force\"");
     let falls = table.take("falls-below");
@@ -160,27 +163,32 @@ fn stop<'d>(reading: &Reading<'d>, item: &'d Item) -> Option<StopText<'d>> {
         reading.unknown("element or node", owner, when.place, known);
         return None;
     }
-    Some(StopText { when, level: &level.item, direction })
+    Some(StopText {
+        name: name.to_owned(),
+        place: when.place,
+        level: level.item.clone(),
+        direction,
+    })
 }
 
 /// Looks up the outputs of the conditions to stop.
 pub(crate) fn check_stops(
     reading: &Reading<'_>,
-    stops: &[StopText<'_>],
+    stops: &[StopText],
     assembly: &Assembly,
 ) -> Vec<Stop> {
     let found = stops.iter().filter_map(|stop| {
-        let name = stop.when.text()?;
+        let name = stop.name.as_str();
         let outputs = &assembly.system.outputs;
         let Some(output) = outputs.iter().find(|output| output.name == name) else {
             let owner = name.split('.').next().unwrap_or_default();
             let mut family: Vec<&str> = outputs.iter().map(|output| output.name).collect();
             family.retain(|known| known.split('.').next() == Some(owner));
-            reading.unknown("output", name, stop.when.place, family.into_iter());
+            reading.unknown("output", name, stop.place, family.into_iter());
             return None;
         };
         let dimension = parse_dimension(output.unit).unwrap_or(Dimension::NUMBER);
-        let level = reading.quantities().read(stop.level, dimension)?;
+        let level = reading.quantities().read(&stop.level, dimension)?;
         Some(Stop { output: name.to_owned(), level, direction: stop.direction })
     });
     found.collect()

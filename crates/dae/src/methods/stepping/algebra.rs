@@ -107,36 +107,45 @@ pub(super) fn entries(matrix: &CsrMatrix<f64>) -> impl Iterator<Item = (usize, u
     matrix.triplet_iter().map(|(i, j, &x)| (i, j, x))
 }
 
-/// `Σ_j a_ij x_j` for one row, straight from the stored arrays.
-#[derive(Debug, Clone, Copy)]
+/// The rows of a matrix, with numbers of columns of half the width: large systems are limited by what
+/// is read from memory.
+#[derive(Debug, Clone)]
 pub(super) struct Rows<'s> {
-    offsets: &'s [usize],
-    columns: &'s [usize],
+    /// Where each row ends, then the columns of all entries.
+    places: Vec<u32>,
     values: &'s [f64],
 }
 
 impl<'s> Rows<'s> {
-    /// The rows of a stored matrix.
-    pub(super) fn of(matrix: &'s CsrMatrix<f64>) -> Self {
+    /// The rows of a stored matrix; `None` where it has 2³² entries or more.
+    pub(super) fn of(matrix: &'s CsrMatrix<f64>) -> Option<Self> {
         let (offsets, columns, values) = matrix.csr_data();
-        Self { offsets, columns, values }
+        let mut places = Vec::with_capacity(matrix.nrows() + columns.len());
+        for &number in offsets[1..].iter().chain(columns) {
+            places.push(u32::try_from(number).ok()?);
+        }
+        Some(Self { places, values })
     }
 
     /// `y = A x`.
     pub(super) fn multiply(&self, x: &[f64], y: &mut [f64]) {
-        for (ends, out) in self.offsets.windows(2).zip(y) {
-            let place = ends[0]..ends[1];
-            let terms = self.columns[place.clone()].iter().zip(&self.values[place]);
-            *out = terms.map(|(&column, value)| value * x[column]).sum();
-        }
+        self.sums(y, |column, value| value * x[column as usize]);
     }
 
     /// `y = |A| |x|`.
     pub(super) fn magnitudes(&self, x: &[f64], y: &mut [f64]) {
-        for (ends, out) in self.offsets.windows(2).zip(y) {
-            let place = ends[0]..ends[1];
-            let terms = self.columns[place.clone()].iter().zip(&self.values[place]);
-            *out = terms.map(|(&column, value)| (value * x[column]).abs()).sum();
+        self.sums(y, |column, value| (value * x[column as usize]).abs());
+    }
+
+    /// The sum of `term` over the entries of each row.
+    fn sums(&self, sums: &mut [f64], term: impl Fn(u32, f64) -> f64) {
+        let (ends, columns) = self.places.split_at(sums.len());
+        let mut start = 0;
+        for (&end, sum) in ends.iter().zip(sums) {
+            let place = start..end as usize;
+            let entries = columns[place.clone()].iter().zip(&self.values[place]);
+            *sum = entries.map(|(&column, &value)| term(column, value)).sum();
+            start = end as usize;
         }
     }
 }

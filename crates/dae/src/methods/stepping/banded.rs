@@ -5,6 +5,7 @@ mod window;
 use std::cell::RefCell;
 
 use super::ordering::{Order, places};
+use crate::linear_form::packed;
 
 /// Part of the largest entry below from which on that on the diagonal is left to be the pivot, as in
 /// KLU (`davis2010` in `docs/references.bib`). Where no rows are exchanged the factors stay half as
@@ -17,10 +18,78 @@ const GOOD_PIVOT: f64 = 1e-3;
 /// The factors lie one behind the other in memory, and solving with them takes no look-up of places.
 #[derive(Debug)]
 pub(in crate::methods) struct Banded {
-    order: Vec<usize>,
+    order: Vec<u32>,
     reach: usize,
-    /// Where each entry of the matrix belongs in `rows`.
-    entries: Vec<usize>,
+    layout: Layout,
+    /// One over the largest entry of each row, so that rows are compared on one scale.
+    scales: Vec<f64>,
+    /// The factors where no rows are exchanged and the last values can be kept at hand.
+    window: window::Factors,
+    /// The factors of any other matrix.
+    general: General,
+    /// Which of both hold; `None` where a column was left without a pivot.
+    holds: Option<Holds>,
+    work: RefCell<Vec<f64>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Holds {
+    Window,
+    General,
+}
+
+/// Where the entries of a matrix belong in its band.
+#[derive(Debug)]
+struct Layout {
+    /// Where the entries of each row end.
+    ends: Vec<u32>,
+    /// The number of each entry.
+    sources: Vec<u32>,
+    /// How far behind the first place of the band's row it belongs.
+    offsets: Vec<u16>,
+}
+
+impl Layout {
+    /// The layout of these entries `(row, column)`, whose unknowns come to lie in these `places`.
+    fn of(
+        places: &[usize],
+        reach: usize,
+        entries: impl Iterator<Item = (usize, usize)> + Clone,
+    ) -> Self {
+        let mut ends = vec![0; places.len()];
+        for (row, _) in entries.clone() {
+            ends[places[row]] += 1;
+        }
+        let mut sum = 0;
+        for end in &mut ends {
+            sum += std::mem::replace(end, sum);
+        }
+        let (mut sources, mut offsets) = (vec![0; sum as usize], vec![0; sum as usize]);
+        for (source, (row, column)) in (0..).zip(entries) {
+            let (row, column) = (places[row], places[column]);
+            let at = ends[row] as usize;
+            sources[at] = source;
+            offsets[at] = u16::try_from(column + reach - row).unwrap_or(u16::MAX);
+            ends[row] += 1;
+        }
+        Self { ends, sources, offsets }
+    }
+
+    /// The rows in order, each as its entries: numbers and offsets.
+    fn rows(&self) -> impl Iterator<Item = impl Iterator<Item = (usize, usize)>> {
+        let starts = std::iter::once(&0).chain(&self.ends);
+        starts.zip(&self.ends).map(|(&start, &end)| {
+            let place = start as usize..end as usize;
+            let entries = self.sources[place.clone()].iter().zip(&self.offsets[place]);
+            entries.map(|(&source, &offset)| (source as usize, usize::from(offset)))
+        })
+    }
+}
+
+/// Factors of a band of any reach, with exchanged rows.
+#[derive(Debug, Default)]
+struct General {
+    reach: usize,
     /// `U` row by row, each from `reach` before the diagonal to `2 · reach` behind it; one over the
     /// pivot stands on the diagonal, and what is behind it is divided by the pivot.
     rows: Vec<f64>,
@@ -28,63 +97,85 @@ pub(in crate::methods) struct Banded {
     lower: Vec<f64>,
     /// How many rows further down that of the pivot was, column by column; empty if none was.
     pivots: Vec<usize>,
-    /// One over the largest entry of each row, so that rows are compared on one scale.
-    scales: Vec<f64>,
-    /// Whether a column was left without a pivot.
-    is_singular: bool,
-    /// The factors once more, where they can be worked through with the last values at hand.
-    window: window::Factors,
-    work: RefCell<Vec<f64>>,
 }
 
 impl Banded {
-    /// Room for matrices with these entries `(row, column)`, in this order.
-    pub(super) fn of(order: Order, entries: impl Iterator<Item = (usize, usize)>) -> Self {
+    /// Room for matrices with these entries `(row, column)`, in this order; fewer than 2³².
+    pub(super) fn of(order: Order, entries: impl Iterator<Item = (usize, usize)> + Clone) -> Self {
         let Order { unknowns, reach } = order;
-        let (size, width) = (unknowns.len(), 3 * reach + 1);
-        let places = places(&unknowns);
-        let entries = entries.map(|(row, column)| {
-            let (row, column) = (places[row], places[column]);
-            row * width + column + reach - row
-        });
+        let size = unknowns.len();
         Self {
-            entries: entries.collect(),
-            order: unknowns,
+            layout: Layout::of(&places(&unknowns), reach, entries),
+            order: unknowns.iter().map(|&unknown| packed(unknown)).collect(),
             reach,
-            rows: vec![0.0; size * width],
-            lower: vec![0.0; size * reach],
-            pivots: Vec::with_capacity(size),
             scales: vec![0.0; size],
-            is_singular: true,
             window: window::Factors::default(),
+            general: General::default(),
+            holds: None,
             work: RefCell::new(vec![0.0; size]),
         }
     }
 
     /// Factorises the matrix with these values of its entries.
     pub(super) fn factorise(&mut self, values: &[f64]) {
-        self.rows.fill(0.0);
-        for (&place, value) in self.entries.iter().zip(values) {
-            self.rows[place] += value;
+        self.holds = if self.window.factorise(self.reach, &self.layout, values, &mut self.scales) {
+            Some(Holds::Window)
+        } else {
+            let found = self.general.factorise(self.reach, &self.layout, values, &mut self.scales);
+            found.then_some(Holds::General)
+        };
+    }
+
+    /// Replaces the right-hand side by the solution. Whether the matrix has one.
+    pub(super) fn solve(&self, unknowns: &mut [f64]) -> bool {
+        let Some(holds) = self.holds else { return false };
+        let mut work = self.work.borrow_mut();
+        if holds == Holds::Window {
+            self.window.solve(self.reach, (&self.order, &self.scales), &mut work, unknowns);
+            return true;
         }
-        for (scale, row) in
-            self.scales.iter_mut().zip(self.rows.chunks_exact_mut(3 * self.reach + 1))
-        {
+        for ((value, &unknown), scale) in work.iter_mut().zip(&self.order).zip(&self.scales) {
+            *value = unknowns[unknown as usize] * scale;
+        }
+        self.general.substitute(&mut work);
+        for (value, &unknown) in work.iter().zip(&self.order) {
+            unknowns[unknown as usize] = *value;
+        }
+        true
+    }
+}
+
+impl General {
+    /// Factorises the matrix with these values of its entries. Whether each column has a pivot.
+    fn factorise(
+        &mut self,
+        reach: usize,
+        layout: &Layout,
+        values: &[f64],
+        scales: &mut [f64],
+    ) -> bool {
+        let (size, width) = (scales.len(), 3 * reach + 1);
+        self.reach = reach;
+        self.rows.resize(size * width, 0.0);
+        self.lower.resize(size * reach, 0.0);
+        self.rows.fill(0.0);
+        let rows = self.rows.chunks_exact_mut(width).zip(layout.rows());
+        for ((row, entries), scale) in rows.zip(scales) {
+            for (source, offset) in entries {
+                row[offset] += values[source];
+            }
             *scale = row.iter().fold(0.0_f64, |most, value| most.max(value.abs())).recip();
             for value in row {
                 *value *= *scale;
             }
         }
         self.pivots.clear();
-        self.is_singular = !(0..self.order.len()).all(|column| self.eliminate(column));
-        if self.pivots.is_empty() && !self.is_singular {
-            self.window.take(self.reach, &self.rows, &self.lower);
-        }
+        (0..size).all(|column| self.eliminate(column))
     }
 
     /// Chooses the pivot of a column and eliminates what is below it. Whether there was one.
     fn eliminate(&mut self, column: usize) -> bool {
-        let (reach, size) = (self.reach, self.order.len());
+        let (reach, size) = (self.reach, self.size());
         let (width, below) = (3 * reach + 1, reach.min(size - 1 - column));
         let (head, rest) = self.rows[column * width..].split_at_mut(width);
         let own = &mut head[reach..];
@@ -126,30 +217,13 @@ impl Banded {
         true
     }
 
-    /// Replaces the right-hand side by the solution. Whether the matrix has one.
-    pub(super) fn solve(&self, unknowns: &mut [f64]) -> bool {
-        if self.is_singular {
-            return false;
-        }
-        let mut work = self.work.borrow_mut();
-        if self.pivots.is_empty()
-            && self.window.solve(self.reach, (&self.order, &self.scales), &mut work, unknowns)
-        {
-            return true;
-        }
-        for ((value, &unknown), scale) in work.iter_mut().zip(&self.order).zip(&self.scales) {
-            *value = unknowns[unknown] * scale;
-        }
-        self.substitute(&mut work);
-        for (value, &unknown) in work.iter().zip(&self.order) {
-            unknowns[unknown] = *value;
-        }
-        true
+    fn size(&self) -> usize {
+        self.rows.len() / (3 * self.reach + 1)
     }
 
-    /// Forward and backward, for any reach and with exchanged rows, which reach twice as far.
+    /// Forward and backward; with exchanged rows `U` reaches twice as far.
     fn substitute(&self, work: &mut [f64]) {
-        let (reach, size) = (self.reach, self.order.len());
+        let (reach, size) = (self.reach, self.size());
         let width = 3 * reach + 1;
         let across = if self.pivots.is_empty() { reach } else { 2 * reach };
         for column in 0..size {

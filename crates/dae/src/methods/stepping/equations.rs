@@ -76,10 +76,12 @@ impl<'s, M: Algebra> Equations<'s, M> {
         let is_rate = |row: usize| system.unknowns[row].kind == UnknownKind::Differential;
         let rates = entries(&system.jacobian).filter(|entry| is_rate(entry.0));
         let fastest = rates.map(|entry| entry.2.abs()).fold(0.0, f64::max);
+        let rows = Rows::of(&system.jacobian)
+            .ok_or_else(|| DiffsolError::Other("2³² coefficients or more".to_owned()))?;
         Ok(Self {
             system,
             fastest,
-            rows: Rows::of(&system.jacobian),
+            rows,
             context: M::C::default(),
             jacobian,
             mass,

@@ -6,7 +6,7 @@ use crate::compile::{expand::Shape, row::Combination, structure::Structure, unkn
 /// The difference of the places of two bodies over the unknowns; `None` where it is not one of whole
 /// positions.
 pub(super) fn difference(places: &Places, [a, b]: [usize; 2]) -> Option<Vec<(usize, f64)>> {
-    let row = places.position[a].plus(-1.0, &places.position[b]);
+    let row = places.position.row(a).plus(-1.0, &places.position.row(b));
     if !row.inputs.is_zero() {
         return None;
     }

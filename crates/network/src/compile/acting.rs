@@ -1,0 +1,83 @@
+//! What acts on each joint and body.
+
+use std::collections::BTreeMap;
+
+use super::{
+    Drive, Parts,
+    expand::Expansion,
+    row::{Row, RowSum},
+};
+
+/// The primitives at each joint and the drives of each body.
+#[derive(Debug)]
+pub(super) struct Acting {
+    /// Where the primitives of each joint end in `primitives`.
+    ends: Vec<usize>,
+    /// Primitives, each with the sign of its force on the joint.
+    primitives: Vec<(usize, f64)>,
+    /// Drives by body, where there are any.
+    drives: BTreeMap<usize, Vec<usize>>,
+}
+
+impl Acting {
+    pub(super) fn of(expansion: &Expansion, drives: &[Drive]) -> Self {
+        let mut ends = vec![0; expansion.joints];
+        for joint in expansion.primitives.iter().flat_map(|own| own.ends) {
+            ends[joint] += 1;
+        }
+        let mut sum = 0;
+        for end in &mut ends {
+            let count = *end;
+            *end = sum;
+            sum += count;
+        }
+        let mut primitives = vec![(0, 0.0); sum];
+        for (at, primitive) in expansion.primitives.iter().enumerate() {
+            for (joint, sign) in primitive.ends.into_iter().zip([-1.0, 1.0]) {
+                primitives[ends[joint]] = (at, sign);
+                ends[joint] += 1;
+            }
+        }
+        let mut by_body: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (at, drive) in drives.iter().enumerate() {
+            by_body.entry(drive.body).or_default().push(at);
+        }
+        Self { ends, primitives, drives: by_body }
+    }
+
+    /// The primitives at a joint, each with the sign of its force on it.
+    pub(super) fn at_joint(&self, joint: usize) -> &[(usize, f64)] {
+        let start = joint.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.primitives[start..self.ends[joint]]
+    }
+
+    /// The drives of a body.
+    pub(super) fn drives<'p>(
+        &'p self,
+        drives: &'p [Drive],
+        body: usize,
+    ) -> impl Iterator<Item = &'p Drive> {
+        self.drives.get(&body).into_iter().flatten().map(|&at| &drives[at])
+    }
+}
+
+/// Sum of the forces of springs and dashpots on a body, with the loads that an accelerometer feels.
+pub(super) fn contact_force(parts: &Parts<'_>, body: usize) -> Row {
+    let mut sum = RowSum::default();
+    add_forces(parts, &parts.bodies.all[body].joints, 1.0, &mut sum);
+    for drive in parts.acting.drives(parts.drives, body).filter(|drive| !drive.is_body_force) {
+        if let Some(force) = &drive.force {
+            sum.add(1.0, force);
+        }
+    }
+    sum.total()
+}
+
+/// Adds `sign` times the forces of springs and dashpots on these joints.
+pub(super) fn add_forces(parts: &Parts<'_>, joints: &[usize], sign: f64, sum: &mut RowSum) {
+    for &(primitive, own) in joints.iter().flat_map(|&joint| parts.acting.at_joint(joint)) {
+        if let Some(force) = parts.motion.force.get(primitive) {
+            sum.add(sign * own, &force);
+        }
+    }
+}
