@@ -1,5 +1,11 @@
 //! Bouncing on rigid and springy ground, from a fall to rest.
 
+use dashpot::{
+    analysis::{RunReport, SolveSettings, solve},
+    dae::Silent,
+    scene::{ReadOptions, read},
+};
+
 use super::{
     reference::Case,
     trial::{ALL, Side, judge},
@@ -73,4 +79,36 @@ fn a_ball_bounces_on_a_spring_for_ever() {
         }
         trial.number("loss", trial.dissipated("pad", trial.end()), 0.0, case.get("energy"));
     });
+}
+
+#[test]
+fn what_bounces_to_rest_under_friction_has_a_known_error_by_the_exact_method() {
+    let text = "[nodes]
+        striker = { mass = \"3.4 kg\", velocity = 2.3 }
+        panel = { mass = \"1.2 kg\" }
+        [elements]
+        pad = { between = [\"striker\", \"panel\"], spring = \"87 kN/m\" }
+        stop = { between = [\"panel\", \"ground\"], contact = { gap = \"3.9 mm\", restitution = 0.6 } }
+        slide = { between = [\"panel\", \"ground\"], friction = \"66 N\" }
+        mount = { between = [\"panel\", \"ground\"], kelvin-voigt = { spring = \"3.6 kN/m\", dashpot = \"151 N s/m\" } }
+        [effects]
+        separation.pad = { at = \"striker\" }
+        [run]
+        duration = \"89 ms\"
+        ";
+    let scene = read(text, &ReadOptions::default()).unwrap().value;
+    let run = |method: &str, rtol: Option<f64>| -> RunReport {
+        let settings = SolveSettings { rtol, ..scene.settings(method) };
+        solve(&scene.network, &settings, &mut Silent).unwrap()
+    };
+    let (exact, stepping) = (run("exact", None), run("bdf", Some(1e-11)));
+    let impacts = exact.trajectory.switches.iter().filter(|own| own.impulse > 0.0).count();
+    assert!(impacts >= 10, "{impacts}");
+    for own in &exact.measures {
+        let other = stepping.measure(&own.key).unwrap();
+        let errors = own.error.unwrap() + other.error.unwrap();
+        let gap = (own.value.unwrap() - other.value.unwrap()).abs();
+        assert!(gap <= errors, "{}: {gap:e} of {errors:e}", own.key);
+        assert!(own.error.unwrap() <= 1e-4 * own.size.max(1.0), "{}", own.key);
+    }
 }

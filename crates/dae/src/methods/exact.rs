@@ -211,6 +211,10 @@ impl Method for Exact {
                     solution = solution.until(t_end);
                     break;
                 }
+                let progress = Progress { time: share * run.t_end, steps: 0 };
+                if observer.progress(progress).is_break() {
+                    return Err(SolveError::Cancelled { time: progress.time });
+                }
             }
         }
         if observer.progress(Progress { time: t_end, steps: 0 }).is_break() {

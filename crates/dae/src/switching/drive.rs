@@ -6,10 +6,11 @@ use super::{
     Leg, LegEnd, Switching,
     chain::{Chain, Solved},
     flight::follow,
+    shaken::{Afterwards, Shaken},
 };
 use crate::{
-    Event, Keep, Method, Observer, Outcome, Progress, Run, Silent, SolveError, Statistics,
-    Trajectory, pieces::MOST_BYTES,
+    Event, Keep, Method, Observer, Outcome, Progress, Run, SolveError, Statistics, Trajectory,
+    pieces::MOST_BYTES,
 };
 
 /// Most legs of a run.
@@ -46,12 +47,18 @@ pub fn integrate(
         (ERRORS_PER_TOLERANCE * run.rtol).min(LARGEST_ERROR)
     };
     let Solution { mut chain, name, t_end, first_phases, mut found } =
-        solve(method, switching, run, doubt, observer)?;
+        solve(method, switching, run, (doubt, MOST_LEGS), observer)?;
     if method.is_exact() && chain.legs.len() > 1 {
         let shaken = Shaken { inner: switching };
         let unwatched = Run { guards: Vec::new(), t_end, ..run.clone() };
-        let other = solve(method, &shaken, &unwatched, doubt, &mut Silent);
-        chain.doubled = Some(other.map_or_else(|_| Vec::new(), |other| other.chain.legs));
+        let limits = (doubt, Shaken::most_legs(chain.legs.len()));
+        let end = Progress { time: t_end, steps: found.statistics.accepted };
+        let mut afterwards = Afterwards { end, observer };
+        chain.doubled = Some(match solve(method, &shaken, &unwatched, limits, &mut afterwards) {
+            Ok(other) => other.chain.legs,
+            Err(error @ SolveError::Cancelled { .. }) => return Err(error),
+            Err(_) => Vec::new(),
+        });
     }
     found.statistics.wall = begin.elapsed();
     let outcome = found.outcome.map_or(Outcome::Finished, |guard| Outcome::Stopped { guard });
@@ -80,7 +87,7 @@ fn solve(
     method: &dyn Method,
     switching: &dyn Switching,
     run: &Run,
-    doubt: f64,
+    (doubt, most_legs): (f64, usize),
     observer: &mut dyn Observer,
 ) -> Result<Solution, SolveError> {
     let mut leg = switching.first(doubt)?;
@@ -130,38 +137,13 @@ fn solve(
             return Ok(Solution { chain: drive.chain, name, t_end, first_phases, found });
         }
         at_once = if t_end > drive.start { 0 } else { at_once + 1 };
-        if at_once > MOST_AT_ONCE || drive.chain.legs.len() >= MOST_LEGS {
+        if at_once > MOST_AT_ONCE || drive.chain.legs.len() >= most_legs {
             return Err(found.endless(t_end, drive.chain.legs.len()));
         }
         let end = LegEnd { leg: &leg, time: t_end, length, state: &state, fired: &fired, doubt };
         leg = switching.next(&end)?;
         found.switches.extend(leg.switches.iter().cloned());
         drive.start = t_end;
-    }
-}
-
-/// The same legs, each of which begins where the one before ended but for its last digits.
-#[derive(Debug)]
-struct Shaken<'s> {
-    inner: &'s dyn Switching,
-}
-
-/// By how many roundings a state is shaken: more than a leg's own errors leave in it.
-const SHAKES: f64 = 64.0;
-
-impl Switching for Shaken<'_> {
-    fn first(&self, doubt: f64) -> Result<Leg, SolveError> {
-        self.inner.first(doubt)
-    }
-
-    fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError> {
-        let shake = |(at, value): (usize, &f64)| {
-            // The signs follow the places, so that a run repeats to the bit.
-            let sign = if (at * at + at / 2) % 3 == 0 { 1.0 } else { -1.0 };
-            value * (1.0 + sign * SHAKES * f64::EPSILON)
-        };
-        let state: Vec<f64> = end.state.iter().enumerate().map(shake).collect();
-        self.inner.next(&LegEnd { state: &state, ..*end })
     }
 }
 

@@ -199,16 +199,32 @@ fn endless_switching_is_an_error_that_names_what_switches() {
     }
 }
 
+/// What it is told, until it ends the run after so many times.
+struct Watching(Vec<Progress>, usize);
+
+impl Observer for Watching {
+    fn progress(&mut self, progress: Progress) -> ControlFlow<()> {
+        self.0.push(progress);
+        self.1 -= 1;
+        if self.1 == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+#[test]
+fn progress_goes_on_at_the_end_while_errors_are_estimated_and_may_end_the_run_there() {
+    let (walls, exact) = (Walls { restitution: 1.0 }, by_name("exact").unwrap());
+    let run = Run::to(9.0 * scale());
+    let mut watching = Watching(Vec::new(), usize::MAX);
+    let found = integrate(&*exact, &walls, &run, &mut watching).unwrap();
+    let afterwards = watching.0.iter().filter(|own| own.time >= found.t_end).count();
+    assert!(afterwards > found.switches.len(), "{afterwards}");
+    let mut watching = Watching(Vec::new(), watching.0.len());
+    let error = integrate(&*exact, &walls, &run, &mut watching).unwrap_err();
+    assert!(matches!(error, SolveError::Cancelled { .. }), "{error}");
+}
+
 #[test]
 fn progress_never_goes_back_and_steps_are_counted_over_all_legs() {
-    struct Watching(Vec<Progress>, usize);
-    impl Observer for Watching {
-        fn progress(&mut self, progress: Progress) -> ControlFlow<()> {
-            self.0.push(progress);
-            self.1 -= 1;
-            if self.1 == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        }
-    }
     let walls = Walls { restitution: 1.0 };
     let run = Run::to(9.0 * scale());
     for method in methods() {
