@@ -129,7 +129,7 @@ impl Block {
     }
 
     /// `|row| |D_i h|^n / n!`, the share of each mode in the `n`-th Taylor term of `row · e^{D_i h}`.
-    fn derivative_weights(&self, row: &[f64], h: f64, n: usize) -> Vec<f64> {
+    pub(super) fn derivative_weights(&self, row: &[f64], h: f64, n: usize) -> Vec<f64> {
         let mut weights = row.to_vec();
         for order in 1..=n {
             let mut next = vec![0.0; weights.len()];

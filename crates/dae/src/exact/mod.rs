@@ -25,7 +25,10 @@ mod panels;
 mod propagator;
 mod refinement;
 mod schur;
+mod shares;
 mod solution;
+mod tables;
+mod walk;
 
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,7 @@
 //! Outputs as piecewise polynomials, with a bound of the interpolation error that holds everywhere.
 
+use std::ops::Range;
+
 use dashpot_twofold::Accumulator;
 
 use super::{
@@ -7,17 +9,11 @@ use super::{
     block::{Block, exponential_of},
     coordinates::SpanCoordinates,
     modes::Modes,
-    number,
+    tables::{COUNT, DEGREE, Tables, at_most},
+    walk::Walk,
 };
 use crate::chebyshev::Interpolation;
 
-/// Degree of the panels.
-const DEGREE: usize = 16;
-/// Interpolation error of a function that is not resolved, relative to its size (1 + Lebesgue
-/// constant at degree 16 is below 4).
-const UNRESOLVED: f64 = 4.0;
-/// Steps per octave to which panel widths are rounded, so that neighbours can share their table.
-const PER_OCTAVE: f64 = 4.0;
 /// Part of the largest size that counts where the solution itself has decayed.
 const FLOOR: f64 = 1e-2;
 /// Most panels of a signal, so that no input can make it run for ever; the method declines before
@@ -124,10 +120,11 @@ impl ModalRow {
     ///
     /// A panel of width `h` misses the solution by at most `4 (h/4)^n/n! · |g^(n)|`, `n = 17`; the
     /// derivative is bounded mode by mode by `|r_j| |λ_j|^n |c_j|`, and no mode can contribute more
-    /// than its own size. The widest panel is taken for which that is below the rounding errors.
+    /// than its own size. The widest of certain widths is taken for which that is below the rounding
+    /// errors.
     pub(super) fn interpolate(
         &self,
-        modes: &Modes,
+        (modes, tables): (&Modes, &Tables),
         span: &SpanCoordinates,
         (start, length): (f64, f64),
         scale: f64,
@@ -136,33 +133,26 @@ impl ModalRow {
     ) {
         let inherited = self.error(modes, span);
         let mut worst = 0.0_f64;
-        let mut table = Table::default();
-        let (mut at, mut width) = (0.0, length);
+        let mut walk = Walk::new(self, (modes, tables), &span.start, length);
         loop {
-            let coordinates = coordinates_at(modes, &span.start, at);
-            let sizes = sizes_of(&coordinates);
-            let local = self.size_at(&sizes);
+            let local = self.size_at(walk.sizes());
             quality.size = quality.size.max(local);
             let tolerance = 2.0 * f64::EPSILON * (local + FLOOR * scale);
-            let remaining = length - at;
-            let exhausted = pieces.len() >= MOST;
-            let least = if exhausted {
-                remaining
+            let at = walk.at();
+            let most = if pieces.len() >= MOST {
+                length - at
             } else {
                 (NARROWEST * length).max(4.0 * f64::EPSILON * at)
             };
-            width = (4.0 * width).min(remaining).max(least);
-            let missed = self.narrow(modes, &sizes, tolerance, least, &mut width);
-            let shifted = TIMING * (start + at + width) * self.rate_at(&sizes);
-            let missed = missed + shifted;
+            let width = walk.widen(tolerance, most);
+            let shifted = TIMING * (start + at + width) * self.rate_at(walk.sizes());
+            let missed = walk.missed() + shifted;
             worst = if missed.is_finite() { worst.max(missed) } else { f64::INFINITY };
-            let end = if width >= remaining { length } else { at + width };
-            table.prepare(modes, end - at);
-            let mut coefficients = self.fit(modes, &coordinates, &table);
+            let mut coefficients = walk.fit();
             trim(&mut coefficients, 0.1 * tolerance);
-            pieces.push(Piece { start: start + at, end: start + end, coefficients });
-            at = end;
-            if at >= length {
+            walk.go_on();
+            pieces.push(Piece { start: start + at, end: start + walk.at(), coefficients });
+            if walk.at() >= length {
                 break;
             }
         }
@@ -175,71 +165,82 @@ impl ModalRow {
         quality.error = if error.is_finite() { quality.error.max(error) } else { f64::INFINITY };
     }
 
-    /// Narrows a panel until it is good to `tolerance`, and returns by how much it may miss.
-    fn narrow(
-        &self,
-        modes: &Modes,
-        sizes: &[f64],
-        tolerance: f64,
-        least: f64,
-        width: &mut f64,
-    ) -> f64 {
-        loop {
-            let missed = self.missed(modes, sizes, *width);
-            if missed <= tolerance || *width <= least {
-                return missed;
-            }
-            let factor = (tolerance / missed).powf(1.0 / number(DEGREE + 1));
-            let next = (*width * factor.clamp(0.1, 0.97)).max(least);
-            // Rounded down to a step of the scale, so that neighbours have the same width.
-            *width = ((next.log2() * PER_OCTAVE).floor() / PER_OCTAVE).exp2();
-        }
-    }
-
     /// The bound of the interpolation error of a panel of this width, at whose start the modal
     /// coordinates are of these sizes.
-    fn missed(&self, modes: &Modes, sizes: &[f64], width: f64) -> f64 {
-        let part = |block: &Block| {
-            let range = block.range();
-            let rows = &self.sizes[range.clone()];
-            if rows.iter().all(|&r| r == 0.0) {
-                return 0.0;
-            }
-            let (size, missed) = block.sizes_on_panel(rows, &sizes[range], width, DEGREE + 1);
-            // A product of an overflow and an underflow is not a number: then the size counts.
-            if missed < size { 4.0 * missed } else { UNRESOLVED * size }
-        };
-        modes.blocks.iter().map(part).sum()
+    pub(super) fn missed(&self, modes: &Modes, sizes: &[f64], width: f64) -> f64 {
+        let part = |block: &Block| self.missed_of(block, &sizes[block.range()], width);
+        modes.blocks.iter().filter(|block| self.has_part(block)).map(part).sum()
     }
 
-    /// The interpolating polynomial on the panel for which the table was prepared.
-    fn fit(&self, modes: &Modes, coordinates: &[Complex], table: &Table) -> Vec<f64> {
-        let mut values = vec![0.0; DEGREE + 1];
-        for (block, factors) in modes.blocks.iter().zip(&table.factors) {
-            if block.weight == 0.0 {
-                continue;
-            }
-            if block.len() == 1 {
-                let term = self.row[block.start] * coordinates[block.start];
-                for (value, factor) in values.iter_mut().zip(factors) {
-                    *value += term.re * factor.re - term.im * factor.im;
-                }
-            } else {
-                for (value, &time) in values.iter_mut().zip(&table.times) {
-                    let mut vector = coordinates[block.range()].to_vec();
-                    block.advance(time, &mut vector);
-                    *value += self.row[block.range()]
-                        .iter()
-                        .zip(&vector)
-                        .map(|(r, c)| (r * c).re)
-                        .sum::<f64>();
-                }
-            }
-        }
-        let mut coefficients = vec![0.0; DEGREE + 1];
-        Interpolation::of_degree(DEGREE).coefficients(&values, &mut coefficients);
-        coefficients
+    /// That of a block alone.
+    pub(super) fn missed_of(&self, block: &Block, sizes: &[f64], width: f64) -> f64 {
+        let (size, missed) =
+            block.sizes_on_panel(self.sizes_in(block.range()), sizes, width, COUNT);
+        at_most(missed, size)
     }
+
+    /// The interpolating polynomial on a panel of this width, at whose start the modal coordinates are
+    /// given.
+    pub(super) fn fit(&self, modes: &Modes, coordinates: &[Complex], width: f64) -> Vec<f64> {
+        let mut values = [0.0; COUNT];
+        for block in modes.blocks.iter().filter(|block| self.has_part(block)) {
+            self.add_values(block, &coordinates[block.range()], width, &mut values);
+        }
+        coefficients(&values)
+    }
+
+    /// That of a block alone.
+    pub(super) fn fit_block(&self, block: &Block, coordinates: &[Complex], width: f64) -> Vec<f64> {
+        let mut values = [0.0; COUNT];
+        self.add_values(block, coordinates, width, &mut values);
+        coefficients(&values)
+    }
+
+    /// Adds a block's part at the nodes of a panel.
+    fn add_values(
+        &self,
+        block: &Block,
+        coordinates: &[Complex],
+        width: f64,
+        values: &mut [f64; COUNT],
+    ) {
+        let nodes = Interpolation::of_degree(DEGREE);
+        let factors = self.factors_in(block.range());
+        let times = nodes.nodes().iter().map(|x| 0.5 * width * (1.0 + x));
+        if let ([factor], [coordinate]) = (factors, coordinates) {
+            let (high, low, term) = (block.matrix[(0, 0)], block.low[(0, 0)], factor * coordinate);
+            for (value, time) in values.iter_mut().zip(times) {
+                *value += (term * exponential_of(high, low, time)).re;
+            }
+            return;
+        }
+        for (value, time) in values.iter_mut().zip(times) {
+            let mut vector = coordinates.to_vec();
+            block.advance(time, &mut vector);
+            *value += factors.iter().zip(&vector).map(|(r, c)| (r * c).re).sum::<f64>();
+        }
+    }
+
+    /// Whether a block has a part in the output.
+    pub(super) fn has_part(&self, block: &Block) -> bool {
+        block.weight > 0.0 && self.sizes_in(block.range()).iter().any(|&size| size != 0.0)
+    }
+
+    /// The factors of some modes.
+    pub(super) fn factors_in(&self, range: Range<usize>) -> &[Complex] {
+        &self.row[range]
+    }
+
+    /// The magnitudes of the factors of some modes.
+    pub(super) fn sizes_in(&self, range: Range<usize>) -> &[f64] {
+        &self.sizes[range]
+    }
+}
+
+fn coefficients(values: &[f64; COUNT]) -> Vec<f64> {
+    let mut coefficients = vec![0.0; COUNT];
+    Interpolation::of_degree(DEGREE).coefficients(values, &mut coefficients);
+    coefficients
 }
 
 /// `e^{D t} c`.
@@ -254,35 +255,14 @@ pub(super) fn coordinates_at(modes: &Modes, start: &[Complex], t: f64) -> Vec<Co
 }
 
 fn sizes_of(coordinates: &[Complex]) -> Vec<f64> {
-    coordinates.iter().map(|c| c.norm()).collect()
+    coordinates.iter().map(|&c| size_of(c)).collect()
 }
 
-/// `e^{λ t}` of all single modes at the nodes of a panel of one width.
-#[derive(Debug, Default)]
-struct Table {
-    width: f64,
-    times: Vec<f64>,
-    factors: Vec<Vec<Complex>>,
-}
-
-impl Table {
-    #[expect(clippy::float_cmp, reason = "panels of the very same width share the table")]
-    fn prepare(&mut self, modes: &Modes, width: f64) {
-        if self.width == width && !self.factors.is_empty() {
-            return;
-        }
-        self.width = width;
-        let nodes = Interpolation::of_degree(DEGREE);
-        self.times = nodes.nodes().iter().map(|x| 0.5 * width * (1.0 + x)).collect();
-        let factors = |block: &Block| {
-            if block.len() > 1 || block.weight == 0.0 {
-                return Vec::new();
-            }
-            let (high, low) = (block.matrix[(0, 0)], block.low[(0, 0)]);
-            self.times.iter().map(|&t| exponential_of(high, low, t)).collect()
-        };
-        self.factors = modes.blocks.iter().map(factors).collect();
-    }
+/// `|z|`.
+pub(super) fn size_of(z: Complex) -> f64 {
+    let square = z.re * z.re + z.im * z.im;
+    // Beyond this range of squares digits are lost.
+    if square > 1e-280 && square < 1e280 { square.sqrt() } else { z.norm() }
 }
 
 /// Drops the last coefficients as long as their sum stays below `negligible`.

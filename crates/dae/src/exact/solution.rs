@@ -1,6 +1,6 @@
 //! The exact solution as a trajectory.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::{
     Augmented, Complex,
@@ -12,6 +12,7 @@ use super::{
     number,
     panels::{ModalRow, Piece, Quality, coordinates_at},
     propagator::{Grid, advance, march},
+    tables::Tables,
 };
 use crate::{Dense, Panel, Signal, System};
 
@@ -38,19 +39,20 @@ pub(crate) struct Solution {
     /// The end of the run \[s\], which the last panel shall meet exactly.
     t_end: f64,
     time_scale: f64,
-    modal: OnceLock<Modal>,
+    modal: OnceLock<Arc<Modal>>,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 struct Modal {
     modes: Modes,
     spans: Vec<SpanCoordinates>,
+    tables: Tables,
 }
 
 impl Modal {
     fn of(system: &Augmented, modes: Modes) -> Self {
         let spans = follow(system, &modes);
-        Self { modes, spans }
+        Self { modes, spans, tables: Tables::default() }
     }
 
     /// The largest error bound of any state relative to the largest state at any breakpoint, in the
@@ -108,10 +110,10 @@ impl Solution {
                     break;
                 }
             }
-            match best {
+            Arc::new(match best {
                 Some((loss, modal)) if loss.is_finite() => modal,
                 _ => Modal::of(&self.system, Modes::undivided(&self.system)),
-            }
+            })
         })
     }
 
@@ -132,7 +134,7 @@ impl Solution {
     /// A mode that decays is forgotten after so many lifetimes, and one that stands still in a span,
     /// as that of a pulse before and after it, passes through none there.
     pub(crate) fn radians(&self, end: f64, lifetimes: f64) -> f64 {
-        let Modal { modes, spans } = self.modal();
+        let Modal { modes, spans, .. } = self.modal();
         let moves = |block: &Block, coordinates: &SpanCoordinates| {
             coordinates.start[block.range()].iter().any(|c| *c != Complex::default())
         };
@@ -153,7 +155,7 @@ impl Solution {
 
     /// All unknowns at `times` from the modal form.
     pub(super) fn by_modes(&self, times: &[f64]) -> Vec<f64> {
-        let Modal { modes, spans } = self.modal();
+        let Modal { modes, spans, .. } = self.modal();
         let rows: Vec<ModalRow> = (0..self.system.states)
             .map(|i| ModalRow::new(modes, &[(i, self.system.units[i])]))
             .collect();
@@ -224,7 +226,7 @@ impl Solution {
 impl Dense for Solution {
     fn signal(&self, system: &System, output: usize) -> Signal {
         let output = system.outputs.at(output);
-        let Modal { modes, spans } = self.modal();
+        let Modal { modes, spans, tables } = self.modal();
         let row = ModalRow::new(modes, &self.system.form(output));
         let lengths = || self.system.spans.iter().zip(spans);
         let scale = lengths()
@@ -234,7 +236,7 @@ impl Dense for Solution {
         let (mut quality, mut pieces) = (Quality::default(), Vec::new());
         for (span, coordinates) in lengths() {
             let place = (span.start, span.length());
-            row.interpolate(modes, coordinates, place, scale, &mut quality, &mut pieces);
+            row.interpolate((modes, tables), coordinates, place, scale, &mut quality, &mut pieces);
         }
         let unit = output.scale;
         let noise = NOISE * f64::EPSILON * quality.size * unit.abs();

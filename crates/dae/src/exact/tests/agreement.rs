@@ -9,6 +9,7 @@ use crate::{
         modes::Modes,
         panels::{ModalRow, Quality},
         propagator::Grid,
+        tables::Tables,
     },
 };
 
@@ -101,7 +102,14 @@ fn without_eigenvalues_the_values_are_still_right() {
     let spans = follow(&augmented, &modes);
     let row = ModalRow::new(&modes, &augmented.form(system.outputs.at(0)));
     let (mut quality, mut pieces) = (Quality::default(), Vec::new());
-    row.interpolate(&modes, &spans[0], (0.0, 8.0), 0.2, &mut quality, &mut pieces);
+    row.interpolate(
+        (&modes, &Tables::default()),
+        &spans[0],
+        (0.0, 8.0),
+        0.2,
+        &mut quality,
+        &mut pieces,
+    );
     let w = 24.9375_f64.sqrt();
     for piece in &pieces {
         for x in [-1.0, -0.3, 0.4, 1.0] {
