@@ -285,7 +285,7 @@ impl Balance {
 /// `∫ |F| dt · e(v) + ∫ |v| dt · e(F)` and the product of the errors.
 pub(crate) fn work_error(force: &Signal, velocity: &Signal, window: (f64, f64)) -> Option<f64> {
     let (of_force, of_velocity) = force.error.zip(velocity.error)?;
-    let area = |signal: &Signal| signal.absolute_integral(window);
+    let area = |signal: &Signal| signal.area_bound(window);
     let both = (window.1 - window.0) * of_force * of_velocity;
     Some(area(force) * of_velocity + area(velocity) * of_force + both)
 }

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeSet, time::Duration};
 
-use dashpot_dae::{Method, Observer, Run, SolveError, Trajectory, switching};
+use dashpot_dae::{Method, Observer, Progress, Run, SolveError, Trajectory, switching};
 use dashpot_network::Assembly;
 
 use crate::{
@@ -15,7 +15,7 @@ use crate::{
     magnitude::largest,
     open_end::OpenEnd,
     selection::Selected,
-    solution::doubt_at,
+    solution::{Known, doubt_at},
 };
 
 /// Part of the energy turned over beyond which a balance that does not close fails the run.
@@ -49,6 +49,8 @@ pub(crate) struct Solved {
     pub(crate) trajectory: Trajectory,
     pub(crate) readings: Vec<Reading>,
     pub(crate) energy: Ledger,
+    /// What the measures have found, where there are no further solutions: signals take much memory.
+    pub(crate) known: Option<Known>,
 }
 
 impl Solved {
@@ -93,11 +95,12 @@ impl Task<'_> {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Outcome, SolveError> {
-        if self.method.is_exact() || !self.settings.estimate {
-            self.once(run, observer)
-        } else {
-            self.refined(run, observer)
-        }
+        if self.is_single() { self.once(run, observer) } else { self.refined(run, observer) }
+    }
+
+    /// Whether there is one solution only.
+    fn is_single(&self) -> bool {
+        self.method.is_exact() || !self.settings.estimate
     }
 
     /// Whether the solution is as accurate as is wanted, as far as is known.
@@ -138,15 +141,31 @@ impl Task<'_> {
         };
         let doubt = doubt_at((!self.method.is_exact()).then_some(run.rtol));
         let solution = Solution::new(self.assembly, &trajectory).doubting(doubt);
-        let readings = self.read(&solution);
+        let readings = self.read_under(&solution, observer)?;
         let pulls = if doubt > 0.0 { solution.first_pulls() } else { Vec::new() };
         let tension = if doubt > 0.0 { solution.tension() } else { None };
         let tension = tension.map_or(0.0, |own| own.part);
         let energy = ledger(&solution, solution.end());
         let missing = solution.missing();
-        drop(solution);
+        let known = Some(solution.known()).filter(|_| self.is_single());
         let rtol = run.rtol;
-        Ok((Solved { rtol, doubt, tension, pulls, trajectory, readings, energy }, missing))
+        Ok((Solved { rtol, doubt, tension, pulls, trajectory, readings, energy, known }, missing))
+    }
+
+    /// The measures of a solution, whose signals may not be made before. The observer is told of each.
+    fn read_under(
+        &self,
+        solution: &Solution<'_>,
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<Reading>, SolveError> {
+        let trajectory = solution.trajectory();
+        let (time, steps) = (trajectory.t_end, trajectory.statistics.accepted);
+        let read = |entry: &Selected| {
+            let reading = entry.measure.read(solution, entry.target);
+            let is_over = observer.progress(Progress { time, steps }).is_break();
+            if is_over { Err(SolveError::Cancelled { time }) } else { Ok(reading) }
+        };
+        self.selected.iter().map(read).collect()
     }
 
     pub(crate) fn read(&self, solution: &Solution<'_>) -> Vec<Reading> {
@@ -286,7 +305,10 @@ impl Task<'_> {
     /// largest signal of their unit, to which their errors are nothing.
     fn settle_zeros(&self, solved: &mut Solved, errors: &[Option<f64>]) {
         let accuracy = &self.settings.accuracy;
-        let solution = Solution::new(self.assembly, &solved.trajectory);
+        let mut solution = Solution::new(self.assembly, &solved.trajectory);
+        if let Some(known) = solved.known.take() {
+            solution = solution.knowing(known);
+        }
         for ((entry, reading), &error) in self.selected.iter().zip(&mut solved.readings).zip(errors)
         {
             let wish = accuracy.of(&entry.key);
@@ -304,6 +326,7 @@ impl Task<'_> {
                 reading.noise = reading.noise.max(error.unwrap_or(0.0));
             }
         }
+        solved.known = Some(solution.known()).filter(|_| self.is_single());
     }
 
     fn is_good_enough(&self, solved: &Solved, errors: &[Option<f64>]) -> bool {

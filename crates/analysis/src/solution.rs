@@ -42,35 +42,60 @@ pub fn doubt_at(rtol: Option<f64>) -> f64 {
 pub struct Solution<'a> {
     assembly: &'a Assembly,
     trajectory: &'a Trajectory,
-    signals: Vec<OnceCell<Box<Signal>>>,
+    known: Known,
     missing: RefCell<BTreeSet<usize>>,
-    element_impacts: Vec<OnceCell<Box<Impact>>>,
-    body_impacts: Vec<OnceCell<Box<Impact>>>,
-    blows: OnceCell<Vec<Vec<Blow>>>,
     has_impactor: Vec<bool>,
     doubt: f64,
     ends: Grazes,
+}
+
+/// What has been found in a solution so far.
+#[derive(Debug)]
+pub(crate) struct Known {
+    signals: Vec<OnceCell<Box<Signal>>>,
+    element_impacts: Vec<OnceCell<Box<Impact>>>,
+    body_impacts: Vec<OnceCell<Box<Impact>>>,
+    blows: OnceCell<Vec<Vec<Blow>>>,
     scene_impact: OnceCell<Impact>,
+}
+
+impl Known {
+    fn nothing(assembly: &Assembly) -> Self {
+        // In large networks few of them are ever filled.
+        let cells = |count: usize| (0..count).map(|_| OnceCell::new()).collect();
+        Self {
+            signals: (0..assembly.system.outputs.len()).map(|_| OnceCell::new()).collect(),
+            element_impacts: cells(assembly.connections.len()),
+            body_impacts: cells(bodies::count(assembly)),
+            blows: OnceCell::new(),
+            scene_impact: OnceCell::new(),
+        }
+    }
 }
 
 impl<'a> Solution<'a> {
     /// Looks at `trajectory`, which must be one of `assembly`.
     pub fn new(assembly: &'a Assembly, trajectory: &'a Trajectory) -> Self {
-        // In large networks few of them are ever filled.
-        let cells = |count: usize| (0..count).map(|_| OnceCell::new()).collect();
         Self {
             assembly,
             trajectory,
-            signals: (0..assembly.system.outputs.len()).map(|_| OnceCell::new()).collect(),
+            known: Known::nothing(assembly),
             missing: RefCell::default(),
-            element_impacts: cells(assembly.connections.len()),
-            body_impacts: cells(bodies::count(assembly)),
-            blows: OnceCell::new(),
             has_impactor: bodies::with_impactor(assembly),
             doubt: 0.0,
             ends: Grazes::new(),
-            scene_impact: OnceCell::new(),
         }
+    }
+
+    /// The same solution of which so much is known already, as it was found with the same doubt.
+    #[must_use]
+    pub(crate) fn knowing(self, known: Known) -> Self {
+        Self { known, ..self }
+    }
+
+    /// What has been found in it, to be looked at again.
+    pub(crate) fn known(self) -> Known {
+        self.known
     }
 
     /// The same solution of whose contact forces pulls below the part `doubt` of the largest
@@ -102,7 +127,7 @@ impl<'a> Solution<'a> {
     ///
     /// When the assembly has no such output.
     pub fn signal(&self, output: usize) -> &Signal {
-        self.signals[output].get_or_init(|| {
+        self.known.signals[output].get_or_init(|| {
             if !self.keeps(output) {
                 self.missing.borrow_mut().insert(output);
             }
@@ -201,7 +226,7 @@ impl<'a> Solution<'a> {
     /// impactor, that of its face and its force if one strikes it there, that of the body if it is a
     /// rigid link within one, else that of the scene.
     pub fn element_impact(&self, element: usize) -> Impact {
-        **self.element_impacts[element].get_or_init(|| {
+        **self.known.element_impacts[element].get_or_init(|| {
             let connection = &self.assembly.connections[element];
             let through = self.struck_face(element);
             if let Some(through) = through.and_then(|face| self.impact_through(element, face)) {
@@ -233,7 +258,7 @@ impl<'a> Solution<'a> {
 
     /// The impact as the body number `body` feels it, to which an impactor belongs.
     fn body_impact(&self, body: usize) -> Impact {
-        **self.body_impacts[body].get_or_init(|| {
+        **self.known.body_impacts[body].get_or_init(|| {
             let own = match self.push_on(body) {
                 Some(force) => {
                     let doubt = self.doubt_of_body(body);
@@ -268,7 +293,7 @@ impl<'a> Solution<'a> {
     }
 
     fn all_blows(&self) -> &[Vec<Blow>] {
-        self.blows.get_or_init(|| blows::by_connection(self.assembly, self.trajectory))
+        self.known.blows.get_or_init(|| blows::by_connection(self.assembly, self.trajectory))
     }
 
     /// How the element number `element` is struck through its face, where an impactor does so.
@@ -372,7 +397,7 @@ impl<'a> Solution<'a> {
     /// The impact of the scene: from the first contact of any impactor until the last one is let
     /// go, and what they have struck through a face is unloaded. Without an impactor it is the whole run.
     pub fn scene_impact(&self) -> Impact {
-        *self.scene_impact.get_or_init(|| {
+        *self.known.scene_impact.get_or_init(|| {
             let impactors = self.assembly.nodes.iter().enumerate();
             let of_impactors = impactors
                 .filter(|(_, node)| is_impactor(node))

@@ -251,8 +251,11 @@ fn report(
     if let Some(error) = lost(assembly, &solved) {
         return Err(error);
     }
-    let Solved { rtol, doubt, trajectory, readings, energy, .. } = solved;
-    let solution = Solution::new(assembly, &trajectory).doubting(doubt);
+    let Solved { rtol, doubt, trajectory, readings, energy, known, .. } = solved;
+    let mut solution = Solution::new(assembly, &trajectory).doubting(doubt);
+    if let Some(known) = known {
+        solution = solution.knowing(known);
+    }
     let measures: Vec<MeasureReport> = task
         .selected
         .iter()

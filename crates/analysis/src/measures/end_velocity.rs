@@ -53,7 +53,7 @@ impl MeasureKind for EndVelocity {
         // The velocity is what the acceleration has added up to, though it may have cancelled.
         let summed = solution.assembly().nodes[target].acceleration.map_or(0.0, |acceleration| {
             let window = (0.0, span.to);
-            solution.signal(acceleration).absolute_integral(window)
+            solution.signal(acceleration).area_bound(window)
         });
         let noise = reading.noise.max(4.0 * f64::EPSILON * summed);
         reading.above(noise)

@@ -186,7 +186,10 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     let last = (force.left_value(span.to) * rate.left_value(span.to)).abs();
     let (value, error) = if span.length() <= 0.0 {
         (0.0, Some(0.0))
-    } else if connection.has_layers || rate.error.is_none() || stores_all(solution, connection) {
+    } else if connection.has_layers
+        || rate.error.is_none()
+        || has_only_springs(solution, connection)
+    {
         work_of_parts(solution, connection, window)
     } else {
         let steps = ledger::steps(solution, connection.primitives.clone(), window);
@@ -203,7 +206,7 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     } else {
         magnitude(deformation)
     };
-    let area = |signal: &Signal| signal.absolute_integral(window);
+    let area = |signal: &Signal| signal.area_bound(window);
     let noise = force.noise * area(&rate) + rate.noise * area(force);
     let blows = blows::within(solution.element_blows(target), window);
     let lost: f64 = blows.iter().map(|own| own.lost).sum();
@@ -217,12 +220,15 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     with_blows(reading, lost, lost.abs(), error_of_lost)
 }
 
-/// Whether an element is made of springs alone: then its work is a matter of both ends of the window,
-/// and errors on the way do not add up.
-fn stores_all(solution: &Solution<'_>, connection: &ConnectionOutputs) -> bool {
+/// Whether an element is made of springs alone, and contacts that do no work: then its work is a matter of
+/// both ends of the window, and errors on the way do not add up.
+fn has_only_springs(solution: &Solution<'_>, connection: &ConnectionOutputs) -> bool {
     let parts = solution.assembly().primitives.get(connection.primitives.clone());
-    let own = |part: &PrimitiveOutputs| Accounts::of(part.element.as_ref());
-    parts.is_some_and(|parts| parts.iter().all(|part| own(part).stores && !own(part).dissipates))
+    let is_spring = |part: &PrimitiveOutputs| {
+        let own = Accounts::of(part.element.as_ref());
+        own.stores && !own.dissipates
+    };
+    parts.is_some_and(|parts| parts.iter().all(|part| is_spring(part) || !ledger::does_work(part)))
 }
 
 /// The work \[J\] that an element takes up as the sum over its parts, and a bound of its error: in

@@ -296,6 +296,7 @@ fn powers_are_integrated_through_their_zeros() {
     assert!((over - 0.125).abs() < 1e-15);
     let sine = signal(&uneven(9.5 * PI, 2.0), 16, f64::sin);
     assert!((sine.absolute_integral(EVERYWHERE) - 19.0).abs() < 1e-13);
+    assert!((19.0..1.4 * 19.0).contains(&sine.area_bound(EVERYWHERE)));
     let cubed = ramp.integral_of((0.0, 1.5), &[], |s| s * s * s);
     assert!((cubed - (0.0625 - 1.0) / 4.0).abs() < 1e-15);
 }
@@ -306,6 +307,7 @@ fn zero_length_and_outside_windows_are_empty() {
     for window in [(2.0, 2.0), (6.0, 7.0), (3.0, 2.0), (-2.0, -1.0)] {
         assert_eq!(sine.integral(window), 0.0);
         assert_eq!(sine.absolute_integral(window), 0.0);
+        assert_eq!(sine.area_bound(window), 0.0);
         assert_eq!(sine.integral_of_product(&sine, window), 0.0);
         assert!(sine.crossings(0.0, window).is_empty());
         assert!(sine.maximum(window).value.is_finite());
@@ -383,6 +385,7 @@ fn random_signals_keep_their_promises() {
         assert!((area - by_rule).abs() < 1e-12 * span);
         let both_sides = signal.integral_of((from, to), &[0.0], f64::abs);
         assert!((signal.absolute_integral((from, to)) - both_sides).abs() < 1e-12 * span);
+        assert!(signal.area_bound((from, to)) >= both_sides - 1e-12 * span);
         let square = signal.integral_of((from, to), &[0.0], |s| s * s);
         let product = signal.integral_of_product(&signal, (from, to));
         assert!((square - product).abs() < 1e-12 * product, "{square} {product}");

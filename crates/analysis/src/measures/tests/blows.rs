@@ -63,6 +63,18 @@ fn ball(restitution: f64) -> Network {
 }
 
 #[test]
+fn energy_lost_on_rigid_ground_is_known_to_what_its_impacts_are() {
+    // All impulses of a fall with 2√5 m/s that ends in rest; the weight is carried for far longer.
+    let (e, speed) = (0.5, 20.0_f64.sqrt());
+    let impulses = 2.0 * speed * (1.0 + e) / (1.0 - e);
+    let report = solved(&ball(e), 200.0, &["floor"], &["ball"]);
+    let of_velocity = report.solution().velocity_error(1).unwrap();
+    let found = measure(&report, "floor.energy-at-end");
+    let (off, error) = ((found.value.unwrap() - 20.0).abs(), found.error.unwrap());
+    assert!(off <= error && error <= 2.0 * impulses * of_velocity, "{off:e}, {error:e}");
+}
+
+#[test]
 fn bounce_on_rigid_ground_has_finite_and_infinite_measures() {
     let (e, speed) = (0.5, 20.0_f64.sqrt());
     let report = solved(&ball(e), 0.8, &["floor"], &["ball"]);
