@@ -28,6 +28,7 @@ mod layers;
 mod order;
 mod pads;
 mod partial;
+mod power_laws;
 mod random_networks;
 mod signs;
 mod similarity;

@@ -73,7 +73,22 @@ fn one_in_ten_thousand_is_kept() {
 
 #[test]
 fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
-    let text = include_str!("../../../scenes/hip-protector.toml");
+    // The force comes within the error of `bdf` of zero before the impact ends.
+    let text = "[nodes]\n\
+        head = { mass = \"0.9273 kg\", velocity = \"0.5356 m/s\" }\n\
+        [elements.pad]\n\
+        between = [\"head\", \"ground\"]\n\
+        series = [{ cubic-spring = { stiffness = \"102.9 N/m\", cubic = 1.712e11 } }, \
+        { parallel = [{ rate-spring = { force = \"7316 N\", at = \"1.381 mm\", gain = 1.62, \
+        reference-rate = \"0.4311 m/s\", exponent = 1 } }, { hunt-crossley = { \
+        force = \"37.11 kN\", at = \"1.381 mm\", exponent = 1, dissipation = \"0.003043 m^-1 s\" } }] }]\n\
+        [effects]\n\
+        gravity = { start = \"unloaded\" }\n\
+        [measures]\n\
+        head = [{ kind = \"end-velocity\", window = \"run\" }, { kind = \"end-position\", window = \"run\" }]\n\
+        pad = [{ kind = \"peak-force\", window = \"run\" }]\n\
+        [run]\n\
+        duration = \"8.103 ms\"\n";
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let mut settings = scene.settings("auto");
     settings.accuracy.default = 1e-5;

@@ -65,6 +65,11 @@ impl Primitive {
         }
     }
 
+    /// Whether its law is solved as that of [`Element::reflected`].
+    pub(crate) fn is_reflected(&self) -> bool {
+        self.is_nonlinear() && self.element.reflected(0.0).is_some()
+    }
+
     /// Whether the law is not linear.
     pub(crate) fn is_nonlinear(&self) -> bool {
         matches!(self.law, Law::Nonlinear { .. })

@@ -5,6 +5,9 @@
 //! `0 = f(y, ẏ) − k y − c ẏ − φ`. So the structure of a network is found as if it were linear, and
 //! the block of the algebraic unknowns is regular wherever the slopes of the laws themselves
 //! determine the network.
+//!
+//! A law of the rate that is flat or steep at rest ([`Element::reflected`](crate::Element::reflected)) has
+//! the balance `0 = r(F + c ẏ) − φ` instead, which says the same: `φ` is `F − c ẏ`.
 
 use dashpot_dae::UnknownKind;
 
@@ -72,6 +75,10 @@ pub(super) fn complete(expansion: &Expansion, motion: &Motion, places: &mut Plac
         let Some(at) = draft.term else { continue };
         let [stiffness, damping] = expansion.primitives[at].slopes();
         let mut row = Row::unknown(unknown).times(-1.0);
+        if expansion.primitives[at].is_reflected() {
+            places.rows.set(unknown, &row);
+            continue;
+        }
         if let Some(deformation) = motion.deformation.get(at) {
             row = row.plus(-stiffness, &deformation);
         }

@@ -10,7 +10,7 @@ use nalgebra_sparse::{CooMatrix, CsrMatrix};
 use super::{
     expand::Expansion,
     motion::Motion,
-    row::Row,
+    row::{Combination, Row},
     scales::{Scales, power_of_two},
     unknowns::{Inputs, Places},
 };
@@ -31,6 +31,27 @@ impl Characteristic for OfElement {
     fn slopes(&self, [deformation, rate]: [f64; 2]) -> [f64; 2] {
         let Tangent { stiffness, damping } = self.0.tangent(deformation, rate);
         [stiffness, damping]
+    }
+}
+
+/// What is left of the force of an element, over the sum of the force and that of the dashpot that
+/// stands for it.
+#[derive(Debug)]
+struct Reflected(Arc<dyn Element>);
+
+impl Reflected {
+    fn at(&self, sum: f64) -> [f64; 2] {
+        self.0.reflected(sum).unwrap_or_default()
+    }
+}
+
+impl Characteristic for Reflected {
+    fn value(&self, [sum, _]: [f64; 2]) -> f64 {
+        self.at(sum)[0]
+    }
+
+    fn slopes(&self, [sum, _]: [f64; 2]) -> [f64; 2] {
+        [self.at(sum)[1], 0.0]
     }
 }
 
@@ -98,15 +119,19 @@ pub(super) fn dimensionless(
                 let (unknowns, inputs) = scaled(&row, columns, input_columns);
                 Argument { scale: lift.recip(), unknowns, inputs }
             };
-            let element = &expansion.primitives[primitive];
-            let [_, damping] = element.slopes();
-            let rate = if damping > 0.0 { motion.rate.row(primitive) } else { Row::default() };
-            terms.push(Term {
-                row: at,
-                factor: finite(factor * lift)?,
-                law: Arc::new(OfElement(Arc::clone(&element.element))),
-                arguments: [argument(motion.deformation.row(primitive)), argument(rate)],
-            });
+            let own = &expansion.primitives[primitive];
+            let [_, damping] = own.slopes();
+            let rate = motion.rate.get(primitive).filter(|_| damping > 0.0);
+            let element = Arc::clone(&own.element);
+            let (law, arguments): (Arc<dyn Characteristic>, _) = if own.is_reflected() {
+                let sum = rate.map(|rate| motion.force.row(primitive).plus(damping, &rate));
+                (Arc::new(Reflected(element)), [sum.unwrap_or_default(), Row::default()])
+            } else {
+                let deformation = motion.deformation.row(primitive);
+                (Arc::new(OfElement(element)), [deformation, rate.unwrap_or_default()])
+            };
+            let arguments = arguments.map(argument);
+            terms.push(Term { row: at, factor: finite(factor * lift)?, law, arguments });
         }
         for &(column, value) in own.terms() {
             jacobian.push(at, column, finite(factor * value)?);

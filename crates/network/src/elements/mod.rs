@@ -71,6 +71,16 @@ pub trait Element: Debug + Send + Sync {
     /// The law as the compiler of networks sees it.
     fn law(&self) -> Law;
 
+    /// What is left of the force without a dashpot of the damping `c` of its [`Law::Nonlinear`],
+    /// `F − c ẏ` \[N\], where the force with it, `F + c ẏ` \[N\], is `sum`; and its slope over `sum`.
+    ///
+    /// For a law of the rate alone whose slope is zero or infinite at rest. Between the two there is a
+    /// law whose slope lies from −1 to 1 whatever that of the force, so that the equations are solved
+    /// for it. `None` for all other laws.
+    fn reflected(&self, _sum: f64) -> Option<[f64; 2]> {
+        None
+    }
+
     /// The phases of an element whose law changes at switchings, that is of [`Law::Phased`]; its
     /// [`force`](Self::force), [`tangent`](Self::tangent) and [`stored`](Self::stored) are then
     /// those of its first phase.

@@ -50,6 +50,8 @@ pub struct PowerDashpot {
 /// The part of the reference rate below which a law of `p < 1` is linear, and the part of the
 /// reference slope that a law of `p > 1` has at rest.
 const SMALL: f64 = 1e-9;
+/// Newton steps; five are the usual number.
+const MOST_STEPS: usize = 100;
 
 impl PowerDashpot {
     /// Force and slope over the rate, both in units of the reference, at the part `rate ≥ 0` of it.
@@ -64,6 +66,34 @@ impl PowerDashpot {
             (rate.powf(p), p * rate.powf(p - 1.0))
         }
     }
+
+    /// The rate, in units of the reference, at which it and the force together are `sum ≥ 0` of their
+    /// references.
+    fn rate_of(&self, sum: f64) -> f64 {
+        let p = self.exponent;
+        if p > 1.0 {
+            root(p, 1.0 + SMALL, sum)
+        } else if sum < SMALL + SMALL.powf(p) {
+            sum / (1.0 + SMALL.powf(p - 1.0))
+        } else {
+            root(p.recip(), 1.0, sum).powf(p.recip())
+        }
+    }
+}
+
+/// The `z ≥ 0` at which `slope · z + z^power` is `sum ≥ 0`, for `power ≥ 1` and `slope ≥ 1`.
+fn root(power: f64, slope: f64, sum: f64) -> f64 {
+    // A convex function from above: each of Newton's steps goes down to the root and not beyond.
+    let mut z = (sum / slope).min(sum.powf(power.recip()));
+    for _ in 0..MOST_STEPS {
+        let high = z.powf(power - 1.0);
+        let next = z - (slope * z + high * z - sum) / (slope + power * high);
+        if next >= z || next <= 0.0 {
+            break;
+        }
+        z = next;
+    }
+    z
 }
 
 impl Element for PowerDashpot {
@@ -91,6 +121,14 @@ impl Element for PowerDashpot {
         } else {
             Law::Dashpot(damping)
         }
+    }
+
+    fn reflected(&self, sum: f64) -> Option<[f64; 2]> {
+        let whole = sum.abs() / self.force;
+        let rate = self.rate_of(whole);
+        let (_, slope) = self.parts(rate);
+        let left = self.force * (whole - 2.0 * rate);
+        Some([left * sum.signum(), (slope - 1.0) / (slope + 1.0)])
     }
 
     fn validate(&self) -> Result<(), InvalidParameter> {
@@ -162,5 +200,29 @@ mod tests {
         let linear = PowerDashpot { force: 200.0, at: 2.0, exponent: 1.0 };
         assert_eq!(linear.law(), Law::Dashpot(100.0));
         assert!((linear.force(0.0, 1e-12) / 1e-10 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn its_reflected_law_says_the_same_and_is_nowhere_steep() {
+        for exponent in [0.2, 0.5, 0.8, 1.5, 2.0, 3.0] {
+            let law = PowerDashpot { force: 200.0, at: 2.0, exponent };
+            for part in [0.0, 1e-12, 1e-9, 1e-6, 1e-3, 0.3, 1.0, 7.0, 1e3] {
+                for rate in [2.0 * part, -2.0 * part] {
+                    let (force, damped) = (law.force(0.0, rate), 100.0 * rate);
+                    let [left, slope] = law.reflected(force + damped).unwrap();
+                    let size = force.abs() + damped.abs();
+                    let what = format!("{exponent} {rate}: {left}");
+                    assert!((left - (force - damped)).abs() <= 1e-13 * size, "{what}");
+                    assert!(slope.abs() <= 1.0, "{what} {slope}");
+                    let own = law.tangent(0.0, rate).damping / 100.0;
+                    let border = (part / SMALL - 1.0).abs() < 1e-6;
+                    let expected = (own - 1.0) / (own + 1.0);
+                    assert!(
+                        border || (slope - expected).abs() <= 1e-9,
+                        "{what} {slope} {expected}"
+                    );
+                }
+            }
+        }
     }
 }

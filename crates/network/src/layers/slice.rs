@@ -68,6 +68,11 @@ impl Element for Slice {
         }
     }
 
+    fn reflected(&self, sum: f64) -> Option<[f64; 2]> {
+        // The damping is multiplied by what the rate is divided by.
+        self.of.reflected(sum)
+    }
+
     fn phases(&self) -> Option<&dyn Phases> {
         self.of.phases().map(|_| self as &dyn Phases)
     }

@@ -118,6 +118,14 @@ pub(super) enum Stop {
     Guard,
     /// The integrator failed, before it could be asked where.
     Integrator(DiffsolError),
+    /// The integrator takes no further step from this time in the span, where the unknowns are the
+    /// walk's.
+    Stuck {
+        /// The time, dimensionless and from the start of the span.
+        at: f64,
+        /// What it says.
+        error: SolveError,
+    },
     /// The run failed.
     Failed(SolveError),
 }

@@ -14,6 +14,8 @@ use crate::{
 
 /// Most spans that a driving function's own time makes of a run.
 const MOST_SPANS: f64 = 2e5;
+/// Times in a run that an integrator which is stuck is started anew.
+const MOST_RESTARTS: usize = 100;
 /// Steps for which room is set aside; more are no harm.
 const USUAL_STEPS: usize = 160;
 
@@ -83,7 +85,7 @@ fn integrate_in<S: Scheme>(
             let slopes = vec![0.0; system.len()];
             return Err(Site { time, ..site }.integrator(&error, &walk.state, &slopes));
         }
-        Err(Stop::Failed(error)) => return Err(error),
+        Err(Stop::Failed(error) | Stop::Stuck { error, .. }) => return Err(error),
     };
     walk.pieces.finish(system, t_end);
     walk.statistics.wall = begin.elapsed();
@@ -161,7 +163,37 @@ impl Walk<'_> {
         Ok(())
     }
 
+    /// Integrates the current span.
+    fn span<S, M>(
+        &mut self,
+        problem: &mut start::Problem<'_, M>,
+        balance: &mut Option<Balance<M>>,
+    ) -> Result<(), Stop>
+    where
+        S: Scheme,
+        M: Algebra,
+        M::V: DefaultDenseMatrix<T = f64, C = M::C>,
+        for<'v> &'v M::V: VectorRef<M::V>,
+        for<'m> &'m M: MatrixRef<M>,
+    {
+        let (start, length) = (self.span.0, self.span.1 - self.span.0);
+        let time = start * self.system.time_scale;
+        let site = Site { method: S::KIND, time, system: self.system };
+        let entered =
+            start::enter(problem, balance.as_mut(), (start, length), S::ORDER, &mut self.state);
+        let state = entered.map_err(|failure| site.imbalance(failure, &self.state))?;
+        if balance.is_some() && self.state.iter().any(|value| !value.is_finite()) {
+            return Err(site.singular(&self.state).into());
+        }
+        self.pieces.begin(self.system, start, &self.state);
+        S::span(problem, state, self)
+    }
+
     /// Integrates all spans in one world of matrices.
+    ///
+    /// At the kink of a law, Newton's iteration may end too early: the algebraic unknowns are then off by
+    /// more than the tolerance, and no step from there, however small, is within it. Where the integrator
+    /// gets stuck in this way after some steps it begins anew, at values that satisfy the balances.
     fn spans<S, M>(&mut self) -> Result<(), Stop>
     where
         S: Scheme,
@@ -173,21 +205,21 @@ impl Walk<'_> {
         let mut problem = start::problem::<M>(self.system, self.run.rtol)?;
         let mut balance = Balance::<M>::new(self.system)?;
         let mut outcome = Ok(());
+        let mut restarts = 0;
         let borders = self.borders(S::ORDER);
         for span in borders.windows(2) {
             self.span = (span[0], span[1]);
-            let length = span[1] - span[0];
-            let time = span[0] * self.system.time_scale;
-            let site = Site { method: S::KIND, time, system: self.system };
-            let within = (span[0], length);
-            let entered =
-                start::enter(&mut problem, balance.as_mut(), within, S::ORDER, &mut self.state);
-            let state = entered.map_err(|failure| site.imbalance(failure, &self.state))?;
-            if balance.is_some() && self.state.iter().any(|value| !value.is_finite()) {
-                return Err(site.singular(&self.state).into());
+            outcome = self.span::<S, M>(&mut problem, &mut balance);
+            while let Err(Stop::Stuck { at, .. }) = outcome
+                && balance.is_some()
+                && at > 0.0
+                && self.span.0 + at < self.span.1
+                && restarts < MOST_RESTARTS
+            {
+                restarts += 1;
+                self.span.0 += at;
+                outcome = self.span::<S, M>(&mut problem, &mut balance);
             }
-            self.pieces.begin(self.system, span[0], &self.state);
-            outcome = S::span(&problem, state, self);
             if outcome.is_err() {
                 break;
             }

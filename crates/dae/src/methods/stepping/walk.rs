@@ -13,6 +13,9 @@ use crate::{
 /// Steps after which a run is given up.
 const MOST_STEPS: usize = 2_000_000;
 
+/// A step of no more than so many roundings of the time has no points of time inside.
+const ROUNDINGS: f64 = 64.0;
+
 /// What a run has collected so far.
 pub(in crate::methods) struct Walk<'r> {
     pub(super) method: &'static str,
@@ -26,7 +29,7 @@ pub(in crate::methods) struct Walk<'r> {
     pub(super) statistics: Statistics,
     /// Start and end of the current span, dimensionless.
     pub(super) span: (f64, f64),
-    /// The unknowns at the end of the last span.
+    /// The unknowns at the end of the last span, or where the integrator got stuck in it.
     pub(super) state: Vec<f64>,
 }
 
@@ -89,15 +92,19 @@ impl Walk<'_> {
                 time: (start + t) * self.system.time_scale,
                 system: self.system,
             };
-            if let Err(error) = reason {
-                return Err(site.integrator(&error, state.y.slice(), state.dy.slice()).into());
-            }
-            site.finite(state.y.slice())?;
-            if t <= before {
-                return Err(site.too_small(state.y.slice(), state.dy.slice()).into());
+            let failed = if let Err(error) = reason {
+                Some(site.integrator(&error, state.y.slice(), state.dy.slice()))
+            } else {
+                site.finite(state.y.slice())?;
+                (t <= before).then(|| site.too_small(state.y.slice(), state.dy.slice()))
+            };
+            if let Some(error) = failed {
+                self.state.copy_from_slice(state.y.slice());
+                return Err(Stop::Stuck { at: before, error });
             }
             let degree = match polynomial {
                 Polynomial::History => solver.order(),
+                Polynomial::Inner(_) if t - before <= ROUNDINGS * f64::EPSILON * t => 1,
                 Polynomial::Inner(degree) => {
                     let nodes = Interpolation::of_degree(degree);
                     for &node in nodes.nodes().get(1..degree).unwrap_or_default() {
