@@ -16,6 +16,14 @@ pub enum RunError {
     /// The method did not deliver a trajectory.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// No method that `auto` turns to gets through.
+    #[error("{error}; {} {}, too", listed(.others), if .others.len() == 1 { "fails" } else { "fail" })]
+    NoneGetsThrough {
+        /// What became of the first one.
+        error: SolveError,
+        /// The others.
+        others: Vec<&'static str>,
+    },
     /// There is no such method.
     #[error("unknown method `{name}`; known methods: {}", .known.join(", "))]
     UnknownMethod {
@@ -92,4 +100,10 @@ pub enum RunError {
         /// When and where, as far as that can be told.
         leak: Option<Leak>,
     },
+}
+
+/// The words in a sentence.
+fn listed(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    quoted.join(" and ")
 }

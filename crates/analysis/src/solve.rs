@@ -74,7 +74,7 @@ pub fn solve_assembly(
     };
     let (mut method, mut why) = choose(&settings.method, assembly, &run)?;
     let mut others = if settings.method == "auto" { others(method.as_ref()) } else { Vec::new() };
-    let mut first = None;
+    let (mut first, mut tried) = (None, Vec::new());
     let outcome = loop {
         let task = Task { assembly, settings, selected: &selected, method: method.as_ref() };
         let error = match task.run(&run, observer) {
@@ -87,7 +87,8 @@ pub fn solve_assembly(
             }
             Err(error) => RunError::Solve(error),
         };
-        let Some(next) = others.pop() else { return Err(first.unwrap_or(error)) };
+        let Some(next) = others.pop() else { return Err(none_gets_through(first, error, tried)) };
+        tried.push(next.name());
         // A phase that is reached later may ask for more than the first one.
         why = match &error {
             RunError::EnergyLost { .. } => error.to_string(),
@@ -193,6 +194,21 @@ fn others(first: &dyn Method) -> Vec<Box<dyn Method>> {
     let all: [Box<dyn Method>; 3] =
         [Box::new(methods::TrBdf2), Box::new(methods::Esdirk34), Box::new(methods::Bdf)];
     all.into_iter().filter(|own| own.name() != first.name()).collect()
+}
+
+/// What is said where the last method that is tried fails: what became of the first.
+fn none_gets_through(
+    first: Option<RunError>,
+    last: RunError,
+    others: Vec<&'static str>,
+) -> RunError {
+    match first {
+        Some(RunError::Solve(
+            error @ (SolveError::StepTooSmall { .. } | SolveError::NewtonFailed { .. }),
+        )) => RunError::NoneGetsThrough { error, others },
+        Some(first) => first,
+        None => last,
+    }
 }
 
 fn check_keys(settings: &SolveSettings, selected: &[Selected]) -> Result<(), RunError> {

@@ -370,6 +370,10 @@ impl CliError {
                  `window = \"run\"`; or leave out of [effects] what switches"
                     .to_owned(),
             ),
+            Self::Run(RunError::NoneGetsThrough { .. }) => Some(
+                "`--accuracy 1%` asks for less; a shorter `duration` gives what comes until then"
+                    .to_owned(),
+            ),
             Self::Run(RunError::Solve(error)) => match error {
                 SolveError::NotApplicable { .. } => {
                     Some("`--method auto` chooses one that can".to_owned())

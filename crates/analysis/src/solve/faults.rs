@@ -128,3 +128,16 @@ fn methods_that_damp_or_excite_are_caught_with_time_and_place() {
         assert!(end - begin < 2.5, "{failure}");
     }
 }
+
+#[test]
+fn where_every_method_gets_stuck_all_are_named() {
+    let stuck = |method| SolveError::StepTooSmall { method, time: 0.5, unknown: "x".to_owned() };
+    let both = [stuck("bdf"), stuck("tr-bdf2")].map(RunError::Solve);
+    let [first, last] = both.clone();
+    let error = none_gets_through(Some(first), last, vec!["esdirk34", "tr-bdf2"]);
+    let told = error.to_string();
+    assert!(told.starts_with("the step of `bdf` became too small at 5.000e-1 s"), "{told}");
+    assert!(told.ends_with("; `esdirk34` and `tr-bdf2` fail, too"), "{told}");
+    let [_, alone] = both;
+    assert_eq!(none_gets_through(None, alone.clone(), Vec::new()), alone);
+}
