@@ -116,3 +116,32 @@ fn steps_that_a_kink_has_stopped_go_on_from_consistent_values() {
         }
     }
 }
+
+/// A padding that loses energy behind a spring whose force hardly depends on its rate when it is let go.
+const LOSSY: &str = "[nodes]\n\
+    head = { mass = \"68.05 kg\", velocity = \"0.2104 m/s\" }\n\
+    [elements.pad]\n\
+    between = [\"head\", \"ground\"]\n\
+    series = [{ rate-spring = { force = \"73.99 kN\", at = \"1.115 mm\", gain = 0.666, \
+    reference-rate = \"43.81 um/s\", exponent = 2 } }, \
+    { hysteretic-table = { loading = [[0, 0], [0.0014807, 261.69], [0.0029398, 552.43]], \
+    unloading = [[6.4555e-05, 0], [0.0029398, 552.43]] } }]\n\
+    [measures]\n\
+    head = [{ kind = \"end-velocity\", window = \"run\" }, { kind = \"end-position\", window = \"run\" }]\n\
+    [run]\n\
+    duration = \"83.25 ms\"\n";
+
+#[test]
+fn a_curve_of_unloading_is_taken_at_all_tolerances_where_balances_barely_tell_the_rate() {
+    let finest = run(LOSSY, "bdf", Some(1e-11));
+    for key in ["head.end-position", "head.end-velocity", "pad.energy-at-end"] {
+        let (truth, doubt) = value(&finest, key);
+        for method in STEPPING {
+            for rtol in [None, Some(1e-5), Some(1e-6), Some(1e-7), Some(1e-8)] {
+                let (found, bar) = value(&run(LOSSY, method, rtol), key);
+                let off = (found - truth).abs();
+                assert!(off <= bar + doubt, "{method} {rtol:?}: {key} {found} ± {bar} for {truth}");
+            }
+        }
+    }
+}

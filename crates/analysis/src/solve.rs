@@ -238,6 +238,7 @@ pub(crate) fn guards(
             direction: stop.direction,
             stops: true,
             begins: None,
+            rate_of: None,
         })
     };
     settings.stops.iter().map(guard).collect()

@@ -46,6 +46,10 @@ pub struct Guard {
     /// the value may be on the level. `None` lets the guard be armed by the way in which its output
     /// leaves the level.
     pub begins: Option<bool>,
+    /// The output that it is the rate of, if it is one. A method with a tolerance knows such an output
+    /// better than the balances tell that it follows from: what it amounts to in a step is a change of the
+    /// other output, which is kept within the tolerance.
+    pub rate_of: Option<usize>,
 }
 
 /// A crossing that was found.

@@ -67,7 +67,8 @@ impl Pieces {
         let (kept, stream) = match &run.keep {
             Keep::Everything => (None, None),
             Keep::Part(part) => {
-                let watched = run.guards.iter().map(|guard| guard.output);
+                let guards = run.guards.iter().flat_map(|own| [Some(own.output), own.rate_of]);
+                let watched = guards.flatten();
                 let outputs = part.outputs.iter().copied().chain(watched);
                 let forms = outputs.filter_map(|at| system.outputs.get(at));
                 let mut kept: Vec<usize> =

@@ -106,6 +106,7 @@ fn ends_and_products_reach_to_a_stop_within_a_step() {
                 direction: Direction::Either,
                 stops: true,
                 begins: None,
+                rate_of: None,
             };
             let part = Part { products: products(&own), ..Part::default() };
             let [all, some] = both(&*method, &own, &part, &[guard]);

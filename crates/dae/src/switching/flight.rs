@@ -234,6 +234,7 @@ mod tests {
             direction: Direction::Falling,
             stops: true,
             begins: Some(true),
+            rate_of: None,
         }
     }
 

@@ -31,6 +31,7 @@ impl Walls {
             direction,
             stops: true,
             begins: Some(wall == 0),
+            rate_of: None,
         };
         let guards = [(0, Direction::Falling), (1, Direction::Rising)].map(guard).to_vec();
         Leg { system: Arc::new(system), phases: vec![(0, 0.0)], guards, switches, flight: None }
@@ -96,7 +97,7 @@ fn hits(restitution: f64) -> impl Iterator<Item = f64> {
 
 fn crossing(output: usize, level: f64, stops: bool) -> Guard {
     let (name, direction) = ("user".to_owned(), Direction::Either);
-    Guard { name, output, level, direction, stops, begins: None }
+    Guard { name, output, level, direction, stops, begins: None, rate_of: None }
 }
 
 #[test]

@@ -2,7 +2,15 @@ use super::*;
 use crate::chebyshev::Interpolation;
 
 fn guard(level: f64, direction: Direction, stops: bool) -> Guard {
-    Guard { name: "a guard".to_owned(), output: 0, level, direction, stops, begins: None }
+    Guard {
+        name: "a guard".to_owned(),
+        output: 0,
+        level,
+        direction,
+        stops,
+        begins: None,
+        rate_of: None,
+    }
 }
 
 /// The polynomial or smooth function on these panels.

@@ -173,6 +173,7 @@ fn a_guard_ends_the_run_at_the_crossing() {
         direction: Direction::Falling,
         stops: true,
         begins: None,
+        rate_of: None,
     };
     let run = Run { guards: vec![guard], ..Run::to(10.0) };
     let trajectory = Exact.integrate(&system, &run, &mut Silent).unwrap();

@@ -4,7 +4,7 @@ use diffsol::{OdeSolverMethod, OdeSolverStopReason, Vector};
 
 use super::{Algebra, Stop, algebra::Slice, equations::Equations, failure::Site};
 use crate::{
-    Observer, Progress, Run, SolveError, Statistics, System, UnknownKind,
+    Observer, Output, Progress, Run, Signal, SolveError, Statistics, System, UnknownKind,
     chebyshev::Interpolation,
     events::Watch,
     pieces::{self, MOST_BYTES, Pieces, between},
@@ -151,11 +151,16 @@ impl Walk<'_> {
             // determine no better than the absolute tolerance.
             let is_algebraic =
                 |unknown: usize| self.system.unknowns[unknown].kind == UnknownKind::Algebraic;
-            let algebraic = output.unknowns.terms().filter(|term| is_algebraic(term.0));
-            let least = output.scale.abs() * algebraic.map(|term| term.1.abs()).sum::<f64>();
-            *largest = largest.max(signal.noise / (pieces::ROUNDING * f64::EPSILON)).max(least);
+            let least = absolute(output, is_algebraic);
+            *largest = largest.max(terms(&signal)).max(least);
+            let mut noise = self.run.rtol * *largest;
+            if let Some(whole) = guard.rate_of.and_then(|own| self.system.outputs.get(own)) {
+                let size = terms(&self.pieces.signal_from(self.system, whole, steps - 1));
+                let length = signal.panels.iter().map(|panel| panel.end - panel.start).sum::<f64>();
+                noise = noise.min(self.run.rtol * (size + absolute(whole, |_| true)) / length);
+            }
             roundings.push(signal.noise);
-            signal.noise = signal.noise.max(self.run.rtol * *largest);
+            signal.noise = signal.noise.max(noise);
             signals.push(signal);
         }
         if self.watch.feed(&self.run.guards, &signals, &roundings).is_some() {
@@ -164,4 +169,15 @@ impl Walk<'_> {
             Ok(())
         }
     }
+}
+
+/// The size of the terms of a signal, from that of their rounding.
+fn terms(signal: &Signal) -> f64 {
+    signal.noise / (pieces::ROUNDING * f64::EPSILON)
+}
+
+/// What an output is where each unknown of a kind that counts is one.
+fn absolute(output: Output<'_>, counts: impl Fn(usize) -> bool) -> f64 {
+    let own = output.unknowns.terms().filter(|term| counts(term.0));
+    output.scale.abs() * own.map(|term| term.1.abs()).sum::<f64>()
 }

@@ -2,7 +2,15 @@ use super::*;
 use crate::{Direction, Guard, Outcome};
 
 fn guard(output: usize, level: f64, direction: Direction, stops: bool) -> Guard {
-    Guard { name: format!("{output} at {level}"), output, level, direction, stops, begins: None }
+    Guard {
+        name: format!("{output} at {level}"),
+        output,
+        level,
+        direction,
+        stops,
+        begins: None,
+        rate_of: None,
+    }
 }
 
 /// All methods but those that only choose.

@@ -200,6 +200,7 @@ impl PhasedNetwork {
                     direction: if exit.rising { Direction::Rising } else { Direction::Falling },
                     stops: true,
                     begins: Some(!exit.rising),
+                    rate_of: (exit.watched == Watched::Rate).then_some(outputs.deformation),
                 });
                 of_guard.push((part, at));
             }
