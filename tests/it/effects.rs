@@ -19,6 +19,7 @@ mod off;
 mod off_counts;
 mod reference;
 mod separation;
+mod short_drops;
 mod stops;
 mod sweeps;
 mod trial;

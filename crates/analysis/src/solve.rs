@@ -69,6 +69,7 @@ pub fn solve_assembly(
     let run = Run {
         t_end: settings.duration,
         rtol: settings.rtol.unwrap_or(SINGLE),
+        nominal: Vec::new(),
         guards: guards(assembly, settings)?,
         keep: keep(assembly, &selected),
     };

@@ -9,9 +9,12 @@ use crate::Guard;
 pub struct Run {
     /// End of the time span \[s\]; it begins at 0. Zero is allowed.
     pub t_end: f64,
-    /// Relative tolerance of the method, which is also the absolute one in units of each unknown's
-    /// scale. `exact` has no use for it. Range 1e-13 … 1e-1.
+    /// Relative tolerance of the method, which is also the absolute one in parts of each unknown's size.
+    /// `exact` has no use for it. Range 1e-13 … 1e-1.
     pub rtol: f64,
+    /// The size of each unknown that the absolute tolerance is a part of, in parts of its scale, positive;
+    /// 1 where there is none. `exact` has no use for it.
+    pub nominal: Vec<f64>,
     /// Conditions to watch.
     pub guards: Vec<Guard>,
     /// What the trajectory is to keep.
@@ -45,7 +48,7 @@ pub struct Part {
 impl Run {
     /// A run to `t_end` \[s\] at the relative tolerance 1e-6 that watches nothing.
     pub fn to(t_end: f64) -> Self {
-        Self { t_end, rtol: 1e-6, guards: Vec::new(), keep: Keep::Everything }
+        Self { t_end, rtol: 1e-6, nominal: Vec::new(), guards: Vec::new(), keep: Keep::Everything }
     }
 
     /// The same run at another tolerance.

@@ -7,6 +7,7 @@
 mod chain;
 mod drive;
 mod flight;
+mod nominal;
 mod shaken;
 
 use std::{fmt::Debug, sync::Arc};

@@ -6,6 +6,7 @@ use super::{
     Leg, LegEnd, Switching,
     chain::{Chain, Solved},
     flight::follow,
+    nominal,
     shaken::{Afterwards, Shaken},
 };
 use crate::{
@@ -190,6 +191,7 @@ impl Drive<'_> {
         let run = Run {
             t_end: self.run.t_end - self.start,
             rtol: self.run.rtol,
+            nominal: Vec::new(),
             guards: leg.guards.iter().chain(&self.run.guards).cloned().collect(),
             keep: Keep::Everything,
         };
@@ -201,7 +203,7 @@ impl Drive<'_> {
         };
         let trajectory = match followed {
             Some(trajectory) => trajectory,
-            None => method.integrate(&leg.system, &run, &mut shifted)?,
+            None => solve_to_size(leg, method, run, &mut shifted)?,
         };
         let finished = trajectory.outcome == Outcome::Finished;
         let t_end = if finished { self.run.t_end } else { self.start + trajectory.t_end };
@@ -215,6 +217,32 @@ impl Drive<'_> {
         found.statistics.add(&trajectory.statistics);
         Ok((trajectory, t_end))
     }
+}
+
+/// Solves a leg as often as it takes for what its guards watch to be followed to its own size. A finer
+/// solution that fails leaves the one before.
+fn solve_to_size(
+    leg: &Leg,
+    method: &dyn Method,
+    mut run: Run,
+    observer: &mut Shifted<'_>,
+) -> Result<Trajectory, SolveError> {
+    let mut found = method.integrate(&leg.system, &run, observer)?;
+    if method.is_exact() {
+        return Ok(found);
+    }
+    while let Some(sizes) = nominal::smaller(leg, &run, &found) {
+        observer.steps += found.statistics.accepted;
+        run.nominal = sizes;
+        let work = found.statistics;
+        match method.integrate(&leg.system, &run, observer) {
+            Ok(finer) => found = finer,
+            Err(error @ SolveError::Cancelled { .. }) => return Err(error),
+            Err(_) => break,
+        }
+        found.statistics.add(&work);
+    }
+    Ok(found)
 }
 
 /// Tells an observer of the whole run.

@@ -7,8 +7,8 @@
 //!
 //! # Error control
 //!
-//! The integrators keep the root mean square of `error / (rtol · |y| + rtol)` over all unknowns
-//! below one. Up to 30 unknowns `rtol` is the run's. Beyond, the mean would dilute what
+//! The integrators keep the root mean square of `error / (rtol · |y| + rtol · n)` over all unknowns
+//! below one, with their [sizes](crate::Run::nominal) n, mostly 1. Up to 30 unknowns `rtol` is the run's. Beyond, the mean would dilute what
 //! happens in a small part of a large system, so that `rtol` shrinks with `√(30/n)`: one unknown
 //! alone then has as much to say as in a system of 30.
 //!

@@ -202,7 +202,7 @@ impl Walk<'_> {
         for<'v> &'v M::V: VectorRef<M::V>,
         for<'m> &'m M: MatrixRef<M>,
     {
-        let mut problem = start::problem::<M>(self.system, self.run.rtol)?;
+        let mut problem = start::problem::<M>(self.system, self.run)?;
         let mut balance = Balance::<M>::new(self.system)?;
         let mut outcome = Ok(());
         let mut restarts = 0;

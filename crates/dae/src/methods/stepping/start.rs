@@ -10,7 +10,7 @@ use super::{
     balance::{Balance, Imbalance},
     equations::Equations,
 };
-use crate::{System, UnknownKind};
+use crate::{Run, System, UnknownKind};
 
 /// The problem that an integrator solves.
 pub(in crate::methods) type Problem<'s, M> = OdeSolverProblem<Equations<'s, M>>;
@@ -42,13 +42,15 @@ const GUESS: (f64, f64) = (1e-4, 1e-12);
 const TIGHTEST: f64 = 1e-14;
 
 /// The problem of a whole run; each span enters it anew.
-pub(super) fn problem<M: Algebra>(
-    system: &System,
-    rtol: f64,
-) -> Result<Problem<'_, M>, DiffsolError> {
-    let rtol = tolerance(rtol, system.len());
+pub(super) fn problem<'s, M: Algebra>(
+    system: &'s System,
+    run: &Run,
+) -> Result<Problem<'s, M>, DiffsolError> {
+    let rtol = tolerance(run.rtol, system.len());
     let context = M::C::default();
-    let atol = context.vector_from_vec(vec![rtol; system.len()]);
+    let mut atol = vec![rtol; system.len()];
+    atol.iter_mut().zip(&run.nominal).for_each(|(atol, size)| *atol *= size);
+    let atol = context.vector_from_vec(atol);
     Ok(OdeSolverProblem {
         eqn: Equations::new(system)?,
         rtol,

@@ -149,15 +149,18 @@ impl Walk<'_> {
             let mut signal = self.pieces.signal_from(self.system, output, steps - 1);
             // A small difference of large terms is known no better than they are, and what balances
             // determine no better than the absolute tolerance.
-            let is_algebraic =
-                |unknown: usize| self.system.unknowns[unknown].kind == UnknownKind::Algebraic;
-            let least = absolute(output, is_algebraic);
+            let size = |unknown: usize| self.run.nominal.get(unknown).copied().unwrap_or(1.0);
+            let balanced = |unknown: usize| match self.system.unknowns[unknown].kind {
+                UnknownKind::Algebraic => size(unknown),
+                UnknownKind::Differential => 0.0,
+            };
+            let least = absolute(output, balanced);
             *largest = largest.max(terms(&signal)).max(least);
             let mut noise = self.run.rtol * *largest;
             if let Some(whole) = guard.rate_of.and_then(|own| self.system.outputs.get(own)) {
-                let size = terms(&self.pieces.signal_from(self.system, whole, steps - 1));
+                let own = terms(&self.pieces.signal_from(self.system, whole, steps - 1));
                 let length = signal.panels.iter().map(|panel| panel.end - panel.start).sum::<f64>();
-                noise = noise.min(self.run.rtol * (size + absolute(whole, |_| true)) / length);
+                noise = noise.min(self.run.rtol * (own + absolute(whole, size)) / length);
             }
             roundings.push(signal.noise);
             signal.noise = signal.noise.max(noise);
@@ -176,8 +179,8 @@ fn terms(signal: &Signal) -> f64 {
     signal.noise / (pieces::ROUNDING * f64::EPSILON)
 }
 
-/// What an output is where each unknown of a kind that counts is one.
-fn absolute(output: Output<'_>, counts: impl Fn(usize) -> bool) -> f64 {
-    let own = output.unknowns.terms().filter(|term| counts(term.0));
-    output.scale.abs() * own.map(|term| term.1.abs()).sum::<f64>()
+/// The most that an output is where the unknowns are of these sizes.
+fn absolute(output: Output<'_>, size: impl Fn(usize) -> f64) -> f64 {
+    let own = output.unknowns.terms().map(|(unknown, factor)| factor.abs() * size(unknown));
+    output.scale.abs() * own.sum::<f64>()
 }

@@ -1,0 +1,63 @@
+//! Drops that are minute beside what a weight could do in the time of the run.
+
+use dashpot::analysis::RunReport;
+
+use super::trial::{ALL, STEPPING, run};
+
+const GRAVITY: f64 = 9.806_65;
+
+fn solved(duration: f64, floor: &str, method: &str) -> RunReport {
+    let text = format!(
+        "
+        [nodes]
+        ball = {{ mass = 1 }}
+        [elements]
+        floor = {{ between = [\"ball\", \"ground\"], {floor} }}
+        [effects]
+        gravity = {{ start = \"unloaded\" }}
+        [run]
+        duration = {duration}
+        "
+    );
+    run(&text, method)
+}
+
+#[test]
+fn balls_touch_the_floor_when_they_have_fallen_however_long_the_run_is() {
+    for height in [1e-9, 1e-6, 1e-3] {
+        for duration in [0.1, 10.0, 1000.0] {
+            for method in ALL {
+                let floor = format!("contact = {{ gap = {height}, restitution = 0.5 }}");
+                let report = solved(duration, &floor, method);
+                let first = report.trajectory.switches.first().map_or(f64::NAN, |own| own.time);
+                let error = first / (2.0 * height / GRAVITY).sqrt() - 1.0;
+                // 1000 times the tolerance that accuracies of 0.1 % take at most.
+                assert!(error.abs() < 1e-2, "{method}, {height} m in {duration} s: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn pads_give_way_to_short_drops_as_they_do_exactly_however_long_the_run_is() {
+    let damped = "{ kelvin-voigt = { spring = 1e6, dashpot = 1000 } }";
+    for height in [1e-9, 1e-6] {
+        let floor = format!("series = [{{ contact = {{ gap = {height} }} }}, {damped}]");
+        for duration in [1.0, 10.0] {
+            let exact = solved(duration, &floor, "exact");
+            for method in STEPPING {
+                let report = solved(duration, &floor, method);
+                let peak = |report: &RunReport| {
+                    let peak = report.measure("floor.peak-force").unwrap();
+                    (peak.value.unwrap(), peak.error.unwrap())
+                };
+                let ((value, error), (truth, bound)) = (peak(&report), peak(&exact));
+                let difference = (value - truth).abs();
+                assert!(
+                    difference <= error + bound,
+                    "{method}, {height} m in {duration} s: {difference:e}, not {error:e}"
+                );
+            }
+        }
+    }
+}
