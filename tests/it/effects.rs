@@ -18,6 +18,7 @@ mod nonlinear;
 mod off;
 mod off_counts;
 mod reference;
+mod run_end;
 mod separation;
 mod short_drops;
 mod stops;

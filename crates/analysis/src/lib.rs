@@ -30,6 +30,7 @@ pub mod partial;
 mod refinement;
 mod report;
 pub mod rheometer;
+mod run_end;
 mod sample;
 mod segmentation;
 mod selection;

@@ -14,12 +14,16 @@ use crate::{
     ledger::ledger,
     magnitude::largest,
     open_end::OpenEnd,
+    run_end,
     selection::Selected,
     solution::{Known, doubt_at},
 };
 
 /// Part of the energy turned over beyond which a balance that does not close fails the run.
 pub(crate) const MOST_LOST: f64 = 0.01;
+/// At how many tolerances in a row a run may find no way on from one and the same instant before none is
+/// looked for any more.
+const ENDS_ALIKE: usize = 6;
 /// The first tolerance that is tried, 1e-4, in half decades below 1.
 const COARSEST: i32 = 8;
 /// How many solutions are good enough, but for an impact whose end is open, before no finer one is made for
@@ -118,7 +122,11 @@ impl Task<'_> {
 
     /// A solution with its measures. Where only a part of it is kept, and that turns out not to be all
     /// that is asked for, it is made again.
-    fn solve(&self, run: &Run, observer: &mut dyn Observer) -> Result<Solved, SolveError> {
+    pub(crate) fn solve(
+        &self,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Solved, SolveError> {
         let mut run = run.clone();
         loop {
             let (solved, missing) = self.attempt(&run, observer)?;
@@ -212,11 +220,13 @@ impl Task<'_> {
         let mut solves = 0;
         let mut wall = Duration::ZERO;
         let mut obstacle = None;
+        let mut alike = 0;
         let mut left = SOLUTIONS_FOR_ENDS;
         for rtol in tolerances(self.settings.rtol) {
             match self.solve(&run.clone().with_rtol(rtol), observer) {
                 Ok(finer) => {
                     solves += 1;
+                    alike = 0;
                     wall += finer.trajectory.statistics.wall;
                     if last.len() == SOLUTIONS {
                         last.remove(0);
@@ -228,7 +238,12 @@ impl Task<'_> {
                 }
                 Err(error) if is_final(&error) => return Err(error),
                 Err(error) => {
+                    let again = obstacle.as_ref().is_some_and(|before| is_same_end(before, &error));
+                    alike = if again { alike + 1 } else { 1 };
                     obstacle = Some(error);
+                    if alike == ENDS_ALIKE {
+                        break;
+                    }
                     // A finer solution may fail where rounding rules; a coarse one may fail where
                     // a finer one does not.
                     if last.len() == SOLUTIONS {
@@ -240,7 +255,7 @@ impl Task<'_> {
             if last.len() == SOLUTIONS {
                 obstacle = None;
                 self.settle_doubts(&mut last);
-                let bars = self.bars(&last);
+                let bars = self.bars(run, &last);
                 if let Some(finest) = last.last_mut() {
                     self.settle_zeros(finest, &bars.errors);
                     if self.is_good_enough(finest, &bars.errors) {
@@ -255,7 +270,7 @@ impl Task<'_> {
                 }
             }
         }
-        let Bars { mut errors, of_method, open_end } = self.bars(&last);
+        let Bars { mut errors, of_method, open_end } = self.bars(run, &last);
         for &at in open_end.iter().flat_map(|own| &own.undecided) {
             errors[at] = Some(f64::INFINITY);
         }
@@ -279,7 +294,7 @@ impl Task<'_> {
     }
 
     /// The error of each measure of the last of some solutions; unknown if there are too few.
-    fn bars(&self, solved: &[Solved]) -> Bars {
+    fn bars(&self, run: &Run, solved: &[Solved]) -> Bars {
         let Some((finest, others)) = solved.split_last().filter(|_| solved.len() == SOLUTIONS)
         else {
             let none = vec![None; self.selected.len()];
@@ -295,7 +310,8 @@ impl Task<'_> {
             least: self.selected.iter().zip(&finest.readings).map(least).collect(),
             fall: self.method.fall(),
         };
-        let of_method = evidence.error_bars();
+        let mut of_method = evidence.error_bars();
+        run_end::cover(self, run, finest, &mut of_method);
         let mut errors = of_method.clone();
         let open_end = OpenEnd::cover(self, solved, &mut errors);
         Bars { errors, of_method, open_end }
@@ -397,5 +413,19 @@ fn is_final(error: &SolveError) -> bool {
         SolveError::Cancelled { .. }
             | SolveError::NotApplicable { .. }
             | SolveError::InvalidSetting { .. }
+            | SolveError::TooManySwitches { .. }
     )
+}
+
+/// Whether two runs found no way on from one and the same instant. Of what switches in a knot, each may
+/// name another part.
+pub(crate) fn is_same_end(one: &SolveError, other: &SolveError) -> bool {
+    /// How far apart instants are the same, in parts of the time.
+    const NEAR: f64 = 1e-2;
+    match (one, other) {
+        (SolveError::Switching { time, .. }, SolveError::Switching { time: other, .. }) => {
+            (time - other).abs() <= NEAR * time.max(*other)
+        }
+        _ => false,
+    }
 }

@@ -17,7 +17,7 @@ use crate::{
     large::{is_large, keep},
     ledger::{leak, ledger},
     partial::solve_partial,
-    refinement::{MOST_LOST, Outcome, Solved, Task},
+    refinement::{MOST_LOST, Outcome, Solved, Task, is_same_end},
     selection::{Selected, select},
     solution::is_impactor,
     warnings,
@@ -83,12 +83,21 @@ pub fn solve_assembly(
                 Some(error) => error,
                 None => break outcome,
             },
-            Err(error @ (SolveError::Cancelled { .. } | SolveError::InvalidSetting { .. })) => {
-                return Err(error.into());
-            }
+            // No other method gets farther.
+            Err(
+                error @ (SolveError::Cancelled { .. }
+                | SolveError::InvalidSetting { .. }
+                | SolveError::TooManySwitches { .. }),
+            ) => return Err(error.into()),
             Err(error) => RunError::Solve(error),
         };
-        let Some(next) = others.pop() else { return Err(none_gets_through(first, error, tried)) };
+        let is_agreed = match (&first, &error) {
+            (Some(RunError::Solve(before)), RunError::Solve(now)) => is_same_end(before, now),
+            _ => false,
+        };
+        let Some(next) = others.pop().filter(|_| !is_agreed) else {
+            return Err(none_gets_through(first, error, tried));
+        };
         tried.push(next.name());
         // A phase that is reached later may ask for more than the first one.
         why = match &error {

@@ -389,6 +389,11 @@ impl CliError {
                      for less"
                         .to_owned()
                 }),
+                SolveError::TooManySwitches { .. } => Some(
+                    "what loses nothing in its impacts bounces for ever, ever lower as others lose \
+                     speed: a `restitution` below 1 lets it come to rest; or a shorter `duration`"
+                        .to_owned(),
+                ),
                 _ => None,
             },
             _ => None,

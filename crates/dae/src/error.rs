@@ -94,6 +94,18 @@ pub enum SolveError {
         /// Which parts, and why.
         reason: String,
     },
+    /// More legs than the limit were needed.
+    #[error(
+        "{parts} had switched {legs} times by {time:.6e} s: the run takes more than are followed"
+    )]
+    TooManySwitches {
+        /// Time reached \[s\].
+        time: f64,
+        /// The limit.
+        legs: usize,
+        /// What switched last.
+        parts: String,
+    },
     /// An observer ended the run.
     #[error("the run was cancelled at {time:.3e} s")]
     Cancelled {

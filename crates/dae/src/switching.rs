@@ -7,6 +7,7 @@
 mod chain;
 mod drive;
 mod flight;
+mod margin;
 mod nominal;
 mod shaken;
 

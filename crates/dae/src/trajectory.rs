@@ -68,6 +68,12 @@ pub trait Dense: Debug + Send + Sync {
         None
     }
 
+    /// How much longer a run of several legs would have to be for a switching that may have come before its
+    /// end, by the error of the method, to be seen \[s\].
+    fn margin(&self) -> Option<f64> {
+        None
+    }
+
     /// Memory that the solution takes \[B\], where it grows with the steps.
     fn bytes(&self) -> usize {
         0

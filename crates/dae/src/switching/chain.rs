@@ -22,6 +22,8 @@ pub(super) struct Chain {
     pub(super) legs: Vec<Solved>,
     /// The legs of a second solution whose states were shaken, where one was asked for.
     pub(super) doubled: Option<Vec<Solved>>,
+    /// See [`Dense::margin`].
+    pub(super) margin: Option<f64>,
 }
 
 /// Places within a panel at which two solutions are compared.
@@ -69,6 +71,10 @@ impl Dense for Chain {
 
     fn sample(&self, _system: &System, _times: &[f64]) -> Vec<f64> {
         Vec::new()
+    }
+
+    fn margin(&self) -> Option<f64> {
+        self.margin
     }
 
     fn bytes(&self) -> usize {

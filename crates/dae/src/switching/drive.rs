@@ -6,6 +6,7 @@ use super::{
     Leg, LegEnd, Switching,
     chain::{Chain, Solved},
     flight::follow,
+    margin::margin,
     nominal,
     shaken::{Afterwards, Shaken},
 };
@@ -34,7 +35,8 @@ const ROUNDINGS: f64 = 1e3;
 ///
 /// # Errors
 ///
-/// What the method says of a leg; [`SolveError::Switching`] where no leg can follow, or too many do.
+/// What the method says of a leg; [`SolveError::Switching`] where no leg can follow, or too many do at one instant;
+/// [`SolveError::TooManySwitches`] where too many do in all.
 pub fn integrate(
     method: &dyn Method,
     switching: &dyn Switching,
@@ -114,7 +116,12 @@ fn solve(
                 found.outcome = Some(guard - own);
                 false
             }
-            Outcome::Finished => false,
+            Outcome::Finished => {
+                if !method.is_exact() {
+                    drive.chain.margin = margin(&leg, trajectory.dense.as_ref(), run, doubt);
+                }
+                false
+            }
         };
         let length = trajectory.t_end / leg.system.time_scale;
         let state = trajectory.dense.sample(&leg.system, &[length]);
@@ -138,8 +145,12 @@ fn solve(
             return Ok(Solution { chain: drive.chain, name, t_end, first_phases, found });
         }
         at_once = if t_end > drive.start { 0 } else { at_once + 1 };
-        if at_once > MOST_AT_ONCE || drive.chain.legs.len() >= most_legs {
-            return Err(found.endless(t_end, drive.chain.legs.len()));
+        if at_once > MOST_AT_ONCE {
+            return Err(found.endless(t_end));
+        }
+        if drive.chain.legs.len() >= most_legs {
+            let parts = found.last_parts();
+            return Err(SolveError::TooManySwitches { time: t_end, legs: most_legs, parts });
         }
         let end = LegEnd { leg: &leg, time: t_end, length, state: &state, fired: &fired, doubt };
         leg = switching.next(&end)?;
@@ -170,12 +181,18 @@ struct Found {
 
 impl Found {
     /// The error of a run that does not come on.
-    fn endless(&self, time: f64, legs: usize) -> SolveError {
+    fn endless(&self, time: f64) -> SolveError {
+        let reason = format!("{} switches without end", self.last_parts());
+        SolveError::Switching { time, reason }
+    }
+
+    /// The names of what switched last.
+    fn last_parts(&self) -> String {
         let mut names: Vec<String> =
             self.switches.iter().rev().take(4).map(|own| format!("`{}`", own.name)).collect();
+        names.sort();
         names.dedup();
-        let reason = format!("{} switches without end ({legs} times)", names.join(", "));
-        SolveError::Switching { time, reason }
+        names.join(", ")
     }
 }
 

@@ -269,3 +269,15 @@ fn the_same_run_twice_is_the_same_to_the_last_bit() {
         assert_eq!(one.signal(&system, 0), two.signal(&system, 0));
     }
 }
+
+#[test]
+fn more_legs_than_are_followed_are_an_error_of_its_own() {
+    let exact = by_name("exact").unwrap();
+    // A hit in every 2 units of time.
+    let run = Run::to(1e6 * scale());
+    let walls = Walls { restitution: 1.0 };
+    let error = integrate(&*exact, &walls, &run, &mut Silent).unwrap_err();
+    let SolveError::TooManySwitches { legs, parts, .. } = &error else { panic!("{error}") };
+    assert_eq!(*legs, 200_000);
+    assert_eq!(parts, "`ceiling`, `floor`");
+}
