@@ -73,22 +73,23 @@ fn one_in_ten_thousand_is_kept() {
 
 #[test]
 fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
-    // The force comes within the error of `bdf` of zero before the impact ends.
+    // At the tolerances that this takes the steps of `bdf` become too small at the start.
     let text = "[nodes]\n\
-        head = { mass = \"0.9273 kg\", velocity = \"0.5356 m/s\" }\n\
+        head = { mass = \"10.83 g\", velocity = \"0.5035 m/s\" }\n\
         [elements.pad]\n\
         between = [\"head\", \"ground\"]\n\
-        series = [{ cubic-spring = { stiffness = \"102.9 N/m\", cubic = 1.712e11 } }, \
-        { parallel = [{ rate-spring = { force = \"7316 N\", at = \"1.381 mm\", gain = 1.62, \
-        reference-rate = \"0.4311 m/s\", exponent = 1 } }, { hunt-crossley = { \
-        force = \"37.11 kN\", at = \"1.381 mm\", exponent = 1, dissipation = \"0.003043 m^-1 s\" } }] }]\n\
+        parallel = [{ stiffening-spring = { stiffness = \"0.8567 N/m\", limit = \"25.8 mm\" } }, \
+        { series = [{ bumper = { force = \"0.1049 N\", at = \"29.65 mm\", restitution = 0.532, \
+        speed = \"0.5035 m/s\", exponent = 1 } }, { bumper = { force = \"4.102 mN\", \
+        at = \"29.65 mm\", restitution = 0.461, speed = \"0.5035 m/s\", exponent = 2 } }] }]\n\
         [effects]\n\
         gravity = { start = \"unloaded\" }\n\
+        separation.pad = { at = \"head\" }\n\
         [measures]\n\
         head = [{ kind = \"end-velocity\", window = \"run\" }, { kind = \"end-position\", window = \"run\" }]\n\
         pad = [{ kind = \"peak-force\", window = \"run\" }]\n\
         [run]\n\
-        duration = \"8.103 ms\"\n";
+        duration = \"0.9251 s\"\n";
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let mut settings = scene.settings("auto");
     settings.accuracy.default = 1e-5;
