@@ -6,8 +6,8 @@ use super::trial::{ALL, STEPPING, run};
 
 const GRAVITY: f64 = 9.806_65;
 
-fn solved(duration: f64, floor: &str, method: &str) -> RunReport {
-    let text = format!(
+fn scene(duration: f64, floor: &str) -> String {
+    format!(
         "
         [nodes]
         ball = {{ mass = 1 }}
@@ -18,8 +18,11 @@ fn solved(duration: f64, floor: &str, method: &str) -> RunReport {
         [run]
         duration = {duration}
         "
-    );
-    run(&text, method)
+    )
+}
+
+fn solved(duration: f64, floor: &str, method: &str) -> RunReport {
+    run(&scene(duration, floor), method)
 }
 
 #[test]
@@ -35,6 +38,25 @@ fn balls_touch_the_floor_when_they_have_fallen_however_long_the_run_is() {
                 assert!(error.abs() < 1e-2, "{method}, {height} m in {duration} s: {error:e}");
             }
         }
+    }
+}
+
+#[test]
+fn balls_that_lose_nothing_are_where_they_should_be_after_thousands_of_bounces() {
+    for (height, duration) in [(3.631e-9, 0.7404), (1e-6, 1.0), (1e-3, 10.0)] {
+        let floor = format!("contact = {{ gap = {height}, restitution = 1 }}");
+        let text = scene(duration, &floor)
+            + "[measures]\nball = [{ kind = \"end-velocity\", window = \"run\" }]\n";
+        let report = run(&text, "exact");
+        let own = report.measure("ball.end-velocity").unwrap();
+        let fall = (2.0 * height / GRAVITY).sqrt();
+        let since = (duration - fall) % (2.0 * fall);
+        let difference = (own.value.unwrap() - GRAVITY * (since - fall)).abs();
+        // What the rounding of the fall's time makes of the time since the last bounce.
+        let rounding = 4.0 * f64::EPSILON * GRAVITY * duration;
+        let bound = own.error.unwrap();
+        assert!(difference <= bound + rounding, "{height} m: {difference:e}, not {bound:e}");
+        assert!(bound <= 1e-10, "{height} m: {bound:e}");
     }
 }
 

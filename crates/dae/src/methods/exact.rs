@@ -4,9 +4,9 @@ use std::time::Instant;
 
 use super::check;
 use crate::{
-    Guard, Method, MethodKind, Observer, Outcome, Progress, Run, SolveError, Statistics, System,
-    Trajectory, Waveform,
-    events::scan,
+    Event, Guard, Method, MethodKind, Observer, Outcome, Progress, Run, SolveError, Statistics,
+    System, Trajectory, Waveform,
+    events::{Stop, scan},
     exact::{Augmented, Solution},
 };
 
@@ -28,6 +28,8 @@ const FIRST_SHARE: f64 = 1.0 / 64.0;
 const FIRST_RADIANS: f64 = 1e3;
 /// How many times as long the next part is.
 const NEXT_SHARE: f64 = 4.0;
+/// Share of a part before which what stops the run is looked for again, in a shorter part.
+const NEAR: f64 = 0.25;
 
 /// The solution by the matrix exponential: no steps, and no error but rounding.
 ///
@@ -152,6 +154,18 @@ fn shares(radians: f64) -> Vec<f64> {
     shares
 }
 
+/// The events until a time \[s\], and the one that stops the run.
+fn search(
+    solution: &Solution,
+    system: &System,
+    guards: &[Guard],
+    until: f64,
+) -> (Vec<Event>, Option<Stop>) {
+    let part = solution.clone().until(until);
+    let signal = |guard: &Guard| crate::Dense::signal(&part, system, guard.output);
+    scan(guards, &guards.iter().map(signal).collect::<Vec<_>>())
+}
+
 /// Whether the frequency of a driving function in use is swept on a piece that begins before `end`.
 fn is_swept(system: &System, end: f64) -> bool {
     let swept = |waveform: &Waveform| {
@@ -201,10 +215,17 @@ impl Method for Exact {
                 if may_stop(run) {
                     Self::count(&solution, share * end)?;
                 }
-                let part = solution.clone().until(share * run.t_end);
-                let signal = |guard: &Guard| crate::Dense::signal(&part, system, guard.output);
-                let signals: Vec<_> = run.guards.iter().map(signal).collect();
-                let (found, stop) = scan(&run.guards, &signals);
+                let mut part = share * run.t_end;
+                let (mut found, mut stop) = search(&solution, system, &run.guards, part);
+                // What is far away lies in the rounding of a polynomial that reaches there.
+                while let Some(near) = stop.filter(|own| 0.0 < own.time && own.time < NEAR * part) {
+                    part = 2.0 * near.time;
+                    let again = search(&solution, system, &run.guards, part);
+                    if again.1.is_none() {
+                        break;
+                    }
+                    (found, stop) = again;
+                }
                 events = found;
                 if let Some(stop) = stop {
                     (t_end, outcome) = (stop.time, Outcome::Stopped { guard: stop.guard });

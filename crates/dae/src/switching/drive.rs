@@ -2,6 +2,8 @@
 
 use std::{ops::ControlFlow, time::Instant};
 
+use dashpot_twofold::Twofold;
+
 use super::{
     Leg, LegEnd, Switching,
     chain::{Chain, Solved},
@@ -95,11 +97,14 @@ fn solve(
 ) -> Result<Solution, SolveError> {
     let mut leg = switching.first(doubt)?;
     let first_phases = leg.phases.clone();
-    let mut drive = Drive { start: 0.0, steps: 0, run, observer, chain: Chain::default() };
+    let mut drive =
+        Drive { start: Twofold::ZERO, steps: 0, run, observer, chain: Chain::default() };
     let mut found = Found { switches: leg.switches.clone(), ..Found::default() };
     let (mut at_once, mut bytes) = (0, 0);
     loop {
-        let (trajectory, t_end) = drive.leg(method, &leg, &mut found)?;
+        let start = drive.start.high();
+        let (trajectory, reached) = drive.leg(method, &leg, &mut found)?;
+        let t_end = reached.high();
         let own = leg.guards.len();
         let goes_on = match trajectory.outcome {
             Outcome::Stopped { guard } if guard < own => {
@@ -131,7 +136,7 @@ fn solve(
         let name = trajectory.method;
         bytes += trajectory.dense.bytes();
         drive.chain.legs.push(Solved {
-            start: drive.start,
+            start,
             end: t_end,
             phases: leg.phases.clone(),
             system: leg.system.clone(),
@@ -144,7 +149,7 @@ fn solve(
         if !goes_on {
             return Ok(Solution { chain: drive.chain, name, t_end, first_phases, found });
         }
-        at_once = if t_end > drive.start { 0 } else { at_once + 1 };
+        at_once = if t_end > start { 0 } else { at_once + 1 };
         if at_once > MOST_AT_ONCE {
             return Err(found.endless(t_end));
         }
@@ -155,14 +160,15 @@ fn solve(
         let end = LegEnd { leg: &leg, time: t_end, length, state: &state, fired: &fired, doubt };
         leg = switching.next(&end)?;
         found.switches.extend(leg.switches.iter().cloned());
-        drive.start = t_end;
+        drive.start = reached;
     }
 }
 
 /// Where a run is.
 struct Drive<'r> {
-    /// Start of the leg \[s\].
-    start: f64,
+    /// Start of the leg \[s\], the sum of all legs before: rounded, it would shift every leg of many short
+    /// ones the same way.
+    start: Twofold,
     /// Steps of the legs before.
     steps: usize,
     run: &'r Run,
@@ -203,17 +209,17 @@ impl Drive<'_> {
         method: &dyn Method,
         leg: &Leg,
         found: &mut Found,
-    ) -> Result<(Trajectory, f64), SolveError> {
+    ) -> Result<(Trajectory, Twofold), SolveError> {
         let own = leg.guards.len();
         let run = Run {
-            t_end: self.run.t_end - self.start,
+            t_end: (Twofold::from(self.run.t_end) - self.start).high(),
             rtol: self.run.rtol,
             nominal: Vec::new(),
             guards: leg.guards.iter().chain(&self.run.guards).cloned().collect(),
             keep: Keep::Everything,
         };
         let mut shifted =
-            Shifted { start: self.start, steps: self.steps, observer: &mut *self.observer };
+            Shifted { start: self.start.high(), steps: self.steps, observer: &mut *self.observer };
         let followed = match leg.flight {
             Some(flight) => follow(leg, flight, method, &run, &mut shifted)?,
             None => None,
@@ -223,10 +229,10 @@ impl Drive<'_> {
             None => solve_to_size(leg, method, run, &mut shifted)?,
         };
         let finished = trajectory.outcome == Outcome::Finished;
-        let t_end = if finished { self.run.t_end } else { self.start + trajectory.t_end };
+        let t_end = if finished { self.run.t_end.into() } else { self.start + trajectory.t_end };
         let users = trajectory.events.iter().filter(|event| event.guard >= own);
         found.events.extend(users.map(|event| Event {
-            time: self.start + event.time,
+            time: (self.start + event.time).high(),
             guard: event.guard - own,
             rising: event.rising,
         }));
