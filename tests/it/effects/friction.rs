@@ -2,6 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use dashpot::{
+    analysis::solve,
+    dae::Silent,
+    scene::{ReadOptions, read},
+};
+
 use super::{
     reference::Case,
     trial::{ALL, Side, Trial, judge, run},
@@ -265,9 +271,30 @@ fn a_motion_may_jump_where_no_contact_jumps_with_it() {
         let near = if *method == "exact" { 1e-10 } else { 1e-3 };
         assert!(jumped.energy.closure().abs() < near, "{method}");
     }
-    let refused = dashpot::scene::read(
-        &text("[\"ball\", \"belt\"]", 0.0),
-        &dashpot::scene::ReadOptions::default(),
-    );
+    let refused = read(&text("[\"ball\", \"belt\"]", 0.0), &ReadOptions::default());
     assert!(refused.unwrap_err().to_string().contains("it may jump through a contact"));
+}
+
+#[test]
+fn a_slider_whose_rate_no_neighbour_tells_is_refused_at_once_with_what_settles_it() {
+    let text = |beside: &str| {
+        format!(
+            "[nodes]\nhead = {{ mass = \"1.464 kg\", velocity = \"1.127 m/s\" }}\n\
+             [elements]\npad = {{ between = [\"head\", \"ground\"], series = [{{ friction = \"32.48 N\" }}, \
+             {{ parallel = [{{ cubic-spring = {{ stiffness = \"1 kN/m\", cubic = \"1 MN/m^3\" }} }}{beside}] }}] }}\n\
+             [run]\nduration = \"0.2 s\"\n"
+        )
+    };
+    let solved = |beside: &str, method: &str| {
+        let scene = read(&text(beside), &ReadOptions::default()).unwrap().value;
+        solve(&scene.network, &scene.settings(method), &mut Silent)
+    };
+    for method in ["auto", "bdf", "esdirk34", "tr-bdf2"] {
+        let refused = solved("", method).unwrap_err().to_string();
+        assert!(
+            refused.contains("put a dashpot beside a part that it is in series with"),
+            "{refused}"
+        );
+        solved(", { dashpot = \"1 N s/m\" }", method).unwrap();
+    }
 }

@@ -188,7 +188,9 @@ struct Found {
 impl Found {
     /// The error of a run that does not come on.
     fn endless(&self, time: f64) -> SolveError {
-        let reason = format!("{} switches without end", self.last_parts());
+        let parts = self.last_parts();
+        let parts = if parts.is_empty() { "what is watched" } else { parts.as_str() };
+        let reason = format!("{parts} switches without end");
         SolveError::Switching { time, reason }
     }
 

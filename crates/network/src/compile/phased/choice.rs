@@ -118,8 +118,7 @@ impl PhasedNetwork {
         for search in &mut searches {
             self.look(search, &instant, state, &mut looks);
         }
-        let length = self.own_length(state);
-        let mut tried = phases.to_vec();
+        let (length, mut tried) = (self.own_length(state), phases.to_vec());
         let (mut refusal, mut spare) = (None, None);
         loop {
             searches.iter().for_each(|search| search.enter(&mut tried));
@@ -166,6 +165,11 @@ impl PhasedNetwork {
                     continue;
                 }
                 if let Some((choice, switches, own)) = spare {
+                    // What only seems to stay, because where it goes there is no system, would be met
+                    // again and again.
+                    if switches.is_empty() && !left.is_empty() && refusal.is_some() {
+                        return Err(self.stuck(time, search, refusal));
+                    }
                     state.clone_from(&own);
                     return Ok((choice, switches));
                 }
