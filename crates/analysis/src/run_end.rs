@@ -11,7 +11,7 @@ const AMPLE: f64 = 2.0;
 
 /// Widens the errors of a solution of a `run` so that they cover what comes of a switching that may lie on
 /// either side of the run's end, by the error of the method. The run is solved once more to an end that lies on
-/// the other side of it.
+/// the other side of it; where that fails, the errors are not known.
 pub(crate) fn cover(task: &Task<'_>, run: &Run, finest: &Solved, errors: &mut [Option<f64>]) {
     let t_end = finest.trajectory.t_end;
     if task.assembly.switching.is_none() || t_end < run.t_end {
@@ -23,7 +23,10 @@ pub(crate) fn cover(task: &Task<'_>, run: &Run, finest: &Solved, errors: &mut [O
     let shorter = shorter.map(|since| -AMPLE * since.max(4.0 * f64::EPSILON * t_end));
     for change in longer.into_iter().chain(shorter) {
         let other = Run { t_end: t_end + change, ..run.clone() }.with_rtol(finest.rtol);
-        let Ok(other) = task.solve(&other, &mut Silent) else { continue };
+        let Ok(other) = task.solve(&other, &mut Silent) else {
+            errors.fill(None);
+            return;
+        };
         if other.trajectory.switches.len() == finest.trajectory.switches.len() {
             continue;
         }

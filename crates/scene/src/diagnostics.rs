@@ -190,14 +190,17 @@ impl Faults {
         })
     }
 
-    /// How many faults are kept so far.
-    pub(crate) fn kept(&self) -> usize {
-        self.state.borrow().list.len()
+    /// How many faults are kept so far, and how many are not.
+    pub(crate) fn counts(&self) -> (usize, usize) {
+        let state = self.state.borrow();
+        (state.list.len(), state.omitted)
     }
 
-    /// Takes back what was noted after so many were kept.
-    pub(crate) fn take_back(&self, kept: usize) {
-        self.state.borrow_mut().list.truncate(kept);
+    /// Takes back what was noted after these [`counts`](Self::counts).
+    pub(crate) fn take_back(&self, (kept, omitted): (usize, usize)) {
+        let mut state = self.state.borrow_mut();
+        state.list.truncate(kept);
+        state.omitted = omitted;
     }
 
     /// All that was found, errors first, in the order of the text.
@@ -216,7 +219,12 @@ impl Faults {
         state.errors += usize::from(severity == Severity::Error);
         if state.list.len() >= KEPT {
             state.omitted += 1;
-            return;
+            let is_odd = |own: &(Option<Place>, Diagnostic)| own.1.severity == Severity::Warning;
+            match state.list.iter().rposition(is_odd) {
+                // An error is not left out for something odd.
+                Some(last) if severity == Severity::Error => drop(state.list.remove(last)),
+                _ => return,
+            }
         }
         if !state.seen.insert((place, fault.to_string())) {
             return;

@@ -272,7 +272,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     if faults.errors() > 0 {
         return None;
     }
-    let kept = faults.kept();
+    let before = faults.counts();
     review(&reading, &network, run.duration);
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
@@ -293,7 +293,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     let compiled = network.compile(run.duration);
     if compiled.is_err() {
         // What is odd about a scene is of no interest while it has no answer.
-        faults.take_back(kept);
+        faults.take_back(before);
     }
     if !stops.is_empty() || compiled.as_ref().map_or(true, |own| !own.warnings.is_empty()) {
         run.stops = place(text, options, (&compiled, &stops), faults)?;

@@ -28,8 +28,10 @@ const FIRST_SHARE: f64 = 1.0 / 64.0;
 const FIRST_RADIANS: f64 = 1e3;
 /// How many times as long the next part is.
 const NEXT_SHARE: f64 = 4.0;
-/// Share of a part before which what stops the run is looked for again, in a shorter part.
-const NEAR: f64 = 0.25;
+/// Share of a part before which what stops the run is looked for again, in a part that reaches so many times
+/// as far as it.
+const NEAR: f64 = 0.75;
+const BEYOND: f64 = 1.25;
 
 /// The solution by the matrix exponential: no steps, and no error but rounding.
 ///
@@ -219,7 +221,7 @@ impl Method for Exact {
                 let (mut found, mut stop) = search(&solution, system, &run.guards, part);
                 // What is far away lies in the rounding of a polynomial that reaches there.
                 while let Some(near) = stop.filter(|own| 0.0 < own.time && own.time < NEAR * part) {
-                    part = 2.0 * near.time;
+                    part = BEYOND * near.time;
                     let again = search(&solution, system, &run.guards, part);
                     if again.1.is_none() {
                         break;

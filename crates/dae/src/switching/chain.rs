@@ -98,8 +98,8 @@ fn steepest(signal: &Signal) -> f64 {
 
 impl Chain {
     /// The largest difference of an output between a leg and the second solution. As long as both go
-    /// through the same legs, time counts from the start of each; where one of them has come to rest
-    /// after fewer bounces, it counts from the start of the run.
+    /// through the same legs, time counts from the start of each and from that of the run; where one of
+    /// them has come to rest after fewer bounces, from that of the run only.
     fn difference(&self, leg: usize, output: usize, own: &Signal) -> Option<f64> {
         let doubled = self.doubled.as_ref().filter(|all| !all.is_empty())?;
         let one = &self.legs[leg];
@@ -113,9 +113,11 @@ impl Chain {
             let double = other.dense.signal(&other.system, output);
             // A leg that ends earlier by a rounding is not followed beyond its end.
             let end = double.end();
-            let differences = places
-                .filter(|(t, _)| *t <= end)
-                .map(|(t, value)| (value - double.left_value(t)).abs());
+            let shift = one.start - other.start;
+            let differences = places.flat_map(|(t, value)| {
+                let within = [t, t + shift].into_iter().filter(|at| *at > 0.0 && *at <= end);
+                within.map(|at| (value - double.left_value(at)).abs()).collect::<Vec<_>>()
+            });
             return Some(differences.fold(0.0, f64::max));
         }
         let mut known: Option<(usize, Signal)> = None;

@@ -138,7 +138,8 @@ fn exact_states_an_error_that_covers_the_closed_form_through_all_legs() {
     let system = problems::free_motion().system;
     let position = found.signal(&system, 0);
     let error = position.error.expect("a bound");
-    assert!(error < 1e-12, "{error:e}");
+    // 64 roundings of each leg's state, which shift the legs after it.
+    assert!(error < 1e-11, "{error:e}");
     let (mut before, mut place, mut speed) = (0.0, 0.25, -SPEED);
     for hit in hits(restitution).take_while(|&time| time < 20.0) {
         let middle = 0.5 * (before + hit);

@@ -68,10 +68,11 @@ fn side(neighbours: &[Vec<(usize, usize)>], from: usize, cut: usize) -> Vec<usiz
 /// accelerates them.
 fn balance(network: &Network, parts: &Parts<'_>, joints: &[usize], sign: f64) -> Row {
     let mut sum = RowSum::default();
+    let own: HashSet<usize> = joints.iter().copied().collect();
     let body = parts.bodies.of_joint[joints[0]];
     add_forces(parts, joints, sign, &mut sum);
     for drive in parts.acting.drives(parts.drives, body) {
-        if let Some(force) = drive.force.as_ref().filter(|_| joints.contains(&drive.node)) {
+        if let Some(force) = drive.force.as_ref().filter(|_| own.contains(&drive.node)) {
             sum.add(sign, force);
         }
     }

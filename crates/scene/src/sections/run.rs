@@ -153,6 +153,11 @@ fn stop(reading: &Reading<'_>, item: &Item) -> Option<StopText> {
         }
         return None;
     };
+    // It is read when the unit of the output is known.
+    let value = level.item.text().and_then(|text| reading.library.values().get(text.trim()));
+    if let Some(known) = value {
+        known.is_used.set(true);
+    }
     let direction = if falls.is_some() { Direction::Falling } else { Direction::Rising };
     let when = &when?.item;
     let name = text_of(when, "`when`", reading.faults)?;
