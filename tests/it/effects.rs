@@ -21,6 +21,7 @@ mod reference;
 mod run_end;
 mod separation;
 mod short_drops;
+mod sliders;
 mod stops;
 mod sweeps;
 mod trial;

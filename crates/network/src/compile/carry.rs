@@ -57,6 +57,8 @@ pub(super) struct Carry {
     velocity: Vec<Option<Reading>>,
     origins: Vec<Origin>,
     scales: Vec<f64>,
+    /// The springs at places that follow from balances.
+    balanced: Vec<usize>,
 }
 
 impl Carry {
@@ -89,7 +91,19 @@ impl Carry {
             velocity: velocity.collect(),
             origins: origins(parts, system),
             scales: columns,
+            balanced: balanced(parts),
         }
+    }
+
+    /// The springs at places that follow from balances.
+    pub(super) fn balanced(&self) -> &[usize] {
+        &self.balanced
+    }
+
+    /// The deformation \[m\] of a primitive where the unknowns are `y` and the inputs `w`.
+    pub(super) fn deformation(&self, primitive: usize, y: &[f64], w: &[f64]) -> f64 {
+        let own = &self.deformation[primitive];
+        own.unknowns.at(y) + own.inputs.at(w)
     }
 
     /// The state where the unknowns are `y` and the inputs `w`; velocities that the phase does not
@@ -116,6 +130,12 @@ impl Carry {
         };
         self.origins.iter().zip(&self.scales).map(|(origin, scale)| value(origin) / scale).collect()
     }
+}
+
+fn balanced(parts: &Parts<'_>) -> Vec<usize> {
+    let follows = |body: usize| parts.structure.algebraic_cluster(body).is_some();
+    let springs = parts.structure.springs.iter();
+    springs.filter(|own| own.ends.into_iter().any(follows)).map(|own| own.primitive).collect()
 }
 
 fn origins(parts: &Parts<'_>, system: &System) -> Vec<Origin> {

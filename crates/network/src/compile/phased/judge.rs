@@ -119,6 +119,10 @@ impl PhasedNetwork {
             Ok(motion) => motion,
             Err(error) => return Verdict::Refused(error.to_string()),
         };
+        let faults = self.jumped_back(phases, judge, &mode, &motion);
+        if !faults.is_empty() {
+            return Verdict::Fails(faults);
+        }
         let (mut faults, mut doubtful): (Vec<Fault>, Vec<Fault>) = (Vec::new(), Vec::new());
         let guards = || mode.of_guard.iter().map(|own| own.0).zip(mode.of_guard_exits());
         let levels = judge.levels(&mode, &motion, phases);

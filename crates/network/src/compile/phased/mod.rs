@@ -5,6 +5,7 @@
 //! unknowns.
 
 mod choice;
+mod continuity;
 mod groups;
 mod impacts;
 mod judge;

@@ -1,0 +1,51 @@
+//! Whether what follows from balances may be where phases would put it.
+
+use dashpot_dae::Derivatives;
+
+use super::{
+    GIVEN, Mode, PhasedNetwork,
+    judge::{Fault, Judge},
+};
+use crate::phases::{Phase, PhaseLaw, Watched};
+
+impl PhasedNetwork {
+    /// The parts that would have to jump against their own force.
+    ///
+    /// A place without mass that springs hold follows from the force of the part behind it. Phases in
+    /// which that force is another put it elsewhere at once; a slider that goes there against the way
+    /// in which it slides would give energy. What jumps from outside moves a slider its own way.
+    pub(super) fn jumped_back(
+        &self,
+        phases: &[Phase],
+        judge: &Judge<'_>,
+        mode: &Mode,
+        motion: &Derivatives,
+    ) -> Vec<Fault> {
+        let (unknowns, inputs) = (&motion.values[0], &motion.inputs[0]);
+        let old = |primitive: usize| judge.state.deformation[primitive];
+        let new = |primitive: usize| mode.carry.deformation(primitive, unknowns, inputs);
+        let rounding = GIVEN * judge.size.0;
+        let jumps = |part: usize| {
+            // A force that has reached its level may be as far beyond as the judge lets it be.
+            let is_fired = judge.on_level.iter().any(|own| own.1 == Watched::Force);
+            let doubt = judge.looks[part].doubt;
+            let doubt = if is_fired { doubt.sqrt() } else { doubt };
+            mode.carry.balanced().iter().any(|&at| {
+                let (old, new) = (old(at), new(at));
+                (new - old).abs() > doubt * old.abs().max(new.abs()) + rounding
+            })
+        };
+        let is_back = |part: &usize| match self.phases_of(self.parts[*part])?.law(phases[*part]) {
+            PhaseLaw::Force(force) => {
+                let at = self.parts[*part];
+                let jump = (new(at) - old(at)) * force.signum();
+                Some(jump < -rounding && jumps(*part))
+            }
+            _ => None,
+        };
+        (0..self.parts.len())
+            .filter(|part| is_back(part) == Some(true))
+            .map(|part| Fault { part, towards: None })
+            .collect()
+    }
+}
