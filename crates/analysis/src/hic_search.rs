@@ -9,6 +9,8 @@ use dashpot_dae::Signal;
 
 /// Boxes that are looked into before the search settles for a bound.
 const MOST_BOXES: usize = 400_000;
+/// Knots between which intervals are tried before the search.
+const MOST_FIRST: usize = 64;
 /// Relative length, in units of the interval, of a box that is not divided further. The criterion
 /// is stationary inside, so its value is good to the square of this.
 const SMALLEST: f64 = 1e-8;
@@ -28,8 +30,9 @@ pub(crate) struct Optimum {
 /// no longer than `cap`.
 ///
 /// `|s|` is cut into monotone pieces, on which its values and its integral, taken from the exact
-/// antiderivative, are bounded. Branch and bound over pairs of pieces drops what can hold no more
-/// than the best interval so far, and what holds no zero of the derivatives: an optimum lies where
+/// antiderivative, are bounded. Branch and bound over pairs of ranges of pieces, divided down to single
+/// ones, drops what can hold no more than the best interval so far, and of single pieces what holds no zero of
+/// the derivatives: an optimum lies where
 /// `|s(t1)|` and `|s(t2)|` are 0.6 times the mean, at a jump or an end of the window, or, where the
 /// cap is active, where `|s(t1)| = |s(t2)|`. Nothing is sampled, so no optimum is missed.
 pub(crate) fn optimum(signal: &Signal, window: (f64, f64), cap: f64) -> Optimum {
@@ -47,8 +50,8 @@ pub(crate) fn optimum(signal: &Signal, window: (f64, f64), cap: f64) -> Optimum 
     search.best
 }
 
-/// A range of times on one monotone piece; a single time where both ends are one.
-#[derive(Debug, Clone, Copy)]
+/// A range of times, on one monotone piece or of whole ones; a single time where both ends are one.
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Side {
     from: f64,
     to: f64,
@@ -64,7 +67,10 @@ impl Side {
     }
 
     fn halves(self) -> [Self; 2] {
-        let middle = self.middle();
+        self.parts(self.middle())
+    }
+
+    fn parts(self, middle: f64) -> [Self; 2] {
         [Self { to: middle, ..self }, Self { from: middle, ..self }]
     }
 }
@@ -123,20 +129,17 @@ struct Search<'a> {
 impl Search<'_> {
     fn run(&mut self) {
         let knots: Vec<f64> = self.area.knots().to_vec();
-        // Good intervals first, so that most pairs are dropped at once.
-        for (at, &from) in knots.iter().enumerate() {
-            for &to in &knots[at + 1..] {
+        // Good intervals first, so that most boxes are dropped at once.
+        let first = knots.iter().step_by(knots.len().div_ceil(MOST_FIRST));
+        let first: Vec<f64> = first.chain(knots.last()).copied().collect();
+        for (at, &from) in first.iter().enumerate() {
+            for &to in &first[at + 1..] {
                 self.consider(from, to);
             }
         }
-        for (at, pieces) in knots.windows(2).enumerate() {
-            let first = Side { from: pieces[0], to: pieces[1] };
-            for pieces in knots[at..].windows(2) {
-                if pieces[0] - first.to > self.cap {
-                    break;
-                }
-                self.push(Family::Free(first, Side { from: pieces[0], to: pieces[1] }));
-            }
+        if let Some((&from, &to)) = knots.first().zip(knots.last()) {
+            let all = Side { from, to };
+            self.push(Family::Free(all, all));
         }
         for side in self.capped_sides(&knots) {
             self.push(Family::Capped(side));
@@ -191,6 +194,7 @@ impl Search<'_> {
 
     fn push(&mut self, family: Family) {
         let bound = match family {
+            Family::Free(first, last) if last.from - first.to > self.cap => return,
             Family::Free(first, last) => {
                 let shortest = (last.from - first.to).max(0.0);
                 let longest = (last.to - first.from).min(self.cap);
@@ -212,6 +216,9 @@ impl Search<'_> {
 
     fn divide_free(&mut self, first: Side, last: Side) {
         self.consider(first.middle(), last.middle());
+        if self.divide_pieces(first, last) {
+            return;
+        }
         let distance = last.middle() - first.middle();
         if first.length().max(last.length()) <= SMALLEST * distance {
             return;
@@ -243,6 +250,28 @@ impl Search<'_> {
         } else {
             last.halves().into_iter().for_each(|half| self.push(Family::Free(first, half)));
         }
+    }
+
+    /// Divides a box of more than one piece at a knot; whether it is one.
+    fn divide_pieces(&mut self, first: Side, last: Side) -> bool {
+        let [of_first, of_last] =
+            [first, last].map(|side| self.area.middle_knot(side.from, side.to));
+        match (of_first, of_last) {
+            (None, None) => return false,
+            (Some(knot), _) if first == last => {
+                let [early, late] = first.parts(knot);
+                for (first, last) in [(early, early), (early, late), (late, late)] {
+                    self.push(Family::Free(first, last));
+                }
+            }
+            (Some(knot), other) if other.is_none() || first.length() >= last.length() => {
+                first.parts(knot).into_iter().for_each(|part| self.push(Family::Free(part, last)));
+            }
+            (_, Some(knot)) | (Some(knot), _) => {
+                last.parts(knot).into_iter().for_each(|part| self.push(Family::Free(first, part)));
+            }
+        }
+        true
     }
 
     fn divide_capped(&mut self, side: Side) {

@@ -72,6 +72,13 @@ impl<'a> Area<'a> {
         &self.knots
     }
 
+    /// The knot in the middle of those between two times.
+    pub(super) fn middle_knot(&self, from: f64, to: f64) -> Option<f64> {
+        let first = self.knots.partition_point(|knot| *knot <= from);
+        let last = self.knots.partition_point(|knot| *knot < to);
+        (first < last).then(|| self.knots[first.midpoint(last)])
+    }
+
     /// The largest value of `|s|`.
     pub(super) fn largest(&self) -> f64 {
         self.largest
@@ -118,7 +125,8 @@ fn parts<'a>(signal: &'a Signal, window: (f64, f64), zeros: &[f64]) -> Vec<Part<
         }
         let antiderivative = chebyshev::antiderivative(&panel.coefficients);
         let mut places = vec![start];
-        places.extend(zeros.iter().copied().filter(|&zero| zero > start && zero < end));
+        let first = zeros.partition_point(|zero| *zero <= start);
+        places.extend(zeros[first..].iter().take_while(|zero| **zero < end));
         places.push(end);
         for pair in places.windows(2) {
             let sign = panel.value(0.5 * (pair[0] + pair[1])).signum();

@@ -144,3 +144,19 @@ fn windows_span_two_peaks_where_that_is_worth_it() {
     let found = optimum(&steps(&[(0.5, 1.0), (even, 0.0), (0.5, 1.0)]), (0.0, 1.0 + even), 1e6);
     close(found.value, 0.5, 1e-13);
 }
+
+#[test]
+fn a_pulse_in_thousands_of_pieces_has_the_interval_that_it_has_in_one() {
+    // A half-sine of 3000 straight lines with a rounding step between any two, so that each is a knot.
+    let sides = 3000_u32;
+    let panels = (0..sides).map(|at| {
+        let [start, end] = [at, at + 1].map(|at| f64::from(at) / f64::from(sides));
+        let [from, to] = [start, end].map(|t| (PI * t).sin() * (1.0 + 1e-9 * f64::from(at % 2)));
+        Panel { start, end, coefficients: vec![0.5 * (from + to), 0.5 * (to - from)] }
+    });
+    let found = optimum(&Signal::new(panels.collect(), None, 0.0), (0.0, 1.0), 1e6);
+    // Straight lines lie below the sine by up to (π/n)²/8 of it.
+    close(found.value, 0.414_645_65, 1e-6);
+    close(found.interval.1 - found.interval.0, 0.670_229_7, 1e-3);
+    assert!(found.doubt < 1e-6, "{}", found.doubt);
+}
