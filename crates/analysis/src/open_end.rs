@@ -14,7 +14,8 @@ pub(crate) struct OpenEnd {
     /// The measures, by number, to which it makes more of a difference than their errors and a tenth of what
     /// is asked of them.
     pub(crate) measures: Vec<usize>,
-    /// The measures that have a value at one of both ends only.
+    /// The measures that have a value at one of both ends only. Where a force only comes to nothing they are
+    /// all that hangs on the end.
     pub(crate) undecided: Vec<usize>,
 }
 
@@ -53,7 +54,7 @@ impl OpenEnd {
             }
             *error += gap;
         }
-        let matters = most > 1.0 || (most > 0.0 && !undecided.is_empty());
+        let matters = most > 1.0 || !undecided.is_empty();
         matters.then_some(Self { time, measures, undecided })
     }
 }

@@ -55,7 +55,7 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
     warnings.extend(energy(findings));
     warnings.extend(stops_that_hold(findings));
     warnings.extend(still_falling(findings.solution));
-    warnings.extend(still_in_contact(findings.contacts));
+    warnings.extend(still_in_contact(findings));
     warnings.extend(contacts_that_pull(findings));
     warnings.extend(open_end(findings));
     warnings.extend(harder_outside(findings));
@@ -205,8 +205,11 @@ fn still_falling(solution: &Solution<'_>) -> Vec<String> {
     falling.collect()
 }
 
-fn still_in_contact(contacts: &[ContactReport]) -> Vec<String> {
-    let lasting = contacts.iter().filter(|contact| contact.impact.contact == Contact::Lasting);
+fn still_in_contact(findings: &Findings<'_>) -> Vec<String> {
+    // Whether it is may be open.
+    let is_known = findings.open_end.is_none_or(|own| own.undecided.is_empty());
+    let contacts = findings.contacts.iter().filter(|_| is_known);
+    let lasting = contacts.filter(|contact| contact.impact.contact == Contact::Lasting);
     lasting
         .map(|contact| {
             let end = quantity(contact.impact.end, "s");
@@ -233,9 +236,14 @@ fn open_end(findings: &Findings<'_>) -> Option<String> {
     let OpenEnd { time, measures, .. } = findings.open_end?;
     let names = measures.iter().map(|&at| format!("`{}`", findings.measures[at].key));
     let (time, names) = (quantity(*time, "s"), listed(&names.collect::<Vec<_>>()));
+    let covered = if names.is_empty() {
+        String::new()
+    } else {
+        format!(", and the errors cover both ends: {names}")
+    };
     Some(format!(
-        "the contact force comes within its error of zero at {time} and pushes on: whether the impact ends \
-         there is open, and the errors cover both ends: {names}"
+        "the contact force comes within its error of zero at {time} and pushes on, as far as can be told: \
+         whether the impact ends there is open{covered}"
     ))
 }
 

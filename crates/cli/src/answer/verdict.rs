@@ -308,7 +308,13 @@ fn contact(answer: &Answer, run: &RunReport) -> Option<String> {
     let of = |contact: Contact| run.contacts.iter().find(|own| own.impact.contact == contact);
     if let Some(contact) = of(Contact::Lasting) {
         let end = quantity(contact.impact.end, "s", TIME_DIGITS);
-        return Some(format!("{} still pushes at the end of the run ({end})", contact.element));
+        let time = run.measure(&format!("{}.{}", contact.element, ContactTime::KIND));
+        let is_open = time.and_then(|own| own.error).is_some_and(f64::is_infinite);
+        let [whether, or_not] = if is_open { ["whether ", " is open"] } else { [""; 2] };
+        let element = &contact.element;
+        return Some(format!(
+            "{whether}{element} still pushes at the end of the run ({end}){or_not}"
+        ));
     }
     if !run.contacts.iter().any(|own| own.impact.has_ended()) {
         let pulling =
