@@ -4,6 +4,8 @@
 //! More networks from another seed, with the coverage printed:
 //! `DASHPOT_NETWORKS=1000 DASHPOT_SEED=7 cargo test --test it in_99_of_100 -- --nocapture`.
 
+mod known;
+
 use dashpot::{
     analysis::{MeasureReport, SolveSettings, solve},
     dae::{Piece, Silent, Waveform},

@@ -3,6 +3,11 @@
 use super::{Panel, Signal};
 use crate::chebyshev;
 
+/// Rounding up to which a slope counts as known, in parts of it.
+const OF_SLOPE: f64 = 1e-3;
+/// The same in parts of the largest slope that is known.
+const OF_LARGEST: f64 = 1e-6;
+
 impl Signal {
     /// A number that no `|value|` exceeds, and that is rarely much larger.
     pub fn bound(&self) -> f64 {
@@ -11,11 +16,25 @@ impl Signal {
 
     /// The derivative with respect to time \[unit/s\], panel by panel: jumps leave no trace in it.
     ///
+    /// The shorter a panel, the more of its slope is rounding. Where that would stand out among the slopes
+    /// that are known, it is that of a line between the panels beside it.
+    ///
     /// Its `noise` is an estimate, in proportion to the size of the values; an error bound it has
     /// none.
     #[must_use]
     pub fn derivative(&self) -> Self {
-        let panels: Vec<Panel> = self.panels.iter().map(Panel::derivative).collect();
+        let mut panels: Vec<Panel> = self.panels.iter().map(Panel::derivative).collect();
+        let roundings: Vec<f64> = self.panels.iter().map(Panel::slope_rounding).collect();
+        let sizes: Vec<f64> =
+            panels.iter().map(|panel| chebyshev::bound(&panel.coefficients)).collect();
+        let is_told = |(rounding, size): (&f64, &f64)| *rounding <= OF_SLOPE * size;
+        let told = roundings.iter().zip(&sizes).filter(|own| is_told(*own)).map(|own| *own.1);
+        let largest = told.fold(0.0, f64::max);
+        if largest > 0.0 {
+            let is_known = |own: (&f64, &f64)| *own.0 <= OF_LARGEST * largest || is_told(own);
+            let is_known: Vec<bool> = roundings.iter().zip(&sizes).map(is_known).collect();
+            bridge(&mut panels, &is_known);
+        }
         let mut slope = Self { panels, error: None, noise: 0.0 };
         let size = self.bound();
         if size > 0.0 {
@@ -99,5 +118,27 @@ fn part(panel: &Panel, start: f64, end: f64) -> Vec<f64> {
         panel.coefficients.clone()
     } else {
         panel.part(start, end).coefficients
+    }
+}
+
+/// Replaces each run of panels that are not known by a line from the end of the one before to the begin
+/// of the one behind.
+fn bridge(panels: &mut [Panel], is_known: &[bool]) {
+    let mut at = 0;
+    while let Some(from) = is_known[at..].iter().position(|known| !known).map(|own| at + own) {
+        let run = is_known[from..].iter().position(|known| *known);
+        let to = run.map_or(panels.len(), |length| from + length);
+        let before = panels[..from].last().map(|own| (own.end, own.value(own.end)));
+        let behind = panels.get(to).map(|own| (own.start, own.value(own.start)));
+        let ends = before.or(behind).zip(behind.or(before));
+        for panel in &mut panels[from..to] {
+            let Some(((start, first), (end, last))) = ends else { continue };
+            let part = |t: f64| {
+                if end > start { ((t - start) / (end - start)).clamp(0.0, 1.0) } else { 0.0 }
+            };
+            let [left, right] = [panel.start, panel.end].map(|t| first + (last - first) * part(t));
+            panel.coefficients = vec![0.5 * (left + right), 0.5 * (right - left)];
+        }
+        at = to;
     }
 }

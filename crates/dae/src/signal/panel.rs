@@ -74,6 +74,14 @@ impl Panel {
         Self { start: self.start, end: self.end, coefficients }
     }
 
+    /// How much of its [derivative](Self::derivative) may be the rounding of its values \[unit/s\]; infinite, or
+    /// no number, where it has no length.
+    pub(super) fn slope_rounding(&self) -> f64 {
+        let size: f64 = self.coefficients.iter().map(|c| c.abs()).sum();
+        let degree = self.coefficients.iter().skip(1).map(|_| 1.0).sum::<f64>().max(1.0);
+        2.0 * f64::EPSILON / self.length() * degree * degree * size
+    }
+
     /// The part of it from `start` to `end`, which must lie within.
     #[must_use]
     pub fn part(&self, start: f64, end: f64) -> Self {

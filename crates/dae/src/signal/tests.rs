@@ -320,6 +320,33 @@ fn zero_length_and_outside_windows_are_empty() {
 }
 
 #[test]
+fn slopes_of_panels_that_are_too_short_to_have_one_are_those_beside_them() {
+    // A motion of 12 m/s that turns, with panels of a few roundings of the time where it does not stop.
+    let motion = |t: f64| 0.03 + 12.0 * (t - 3e-3) - 2e3 * (t - 3e-3).powi(2);
+    let mut borders = vec![0.0, 1e-3, 3e-3];
+    let mut at = 3e-3_f64;
+    for length in [1.0, 1.0, 3.0, 40.0, 1e3, 1e5] {
+        at += length * f64::EPSILON * 4e-3;
+        borders.push(at);
+    }
+    borders.extend([4e-3, 6e-3]);
+    for degree in 1..6 {
+        let signal = signal(&borders, degree.max(2), motion);
+        let slope = signal.derivative();
+        for t in [0.0, 5e-4, 3e-3, borders[3], borders[4], borders[5], at, 5e-3] {
+            let expected = 12.0 - 4e3 * (t - 3e-3);
+            assert!((slope.value(t) - expected).abs() < 0.02, "{degree}: {t}: {}", slope.value(t));
+        }
+        assert!((slope.maximum(EVERYWHERE).value - 24.0).abs() < 1e-9, "{degree}");
+    }
+    // A rest is known however long, and so is what moves late.
+    let late = signal(&[0.0, 1e9, 1e9 + 1e-5, 1e9 + 2e-3], 2, |t| (t - 1e9).max(0.0));
+    let slope = late.derivative();
+    assert_eq!(slope.value(5e8), 0.0);
+    assert!((slope.value(1e9 + 1e-3) - 1.0).abs() < 0.02, "{}", slope.value(1e9 + 1e-3));
+}
+
+#[test]
 fn denormal_panels_do_no_harm() {
     let borders = [0.0, 5e-324, 1e-320, 1e-300, 1e-15, 0.5, 0.5, 2.0];
     let line = signal(&borders, 3, |t| t - 1.0);
