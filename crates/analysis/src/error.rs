@@ -4,7 +4,7 @@ use dashpot_dae::SolveError;
 use dashpot_network::NetworkErrors;
 use thiserror::Error;
 
-use crate::Leak;
+use crate::{Leak, SliderFault};
 
 /// Why a run has no report.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -99,6 +99,14 @@ pub enum RunError {
         closure: f64,
         /// When and where, as far as that can be told.
         leak: Option<Leak>,
+    },
+    /// A dry slider did what none can.
+    #[error("the solution of `{method}` cannot be trusted: {fault}")]
+    Slider {
+        /// The method that was used.
+        method: &'static str,
+        /// What, where and when.
+        fault: SliderFault,
     },
 }
 

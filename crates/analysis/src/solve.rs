@@ -14,6 +14,7 @@ use crate::{
     accuracy::excess,
     contacts::{self, meetings_after},
     events,
+    holding::slider_fault,
     large::{is_large, keep},
     ledger::{leak, ledger},
     partial::solve_partial,
@@ -101,7 +102,7 @@ pub fn solve_assembly(
         tried.push(next.name());
         // A phase that is reached later may ask for more than the first one.
         why = match &error {
-            RunError::EnergyLost { .. } => error.to_string(),
+            RunError::EnergyLost { .. } | RunError::Slider { .. } => error.to_string(),
             error => format!("`{}` does not get through: {error}", method.name()),
         };
         first.get_or_insert(error);
@@ -216,6 +217,8 @@ fn none_gets_through(
         Some(RunError::Solve(
             error @ (SolveError::StepTooSmall { .. } | SolveError::NewtonFailed { .. }),
         )) => RunError::NoneGetsThrough { error, others },
+        // That it does not apply says nothing of why the others fail.
+        Some(RunError::Solve(SolveError::NotApplicable { .. })) => last,
         Some(first) => first,
         None => last,
     }
@@ -356,14 +359,15 @@ fn report(
 }
 
 /// What is to be said of a solution in which so much energy is missing, or too much, that nothing of it
-/// can be trusted.
+/// can be trusted, or in which sliders do what they cannot.
 fn lost(assembly: &Arc<Assembly>, solved: &Solved) -> Option<RunError> {
     let Solved { trajectory, energy, .. } = solved;
     let closure = energy.closure();
-    (closure.is_nan() || closure.abs() > MOST_LOST).then(|| {
-        let leak = leak(&Solution::new(assembly, trajectory));
-        RunError::EnergyLost { method: trajectory.method, closure, leak }
-    })
+    let (method, solution) = (trajectory.method, Solution::new(assembly, trajectory));
+    if closure.is_nan() || closure.abs() > MOST_LOST {
+        return Some(RunError::EnergyLost { method, closure, leak: leak(&solution) });
+    }
+    slider_fault(&solution, energy).map(|fault| RunError::Slider { method, fault })
 }
 
 /// How many combinations of phases there are; as many as fit into the number.

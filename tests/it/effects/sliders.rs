@@ -1,9 +1,13 @@
 //! Sliders beside and behind springs: what comes of them follows from forces, not from the order in
 //! which they are written.
 
+mod branches;
 mod elastoplastic;
 
-use self::elastoplastic::{Branch, Pad};
+use self::{
+    branches::{Body, Branch},
+    elastoplastic::{Jenkins, Pad},
+};
 use super::trial::{ALL, run};
 use crate::random_networks::Dice;
 
@@ -21,7 +25,7 @@ fn pad(dice: &mut Dice, branches: usize) -> Pad {
         damping: 0.05 * between(0.1, 1.0) * (stiffness * mass).sqrt(),
         guard: force * between(0.05, 0.5),
         branches: (0..branches)
-            .map(|_| Branch {
+            .map(|_| Jenkins {
                 stiffness: stiffness * between(0.3, 5.0),
                 force: force * between(0.05, 0.6),
             })
@@ -81,6 +85,73 @@ fn a_pad_of_sliders_moves_alike_by_every_method() {
         for method in ALL {
             let error = difference(&pad, &order, method);
             assert!(error < 1e-3, "{nth}: {error:e} by {method} of {pad:?}");
+        }
+    }
+}
+
+fn cubic(y: f64) -> f64 {
+    1e3 * y + 1e6 * y.powi(3)
+}
+
+fn power(y: f64) -> f64 {
+    40.0 * (y.abs() / 0.02).powf(1.5).copysign(y)
+}
+
+/// A spring of 3 kN/m and one that stiffens, in a row.
+fn row(y: f64) -> f64 {
+    let inner = branches::zero(|inner| cubic(inner) - 3e3 * (y - inner));
+    cubic(inner)
+}
+
+const CUBIC: &str = "{ cubic-spring = { stiffness = 1000.0, cubic = 1e6 } }";
+
+fn branch(text: &'static str, law: fn(f64) -> f64, beside: f64, slider: f64) -> Branch {
+    Branch { text, law, beside, slider }
+}
+
+/// Masses of 1 kg on 1 kN/m with what is beside the spring.
+fn bodies() -> Vec<(&'static str, Body)> {
+    let power_text = "{ power-spring = { force = 40.0, at = 0.02, exponent = 1.5 } }";
+    let row_text = "{ spring = 3000.0 }, { cubic-spring = { stiffness = 1000.0, cubic = 1e6 } }";
+    let all = [
+        ("cubic", 0.0, vec![branch(CUBIC, cubic, 0.0, 5.0)]),
+        ("cubic and a guard", 5.0, vec![branch(CUBIC, cubic, 0.0, 5.0)]),
+        ("power", 1.0, vec![branch(power_text, power, 0.0, 8.0)]),
+        ("two", 2.0, vec![branch(CUBIC, cubic, 0.0, 5.0), branch(power_text, power, 0.0, 9.0)]),
+        ("beside", 2.0, vec![branch(CUBIC, cubic, 500.0, 5.0)]),
+        ("row", 2.0, vec![branch(row_text, row, 0.0, 5.0)]),
+    ];
+    let body = |guard: f64, branches: Vec<Branch>| Body {
+        mass: 1.0,
+        velocity: 1.0,
+        stiffness: 1e3,
+        guard,
+        branches,
+    };
+    all.map(|(name, guard, branches)| (name, body(guard, branches))).into_iter().collect()
+}
+
+#[test]
+fn laws_that_are_not_linear_slip_behind_sliders() {
+    const COUNT: usize = 30;
+    for (name, body) in bodies() {
+        let duration = 0.3;
+        let places = body.places(duration, COUNT);
+        let largest = places.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+        for method in ["auto", "bdf", "esdirk34", "tr-bdf2"] {
+            let report = run(&body.scene(duration), method);
+            let output = report.assembly.output("head.position").expect("a place");
+            let solution = report.solution();
+            let found = solution.signal(output);
+            let per_tolerance = if report.solver.method == "tr-bdf2" { 1e4 } else { 1e3 };
+            let near = per_tolerance * report.solver.rtol.expect("a tolerance");
+            for (at, place) in places.iter().enumerate() {
+                let time = duration * (at + 1) as f64 / COUNT as f64;
+                let error = (found.value(time) - place).abs() / largest;
+                assert!(error <= near, "{name} by {method} at {time}: {error:e} > {near:e}");
+            }
+            let closure = report.energy.closure().abs();
+            assert!(closure < 1e-3, "{name} by {method}: {closure:e}");
         }
     }
 }

@@ -216,7 +216,7 @@ fn is_final(error: &RunError) -> bool {
         RunError::Solve(error) => {
             matches!(error, SolveError::Cancelled { .. } | SolveError::InvalidSetting { .. })
         }
-        RunError::EnergyLost { .. } => false,
+        RunError::EnergyLost { .. } | RunError::Slider { .. } => false,
         _ => true,
     }
 }

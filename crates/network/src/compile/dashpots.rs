@@ -100,7 +100,7 @@ impl<'a> DashpotBalance<'a> {
                 unit: "m/s",
                 scale,
                 initial: 0.0,
-                term: None,
+                law: None,
             });
         }
         let solution = mesh.eliminate(&solved, usize::MAX).solve(values);

@@ -21,6 +21,7 @@ mod motion;
 mod outputs;
 pub(crate) mod phased;
 mod pushes;
+mod rates;
 mod reactions;
 mod review;
 mod row;
@@ -169,7 +170,7 @@ impl Network {
             &mut places,
             &mut loads,
         );
-        let motion = motion::build(
+        let mut motion = motion::build(
             &motion::Given {
                 primitives: &expansion.primitives,
                 pushes: &pushes,
@@ -184,6 +185,7 @@ impl Network {
         );
         drop(pushes);
         pushes::complete(expansion, &motion, &mut places);
+        rates::complete(expansion, scales.time, &mut inputs, &mut places, &mut motion);
         if !expansion.switches {
             self.start(expansion, &bodies, &structure, &drives, &inputs, &mut places)?;
         }

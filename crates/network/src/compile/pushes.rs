@@ -18,7 +18,7 @@ use super::{
     row::{Combination, Row, RowSum, Rows},
     scales::{Scales, power_of_two},
     structure::Structure,
-    unknowns::{Draft, Inputs, Places},
+    unknowns::{Draft, Inputs, Law, Places},
 };
 
 /// Adds the unknowns `φ` to `places` and all pushes to `loads`; returns the push of each primitive
@@ -65,14 +65,14 @@ fn draft(at: usize, primitive: &Primitive, ends: [usize; 2], scales: &Scales) ->
         unit: "N",
         scale: power_of_two(if force > 0.0 && force.is_finite() { force } else { 1.0 }),
         initial: 0.0,
-        term: Some(at),
+        law: Some(Law::Force(at)),
     }
 }
 
 /// Completes the balances of the unknowns `φ`, but for the laws themselves.
 pub(super) fn complete(expansion: &Expansion, motion: &Motion, places: &mut Places) {
     for (unknown, draft) in places.drafts.iter().enumerate() {
-        let Some(at) = draft.term else { continue };
+        let Some(Law::Force(at)) = draft.law else { continue };
         let [stiffness, damping] = expansion.primitives[at].slopes();
         let mut row = Row::unknown(unknown).times(-1.0);
         if expansion.primitives[at].is_reflected() {

@@ -90,7 +90,7 @@ impl<'a> SpringBalance<'a> {
                 unit: "m",
                 scale,
                 initial: 0.0,
-                term: None,
+                law: None,
             });
         }
         Self { structure, solution: Some(eliminated.solve(values)) }

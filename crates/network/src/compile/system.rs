@@ -10,9 +10,10 @@ use nalgebra_sparse::{CooMatrix, CsrMatrix};
 use super::{
     expand::Expansion,
     motion::Motion,
+    rates::ForceRate,
     row::{Combination, Row},
     scales::{Scales, power_of_two},
-    unknowns::{Inputs, Places},
+    unknowns::{Inputs, Law, Places},
 };
 use crate::{
     NetworkError,
@@ -109,26 +110,31 @@ pub(super) fn dimensionless(
             UnknownKind::Differential => time / draft.scale,
             UnknownKind::Algebraic => {
                 // A law alone in its balance is as large as the force that it is solved for.
-                let alone = draft.term.is_some() && own.terms().is_empty();
+                let alone = draft.law.is_some() && own.terms().is_empty();
                 let size = if alone { draft.scale } else { largest(&own) };
                 1.0 / power_of_two(size.max(f64::MIN_POSITIVE))
             }
         };
-        if let Some(primitive) = draft.term {
+        if let Some(Law::Force(primitive) | Law::ForceRate(primitive)) = draft.law {
             let argument = |row: Row| {
                 let (unknowns, inputs) = scaled(&row, columns, input_columns);
                 Argument { scale: lift.recip(), unknowns, inputs }
             };
             let own = &expansion.primitives[primitive];
             let [_, damping] = own.slopes();
-            let rate = motion.rate.get(primitive).filter(|_| damping > 0.0);
+            let of_rate = matches!(draft.law, Some(Law::ForceRate(_)));
+            let rate = motion.rate.get(primitive).filter(|_| damping > 0.0 || of_rate);
             let element = Arc::clone(&own.element);
             let (law, arguments): (Arc<dyn Characteristic>, _) = if own.is_reflected() {
                 let sum = rate.map(|rate| motion.force.row(primitive).plus(damping, &rate));
                 (Arc::new(Reflected(element)), [sum.unwrap_or_default(), Row::default()])
             } else {
-                let deformation = motion.deformation.row(primitive);
-                (Arc::new(OfElement(element)), [deformation, rate.unwrap_or_default()])
+                let law: Arc<dyn Characteristic> = if of_rate {
+                    Arc::new(ForceRate(element))
+                } else {
+                    Arc::new(OfElement(element))
+                };
+                (law, [motion.deformation.row(primitive), rate.unwrap_or_default()])
             };
             let arguments = arguments.map(argument);
             terms.push(Term { row: at, factor: finite(factor * lift)?, law, arguments });

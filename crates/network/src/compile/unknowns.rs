@@ -24,8 +24,17 @@ pub(super) struct Draft {
     pub(super) scale: f64,
     /// SI value at the start.
     pub(super) initial: f64,
-    /// Number of the primitive whose force, that is not linear, stands in the row.
-    pub(super) term: Option<usize>,
+    /// What stands in the row that is not linear.
+    pub(super) law: Option<Law>,
+}
+
+/// What is not linear in the balance of an unknown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Law {
+    /// The force of the primitive of this number.
+    Force(usize),
+    /// The rate of that force.
+    ForceRate(usize),
 }
 
 /// The inputs that rows speak of, numbered as they are asked for.
@@ -222,7 +231,7 @@ pub(super) fn choose(
             unit: "m",
             scale: scales.length[body],
             initial: 0.0,
-            term: None,
+            law: None,
         });
         if let Role::Mass(_) = bodies.all[body].role {
             let pace = places.pace[body];
@@ -236,7 +245,7 @@ pub(super) fn choose(
                 unit: "m/s",
                 scale: scales.velocity[body],
                 initial: bodies.all[body].velocity - base,
-                term: None,
+                law: None,
             });
         }
     }

@@ -3,7 +3,7 @@
 
 /// A spring and a slider in series.
 #[derive(Debug, Clone)]
-pub(super) struct Branch {
+pub(super) struct Jenkins {
     pub(super) stiffness: f64,
     pub(super) force: f64,
 }
@@ -16,7 +16,7 @@ pub(super) struct Pad {
     pub(super) stiffness: f64,
     pub(super) damping: f64,
     pub(super) guard: f64,
-    pub(super) branches: Vec<Branch>,
+    pub(super) branches: Vec<Jenkins>,
 }
 
 /// A span of the motion on which no slider stops or slips: `x = middle + e^{−δt} (a cos ωt + b sin ωt)`.
@@ -77,7 +77,7 @@ impl Pad {
         let mut spans = Vec::new();
         loop {
             let span = self.span((time, place, speed), way, &forces, &sticks);
-            let slip = |(branch, force): (&Branch, &f64)| {
+            let slip = |(branch, force): (&Jenkins, &f64)| {
                 place + (way * branch.force - force) / branch.stiffness
             };
             let slips: Vec<f64> = self.branches.iter().zip(&forces).map(slip).collect();
