@@ -57,7 +57,7 @@ pub(super) struct Carry {
     velocity: Vec<Option<Reading>>,
     origins: Vec<Origin>,
     scales: Vec<f64>,
-    /// The springs at places that follow from balances.
+    /// The springs at places that follow from balances, where there are sliders.
     balanced: Vec<usize>,
 }
 
@@ -133,6 +133,11 @@ impl Carry {
 }
 
 fn balanced(parts: &Parts<'_>) -> Vec<usize> {
+    let primitives = parts.expansion.primitives.iter();
+    let mut sliders = primitives.filter_map(|own| own.origin.phases()?.capacity());
+    if sliders.next().is_none() {
+        return Vec::new();
+    }
     let follows = |body: usize| parts.structure.algebraic_cluster(body).is_some();
     let springs = parts.structure.springs.iter();
     springs.filter(|own| own.ends.into_iter().any(follows)).map(|own| own.primitive).collect()

@@ -25,21 +25,28 @@ impl PhasedNetwork {
         let old = |primitive: usize| judge.state.deformation[primitive];
         let new = |primitive: usize| mode.carry.deformation(primitive, unknowns, inputs);
         let rounding = GIVEN * judge.size.0;
-        let jumps = |part: usize| {
+        // By how much a spring's force jumps, the size of its force, and what rounding does to it.
+        let jump = |at: usize| {
+            let force = |deformation: f64| self.spring_force(phases, at, deformation);
+            let (before, after) = (force(old(at)), force(new(at)));
+            let near = force(new(at) + rounding) - force(new(at) - rounding);
+            ((after - before).abs(), before.abs().max(after.abs()), near.abs())
+        };
+        let jumps = |part: usize, force: f64| {
             // A force that has reached its level may be as far beyond as the judge lets it be.
             let is_fired = judge.on_level.iter().any(|own| own.1 == Watched::Force);
             let doubt = judge.looks[part].doubt;
             let doubt = if is_fired { doubt.sqrt() } else { doubt };
             mode.carry.balanced().iter().any(|&at| {
-                let (old, new) = (old(at), new(at));
-                (new - old).abs() > doubt * old.abs().max(new.abs()) + rounding
+                let (jump, size, near) = jump(at);
+                jump > doubt * size.max(force.abs()) + near
             })
         };
         let is_back = |part: &usize| match self.phases_of(self.parts[*part])?.law(phases[*part]) {
             PhaseLaw::Force(force) => {
                 let at = self.parts[*part];
                 let jump = (new(at) - old(at)) * force.signum();
-                Some(jump < -rounding && jumps(*part))
+                Some(jump < -rounding && jumps(*part, force))
             }
             _ => None,
         };
@@ -47,5 +54,15 @@ impl PhasedNetwork {
             .filter(|part| is_back(part) == Some(true))
             .map(|part| Fault { part, towards: None })
             .collect()
+    }
+
+    /// The force \[N\] of a spring, or of a law that is not linear, in these phases.
+    fn spring_force(&self, phases: &[Phase], primitive: usize, deformation: f64) -> f64 {
+        let part = self.parts.iter().position(|&at| at == primitive);
+        let law = part.and_then(|part| Some(self.phases_of(primitive)?.law(phases[part])));
+        match law {
+            Some(PhaseLaw::Element(element)) => element.force(deformation, 0.0),
+            _ => self.expansion.primitives[primitive].element.force(deformation, 0.0),
+        }
     }
 }
