@@ -33,6 +33,7 @@ mod random_networks;
 mod signs;
 mod similarity;
 mod sizes;
+mod small_files;
 mod sweeps;
 mod terminal;
 mod thesis;

@@ -4,6 +4,7 @@ use std::{
     borrow::Cow,
     cell::{OnceCell, RefCell},
     collections::BTreeSet,
+    sync::Arc,
 };
 
 use dashpot_dae::{Signal, Trajectory};
@@ -19,10 +20,12 @@ use crate::{
 mod grazing;
 mod rest;
 mod tension;
+mod twins;
 
 use grazing::Feels;
 pub(crate) use grazing::{Grazes, grazes};
 use rest::{only_at_rest, resting_from_switches};
+use twins::Twins;
 
 /// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
 /// are 100 to 700, of whatever method, at tolerances from 1e-4 to 1e-10.
@@ -52,7 +55,8 @@ pub struct Solution<'a> {
 /// What has been found in a solution so far.
 #[derive(Debug)]
 pub(crate) struct Known {
-    signals: Vec<OnceCell<Box<Signal>>>,
+    signals: Vec<OnceCell<Arc<Signal>>>,
+    twins: Twins,
     element_impacts: Vec<OnceCell<Box<Impact>>>,
     body_impacts: Vec<OnceCell<Box<Impact>>>,
     blows: OnceCell<Vec<Vec<Blow>>>,
@@ -65,6 +69,7 @@ impl Known {
         let cells = |count: usize| (0..count).map(|_| OnceCell::new()).collect();
         Self {
             signals: (0..assembly.system.outputs.len()).map(|_| OnceCell::new()).collect(),
+            twins: Twins::default(),
             element_impacts: cells(assembly.connections.len()),
             body_impacts: cells(bodies::count(assembly)),
             blows: OnceCell::new(),
@@ -130,16 +135,24 @@ impl<'a> Solution<'a> {
         self.known.signals[output].get_or_init(|| {
             if !self.keeps(output) {
                 self.missing.borrow_mut().insert(output);
+                return Arc::new(self.found(output));
             }
-            let signal = self.trajectory.signal(&self.assembly.system, output);
-            // Laws that are not linear may give no force at all by themselves.
-            let is_linear = self.assembly.system.is_linear();
-            Box::new(if is_linear {
-                only_at_rest(signal, &self.trajectory.switches)
-            } else {
-                signal
-            })
+            // Each leg of a run that switches has equations of its own.
+            if self.assembly.switching.is_none() {
+                let first = self.known.twins.first(&self.assembly.system.outputs, output);
+                if let Some(same) = self.known.signals[first].get().filter(|_| first != output) {
+                    return Arc::clone(same);
+                }
+            }
+            Arc::new(self.found(output))
         })
+    }
+
+    fn found(&self, output: usize) -> Signal {
+        let signal = self.trajectory.signal(&self.assembly.system, output);
+        // Laws that are not linear may give no force at all by themselves.
+        let is_linear = self.assembly.system.is_linear();
+        if is_linear { only_at_rest(signal, &self.trajectory.switches) } else { signal }
     }
 
     /// Whether the run has kept the output of this number. Runs of large networks keep those that

@@ -18,7 +18,7 @@ const DIGITS: usize = 6;
 
 /// Groups of parameters of a model that cannot all be told apart from outside.
 pub(crate) fn groups(model: &Model) -> Vec<Entangled> {
-    if model.parts().len() > MOST_PARTS {
+    if model.leaves().nth(MOST_PARTS).is_some() {
         return Vec::new();
     }
     entangled(model, |element| primitive(element.as_ref()))

@@ -16,6 +16,7 @@ mod error;
 pub mod influence;
 pub mod layers;
 mod linear_model;
+pub mod memory;
 mod network;
 pub mod parameters;
 pub mod phases;

@@ -117,7 +117,30 @@ impl<P> Tree<P> {
         done.pop().unwrap_or_else(|| compose(self, Vec::new()))
     }
 
-    /// All parts in the order in which [`fold`](Self::fold) meets them, with their paths such as
+    /// How many parts and compositions there are.
+    pub fn size(&self) -> usize {
+        let (mut open, mut count) = (vec![self], 0);
+        while let Some(tree) = open.pop() {
+            count += 1;
+            open.extend(tree.branches().iter().map(|own| &own.tree));
+        }
+        count
+    }
+
+    /// All parts in the order in which [`fold`](Self::fold) meets them.
+    pub fn leaves(&self) -> impl Iterator<Item = &P> {
+        let mut open = vec![self];
+        std::iter::from_fn(move || {
+            loop {
+                match open.pop()? {
+                    Self::Part(part) => return Some(part),
+                    tree => open.extend(tree.branches().iter().rev().map(|own| &own.tree)),
+                }
+            }
+        })
+    }
+
+    /// All parts in the order of [`leaves`](Self::leaves), with their paths such as
     /// `kelvin.spring`; that of a tree of one part is empty.
     pub fn parts(&self) -> Vec<(String, &P)> {
         let mut parts = Vec::new();

@@ -262,11 +262,21 @@ pub enum Fault {
         /// What the list is.
         key: String,
     },
-    /// More parts than a scene may have.
-    #[error("the models of this scene expand to more than {limit} parts")]
+    /// Models that expand to more than memory should hold.
+    #[error(
+        "{model} expands to {parts} parts, about {:.0} GB of memory; the limit is {:.0} GB",
+        *.bytes as f64 * 1e-9,
+        *.limit as f64 * 1e-9
+    )]
     TooManyParts {
-        /// The limit.
-        limit: usize,
+        /// The model.
+        model: String,
+        /// Parts and compositions up to here.
+        parts: u64,
+        /// What they take \[B\].
+        bytes: u64,
+        /// What they may take \[B\].
+        limit: u64,
     },
     /// Two keys that contradict each other.
     #[error("`{first}` and `{second}` exclude each other")]

@@ -243,8 +243,8 @@ fn work_of_parts(
     let (mut work, mut bound) = (0.0, Some(0.0));
     for primitive in primitives.unwrap_or(&[]) {
         let own = Accounts::of(primitive.element.as_ref());
-        let force = solution.signal(primitive.force);
         let error = if own.dissipates {
+            let force = solution.signal(primitive.force);
             let rate = solution.rate(primitive.rate, primitive.deformation);
             if ledger::does_work(primitive) {
                 work += force.integral_of_product(&rate, window);

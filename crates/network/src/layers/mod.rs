@@ -37,6 +37,7 @@ pub(crate) use self::{front::warnings, resolve::resolve};
 use crate::{
     Connection, Model, Network,
     elements::Law,
+    memory::{MOST_BYTES, PART_BYTES},
     parameters::{InvalidParameter, non_negative, positive},
 };
 
@@ -134,7 +135,7 @@ impl Layer {
     /// Whether its law is one of springs and dashpots, which waves cross at a speed of their own.
     pub(crate) fn is_linear(&self) -> bool {
         let linear = |law: Law| matches!(law, Law::Spring(_) | Law::Dashpot(_) | Law::Rigid);
-        self.model.parts().iter().all(|(_, element)| linear(element.law()))
+        self.model.leaves().all(|element| linear(element.law()))
     }
 
     fn validate(&self) -> Result<(), InvalidParameter> {
@@ -240,7 +241,33 @@ impl Layers {
                 }
             }
         }
+        self.fit(&counts)?;
         Ok(counts)
+    }
+
+    /// Refuses segments whose models take too much memory.
+    fn fit(&self, counts: &[usize]) -> Result<(), InvalidParameter> {
+        let sizes = self.all.iter().map(|layer| layer.model.size() as u64);
+        let parts = sizes.zip(counts).map(|(size, &count)| size.saturating_mul(count as u64 + 1));
+        let parts = parts.fold(0, u64::saturating_add);
+        if parts.saturating_mul(PART_BYTES) <= MOST_BYTES {
+            return Ok(());
+        }
+        let segments: usize = counts.iter().sum();
+        let limit = MOST_BYTES / 1_000_000_000;
+        let most = segments as u64 * (MOST_BYTES / PART_BYTES) / parts;
+        Err(match self.resolution {
+            Resolution::Segments(wanted) => {
+                let range = format!("at most {most}: more would take over {limit} GB of memory");
+                InvalidParameter::new("segments", range, wanted)
+            }
+            Resolution::Accuracy(accuracy) => {
+                let range = format!(
+                    "such that {most} segments are enough: more would take over {limit} GB"
+                );
+                InvalidParameter::new("accuracy", range, accuracy)
+            }
+        })
     }
 
     /// The first layer with mass that is not linear.

@@ -7,6 +7,7 @@ mod context;
 mod forms;
 mod laws;
 mod naming;
+mod sizes;
 mod tables;
 
 use std::{
@@ -15,10 +16,13 @@ use std::{
     collections::HashSet,
 };
 
-use dashpot_network::{InnerPad, Model};
+use dashpot_network::{
+    InnerPad, Model,
+    memory::{MOST_BYTES, PART_BYTES},
+};
 use dashpot_rheology::Tree;
 
-use self::{context::Context, laws::LawReader};
+use self::{context::Context, laws::LawReader, sizes::Sizes};
 use crate::{
     basis::{Basis, Pad},
     diagnostics::Faults,
@@ -30,9 +34,6 @@ use crate::{
     pad::Extent,
     source::Place,
 };
-
-/// The models of one scene may expand to so many parts and compositions.
-const MAX_PARTS: usize = 4_000_000;
 
 /// The keys of a model or material besides its law.
 const MODEL_KEYS: &[&str] = &["shift", "thickness", "area"];
@@ -49,7 +50,8 @@ pub(crate) struct ModelReader<'d> {
     laws: LawReader<'d>,
     notes: Notes,
     visited: RefCell<HashSet<Reference>>,
-    parts: Cell<usize>,
+    sizes: Sizes<'d>,
+    parts: Cell<u64>,
 }
 
 /// A table with a model.
@@ -165,6 +167,7 @@ impl<'d> ModelReader<'d> {
             laws: LawReader::new(library, faults),
             notes: Notes::default(),
             visited: RefCell::default(),
+            sizes: Sizes::new(library),
             parts: Cell::new(0),
         }
     }
@@ -185,6 +188,7 @@ impl<'d> ModelReader<'d> {
     /// The model or material `reference`.
     pub(crate) fn named(&self, reference: Reference) -> Option<Model> {
         self.visited.borrow_mut().insert(reference);
+        self.foresee(reference, self.library.entry(reference).key_place)?;
         let named = Task::Enter(Entrance::plain(reference));
         self.run(named, Some(String::new())).map(|own| own.model)
     }
@@ -274,7 +278,6 @@ impl<'d> ModelReader<'d> {
                     }
                 }
                 Task::Read(spot) => {
-                    self.count(1, spot.place)?;
                     let failed = Step::Done(Done {
                         word: "model",
                         given: None,
@@ -283,13 +286,13 @@ impl<'d> ModelReader<'d> {
                     });
                     match self.read(&spot, &open).unwrap_or(failed) {
                         Step::Done(model) => {
-                            // The first part has been counted with its table.
-                            let inner = model.model.as_ref().map_or(0, |model| parts(model) - 1);
-                            self.count(inner, spot.place)?;
-                            pads.read(1 + inner, model.extent);
+                            let parts = model.model.as_ref().map_or(1, Model::size);
+                            self.count(parts as u64, spot.place)?;
+                            pads.read(parts, model.extent);
                             done.push(model);
                         }
                         Step::Compose { series, branches, context, given } => {
+                            self.count(1, spot.place)?;
                             tasks.push(Task::Compose { series, count: branches.len(), given });
                             let branch = |item| Task::Read(Spot::branch(item, context, &spot));
                             tasks.extend(branches.iter().rev().map(branch));
@@ -307,6 +310,9 @@ impl<'d> ModelReader<'d> {
                                 });
                                 continue;
                             }
+                            if open.outer.is_some() {
+                                self.foresee(reference, spot.place)?;
+                            }
                             tasks.push(Task::Enter(entrance));
                         }
                     }
@@ -318,14 +324,28 @@ impl<'d> ModelReader<'d> {
         })
     }
 
+    /// Looks ahead before a model is expanded; `None` where it has too many parts.
+    fn foresee(&self, model: Reference, place: Place) -> Option<()> {
+        self.limit(self.sizes.of(model), self.called(model), place)
+    }
+
     /// Counts parts; `None` where there are too many by now.
-    fn count(&self, parts: usize, place: Place) -> Option<()> {
+    fn count(&self, parts: u64, place: Place) -> Option<()> {
+        self.limit(parts, "the scene".to_owned(), place)?;
         self.parts.set(self.parts.get() + parts);
-        if self.parts.get() > MAX_PARTS {
-            self.faults.error(place, Fault::TooManyParts { limit: MAX_PARTS });
-            return None;
-        }
         Some(())
+    }
+
+    /// Refuses so many further parts of a model where they would take too much memory.
+    fn limit(&self, parts: u64, model: String, place: Place) -> Option<()> {
+        let all = self.parts.get().saturating_add(parts);
+        let bytes = all.saturating_mul(PART_BYTES);
+        if bytes <= MOST_BYTES {
+            return Some(());
+        }
+        self.faults
+            .error(place, Fault::TooManyParts { model, parts: all, bytes, limit: MOST_BYTES });
+        None
     }
 
     fn composed(&self, series: bool, branches: Vec<Done<'d>>, given: Given<'d>) -> Done<'d> {
@@ -349,15 +369,4 @@ impl Entrance<'_> {
     fn plain(reference: Reference) -> Self {
         Self { reference, context: Context::of(reference.shelf), given: None }
     }
-}
-
-/// Parts and compositions of a model.
-fn parts(model: &Model) -> usize {
-    let mut open = vec![model];
-    let mut count = 0;
-    while let Some(tree) = open.pop() {
-        count += 1;
-        open.extend(tree.branches().iter().map(|branch| &branch.tree));
-    }
-    count
 }
