@@ -21,6 +21,7 @@ mod effects;
 mod equivalence;
 mod error_bars;
 mod examples;
+mod files;
 mod gallery;
 mod hard;
 mod independent;

@@ -1,6 +1,6 @@
 //! What `cost` draws, and what it writes into a folder.
 
-use std::{fs, path::Path};
+use std::io::Write;
 
 use dashpot_analysis::cost::{CostPoint, CostReport, Deviation};
 use dashpot_plot::{PrecisionCurve, PrecisionSeries, Report, ReportFigure, Table};
@@ -12,7 +12,7 @@ use crate::{
         title,
     },
     error::CliError,
-    folder::{RESULT, unwritable},
+    folder::Staged,
     sketch::sketch,
 };
 
@@ -64,28 +64,17 @@ fn figures(report: &CostReport) -> Result<Vec<(String, String)>, CliError> {
     drawn.map(|(name, chart)| Ok((name.to_owned(), chart.svg()?))).collect()
 }
 
-/// Writes everything into the folder `path`, and returns the names of the files.
+/// Adds all files but the result.
 pub(crate) fn write(
-    path: &Path,
-    json: &str,
+    files: &mut Staged<'_>,
     scene: &Scene,
     report: &CostReport,
     accuracies: &[f64],
-) -> Result<Vec<String>, CliError> {
+) -> Result<(), CliError> {
     let figures = figures(report)?;
-    let table = csv(report).map_err(std::io::Error::from);
-    let page = page(scene, report, accuracies, &figures).html();
-    let mut files = vec![
-        (RESULT.to_owned(), json.as_bytes().to_vec()),
-        (TABLE.to_owned(), table.map_err(unwritable(&path.join(TABLE)))?),
-        (PAGE.to_owned(), page.into_bytes()),
-    ];
-    files.extend(figures.into_iter().map(|(name, svg)| (name, svg.into_bytes())));
-    for (name, content) in &files {
-        let file = path.join(name);
-        fs::write(&file, content).map_err(unwritable(&file))?;
-    }
-    Ok(files.into_iter().map(|own| own.0).collect())
+    files.add_with(TABLE, |out| Ok(write_csv(report, out)?))?;
+    files.add(PAGE, page(scene, report, accuracies, &figures).html())?;
+    figures.into_iter().try_for_each(|(name, svg)| files.add(name, svg))
 }
 
 fn page(
@@ -124,8 +113,8 @@ fn page(
 }
 
 /// One row for each solution: times, work, and each error beside how well the truth is known.
-fn csv(report: &CostReport) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+fn write_csv(report: &CostReport, out: &mut dyn Write) -> csv::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
     let mut header: Vec<String> = [
         "method",
         "rtol [1]",
@@ -176,5 +165,5 @@ fn csv(report: &CostReport) -> Result<Vec<u8>, csv::Error> {
         }));
         writer.write_record(record)?;
     }
-    writer.into_inner().map_err(|error| error.into_error().into())
+    Ok(writer.flush()?)
 }

@@ -1,6 +1,10 @@
 //! What can go wrong in the command, and the exit code of each.
 
-use std::{io, path::PathBuf, process::ExitCode};
+use std::{
+    io,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
 use dashpot_analysis::{
     RunError, rheometer::RheometerError, similarity::SimilarityError, sweep::SweepError,
@@ -66,6 +70,12 @@ pub(crate) enum CliError {
         path: PathBuf,
         /// Why.
         source: io::Error,
+    },
+    /// A folder that another process writes to.
+    #[error("another run is writing to `{}`", .path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
     },
     /// A file where a folder is wanted.
     #[error("`{}` is a file; `--out` wants a folder", .path.display())]
@@ -239,6 +249,12 @@ impl From<SweepError> for CliError {
     }
 }
 
+/// An error of the system at this path.
+pub(crate) fn unwritable(path: &Path) -> impl Fn(io::Error) -> CliError + use<> {
+    let path = path.to_owned();
+    move |source| CliError::Unwritable { path: path.clone(), source }
+}
+
 impl CliError {
     /// The one table of exit codes.
     pub(crate) fn status(&self) -> Status {
@@ -294,6 +310,7 @@ impl CliError {
                 _ => Status::InputWrong,
             },
             Self::Undecided { .. }
+            | Self::Busy { .. }
             | Self::Unwritable { .. }
             | Self::Output(_)
             | Self::Thesis(_)
@@ -324,6 +341,9 @@ impl CliError {
                     .to_owned(),
             ),
             Self::Foreign { help, .. } => Some((*help).to_owned()),
+            Self::Busy { .. } => {
+                Some("choose another folder for `--out`, or wait until it is done".to_owned())
+            }
             Self::Unfit { reason: Unfit::OtherShape { .. }, .. } => Some(
                 "`--to generalized-maxwell` and `--to generalized-kelvin` take every model"
                     .to_owned(),
@@ -404,11 +424,13 @@ impl CliError {
 /// Whether a place that cannot be written is one that was badly chosen.
 fn is_wrong_place(error: &io::Error) -> bool {
     use io::ErrorKind::{
-        AlreadyExists, IsADirectory, NotADirectory, NotFound, PermissionDenied, ReadOnlyFilesystem,
+        AlreadyExists, InvalidFilename, IsADirectory, NotADirectory, NotFound, PermissionDenied,
+        ReadOnlyFilesystem,
     };
     matches!(
         error.kind(),
         AlreadyExists
+            | InvalidFilename
             | IsADirectory
             | NotADirectory
             | NotFound

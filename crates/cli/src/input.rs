@@ -1,7 +1,7 @@
 //! Scenes and models from files.
 
 use std::{
-    fs::File,
+    fs::{self, File},
     io::{self, Read},
     path::Path,
 };
@@ -14,6 +14,8 @@ use crate::error::CliError;
 
 /// Texts are at most so long, in bytes; a reader takes one more, so that the limit is noticed.
 const MAX_BYTES: u64 = 64 << 20;
+/// What is said of pipes and devices.
+const NO_FILE: &str = "it is no regular file; standard input is `-`";
 /// Name of the built-in scene.
 const BUILT_IN: &str = "reference";
 
@@ -104,8 +106,13 @@ pub(crate) fn load(path: &str) -> Result<String, String> {
 }
 
 fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
-    if path.is_dir() {
+    let found = fs::metadata(path)?;
+    if found.is_dir() {
         return Err(io::Error::from(io::ErrorKind::IsADirectory));
+    }
+    // Before it is opened: a pipe would wait for its other end, a device has no end.
+    if !found.is_file() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, NO_FILE));
     }
     limited(File::open(path)?)
 }

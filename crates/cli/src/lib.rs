@@ -14,10 +14,13 @@ mod folder;
 mod input;
 mod numbers;
 mod operand;
+mod part;
 mod progress;
 mod registers;
 mod rheometer_folder;
+mod run_folder;
 mod series;
+mod shown;
 mod sketch;
 mod sweep_folder;
 mod terminal;
@@ -42,7 +45,11 @@ pub fn main() -> ExitCode {
         Err(message) => {
             let message = args::explained(message);
             // Help is asked for, all else is wrong input; a reader that is gone is no matter.
-            let _ = message.print();
+            if message.use_stderr() && message.to_string().chars().any(dashpot_scene::is_control) {
+                terminal::note(&message.to_string());
+            } else {
+                let _ = message.print();
+            }
             return if message.use_stderr() { Status::InputWrong } else { Status::Done }.into();
         }
     };

@@ -1,6 +1,6 @@
 //! What the rheometer writes into a folder.
 
-use std::{f64::consts::TAU, fs, path::Path};
+use std::{f64::consts::TAU, io::Write};
 
 use dashpot_analysis::rheometer::{RheometerReport, Series, Specimen};
 use dashpot_plot::{
@@ -9,11 +9,7 @@ use dashpot_plot::{
 };
 use dashpot_rheology::MaxwellForm;
 
-use crate::{
-    answer::rheometer::Units,
-    error::CliError,
-    folder::{RESULT, unwritable},
-};
+use crate::{answer::rheometer::Units, error::CliError, folder::Staged};
 
 /// Points of a curve of a model, and how far beyond its times it goes.
 const POINTS: i32 = 400;
@@ -66,39 +62,28 @@ pub(crate) fn file_names(tests: &[String]) -> Vec<String> {
     models.chain(tests).collect()
 }
 
-/// Writes everything into the folder `path`, and returns the names of the files.
+/// Adds all files but the result.
 pub(crate) fn write(
-    path: &Path,
-    json: &str,
+    files: &mut Staged<'_>,
     units: Units,
     (word, specimen): (&str, &Specimen),
     reports: &[RheometerReport],
-) -> Result<Vec<String>, CliError> {
-    let mut files = vec![(RESULT.to_owned(), json.as_bytes().to_vec())];
+) -> Result<(), CliError> {
     let subject = if units.is_material { ModelSubject::Material } else { ModelSubject::Pad };
     let curves = curves(word, specimen, reports);
     for own in MODEL_FIGURES {
         let is_swept = [Sweep.name(), LossFactor.name()].contains(&own.name());
         let shown = if is_swept { &curves[..] } else { &curves[..1] };
-        files.push((
-            format!("model-{}.svg", own.name()),
-            own.chart(shown, subject).svg()?.into_bytes(),
-        ));
+        files.add(format!("model-{}.svg", own.name()), own.chart(shown, subject).svg()?)?;
     }
     for report in reports {
         let name = format!("{}.csv", report.protocol);
-        let file = path.join(&name);
-        let table = csv(report, units).map_err(std::io::Error::from).map_err(unwritable(&file))?;
-        files.push((name, table));
+        files.add_with(name, |out| Ok(write_csv(report, units, out)?))?;
         if let Some(series) = figure(report, units) {
-            files.push((format!("{}.svg", report.protocol), series.chart().svg()?.into_bytes()));
+            files.add(format!("{}.svg", report.protocol), series.chart().svg()?)?;
         }
     }
-    for (name, content) in &files {
-        let file = path.join(name);
-        fs::write(&file, content).map_err(unwritable(&file))?;
-    }
-    Ok(files.into_iter().map(|own| own.0).collect())
+    Ok(())
 }
 
 /// The model's own functions, and what a sweep of the network found.
@@ -141,7 +126,7 @@ fn curves(word: &str, specimen: &Specimen, reports: &[RheometerReport]) -> Vec<M
 }
 
 /// A test as CSV.
-fn csv(report: &RheometerReport, units: Units) -> Result<Vec<u8>, csv::Error> {
+fn write_csv(report: &RheometerReport, units: Units, out: &mut dyn Write) -> csv::Result<()> {
     let header = |name: &str, unit| format!("{name} [{}]", units.of(unit));
     let mut columns: Vec<(String, Vec<Option<f64>>)> = Vec::new();
     let all = |values: &[f64]| values.iter().copied().map(Some).collect();
@@ -155,7 +140,7 @@ fn csv(report: &RheometerReport, units: Units) -> Result<Vec<u8>, csv::Error> {
             columns.push((header(&name, series.unit), own.values.clone()));
         }
     }
-    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut writer = csv::Writer::from_writer(out);
     writer.write_record(columns.iter().map(|own| &own.0))?;
     for row in 0..report.abscissa.values.len() {
         let value = |own: &(String, Vec<Option<f64>>)| {
@@ -164,5 +149,5 @@ fn csv(report: &RheometerReport, units: Units) -> Result<Vec<u8>, csv::Error> {
         };
         writer.serialize(columns.iter().map(value).collect::<Vec<_>>())?;
     }
-    writer.into_inner().map_err(|error| error.into_error().into())
+    Ok(writer.flush()?)
 }

@@ -1,10 +1,10 @@
 //! What `sweep` draws, and what it writes into a folder.
 
-use std::{fs, path::Path};
+use std::fmt::Write as _;
 
 use dashpot_analysis::sweep::{Column, SweepReport};
 use dashpot_plot::{Chart, Direction, Map, MapLimit, ReferenceLine, Scale, Series};
-use dashpot_scene::Variation;
+use dashpot_scene::{Variation, text_cell};
 
 use crate::{
     answer::{
@@ -12,7 +12,7 @@ use crate::{
         title,
     },
     error::CliError,
-    folder::{RESULT, unwritable},
+    folder::Staged,
     numbers::Unit,
 };
 
@@ -57,13 +57,25 @@ pub(crate) fn undrawn(variations: &[Variation]) -> Option<&'static str> {
 }
 
 fn line_file(column: &Column) -> String {
-    let share = if column.is_share { "-over-thickness" } else { "" };
-    format!("{}{share}.svg", column.key)
+    stem(column) + ".svg"
 }
 
 fn map_file(column: &Column) -> String {
-    let share = if column.is_share { "-over-thickness" } else { "" };
-    format!("{}{share}-map.svg", column.key)
+    stem(column) + "-map.svg"
+}
+
+/// The key of a column as the name of a file: what is no part of such a name everywhere is written as
+/// in addresses, so that different keys have different names.
+fn stem(column: &Column) -> String {
+    let mut name = String::new();
+    for own in column.key.chars() {
+        if "/\\:*?\"<>|%".contains(own) {
+            let _ = write!(name, "%{:02X}", u32::from(own));
+        } else {
+            name.push(own);
+        }
+    }
+    name + if column.is_share { "-over-thickness" } else { "" }
 }
 
 /// The files that are written besides the result.
@@ -74,29 +86,23 @@ pub(crate) fn file_names(swept: &Swept<'_>, columns: &[Column]) -> Vec<String> {
     [TABLE.to_owned()].into_iter().chain(lines).chain(maps).collect()
 }
 
-/// Writes everything into the folder `path`, and returns the names of the files.
+/// Adds all files but the result.
 pub(crate) fn write(
-    path: &Path,
-    json: &str,
+    files: &mut Staged<'_>,
     swept: &Swept<'_>,
     report: &SweepReport,
-) -> Result<Vec<String>, CliError> {
-    let mut files =
-        vec![(RESULT.to_owned(), json.to_owned()), (TABLE.to_owned(), csv(swept, report))];
+) -> Result<(), CliError> {
+    files.add(TABLE, csv(swept, report))?;
     let figures = Figures::of(swept.variations);
     for (at, column) in report.columns.iter().enumerate() {
         if figures.lines {
-            files.push((line_file(column), lines(swept, report, at).svg()?));
+            files.add(line_file(column), lines(swept, report, at).svg()?)?;
         }
         if figures.map {
-            files.push((map_file(column), map(swept, report, at).svg()));
+            files.add(map_file(column), map(swept, report, at).svg())?;
         }
     }
-    for (name, content) in &files {
-        let file = path.join(name);
-        fs::write(&file, content).map_err(unwritable(&file))?;
-    }
-    Ok(files.into_iter().map(|own| own.0).collect())
+    Ok(())
 }
 
 /// Values and errors at all points, in SI units, and the numbers of the warnings there; what is missing
@@ -114,7 +120,7 @@ pub(crate) fn csv(swept: &Swept<'_>, report: &SweepReport) -> String {
         header.push(format!("error of {} [{}]", name(own), own.unit));
     }
     header.push(WARNINGS.to_owned());
-    push_record(&mut text, header.iter().map(|own| quoted(own)));
+    push_record(&mut text, header.iter().map(|own| text_cell(own).into_owned()));
     let width = report.columns.len();
     let points = report.values.chunks(width).zip(report.errors.chunks(width));
     let mut places = vec![0; swept.variations.len()];
@@ -149,14 +155,6 @@ fn push_record(text: &mut String, fields: impl Iterator<Item = String>) {
         text.push_str(&field);
     }
     text.push('\n');
-}
-
-fn quoted(field: &str) -> String {
-    if field.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", field.replace('"', "\"\""))
-    } else {
-        field.to_owned()
-    }
 }
 
 /// The shortest digits that give the number back.

@@ -2,10 +2,14 @@
 
 use std::io::{self, ErrorKind, IsTerminal, Write};
 
-use clap::builder::styling::{AnsiColor, Style};
 use dashpot_scene::Diagnostics;
 
-use crate::{args::When, error::CliError, text::hanging};
+use crate::{
+    args::When,
+    error::CliError,
+    shown::{Tone, marked, shown},
+    text::hanging,
+};
 
 /// Columns of text.
 pub(crate) const WIDTH: usize = 80;
@@ -30,17 +34,6 @@ pub(crate) struct Stream {
     colored: bool,
 }
 
-/// What a text is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Tone {
-    /// A heading.
-    Heading,
-    /// What the reader must know.
-    Warning,
-    /// Less important.
-    Faint,
-}
-
 impl Terminal {
     /// The terminal as it is, with colours as wished.
     pub(crate) fn new(color: When) -> Self {
@@ -62,17 +55,12 @@ impl Terminal {
 
     /// The text in the colour of its tone, for standard output.
     pub(crate) fn toned(self, tone: Tone, text: &str) -> String {
-        let style = match tone {
-            Tone::Heading => Style::new().bold(),
-            Tone::Warning => AnsiColor::Yellow.on_default().bold(),
-            Tone::Faint => Style::new().dimmed(),
-        };
-        if self.output.colored { format!("{style}{text}{style:#}") } else { text.to_owned() }
+        if self.output.colored { marked(tone, text) } else { text.to_owned() }
     }
 
     /// Warns on standard error.
     pub(crate) fn warn(self, text: &str) {
-        self.labelled("warning", AnsiColor::Yellow, text);
+        self.labelled("warning", Tone::Warning, text);
     }
 
     /// Tells of an error and of what to do.
@@ -85,24 +73,24 @@ impl Terminal {
 
     /// Tells of an error, after a word on where it happened, and of what to do.
     pub(crate) fn fail(self, prefix: &str, error: &CliError) {
-        self.labelled("error", AnsiColor::Red, &format!("{prefix}{error}"));
+        self.labelled("error", Tone::Error, &format!("{prefix}{error}"));
         if let Some(help) = error.help() {
-            self.labelled("help", AnsiColor::Cyan, &help);
+            self.labelled("help", Tone::Help, &help);
         }
     }
 
     /// Shows faults of a text, or what is odd about it.
     pub(crate) fn diagnose(self, diagnostics: &Diagnostics) {
         if !diagnostics.is_empty() {
-            note(&diagnostics.render_within(self.error.colored, WIDTH));
+            // Its texts are visible already, and it has colours of its own.
+            put(&diagnostics.render_within(self.error.colored, WIDTH));
         }
     }
 
-    fn labelled(self, label: &str, color: AnsiColor, text: &str) {
-        let style = color.on_default().bold();
+    fn labelled(self, label: &str, tone: Tone, text: &str) {
         let shown = hanging(&format!("{label}: {text}"), WIDTH);
         match shown.strip_prefix(label).filter(|_| self.error.colored) {
-            Some(rest) => note(&format!("{style}{label}{style:#}{rest}")),
+            Some(rest) => note(&(marked(tone, label) + rest)),
             None => note(&shown),
         }
     }
@@ -129,8 +117,18 @@ fn have_one_file() -> bool {
     false
 }
 
-/// Prints to standard output. A reader that has gone away is no error.
+/// Prints for people to standard output, with no control characters but ours.
 pub(crate) fn print(text: &str) -> Result<(), CliError> {
+    print_raw(&shown(text))
+}
+
+/// Prints for programs to standard output: as it is, unless that is a terminal.
+pub(crate) fn print_data(text: &str) -> Result<(), CliError> {
+    if io::stdout().is_terminal() { print(text) } else { print_raw(text) }
+}
+
+/// A reader that has gone away is no error.
+fn print_raw(text: &str) -> Result<(), CliError> {
     let mut output = io::stdout().lock();
     match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CliError::Output(error)),
@@ -143,8 +141,12 @@ pub(crate) fn remark(text: &str) {
     note(&hanging(&format!("note: {text}"), WIDTH));
 }
 
-/// Says something on standard error.
+/// Says something on standard error, with no control characters but ours.
 pub(crate) fn note(text: &str) {
+    put(&shown(text));
+}
+
+fn put(text: &str) {
     // There is nowhere left to complain to.
     let _ = writeln!(io::stderr().lock(), "{text}");
 }

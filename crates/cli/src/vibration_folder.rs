@@ -1,6 +1,6 @@
 //! What `vibrate` draws, and what it writes into a folder.
 
-use std::{fs, path::Path};
+use std::io::Write;
 
 use dashpot_analysis::vibration::{Sweep, Swing, Transmission};
 use dashpot_plot::{VibrationCurve, VibrationSeries};
@@ -8,7 +8,7 @@ use dashpot_plot::{VibrationCurve, VibrationSeries};
 use crate::{
     answer::vibration::degrees,
     error::CliError,
-    folder::{RESULT, unwritable},
+    folder::Staged,
     numbers::{Unit, quantity},
 };
 
@@ -56,27 +56,18 @@ fn curve(sweep: &Sweep, own: &Transmission) -> VibrationCurve {
     }
 }
 
-/// Writes everything into the folder `path`, and returns the names of the files.
-pub(crate) fn write(path: &Path, json: &str, sweep: &Sweep) -> Result<Vec<String>, CliError> {
+/// Adds all files but the result.
+pub(crate) fn write(files: &mut Staged<'_>, sweep: &Sweep) -> Result<(), CliError> {
     let series = series(sweep);
-    let [ratio, phase] = FIGURES.map(str::to_owned);
-    let table = csv(sweep).map_err(std::io::Error::from);
-    let files = [
-        (RESULT.to_owned(), json.as_bytes().to_vec()),
-        (TABLE.to_owned(), table.map_err(unwritable(&path.join(TABLE)))?),
-        (ratio, series.ratio_chart().svg()?.into_bytes()),
-        (phase, series.phase_chart().svg()?.into_bytes()),
-    ];
-    for (name, content) in &files {
-        let file = path.join(name);
-        fs::write(&file, content).map_err(unwritable(&file))?;
-    }
-    Ok(files.into_iter().map(|own| own.0).collect())
+    let [ratio, phase] = FIGURES;
+    files.add_with(TABLE, |out| Ok(write_csv(sweep, out)?))?;
+    files.add(ratio, series.ratio_chart().svg()?)?;
+    files.add(phase, series.phase_chart().svg()?)
 }
 
 /// The responses at all frequencies of the list.
-fn csv(sweep: &Sweep) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+fn write_csv(sweep: &Sweep, out: &mut dyn Write) -> csv::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
     let mut header = vec!["frequency [Hz]".to_owned()];
     for own in &sweep.transmissions {
         header.push(format!("ratio of {} [1]", own.name));
@@ -95,5 +86,5 @@ fn csv(sweep: &Sweep) -> Result<Vec<u8>, csv::Error> {
         }
         writer.serialize(record)?;
     }
-    writer.into_inner().map_err(|error| error.into_error().into())
+    Ok(writer.flush()?)
 }

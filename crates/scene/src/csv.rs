@@ -2,12 +2,15 @@
 //!
 //! Columns are separated by semicolons where the first line has one, else by tabs where it has one,
 //! else by commas. A line that begins with `#` is a comment. The first line is a header if no field
-//! of it is a number; a field such as `force [kN]` or `force (kN)` names a column and its unit.
+//! of it is a number; a field such as `force [kN]` or `force (kN)` names a column and its unit. An
+//! apostrophe before a name that begins like a formula is not part of it ([`text_cell`]).
 
+mod cell;
 mod fault;
 
 use std::ops::Range;
 
+pub use cell::text_cell;
 pub use fault::CsvFault;
 
 use crate::units::{UnitError, parse_quantity};
@@ -34,14 +37,15 @@ impl Field<'_> {
 
     /// The name and the unit of a column, `force` and `kN` in `force [kN]`.
     pub(crate) fn name_and_unit(&self) -> (&str, Option<Self>) {
-        let text = self.text;
+        let text = cell::unguarded(self.text);
+        let at = self.at + self.text.len() - text.len();
         let open = match text.chars().last() {
             Some(']') => text.rfind('['),
             Some(')') => text.rfind('('),
             _ => None,
         };
         let Some(open) = open else { return (text, None) };
-        let unit = trimmed(&text[open + 1..text.len() - 1], self.at + open + 1);
+        let unit = trimmed(&text[open + 1..text.len() - 1], at + open + 1);
         (text[..open].trim_end(), Some(unit))
     }
 
@@ -90,7 +94,8 @@ impl<'t> Csv<'t> {
     /// The table in `text`; `None` where there is no line but comments.
     pub(crate) fn new(text: &'t str) -> Option<Self> {
         let (at, first) = lines(text, 0).next()?;
-        let separator = [';', '\t'].into_iter().find(|own| first.contains(*own)).unwrap_or(',');
+        let separates = |own: &char| first.split('"').step_by(2).any(|part| part.contains(*own));
+        let separator = [';', '\t'].into_iter().find(separates).unwrap_or(',');
         let mut fields = Vec::new();
         split(first, at, separator, &mut fields);
         let columns = fields.len();

@@ -44,11 +44,12 @@ mod tunable;
 pub mod units;
 mod values;
 mod variation;
+mod visible;
 mod write;
 mod write_scene;
 mod write_waveform;
 
-pub use csv::CsvFault;
+pub use csv::{CsvFault, text_cell};
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
 pub use document::MAX_BYTES;
 pub use fault::Fault;
@@ -64,6 +65,7 @@ pub use source::Source;
 pub use tunable::{Tunable, TunableFault, Tunables};
 pub use values::NamedValue;
 pub use variation::{Variation, VariationFault};
+pub use visible::{is_control, visible};
 pub use write::{write_effect, write_kind, write_material_table, write_model, write_model_table};
 pub use write_scene::{Unwritable, write_scene};
 

@@ -9,6 +9,7 @@ use annotate_snippets::{
 use crate::{
     diagnostics::{Diagnostic, Diagnostics, Severity},
     source::Source,
+    visible::visible,
 };
 
 /// So many lines of the text are shown for one fault.
@@ -39,7 +40,7 @@ fn one(renderer: &Renderer, diagnostic: &Diagnostic, width: usize) -> String {
     let mut group = match (&diagnostic.source, &diagnostic.span) {
         (Some(source), Some(span)) => title.element(snippet(source, span, diagnostic, width)),
         (Some(source), None) => {
-            title.element(annotate_snippets::Origin::path(source.name.as_str()))
+            title.element(annotate_snippets::Origin::path(visible(&source.name)))
         }
         _ => Group::with_title(title),
     };
@@ -61,6 +62,7 @@ const INNER_LEAD: usize = "    = help: ".len();
 
 /// The text in lines of at most `room` columns.
 fn wrapped(text: &str, room: usize) -> String {
+    let text = &*visible(text);
     let (mut shown, mut columns) = (String::with_capacity(text.len()), 0);
     for word in text.split(' ') {
         let own = word.chars().count();
@@ -90,10 +92,9 @@ fn snippet<'a>(
     let end = start + marked(&source.text[start..end], width.saturating_sub(MARGIN)).len();
     let span = start - lines.start..end - lines.start;
     let annotation = AnnotationKind::Primary.span(span).label(diagnostic.fault.label());
-    Snippet::source(&source.text[lines])
-        .line_start(first_line)
-        .path(source.name.as_str())
-        .annotation(annotation)
+    // The renderer shows other control characters; these take as many bytes as what stands for them.
+    let text = source.text[lines].replace(|own| matches!(own, '\u{80}'..='\u{9f}'), "\u{b7}");
+    Snippet::source(text).line_start(first_line).path(visible(&source.name)).annotation(annotation)
 }
 
 /// Columns beside a mark: the number of the line, and what shows that the line goes on.

@@ -19,7 +19,8 @@ use crate::{
     input::read_scene,
     numbers::{apart, bound, quantity, share},
     operand::{Operand, Subject, canonical_model, parted},
-    terminal::{Terminal, Tone, WIDTH, print},
+    shown::Tone,
+    terminal::{Terminal, WIDTH, print, print_data},
     text::{columns, side_by_side, table, wrapped},
 };
 
@@ -53,7 +54,7 @@ pub(crate) fn compare(
     }
     let status = if found.same { Status::Done } else { Status::NotSame };
     if arguments.json {
-        print(&(serde_json::to_string_pretty(&found)? + "\n"))?;
+        print_data(&(serde_json::to_string_pretty(&found)? + "\n"))?;
     } else {
         print(&text(&found, terminal))?;
     }
@@ -129,7 +130,7 @@ fn about(operand: &Operand) -> Result<About, CliError> {
     };
     Ok(About {
         poles,
-        elements: tree.map(|tree| tree.parts().len()),
+        elements: tree.map(|tree| tree.leaves().count()),
         least_elements: linear.as_ref().map(dashpot_rheology::LinearModel::least_elements),
         maxwell_form: linear.as_ref().is_some_and(|own| own.maxwell().is_some()),
         kelvin_form: linear.as_ref().is_some_and(|own| own.kelvin().is_some()),
@@ -147,7 +148,7 @@ fn together(model: &Model) -> Vec<Together> {
 }
 
 fn map(first: &Model, second: &Model) -> Option<Map> {
-    let is_small = |own: &&Model| own.parts().len() <= MOST_MAPPED;
+    let is_small = |own: &&Model| own.leaves().nth(MOST_MAPPED).is_none();
     let of = |own: &Model| sensitivity(own, |element| primitive(element.as_ref()));
     let [first, second] = [first, second].map(|own| Some(own).filter(is_small).and_then(of));
     Some(Map::of(&first?.map_to(&second?)?))

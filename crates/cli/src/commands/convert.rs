@@ -12,10 +12,10 @@ use dashpot_scene::{read_named_model, with_model, write_model_table};
 use crate::{
     args::ConvertArguments,
     error::{CliError, Status},
-    folder::write_new,
     numbers::bound,
     operand::{Operand, Subject},
-    terminal::{Terminal, print, remark},
+    part::write_text,
+    terminal::{Terminal, print, print_data, remark},
 };
 
 /// Name of the table for a response, which has none of its own.
@@ -56,7 +56,7 @@ pub(crate) fn convert(
     confirm(&operand, &text, &format!("{section}.{name}"), &model, set)?;
     match &arguments.out {
         Some(path) => {
-            write_new(path, &text, arguments.force)?;
+            write_text(path, &text, arguments.force)?;
             let elsewhere = path.parent() != Path::new(&operand.input.file).parent();
             if elsewhere && text.contains(".toml:") {
                 remark("models of other files are now looked for beside the new file");
@@ -64,7 +64,7 @@ pub(crate) fn convert(
             let path = path.display();
             print(&format!("wrote {path}; its model is `{path}:{name}`\n"))?;
         }
-        None => print(&text)?,
+        None => print_data(&text)?,
     }
     remark(&said(error));
     if !with.is_empty() {

@@ -14,11 +14,12 @@ use crate::{
     args::CostArguments,
     cost_folder::{file_names, write},
     error::{CliError, Status},
-    folder::{prepare_for, settle},
+    folder::Folder,
     input::read_scene,
     operand::tell,
     progress::Bar,
-    terminal::{Terminal, Tone, WIDTH, print},
+    shown::Tone,
+    terminal::{Terminal, WIDTH, print, print_data},
     text::{side_by_side, table, wrapped},
 };
 
@@ -28,9 +29,7 @@ pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Stat
     terminal.diagnose(&checked.warnings);
     tell(&checked.value.notes);
     let scene = checked.value;
-    if let Some(path) = &arguments.out {
-        prepare_for(path, file_names())?;
-    }
+    let folder = Folder::wanted(arguments.out.as_deref(), file_names())?;
     let assembly = Arc::new(scene.assembly.clone());
     let settings = scene.settings("auto");
     let mut bar = Bar::new("cost", settings.duration, terminal.error.attended);
@@ -39,13 +38,12 @@ pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Stat
     let accuracies = accuracies(scene.accuracy.default);
     let json = serde_json::to_string_pretty(&document(&scene, &report, &accuracies))? + "\n";
     if arguments.json {
-        print(&json)?;
+        print_data(&json)?;
     } else {
         print(&text(&scene, &report, &accuracies, terminal))?;
     }
-    if let Some(path) = &arguments.out {
-        let names = write(path, &json, &scene, &report, &accuracies)?;
-        settle(path, &names, arguments.json)?;
+    if let Some(folder) = folder {
+        folder.write(|files| write(files, &scene, &report, &accuracies), &json, arguments.json)?;
     }
     Ok(if report.points.is_empty() { Status::RunFailed } else { Status::Done })
 }

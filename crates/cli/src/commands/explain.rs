@@ -3,10 +3,7 @@
 mod effects;
 
 use std::fmt::Write as _;
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use dashpot_analysis::{choice, reported_measures};
 use dashpot_dae::UnknownKind;
@@ -19,11 +16,12 @@ use crate::{
     args::ExplainArguments,
     entanglement::notes,
     error::{CliError, Status},
-    folder::unwritable,
     input::read_scene,
     numbers::{constant, quantity},
+    part::write_drawing,
+    shown::Tone,
     sketch::{MOST_DRAWN, element, sketch, waveform},
-    terminal::{Terminal, Tone, WIDTH, print},
+    terminal::{Terminal, WIDTH, print},
     text::{fitted, indented, labelled, wrapped},
 };
 
@@ -76,7 +74,7 @@ pub(crate) fn explain(
     }
     if let Some(path) = &arguments.out {
         let file = svg_path(path);
-        fs::write(&file, drawing().svg()).map_err(unwritable(&file))?;
+        write_drawing(&file, &drawing().svg())?;
         let _ = writeln!(text, "\nwrote {}", file.display());
     }
     print(&text)?;

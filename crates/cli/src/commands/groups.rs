@@ -20,11 +20,12 @@ use crate::{
     },
     args::GroupsArguments,
     error::{CliError, Status},
-    folder::write_new,
     input::read_scene,
     numbers::bound,
     operand::tell,
-    terminal::{Terminal, Tone, WIDTH, print, remark},
+    part::write_text,
+    shown::Tone,
+    terminal::{Terminal, WIDTH, print, print_data, remark},
     text::{columns, wrapped},
 };
 
@@ -63,12 +64,11 @@ pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<
         write(path, &title, &network, &settings, (&scene, arguments))?;
         remark(&format!("wrote {}", path.display()));
     }
-    let text = if arguments.json {
-        serde_json::to_string_pretty(&told)? + "\n"
+    if arguments.json {
+        print_data(&(serde_json::to_string_pretty(&told)? + "\n"))?;
     } else {
-        text(&told, terminal)
-    };
-    print(&text)?;
+        print(&text(&told, terminal))?;
+    }
     Ok(status)
 }
 
@@ -166,7 +166,7 @@ fn write(
     let wish = if arguments.lab.is_empty() { &arguments.from } else { &arguments.lab };
     let comment = format!("Made from {name} for {}.", pairs(wish));
     let text = write_scene(title, &[comment], network, &run, &settings.measures)?;
-    write_new(path, &text, arguments.force)
+    write_text(path, &text, arguments.force)
 }
 
 fn pairs(all: &[(String, String)]) -> String {

@@ -9,7 +9,8 @@ use crate::{
     args::{Family, ListArguments},
     error::{CliError, Status},
     registers::{Entry, entries},
-    terminal::{Terminal, Tone, WIDTH, print},
+    shown::Tone,
+    terminal::{Terminal, WIDTH, print},
     text::{columns, wrapped},
 };
 

@@ -16,10 +16,11 @@ use crate::{
     },
     args::{RheometerArguments, When},
     error::{CliError, Status},
-    folder::{prepare_for, settle},
+    folder::Folder,
     operand::{Operand, canonical_model},
     rheometer_folder::{figure, file_names, write},
-    terminal::{Terminal, Tone, WIDTH, print, remark},
+    shown::Tone,
+    terminal::{Terminal, WIDTH, print, print_data, remark},
     text::{table, wrapped},
 };
 
@@ -36,9 +37,7 @@ pub(crate) fn rheometer(
     let units = Units { is_material: operand.is_material() };
     let specimen = Specimen::new(&model)?;
     let methods: Vec<&str> = arguments.method.iter().map(String::as_str).collect();
-    if let Some(path) = &arguments.out {
-        prepare_for(path, file_names(&tests(arguments)))?;
-    }
+    let folder = Folder::wanted(arguments.out.as_deref(), file_names(&tests(arguments)))?;
     let given = given(arguments, units)?;
     let mut reports = Vec::new();
     for test in tests(arguments) {
@@ -54,13 +53,16 @@ pub(crate) fn rheometer(
     let document = Document::of(&operand.word, units, &specimen, &reports);
     let json = serde_json::to_string_pretty(&document)? + "\n";
     if arguments.json {
-        print(&json)?;
+        print_data(&json)?;
     } else {
         print(&text(&operand, units, &specimen, &reports, (arguments.plot, terminal)))?;
     }
-    if let Some(path) = &arguments.out {
-        let names = write(path, &json, units, (&operand.word, &specimen), &reports)?;
-        settle(path, &names, arguments.json)?;
+    if let Some(folder) = folder {
+        folder.write(
+            |files| write(files, units, (&operand.word, &specimen), &reports),
+            &json,
+            arguments.json,
+        )?;
     }
     Ok(Status::Done)
 }

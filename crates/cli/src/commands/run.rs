@@ -1,6 +1,6 @@
 //! `dashpot run`.
 
-use std::{fmt::Write as _, fs, sync::Arc, time::Instant};
+use std::{fmt::Write as _, sync::Arc, time::Instant};
 
 use dashpot_analysis::{Accuracy, RunReport, SolveSettings, solve_partial};
 use dashpot_plot::{
@@ -17,12 +17,14 @@ use crate::{
     as_run::Changes,
     commands::check::hopeless,
     error::{CliError, Status},
-    folder,
+    folder::Folder,
     input::read_scene,
     operand::tell,
     progress::Bar,
+    run_folder::{file_names, write},
     series::curves,
-    terminal::{Terminal, Tone, WIDTH, print},
+    shown::Tone,
+    terminal::{Terminal, WIDTH, print, print_data},
     text::{indented, labelled, table},
 };
 
@@ -38,22 +40,15 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
     terminal.diagnose(&checked.warnings);
     tell(&checked.value.notes);
-    let made = match &arguments.out {
-        Some(path) => folder::prepare(path)?.then_some(path),
-        None => None,
-    };
+    let folder = Folder::wanted(arguments.out.as_deref(), file_names())?;
     if let Ok(texts) = hopeless(&checked.value) {
         texts.iter().for_each(|text| terminal.warn(text));
     }
     let answer = solve_all(checked.value, arguments, terminal);
     tell_failures(&answer, terminal);
     let status = answer.failed.iter().map(|(_, error)| error.status()).max();
-    if let Some(path) = made.filter(|_| answer.runs.is_empty()) {
-        // It is empty, and if not, it stays.
-        let _ = fs::remove_dir(path);
-    }
     if arguments.json || !answer.runs.is_empty() {
-        show(&answer, arguments, terminal)?;
+        show(&answer, arguments, terminal, folder)?;
     }
     Ok(status.unwrap_or(Status::Done))
 }
@@ -120,27 +115,32 @@ fn settings(scene: &Scene, method: &str, arguments: &RunArguments) -> SolveSetti
     settings
 }
 
-fn show(answer: &Answer, arguments: &RunArguments, terminal: Terminal) -> Result<(), CliError> {
+fn show(
+    answer: &Answer,
+    arguments: &RunArguments,
+    terminal: Terminal,
+    folder: Option<Folder>,
+) -> Result<(), CliError> {
     let warnings = new_warnings(answer);
     // The report begins with them, so at one place they would be read twice.
     if arguments.json || !terminal.is_one {
         warnings.iter().for_each(|warning| terminal.warn(warning));
     }
-    let text = if arguments.json {
-        serde_json::to_string_pretty(&document(answer))? + "\n"
+    let json = || Ok::<_, CliError>(serde_json::to_string_pretty(&document(answer))? + "\n");
+    if arguments.json {
+        print_data(&json()?)?;
     } else {
         let plot = match arguments.plot {
             When::Auto => terminal.output.attended,
             When::Always => true,
             When::Never => false,
         };
-        report(answer, &warnings, plot, terminal)
-    };
-    print(&text)?;
-    let Some(path) = arguments.out.as_deref().filter(|_| !answer.runs.is_empty()) else {
-        return Ok(());
-    };
-    folder::settle(path, &folder::write(answer, path)?, arguments.json)
+        print(&report(answer, &warnings, plot, terminal))?;
+    }
+    match folder.filter(|_| !answer.runs.is_empty()) {
+        Some(folder) => folder.write(|files| write(files, answer), &json()?, arguments.json),
+        None => Ok(()),
+    }
 }
 
 /// The warnings but those that the scene's own text has brought already.

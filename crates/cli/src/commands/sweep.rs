@@ -12,11 +12,12 @@ use crate::{
     },
     args::SweepArguments,
     error::{CliError, Status},
-    folder::{prepare_for, settle},
+    folder::Folder,
     input::Input,
     progress::Count,
+    shown::Tone,
     sweep_folder::{csv, file_names, undrawn, write},
-    terminal::{Terminal, Tone, WIDTH, print, remark},
+    terminal::{Terminal, WIDTH, print, print_data, remark},
     text::{table, wrapped},
 };
 
@@ -51,9 +52,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let (columns, wishes) = columns(&posed(scene.clone()), &keys)?;
     let swept =
         Swept { scene: &scene, tunables: &tunables, variations: &variations, matched: &matched };
-    if let Some(path) = &arguments.out {
-        prepare_for(path, file_names(&swept, &columns))?;
-    }
+    let folder = Folder::wanted(arguments.out.as_deref(), file_names(&swept, &columns))?;
     let pose = |places: &[usize]| {
         let text = text_at(&tunables, &variations, &matched, places);
         let checked = read(&text, &input.options(set)).map_err(|faults| {
@@ -75,7 +74,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     }
     terminal.diagnose(&Diagnostics { list: told.split_off(before), omitted: 0 });
     let report = solved(arguments, &grid, &pose, &columns, terminal)?;
-    show(arguments, terminal, &swept, &report)
+    show(arguments, terminal, (&swept, &report), folder)
 }
 
 /// More points are not solved in one sweep.
@@ -117,23 +116,22 @@ fn solved(
 fn show(
     arguments: &SweepArguments,
     terminal: Terminal,
-    swept: &Swept<'_>,
-    report: &SweepReport,
+    (swept, report): (&Swept<'_>, &SweepReport),
+    folder: Option<Folder>,
 ) -> Result<Status, CliError> {
     let json = serde_json::to_string_pretty(&Document::of(swept, report))? + "\n";
     if arguments.json {
-        print(&json)?;
+        print_data(&json)?;
     } else if arguments.out.is_none() {
-        print(&csv(swept, report))?;
+        print_data(&csv(swept, report))?;
     } else {
         print(&text(swept, report, terminal))?;
     }
     if arguments.json || arguments.out.is_none() {
         remarks(swept, report).iter().for_each(|own| remark(own));
     }
-    if let Some(path) = &arguments.out {
-        let names = write(path, &json, swept, report)?;
-        settle(path, &names, arguments.json)?;
+    if let Some(folder) = folder {
+        folder.write(|files| write(files, swept, report), &json, arguments.json)?;
         undrawn(swept.variations).into_iter().for_each(remark);
     }
     let failed = report.gaps.iter().filter(|own| own.column.is_none()).count();

@@ -8,8 +8,9 @@ use crate::{
     answer::thesis::Document,
     args::ThesisArguments,
     error::{CliError, Status},
-    folder::{prepare_for, settle},
-    terminal::{Terminal, Tone, WIDTH, print},
+    folder::Folder,
+    shown::Tone,
+    terminal::{Terminal, WIDTH, print, print_data},
     text::{labelled, wrapped},
     thesis_folder::{file_names, write},
 };
@@ -19,19 +20,16 @@ const PLACE: usize = 13;
 
 /// Recomputes the thesis.
 pub(crate) fn thesis(arguments: &ThesisArguments, terminal: Terminal) -> Result<Status, CliError> {
-    if let Some(path) = &arguments.out {
-        prepare_for(path, file_names())?;
-    }
+    let folder = Folder::wanted(arguments.out.as_deref(), file_names())?;
     let all = Recomputation::new()?;
     let json = serde_json::to_string_pretty(&Document::of(&all))? + "\n";
     if arguments.json {
-        print(&json)?;
+        print_data(&json)?;
     } else {
         print(&text(&all, terminal))?;
     }
-    if let Some(path) = &arguments.out {
-        let names = write(path, &json, &all)?;
-        settle(path, &names, arguments.json)?;
+    if let Some(folder) = folder {
+        folder.write(|files| write(files, &all), &json, arguments.json)?;
     }
     Ok(Status::Done)
 }

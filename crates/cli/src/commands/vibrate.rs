@@ -14,9 +14,10 @@ use crate::{
     },
     args::{VibrateArguments, When},
     error::{CliError, Status},
-    folder::{prepare_for, settle},
+    folder::Folder,
     input::read_scene,
-    terminal::{Terminal, Tone, WIDTH, print},
+    shown::Tone,
+    terminal::{Terminal, WIDTH, print, print_data},
     text::{table, wrapped},
     vibration_folder::{file_names, series, write},
 };
@@ -33,9 +34,7 @@ pub(crate) fn vibrate(
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
     let vibration = Vibration::new(&scene.network, scene.run.duration, arguments.drive.as_deref())?;
-    if let Some(path) = &arguments.out {
-        prepare_for(path, file_names())?;
-    }
+    let folder = Folder::wanted(arguments.out.as_deref(), file_names())?;
     let sweep = vibration.sweep(&SweepSettings {
         from: arguments.from,
         to: arguments.to,
@@ -54,13 +53,12 @@ pub(crate) fn vibrate(
     let document = Document::of(&scene, &sweep, steady.as_ref());
     let json = serde_json::to_string_pretty(&document)? + "\n";
     if arguments.json {
-        print(&json)?;
+        print_data(&json)?;
     } else {
         print(&text(&scene, &sweep, steady.as_ref(), (arguments.plot, terminal)))?;
     }
-    if let Some(path) = &arguments.out {
-        let names = write(path, &json, &sweep)?;
-        settle(path, &names, arguments.json)?;
+    if let Some(folder) = folder {
+        folder.write(|files| write(files, &sweep), &json, arguments.json)?;
     }
     Ok(Status::Done)
 }

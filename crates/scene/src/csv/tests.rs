@@ -53,6 +53,18 @@ fn a_header_names_columns_and_units() {
 }
 
 #[test]
+fn a_name_that_begins_like_a_formula_is_read_as_it_was_written() {
+    for name in ["=1+1", "-pad", "+x", "@sum", "'=quoted", "a;b", "plain"] {
+        let text = format!("time [s],{},z\n0,1,2\n", text_cell(&format!("{name} [kN]")));
+        assert!(!text.contains(",=") && !text.contains(",-") && !text.contains(",@"), "{text}");
+        let csv = Csv::new(&text).unwrap();
+        let (found, unit) = csv.header.as_ref().unwrap()[1].name_and_unit();
+        assert_eq!((found, csv.columns), (name, 3));
+        assert_eq!(&csv.text[unit.unwrap().span()], "kN");
+    }
+}
+
+#[test]
 fn equal_times_stay_and_falling_ones_are_told() {
     assert_eq!(points("0,1\n1,2\n1,3\n", [0, 1]).unwrap().len(), 3);
     let (place, message) = first("0,1\n1e0,2\n0.5,3\n");

@@ -14,7 +14,8 @@ use dashpot_scene::{Scene, write_effect};
 use super::MOST;
 use crate::{
     answer::estimate,
-    terminal::{Terminal, Tone, WIDTH},
+    shown::Tone,
+    terminal::{Terminal, WIDTH},
     text::{labelled, table, wrapped},
 };
 
