@@ -32,7 +32,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let plate = network.add_node(Node::mass("plate", 2.0));
     let pad = Tree::parallel([part(Spring { stiffness: 40e3 }), part(Dashpot { damping: 120.0 })]);
     network.connect("pad", plate, network.ground(), pad).thickness = Some(0.03);
-    network.add_load("ram", plate, Table { points }.waveform()?);
+    network.add_load("ram", plate, Table::of(points).waveform()?);
 
     for method in ["exact", "bdf", "esdirk34"] {
         let report = solve(&network, &SolveSettings::lasting(0.05).by(method), &mut Silent)?;

@@ -2,9 +2,9 @@
 
 use dashpot_dae::{Direction, Guard, SolveError};
 use dashpot_network::{
-    ConnectionOutputs, NodeId,
+    ConnectionOutputs, HeldTable, NodeId,
     effects::{EffectKind, Gravity},
-    parameters::WindowWish,
+    parameters::{Dimension, WindowWish},
 };
 
 use crate::{
@@ -61,8 +61,16 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
     warnings.extend(harder_outside(findings));
     warnings.extend(flying_away(findings));
     warnings.extend(accuracy(findings));
-    warnings.extend(findings.solution.assembly().warnings.iter().cloned());
+    let assembly = findings.solution.assembly();
+    warnings.extend(assembly.held.iter().map(held));
+    warnings.extend(assembly.warnings.iter().cloned());
     warnings
+}
+
+/// That a table of time holds a value.
+fn held(table: &HeldTable) -> String {
+    let unit = |dimension: Dimension| dimension.named().map_or("", |own| own.1);
+    table.told(|value, dimension| quantity(value, unit(dimension))).join("; ")
 }
 
 fn pulling(findings: &Findings<'_>) -> Vec<String> {
@@ -187,21 +195,15 @@ fn worst(measures: &[MeasureReport]) -> Option<f64> {
 
 /// What was dropped and has not arrived when the run ends.
 fn still_falling(solution: &Solution<'_>) -> Vec<String> {
-    let falling =
-        solution.assembly().nodes.iter().filter(|node| is_impactor(node)).filter_map(|node| {
-            let speed = node.start_velocity.filter(|speed| *speed != 0.0)?;
-            let (velocity, height) = (node.velocity?, -solution.signal(node.position).value(0.0));
-            let fall = 2.0 * height / speed.abs();
-            let begins_at_rest = solution.signal(velocity).value(0.0) == 0.0;
-            (begins_at_rest && fall > solution.end()).then(|| {
-            let (end, fall) = (quantity(solution.end(), "s"), quantity(fall, "s"));
-            format!(
-                "{} is still falling at the end of the run at {end}: its fall takes {fall}; make \
-                 `duration` longer",
-                node.name
-            )
-        })
-        });
+    let impactors = solution.assembly().nodes.iter().filter(|node| is_impactor(node));
+    let falling = impactors.filter(|node| node.fall > solution.end()).map(|node| {
+        let (end, fall) = (quantity(solution.end(), "s"), quantity(node.fall, "s"));
+        format!(
+            "{} is still falling at the end of the run at {end}: its fall takes {fall}; make `duration` \
+             longer",
+            node.name
+        )
+    });
     falling.collect()
 }
 

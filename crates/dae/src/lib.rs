@@ -39,4 +39,4 @@ pub use switching::{Flight, Leg, LegEnd, Switch, Switching};
 pub use system::{Input, Linear, System, Unknown, UnknownKind};
 pub use term::{Argument, Characteristic, Term};
 pub use trajectory::{Dense, Outcome, Statistics, Trajectory};
-pub use waveform::{Piece, Waveform};
+pub use waveform::{Given, Piece, Waveform};

@@ -11,6 +11,21 @@ pub use piece::Piece;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Waveform {
     pieces: Vec<Piece>,
+    given: Option<Given>,
+}
+
+/// The times at which the values of a waveform have been given, where that is not at all times. Its pieces
+/// continue it before and after.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Given {
+    /// The first time \[s\].
+    pub from: f64,
+    /// The last time \[s\].
+    pub to: f64,
+    /// How often the values have been integrated since.
+    pub integrals: u32,
+    /// Whether it must not be used at other times; else nobody has said what holds there.
+    pub is_strict: bool,
 }
 
 impl Waveform {
@@ -20,12 +35,23 @@ impl Waveform {
     pub fn new(pieces: Vec<Piece>) -> Option<Self> {
         let ordered = pieces.windows(2).all(|pair| pair[0].start < pair[1].start);
         let finite = pieces.iter().all(|piece| piece.numbers().iter().all(|x| x.is_finite()));
-        (!pieces.is_empty() && ordered && finite).then_some(Self { pieces })
+        (!pieces.is_empty() && ordered && finite).then_some(Self { pieces, given: None })
+    }
+
+    /// The same function, of which it is known at which times its values have been given.
+    #[must_use]
+    pub fn given_at(self, given: Given) -> Self {
+        Self { given: Some(given), ..self }
+    }
+
+    /// The times at which its values have been given; `None` where that is at all times.
+    pub fn given(&self) -> Option<Given> {
+        self.given
     }
 
     /// The function that is `value` at all times.
     pub fn constant(value: f64) -> Self {
-        Self { pieces: vec![Piece { value, ..Piece::default() }] }
+        Self { pieces: vec![Piece { value, ..Piece::default() }], given: None }
     }
 
     /// The pieces in order of time.
@@ -64,7 +90,9 @@ impl Waveform {
     /// `û(t̂) = u(t̂ · time) / value`.
     #[must_use]
     pub fn in_units(&self, time: f64, value: f64) -> Self {
-        Self { pieces: self.pieces.iter().map(|piece| piece.in_units(time, value)).collect() }
+        let pieces = self.pieces.iter().map(|piece| piece.in_units(time, value)).collect();
+        let scaled = |own: Given| Given { from: own.from / time, to: own.to / time, ..own };
+        Self { pieces, given: self.given.map(scaled) }
     }
 
     /// The integral from `t = 0` on: it is zero there, continuous, and has this function as its rate
@@ -83,7 +111,8 @@ impl Waveform {
             whole.value += reached;
             pieces.push(whole);
         }
-        Self::new(pieces)
+        let given = self.given.map(|own| Given { integrals: own.integrals + 1, ..own });
+        Self::new(pieces).map(|own| Self { given, ..own })
     }
 
     /// The same function with time counted from `start`; what lies before it is cut off.
@@ -91,7 +120,9 @@ impl Waveform {
     pub fn since(&self, start: f64) -> Self {
         let first = self.pieces.partition_point(|piece| piece.start <= start).saturating_sub(1);
         let shifted = |piece: &Piece| Piece { start: piece.start - start, ..*piece };
-        Self { pieces: self.pieces[first..].iter().map(shifted).collect() }
+        let given =
+            self.given.map(|own| Given { from: own.from - start, to: own.to - start, ..own });
+        Self { pieces: self.pieces[first..].iter().map(shifted).collect(), given }
     }
 
     /// The largest absolute value on `[0, end]`, bounded from above.

@@ -4,7 +4,7 @@ use std::{ops::Range, sync::Arc};
 
 use dashpot_dae::System;
 
-use crate::{NodeId, PhasedNetwork, elements::Element};
+use crate::{HeldTable, NodeId, PhasedNetwork, elements::Element};
 
 /// A network compiled to a [`System`], with an index of its outputs.
 ///
@@ -23,6 +23,8 @@ pub struct Assembly {
     pub drives: Vec<DriveOutputs>,
     /// What is odd but not wrong.
     pub warnings: Vec<String>,
+    /// Tables of time that hold a value within the run although nobody says so.
+    pub held: Vec<HeldTable>,
     /// The phases of what switches, where anything does; [`system`](Self::system) is then that of
     /// the first ones.
     pub switching: Option<Arc<PhasedNetwork>>,
@@ -37,6 +39,8 @@ pub struct NodeOutputs {
     pub mass: f64,
     /// Its start velocity \[m/s\], where it is an impactor.
     pub start_velocity: Option<f64>,
+    /// How long it falls freely from rest before it touches anything \[s\]; 0 where it begins at touch.
+    pub fall: f64,
     /// Number of the body that it belongs to: nodes with one number are rigidly linked.
     pub body: usize,
     /// Whether the forces on it rule its motion.

@@ -126,6 +126,25 @@ pub enum NetworkError {
         /// When \[s\].
         time: f64,
     },
+    /// A run reaches beyond a table that must not be used there.
+    #[error(
+        "the table of {} `{name}` is given from {from} s to {to} s, and the run lasts from 0 s to \
+         {duration} s: its `outside = \"error\"` forbids that; let the run end with the table, or write \
+         \"hold\" or \"zero\"",
+        if *.is_load { "the load" } else { "the motion of" }
+    )]
+    OutsideTable {
+        /// The load, or the node that is moved.
+        name: String,
+        /// Whether it is a load.
+        is_load: bool,
+        /// Time of the first point \[s\].
+        from: f64,
+        /// Time of the last point \[s\].
+        to: f64,
+        /// Length of the run \[s\].
+        duration: f64,
+    },
     /// The prescribed motion of a mass asks for an infinite force.
     #[error(
         "the motion of `{node}` {fault} at {time} s, and {} mass: the force would be infinite; \
@@ -269,6 +288,8 @@ impl NetworkError {
                 let name = path.next().unwrap_or_default();
                 Some(Subject::Element { name, path: path.collect() })
             }
+            Self::OutsideTable { name, is_load: true, .. } => Some(Subject::Load(name.clone())),
+            Self::OutsideTable { name, .. } => node(name),
             Self::OutOfScale { .. } | Self::TooFaint { .. } => None,
         }
     }

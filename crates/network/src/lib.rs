@@ -28,6 +28,7 @@ pub use assembly::{
     SegmentPlace, Source,
 };
 pub use compile::{
+    HeldTable, Unsaid,
     blueprint::{Blueprint, Stamp},
     phased::{PhasedNetwork, PhasedPart},
 };

@@ -62,8 +62,10 @@ pub enum Start {
     Rest,
     /// With a velocity \[m/s\], positive towards the support.
     Velocity(f64),
-    /// With the speed √(2 g h) of a fall from the height `h` \[m\], ≥ 0, at touch at t = 0; `g` is
-    /// that of the gravity effect, or standard gravity where it is off.
+    /// With a fall from the height `h` \[m\], ≥ 0. Where gravity is on and pulls towards the support, and
+    /// all elements at the node have it as their first end and never pull, it begins at rest at the height
+    /// h above touch, and falls. Everywhere else it begins at touch at t = 0 with the speed √(2 g h); `g`
+    /// is the absolute value of that of the gravity effect, or standard gravity where it is off.
     Drop(f64),
 }
 

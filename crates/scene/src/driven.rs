@@ -1,5 +1,4 @@
-//! What loads and motions leave behind: values that are held to the end of a run, and supports that
-//! drift away.
+//! What motions leave behind: supports that drift away.
 
 use dashpot_dae::Waveform;
 use dashpot_network::parameters::{Dimension, ParameterKind};
@@ -8,12 +7,10 @@ use crate::{
     document::{Entry, Item},
     fault::Fault,
     kinds::registers,
-    sections::{Reading, file_named},
+    sections::Reading,
     units::format_short,
 };
 
-/// Part of a pulse's largest value from which on its last one counts.
-const HELD: f64 = 1e-3;
 /// How often a drift exceeds the way to and fro about it.
 const DRIFT: f64 = 3.0;
 /// Points at which a motion is looked at.
@@ -39,16 +36,8 @@ impl Driven<'_> {
             return;
         };
         match (self.key, kind_of(own)) {
-            ("force", Kind::Table) if file_named(&own.item).is_some() => {
-                self.held(reading, own, duration);
-            }
-            ("acceleration", Kind::Table) => {
-                self.held(reading, own, duration);
-                // A shock of one sign is meant to leave its support with a speed.
-                if self.shakes() {
-                    self.drift(reading, own, duration);
-                }
-            }
+            // A shock of one sign is meant to leave its support with a speed.
+            ("acceleration", Kind::Table) if self.shakes() => self.drift(reading, own, duration),
             ("acceleration", Kind::Sine) => self.drift(reading, own, duration),
             _ => {}
         }
@@ -59,31 +48,6 @@ impl Driven<'_> {
         let pieces = self.waveform.pieces().iter();
         let mut signs = pieces.map(|piece| piece.derivative(2, piece.start));
         signs.clone().any(|own| own > 0.0) && signs.any(|own| own < 0.0)
-    }
-
-    /// Warns of a table that ends before the run with a value other than zero.
-    fn held(&self, reading: &Reading<'_>, own: &Entry, duration: f64) {
-        let Some(end) = self.waveform.breakpoints().last().filter(|&end| end < duration) else {
-            return;
-        };
-        let (order, dimension) = match self.key {
-            "force" => (0, Dimension::FORCE),
-            _ => (2, Dimension::ACCELERATION),
-        };
-        let pieces = self.waveform.pieces();
-        let values = pieces.iter().map(|piece| piece.derivative(order, piece.start).abs());
-        let most = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
-        let last = self.waveform.piece_at(end).derivative(order, end);
-        if pieces.len() < 3 || last.abs() <= HELD * most {
-            return;
-        }
-        let last = format_short(last, dimension, 3);
-        let [end, run] = [end, duration].map(|time| format_short(time, Dimension::TIME, 4));
-        let message = format!(
-            "the table ends at {end} with {last}, which is held to the end of the run at {run}"
-        );
-        let help = "end it with a row of zero if it is a pulse, or let the run end with it";
-        reading.faults.warning(own.item.place, Fault::odd(message, help));
     }
 
     /// Warns of an acceleration whose mean velocity is not zero.

@@ -33,9 +33,9 @@ pub(crate) struct Kind<T> {
 }
 
 impl<T> Kind<T> {
-    /// Whether all it takes is a table of amplitudes over time.
+    /// Whether it is a table of amplitudes over time.
     pub(crate) fn is_table(&self) -> bool {
-        matches!(self.parameters, [only] if only.kind == ParameterKind::TimeTable)
+        matches!(self.parameters, [first, ..] if first.kind == ParameterKind::TimeTable)
     }
 }
 

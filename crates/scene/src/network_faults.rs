@@ -2,13 +2,14 @@
 
 use std::collections::HashMap;
 
-use dashpot_network::{NetworkError, NetworkErrors, Subject};
+use dashpot_network::{HeldTable, NetworkError, NetworkErrors, Subject, parameters::Dimension};
 
 use crate::{
     document::{Content, Entry, Item},
     fault::Fault,
     sections::Reading,
     source::Place,
+    units::format_short,
 };
 
 /// The value of a key in an entry that is a table.
@@ -56,6 +57,23 @@ pub(crate) fn note_warnings(reading: &Reading<'_>, warnings: &[String]) {
     }
 }
 
+/// Notes tables that hold a value in the run, each at its function of time.
+pub(crate) fn note_held(reading: &Reading<'_>, held: &[HeldTable]) {
+    let entries = Entries::of(reading);
+    for own in held {
+        let entry = if own.dimension == Dimension::FORCE {
+            entries.loads.iter().find(|entry| entry.key == own.name.as_str())
+        } else {
+            entries.nodes.get(own.name.as_str()).copied()
+        };
+        let keys = ["force", "motion", "acceleration"];
+        let value = entry.and_then(|entry| keys.iter().find_map(|key| value_of(entry, key)));
+        let place = value.map(|item| item.place).or(entry.map(|entry| entry.key_place));
+        let [message, help] = own.told(|value, dimension| format_short(value, dimension, 4));
+        reading.faults.warning(place, Fault::odd(message, help));
+    }
+}
+
 impl<'d> Entries<'d> {
     fn of(reading: &'d Reading<'_>) -> Self {
         let by_name = |entry: &'d Entry| (entry.key.as_str(), entry);
@@ -93,6 +111,7 @@ impl<'d> Entries<'d> {
             NetworkError::BothEndsAtOneNode { .. } => &["between"],
             NetworkError::StartSpeed { .. } => &["velocity", "drop"],
             NetworkError::StepAcrossDashpots { .. } => &["motion"],
+            NetworkError::OutsideTable { .. } => &["force", "motion", "acceleration"],
             NetworkError::NotAnEnd { .. } | NetworkError::TwoFaces { .. } => &["at"],
             _ => &[],
         };

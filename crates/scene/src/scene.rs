@@ -13,7 +13,7 @@ use crate::{
     kinds::{Example, registers},
     library::{Library, Loader},
     models::ModelReader,
-    network_faults::{note_errors, note_warnings},
+    network_faults::{note_errors, note_held, note_warnings},
     notes::ModelNote,
     review::{outlasted, review, upward, weightless},
     sections::{
@@ -295,7 +295,8 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         // What is odd about a scene is of no interest while it has no answer.
         faults.take_back(before);
     }
-    if !stops.is_empty() || compiled.as_ref().map_or(true, |own| !own.warnings.is_empty()) {
+    let is_odd = |own: &Assembly| !own.warnings.is_empty() || !own.held.is_empty();
+    if !stops.is_empty() || compiled.as_ref().map_or(true, is_odd) {
         run.stops = place(text, options, (&compiled, &stops), faults)?;
     }
     let Ok(assembly) = compiled else { return None };
@@ -327,7 +328,10 @@ fn place(
     let reading = Reading::new(&library, faults);
     match compiled {
         Err(errors) => note_errors(&reading, errors),
-        Ok(assembly) => note_warnings(&reading, &assembly.warnings),
+        Ok(assembly) => {
+            note_held(&reading, &assembly.held);
+            note_warnings(&reading, &assembly.warnings);
+        }
     }
     Some(check_stops(&reading, stops, compiled.as_ref().ok()?))
 }

@@ -119,7 +119,14 @@ fn node() -> Value {
     let properties = [
         ("mass", described_as(reference("mass"), "mass [kg], zero or positive; none by default")),
         ("velocity", described_as(reference("velocity"), "start velocity: makes it an impactor")),
-        ("drop", described_as(reference("length"), "height of a fall that ends at t = 0")),
+        (
+            "drop",
+            described_as(
+                reference("length"),
+                "height of a fall: begins at touch with its speed, sqrt(2 g h); where gravity is on and \
+                 all that touches it can part, begins that high above, at rest",
+            ),
+        ),
         ("fixed", json!({ "const": true, "description": "nothing moves it" })),
         ("motion", described_as(reference("length-function"), "its displacement over time")),
         (

@@ -166,8 +166,13 @@ fn write_kind_in(
         write_value(value, basis.dimension(dimension), basis.dimension(beside))
     };
     let pairs = parameters.iter().zip(values);
-    if let ([parameter], [value]) = (parameters, values)
-        && parameter.default.is_none()
+    let mut required = parameters.iter().zip(values).filter(|own| own.0.default.is_none());
+    let others = parameters.iter().zip(values).filter(|own| own.0.default.is_some());
+    let is_alone = others.clone().all(|own| *own.1 == Value::LeftOut);
+    // A model is a table itself, which would be read as that of the parameters.
+    if let (Some((parameter, value)), None) = (required.next(), required.next())
+        && is_alone
+        && (parameters.len() == 1 || !matches!(value, Value::Model(_)))
     {
         return format!("{word} = {}", write_value(parameter.kind, value));
     }

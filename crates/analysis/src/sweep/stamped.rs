@@ -68,8 +68,11 @@ impl<'g> Plan<'g> {
             return None;
         }
         let struck = blueprint.element();
-        let assembly =
-            first.network.compile(duration).ok().filter(|own| own.warnings.is_empty())?;
+        let assembly = first
+            .network
+            .compile(duration)
+            .ok()
+            .filter(|own| own.warnings.is_empty() && own.held.is_empty())?;
         // Another padding, or a part of one, would have to be watched as well.
         let is_other = |(at, own): (usize, &ConnectionOutputs)| {
             let has_parts = own.segments.iter().any(|part| part.place != SegmentPlace::Whole);

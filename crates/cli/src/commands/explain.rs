@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use dashpot_analysis::{choice, reported_measures};
 use dashpot_dae::UnknownKind;
-use dashpot_network::{Node, Situation, Start, Support, elements::Law, layers::resolved};
+use dashpot_network::{Node, NodeId, Situation, Start, Support, elements::Law, layers::resolved};
 use dashpot_plot::Table;
 use dashpot_scene::Scene;
 
@@ -91,7 +91,7 @@ fn rows(caption: &str, rows: Vec<Vec<String>>) -> Table {
 }
 
 fn nodes(scene: &Scene) -> Table {
-    let described = |node: &Node| {
+    let described = |id: NodeId, node: &Node| {
         let kind = match &node.support {
             Support::Fixed => "fixed".to_owned(),
             Support::Prescribed(motion) => {
@@ -103,15 +103,24 @@ fn nodes(scene: &Scene) -> Table {
         let start = match node.start {
             Start::Rest => String::new(),
             Start::Velocity(own) => format!("impactor, starts at {}", constant(own, "m/s")),
-            Start::Drop(own) => format!("impactor, dropped from {}", constant(own, "m")),
+            Start::Drop(own) => {
+                let dropped = format!("impactor, dropped from {}", constant(own, "m"));
+                let outputs = &scene.assembly.nodes[id.index()];
+                if outputs.fall > 0.0 {
+                    format!("{dropped}: falls for {}", constant(outputs.fall, "s"))
+                } else {
+                    let speed = constant(outputs.start_velocity.unwrap_or(0.0), "m/s");
+                    format!("{dropped}: begins at touch with {speed}")
+                }
+            }
         };
         vec![node.name.clone(), kind, start]
     };
     let network = &scene.network;
     let is_used = network.connections().iter().any(|own| own.between.contains(&network.ground()));
-    let ground = is_used.then(|| described(network.node(network.ground())));
+    let ground = is_used.then(|| described(network.ground(), network.node(network.ground())));
     let others = network.nodes().filter(|(id, _)| *id != network.ground());
-    rows("Nodes", others.map(|(_, node)| described(node)).chain(ground).collect())
+    rows("Nodes", others.map(|(id, node)| described(id, node)).chain(ground).collect())
 }
 
 fn elements(scene: &Scene) -> Table {

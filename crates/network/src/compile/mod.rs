@@ -9,6 +9,7 @@
 
 mod acting;
 mod balance;
+mod beyond;
 pub(crate) mod blueprint;
 pub(crate) mod bodies;
 mod carry;
@@ -43,6 +44,7 @@ use std::{borrow::Cow, collections::BTreeMap};
 
 use dashpot_dae::Waveform;
 
+pub use self::beyond::{HeldTable, Unsaid};
 use self::{
     acting::Acting,
     bodies::{Bodies, Role, joint_name},
@@ -111,6 +113,7 @@ impl Network {
         if !faults.is_empty() {
             return Err(NetworkErrors(faults));
         }
+        let held = beyond::held(self, duration)?;
         let parts = expansion.phased();
         let mut assembly = if parts.is_empty() {
             network.assemble(&expansion, duration)?.assembly
@@ -118,6 +121,7 @@ impl Network {
             phased::compile(network.into_owned(), expansion, parts, duration)?
         };
         assembly.warnings.extend(layers::warnings(self, duration));
+        assembly.held = held;
         Ok(assembly)
     }
 
@@ -223,6 +227,7 @@ impl Network {
             primitives,
             drives: driven,
             warnings,
+            held: Vec::new(),
             switching: None,
         };
         Ok(Compiled { assembly, carry })

@@ -97,6 +97,7 @@ impl<'s> Outputs<'s> {
                 name: name.clone(),
                 mass: node.mass,
                 start_velocity: node.is_impactor().then(|| start_velocity(network, node.start)),
+                fall: 0.0,
                 body,
                 free: node.support == Support::Free,
                 position,

@@ -21,7 +21,7 @@ pub use haversine::Haversine;
 pub use ramp::Ramp;
 pub use recognized::Recognized;
 pub use sine::Sine;
-pub use table::Table;
+pub use table::{Outside, Table};
 pub use trapezoid::Trapezoid;
 
 use crate::parameters::{InvalidParameter, Parameter, Value};

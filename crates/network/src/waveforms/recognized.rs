@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use dashpot_dae::{Piece, Waveform};
+use dashpot_dae::{Given, Piece, Waveform};
 
-use super::{Constant, HalfSine, Haversine, Sine, Table, WaveformKind, before};
+use super::{Constant, HalfSine, Haversine, Outside, Sine, Table, WaveformKind, before};
 use crate::parameters::{InvalidParameter, Parameter, Value};
 
 /// How far, relatively, the function of the kind may be from the one that was told: some kinds have
@@ -63,8 +63,13 @@ impl Recognized {
         // What lies before t = 0 is not kept by the motion.
         let quiet = Piece { start: before(pieces.first()?.start), ..Piece::default() };
         let with_quiet = std::iter::once(quiet).chain(pieces.iter().copied()).collect();
+        let given = motion.given().map(|own| Given { integrals: 0, ..own });
+        let as_given = |own: Waveform| match given {
+            Some(given) => own.given_at(given),
+            None => own,
+        };
         let acceleration = [Waveform::new(pieces), Waveform::new(with_quiet)];
-        acceleration.into_iter().flatten().filter_map(|own| Self::of(&own)).find(is_of)
+        acceleration.into_iter().flatten().filter_map(|own| Self::of(&as_given(own))).find(is_of)
     }
 
     /// A function of the same kind with other values.
@@ -129,7 +134,12 @@ fn line(waveform: &Waveform) -> Option<Recognized> {
     let mut points: Vec<(f64, f64)> = pieces.windows(2).flat_map(border).collect();
     points.dedup();
     let size = points.iter().map(|point| point.1.abs()).fold(0.0, f64::max);
-    let table = Table { points };
+    let outside = match waveform.given() {
+        Some(Given { is_strict: true, .. }) => Some(Outside::Error),
+        Some(_) => None,
+        None => Some(Outside::Hold),
+    };
+    let table = Table { points, outside };
     let again = table.waveform().ok()?;
     let ends = pieces.iter().skip(1).map(|own| own.start);
     let close = |t: f64| (waveform.value(t) - again.value(t)).abs() <= 1e-12 * size;

@@ -31,9 +31,9 @@ fn a_table_jumps_where_a_time_stands_twice() {
 
 #[test]
 fn a_table_out_of_order_is_refused() {
-    let table = Table { points: vec![(1.0, 0.0), (0.5, 1.0)] };
+    let table = Table::of(vec![(1.0, 0.0), (0.5, 1.0)]);
     assert!(table.waveform().unwrap_err().to_string().contains("in order of time"));
-    let nan = Table { points: vec![(0.0, 0.0), (f64::NAN, 1.0)] };
+    let nan = Table::of(vec![(0.0, 0.0), (f64::NAN, 1.0)]);
     assert!(nan.waveform().is_err());
 }
 

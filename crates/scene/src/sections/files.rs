@@ -8,10 +8,11 @@ use dashpot_network::parameters::{Dimension, Value};
 use super::Reading;
 use crate::{
     csv::{Csv, CsvFault, Field},
-    document::{Content, Item},
+    document::{Content, Entry, Item},
     fault::Fault,
     kinds::Kind,
     library::TableFile,
+    parameters::KindReader,
     quantity::Quantities,
     source::Place,
     table::{Table, text_of, wrong_type},
@@ -23,6 +24,7 @@ use crate::{
 struct Wishes<'d> {
     columns: Option<[&'d Item; 2]>,
     units: Option<[&'d Item; 2]>,
+    outside: Option<&'d Item>,
 }
 
 impl<'d> Reading<'d> {
@@ -77,7 +79,14 @@ impl<'d> Reading<'d> {
             self.faults.warning(name.place, Fault::odd(message, help));
         }
         self.without_units(units.map(|factor| factor.is_none()), dimensions, name.place);
-        match (kind.make)(&[Value::Table(points)]) {
+        let reader = KindReader { driven, ..KindReader::new(self.quantities()) };
+        // All that is said of points in a scene is said of those of a file beside its name.
+        let others = kind.parameters[1..].iter().map(|parameter| match wishes.outside {
+            Some(item) => reader.value(parameter, item),
+            None => Some(Value::LeftOut),
+        });
+        let others = others.collect::<Option<Vec<Value>>>()?;
+        match (kind.make)(&[vec![Value::Table(points)], others].concat()) {
             Ok(waveform) => Some(waveform),
             Err(invalid) => {
                 tell(0..0, Fault::Invalid(invalid));
@@ -131,6 +140,7 @@ impl<'d> Reading<'d> {
         }
         let table = Table::new(item, format!("`{word}`"), place, self.faults)?;
         let file = table.require("file", "file = \"pulse.csv\"");
+        let outside = table.take("outside").map(|entry| &entry.item);
         let pair = |key: &'static str, expected: &str| {
             let Some(entry) = table.take(key) else { return Some(None) };
             if let Content::List(items) = &entry.item.value
@@ -144,7 +154,7 @@ impl<'d> Reading<'d> {
         let columns = pair("columns", "a pair of numbers or names, for example `[1, 2]`");
         let units = pair("units", "a pair of units, for example `[\"ms\", \"kN\"]`");
         table.finish();
-        Some((&file?.item, Wishes { columns: columns?, units: units? }))
+        Some((&file?.item, Wishes { columns: columns?, units: units?, outside }))
     }
 
     /// The column that `wanted` names or counts from 1.
@@ -213,9 +223,10 @@ impl<'d> Reading<'d> {
     }
 }
 
-/// Whether a table is given by `item` as a file.
+/// Whether a table is given by `item` as a file, and not as its `points`.
 pub(super) fn names_file(item: &Item) -> bool {
-    matches!(item.value, Content::Text(_) | Content::Table(_))
+    let has_points = |entries: &[Entry]| entries.iter().any(|entry| entry.key == "points");
+    item.text().is_some() || item.table().is_some_and(|entries| !has_points(entries))
 }
 
 /// The file that a table is read from, where `item` names one.

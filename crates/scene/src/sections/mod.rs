@@ -116,12 +116,28 @@ impl<'d> Reading<'d> {
             return None;
         };
         let known = || kinds.iter().map(|kind| kind.word).collect::<Vec<_>>();
+        let owner_of = |key: &str| {
+            let mut words =
+                entries.iter().filter_map(|own| kinds.iter().find(|kind| kind.word == own.key));
+            words.find(|kind| kind.parameters.iter().any(|own| own.name == key))
+        };
         let mut found = None;
         for own in entries {
             match kinds.iter().find(|kind| kind.word == own.key) {
                 None => {
                     let (key, owner) = (own.key.to_string(), what.clone());
                     let fault = Fault::UnknownKey { key, owner, known: known() };
+                    let fault = match owner_of(&own.key) {
+                        Some(kind) => {
+                            let (word, first) = (kind.word, kind.parameters[0].name);
+                            let help = format!(
+                                "it belongs to `{word}`: write `{word} = {{ {first} = …, {} = … }}`",
+                                own.key
+                            );
+                            fault.with_help(help)
+                        }
+                        None => fault,
+                    };
                     self.faults.error(own.key_place, fault);
                 }
                 Some(_) if found.is_some() => {

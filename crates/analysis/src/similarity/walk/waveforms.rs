@@ -1,6 +1,6 @@
 //! Parameters of driving functions.
 
-use dashpot_dae::{Piece, Waveform};
+use dashpot_dae::{Given, Piece, Waveform};
 use dashpot_network::{
     parameters::{Dimension, InvalidParameter, ParameterKind, Value},
     waveforms::Recognized,
@@ -101,6 +101,16 @@ pub(super) fn walk_waveform(
         first.start = second.start.min(0.0) - 1.0 - second.start.abs();
     }
     let range = "finite, with its ends apart in double precision";
-    Waveform::new(pieces)
-        .ok_or_else(|| InvalidParameter::new("waveform", range, format!("`{name}`")))
+    let again = Waveform::new(pieces);
+    let again = match waveform.given() {
+        Some(given) => {
+            let mut time = |key: &str, value: f64| {
+                visit.quantity(&format!("{name}.{key}"), Dimension::TIME, value)
+            };
+            let (from, to) = (time("from", given.from), time("to", given.to));
+            again.map(|own| own.given_at(Given { from, to, ..given }))
+        }
+        None => again,
+    };
+    again.ok_or_else(|| InvalidParameter::new("waveform", range, format!("`{name}`")))
 }

@@ -14,6 +14,7 @@ mod kept;
 mod returns;
 mod sag;
 mod search;
+mod settle;
 mod start;
 
 use std::{
@@ -100,6 +101,10 @@ pub(super) fn compile(
     let speeds = assembly.nodes.iter().filter_map(|node| node.velocity);
     let speeds = speeds.map(|at| assembly.system.outputs.at(at).scale.abs());
     phased.speed = speeds.fold(0.0, f64::max);
+    for (at, node) in assembly.nodes.iter_mut().enumerate() {
+        let body = &phased.apart.all[phased.apart.of_joint[at]];
+        node.fall = start::time_of_fall(&phased.network, &phased.expansion, body);
+    }
     phased.join_bodies(&mut assembly);
     phased.modes = Mutex::default();
     assembly.switching = Some(Arc::new(phased));

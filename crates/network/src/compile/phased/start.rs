@@ -9,6 +9,7 @@ use super::{
     },
     is_contact, moving,
     sag::Loads,
+    settle::Settling,
 };
 use crate::{
     Network, NetworkError, NetworkErrors, Start, Support,
@@ -170,6 +171,12 @@ pub(super) fn state(
         Ok(first)
     };
     let mut first = phases(&deformation)?;
+    if let Some(own) = Settling::of(network, expansion, (parts, apart), duration, &position) {
+        let settled = own.settled(&first)?;
+        position = settled.position;
+        first = settled.phases;
+        deformation = deformations(&position);
+    }
     if network.effects.iter().any(|effect| effect.starts_in_balance()) {
         let loads = Loads { network, expansion, parts, apart, duration };
         let unloaded = position.clone();
@@ -247,11 +254,16 @@ impl Network {
         let Ok(network) = self.with_effects() else { return 0.0 };
         let expansion = Expansion::of(&network);
         let Ok(bodies) = Bodies::of(&network, &expansion) else { return 0.0 };
-        let pull = self.effects.iter().find_map(|effect| effect.gravity()).unwrap_or(0.0);
-        let all = bodies.all.iter();
-        let heights = all.filter_map(|body| flight(&network, &expansion, body.joints.as_slice()));
-        heights.map(|height| (2.0 * height / pull).sqrt()).fold(0.0, f64::max)
+        let falls = bodies.all.iter().map(|body| time_of_fall(&network, &expansion, body));
+        falls.fold(0.0, f64::max)
     }
+}
+
+/// How long \[s\] a body falls freely before it touches anything; 0 where it begins at touch.
+pub(super) fn time_of_fall(network: &Network, expansion: &Expansion, body: &Body) -> f64 {
+    let pull = network.effects.iter().find_map(|effect| effect.gravity());
+    let height = flight(network, expansion, body.joints.as_slice());
+    height.zip(pull).map_or(0.0, |(height, pull)| (2.0 * height / pull).sqrt())
 }
 
 /// The height \[m\] from which a body begins to fall freely: it is dropped, gravity pulls it towards
