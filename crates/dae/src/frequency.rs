@@ -89,8 +89,15 @@ impl<'s> FrequencyResponse<'s> {
     /// `None` where the equations have no finite solution: at an undamped resonance, and at rest
     /// where something drifts.
     pub fn at(&self, omega: f64) -> Option<Harmonic<'s>> {
+        self.at_rate(Complex::new(0.0, omega))
+    }
+
+    /// The same for a drive that grows or decays as `e^{st}` with a complex `rate` s \[1/s\].
+    ///
+    /// `None` where the equations have no finite solution.
+    pub fn at_rate(&self, rate: Complex<f64>) -> Option<Harmonic<'s>> {
         let system = self.system;
-        let s = Complex::new(0.0, omega * system.time_scale);
+        let s = rate * system.time_scale;
         let (mut inputs, mut input_slopes) = (Vec::new(), Vec::new());
         for input in &system.inputs {
             let is_driven = input.waveform == self.waveform;

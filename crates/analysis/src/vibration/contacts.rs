@@ -11,7 +11,11 @@ use dashpot_network::{
 };
 
 use super::{
-    Drive, DriveKind, Vibration, VibrationError, drive::Driven, linearity, observed::Observed,
+    Drive, DriveKind, Vibration, VibrationError,
+    curve::Curve,
+    drive::Driven,
+    linearity,
+    observed::{Found, Observed},
 };
 use crate::{Solution, SolveSettings, solve_assembly, wording::quantity};
 
@@ -223,17 +227,16 @@ impl Vibration {
         &self.limits
     }
 
-    /// The limits that an oscillation of this amplitude exceeds, in words.
+    /// The limits that an oscillation of this amplitude exceeds, in words; `read` is what it is for one
+    /// unit of the drive.
     pub(super) fn exceeded(
         &self,
-        harmonic: &dashpot_dae::frequency::Harmonic<'_>,
+        read: impl Fn(&Observed) -> Option<Found>,
         frequency: f64,
         amplitude: f64,
     ) -> Vec<String> {
-        let omega = std::f64::consts::TAU * frequency;
         let over = |limit: &Limit| {
-            let found = limit.observed(self, 0)?.at(harmonic, omega)?;
-            let swing = found.value.norm() * amplitude;
+            let swing = read(&limit.observed(self, 0)?)?.value.norm() * amplitude;
             (swing > limit.reserve).then(|| limit.warning(frequency, swing))
         };
         self.limits.iter().filter_map(over).collect()
@@ -245,8 +248,9 @@ impl Vibration {
         let order = if self.drive.kind == DriveKind::Motion { 2 } else { 0 };
         let onset = |limit: &Limit| {
             let observed = limit.observed(self, order)?;
-            let curve = super::extrema::Curve { vibration: self, observed: &observed };
-            let extrema = curve.extrema(tau * range[0], tau * range[1], poles);
+            let [low, high] = range.map(|own| tau * own);
+            let curve = Curve::new(self, &observed, poles, [low, high]);
+            let extrema = curve.extrema(low, high, poles);
             let first =
                 extrema.iter().max_by(|a, b| a.probe.level.total_cmp(&b.probe.level))?.probe;
             let size = limit.reserve / (0.5 * first.level).exp();

@@ -1,14 +1,15 @@
 //! Peaks and valleys of a response on the frequency axis: found where its slope changes sign, not
 //! where a sample is the largest.
 
-use super::{Vibration, observed::Observed};
+use super::curve::Curve;
 
 /// Samples in each decade with which the search begins.
 const EACH_DECADE: f64 = 24.0;
 /// Distances from a pole, in units of its damping, at which it is looked at too.
 const FROM_POLE: [f64; 7] = [0.0, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0];
-/// An undamped pole is looked at as if it were damped with this part of its frequency.
-const LEAST_DAMPING: f64 = 1e-9;
+/// An undamped pole is looked at as if it were damped with each of these parts of its frequency: one that nearly
+/// cancels shows only near by.
+const LEAST_DAMPING: [f64; 4] = [1e-9, 1e-11, 1e-13, 1e-15];
 /// A stretch is halved until its middle is so near to the cubic through its ends, in `ln |T|²`.
 const SMOOTH: f64 = 0.05;
 /// Halvings of one stretch.
@@ -36,13 +37,6 @@ pub(super) struct Probe {
     pub(super) doubt: f64,
 }
 
-/// The response as a function of the angular frequency.
-#[derive(Clone, Copy)]
-pub(super) struct Curve<'a> {
-    pub(super) vibration: &'a Vibration,
-    pub(super) observed: &'a Observed,
-}
-
 /// Where something changes its sign.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Root {
@@ -66,10 +60,9 @@ pub(super) struct Extremum {
 impl Curve<'_> {
     /// The response at `omega` \[rad/s\]; `None` where it cannot be told, and where it is zero.
     pub(super) fn probe(&self, omega: f64) -> Option<Probe> {
-        let found = self.observed.at(&self.vibration.at(omega)?, omega)?;
-        let size = found.value.norm();
-        let probe =
-            Probe { omega, level: 2.0 * size.ln(), rise: found.rise, doubt: found.error / size };
+        let found = self.at(omega)?;
+        let level = 2.0 * found.value.norm().ln();
+        let probe = Probe { omega, level, rise: found.rise, doubt: found.doubt() };
         (probe.level.is_finite() && probe.rise.is_finite()).then_some(probe)
     }
 
@@ -102,10 +95,13 @@ impl Curve<'_> {
             at += 1.0;
         }
         for &(omega, damping) in poles {
-            let width = damping.max(LEAST_DAMPING * omega);
-            places.extend(
-                FROM_POLE.iter().flat_map(|own| [omega - own * width, omega + own * width]),
-            );
+            let least = LEAST_DAMPING.iter().map(|own| own * omega);
+            let widths =
+                if damping < LEAST_DAMPING[0] * omega { least.collect() } else { vec![damping] };
+            for width in widths {
+                let both = |own: &f64| [omega - own * width, omega + own * width];
+                places.extend(FROM_POLE.iter().flat_map(both));
+            }
         }
         places.retain(|own| (low..=high).contains(own));
         places.sort_by(f64::total_cmp);
@@ -180,16 +176,32 @@ impl Curve<'_> {
     /// The peak or valley between two samples with slopes of different signs.
     fn turn(&self, left: Probe, right: Probe, is_peak: bool) -> Extremum {
         let root = self.root(left, right, |probe| probe.rise);
-        let Some(probe) = root.probe else {
-            let level = if is_peak { f64::INFINITY } else { f64::NEG_INFINITY };
-            let probe = Probe { omega: root.omega, level, rise: 0.0, doubt: f64::INFINITY };
-            return Extremum { probe, width: 0.0, is_peak };
-        };
+        let level = if is_peak { f64::INFINITY } else { f64::NEG_INFINITY };
+        let unknown = Probe { omega: root.omega, level, rise: 0.0, doubt: f64::INFINITY };
+        let probe = root.probe.unwrap_or(unknown);
+        if probe.doubt >= UNKNOWN {
+            return Extremum { probe, width: root.width + self.shift(root.omega), is_peak };
+        }
         // Where the response is off by its error, a turn is off by about that part of its breadth.
         let bend = (right.rise - left.rise).abs() / (right.omega - left.omega);
         let breadth = (root.omega / bend).sqrt().min(root.omega);
-        let doubt = if probe.doubt < UNKNOWN { probe.doubt } else { 0.0 };
-        Extremum { probe, width: root.width + 4.0 * doubt * breadth, is_peak }
+        Extremum { probe, width: root.width + 4.0 * probe.doubt * breadth, is_peak }
+    }
+
+    /// By how much an undamped pole, or a zero, near `omega` may be off \[rad/s\]: the shift that makes as
+    /// much of a difference beside it as the error of the response there.
+    fn shift(&self, omega: f64) -> f64 {
+        let mut distance = f64::EPSILON * omega;
+        while distance < 0.1 * omega {
+            let beside = [omega - distance, omega + distance].map(|own| self.probe(own));
+            let known = beside.into_iter().flatten().filter(|own| own.doubt < UNKNOWN);
+            let shifts = known.map(|own| 2.0 * own.doubt * omega / own.rise.abs());
+            if let Some(shift) = shifts.reduce(f64::max) {
+                return shift;
+            }
+            distance *= 4.0;
+        }
+        distance
     }
 
     /// Where `value` changes its sign between two samples: false position, with a halving wherever

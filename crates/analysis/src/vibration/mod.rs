@@ -28,10 +28,12 @@
 //! ```
 
 mod contacts;
+mod curve;
 mod drive;
 mod error;
 mod extrema;
 mod linearity;
+mod near_pole;
 mod observed;
 mod resonance;
 mod steady;
@@ -39,6 +41,8 @@ mod sweep;
 
 #[cfg(test)]
 mod contact_tests;
+#[cfg(test)]
+mod near_pole_tests;
 #[cfg(test)]
 mod tests;
 
@@ -131,9 +135,9 @@ impl Vibration {
         &self.drive
     }
 
-    /// The oscillation with the angular frequency `omega` \[rad/s\], for one unit of the drive.
-    fn at(&self, omega: f64) -> Option<Harmonic<'_>> {
-        FrequencyResponse::new(&self.assembly.system, self.waveform, self.unit).ok()?.at(omega)
+    /// The answer to a drive of one unit that goes as `e^{st}`, with the complex `rate` s \[1/s\].
+    fn at(&self, rate: Complex<f64>) -> Option<Harmonic<'_>> {
+        FrequencyResponse::new(&self.assembly.system, self.waveform, self.unit).ok()?.at_rate(rate)
     }
 
     /// Whether a node, by its number, is moved or held, alone or with others.

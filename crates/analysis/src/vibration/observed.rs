@@ -6,6 +6,9 @@ use nalgebra::Complex;
 
 use super::VibrationError;
 
+/// A relative error up to which nothing is to be mended.
+const CLEAR: f64 = 1e-9;
+
 /// A complex amplitude, in SI units for one unit of the drive.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Found {
@@ -13,6 +16,18 @@ pub(super) struct Found {
     pub(super) error: f64,
     /// `d ln|value|² / d ln ω`.
     pub(super) rise: f64,
+}
+
+impl Found {
+    /// Its relative error.
+    pub(super) fn doubt(&self) -> f64 {
+        self.error / self.value.norm()
+    }
+
+    /// Whether it is far from being lost in rounding.
+    pub(super) fn is_clear(&self) -> bool {
+        self.error <= CLEAR * self.value.norm()
+    }
 }
 
 /// A sum of outputs, each with its factor, over `(iω)^order`.
@@ -81,16 +96,17 @@ impl Observed {
         Self { name: name.to_owned(), readings: vec![Reading { sum, order: 0 }] }
     }
 
-    /// Its amplitude at the angular frequency `omega` \[rad/s\]; `None` where it cannot be read.
-    pub(super) fn at(&self, harmonic: &Harmonic<'_>, omega: f64) -> Option<Found> {
+    /// Its amplitude where the drive goes as `e^{st}` with the complex `rate` s \[1/s\]; `None` where it
+    /// cannot be read. The rise is that on the imaginary axis.
+    pub(super) fn at(&self, harmonic: &Harmonic<'_>, rate: Complex<f64>) -> Option<Found> {
         let read = |reading: &Reading| {
-            if omega == 0.0 && reading.order > 0 {
+            if rate == Complex::default() && reading.order > 0 {
                 return None;
             }
             let own = harmonic.amplitude(&reading.sum);
-            let divisor = Complex::new(0.0, omega).powu(reading.order);
+            let divisor = rate.powu(reading.order);
             let (value, error) = (own.value / divisor, own.error / divisor.norm());
-            let rise = 2.0 * (omega * (own.slope / own.value).re - f64::from(reading.order));
+            let rise = 2.0 * (rate.im * (own.slope / own.value).re - f64::from(reading.order));
             let is_finite = value.re.is_finite() && value.im.is_finite() && error.is_finite();
             is_finite.then_some(Found { value, error, rise })
         };

@@ -4,7 +4,8 @@ use std::f64::consts::{LN_2, TAU};
 
 use super::{
     Swing,
-    extrema::{Curve, Extremum, UNKNOWN},
+    curve::Curve,
+    extrema::{Extremum, UNKNOWN},
 };
 
 /// A peak of the response over frequency.
@@ -30,7 +31,7 @@ impl Resonance {
 
 /// The resonances from `low` to `high` \[Hz\] of a response whose extrema are known.
 pub(super) fn resonances(
-    curve: Curve<'_>,
+    curve: &Curve<'_>,
     extrema: &[Extremum],
     range: [f64; 2],
 ) -> Vec<Resonance> {
@@ -41,7 +42,7 @@ pub(super) fn resonances(
         .collect()
 }
 
-fn of(curve: Curve<'_>, three: &[Extremum]) -> Resonance {
+fn of(curve: &Curve<'_>, three: &[Extremum]) -> Resonance {
     let peak = three[1];
     let omega = peak.probe.omega;
     let swing = curve.swing(omega).filter(|own| own.error <= UNKNOWN * own.amplitude);

@@ -1,13 +1,13 @@
 //! The peaks of the steady oscillation at one frequency.
 
-use std::f64::consts::TAU;
+use std::{cell::OnceCell, f64::consts::TAU};
 
-use dashpot_dae::frequency::Harmonic;
 use nalgebra::Complex;
 
 use super::{
     Drive, DriveKind, Swing, Vibration, VibrationError,
-    observed::{Observed, supports},
+    curve::Curve,
+    observed::{Found, Observed, supports},
 };
 
 /// A network in steady oscillation under a drive of a given amplitude.
@@ -83,9 +83,19 @@ impl Vibration {
         }
         let omega = TAU * frequency;
         let unbounded = || VibrationError::Unbounded { frequency };
-        let harmonic = self.at(omega).ok_or_else(unbounded)?;
+        let harmonic = self.at(Complex::new(0.0, omega));
+        let poles = OnceCell::new();
+        let found = |observed: &Observed| {
+            let rate = Complex::new(0.0, omega);
+            let direct = harmonic.as_ref().and_then(|harmonic| observed.at(harmonic, rate));
+            if direct.is_some_and(|own| own.is_clear()) {
+                return direct;
+            }
+            let poles = poles.get_or_init(|| self.poles().unwrap_or_default());
+            Curve::new(self, observed, poles, [omega, omega]).at(omega)
+        };
         let read = |observed: &Observed| {
-            let found = observed.at(&harmonic, omega)?;
+            let found = found(observed)?;
             let is_known = found.value.norm() == 0.0 || found.error < 0.5 * found.value.norm();
             let rounding = found.error <= f64::EPSILON.sqrt();
             (is_known || rounding).then_some((found.value * amplitude, found.error * amplitude))
@@ -127,17 +137,16 @@ impl Vibration {
             drive: self.drive.clone(),
             frequency,
             amplitude,
-            warnings: [self.exceeded(&harmonic, frequency, amplitude), warnings(&elements)]
-                .concat(),
+            warnings: [self.exceeded(found, frequency, amplitude), warnings(&elements)].concat(),
             nodes,
             elements,
             supports: held,
-            power: self.power(&harmonic).map(|own| own * amplitude * amplitude),
+            power: self.power(found).map(|own| own * amplitude * amplitude),
         })
     }
 
     /// The mean power of the drive \[W\] at one unit of its amplitude: `½ Re(F v*)`.
-    fn power(&self, harmonic: &Harmonic<'_>) -> Option<f64> {
+    fn power(&self, read: impl Fn(&Observed) -> Option<Found>) -> Option<f64> {
         let name = match self.drive.kind {
             DriveKind::Load => self.drive.name.clone(),
             DriveKind::Motion => {
@@ -145,8 +154,8 @@ impl Vibration {
             }
         };
         let own = self.assembly.drives.iter().find(|own| own.name == name)?;
-        let [force, velocity] =
-            [own.force, own.velocity?].map(|at| harmonic.amplitude(&[(at, 1.0)]).value);
+        let value = |output: usize| Some(read(&Observed::output(&name, output, 0))?.value);
+        let (force, velocity) = (value(own.force)?, value(own.velocity?)?);
         Some(0.5 * (force * velocity.conj()).re)
     }
 }

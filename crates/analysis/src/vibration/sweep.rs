@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{
     Drive, DriveKind, Onset, Resonance, Swing, Vibration, VibrationError,
-    extrema::Curve,
+    curve::Curve,
     observed::{Observed, selected, supports},
     resonance::resonances,
 };
@@ -84,14 +84,6 @@ impl Transmission {
     }
 }
 
-impl Curve<'_> {
-    /// The ratio at `omega` \[rad/s\].
-    pub(super) fn swing(&self, omega: f64) -> Option<Swing> {
-        let found = self.observed.at(&self.vibration.at(omega)?, omega)?;
-        Some(Swing::of(found.value, found.error))
-    }
-}
-
 impl Vibration {
     /// What arrives at the masses, or at the supports, over a range of frequencies.
     ///
@@ -114,8 +106,8 @@ impl Vibration {
         notes.extend(onsets.iter().map(|own| own.text(&self.drive)));
         let slowest = poles.iter().map(|own| own.0.hypot(own.1)).fold(TAU * range[0], f64::min);
         let transmission = |observed: &Observed| {
-            let curve = Curve { vibration: self, observed };
             let [low, high] = [TAU * range[0] / BEYOND, TAU * range[1] * BEYOND];
+            let curve = Curve::new(self, observed, &poles, [low, high]);
             let extrema = curve.extrema(low, high, &poles);
             Transmission {
                 name: self.name_of(&observed.name),
@@ -123,7 +115,7 @@ impl Vibration {
                     .iter()
                     .map(|own| curve.swing(TAU * own).filter(Swing::is_known))
                     .collect(),
-                resonances: resonances(curve, &extrema, range),
+                resonances: resonances(&curve, &extrema, range),
                 at_rest: curve.at_rest(slowest),
             }
         };
@@ -163,7 +155,7 @@ impl Vibration {
     }
 
     /// The natural frequencies and dampings, or the rates of decay, of the network \[rad/s\].
-    fn poles(&self) -> Option<Vec<(f64, f64)>> {
+    pub(super) fn poles(&self) -> Option<Vec<(f64, f64)>> {
         let poles = poles(&self.assembly.system)?;
         let largest = poles.iter().map(|own| own.norm()).fold(0.0, f64::max);
         let is_own = |own: &&nalgebra::Complex<f64>| own.im >= 0.0 && own.norm() > NOISE * largest;
