@@ -188,7 +188,7 @@ fn what_is_dropped_begins_in_the_air_only_where_it_falls_and_nothing_is_bonded_t
         );
         let scene = read(&text, &ReadOptions::default()).unwrap().value;
         let head = scene.assembly.nodes.iter().find(|own| own.name == "head").unwrap();
-        let fall = (2.0 * height / g).sqrt();
+        let fall = f64::sqrt(2.0 * height / g);
         assert!((head.fall - fall).abs() < 1e-15, "{gravity} {separation}: {}", head.fall);
         for (method, allowed) in [("exact", 0.0), ("bdf", 1e-6)] {
             let report = solve(&scene.network, &scene.settings(method), &mut Silent).unwrap();

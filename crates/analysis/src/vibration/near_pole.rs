@@ -15,9 +15,10 @@ use super::{
 };
 
 /// Values on the circle.
-const VALUES: usize = 16;
-/// Terms of the power series inside; those that follow stand for negative powers, which a pole brings.
-const TERMS: usize = 12;
+const VALUES: usize = 20;
+/// Terms of the power series inside. The last coefficients of all are those of negative powers, which a pole
+/// brings: those of the series have fallen below rounding by then.
+const TERMS: usize = 16;
 /// The next pole outside is so many radii away, and those inside are within a radius over this.
 const APART: f64 = 8.0;
 /// Poles that are nearer to each other than this part of their size are looked at together.
@@ -107,10 +108,10 @@ impl NearPole {
     /// none to rounding. `None` where the parts of `count` poles cannot be told apart.
     fn with_pole(mut self, count: usize, shift: f64) -> Option<Self> {
         let negative = self.series.split_off(TERMS);
-        if negative.iter().all(|own| own.norm() <= self.error) {
+        let [.., second, strength] = negative[..] else { return None };
+        if strength.norm().max(second.norm()) <= self.error {
             return Some(self);
         }
-        let [.., second, strength] = negative[..] else { return None };
         // Where the pole is weak, its place shows better in the state than in what is observed.
         let of_circle = self.error / strength.norm();
         let zero = Complex::default();

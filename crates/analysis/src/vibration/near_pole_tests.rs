@@ -143,7 +143,9 @@ fn a_mode_that_may_cancel_is_listed_once_at_most() {
             let pair = Pair { masses: [mass * (1.0 + part), mass], ..even };
             let sweep = pair.vibration("push").sweep(&SweepSettings::default()).unwrap();
             let found = &sweep.transmissions[0].resonances;
-            assert!(found.len() <= 2, "{part}: {found:?}");
+            // Behind the pole and its zero there may be a low hill, which has a height.
+            let undamped = found.iter().filter(|own| own.swing.is_none()).count();
+            assert!(undamped <= 2 && found.len() <= 3, "{part}: {found:?}");
         }
     }
 }

@@ -190,8 +190,8 @@ fn a_pulse_that_does_not_end_at_zero_is_told_with_what_holds() {
     let rows = |last: &str| format!("time [ms],a [m/s^2]\n0,0\n10,30\n20,{last}\n");
     let pulse = |last: &str| driven("{ acceleration = { table = \"a.csv\" } }", &rows(last));
     let shown = pulse("2");
-    has(&shown, &["the table ends at 20 ms with 2 m/s^2", "held to the end of the run at 500 ms"]);
-    has(&shown, &["help: end it with a row of zero"]);
+    has(&shown, &["`base` ends at 20 ms with 2 m/s^2", "held to the end of the run at 500 ms"]);
+    has(&shown, &["help: write `outside = \"zero\"` for zero there"]);
     assert_eq!(pulse("0") + &pulse("0.001"), "");
     let push = |last: &str| {
         let load = "[loads]\nf = { on = \"head\", force = { table = \"f.csv\" } }\n";
@@ -201,7 +201,7 @@ fn a_pulse_that_does_not_end_at_zero_is_told_with_what_holds() {
         let options = crate::ReadOptions { loader: Some(&loader), ..crate::ReadOptions::default() };
         crate::read(&text, &options).unwrap().warnings.render(false)
     };
-    has(&push("-3"), &["the table ends at 20 ms with -3 N, which is held"]);
+    has(&push("-3"), &["the table of the load `f` ends at 20 ms with -3 N, which is held"]);
     assert_eq!(push("0"), "");
 }
 
