@@ -22,13 +22,13 @@ pub(crate) struct Blow {
 /// Part of the impulses on a body below which their sum is none: what is passed on.
 const PASSED_ON: f64 = 1e-9;
 
-/// The blows of each connection, in order of time.
+/// The blows of each connection, in order of time; nothing where there are none in all of the run.
 pub(crate) fn by_connection(assembly: &Assembly, trajectory: &Trajectory) -> Vec<Vec<Blow>> {
-    let mut found = vec![Vec::new(); assembly.connections.len()];
     let mut impacts = trajectory.switches.iter().filter(|own| own.impulse > 0.0).peekable();
     if impacts.peek().is_none() {
-        return found;
+        return Vec::new();
     }
+    let mut found = vec![Vec::new(); assembly.connections.len()];
     let mut owner: HashMap<&str, usize> = HashMap::new();
     for (at, connection) in assembly.connections.iter().enumerate() {
         for primitive in assembly.primitives.get(connection.primitives.clone()).unwrap_or(&[]) {

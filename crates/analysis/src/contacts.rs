@@ -149,26 +149,31 @@ fn sides<'a>(assembly: &'a Assembly, contact: &'a str) -> Option<(&'a str, &'a s
 /// Free masses that nothing but one contact touches, where it is open at the end of a run: name of the
 /// node and what it has left, with the time \[s\].
 pub(crate) fn left_for_good(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, String)> {
-    let mut found: Vec<(f64, String)> = Vec::new();
+    let last: HashMap<&str, &Switch> =
+        trajectory.switches.iter().map(|switch| (switch.name.as_str(), switch)).collect();
+    if last.is_empty() {
+        return Vec::new();
+    }
+    let mut touching = vec![0_usize; assembly.nodes.len()];
     for connection in &assembly.connections {
-        let is_alone = |end: usize| {
-            let node = &assembly.nodes[end];
-            let touches =
-                |other: &&ConnectionOutputs| other.between.iter().any(|id| id.index() == end);
-            node.free && node.mass > 0.0 && assembly.connections.iter().filter(touches).count() == 1
-        };
-        let ends = connection.between.map(NodeId::index);
-        let Some(node) = ends.into_iter().find(|&end| is_alone(end)) else { continue };
+        let [a, b] = connection.between.map(NodeId::index);
+        touching[a] += 1;
+        touching[b] += usize::from(a != b);
+    }
+    let is_alone = |end: &usize| {
+        let node = &assembly.nodes[*end];
+        node.free && node.mass > 0.0 && touching[*end] == 1
+    };
+    let left = assembly.connections.iter().filter_map(|connection| {
+        let node = connection.between.map(NodeId::index).into_iter().find(is_alone)?;
         let own = parts(assembly, connection).iter().filter(|own| is_contact(own));
-        let mut last = own
-            .filter_map(|own| trajectory.switches.iter().rfind(|switch| switch.name == own.name));
-        let Some(opened) = last.next_back().filter(|switch| switch.phase == 0) else { continue };
+        let switched = own.filter_map(|own| last.get(own.name.as_str()));
+        let opened = switched.last().filter(|switch| switch.phase == 0)?;
         let suffix = format!(".{}", Contact::KIND);
         let element = connection.name.strip_suffix(&suffix).unwrap_or(&connection.name);
-        let text = format!("{} leaves the {element}", assembly.nodes[node].name);
-        found.push((opened.time, text));
-    }
-    found
+        Some((opened.time, format!("{} leaves the {element}", assembly.nodes[node].name)))
+    });
+    left.collect()
 }
 
 /// How often an element meets something again after `time` \[s\], at its own contact or, where it is

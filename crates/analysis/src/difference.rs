@@ -14,11 +14,12 @@ pub struct Difference {
 
 /// The differences in all measures that have a value in both runs, in the order of the first.
 pub fn differences(one: &RunReport, other: &RunReport) -> Vec<Difference> {
+    let others = other.by_key();
     one.measures
         .iter()
         .filter_map(|measure| {
             let a = measure.value?;
-            let opposite = other.measure(&measure.key)?;
+            let opposite = others.get(measure.key.as_str())?;
             let b = opposite.value?;
             let relative = over((a - b).abs(), measure.size.max(opposite.size));
             Some(Difference { key: measure.key.clone(), relative })

@@ -1,6 +1,6 @@
 //! The report of a run.
 
-use std::{sync::Arc, time::Duration};
+use std::{collections::HashMap, sync::Arc, time::Duration};
 
 use dashpot_dae::{Extremum, Statistics, Trajectory};
 use dashpot_network::{
@@ -156,6 +156,11 @@ impl RunReport {
     /// The measure with this key, for instance `padding.peak-force`.
     pub fn measure(&self, key: &str) -> Option<&MeasureReport> {
         self.measures.iter().find(|measure| measure.key == key)
+    }
+
+    /// All measures by their keys.
+    pub fn by_key(&self) -> HashMap<&str, &MeasureReport> {
+        self.measures.iter().map(|measure| (measure.key.as_str(), measure)).collect()
     }
 
     /// The solution, for further measures, series and plots.

@@ -12,7 +12,8 @@ use dashpot_network::{Assembly, ConnectionOutputs, NodeId, NodeOutputs};
 
 use crate::{
     blows::{self, Blow},
-    bodies, contacts,
+    bodies::{self, Members},
+    contacts,
     impact::{Impact, NO_PULL, first_felt, first_way},
     padding::{self, FaceContact, Struck, Through},
 };
@@ -60,6 +61,7 @@ pub(crate) struct Known {
     element_impacts: Vec<OnceCell<Box<Impact>>>,
     body_impacts: Vec<OnceCell<Box<Impact>>>,
     blows: OnceCell<Vec<Vec<Blow>>>,
+    members: OnceCell<Members>,
     scene_impact: OnceCell<Impact>,
 }
 
@@ -73,6 +75,7 @@ impl Known {
             element_impacts: cells(assembly.connections.len()),
             body_impacts: cells(bodies::count(assembly)),
             blows: OnceCell::new(),
+            members: OnceCell::new(),
             scene_impact: OnceCell::new(),
         }
     }
@@ -219,8 +222,7 @@ impl<'a> Solution<'a> {
     /// The speed at which two nodes approach each other before the run \[m/s\].
     pub(crate) fn start_approach(&self, ends: [usize; 2]) -> f64 {
         let [a, b] = ends.map(|end| {
-            let body = self.assembly.nodes[end].body;
-            let of_body = || self.assembly.nodes.iter().filter(|node| node.body == body);
+            let of_body = || self.members().nodes(self.assembly, self.assembly.nodes[end].body);
             match of_body().find(|node| !node.free) {
                 Some(held) => held.velocity.map_or(0.0, |own| self.signal(own).value(0.0)),
                 None => of_body().find_map(|node| node.start_velocity).unwrap_or(0.0),
@@ -230,9 +232,13 @@ impl<'a> Solution<'a> {
     }
 
     fn velocity_of_body(&self, node: usize) -> Option<usize> {
-        let nodes = &self.assembly.nodes;
-        let of_body = || nodes.iter().filter(|own| own.body == nodes[node].body);
-        nodes[node].velocity.or_else(|| of_body().find_map(|own| own.velocity))
+        let own = &self.assembly.nodes[node];
+        let of_body = || self.members().nodes(self.assembly, own.body);
+        own.velocity.or_else(|| of_body().find_map(|own| own.velocity))
+    }
+
+    fn members(&self) -> &Members {
+        self.known.members.get_or_init(|| Members::of(self.assembly))
     }
 
     /// The impact as the element number `element` feels it: that of its own force if it touches an
@@ -353,8 +359,7 @@ impl<'a> Solution<'a> {
     /// The mass of the body that a node belongs to \[kg\].
     pub(crate) fn body_mass(&self, node: usize) -> f64 {
         let body = self.assembly.nodes[node].body;
-        let own = self.assembly.nodes.iter().filter(|node| node.body == body);
-        own.map(|node| node.mass).sum()
+        self.members().nodes(self.assembly, body).map(|node| node.mass).sum()
     }
 
     /// The force on a body with the sign with which what acts on it begins; `None` if nothing
@@ -367,16 +372,8 @@ impl<'a> Solution<'a> {
 
     /// The sum of the forces \[N\] that the elements put on a body; `None` if nothing touches it.
     fn force_on(&self, body: usize) -> Option<Signal> {
-        let deformable = self.assembly.connections.iter().filter(|connection| !connection.is_rigid);
-        let forces = deformable.filter_map(|connection| {
-            let [a, b] = bodies::between(self.assembly, connection);
-            let sign = match (a == body, b == body) {
-                (true, false) => -1.0,
-                (false, true) => 1.0,
-                _ => return None,
-            };
-            Some((self.signal(connection.force?), sign))
-        });
+        let pushing = self.members().connections(self.assembly, body).filter(|own| own.1 != 0.0);
+        let forces = pushing.filter_map(|(own, sign)| Some((self.signal(own.force?), sign)));
         forces.fold(None, |sum: Option<Signal>, (force, sign)| {
             Some(sum.map_or_else(|| force.scaled(sign), |sum| sum.plus(force, sign)))
         })
@@ -395,14 +392,12 @@ impl<'a> Solution<'a> {
     /// The same for the force on a body, which never pulls if all that it meets lies on one side of
     /// it and does not.
     fn doubt_of_body(&self, body: usize) -> f64 {
-        let mut side = None;
-        let mut touching = self.assembly.connections.iter().filter(|own| !own.is_rigid);
-        let is_one_sided = touching.all(|own| {
-            let [a, b] = bodies::between(self.assembly, own);
-            if (a == body) == (b == body) {
-                return true;
-            }
-            own.never_pulls && *side.get_or_insert(a == body) == (a == body)
+        let mut touching = self.members().connections(self.assembly, body);
+        let mut side = 0.0;
+        let is_one_sided = touching.all(|(own, sign)| {
+            let is_same = sign * side >= 0.0;
+            side = if sign == 0.0 { side } else { sign };
+            sign == 0.0 || own.never_pulls && is_same
         });
         if is_one_sided { NO_PULL } else { self.doubt }
     }

@@ -1,5 +1,7 @@
 //! What the reader of a report must know.
 
+use std::collections::BTreeSet;
+
 use dashpot_dae::{Direction, Guard, SolveError};
 use dashpot_network::{
     ConnectionOutputs, HeldTable, NodeId,
@@ -103,9 +105,10 @@ pub(crate) fn pulls(element: &str, since: Option<f64>) -> String {
 fn pads<'a>(findings: &'a Findings<'a>) -> impl Iterator<Item = (&'a str, Impact)> {
     let solution = findings.solution;
     let connections = solution.assembly().connections.iter();
+    let heads = heads_without_a_pad(findings);
     connections.filter_map(move |connection| {
-        let is_pad = connection.thickness.map(drop);
-        is_pad.or_else(|| carries_a_head(findings, connection))?;
+        let carries_a_head = || connection.between.iter().any(|end| heads.contains(end));
+        (connection.thickness.is_some() || carries_a_head()).then_some(())?;
         let force = connection.force.filter(|_| !solution.touches_impactor(connection))?;
         if !solution.keeps(force) {
             return None;
@@ -114,23 +117,25 @@ fn pads<'a>(findings: &'a Findings<'a>) -> impl Iterator<Item = (&'a str, Impact
     })
 }
 
-/// Of an element at a node whose injury is asked for in a run without impactors, where no element
-/// there has a thickness: a pad of which only that is not said.
-fn carries_a_head(findings: &Findings<'_>, connection: &ConnectionOutputs) -> Option<()> {
+/// Nodes whose injury is asked for in a run without impactors, where no element there has a thickness:
+/// what they touch are pads of which only that is not said.
+fn heads_without_a_pad(findings: &Findings<'_>) -> BTreeSet<NodeId> {
     let assembly = findings.solution.assembly();
-    if assembly.nodes.iter().any(is_impactor) {
-        return None;
-    }
     let injuries = findings.measures.iter().filter(|own| INJURIES.contains(&own.kind));
-    let mut heads = injuries.filter_map(|own| {
-        let is_own = |end: &&NodeId| assembly.nodes[end.index()].name == own.target;
-        connection.between.iter().find(is_own)
-    });
-    let has_pad = |head: &NodeId| {
-        let mut at_head = assembly.connections.iter().filter(|own| own.between.contains(head));
-        at_head.any(|own| own.thickness.is_some())
+    let targets: BTreeSet<&str> = injuries.map(|own| own.target.as_str()).collect();
+    if targets.is_empty() || assembly.nodes.iter().any(is_impactor) {
+        return BTreeSet::new();
+    }
+    let is_head = |end: &NodeId| targets.contains(assembly.nodes[end.index()].name.as_str());
+    let ends = |is_pad: bool| {
+        let own = assembly.connections.iter().filter(move |own| own.thickness.is_some() == is_pad);
+        own.flat_map(|own| own.between)
     };
-    heads.any(|head| !has_pad(head)).then_some(())
+    let mut heads: BTreeSet<NodeId> = ends(false).filter(is_head).collect();
+    for end in ends(true) {
+        heads.remove(&end);
+    }
+    heads
 }
 
 /// Layers that are pressed in by more than their thickness, while the pad as a whole is not.

@@ -40,9 +40,10 @@ impl Comparison {
     /// Compares a run with that of a reduced network.
     pub(super) fn of(full: &RunReport, reduced: &RunReport) -> Self {
         let (mut costs, mut unreported) = (Vec::new(), Vec::new());
+        let others = reduced.by_key();
         for measure in &full.measures {
             let target = measure.target.as_str();
-            match reduced.measure(&measure.key) {
+            match others.get(measure.key.as_str()) {
                 Some(other) => costs.push(cost(measure, other)),
                 None if exists(reduced, target) => costs.push(infinite(measure)),
                 None => unreported.push(measure.key.clone()),
@@ -64,8 +65,9 @@ impl Comparison {
 
 /// The reduced run with the errors of its measures widened by what was left out.
 pub(super) fn charged(mut reduced: RunReport, full: &RunReport) -> RunReport {
+    let others = full.by_key();
     for measure in &mut reduced.measures {
-        let Some(opposite) = full.measure(&measure.key) else { continue };
+        let Some(opposite) = others.get(measure.key.as_str()) else { continue };
         if let (Some(value), Some(right), Some(error)) =
             (measure.value, opposite.value, opposite.error)
         {

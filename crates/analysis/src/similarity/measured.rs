@@ -157,11 +157,13 @@ fn side_by_side(
     settings: &SolveSettings,
 ) -> Result<Vec<Measured>, RunError> {
     let kinds = select(&one.assembly, &settings.measures)?;
+    let (all, by_key) = (&other.measures, other.by_key());
     let wished = kinds.iter().zip(&one.measures);
     let pairs = wished.enumerate().filter_map(|(at, (selected, own))| {
         // Measures with times of their own have other words there, so their place tells them.
-        let is_alike = one.measures.len() == other.measures.len();
-        let opposite = if is_alike { other.measures.get(at) } else { other.measure(&own.key) }?;
+        let is_alike = one.measures.len() == all.len();
+        let by_name = || by_key.get(own.key.as_str()).copied();
+        let opposite = if is_alike { all.get(at) } else { by_name() }?;
         Some(pair(own, opposite, scale.of_measure(selected.measure.as_ref())))
     });
     Ok(pairs.collect())

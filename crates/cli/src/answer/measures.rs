@@ -1,7 +1,9 @@
 //! All measures, one column for each method.
 
+use std::collections::{HashMap, HashSet};
+
 use dashpot_analysis::{
-    MeasureKind, MeasureReport, RunReport,
+    Difference, MeasureKind, MeasureReport, RunReport,
     measures::{PeakStrain, STANDARD_GRAVITY},
 };
 use dashpot_network::parameters::{Value, WindowWish};
@@ -82,23 +84,21 @@ fn build(answer: &Answer, block: &Block<'_>) -> Table {
         header.push("apart".to_owned());
     }
     let differences = answer.differences();
-    let mut keys: Vec<&str> = Vec::new();
-    for measure in answer.runs.iter().flat_map(|run| &run.measures) {
-        if !keys.contains(&measure.key.as_str()) {
-            keys.push(&measure.key);
-        }
-    }
+    let apart: HashMap<&str, &Difference> =
+        differences.iter().map(|own| (own.key.as_str(), own)).collect();
+    let [all_runs, shown_runs] = [&answer.runs, block.runs]
+        .map(|runs| runs.iter().map(RunReport::by_key).collect::<Vec<_>>());
+    let kinds = Kinds::of(answer);
     let zeros = Zeros::of(&answer.runs);
     let mut rows = Vec::new();
-    for key in keys {
-        let all = answer.runs.iter().filter_map(|run| run.measure(key));
-        let Some(first) = all.clone().next() else { continue };
+    for (key, first) in &kinds.measures {
+        let all = all_runs.iter().filter_map(|run| run.get(key)).copied();
         let readings: Vec<Option<&MeasureReport>> =
-            block.runs.iter().map(|run| run.measure(key)).collect();
-        let apart = differences.iter().find(|difference| difference.key == key);
+            shown_runs.iter().map(|run| run.get(key).copied()).collect();
+        let apart = apart.get(key);
         for (at, unit) in units(all, first, &zeros).iter().enumerate() {
             let main = at == 0;
-            let mut row = vec![if main { name(answer, first) } else { String::new() }];
+            let mut row = vec![if main { kinds.name(first) } else { String::new() }];
             for reading in &readings {
                 row.push(reading.map_or("–".to_owned(), |own| value(own, unit, &zeros)));
                 if block.errors {
@@ -121,15 +121,37 @@ fn build(answer: &Answer, block: &Block<'_>) -> Table {
     Table { caption: "Measures".to_owned(), header, rows }
 }
 
-/// The key; where the target has several measures of the kind, also what sets them apart.
-fn name(answer: &Answer, measure: &MeasureReport) -> String {
-    let is_other = |other: &&MeasureReport| {
-        other.kind == measure.kind && other.target == measure.target && other.key != measure.key
-    };
-    let others = answer.runs.iter().flat_map(|run| &run.measures);
-    if others.filter(is_other).count() == 0 {
-        return measure.key.clone();
+/// The measures of an answer, and how many of a kind each target has.
+struct Kinds<'r> {
+    /// Each key once, with the first measure of it.
+    measures: Vec<(&'r str, &'r MeasureReport)>,
+    counts: HashMap<(&'static str, &'r str), usize>,
+}
+
+impl<'r> Kinds<'r> {
+    fn of(answer: &'r Answer) -> Self {
+        let (mut measures, mut counts) = (Vec::new(), HashMap::new());
+        let mut known: HashSet<&str> = HashSet::new();
+        for measure in answer.runs.iter().flat_map(|run| &run.measures) {
+            if known.insert(&measure.key) {
+                measures.push((measure.key.as_str(), measure));
+                *counts.entry((measure.kind, measure.target.as_str())).or_default() += 1;
+            }
+        }
+        Self { measures, counts }
     }
+
+    /// The key; where the target has several measures of the kind, also what sets them apart.
+    fn name(&self, measure: &MeasureReport) -> String {
+        match self.counts.get(&(measure.kind, measure.target.as_str())) {
+            Some(2..) => told_apart(measure),
+            _ => measure.key.clone(),
+        }
+    }
+}
+
+/// The key of a measure with what sets it apart.
+fn told_apart(measure: &MeasureReport) -> String {
     let window = measure.window_wish.map(|wish| match wish {
         WindowWish::Impact => "impact".to_owned(),
         WindowWish::Run => "run".to_owned(),

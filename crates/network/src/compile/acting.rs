@@ -15,8 +15,9 @@ pub(super) struct Acting {
     ends: Vec<usize>,
     /// Primitives, each with the sign of its force on the joint.
     primitives: Vec<(usize, f64)>,
-    /// Drives by body, where there are any.
-    drives: BTreeMap<usize, Vec<usize>>,
+    /// Drives by body, and by node, where there are any.
+    by_body: BTreeMap<usize, Vec<usize>>,
+    by_node: BTreeMap<usize, Vec<usize>>,
 }
 
 impl Acting {
@@ -39,10 +40,12 @@ impl Acting {
             }
         }
         let mut by_body: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        let mut by_node = by_body.clone();
         for (at, drive) in drives.iter().enumerate() {
             by_body.entry(drive.body).or_default().push(at);
+            by_node.entry(drive.node).or_default().push(at);
         }
-        Self { ends, primitives, drives: by_body }
+        Self { ends, primitives, by_body, by_node }
     }
 
     /// The primitives at a joint, each with the sign of its force on it.
@@ -57,7 +60,16 @@ impl Acting {
         drives: &'p [Drive],
         body: usize,
     ) -> impl Iterator<Item = &'p Drive> {
-        self.drives.get(&body).into_iter().flatten().map(|&at| &drives[at])
+        self.by_body.get(&body).into_iter().flatten().map(|&at| &drives[at])
+    }
+
+    /// The drives of a node.
+    pub(super) fn drives_at<'p>(
+        &'p self,
+        drives: &'p [Drive],
+        node: usize,
+    ) -> impl Iterator<Item = &'p Drive> {
+        self.by_node.get(&node).into_iter().flatten().map(|&at| &drives[at])
     }
 }
 

@@ -7,6 +7,7 @@
 //! diagonal, and rows have twice the digits of a double ([`form`]) until they are complete. They are
 //! in SI; `system` rounds them and makes them dimensionless.
 
+mod accelerometers;
 mod acting;
 mod balance;
 mod beyond;
@@ -28,6 +29,7 @@ mod review;
 mod row;
 mod scales;
 mod segments;
+mod sides;
 mod sliders;
 mod speeds;
 mod springs;

@@ -4,8 +4,9 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use super::{
     Drive, Parts,
+    accelerometers::Accelerometers,
     acting::contact_force,
-    bodies::{Role, start_velocity},
+    bodies::start_velocity,
     expand::Shape,
     reactions::rigid_forces,
     row::{Combination, Row, RowSum},
@@ -79,6 +80,7 @@ impl<'s> Outputs<'s> {
     }
 
     fn add_nodes(&mut self, network: &Network, parts: &Parts<'_>) {
+        let mut accelerometers = Accelerometers::default();
         for (at, node) in network.nodes.iter().enumerate() {
             let body = parts.bodies.of_joint[at];
             let name = &node.name;
@@ -91,7 +93,8 @@ impl<'s> Outputs<'s> {
                 .get(body)
                 .filter(|_| is_known)
                 .map(|row| self.add(name, "velocity", "m/s", &row));
-            let acceleration = accelerometer(network, parts, at)
+            let acceleration = accelerometers
+                .row(network, parts, at)
                 .map(|row| self.add(name, "acceleration", "m/s^2", &row));
             self.nodes.push(NodeOutputs {
                 name: name.clone(),
@@ -303,59 +306,6 @@ fn held_force(parts: &Parts<'_>, drive: &Drive) -> Row {
         }
     }
     sum.total()
-}
-
-/// What an accelerometer on the node reads: its acceleration less the body force per mass.
-fn accelerometer(network: &Network, parts: &Parts<'_>, node: usize) -> Option<Row> {
-    let mass = network.nodes[node].mass;
-    if mass <= 0.0 || network.nodes[node].support != Support::Free {
-        return None;
-    }
-    let body = parts.bodies.of_joint[node];
-    let mut sum = RowSum::default();
-    let total = match parts.bodies.all[body].role {
-        Role::Mass(total) => total,
-        Role::Massless => return None,
-        Role::Fixed | Role::Prescribed(_) => return resting(parts, node, mass),
-    };
-    sum.add(1.0 / total, &contact_force(parts, body));
-    let is_alone = parts.bodies.all[body].joints.iter().all(|&joint| {
-        joint == node || network.nodes.get(joint).is_none_or(|other| other.mass == 0.0)
-    });
-    if is_alone {
-        return Some(sum.total());
-    }
-    for drive in parts.acting.drives(parts.drives, body).filter(|drive| drive.is_body_force) {
-        if let Some(force) = &drive.force {
-            sum.add(1.0 / total, force);
-            if drive.node == node {
-                sum.add(-1.0 / mass, force);
-            }
-        }
-    }
-    Some(sum.total())
-}
-
-/// What an accelerometer reads on a free node that a closed contact holds to a fixed or prescribed
-/// body: the acceleration of that body less the body force per mass. `None` where no contact does.
-fn resting(parts: &Parts<'_>, node: usize, mass: f64) -> Option<Row> {
-    if !parts.expansion.switches {
-        return None;
-    }
-    let body = parts.bodies.of_joint[node];
-    let whole: f64 = parts.bodies.all[body].whole_mass;
-    let mut sum = RowSum::default();
-    for drive in parts.acting.drives(parts.drives, body) {
-        if drive.force.is_none() && whole > 0.0 {
-            sum.add(1.0 / whole, &drive.inertia);
-        }
-        if let Some(force) =
-            drive.force.as_ref().filter(|_| drive.is_body_force && drive.node == node)
-        {
-            sum.add(-1.0 / mass, force);
-        }
-    }
-    Some(sum.total())
 }
 
 /// Combines the rows of the parts from the leaves to the root, one for each shape: in parallel they
