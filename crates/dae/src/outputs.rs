@@ -3,7 +3,7 @@
 //! A large network has some twelve of them for each of its masses. They lie one behind the other in a
 //! few vectors: an output takes 24 bytes, its name and 12 bytes for each term.
 
-use std::fmt;
+use std::{fmt, sync::Arc};
 
 use crate::{
     FormRef, LinearForm,
@@ -40,6 +40,12 @@ pub struct Output<'s> {
 /// ```
 #[derive(Clone, Default, PartialEq)]
 pub struct Outputs {
+    /// Shared by all copies: the legs of a run have the same ones.
+    packed: Arc<Packed>,
+}
+
+#[derive(Clone, Default, PartialEq)]
+struct Packed {
     /// All names, one behind the other.
     names: String,
     /// The units that occur.
@@ -77,36 +83,38 @@ impl Outputs {
         unknowns: &LinearForm,
         inputs: &LinearForm,
     ) -> usize {
-        let known = self.units.iter().position(|own| *own == unit);
+        let own = Arc::make_mut(&mut self.packed);
+        let known = own.units.iter().position(|known| *known == unit);
         let unit = known.unwrap_or_else(|| {
-            self.units.push(unit);
-            self.units.len() - 1
+            own.units.push(unit);
+            own.units.len() - 1
         });
-        self.names.push_str(name);
-        self.forms.push(unknowns.terms().iter().copied());
-        self.forms.push(inputs.terms().iter().copied());
+        own.names.push_str(name);
+        own.forms.push(unknowns.terms().iter().copied());
+        own.forms.push(inputs.terms().iter().copied());
         let unit = u8::try_from(unit).unwrap_or_else(|_| panic!("too many units"));
-        self.heads.push(Head { name: packed(self.names.len()), unit });
-        self.scales.push(scale);
-        self.heads.len() - 1
+        own.heads.push(Head { name: packed(own.names.len()), unit });
+        own.scales.push(scale);
+        own.heads.len() - 1
     }
 
     /// Gives back memory that was set aside for more.
     pub fn shrink_to_fit(&mut self) {
-        self.names.shrink_to_fit();
-        self.heads.shrink_to_fit();
-        self.scales.shrink_to_fit();
-        self.forms.shrink_to_fit();
+        let own = Arc::make_mut(&mut self.packed);
+        own.names.shrink_to_fit();
+        own.heads.shrink_to_fit();
+        own.scales.shrink_to_fit();
+        own.forms.shrink_to_fit();
     }
 
     /// How many there are.
     pub fn len(&self) -> usize {
-        self.heads.len()
+        self.packed.heads.len()
     }
 
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
-        self.heads.is_empty()
+        self.packed.heads.is_empty()
     }
 
     /// The output of this number, if there is one.
@@ -120,14 +128,15 @@ impl Outputs {
     ///
     /// When there are not so many.
     pub fn at(&self, at: usize) -> Output<'_> {
-        let head = self.heads[at];
-        let before = at.checked_sub(1).map_or(Head::default(), |before| self.heads[before]);
+        let own = self.packed.as_ref();
+        let head = own.heads[at];
+        let before = at.checked_sub(1).map_or(Head::default(), |before| own.heads[before]);
         Output {
-            name: &self.names[before.name as usize..head.name as usize],
-            unit: self.units[usize::from(head.unit)],
-            scale: self.scales[at],
-            unknowns: self.forms.form(2 * at),
-            inputs: self.forms.form(2 * at + 1),
+            name: &own.names[before.name as usize..head.name as usize],
+            unit: own.units[usize::from(head.unit)],
+            scale: own.scales[at],
+            unknowns: own.forms.form(2 * at),
+            inputs: own.forms.form(2 * at + 1),
         }
     }
 

@@ -153,6 +153,22 @@ impl System {
         self.waveforms.iter().filter_map(swing).reduce(f64::min)
     }
 
+    /// What the outputs of a solution on `[0, end]` are told from: driving functions and output forms, without
+    /// the equations.
+    pub(crate) fn reporting(&self, end: f64) -> Self {
+        Self {
+            unknowns: Vec::new(),
+            jacobian: CsrMatrix::zeros(0, 0),
+            input_matrix: CsrMatrix::zeros(0, 0),
+            inputs: self.inputs.clone(),
+            waveforms: self.waveforms.iter().map(|own| own.within(end)).collect(),
+            terms: Vec::new(),
+            initial: Vec::new(),
+            outputs: self.outputs.clone(),
+            time_scale: self.time_scale,
+        }
+    }
+
     /// The input vector at dimensionless time `t`, on the piece that holds at `piece_time`
     /// (at a jump, the piece to take is not decided by `t`).
     pub fn inputs_at(&self, piece_time: f64, t: f64, w: &mut [f64]) {

@@ -74,6 +74,9 @@ pub trait Dense: Debug + Send + Sync {
         None
     }
 
+    /// Gives back memory that was taken so that further signals are quicker; they are the same without.
+    fn forget(&self) {}
+
     /// Memory that the solution takes \[B\], where it grows with the steps.
     fn bytes(&self) -> usize {
         0

@@ -125,6 +125,11 @@ impl Waveform {
         Self { pieces: self.pieces[first..].iter().map(shifted).collect(), given }
     }
 
+    /// The pieces that hold anywhere on `[0, end]`.
+    pub(crate) fn within(&self, end: f64) -> Self {
+        Self { pieces: self.pieces[self.index_at(0.0)..=self.index_at(end)].to_vec() }
+    }
+
     /// The largest absolute value on `[0, end]`, bounded from above.
     pub fn bound(&self, end: f64) -> f64 {
         self.bounds(end).map(|(_, bound)| bound).fold(0.0, f64::max)

@@ -257,6 +257,21 @@ impl Dense for Solution {
             _ => self.by_modes(times),
         }
     }
+
+    fn forget(&self) {
+        if let Some(modal) = self.modal.get() {
+            modal.tables.clear();
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        /// Entries of the size of a number for each of a matrix: it, the modes with their low digits and
+        /// their inverse, what both miss, and the blocks.
+        const ENTRIES: usize = 12;
+        let spans =
+            self.system.spans.len() * (4 * self.system.size() + self.system.generators.len());
+        size_of::<f64>() * (ENTRIES * self.system.size().pow(2) + spans)
+    }
 }
 
 /// The grid that these times are, if they are equally spaced.

@@ -217,4 +217,9 @@ impl Tables {
         let table = known.entry(step);
         Arc::clone(table.or_insert_with(|| Arc::new(Table::new(modes, width_of(step)))))
     }
+
+    /// Drops them all.
+    pub(super) fn clear(&self) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = HashMap::new();
+    }
 }

@@ -245,6 +245,8 @@ impl Method for Exact {
         }
         let statistics = Statistics { wall: begin.elapsed(), ..Statistics::default() };
         let dense = Box::new(solution);
+        // What was made on the way to the end.
+        crate::Dense::forget(dense.as_ref());
         Ok(Trajectory {
             method: Self::KIND,
             outcome,

@@ -1,7 +1,5 @@
 //! The solutions of all legs as one.
 
-use std::sync::Arc;
-
 use crate::{Dense, Panel, Signal, System};
 
 /// One leg that has been solved.
@@ -12,7 +10,8 @@ pub(super) struct Solved {
     /// When it ended \[s\].
     pub(super) end: f64,
     pub(super) phases: Vec<(usize, f64)>,
-    pub(super) system: Arc<System>,
+    /// What its outputs are told from.
+    pub(super) system: System,
     pub(super) dense: Box<dyn Dense>,
 }
 
@@ -26,6 +25,8 @@ pub(super) struct Chain {
     pub(super) margin: Option<f64>,
 }
 
+/// Legs beyond which what makes further signals of a leg quicker takes too much memory.
+const MANY: usize = 256;
 /// Places within a panel at which two solutions are compared.
 const INSIDE: [f64; 3] = [-0.9, 0.0, 0.9];
 /// The error of a chain in parts of the difference that shaking makes.
@@ -43,7 +44,7 @@ impl Dense for Chain {
         let mut difference = Some(0.0_f64);
         let alone = self.legs.len() == 1;
         for (at, leg) in self.legs.iter().enumerate() {
-            let own = leg.dense.signal(&leg.system, output);
+            let own = self.told(leg, output);
             noise = noise.max(own.noise);
             let timed = own.error.map(|error| {
                 // A leg bounds its error in its own time, which begins at a rounded one.
@@ -97,6 +98,15 @@ fn steepest(signal: &Signal) -> f64 {
 }
 
 impl Chain {
+    /// An output in one leg.
+    fn told(&self, leg: &Solved, output: usize) -> Signal {
+        let signal = leg.dense.signal(&leg.system, output);
+        if self.legs.len() > MANY {
+            leg.dense.forget();
+        }
+        signal
+    }
+
     /// The largest difference of an output between a leg and the second solution. As long as both go
     /// through the same legs, time counts from the start of each and from that of the run; where one of
     /// them has come to rest after fewer bounces, from that of the run only.
@@ -110,7 +120,7 @@ impl Chain {
             .flat_map(|panel| INSIDE.map(|x| panel.time(x)).map(|t| (t, panel.value(t))));
         let all = doubled.len() == self.legs.len();
         if let Some(other) = doubled.get(leg).filter(|other| is_same(one, other, all)) {
-            let double = other.dense.signal(&other.system, output);
+            let double = self.told(other, output);
             // A leg that ends earlier by a rounding is not followed beyond its end.
             let end = double.end();
             let shift = one.start - other.start;
@@ -126,7 +136,7 @@ impl Chain {
             let at = doubled.partition_point(|other| other.end < time);
             let other = doubled.get(at)?;
             if known.as_ref().is_none_or(|(known, _)| *known != at) {
-                known = Some((at, other.dense.signal(&other.system, output)));
+                known = Some((at, self.told(other, output)));
             }
             let double = known.as_ref().map(|(_, signal)| signal.left_value(time - other.start))?;
             Some(most.max((value - double).abs()))

@@ -139,7 +139,7 @@ fn solve(
             start,
             end: t_end,
             phases: leg.phases.clone(),
-            system: leg.system.clone(),
+            system: leg.system.reporting(length),
             dense: trajectory.dense,
         });
         if bytes > MOST_BYTES {
