@@ -4,6 +4,7 @@
 //! `cargo test --test it sizes::cost::curve -- --ignored --nocapture`.
 
 mod cost;
+mod growth;
 
 use std::{f64::consts::PI, sync::Arc};
 

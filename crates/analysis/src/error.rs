@@ -24,6 +24,19 @@ pub enum RunError {
         /// The others.
         others: Vec<&'static str>,
     },
+    /// A comparison of methods would take more work than it may.
+    #[error(
+        "`{method}` is given up at {time:.3e} s: with it the comparison takes more work than it may, that \
+         of {most} steps in all; make the run shorter"
+    )]
+    TooMuchWork {
+        /// The method's name.
+        method: &'static str,
+        /// Time reached \[s\].
+        time: f64,
+        /// The limit, in steps.
+        most: usize,
+    },
     /// There is no such method.
     #[error("unknown method `{name}`; known methods: {}", .known.join(", "))]
     UnknownMethod {

@@ -1,5 +1,7 @@
 //! How far a measure of one run is from that of another.
 
+use std::collections::HashMap;
+
 use super::{Deviation, MeasureDeviation};
 use crate::{MeasureReport, RunReport};
 
@@ -26,13 +28,19 @@ pub(super) fn size(truth: &MeasureReport, run: &MeasureReport) -> f64 {
 
 /// How well each measure of `truth` is known, relative: its bound where `is_bounded`, else its
 /// difference from `witness`; infinite where nothing tells.
-pub(super) fn known(truth: &RunReport, witness: Option<&RunReport>, is_bounded: bool) -> Vec<f64> {
+pub(super) fn known(
+    truth: &[MeasureReport],
+    witness: Option<&[MeasureReport]>,
+    is_bounded: bool,
+) -> Vec<f64> {
+    let others: HashMap<&str, &MeasureReport> =
+        witness.into_iter().flatten().map(|own| (own.key.as_str(), own)).collect();
     let of = |own: &MeasureReport| {
         let rounding = ROUNDINGS * f64::EPSILON;
         let bound = own.error.filter(|error| is_bounded && error.is_finite());
         let bound = bound.map(|error| if own.size > 0.0 { error / own.size } else { 0.0 });
         let agreement = || {
-            let other = witness?.measure(&own.key)?;
+            let other = others.get(own.key.as_str())?;
             Some(apart(own, other)?.max(rounding))
         };
         match own.value {
@@ -40,13 +48,18 @@ pub(super) fn known(truth: &RunReport, witness: Option<&RunReport>, is_bounded: 
             Some(_) => bound.or_else(agreement).unwrap_or(f64::INFINITY),
         }
     };
-    truth.measures.iter().map(of).collect()
+    truth.iter().map(of).collect()
 }
 
 /// The errors of all measures of `run`, in the order of `truth`.
-pub(super) fn measures(truth: &RunReport, known: &[f64], run: &RunReport) -> Vec<MeasureDeviation> {
+pub(super) fn measures(
+    truth: &[MeasureReport],
+    known: &[f64],
+    run: &RunReport,
+) -> Vec<MeasureDeviation> {
+    let others = run.by_key();
     let of = |(own, &known_within): (&MeasureReport, &f64)| {
-        let Some(other) = run.measure(&own.key) else {
+        let Some(other) = others.get(own.key.as_str()) else {
             return MeasureDeviation { deviation: None, bar: None, warned: false };
         };
         let deviation = apart(own, other).map(|value| Deviation { value, known_within });
@@ -55,5 +68,5 @@ pub(super) fn measures(truth: &RunReport, known: &[f64], run: &RunReport) -> Vec
         let warned = other.excess > 1.0 || other.error.is_some_and(f64::is_infinite);
         MeasureDeviation { deviation, bar, warned }
     };
-    truth.measures.iter().zip(known).map(of).collect()
+    truth.iter().zip(known).map(of).collect()
 }

@@ -73,6 +73,9 @@ pub struct Ladder {
     pub repeats: Option<usize>,
     /// A solution of more steps is given up, and so are the finer ones of its method.
     pub most_steps: usize,
+    /// Most work of all solutions together, in steps; what would take more is given up, and repeats for times
+    /// are fewer.
+    pub most_work: usize,
 }
 
 impl Default for Ladder {
@@ -84,6 +87,7 @@ impl Default for Ladder {
             measures: Vec::new(),
             repeats: None,
             most_steps: 200_000,
+            most_work: 5_000_000,
         }
     }
 }
@@ -128,7 +132,7 @@ pub fn cost_assembly(
     let selected = select(assembly, &settings.measures)?;
     let asked = asked(ladder, &selected)?;
     let total = truth::PARTS + count * ladder.rtols.len();
-    let mut watch = Watch::new(observer, settings.duration, total);
+    let mut watch = Watch::new(observer, settings.duration, total, ladder.most_work);
     let judge = Judge::find(assembly, settings, &mut watch)?;
     let run = Run { guards: guards(assembly, settings)?, ..Run::to(settings.duration) };
     let bench = Bench { assembly, settings, selected: &selected, run, judge: &judge, ladder };
@@ -147,7 +151,8 @@ pub fn cost_assembly(
     };
     for (place, method) in names.iter().enumerate() {
         watch.begin(truth::PARTS + place * ladder.rtols.len());
-        bench.climb(method.as_ref(), &mut report, &mut watch)?;
+        let most_work = watch.share(names.len() - place);
+        bench.climb(method.as_ref(), most_work, &mut report, &mut watch)?;
     }
     Ok(report)
 }

@@ -11,6 +11,9 @@ use super::{
 };
 use crate::{RunError, RunReport, SolveSettings, selection::Selected, solve_assembly};
 
+/// Part of the work that is left, one in so many, which the repeats of one solution may take.
+const OF_THE_REST: usize = 8;
+
 /// What solutions are made of and judged by.
 pub(super) struct Bench<'a> {
     pub(super) assembly: &'a Arc<Assembly>,
@@ -23,10 +26,12 @@ pub(super) struct Bench<'a> {
 }
 
 impl Bench<'_> {
-    /// Adds the solutions of a method at all tolerances to the report, or why there are none.
+    /// Adds the solutions of a method at all tolerances to the report, or why there are none. With them all
+    /// work may come to `most_work`.
     pub(super) fn climb(
         &self,
         method: &dyn Method,
+        most_work: usize,
         report: &mut CostReport,
         watch: &mut Watch<'_>,
     ) -> Result<(), RunError> {
@@ -36,7 +41,7 @@ impl Bench<'_> {
             self.ladder.rtols.iter().copied().map(Some).collect()
         };
         for rtol in rtols {
-            match self.point(method, rtol, watch) {
+            match self.point(method, rtol, most_work, watch) {
                 Ok(point) => {
                     report.slips.extend(slips(&point));
                     report.points.push(point);
@@ -46,7 +51,11 @@ impl Bench<'_> {
                 }
                 Err(error) => {
                     let declines = declines(&error);
-                    let ends = matches!(error, RunError::Solve(SolveError::TooManySteps { .. }));
+                    let ends = matches!(
+                        error,
+                        RunError::Solve(SolveError::TooManySteps { .. })
+                            | RunError::TooMuchWork { .. }
+                    );
                     let rtol = rtol.filter(|_| !declines);
                     let ends_here = ends && rtol.is_some();
                     let method = method.name();
@@ -65,13 +74,24 @@ impl Bench<'_> {
         &self,
         method: &dyn Method,
         rtol: Option<f64>,
+        most_work: usize,
         watch: &mut Watch<'_>,
     ) -> Result<CostPoint, RunError> {
         let settings = SolveSettings { rtol, ..self.settings.clone() }.by(method.name());
-        let limited = watch.limited(self.ladder.most_steps);
+        let limited = watch.limited(method.is_exact(), self.ladder.most_steps, most_work);
         let solved = solve_assembly(self.assembly, &[], &settings, limited);
         let solved = solved.map_err(|error| watch.told(method.name(), error))?;
-        self.judged(method, rtol, &solved)
+        let solutions = 1 + solved.solver.solves_for_error;
+        let each = watch.last().div_ceil(solutions).max(1);
+        let left = most_work.saturating_sub(watch.work()) / OF_THE_REST;
+        let repeats = self.repeats(&solved).min(left / each).max(1);
+        watch.charge(repeats.saturating_mul(each));
+        self.judged(method, rtol, &solved, repeats)
+    }
+
+    /// How often a solution is repeated for its time.
+    fn repeats(&self, solved: &RunReport) -> usize {
+        self.ladder.repeats.unwrap_or_else(|| timing::repeats(&solved.solver.statistics))
     }
 
     fn judged(
@@ -79,9 +99,9 @@ impl Bench<'_> {
         method: &dyn Method,
         rtol: Option<f64>,
         solved: &RunReport,
+        repeats: usize,
     ) -> Result<CostPoint, RunError> {
         let work = Statistics { wall: Duration::ZERO, ..solved.solver.statistics };
-        let repeats = self.ladder.repeats.unwrap_or_else(|| timing::repeats(&work));
         let run = self.run.clone().with_rtol(rtol.unwrap_or(self.run.rtol));
         let (time, integration) =
             timing::times(self.assembly, method, &run, self.selected, repeats)?;

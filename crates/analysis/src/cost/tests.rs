@@ -136,6 +136,21 @@ fn a_solution_of_too_many_steps_ends_its_method_and_is_listed() {
 }
 
 #[test]
+fn more_work_than_there_may_be_is_left_out_and_listed() {
+    let network = impact(dashpot(6e3));
+    let ladder = |most_work| Ladder { most_work, ..ladder(&["bdf", "tr-bdf2"]) };
+    let report = report(&network, &ladder(40_000));
+    assert_eq!(report.truth.method, "exact");
+    assert!(!report.points.is_empty());
+    let is_too_much = |own: &&CostFailure| matches!(own.error, RunError::TooMuchWork { .. });
+    let left_out: Vec<_> = report.failures.iter().filter(is_too_much).collect();
+    assert!(!left_out.is_empty() && left_out.iter().all(|own| own.ends), "{:?}", report.failures);
+    // Where the judges themselves are too much, there is nothing to compare with.
+    let error = cost(&network, &settings(), &ladder(100), &mut Silent).unwrap_err();
+    assert!(matches!(error, RunError::TooMuchWork { most: 100, .. }), "{error}");
+}
+
+#[test]
 fn the_cheapest_is_the_quickest_that_is_good_enough() {
     let network = impact(dashpot(6e3));
     let mut report = report(&network, &ladder(&["bdf"]));

@@ -12,10 +12,15 @@ use super::{
     states::{Probe, States},
     watch::Watch,
 };
-use crate::{RunError, RunReport, SolveSettings, selection::select, solve_assembly};
+use crate::{
+    MeasureReport, RunError, RunReport, SolveSettings, SolverReport, selection::select,
+    solve_assembly,
+};
 
 /// Solutions that a truth takes.
 pub(super) const PARTS: usize = 2;
+/// Part of the work that is left, one in so many, that each of them may take.
+const OF_ALL: usize = 4;
 /// Tolerances of the solutions by steps: the first at which a method succeeds counts.
 const TIGHT: [f64; 4] = [1e-12, 1e-11, 1e-10, 1e-9];
 /// The methods that may give a reference, with their families, in the order in which they are tried.
@@ -36,11 +41,24 @@ enum Family {
     Explicit,
 }
 
+/// What is kept of a solution.
+struct Told {
+    solver: SolverReport,
+    measures: Vec<MeasureReport>,
+}
+
+impl From<RunReport> for Told {
+    fn from(report: RunReport) -> Self {
+        Self { solver: report.solver, measures: report.measures }
+    }
+}
+
 /// What is true, and how well it is known.
 pub(super) struct Judge<'a> {
     probe: Probe<'a>,
-    report: RunReport,
-    witness: Option<RunReport>,
+    /// What is told of the solution and of the other one; they themselves take much memory.
+    report: Told,
+    witness: Option<Told>,
     why_not_exact: Option<RunError>,
     happenings: Vec<Happening>,
     states: States,
@@ -60,17 +78,23 @@ impl<'a> Judge<'a> {
     ) -> Result<Self, RunError> {
         watch.begin(0);
         let exact = settings.clone().by(methods::Exact::KIND);
-        let exact = solve_assembly(assembly, &[], &exact, watch.limited(usize::MAX));
+        let most_work = watch.share(OF_ALL);
+        let limited = watch.limited(true, usize::MAX, most_work);
+        let exact = solve_assembly(assembly, &[], &exact, limited);
+        let exact = exact.map_err(|error| watch.told(methods::Exact::KIND, error));
         let (report, why_not_exact, family) = match exact {
             Ok(report) => (report, None, None),
             Err(error) if is_final(&error) => return Err(error),
             Err(error) => {
-                let (report, family) = reference(assembly, settings, None, watch)?;
+                let limits = (watch.share(OF_ALL), &mut *watch);
+                let (report, family) = reference(assembly, settings, None, limits)?;
                 (report, Some(error), Some(family))
             }
         };
         watch.begin(1);
-        let witness = match (reference(assembly, settings, family, watch), family) {
+        let limits = (watch.share(OF_ALL), &mut *watch);
+        let witness = reference(assembly, settings, family, limits);
+        let witness = match (witness, family) {
             (Ok((report, _)), _) => Some(report),
             // The exact solution states its own errors.
             (Err(error), None) if !is_final(&error) => None,
@@ -85,7 +109,9 @@ impl<'a> Judge<'a> {
         let state_agreement = witness
             .as_ref()
             .and_then(|own| probe.difference(&states, &own.trajectory, &witnessed.jumps));
-        let measures_known = known(&report, witness.as_ref(), family.is_none());
+        let witness = witness.map(Told::from);
+        let others = witness.as_ref().map(|own| own.measures.as_slice());
+        let measures_known = known(&report.measures, others, family.is_none());
         Ok(Self {
             probe,
             happenings,
@@ -94,7 +120,7 @@ impl<'a> Judge<'a> {
             state_agreement,
             witnessed,
             measures_known,
-            report,
+            report: report.into(),
             witness,
             why_not_exact,
         })
@@ -170,7 +196,7 @@ impl<'a> Judge<'a> {
         let deviation =
             own.apart.map(|apart| Deviation { value: self.relative(apart), known_within });
         let events = Timing { deviation, missed: own.missed, extra: own.extra };
-        (state, events, measures(&self.report, &self.measures_known, run))
+        (state, events, measures(&self.report.measures, &self.measures_known, run))
     }
 
     /// A time in parts of the run.
@@ -184,16 +210,18 @@ fn reference(
     assembly: &Arc<Assembly>,
     settings: &SolveSettings,
     but: Option<Family>,
-    watch: &mut Watch<'_>,
+    (most_work, watch): (usize, &mut Watch<'_>),
 ) -> Result<(RunReport, Family), RunError> {
     let mut last = None;
     for (method, family) in FAMILIES.into_iter().filter(|own| Some(own.1) != but) {
         for rtol in TIGHT {
             let own = SolveSettings { rtol: Some(rtol), ..settings.clone() }.by(method);
-            match solve_assembly(assembly, &[], &own, watch.limited(usize::MAX)) {
+            let limited = watch.limited(false, usize::MAX, most_work);
+            let solved = solve_assembly(assembly, &[], &own, limited);
+            match solved.map_err(|error| watch.told(method, error)) {
                 Ok(report) => return Ok((report, family)),
                 Err(error) if is_final(&error) => return Err(error),
-                Err(error) if declines(&error) => {
+                Err(error) if declines(&error) || is_too_much(&error) => {
                     last = Some(error);
                     break;
                 }
@@ -216,7 +244,14 @@ fn is_final(error: &RunError) -> bool {
         RunError::Solve(error) => {
             matches!(error, SolveError::Cancelled { .. } | SolveError::InvalidSetting { .. })
         }
-        RunError::EnergyLost { .. } | RunError::Slider { .. } => false,
+        RunError::EnergyLost { .. } | RunError::Slider { .. } | RunError::TooMuchWork { .. } => {
+            false
+        }
         _ => true,
     }
+}
+
+/// Whether less exact solutions by another method may still be few enough.
+fn is_too_much(error: &RunError) -> bool {
+    matches!(error, RunError::TooMuchWork { .. })
 }

@@ -1,0 +1,160 @@
+//! What grows with a scene grows in proportion to it.
+
+use std::fs;
+
+use allocation_counter::measure;
+use dashpot::{
+    analysis::{MeasureWish, SolveSettings, measures::EndVelocity, solve},
+    dae::{Piece, Silent, Waveform},
+    network::{Network, Node, NodeId, elements::Rigid, parameters::WindowWish, part},
+    scene::{ReadOptions, read},
+};
+
+use super::{MASS, SPEED, STIFFNESS};
+use crate::thesis::{kelvin, spring};
+
+/// How many times as large the second of two scenes is.
+const TIMES: usize = 4;
+/// Most times as long that it may take; what grows as the square takes 16 times as long.
+const MOST: f64 = 8.0;
+
+/// Processor time of this thread so far \[s\].
+fn spent() -> f64 {
+    let own = fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    let nanoseconds = own.split_whitespace().next().and_then(|text| text.parse::<f64>().ok());
+    1e-9 * nanoseconds.unwrap_or(0.0)
+}
+
+/// The shorter of two times that something takes \[s\].
+fn shortest(mut work: impl FnMut()) -> f64 {
+    let mut time = || {
+        let begin = spent();
+        work();
+        spent() - begin
+    };
+    (0..2).map(|_| time()).fold(f64::INFINITY, f64::min)
+}
+
+/// Asserts that what is done with a scene of some size takes a time in proportion to it.
+fn assert_linear(what: &str, count: usize, work: impl Fn(usize)) {
+    let [small, large] = [count, TIMES * count].map(|count| shortest(|| work(count)));
+    assert!(large <= MOST * small, "{what}: {small} s and {large} s for {TIMES} times as much");
+}
+
+/// `count` masses, each joined to the one that `from` names.
+fn joined(count: usize, from: impl Fn(usize) -> usize, is_rigid: bool) -> Network {
+    let mut network = Network::new();
+    let nodes: Vec<NodeId> =
+        (0..count).map(|at| network.add_node(Node::mass(format!("m{at}"), MASS))).collect();
+    for at in 1..count {
+        let model = if is_rigid { part(Rigid) } else { spring(STIFFNESS) };
+        network.connect(format!("l{at}"), nodes[at], nodes[from(at)], model);
+    }
+    network
+}
+
+/// A run that is hardly one, so that what is not integration counts.
+fn settings() -> SolveSettings {
+    let wish = MeasureWish::new("m0", EndVelocity { window: WindowWish::Run });
+    let own = SolveSettings::lasting(1e-9).by("bdf");
+    SolveSettings { measures: vec![wish], estimate: false, ..own }
+}
+
+#[test]
+fn free_chains_that_are_pushed_take_time_in_proportion_to_their_size() {
+    assert_linear("a free chain", 4000, |count| {
+        let mut network = joined(count, |at| at - 1, false);
+        let first = network.nodes().nth(1).unwrap().0;
+        network.add_load("push", first, Waveform::constant(1e3));
+        drop(solve(&network, &settings(), &mut Silent).unwrap());
+    });
+}
+
+#[test]
+fn thrown_chains_take_time_in_proportion_to_their_size() {
+    assert_linear("a chain that is thrown", 1500, |count| {
+        let mut network = Network::new();
+        let mut last = network.ground();
+        for at in 0..count {
+            let next = network.add_node(Node::mass(format!("m{at}"), MASS).moving(SPEED));
+            network.connect(format!("l{at}"), next, last, spring(STIFFNESS));
+            last = next;
+        }
+        drop(solve(&network, &settings(), &mut Silent).unwrap());
+    });
+}
+
+#[test]
+fn rigid_links_take_time_in_proportion_to_their_number() {
+    let shapes: [(&str, &dyn Fn(usize) -> usize); 3] =
+        [("a row", &|at| at - 1), ("a star", &|_| 0), ("a tree", &|at| (at - 1) / 2)];
+    for (name, from) in shapes {
+        assert_linear(&format!("{name} of rigid links"), 2000, |count| {
+            let mut network = joined(count, from, true);
+            let (first, ground) = (network.nodes().nth(1).unwrap().0, network.ground());
+            network.connect("pad", first, ground, kelvin(STIFFNESS, 100.0));
+            drop(solve(&network, &settings(), &mut Silent).unwrap());
+        });
+    }
+}
+
+#[test]
+fn noisy_loads_take_time_in_proportion_to_their_points() {
+    let solved = |count: usize, method: &str| {
+        let mut state = 1_u64;
+        let mut noise = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 40) as f64 / 1e5
+        };
+        // Segments of one length: longer records last longer.
+        let values: Vec<f64> = (0..=count).map(|_| noise()).collect();
+        let segment = 1e-6;
+        let pieces = values.windows(2).enumerate().map(|(at, ends)| Piece {
+            start: segment * at as f64,
+            value: ends[0],
+            slope: (ends[1] - ends[0]) / segment,
+            ..Piece::default()
+        });
+        let mut network = Network::new();
+        let mass = network.add_node(Node::mass("m0", 5.0));
+        network.connect("pad", mass, network.ground(), kelvin(1e6, 100.0));
+        network.add_load("push", mass, Waveform::new(pieces.collect()).unwrap());
+        let own = SolveSettings::lasting(segment * count as f64).by(method);
+        drop(solve(&network, &SolveSettings { estimate: false, ..own }, &mut Silent).unwrap());
+    };
+    for method in ["exact", "bdf", "tr-bdf2"] {
+        assert_linear(&format!("a noisy load by {method}"), 7500, |count| solved(count, method));
+    }
+}
+
+/// A parcel that bounces on a bed that shakes, some nine times a second.
+const BOUNCING: &str = r#"
+[nodes]
+parcel = { mass = "12 kg" }
+bed = { motion = { sine = { amplitude = "5 mm", frequency = "9 Hz", phase = "180 deg" } } }
+[elements]
+cushion = { between = ["parcel", "bed"], kelvin-voigt = { spring = "120 kN/m", dashpot = "480 N s/m" } }
+[effects]
+gravity = { value = "1 g0" }
+separation.cushion = { at = "parcel" }
+[run]
+duration = "1 s"
+"#;
+
+#[test]
+fn long_runs_that_switch_keep_little_of_each_leg() {
+    let scene = read(BOUNCING, &ReadOptions::default()).unwrap().value;
+    let taken = |duration: f64| {
+        let settings = SolveSettings { duration, ..scene.settings("exact") };
+        let mut switches = 0;
+        let memory = measure(|| {
+            let report = solve(&scene.network, &settings, &mut Silent).unwrap();
+            switches = report.trajectory.switches.len();
+        });
+        (memory.bytes_max as f64, switches as f64)
+    };
+    let [(short, few), (long, many)] = [60.0, 120.0].map(taken);
+    // Two solutions, their errors' estimate included.
+    let each = (long - short) / (many - few);
+    assert!(each <= 25e3, "{each} bytes for each of {many} switchings");
+}
