@@ -8,6 +8,7 @@
 )]
 
 mod allocations;
+mod auto;
 mod calibration;
 mod cli;
 mod cli_models;

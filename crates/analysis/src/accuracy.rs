@@ -179,6 +179,17 @@ pub(crate) fn is_as_good_as_zero(
     error.is_some_and(|error| is_within(error) && error <= limit)
 }
 
+/// Part of the largest measure of its kind that one counts for at least: the wish for a smaller one is no
+/// stricter, unless it is asked for by name.
+pub(crate) const SMALL: f64 = 1e-3;
+/// Error in parts of a value whose first digit is just known.
+pub(crate) const FIRST_DIGIT: f64 = 0.1;
+
+/// Whether the first digit of a value is known, as far as errors are.
+pub(crate) fn is_determined(reading: &Reading, error: Option<f64>) -> bool {
+    error.is_none_or(|error| error <= FIRST_DIGIT * reading.size)
+}
+
 /// Error that no number can do without: some of the smallest ones.
 const SMALLEST: f64 = 64.0 * f64::MIN_POSITIVE * f64::EPSILON;
 

@@ -6,6 +6,7 @@
 
 mod accounts;
 mod accuracy;
+mod attempts;
 mod bearing;
 mod blows;
 mod bodies;

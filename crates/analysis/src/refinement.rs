@@ -1,6 +1,9 @@
 //! As many solutions as the errors ask for.
 
-use std::{collections::BTreeSet, time::Duration};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Duration,
+};
 
 use dashpot_dae::{Method, Observer, Progress, Run, SolveError, Trajectory, switching};
 use dashpot_network::Assembly;
@@ -8,7 +11,8 @@ use dashpot_network::Assembly;
 use crate::{
     Ledger, Reading, Solution, SolveSettings,
     accuracy::{
-        Evidence, SOLUTIONS, excess, is_as_good_as_zero, is_lost_in_noise, of_energy, rounding,
+        Evidence, SMALL, SOLUTIONS, excess, is_as_good_as_zero, is_determined, is_lost_in_noise,
+        of_energy, rounding,
     },
     large::keep_also,
     ledger::ledger,
@@ -24,6 +28,10 @@ pub(crate) const MOST_LOST: f64 = 0.01;
 /// At how many tolerances in a row a run may find no way on from one and the same instant before none is
 /// looked for any more.
 const ENDS_ALIKE: usize = 6;
+/// Work of a finer solution in parts of that of the one before, and what is always granted: one that takes
+/// more will not come to an end.
+const FINER: u64 = 16;
+const ALWAYS: u64 = 10_000_000;
 /// The first tolerance that is tried, 1e-4, in half decades below 1.
 const COARSEST: i32 = 8;
 /// How many solutions are good enough, but for an impact whose end is open, before no finer one is made for
@@ -31,6 +39,9 @@ const COARSEST: i32 = 8;
 const SOLUTIONS_FOR_ENDS: usize = 2;
 /// The last tolerance that is tried, 1e-12, in half decades below 1.
 const FINEST: i32 = 24;
+
+/// Work of reading a panel of a signal.
+const READING: u64 = 8;
 
 /// What is to be solved, and how.
 #[derive(Clone, Copy)]
@@ -120,6 +131,21 @@ impl Task<'_> {
         !self.settings.estimate || !has_values || values.any(|(_, error)| error.is_some())
     }
 
+    /// How large the worst error of an outcome is in parts of what is wanted, of measures that are taken
+    /// for as large as in the smaller of two outcomes.
+    pub(crate) fn worst_excess(&self, outcome: &Outcome, other: &Outcome) -> f64 {
+        let pairs = outcome.solved.readings.iter().zip(&other.solved.readings);
+        let excesses = self.selected.iter().zip(pairs).zip(&outcome.of_method);
+        let excess = |((entry, (own, other)), &error): ((&Selected, (&Reading, &Reading)), _)| {
+            if own.value.is_some() && error.is_none() {
+                return f64::INFINITY;
+            }
+            let own = Reading { size: own.size.min(other.size), ..own.clone() };
+            excess(&own, error, self.settings.accuracy.of(&entry.key))
+        };
+        excesses.map(excess).fold(0.0, f64::max)
+    }
+
     /// A solution with its measures. Where only a part of it is kept, and that turns out not to be all
     /// that is asked for, it is made again.
     pub(crate) fn solve(
@@ -154,6 +180,12 @@ impl Task<'_> {
         let tension = if doubt > 0.0 { solution.tension() } else { None };
         let tension = tension.map_or(0.0, |own| own.part);
         let energy = ledger(&solution, solution.end());
+        run.budget.charge(solution.panels() * READING);
+        if self.method.is_exact() && run.budget.is_spent() {
+            // Its signals are not followed any more.
+            let (method, time, work) = (self.method.name(), trajectory.t_end, run.budget.done());
+            return Err(SolveError::BudgetSpent { method, time, work });
+        }
         let missing = solution.missing();
         let known = Some(solution.known()).filter(|_| self.is_single());
         let rtol = run.rtol;
@@ -222,9 +254,13 @@ impl Task<'_> {
         let mut obstacle = None;
         let mut alike = 0;
         let mut left = SOLUTIONS_FOR_ENDS;
+        let mut most = u64::MAX;
         for rtol in tolerances(self.settings.rtol) {
-            match self.solve(&run.clone().with_rtol(rtol), observer) {
+            let budget = run.budget.part(most);
+            let own = Run { budget: budget.clone(), ..run.clone() }.with_rtol(rtol);
+            match self.solve(&own, observer) {
                 Ok(finer) => {
+                    most = ALWAYS.max(FINER * budget.done());
                     solves += 1;
                     alike = 0;
                     wall += finer.trajectory.statistics.wall;
@@ -237,6 +273,11 @@ impl Task<'_> {
                     last.push(finer);
                 }
                 Err(error) if is_final(&error) => return Err(error),
+                // A finer solution takes no less.
+                Err(error @ (SolveError::BudgetSpent { .. } | SolveError::TooManySteps { .. })) => {
+                    obstacle = Some(error);
+                    break;
+                }
                 Err(error) => {
                     let again = obstacle.as_ref().is_some_and(|before| is_same_end(before, &error));
                     alike = if again { alike + 1 } else { 1 };
@@ -342,7 +383,28 @@ impl Task<'_> {
                 reading.noise = reading.noise.max(error.unwrap_or(0.0));
             }
         }
+        self.settle_small(&mut solved.readings, errors);
         solved.known = Some(solution.known()).filter(|_| self.is_single());
+    }
+
+    /// Gives values that are small beside the largest of their kind a part of its size, where nobody asks
+    /// for them by name.
+    fn settle_small(&self, readings: &mut [Reading], errors: &[Option<f64>]) {
+        let accuracy = &self.settings.accuracy;
+        let kinds: Vec<&str> = self.selected.iter().map(|entry| entry.measure.kind()).collect();
+        let mut largest: BTreeMap<&str, f64> = BTreeMap::new();
+        for ((kind, reading), &error) in kinds.iter().zip(&*readings).zip(errors) {
+            if is_determined(reading, error) {
+                let size = largest.entry(kind).or_default();
+                *size = size.max(reading.size);
+            }
+        }
+        for ((entry, kind), reading) in self.selected.iter().zip(kinds).zip(readings) {
+            let is_asked_for = accuracy.by_measure.contains_key(&entry.key);
+            if let Some(size) = largest.get(kind).filter(|_| !is_asked_for) {
+                reading.size = reading.size.max(SMALL * size);
+            }
+        }
     }
 
     fn is_good_enough(&self, solved: &Solved, errors: &[Option<f64>]) -> bool {

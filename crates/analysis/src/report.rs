@@ -8,7 +8,9 @@ use dashpot_network::{
     parameters::{Value, WindowWish},
 };
 
-use crate::{Impact, Ledger, Partial, Segmentation, Solution, solution::is_impactor};
+use crate::{
+    Impact, Ledger, Partial, Segmentation, Solution, accuracy::FIRST_DIGIT, solution::is_impactor,
+};
 
 /// In networks of more elements than this nobody looks for the largest force of all.
 const MOST_ELEMENTS: usize = 200;
@@ -60,6 +62,9 @@ pub struct SolverReport {
     pub solves_for_error: usize,
     /// Wall-clock time of those.
     pub wall_for_error: Duration,
+    /// Work of the whole run, with every solution that was tried, in units of
+    /// [`Budget`](dashpot_dae::Budget).
+    pub work: u64,
 }
 
 /// What was solved.
@@ -86,7 +91,7 @@ pub struct MeasureReport {
     pub kind: &'static str,
     /// SI unit of the value.
     pub unit: &'static str,
-    /// The value; `None` where it is infinite or undefined, and the note says why.
+    /// The value; `None` where it is infinite, undefined or not determined, and the note says why.
     pub value: Option<f64>,
     /// When it occurs \[s\].
     pub time: Option<f64>,
@@ -101,15 +106,14 @@ pub struct MeasureReport {
     pub window_wish: Option<WindowWish>,
     /// Its parameters but the window, by name.
     pub parameters: Vec<(&'static str, Value)>,
+    /// Whether the solution does not tell the value, not even its first digit.
+    pub is_undetermined: bool,
     /// The size to which a relative accuracy refers.
     pub size: f64,
     /// The error in parts of what the accuracy wanted allows: at most 1 where it is reached, 0
     /// where the error was not estimated.
     pub excess: f64,
 }
-
-/// Error in parts of a value whose first digit is just known.
-const FIRST_DIGIT: f64 = 0.1;
 
 impl MeasureReport {
     /// The error relative to the value, where both are known; of what is next to nothing beside its
@@ -118,6 +122,21 @@ impl MeasureReport {
         let error = self.error.filter(|_| self.size > 0.0)?;
         let of = if self.is_next_to_nothing() { Some(self.size) } else { self.value };
         of.map(|of| error / of.abs())
+    }
+
+    /// The same without its value, which the solution does not tell, and why.
+    pub(crate) fn undetermined(self, why: &str) -> Self {
+        let note = format!("not determined: {why}");
+        let note = self.note.map_or(note.clone(), |before| format!("{before}; {note}"));
+        Self {
+            value: None,
+            time: None,
+            error: None,
+            excess: 0.0,
+            note: Some(note),
+            is_undetermined: true,
+            ..self
+        }
     }
 
     /// Whether not even the first digit of the value is known, while the error is small beside the

@@ -21,6 +21,9 @@ pub struct SolveSettings {
     pub estimate: bool,
     /// Conditions that end the run early.
     pub stops: Vec<Stop>,
+    /// How much work the run may be, with all solutions that its errors take, in units of
+    /// [`Budget`](dashpot_dae::Budget); positive.
+    pub budget: u64,
     /// Measures besides those that every run reports.
     pub measures: Vec<MeasureWish>,
 }
@@ -37,6 +40,10 @@ pub struct Stop {
 }
 
 impl SolveSettings {
+    /// The work that a run may be unless more is asked for: about a minute, which no scene that makes
+    /// sense takes.
+    pub const BUDGET: u64 = 2_500_000_000;
+
     /// A run of `duration` \[s\] by the method that suits, with measures good to 0.1 %.
     pub fn lasting(duration: f64) -> Self {
         Self {
@@ -46,6 +53,7 @@ impl SolveSettings {
             accuracy: Accuracy::default(),
             estimate: true,
             stops: Vec::new(),
+            budget: Self::BUDGET,
             measures: Vec::new(),
         }
     }
@@ -80,6 +88,9 @@ impl SolveSettings {
             if !(wish > 0.0 && wish.is_finite()) {
                 return invalid(key, "positive and finite", wish);
             }
+        }
+        if self.budget == 0 {
+            return invalid("budget", "positive", 0.0);
         }
         match self.accuracy.neglect_below {
             Some(bound) if !(bound > 0.0 && bound <= Accuracy::LOOSEST) => {

@@ -118,6 +118,12 @@ impl<'a> Solution<'a> {
         self.assembly
     }
 
+    /// How many panels the signals have that were asked for.
+    pub(crate) fn panels(&self) -> u64 {
+        let known = self.known.signals.iter().filter_map(OnceCell::get);
+        known.map(|signal| signal.panels.len() as u64).sum()
+    }
+
     /// The trajectory.
     pub fn trajectory(&self) -> &'a Trajectory {
         self.trajectory

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dashpot_dae::{Direction, Guard, Method, Observer, Run, SolveError, methods};
+use dashpot_dae::{Budget, Direction, Guard, Method, MethodKind, Observer, Run, methods};
 use dashpot_network::{
     Assembly, Network,
     parameters::{ParameterKind, Value, WindowWish},
@@ -12,13 +12,14 @@ use crate::{
     ContactReport, MeasureReport, Reading, RunError, RunReport, Solution, SolveSettings,
     SolverReport, SystemReport,
     accuracy::excess,
+    attempts::{self, Found},
     contacts::{self, meetings_after},
     events,
-    holding::slider_fault,
     large::{is_large, keep},
     ledger::{leak, ledger},
+    magnitude::{is_open, largest},
     partial::solve_partial,
-    refinement::{MOST_LOST, Outcome, Solved, Task, is_same_end},
+    refinement::{MOST_LOST, Outcome, Solved, Task},
     selection::{Selected, select},
     solution::is_impactor,
     warnings,
@@ -73,64 +74,39 @@ pub fn solve_assembly(
         nominal: Vec::new(),
         guards: guards(assembly, settings)?,
         keep: keep(assembly, &selected),
+        budget: Budget::of(settings.budget),
     };
-    let (mut method, mut why) = choose(&settings.method, assembly, &run)?;
-    let mut others = if settings.method == "auto" { others(method.as_ref()) } else { Vec::new() };
-    let (mut first, mut tried) = (None, Vec::new());
-    let outcome = loop {
-        let task = Task { assembly, settings, selected: &selected, method: method.as_ref() };
-        let error = match task.run(&run, observer) {
-            Ok(outcome) => match lost(assembly, &outcome.solved) {
-                Some(error) => error,
-                None => break outcome,
-            },
-            // No other method gets farther.
-            Err(
-                error @ (SolveError::Cancelled { .. }
-                | SolveError::InvalidSetting { .. }
-                | SolveError::TooManySwitches { .. }),
-            ) => return Err(error.into()),
-            Err(error) => RunError::Solve(error),
-        };
-        let is_agreed = match (&first, &error) {
-            (Some(RunError::Solve(before)), RunError::Solve(now)) => is_same_end(before, now),
-            _ => false,
-        };
-        let Some(next) = others.pop().filter(|_| !is_agreed) else {
-            return Err(none_gets_through(first, error, tried));
-        };
-        tried.push(next.name());
-        // A phase that is reached later may ask for more than the first one.
-        why = match &error {
-            RunError::EnergyLost { .. } | RunError::Slider { .. } => error.to_string(),
-            error => format!("`{}` does not get through: {error}", method.name()),
-        };
-        first.get_or_insert(error);
-        method = next;
+    let reach = reach(&settings.method, assembly, &run);
+    let is_free = settings.method == "auto";
+    // Each attempt is by a method of its own.
+    let task = Task { assembly, settings, selected: &selected, method: &methods::Auto };
+    let found = choose(&settings.method, assembly, &run).and_then(|first| {
+        let mut others = if is_free { attempts::others(first.0.as_ref()) } else { Vec::new() };
+        let most = if reach.is_some() { attempts::HOPELESS } else { u64::MAX };
+        let found = attempts::first_that_solves(&task, &run, (first, most), &mut others, observer)?;
+        Ok(attempts::improved(&task, &run, found, others, observer))
+    });
+    let (found, run) = match (found, reach) {
+        (Err(error), Some(reach)) => match attempts::of_a_part(&task, &run, reach, observer) {
+            Some((found, part)) => (found, part),
+            None => return Err(error),
+        },
+        (found, _) => (found?, run),
     };
-    let task = Task { assembly, settings, selected: &selected, method: method.as_ref() };
-    let is_stuck = method.is_exact() || outcome.obstacle.is_some();
-    let is_known = task.knows(&outcome);
-    if settings.method == "auto" && is_stuck && !task.suffices(&outcome) {
-        // Of second order, the last resort would take too long for what is asked here.
-        let last_resort = methods::TrBdf2.name();
-        for other in others.iter().rev().filter(|own| own.name() != last_resort) {
-            let other = Task { method: other.as_ref(), ..task };
-            if let Ok(outcome) = other.run(&run, observer)
-                && (other.suffices(&outcome) || (!is_known && other.knows(&outcome)))
-            {
-                let why = if !is_known {
-                    format!("the error of `{}` is not known", method.name())
-                } else if method.is_exact() {
-                    "the error of `exact` may exceed what is wanted".to_owned()
-                } else {
-                    format!("`{}` does not reach the accuracy that is wanted", method.name())
-                };
-                return report(assembly, effects, &other, &run, why, outcome);
-            }
-        }
-    }
-    report(assembly, effects, &task, &run, why, outcome)
+    let Found { method, why, outcome } = found;
+    let work = run.budget.done();
+    run.budget.close();
+    let task = Task { method: method.as_ref(), ..task };
+    report(assembly, effects, &task, &run, (why, work), outcome)
+}
+
+/// How far `exact` follows a run that has more oscillations than are followed \[s\], if it is by a method
+/// that may be `exact`.
+fn reach(method: &str, assembly: &Assembly, run: &Run) -> Option<f64> {
+    let is_asked_for = method == "auto" || method == methods::Exact::KIND;
+    (is_asked_for && assembly.switching.is_none())
+        .then(|| methods::Exact::reach(&assembly.system, run))
+        .flatten()
 }
 
 /// The keys of the measures that [`solve_assembly`] would report, without solving anything.
@@ -200,30 +176,6 @@ fn choose(
     Ok((method, why))
 }
 
-/// The methods that `auto` turns to where this one fails, the last one first.
-fn others(first: &dyn Method) -> Vec<Box<dyn Method>> {
-    let all: [Box<dyn Method>; 3] =
-        [Box::new(methods::TrBdf2), Box::new(methods::Esdirk34), Box::new(methods::Bdf)];
-    all.into_iter().filter(|own| own.name() != first.name()).collect()
-}
-
-/// What is said where the last method that is tried fails: what became of the first.
-fn none_gets_through(
-    first: Option<RunError>,
-    last: RunError,
-    others: Vec<&'static str>,
-) -> RunError {
-    match first {
-        Some(RunError::Solve(
-            error @ (SolveError::StepTooSmall { .. } | SolveError::NewtonFailed { .. }),
-        )) => RunError::NoneGetsThrough { error, others },
-        // That it does not apply says nothing of why the others fail.
-        Some(RunError::Solve(SolveError::NotApplicable { .. })) => last,
-        Some(first) => first,
-        None => last,
-    }
-}
-
 fn check_keys(settings: &SolveSettings, selected: &[Selected]) -> Result<(), RunError> {
     let is_known = |key: &&String| selected.iter().any(|entry| entry.key == **key);
     match settings.accuracy.by_measure.keys().find(|key| !is_known(key)) {
@@ -273,7 +225,7 @@ fn report(
     effects: &[&'static str],
     task: &Task<'_>,
     run: &Run,
-    why: String,
+    (why, work): (String, u64),
     outcome: Outcome,
 ) -> Result<RunReport, RunError> {
     let Outcome { solved, errors, open_end, solves_for_error, wall_for_error, obstacle, .. } =
@@ -282,6 +234,7 @@ fn report(
         return Err(error);
     }
     let Solved { rtol, doubt, trajectory, readings, energy, known, .. } = solved;
+    let cut = (run.t_end < task.settings.duration).then_some(run.t_end);
     let mut solution = Solution::new(assembly, &trajectory).doubting(doubt);
     if let Some(known) = known {
         solution = solution.knowing(known);
@@ -293,7 +246,20 @@ fn report(
         .zip(errors)
         .map(|((entry, reading), error)| {
             let wish = task.settings.accuracy.of(&entry.key);
-            measure_report(entry, reading, error, wish)
+            let kind = || largest(&solution, &energy, entry.measure.unit());
+            let is_open = is_open(&reading, error, kind);
+            let report = measure_report(entry, reading, error, wish);
+            match (report.window.map(|own| own.1).or(report.time), cut) {
+                // What reaches to the end of a part of the run hangs on the rest of it.
+                (until, Some(end)) if until.is_none_or(|until| until >= end) => {
+                    report.undetermined("it hangs on what is not followed")
+                }
+                _ if is_open => {
+                    let error = quantity(error.unwrap_or(f64::INFINITY), entry.measure.unit());
+                    report.undetermined(&format!("its error would be {error}"))
+                }
+                _ => report,
+            }
         })
         .collect();
     let contacts = contact_reports(&solution);
@@ -314,6 +280,9 @@ fn report(
         guards: &run.guards,
         effects,
     });
+    if let Some(end) = cut {
+        warnings.insert(0, followed_in_part(end, task.settings.duration));
+    }
     let missing = solution.missing();
     if !missing.is_empty() {
         let names = missing.iter().filter_map(|&at| assembly.system.outputs.get(at));
@@ -338,6 +307,7 @@ fn report(
             statistics: trajectory.statistics,
             solves_for_error,
             wall_for_error,
+            work,
         },
         system: SystemReport {
             states: assembly.system.states(),
@@ -359,15 +329,23 @@ fn report(
 }
 
 /// What is to be said of a solution in which so much energy is missing, or too much, that nothing of it
-/// can be trusted, or in which sliders do what they cannot.
-fn lost(assembly: &Arc<Assembly>, solved: &Solved) -> Option<RunError> {
+/// can be trusted.
+pub(crate) fn lost(assembly: &Assembly, solved: &Solved) -> Option<RunError> {
     let Solved { trajectory, energy, .. } = solved;
     let closure = energy.closure();
-    let (method, solution) = (trajectory.method, Solution::new(assembly, trajectory));
-    if closure.is_nan() || closure.abs() > MOST_LOST {
-        return Some(RunError::EnergyLost { method, closure, leak: leak(&solution) });
-    }
-    slider_fault(&solution, energy).map(|fault| RunError::Slider { method, fault })
+    (closure.is_nan() || closure.abs() > MOST_LOST).then(|| {
+        let leak = leak(&Solution::new(assembly, trajectory));
+        RunError::EnergyLost { method: trajectory.method, closure, leak }
+    })
+}
+
+/// That the run is followed to a time \[s\] before its end.
+fn followed_in_part(end: f64, duration: f64) -> String {
+    format!(
+        "the run is followed to {} of {} only: it has more oscillations than are followed",
+        quantity(end, "s"),
+        quantity(duration, "s")
+    )
 }
 
 /// How many combinations of phases there are; as many as fit into the number.
@@ -403,6 +381,7 @@ fn measure_report(
         note: reading.note,
         window_wish: window_wish(entry),
         parameters: parameters.map(|(parameter, value)| (parameter.name, value)).collect(),
+        is_undetermined: false,
         size: reading.size,
         excess,
     }

@@ -333,6 +333,11 @@ fn accuracy(findings: &Findings<'_>) -> Vec<String> {
         let names = listed(&undecided);
         warnings.push(format!("whether there is a value depends on the tolerance: {names}"));
     }
+    let open = findings.measures.iter().filter(|measure| measure.is_undetermined);
+    let open: Vec<String> = open.map(|own| format!("`{}`", own.key)).collect();
+    if !open.is_empty() {
+        warnings.push(format!("not determined: {}", listed(&open)));
+    }
     let missed: Vec<String> = findings
         .measures
         .iter()

@@ -23,6 +23,7 @@ pub(crate) struct Changes {
     neglect: Option<f64>,
     rtol: Option<f64>,
     unestimated: bool,
+    budget: Option<u64>,
 }
 
 impl Changes {
@@ -43,6 +44,7 @@ impl Changes {
             neglect: arguments.neglect,
             rtol: arguments.rtol,
             unestimated: arguments.estimate == Switch::Off,
+            budget: arguments.budget,
         }
     }
 
@@ -66,6 +68,7 @@ impl Changes {
         if self.unestimated {
             options.push("--estimate off".to_owned());
         }
+        options.extend(self.budget.map(|own| format!("--budget {own}")));
         options.join(" ")
     }
 }

@@ -409,6 +409,11 @@ impl CliError {
                      for less"
                         .to_owned()
                 }),
+                SolveError::BudgetSpent { work, .. } => Some(format!(
+                    "`--budget {:.0e}` grants more; a shorter `duration` or `--accuracy 1%` asks for \
+                     less",
+                    10.0 * *work as f64
+                )),
                 SolveError::TooManySwitches { .. } => Some(
                     "what loses nothing in its impacts bounces for ever, ever lower as others lose \
                      speed: a `restitution` below 1 lets it come to rest; or a shorter `duration`"

@@ -70,6 +70,18 @@ pub enum SolveError {
         /// The limit.
         steps: usize,
     },
+    /// The run was more work than it may be.
+    #[error(
+        "the budget of work is spent: `{method}` has reached {time:.3e} s after {work:.1e} units"
+    )]
+    BudgetSpent {
+        /// The method's name.
+        method: &'static str,
+        /// Time reached \[s\].
+        time: f64,
+        /// Units of work done; see [`Budget`](crate::Budget).
+        work: u64,
+    },
     /// The solution takes more memory than a run may.
     #[error(
         "the solution of `{method}` takes {} MB after {steps} steps, at {time:.3e} s: it is too large \

@@ -5,6 +5,7 @@
 //! output as a [`Signal`]: a piecewise polynomial in SI units whose extrema, crossings and
 //! integrals are those of the continuous solution, not of samples.
 
+mod budget;
 pub mod chebyshev;
 mod derivatives;
 mod digest;
@@ -26,6 +27,7 @@ mod term;
 mod trajectory;
 mod waveform;
 
+pub use budget::Budget;
 pub use derivatives::{Derivatives, derivatives};
 pub use digest::{Digest, Jump, Product};
 pub use error::SolveError;

@@ -2,7 +2,7 @@
 
 use std::{ops::ControlFlow, sync::Arc};
 
-use crate::Guard;
+use crate::{Budget, Guard};
 
 /// What a method is asked to do with a [`System`](crate::System).
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +19,8 @@ pub struct Run {
     pub guards: Vec<Guard>,
     /// What the trajectory is to keep.
     pub keep: Keep,
+    /// How much work it may be.
+    pub budget: Budget,
 }
 
 /// What a trajectory keeps of a solution.
@@ -46,9 +48,16 @@ pub struct Part {
 }
 
 impl Run {
-    /// A run to `t_end` \[s\] at the relative tolerance 1e-6 that watches nothing.
+    /// A run to `t_end` \[s\] at the relative tolerance 1e-6 that watches nothing, of any work.
     pub fn to(t_end: f64) -> Self {
-        Self { t_end, rtol: 1e-6, nominal: Vec::new(), guards: Vec::new(), keep: Keep::Everything }
+        Self {
+            t_end,
+            rtol: 1e-6,
+            nominal: Vec::new(),
+            guards: Vec::new(),
+            keep: Keep::Everything,
+            budget: Budget::default(),
+        }
     }
 
     /// The same run at another tolerance.

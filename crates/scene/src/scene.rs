@@ -75,6 +75,7 @@ impl Scene {
             accuracy: self.accuracy.clone(),
             estimate: true,
             stops: self.run.stops.clone(),
+            budget: SolveSettings::BUDGET,
             measures: self.measures.clone(),
         }
     }

@@ -130,6 +130,7 @@ mod tests {
             note: None,
             window_wish: None,
             parameters: Vec::new(),
+            is_undetermined: false,
             size,
             excess: 0.0,
         }

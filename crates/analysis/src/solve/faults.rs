@@ -9,6 +9,7 @@ use dashpot_network::{
 
 use super::*;
 use crate::Place;
+use crate::attempts::none_gets_through;
 
 /// The exact method, but for one output.
 #[derive(Debug)]
@@ -84,7 +85,7 @@ fn by_faulty(factor: f64) -> Result<RunReport, RunError> {
     let task =
         Task { assembly: &assembly, settings: &settings, selected: &selected, method: &faulty };
     let outcome = task.run(&run, &mut Silent).unwrap();
-    report(&assembly, &[], &task, &run, String::new(), outcome)
+    report(&assembly, &[], &task, &run, (String::new(), 0), outcome)
 }
 
 #[test]

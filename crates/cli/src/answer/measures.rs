@@ -200,6 +200,7 @@ pub(crate) fn unit_of_kind(kind: &str, si: &str) -> Option<Unit> {
 
 fn value(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
     match measure.value {
+        None if measure.is_undetermined => "not determined".to_owned(),
         None => "–".to_owned(),
         Some(_) if zeros.has(measure) => "0".to_owned(),
         Some(value) => unit.number(value, numbers::digits(value, measure.error, MOST_DIGITS)),

@@ -7,7 +7,7 @@ use clap::Args;
 use super::{
     SceneArguments, Switch, ValueArguments, When,
     kinds::{MethodNames, method_names},
-    values::{frequency, share},
+    values::{budget, frequency, share},
 };
 
 /// `run`.
@@ -40,6 +40,9 @@ pub(crate) struct RunArguments {
     /// Whether errors are estimated by further solutions; `off` is for bulk work.
     #[arg(long, value_name = "SWITCH", default_value = "on")]
     pub(crate) estimate: Switch,
+    /// Most work of each run, in units of a step of one unknown, some 20 ns [default: 2.5e9, a minute].
+    #[arg(long, value_name = "UNITS", value_parser = budget)]
+    pub(crate) budget: Option<u64>,
     /// Folder for CSV, JSON, SVG and HTML; it is made if need be.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -40,6 +40,20 @@ pub(super) fn share(text: &str) -> Result<f64, String> {
     })
 }
 
+/// Units of work: a whole number, or one such as 1e9.
+pub(super) fn budget(text: &str) -> Result<u64, String> {
+    const MOST: f64 = 1e18;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the range is checked, and no one counts the last units"
+    )]
+    match text.parse::<f64>() {
+        Ok(number) if (1.0..=MOST).contains(&number) => Ok(number as u64),
+        _ => Err("it must be a number from 1 to 1e18, such as 1e10".to_owned()),
+    }
+}
+
 pub(super) fn frequency(text: &str) -> Result<f64, String> {
     use dashpot_network::parameters::Dimension;
     let quantity = parse_quantity(text).map_err(|error| error.to_string())?;

@@ -31,7 +31,8 @@ pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Stat
     let scene = checked.value;
     let folder = Folder::wanted(arguments.out.as_deref(), file_names())?;
     let assembly = Arc::new(scene.assembly.clone());
-    let settings = scene.settings("auto");
+    let mut settings = scene.settings("auto");
+    settings.budget = arguments.budget.unwrap_or(settings.budget);
     let mut bar = Bar::new("cost", settings.duration, terminal.error.attended);
     let report = cost_assembly(&assembly, &settings, &ladder(&scene, arguments), &mut bar)?;
     drop(bar);

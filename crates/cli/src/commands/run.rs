@@ -104,6 +104,7 @@ fn is_new(runs: &[RunReport], report: &RunReport) -> bool {
 fn settings(scene: &Scene, method: &str, arguments: &RunArguments) -> SolveSettings {
     let mut settings = scene.settings(method);
     settings.estimate = arguments.estimate == Switch::On;
+    settings.budget = arguments.budget.unwrap_or(settings.budget);
     settings.rtol = arguments.rtol.or(settings.rtol);
     if let Some(accuracy) = arguments.accuracy {
         let neglect_below = settings.accuracy.neglect_below;

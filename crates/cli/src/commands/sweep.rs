@@ -45,6 +45,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
             _ => "auto",
         };
         let mut settings = scene.settings(method);
+        settings.budget = arguments.budget.unwrap_or(settings.budget);
         settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
         Posed { network: scene.network, settings }
     };

@@ -12,7 +12,7 @@ use super::{
     tables::{COUNT, DEGREE, Tables, at_most},
     walk::Walk,
 };
-use crate::chebyshev::Interpolation;
+use crate::{Budget, chebyshev::Interpolation};
 
 /// Part of the largest size that counts where the solution itself has decayed.
 const FLOOR: f64 = 1e-2;
@@ -128,7 +128,7 @@ impl ModalRow {
         span: &SpanCoordinates,
         (start, length): (f64, f64),
         scale: f64,
-        quality: &mut Quality,
+        (quality, budget): (&mut Quality, &Budget),
         pieces: &mut Vec<Piece>,
     ) {
         let inherited = self.error(modes, span);
@@ -139,7 +139,8 @@ impl ModalRow {
             quality.size = quality.size.max(local);
             let tolerance = 2.0 * f64::EPSILON * (local + FLOOR * scale);
             let at = walk.at();
-            let most = if pieces.len() >= MOST {
+            let is_over = budget.charge_step(modes.len());
+            let most = if is_over || pieces.len() >= MOST {
                 length - at
             } else {
                 (NARROWEST * length).max(4.0 * f64::EPSILON * at)

@@ -14,7 +14,7 @@ use super::{
     propagator::{Grid, advance, march},
     tables::Tables,
 };
-use crate::{Dense, Panel, Signal, System};
+use crate::{Budget, Dense, Panel, Signal, System};
 
 /// Rounding of a value relative to the sizes of its terms, in units of `ε`: interpolation, a few
 /// operations for each term, and what trimming leaves between panels.
@@ -39,6 +39,7 @@ pub(crate) struct Solution {
     /// The end of the run \[s\], which the last panel shall meet exactly.
     t_end: f64,
     time_scale: f64,
+    budget: Budget,
     modal: OnceLock<Arc<Modal>>,
 }
 
@@ -75,9 +76,10 @@ impl Modal {
 }
 
 impl Solution {
-    /// The solution of the augmented system over a run that ends at `t_end` \[s\].
-    pub(crate) fn new(system: Augmented, t_end: f64, time_scale: f64) -> Self {
-        Self { system, t_end, time_scale, modal: OnceLock::new() }
+    /// The solution of the augmented system over a run that ends at `t_end` \[s\], within a budget:
+    /// where that ends, signals have no bound.
+    pub(crate) fn new(system: Augmented, (t_end, time_scale): (f64, f64), budget: Budget) -> Self {
+        Self { system, t_end, time_scale, budget, modal: OnceLock::new() }
     }
 
     /// The same solution on a run that ends earlier, at `t_end` \[s\].
@@ -101,6 +103,7 @@ impl Solution {
         self.modal.get_or_init(|| {
             let mut best: Option<(f64, Modal)> = None;
             for caution in CAUTIONS {
+                self.budget.charge_decomposition(self.system.size());
                 let modal = Modal::of(&self.system, Modes::new(&self.system, caution));
                 let loss = modal.loss(&self.system);
                 if best.as_ref().is_none_or(|(least, _)| loss < *least) {
@@ -135,22 +138,20 @@ impl Solution {
     /// as that of a pulse before and after it, passes through none there.
     pub(crate) fn radians(&self, end: f64, lifetimes: f64) -> f64 {
         let Modal { modes, spans, .. } = self.modal();
-        let moves = |block: &Block, coordinates: &SpanCoordinates| {
-            coordinates.start[block.range()].iter().any(|c| *c != Complex::default())
-        };
         let of_block = |block: &Block| {
             let spans = self.system.spans.iter().zip(spans);
             let moving = spans.filter(|(_, coordinates)| moves(block, coordinates));
-            let length: f64 =
-                moving.map(|(span, _)| (span.end.min(end) - span.start).max(0.0)).sum();
-            let of_mode = |i: usize| {
-                let rate = block.matrix[(i, i)];
-                let alive = if rate.re < 0.0 { lifetimes / -rate.re } else { f64::INFINITY };
-                rate.im.abs() * length.min(alive)
-            };
-            (0..block.len()).map(of_mode).sum::<f64>()
+            let length = moving.map(|(span, _)| (span.end.min(end) - span.start).max(0.0)).sum();
+            radians(block, length, lifetimes)
         };
         modes.blocks.iter().map(of_block).sum()
+    }
+
+    /// The same if every mode that moves went on until `end`, which may lie beyond that of the run.
+    pub(crate) fn radians_beyond(&self, end: f64, lifetimes: f64) -> f64 {
+        let Modal { modes, spans, .. } = self.modal();
+        let moving = modes.blocks.iter().filter(|own| spans.iter().any(|at| moves(own, at)));
+        moving.map(|block| radians(block, end, lifetimes)).sum()
     }
 
     /// All unknowns at `times` from the modal form.
@@ -236,7 +237,8 @@ impl Dense for Solution {
         let (mut quality, mut pieces) = (Quality::default(), Vec::new());
         for (span, coordinates) in lengths() {
             let place = (span.start, span.length());
-            row.interpolate((modes, tables), coordinates, place, scale, &mut quality, &mut pieces);
+            let known = (&mut quality, &self.budget);
+            row.interpolate((modes, tables), coordinates, place, scale, known, &mut pieces);
         }
         let unit = output.scale;
         let noise = NOISE * f64::EPSILON * quality.size * unit.abs();
@@ -272,6 +274,21 @@ impl Dense for Solution {
             self.system.spans.len() * (4 * self.system.size() + self.system.generators.len());
         size_of::<f64>() * (ENTRIES * self.system.size().pow(2) + spans)
     }
+}
+
+/// Whether a block of modes moves in a span.
+fn moves(block: &Block, coordinates: &SpanCoordinates) -> bool {
+    coordinates.start[block.range()].iter().any(|c| *c != Complex::default())
+}
+
+/// The radians that the modes of a block pass through in a time, as long as they live.
+fn radians(block: &Block, length: f64, lifetimes: f64) -> f64 {
+    let of_mode = |i: usize| {
+        let rate = block.matrix[(i, i)];
+        let alive = if rate.re < 0.0 { lifetimes / -rate.re } else { f64::INFINITY };
+        rate.im.abs() * length.min(alive)
+    };
+    (0..block.len()).map(of_mode).sum()
 }
 
 /// The grid that these times are, if they are equally spaced.

@@ -20,6 +20,8 @@ const STIFFNESS: f64 = 1e15;
 const QUICK: f64 = 6e6;
 /// Most radians that all oscillations together may pass through: some two million panels.
 const RADIANS: f64 = 6e6;
+/// Radians of a part of a run that has too many.
+const REACH: f64 = 1e4;
 /// Lifetimes after which a mode is forgotten.
 const LIFETIMES: f64 = 45.0;
 
@@ -71,8 +73,41 @@ impl Exact {
         Err(SolveError::NotApplicable { method: Self::KIND, reason })
     }
 
+    /// How far it follows a run that has too many oscillations for it \[s\]; `None` where it follows the
+    /// whole run, or nothing of it.
+    pub fn reach(system: &System, run: &Run) -> Option<f64> {
+        let augmented = Self::structured(system, run).ok()?;
+        let end = run.t_end / system.time_scale;
+        let norm = augmented.norm() * end;
+        if norm <= QUICK || !norm.is_finite() {
+            return None;
+        }
+        // Modes are found where they do not pass through more than there are digits for.
+        let near = run.t_end * (QUICK / norm);
+        let solution = Solution::new(augmented, (run.t_end, system.time_scale), run.budget.clone());
+        let radians = solution.until(near).radians_beyond(end, LIFETIMES);
+        if radians <= RADIANS || !radians.is_finite() {
+            return None;
+        }
+        let reach = run.t_end * (REACH / radians);
+        let part = Run { t_end: reach, ..run.clone() };
+        (reach > 0.0 && Self::solve(system, &part).is_ok()).then_some(reach)
+    }
+
     /// The system with its generators, if its structure and stiffness permit.
     fn prepare(system: &System, run: &Run) -> Result<Augmented, SolveError> {
+        let augmented = Self::structured(system, run)?;
+        let stiffness = augmented.norm() * (run.t_end / system.time_scale);
+        if !stiffness.is_finite() || stiffness > STIFFNESS {
+            return Self::decline(format!(
+                "too stiff for the exact method in double precision: ‖A‖T = {stiffness:.1e}"
+            ));
+        }
+        Ok(augmented)
+    }
+
+    /// The system with its generators, if its structure permits.
+    fn structured(system: &System, run: &Run) -> Result<Augmented, SolveError> {
         check(system, run)?;
         match system.terms.len() {
             0 => {}
@@ -106,12 +141,6 @@ impl Exact {
                 augmented.size() - states
             ));
         }
-        let stiffness = augmented.norm() * end;
-        if !stiffness.is_finite() || stiffness > STIFFNESS {
-            return Self::decline(format!(
-                "too stiff for the exact method in double precision: ‖A‖T = {stiffness:.1e}"
-            ));
-        }
         Ok(augmented)
     }
 
@@ -130,7 +159,7 @@ impl Exact {
         let augmented = Self::prepare(system, run)?;
         let end = run.t_end / system.time_scale;
         let quick = augmented.norm() * end <= QUICK;
-        let solution = Solution::new(augmented, run.t_end, system.time_scale);
+        let solution = Solution::new(augmented, (run.t_end, system.time_scale), run.budget.clone());
         // A run that may stop is counted as far as it is searched.
         if !quick && !may_stop(run) {
             Self::count(&solution, end)?;
@@ -227,6 +256,10 @@ impl Method for Exact {
                         break;
                     }
                     (found, stop) = again;
+                }
+                if run.budget.is_spent() {
+                    let (time, work) = (share * run.t_end, run.budget.done());
+                    return Err(SolveError::BudgetSpent { method: Self::KIND, time, work });
                 }
                 events = found;
                 if let Some(stop) = stop {

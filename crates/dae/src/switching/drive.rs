@@ -146,6 +146,10 @@ fn solve(
             let steps = found.statistics.accepted;
             return Err(SolveError::TooLarge { method: name, time: t_end, steps, bytes });
         }
+        if run.budget.charge_choice() {
+            let work = run.budget.done();
+            return Err(SolveError::BudgetSpent { method: name, time: t_end, work });
+        }
         if !goes_on {
             return Ok(Solution { chain: drive.chain, name, t_end, first_phases, found });
         }
@@ -219,6 +223,7 @@ impl Drive<'_> {
             nominal: Vec::new(),
             guards: leg.guards.iter().chain(&self.run.guards).cloned().collect(),
             keep: Keep::Everything,
+            budget: self.run.budget.clone(),
         };
         let mut shifted =
             Shifted { start: self.start.high(), steps: self.steps, observer: &mut *self.observer };

@@ -2,7 +2,7 @@
 
 use super::{Scene, Sequence, Solved};
 use crate::{
-    Piece, Waveform, chebyshev,
+    Budget, Piece, Waveform, chebyshev,
     exact::{
         Augmented, Solution,
         coordinates::follow,
@@ -68,7 +68,7 @@ fn network(random: &mut Sequence) -> (Scene, f64) {
 fn compare(solved: &Solved, allowed: f64) {
     let end = solved.trajectory.t_end;
     let times: Vec<f64> = (0..=20).map(|k| end * f64::from(k) / 20.0).collect();
-    let marched = Solution::new(Augmented::new(&solved.system, end), end, 1.0);
+    let marched = Solution::new(Augmented::new(&solved.system, end), (end, 1.0), Budget::default());
     let samples = marched.by_propagator(Grid { first: 0.0, step: end / 20.0, count: 21 });
     let size = solved.system.len();
     let signals: Vec<_> = (0..size).map(|output| solved.signal(output)).collect();
@@ -107,7 +107,7 @@ fn without_eigenvalues_the_values_are_still_right() {
         &spans[0],
         (0.0, 8.0),
         0.2,
-        &mut quality,
+        (&mut quality, &Budget::default()),
         &mut pieces,
     );
     let w = 24.9375_f64.sqrt();

@@ -1,6 +1,6 @@
 //! From one step to the next.
 
-use diffsol::{OdeSolverMethod, OdeSolverStopReason, Vector};
+use diffsol::{OdeSolverMethod, OdeSolverStopReason, Vector, ode_solver::OdeSolverStatistics};
 
 use super::{Algebra, Stop, algebra::Slice, equations::Equations, failure::Site};
 use crate::{
@@ -82,8 +82,10 @@ impl Walk<'_> {
         solver.set_stop_time(end - start)?;
         let mut inner = M::V::zeros(self.system.len(), M::C::default());
         let mut before = 0.0;
+        let mut done = (0, 0);
         loop {
             let reason = solver.step();
+            done = self.count(solver.get_statistics(), done);
             let state = solver.state();
             let reached = matches!(reason, Ok(OdeSolverStopReason::TstopReached));
             let t = if reached { end - start } else { state.t };
@@ -126,6 +128,15 @@ impl Walk<'_> {
         }
     }
 
+    /// Counts what a step took besides itself; `before` is what had been counted.
+    fn count(&self, work: &OdeSolverStatistics, before: (usize, usize)) -> (usize, usize) {
+        let rejected = work.number_of_error_test_failures + work.number_of_nonlinear_solver_fails;
+        let now = (rejected, work.number_of_linear_solver_setups);
+        let new = (now.0 - before.0, now.1 - before.1);
+        self.run.budget.charge_rejected(new, self.system.len());
+        now
+    }
+
     /// Shows the last step to the observer and to the guards.
     pub(super) fn report(&mut self, time: f64) -> Result<(), Stop> {
         let steps = self.pieces.len();
@@ -134,6 +145,10 @@ impl Walk<'_> {
         }
         if steps >= MOST_STEPS {
             return Err(SolveError::TooManySteps { method: self.method, time, steps }.into());
+        }
+        if self.run.budget.charge_step(self.system.len()) {
+            let work = self.run.budget.done();
+            return Err(SolveError::BudgetSpent { method: self.method, time, work }.into());
         }
         let bytes = self.pieces.size_of_rows();
         if bytes > MOST_BYTES {

@@ -1,0 +1,133 @@
+//! How much work a run may be.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, AtomicU64, Ordering::Relaxed},
+};
+
+/// What a step, a panel or a term costs besides what it costs for each unknown.
+const OVERHEAD: u64 = 16;
+/// Unknowns beyond which a step counts no more: a large network is known to take long.
+const MOST_UNKNOWNS: usize = 1000;
+/// Entries of a row that a factorisation meets at most: matrices of more unknowns are sparse.
+const DENSE: usize = 30;
+/// What a choice of phases costs, with the equations that follow from it.
+const CHOICE: u64 = 2000;
+
+/// Work that runs may be, and that they have been so far: counted, never timed, so that a run that ends
+/// by it repeats to the bit.
+///
+/// A unit is what one unknown costs in one step, some 20 ns. A step costs 16 units and one for each
+/// unknown, up to 1000, and so does a panel of `exact` for its modes; a factorisation costs a step and more
+/// for each entry; modes twice the cube of their number; a choice of phases 2000. Copies share one account.
+#[derive(Debug, Clone, Default)]
+pub struct Budget {
+    account: Option<Arc<Account>>,
+}
+
+#[derive(Debug)]
+struct Account {
+    limit: u64,
+    done: AtomicU64,
+    is_over: AtomicBool,
+    /// What all of it is a part of.
+    whole: Budget,
+}
+
+impl Budget {
+    /// So many units.
+    pub fn of(limit: u64) -> Self {
+        Self::default().part(limit)
+    }
+
+    /// A part of it: its work counts for the whole, too, and it ends where that does.
+    #[must_use]
+    pub fn part(&self, limit: u64) -> Self {
+        let whole = self.clone();
+        let account = Account { limit, done: 0.into(), is_over: false.into(), whole };
+        Self { account: Some(Arc::new(account)) }
+    }
+
+    /// The work so far; 0 where nothing is counted.
+    pub fn done(&self) -> u64 {
+        self.account.as_ref().map_or(0, |own| own.done.load(Relaxed))
+    }
+
+    /// Whether no work is left.
+    pub fn is_spent(&self) -> bool {
+        self.charge(0)
+    }
+
+    /// Counts work and returns whether none is left.
+    pub fn charge(&self, units: u64) -> bool {
+        self.account.as_ref().is_some_and(|own| {
+            if own.is_over.load(Relaxed) {
+                return false;
+            }
+            let done = own.done.fetch_add(units, Relaxed).saturating_add(units);
+            own.whole.charge(units) || done > own.limit
+        })
+    }
+
+    /// Ends the account: the run is over, and to look at its solution counts no more.
+    pub fn close(&self) {
+        if let Some(own) = &self.account {
+            own.is_over.store(true, Relaxed);
+        }
+    }
+
+    /// Counts a step of so many unknowns, or a panel of so many modes.
+    pub(crate) fn charge_step(&self, unknowns: usize) -> bool {
+        self.charge(OVERHEAD + unknowns.min(MOST_UNKNOWNS) as u64)
+    }
+
+    /// Counts steps that were rejected, and factorisations, of so many unknowns.
+    pub(crate) fn charge_rejected(&self, (steps, factorizations): (usize, usize), unknowns: usize) {
+        let step = OVERHEAD + unknowns.min(MOST_UNKNOWNS) as u64;
+        let factorization = step + (unknowns.min(MOST_UNKNOWNS) * unknowns.min(DENSE)) as u64 / 4;
+        self.charge(steps as u64 * step + factorizations as u64 * factorization);
+    }
+
+    /// Counts the decomposition of a dense matrix of this size.
+    pub(crate) fn charge_decomposition(&self, size: usize) -> bool {
+        let size = size as u64;
+        self.charge(OVERHEAD + 2 * size * size * size)
+    }
+
+    /// Counts a choice of phases.
+    pub(crate) fn charge_choice(&self) -> bool {
+        self.charge(CHOICE)
+    }
+}
+
+/// Two are equal that allow as much.
+impl PartialEq for Budget {
+    fn eq(&self, other: &Self) -> bool {
+        let limit = |own: &Self| own.account.as_ref().map(|account| account.limit);
+        limit(self) == limit(other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn part_counts_for_the_whole_and_ends_with_it() {
+        let whole = Budget::of(100);
+        let part = whole.part(30);
+        assert!(!part.charge(30) && part.charge(1));
+        assert!(part.is_spent() && !whole.is_spent());
+        let other = whole.part(1000);
+        assert!(!other.charge(69) && other.charge(1));
+        assert!(whole.is_spent());
+        assert_eq!((part.done(), other.done(), whole.done()), (31, 70, 101));
+    }
+
+    #[test]
+    fn without_a_limit_nothing_is_counted() {
+        let budget = Budget::default();
+        assert!(!budget.charge(u64::MAX) && !budget.is_spent());
+        assert_eq!(budget.done(), 0);
+    }
+}
