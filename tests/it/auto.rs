@@ -90,19 +90,20 @@ fn costs_little_more_than_the_best_single_method() {
 
 #[test]
 fn what_is_nothing_beside_its_kind_asks_for_no_further_solution() {
-    // The wave has not reached the far end, where forces are known to a fifth of next to nothing.
+    // The wave has not reached the far end, where forces are next to nothing and known to some per cent.
     let scene = scene(include_str!("auto/free-chain-90.toml"));
     let [auto, exact] = ["auto", "exact"].map(|method| by(&scene, method).unwrap());
     assert_eq!(auto.solver.method, "exact");
     assert_eq!(auto.solver.work, exact.solver.work);
     assert!(reaches(&auto));
-    let far = measure(&auto, "e88.peak-force");
-    assert!(far.value.unwrap() < 1e-9 && far.error.unwrap() > 0.0, "the bar stays as it is");
+    let far = measure(&auto, "e64.peak-force");
+    let (value, error) = (far.value.unwrap(), far.error.unwrap());
+    assert!(value < 1e-9 && error > 1e-3 * value, "the bar stays as it is: {far:?}");
     // Asked for by name, it counts by itself.
     let mut settings = scene.settings("exact");
-    settings.accuracy.by_measure.insert("e88.peak-force".to_owned(), 1e-3);
+    settings.accuracy.by_measure.insert("e64.peak-force".to_owned(), 1e-3);
     let asked = run(&scene, &settings).unwrap();
-    assert!(measure(&asked, "e88.peak-force").excess > 1.0);
+    assert!(measure(&asked, "e64.peak-force").excess > 1.0);
 }
 
 #[test]

@@ -76,11 +76,13 @@ pub fn solve_assembly(
         keep: keep(assembly, &selected),
         budget: Budget::of(settings.budget),
     };
-    let reach = reach(&settings.method, assembly, &run);
     let is_free = settings.method == "auto";
+    let first = choose(&settings.method, assembly, &run);
+    let is_exact = first.as_ref().is_ok_and(|own| own.0.is_exact());
+    let reach = if is_exact { None } else { reach(&settings.method, assembly, &run) };
     // Each attempt is by a method of its own.
     let task = Task { assembly, settings, selected: &selected, method: &methods::Auto };
-    let found = choose(&settings.method, assembly, &run).and_then(|first| {
+    let found = first.and_then(|first| {
         let mut others = if is_free { attempts::others(first.0.as_ref()) } else { Vec::new() };
         let most = if reach.is_some() { attempts::HOPELESS } else { u64::MAX };
         let found = attempts::first_that_solves(&task, &run, (first, most), &mut others, observer)?;

@@ -61,7 +61,7 @@ impl Budget {
     /// Counts work and returns whether none is left.
     pub fn charge(&self, units: u64) -> bool {
         self.account.as_ref().is_some_and(|own| {
-            if own.is_over.load(Relaxed) {
+            if own.is_over() {
                 return false;
             }
             let done = own.done.fetch_add(units, Relaxed).saturating_add(units);
@@ -97,6 +97,12 @@ impl Budget {
     /// Counts a choice of phases.
     pub(crate) fn charge_choice(&self) -> bool {
         self.charge(CHOICE)
+    }
+}
+
+impl Account {
+    fn is_over(&self) -> bool {
+        self.is_over.load(Relaxed) || self.whole.account.as_ref().is_some_and(|own| own.is_over())
     }
 }
 

@@ -53,8 +53,9 @@ impl Bench<'_> {
                     let declines = declines(&error);
                     let ends = matches!(
                         error,
-                        RunError::Solve(SolveError::TooManySteps { .. })
-                            | RunError::TooMuchWork { .. }
+                        RunError::Solve(
+                            SolveError::TooManySteps { .. } | SolveError::BudgetSpent { .. }
+                        ) | RunError::TooMuchWork { .. }
                     );
                     let rtol = rtol.filter(|_| !declines);
                     let ends_here = ends && rtol.is_some();
