@@ -18,11 +18,21 @@ const CHOICE: u64 = 2000;
 /// by it repeats to the bit.
 ///
 /// A unit is what one unknown costs in one step, some 20 ns. A step costs 16 units and one for each
-/// unknown, up to 1000, and so does a panel of `exact` for its modes; a factorisation costs a step and more
-/// for each entry; modes twice the cube of their number; a choice of phases 2000. Copies share one account.
+/// unknown, up to 1000, and so do a rejected one and a panel of `exact` for its modes; a linear system about
+/// as much, a factorisation more for each entry; modes cost twice the cube of their number; a choice of
+/// phases 2000. Copies share one account.
 #[derive(Debug, Clone, Default)]
 pub struct Budget {
     account: Option<Arc<Account>>,
+}
+
+/// Work of steps besides themselves.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Besides {
+    pub(crate) rejected: usize,
+    pub(crate) factorizations: usize,
+    /// Linear systems solved.
+    pub(crate) solutions: usize,
 }
 
 #[derive(Debug)]
@@ -81,11 +91,14 @@ impl Budget {
         self.charge(OVERHEAD + unknowns.min(MOST_UNKNOWNS) as u64)
     }
 
-    /// Counts steps that were rejected, and factorisations, of so many unknowns.
-    pub(crate) fn charge_rejected(&self, (steps, factorizations): (usize, usize), unknowns: usize) {
-        let step = OVERHEAD + unknowns.min(MOST_UNKNOWNS) as u64;
-        let factorization = step + (unknowns.min(MOST_UNKNOWNS) * unknowns.min(DENSE)) as u64 / 4;
-        self.charge(steps as u64 * step + factorizations as u64 * factorization);
+    /// Counts what steps of so many unknowns took besides themselves.
+    pub(crate) fn charge_besides(&self, work: Besides, unknowns: usize) {
+        let size = unknowns.min(MOST_UNKNOWNS);
+        let solution = OVERHEAD / 2 + size as u64;
+        let factorization = OVERHEAD + (size * (4 + size.min(DENSE)) / 4) as u64;
+        let rejected = work.rejected as u64 * (OVERHEAD + size as u64);
+        let solved = work.solutions as u64 * solution;
+        self.charge(rejected + solved + work.factorizations as u64 * factorization);
     }
 
     /// Counts the decomposition of a dense matrix of this size.

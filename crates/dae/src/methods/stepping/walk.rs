@@ -5,6 +5,7 @@ use diffsol::{OdeSolverMethod, OdeSolverStopReason, Vector, ode_solver::OdeSolve
 use super::{Algebra, Stop, algebra::Slice, equations::Equations, failure::Site};
 use crate::{
     Observer, Output, Progress, Run, Signal, SolveError, Statistics, System, UnknownKind,
+    budget::Besides,
     chebyshev::Interpolation,
     events::Watch,
     pieces::{self, MOST_BYTES, Pieces, between},
@@ -82,7 +83,7 @@ impl Walk<'_> {
         solver.set_stop_time(end - start)?;
         let mut inner = M::V::zeros(self.system.len(), M::C::default());
         let mut before = 0.0;
-        let mut done = (0, 0);
+        let mut done = Besides::default();
         loop {
             let reason = solver.step();
             done = self.count(solver.get_statistics(), done);
@@ -129,11 +130,18 @@ impl Walk<'_> {
     }
 
     /// Counts what a step took besides itself; `before` is what had been counted.
-    fn count(&self, work: &OdeSolverStatistics, before: (usize, usize)) -> (usize, usize) {
-        let rejected = work.number_of_error_test_failures + work.number_of_nonlinear_solver_fails;
-        let now = (rejected, work.number_of_linear_solver_setups);
-        let new = (now.0 - before.0, now.1 - before.1);
-        self.run.budget.charge_rejected(new, self.system.len());
+    fn count(&self, work: &OdeSolverStatistics, before: Besides) -> Besides {
+        let now = Besides {
+            rejected: work.number_of_error_test_failures + work.number_of_nonlinear_solver_fails,
+            factorizations: work.number_of_linear_solver_setups,
+            solutions: work.number_of_nonlinear_solver_iterations,
+        };
+        let new = Besides {
+            rejected: now.rejected - before.rejected,
+            factorizations: now.factorizations - before.factorizations,
+            solutions: now.solutions - before.solutions,
+        };
+        self.run.budget.charge_besides(new, self.system.len());
         now
     }
 
