@@ -72,7 +72,7 @@ pub(crate) fn first_that_solves(
         tried.push(next.name());
         // A phase that is reached later may ask for more than the first one.
         why = match &error {
-            RunError::EnergyLost { .. } => error.to_string(),
+            RunError::EnergyLost { .. } | RunError::Slider { .. } => error.to_string(),
             error => format!("`{}` does not get through: {error}", method.name()),
         };
         first.get_or_insert(error);
@@ -158,6 +158,8 @@ pub(crate) fn none_gets_through(
         Some(RunError::Solve(
             error @ (SolveError::StepTooSmall { .. } | SolveError::NewtonFailed { .. }),
         )) => RunError::NoneGetsThrough { error, others },
+        // That it does not apply says nothing of why the others fail.
+        Some(RunError::Solve(SolveError::NotApplicable { .. })) => last,
         Some(first) => first,
         None => last,
     }

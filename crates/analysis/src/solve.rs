@@ -15,6 +15,7 @@ use crate::{
     attempts::{self, Found},
     contacts::{self, meetings_after},
     events,
+    holding::slider_fault,
     large::{is_large, keep},
     ledger::{leak, ledger},
     magnitude::{is_open, largest},
@@ -331,14 +332,15 @@ fn report(
 }
 
 /// What is to be said of a solution in which so much energy is missing, or too much, that nothing of it
-/// can be trusted.
-pub(crate) fn lost(assembly: &Assembly, solved: &Solved) -> Option<RunError> {
+/// can be trusted, or in which sliders do what they cannot.
+pub(crate) fn lost(assembly: &Arc<Assembly>, solved: &Solved) -> Option<RunError> {
     let Solved { trajectory, energy, .. } = solved;
     let closure = energy.closure();
-    (closure.is_nan() || closure.abs() > MOST_LOST).then(|| {
-        let leak = leak(&Solution::new(assembly, trajectory));
-        RunError::EnergyLost { method: trajectory.method, closure, leak }
-    })
+    let (method, solution) = (trajectory.method, Solution::new(assembly, trajectory));
+    if closure.is_nan() || closure.abs() > MOST_LOST {
+        return Some(RunError::EnergyLost { method, closure, leak: leak(&solution) });
+    }
+    slider_fault(&solution, energy).map(|fault| RunError::Slider { method, fault })
 }
 
 /// That the run is followed to a time \[s\] before its end.
