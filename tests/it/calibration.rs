@@ -21,6 +21,7 @@ use dashpot::dae::methods;
 
 use tally::Tallies;
 use trial::{Case, Outcome};
+pub(crate) use truth::Patience;
 
 /// The seed of the scenes that the bars are tested on, fixed before they were looked at. Those that
 /// they were made on have seeds 1 to 3; those of seeds 5 and 11 were looked at before.

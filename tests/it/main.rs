@@ -10,6 +10,7 @@
 mod allocations;
 mod auto;
 mod calibration;
+mod campaign;
 mod cli;
 mod cli_models;
 mod closed_forms;
@@ -28,6 +29,7 @@ mod gallery;
 mod hard;
 mod independent;
 mod layers;
+mod mutated_runs;
 mod order;
 mod pads;
 mod partial;

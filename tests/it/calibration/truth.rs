@@ -15,8 +15,8 @@ const FINE: f64 = 1e-11;
 const PATIENCE: usize = 300_000;
 
 /// Ends what takes too long, so that one scene does not hold up a thousand.
-pub(super) struct Patience {
-    pub(super) steps: usize,
+pub(crate) struct Patience {
+    pub(crate) steps: usize,
 }
 
 impl Observer for Patience {

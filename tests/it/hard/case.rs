@@ -72,6 +72,14 @@ impl Case {
         Self { most_steps, ..self }
     }
 
+    /// Its text, if it is a scene.
+    pub(super) fn text(&self) -> Option<&str> {
+        match &self.setup {
+            Setup::Text(text) => Some(text),
+            Setup::Built(_) => None,
+        }
+    }
+
     /// The network and what is asked of it, or why the scene is refused.
     pub(super) fn network(&self, method: &str) -> Result<(Network, SolveSettings), String> {
         match &self.setup {

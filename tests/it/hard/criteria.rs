@@ -18,6 +18,10 @@ const TRIANGLE: (f64, f64) = (0.246_400_657_355_252_65, 2.0 / 7.0);
 
 #[test]
 fn criteria() {
+    judge("criteria", cases());
+}
+
+pub(super) fn cases() -> Vec<Case> {
     let (height, length) = (80.0, 0.012);
     let mut cases = vec![
         signal("half-sine", &half_sine(height, length), height, length, HALF_SINE),
@@ -30,7 +34,7 @@ fn criteria() {
     ];
     cases.extend([struck_spring(), two_peaks(), capped()]);
     cases.extend([too_large(), infinite()]);
-    judge("criteria", cases);
+    cases
 }
 
 fn half_sine(height: f64, length: f64) -> String {

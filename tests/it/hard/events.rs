@@ -17,6 +17,10 @@ const FALLS_AND_PARTS: &str =
 
 #[test]
 fn events() {
+    judge("events", cases());
+}
+
+pub(super) fn cases() -> Vec<Case> {
     let mut cases = vec![chatter_on_rigid_ground(), chatter_on_a_pad(), two_contacts_at_once()];
     cases.extend([1e-12, -1e-12].map(grazing));
     cases.extend(at_rest_on_the_surface());
@@ -34,7 +38,7 @@ fn events() {
         contacts_at_both_ends(),
         sliders_in_series(),
     ]);
-    judge("events", cases);
+    cases
 }
 
 fn chatter_on_rigid_ground() -> Case {

@@ -10,6 +10,10 @@ use super::{
 
 #[test]
 fn extremes() {
+    judge("extremes", cases());
+}
+
+pub(super) fn cases() -> Vec<Case> {
     let mut cases: Vec<Case> =
         [(1e-30, 1e-24), (1e30, 1e34), (1e-12, 1e12), (1e12, 1e-12), (1e-150, 1e150)]
             .map(sizes)
@@ -20,7 +24,7 @@ fn extremes() {
     cases.extend([jumps_in_a_table(), stops_at_a_level(), stops_at_the_top(), box_of_walls()]);
     cases.extend([1e9, 1e13].map(hard_contact));
     cases.push(two_speeds());
-    judge("extremes", cases);
+    cases
 }
 
 fn sizes((mass, stiffness): (f64, f64)) -> Case {

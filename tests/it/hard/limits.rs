@@ -9,6 +9,10 @@ use super::{
 
 #[test]
 fn limits() {
+    judge("limits", cases());
+}
+
+pub(super) fn cases() -> Vec<Case> {
     let mut cases: Vec<Case> = ["1e-2", "1e-6", "1e-12", "1e-18", "0"].map(light_node).into();
     cases.extend(["1e4", "1e8", "1e12", "1e16"].map(stiff_joint));
     cases.extend(["1e4", "1e8", "1e12", "1e16", "1e20"].map(damped_joint));
@@ -18,7 +22,7 @@ fn limits() {
         cases.push(maxwell_of(damping));
     }
     cases.extend(nothing_in_parallel());
-    judge("limits", cases);
+    cases
 }
 
 fn light_node(mass: &'static str) -> Case {

@@ -27,3 +27,21 @@ mod table;
 mod time;
 mod topology;
 mod trial;
+
+use case::Case;
+
+/// Names and texts of all hard cases that are scenes.
+pub(crate) fn texts() -> Vec<(String, String)> {
+    let groups: [fn() -> Vec<Case>; 8] = [
+        criteria::cases,
+        events::cases,
+        extremes::cases,
+        limits::cases,
+        nonlinear::cases,
+        spectra::cases,
+        time::cases,
+        topology::cases,
+    ];
+    let cases = groups.into_iter().flat_map(|cases| cases());
+    cases.filter_map(|case| Some((case.name.clone(), case.text()?.to_owned()))).collect()
+}

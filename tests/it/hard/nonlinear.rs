@@ -14,11 +14,15 @@ const LEMNISCATE: f64 = 1.311_028_777_146_059_9;
 
 #[test]
 fn laws_that_are_not_linear() {
+    judge("nonlinear", cases());
+}
+
+pub(super) fn cases() -> Vec<Case> {
     let mut cases = vec![pure_cube(), cubes_in_series(), root_dashpot(), squared_dashpot()];
     cases.extend([squared_dashpot_behind_a_spring(), kinked_table(), wall()]);
     cases.extend([1.0, 10.0].map(densification));
     cases.extend([hysteresis(), tiny_cube(), hunt_crossley_at_rest()]);
-    judge("nonlinear", cases);
+    cases
 }
 
 fn pure_cube() -> Case {

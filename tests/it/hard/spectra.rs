@@ -11,6 +11,10 @@ const SCRIPT: &str = "script";
 
 #[test]
 fn stiffness_and_spectra() {
+    judge("stiffness", cases());
+}
+
+pub(super) fn cases() -> Vec<Case> {
     let mut cases = vec![series_of_very_unequal_springs(), step_on_times_far_apart()];
     cases.extend(times_nearly_equal());
     cases.extend(["1e-2", "1e-6", "1e-10", "1e-14"].map(struck_times_nearly_equal));
@@ -20,7 +24,7 @@ fn stiffness_and_spectra() {
     cases.extend(unequal_masses());
     cases.push(heavily_damped_support());
     cases.extend(["1e-1", "1e-4", "1e-7", "1e-10"].map(stiff_pad));
-    judge("stiffness", cases);
+    cases
 }
 
 fn series_of_very_unequal_springs() -> Case {

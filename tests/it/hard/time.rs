@@ -16,6 +16,10 @@ use super::{
 
 #[test]
 fn time_and_data() {
+    judge("time", cases());
+}
+
+pub(super) fn cases() -> Vec<Case> {
     let mut cases = vec![no_time_at_all(), a_nanosecond(), thirty_years(), late_origin()];
     cases.extend([many_periods(1e4), many_periods(1e5), light_damping()]);
     cases.extend([1e-310, 1e-322, 1e150].map(amplitude));
@@ -23,7 +27,7 @@ fn time_and_data() {
     cases.extend([steps_and_pulses(), needle()]);
     cases.extend(inconsistent_starts());
     cases.extend([samples(), again()]);
-    judge("time", cases);
+    cases
 }
 
 fn no_time_at_all() -> Case {

@@ -18,6 +18,10 @@ use crate::thesis::{dashpot, spring};
 
 #[test]
 fn topology() {
+    judge("topology", cases());
+}
+
+pub(super) fn cases() -> Vec<Case> {
     let mut cases = massless_nodes();
     cases.extend([rigid_loop(), duplicates(), unconnected(), free_flight()]);
     cases.extend([many_in_parallel(), many_in_series(), many_kelvins_in_series()]);
@@ -27,7 +31,7 @@ fn topology() {
     cases.push(struck_chain(if is_full() { 100_000 } else { 300 }));
     cases.extend([reference("as written", false, false), reference("shuffled", true, false)]);
     cases.push(reference("mirrored", false, true));
-    judge("topology", cases);
+    cases
 }
 
 /// Whether the largest cases are solved at full size.

@@ -1,0 +1,206 @@
+"""Measures of a run, by their definitions in docs/model.md, over all of it."""
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+
+G0 = 9.80665
+GRID = np.linspace(0, 1, 33)
+X, W = leggauss(24)
+S = (X + 1) / 2
+# Smooth ends: what is a power of the time there becomes a power twice as high.
+GRADED, WEIGHTS = S**2 * (3 - 2 * S), W / 2 * 6 * S * (1 - S)
+PLAIN, PLAIN_WEIGHTS = S, W / 2
+
+
+class Signal:
+    """One signal of a run: values at parts of a step."""
+
+    def __init__(self, run, read):
+        self.run, self.read = run, read
+        self.steps = run.steps
+
+    def at(self, k, theta):
+        return self.read(*self.run.signals_at(k, theta))
+
+    def peak(self):
+        """The largest magnitude."""
+        coarse = [np.abs(self.at(k, GRID)) for k in range(len(self.steps))]
+        tops = np.array([own.max() for own in coarse])
+        best = 0.0
+        for k in np.argsort(-tops)[:4]:
+            if tops[k] < 0.99 * tops.max():
+                break
+            at, width = GRID[int(np.argmax(coarse[k]))], GRID[1]
+            for _ in range(7):
+                fine = np.clip(np.linspace(at - width, at + width, 33), 0, 1)
+                own = np.abs(self.at(k, fine))
+                at, width = fine[int(np.argmax(own))], width / 12
+                best = max(best, own.max())
+        return best
+
+    def end(self):
+        return self.at(len(self.steps) - 1, np.array([1.0]))[0]
+
+    def integral(self, of=lambda own: own):
+        return sum(step.h * float(PLAIN_WEIGHTS @ of(self.at(k, PLAIN))) for k, step in enumerate(self.steps))
+
+    def pieces(self):
+        """(step, from, to) between zeros."""
+        found = []
+        for k in range(len(self.steps)):
+            own = self.at(k, GRID)
+            cuts = [0.0]
+            for i in np.flatnonzero(own[:-1] * own[1:] < 0):
+                a, b, fa = GRID[i], GRID[i + 1], own[i]
+                for _ in range(60):
+                    c = (a + b) / 2
+                    fc = self.at(k, np.array([c]))[0]
+                    a, b, fa = (c, b, fc) if fc * fa > 0 else (a, c, fa)
+                cuts.append((a + b) / 2)
+            cuts.append(1.0)
+            found += [(k, a, b) for a, b in zip(cuts, cuts[1:])]
+        return found
+
+    def power(self, n):
+        """The integral of |signal|^n."""
+        total = 0.0
+        for k, a, b in self.pieces():
+            own = np.abs(self.at(k, a + (b - a) * GRADED)) ** n
+            total += self.steps[k].h * (b - a) * float(WEIGHTS @ own)
+        return total
+
+
+def hic(signal, cap):
+    """max of (t2 - t1) [integral of |a|/g0 / (t2 - t1)]^2.5 with t2 - t1 <= cap."""
+    nodes, total = [], 0.0
+    pieces = signal.pieces()
+    for k, a, b in pieces:
+        step = signal.steps[k]
+        nodes.append((step.t + a * step.h, k, a, b, total))
+        own = np.abs(signal.at(k, a + (b - a) * PLAIN))
+        total += step.h * (b - a) * float(PLAIN_WEIGHTS @ own) / G0
+    starts = np.array([own[0] for own in nodes])
+    end = signal.steps[-1].t + signal.steps[-1].h
+
+    def speed(t):
+        out = np.empty_like(t)
+        for i, own in enumerate(t):
+            _, k, a, b, before = nodes[max(0, int(np.searchsorted(starts, own, side="right")) - 1)]
+            step = signal.steps[k]
+            to = min(max((own - step.t) / step.h, a), b)
+            part = np.abs(signal.at(k, a + (to - a) * PLAIN))
+            out[i] = before + step.h * (to - a) * float(PLAIN_WEIGHTS @ part) / G0
+        return out
+
+    def best_of(one, two):
+        v1, v2 = speed(one), speed(two)
+        length = two[None, :] - one[:, None]
+        rise = v2[None, :] - v1[:, None]
+        good = (length > 0) & (length <= cap * (1 + 1e-14)) & (rise > 0)
+        return np.where(good, np.maximum(rise, 0) ** 2.5 / np.where(good, length, 1.0) ** 1.5, 0.0)
+
+    grid = np.unique(np.concatenate([np.linspace(0, end, 240), starts]))
+    value = best_of(grid, grid)
+    found = 0.0
+    if value.max() == 0:
+        return 0.0
+    seen = []
+    flat = np.argsort(-value, axis=None)
+    for own in flat[:200]:
+        i, j = np.unravel_index(own, value.shape)
+        if any(abs(grid[i] - a) < 0.05 * end and abs(grid[j] - b) < 0.05 * end for a, b in seen) or len(seen) > 2:
+            continue
+        seen.append((grid[i], grid[j]))
+        t1, t2, width = grid[i], grid[j], 1.5 * end / 239
+        for _ in range(14):
+            one = np.clip(np.linspace(t1 - width, t1 + width, 9), 0, end)
+            two = np.clip(np.linspace(t2 - width, t2 + width, 9), 0, end)
+            table = best_of(one, two)
+            # Along the cap, too, where the grid misses it.
+            capped = np.clip(one + cap, 0, end)
+            line = np.array([best_of(one[i : i + 1], capped[i : i + 1])[0, 0] for i in range(len(one))])
+            if line.max() > table.max():
+                i = int(np.argmax(line))
+                t1, t2, now = one[i], capped[i], line.max()
+            else:
+                i, j = np.unravel_index(int(np.argmax(table)), table.shape)
+                t1, t2, now = one[i], two[j], table.max()
+            found = max(found, now)
+            width /= 2.5
+    return found
+
+
+def contact(force):
+    """The end of the impact: the first zero of the force after which it would pull. None where there is none."""
+    top, has_pushed = 0.0, False
+    for k, step in enumerate(force.steps):
+        own = force.at(k, GRID)
+        if not has_pushed and own.min() < 0:
+            return None
+        below = np.flatnonzero(own < -1e-12 * top)
+        if has_pushed and np.abs(own).max() <= 1e-13 * top:
+            return k, 0.0
+        if len(below):
+            i = below[0]
+            if i == 0:
+                return k, 0.0
+            a, b = GRID[i - 1], GRID[i]
+            for _ in range(60):
+                c = (a + b) / 2
+                a, b = (c, b) if force.at(k, np.array([c]))[0] > 0 else (a, c)
+            return k, (a + b) / 2
+        top = max(top, own.max())
+        has_pushed = has_pushed or own.max() > 0
+    return None
+
+
+def impact(force, power):
+    """Measures of what touches an impactor, from the start to the end of the impact."""
+    found = contact(force)
+    if found is None:
+        return {}
+    last, part = found
+    lengths = [1.0] * last + [part]
+
+    def until(signal):
+        steps = zip(range(last + 1), lengths)
+        return sum(force.steps[k].h * to * float(PLAIN_WEIGHTS @ signal.at(k, to * PLAIN)) for k, to in steps)
+
+    step = force.steps[last]
+    return {
+        "contact-time": step.t + part * step.h,
+        "impulse@impact": until(force),
+        "energy@impact": until(power),
+    }
+
+
+def element(run, name, force, ends, struck, pulls, is_impact):
+    """Measures of an element: `force` is a list of (link, part)."""
+    a, b = ends
+    F = Signal(run, lambda x, w, acc, F, y, dy: sum(share * F[at] for at, share in force))
+    y = Signal(run, lambda x, w, acc, F, *_: x[a] - x[b])
+    power = Signal(run, lambda x, w, acc, F, *_: sum(share * F[at] for at, share in force) * (w[a] - w[b]))
+    # What never pulls is pressed by its deepest compression: what it is apart by is a gap.
+    deepest = y if pulls else Signal(run, lambda x, *_: np.maximum(x[a] - x[b], 0))
+    found = {"peak-deformation": deepest.peak(), "end-deformation": y.end()}
+    if not struck:
+        found |= {"peak-force": F.peak(), "impulse": F.integral(), "energy": power.integral()}
+        if is_impact:
+            found |= impact(F, power)
+    return {f"{name}.{kind}": own for kind, own in found.items()}
+
+
+def node(run, network, n, struck, cap=None):
+    """Measures of a mass."""
+    own = network.nodes[n]
+    x, w = Signal(run, lambda x, *_: x[n]), Signal(run, lambda x, w, *_: w[n])
+    found = {"end-position": x.end(), "end-velocity": w.end(), "peak-displacement": x.peak()}
+
+    if not struck and not own.loads:
+        a = Signal(run, lambda x, w, acc, *_: acc[n] - network.gravity)
+        found["peak-acceleration"] = a.peak()
+        found["severity-index"] = a.power(2.5) / G0**2.5
+        found["average-deceleration"] = abs(a.integral()) / run.duration
+        if cap:
+            found[f"hic@{cap!r}"] = hic(a, cap)
+    return {f"{own.name}.{kind}": value for kind, value in found.items()}

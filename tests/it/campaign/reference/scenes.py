@@ -1,0 +1,301 @@
+"""Scenes from a seed: a text for the program, and the same as a network for the reference."""
+
+import math
+import re
+
+import numpy as np
+
+import laws
+import waves
+from bodies import Link, Network
+from models import (
+    Beside,
+    Dice,
+    Leaf,
+    Row,
+    Scales,
+    contact,
+    elastic,
+    friction,
+    kelvin,
+    law,
+    pulls,
+    spring,
+    zener,
+    dashpot,
+)
+from rest import at_rest
+
+G0 = 9.80665
+
+
+class Scene:
+    """Collects the text and the network."""
+
+    def __init__(self, kind):
+        self.kind = kind
+        self.network = Network()
+        self.network.node("ground", motion=waves.constant(0.0))
+        self.nodes, self.elements, self.effects, self.loads, self.measured = [], [], [], [], {}
+        self.places = {"ground": 0}
+        self.masses, self.sliders, self.first, self.pulls, self.elements_by_name = [], {}, {}, {}, {}
+        self.begins_at_rest = False
+
+    def node(self, name, mass=0.0, velocity=0.0, motion=None, drop=None):
+        velocity = math.sqrt(2 * G0 * drop) if drop else velocity
+        own = self.network.node(name, mass, velocity, motion)
+        self.places[name] = own
+        keys = [f"mass = {mass!r}"] if mass else []
+        keys += [f"drop = {drop!r}"] if drop else [f"velocity = {velocity!r}"] if velocity else []
+        keys += [f"{motion.word} = {{ {motion.text} }}"] if motion else []
+        self.nodes.append(f"{name} = {{ {', '.join(keys)} }}")
+        if mass:
+            self.masses.append(own)
+        return own
+
+    def load(self, name, on, wave):
+        self.network.nodes[self.places[on]].loads.append(wave)
+        self.loads.append(f'{name} = {{ on = "{on}", force = {{ {wave.text} }} }}')
+
+    def build(self, name, a, b, tree):
+        """Links of a model; those whose forces make up that on its first end, with their parts of it."""
+        if isinstance(tree, Leaf):
+            if isinstance(tree.part, laws.Friction) and (a, b) in self.sliders:
+                # Sliders side by side are one, of which each bears its part.
+                at = self.sliders[a, b]
+                self.network.links[at].part.strength += tree.part.strength
+                return [(at, tree.part.strength)]
+            self.network.links.append(Link(a, b, tree.part, name))
+            at = len(self.network.links) - 1
+            if isinstance(tree.part, laws.Friction):
+                self.sliders[a, b] = at
+                return [(at, tree.part.strength)]
+            return [(at, None)]
+        if isinstance(tree, Beside):
+            return [own for one in tree.own for own in self.build(name, a, b, one)]
+        ends = [a] + [self.network.node(f"{name}.joint-{i}") for i in range(1, len(tree.own))] + [b]
+        found = [self.build(name, ends[i], ends[i + 1], one) for i, one in enumerate(tree.own)]
+        return found[0]
+
+    def element(self, name, a, b, tree, separation=None, face=None, stop=None):
+        """`separation`: restitution; `face`: (mass, is struck); `stop`: (gap, e) or (gap, k, c)."""
+        one, two = self.places[a], self.places[b]
+        self.elements_by_name[name] = tree.text
+        self.elements.append(f'{name} = {{ between = ["{a}", "{b}"], {tree.text} }}')
+        end = one
+        if face is not None or separation is not None:
+            mass = face[0] if face else 0.0
+            start = self.network.nodes[one].velocity if face and not face[1] else 0.0
+            end = self.network.node(f"{name}.face", mass, start)
+            self.network.links.append(Link(one, end, laws.Contact(0.0, separation or 0.0), f"{name}.contact"))
+            self.effects.append(f'separation.{name} = {{ at = "{a}", restitution = {separation or 0.0!r} }}')
+            if face:
+                touch = "impact" if face[1] else "moving"
+                self.effects.append(f'face.{name} = {{ mass = {mass!r}, touch = "{touch}" }}')
+        force = self.build(name, end, two, tree)
+        if stop:
+            gap = stop[0]
+            if len(stop) == 2:
+                own = contact(gap, stop[1])
+                words = f"restitution = {stop[1]!r}"
+            else:
+                own = Row(contact(gap), kelvin(stop[1], stop[2]))
+                words = f"stiffness = {stop[1]!r}, damping = {stop[2]!r}"
+            self.build(f"{name}.stop", end, two, own)
+            self.effects.append(f"stop.{name} = {{ at = {gap!r}, {words} }}")
+        self.measured[name], self.first[name] = (force, (end, two)), one
+        self.pulls[name] = pulls(tree)
+
+    def forces(self, name):
+        force, ends = self.measured[name]
+        links = self.network.links
+        return [(at, 1.0 if own is None else own / links[at].part.strength) for at, own in force], ends
+
+    def gravity(self, start="unloaded"):
+        self.network.gravity = G0
+        self.effects.append(f'gravity = {{ value = 9.80665, start = "{start}" }}')
+        self.begins_at_rest = start == "equilibrium"
+
+    def start(self):
+        """Where all nodes begin."""
+        if not self.begins_at_rest:
+            return np.zeros(len(self.network.nodes))
+        moving = {n for n in self.masses if self.network.nodes[n].velocity}
+        struck = [(name, ends[1]) for name, (_, ends) in self.measured.items() if self.first[name] in moving]
+        return at_rest(self.network, struck)
+
+    def is_impact(self, name):
+        """Whether an impactor strikes it at the start."""
+        first = self.network.nodes[self.first[name]]
+        return first.mass > 0 and first.velocity > 0 and not re.search(r"gap = 0\.0*[1-9]", self.elements_by_name[name])
+
+    def text(self, duration):
+        lines = ["[nodes]", *self.nodes, "[elements]", *self.elements]
+        for head, own in (("effects", self.effects), ("loads", self.loads)):
+            lines += [f"[{head}]", *own] if own else []
+        return "\n".join(lines + ["[run]", f"duration = {duration!r}", ""])
+
+
+def struck(dice):
+    """A head, a pad, perhaps a panel on a mount, a second head, a guide, a stop, a face."""
+    s = Scales(dice)
+    scene = Scene("struck")
+    r = lambda own: float(f"{own:.6g}")
+    weight = dice.pick("", "", "", "unloaded", "equilibrium")
+    if not weight and dice.chance(0.2):
+        scene.node("head", r(s.m), drop=r(s.v**2 / 2 / G0))
+    else:
+        scene.node("head", r(s.m), r(s.v))
+    below = "ground"
+    if dice.chance(0.6):
+        scene.node("panel", r(s.m * dice.spread(0.2, 5)))
+        below = "panel"
+    tree, keys = law(dice, s), {}
+    if pulls(tree) and dice.chance(0.5):
+        keys["separation"] = 0.0
+        if dice.chance(0.3):
+            keys["face"] = (r(s.m * dice.spread(0.02, 0.5)), dice.chance(0.5))
+            keys["separation"] = dice.pick(0.0, dice.between(0, 0.8))
+    if dice.chance(0.3):
+        at = r(dice.between(0.3, 0.9) * s.y)
+        soft = (at, r(dice.spread(3, 50) * s.k), r(dice.spread(0.02, 0.5) * s.c))
+        keys["stop"] = (at, dice.pick(0.0, dice.between(0, 0.8))) if dice.chance(0.4) else soft
+    scene.element("pad", "head", below, tree, **keys)
+    if below == "panel":
+        kinds = ("linear", "elastic") if weight == "equilibrium" else ("linear", "linear", "elastic", "slide", "rate")
+        mount = law(dice, s, dice.pick(*kinds))
+        scene.element("mount", "panel", "ground", mount)
+        if dice.chance(0.4):
+            scene.node("second", r(s.m * dice.spread(0.2, 3)), r(s.v * dice.between(0.2, 1.2)))
+            more = {"separation": 0.0} if dice.chance(0.3) else {}
+            kind = dice.pick("linear", "elastic") if more else dice.pick("linear", "elastic", "contact")
+            scene.element("buffer", "second", "panel", law(dice, s, kind), **more)
+    if weight:
+        scene.gravity(weight)
+    if weight != "equilibrium" and dice.chance(0.3):
+        scene.element("guide", "head", "ground", friction(r(dice.spread(0.01, 0.2) * s.f)))
+    if weight != "equilibrium" and dice.chance(0.2):
+        scene.load("ram", below if below == "panel" else "head", pulse(dice, 0.5 * s.f, s.t))
+    return scene, s, r(s.t * dice.between(0.8, 3.0))
+
+
+def meeting(dice):
+    """Masses that meet across gaps, with restitution."""
+    s = Scales(dice)
+    scene = Scene("meeting")
+    r = lambda own: float(f"{own:.6g}")
+    scene.node("head", r(s.m), r(s.v))
+    scene.node("panel", r(s.m * dice.spread(0.1, 10)))
+    e = dice.pick(0.0, 1.0, dice.between(0, 0.95))
+    scene.element("bump", "head", "panel", contact(r(dice.between(0, 0.8) * s.y), e))
+    scene.element("rail", "head", "ground", spring(r(0.1 * s.k)))
+    scene.element("mount", "panel", "ground", law(dice, s, dice.pick("linear", "elastic", "rate")))
+    if dice.chance(0.4):
+        wall = Row(
+            contact(r(dice.between(0.2, 1) * s.y)), kelvin(r(dice.spread(1, 10) * s.k), r(dice.spread(0.02, 0.4) * s.c))
+        )
+        scene.element("wall", "panel", "ground", wall)
+    if dice.chance(0.3):
+        scene.gravity()
+    return scene, s, r(s.t * dice.between(1.0, 3.0))
+
+
+def parcel(dice):
+    """A box on a pad on a floor that throws it off."""
+    s = Scales(dice)
+    # The weight sags the pad by a part of what the floor moves.
+    s.k = float(f"{dice.spread(3e3, 3e5):.6g}")
+    s.v = float(f"{dice.between(1, 3) * G0 * math.sqrt(s.m / s.k):.6g}")
+    s.set()
+    scene = Scene("parcel")
+    r = lambda own: float(f"{own:.6g}")
+    t = s.t
+    if dice.chance(0.5):
+        frequency = r(dice.between(0.2, 0.7) / t)
+        size = r(G0 * dice.between(0.7, 2) / (2 * math.pi * frequency) ** 2)
+        motion = waves.sine(size, frequency, 0.0)
+    else:
+        motion = waves.accelerated(
+            r(-G0 * dice.between(1, 6)), r(t * dice.between(0.3, 1.5)), r(t * dice.between(0, 0.3))
+        )
+    scene.node("floor", motion=motion)
+    scene.node("box", r(s.m))
+    c = r(dice.spread(0.03, 0.4) * s.c)
+    tree = dice.pick(kelvin(r(s.k), c), zener(r(s.k), r(2 * s.k), c), Beside(elastic(dice, s), dashpot(c)))
+    more = {"separation": 0.0} if dice.chance(0.7) else {}
+    scene.element("pad", "box", "floor", tree, **more)
+    if dice.chance(0.4):
+        scene.node("item", r(s.m * dice.spread(0.1, 0.8)))
+        scene.element("wrap", "item", "box", kelvin(r(s.k), c))
+    scene.gravity("equilibrium")
+    return scene, s, r(t * dice.between(1.5, 4))
+
+
+def pulse(dice, size, t):
+    r = lambda own: float(f"{own:.6g}")
+    word = dice.pick("constant", "ramp", "sine", "half-sine", "haversine", "trapezoid", "chirp", "table")
+    size, start = r(size * dice.between(0.2, 1)), r(t * dice.between(0, 0.5))
+    if word == "constant":
+        return waves.constant(size, start)
+    if word == "ramp":
+        return waves.ramp(size, r(t * dice.between(0.1, 1)), start)
+    if word == "sine":
+        return waves.sine(size, r(dice.between(0.2, 2) / t), dice.between(0, 6))
+    if word == "half-sine":
+        return waves.half_sine(size, r(t * dice.between(0.3, 1)), start)
+    if word == "haversine":
+        return waves.haversine(size, r(t * dice.between(0.3, 1)), start)
+    if word == "trapezoid":
+        a, b, c = (r(t * dice.between(0.1, 0.5)) for _ in range(3))
+        return waves.trapezoid(size, a, b, c, start)
+    if word == "chirp":
+        return waves.chirp(
+            size, r(dice.between(0.1, 0.5) / t), r(dice.between(0.5, 2) / t), r(t * dice.between(0.5, 2))
+        )
+    places = sorted(r(t * dice.between(0, 2)) for _ in range(4))
+    return waves.table([(0.0, 0.0)] + [(own, r(size * dice.between(-1, 1))) for own in places])
+
+
+def driven(dice):
+    """A mass, perhaps two, on a floor that moves."""
+    s = Scales(dice)
+    scene = Scene("driven")
+    r = lambda own: float(f"{own:.6g}")
+    size = s.y * dice.between(0.3, 1.5)
+    word = dice.pick("sine", "haversine", "half-sine", "ramp", "chirp")
+    t = s.t
+    if word == "sine":
+        motion = waves.sine(r(size), r(dice.between(0.15, 1) / t), 0.0)
+    elif word == "haversine":
+        motion = waves.haversine(r(size), r(t * dice.between(0.5, 2)), r(t * dice.between(0, 0.3)))
+    elif word == "half-sine":
+        motion = waves.half_sine(r(size), r(t * dice.between(0.5, 2)), r(t * dice.between(0, 0.3)))
+    elif word == "ramp":
+        motion = waves.ramp(r(size), r(t * dice.between(0.2, 1)), r(t * dice.between(0, 0.3)))
+    else:
+        motion = waves.chirp(r(size), r(0.1 / t), r(dice.between(0.3, 1) / t), r(t * dice.between(1, 2)))
+    scene.node("floor", motion=motion)
+    scene.node("box", r(s.m))
+    kind = dice.pick("linear", "elastic", "slide", "rate", "row", "gap")
+    keys = {}
+    if dice.chance(0.4):
+        keys["stop"] = (r(dice.between(0.2, 0.8) * s.y), r(dice.spread(3, 30) * s.k), r(dice.spread(0.02, 0.5) * s.c))
+    # Compression counts positive: the floor pushes the box.
+    scene.element("mount", "floor", "box", law(dice, s, kind), **keys)
+    if dice.chance(0.5):
+        scene.node("item", r(s.m * dice.spread(0.1, 0.8)))
+        scene.element("wrap", "box", "item", law(dice, s, dice.pick("linear", "elastic", "slide", "contact")))
+        if isinstance(scene.network.links[-1].part, (laws.HuntCrossley, laws.Hysteretic)) or dice.chance(0.3):
+            scene.element("tie", "item", "ground", kelvin(r(0.1 * s.k), r(0.02 * s.c)))
+    if dice.chance(0.3):
+        scene.element("rail", "box", "ground", friction(r(dice.spread(0.01, 0.3) * s.f)))
+    if dice.chance(0.3):
+        scene.load("ram", "box", pulse(dice, 0.5 * s.f, s.t))
+    if dice.chance(0.2):
+        scene.gravity()
+    return scene, s, r(s.t * dice.between(1.0, 3.5))
+
+
+def draw(seed):
+    dice = Dice(seed)
+    return dice.pick(struck, struck, struck, driven, driven, meeting, parcel)(dice)
