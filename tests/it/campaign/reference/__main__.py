@@ -60,7 +60,7 @@ def main(count, path, first=0):
     while kept < count:
         try:
             scene, text, found, run = values(seed)
-        except Unfit as reason:
+        except (Unfit, ArithmeticError) as reason:
             words = str(reason)
             why.setdefault(words, []).append(seed)
             print(f"{seed}: left out: {words}", flush=True)

@@ -116,7 +116,63 @@ class Scales:
         self.t, self.y, self.f, self.c = math.pi * beat, self.v * beat, self.v * impedance, 2 * impedance
 
 
+def rigid():
+    return Leaf(laws.Rigid(), "rigid = true")
+
+
+def scaled(tree, stiffness, damping):
+    """The same model with its constants multiplied; without a text."""
+    if isinstance(tree, Leaf):
+        part = tree.part
+        return Leaf(
+            laws.Spring(part.k * stiffness) if isinstance(part, laws.Spring) else laws.Dashpot(part.c * damping), ""
+        )
+    return type(tree)(*(scaled(own, stiffness, damping) for own in tree.own), text="-")
+
+
+def shifted(dice, tree):
+    """A model of which a temperature multiplies all times."""
+    reference = 293.15
+    temperature = float(f"{dice.between(283, 313):.5g}")
+    if dice.chance(0.5):
+        energy = dice.between(20, 80)
+        factor = math.exp(energy * 1e3 / 8.31446261815324 * (1 / temperature - 1 / reference))
+        law = (
+            f'arrhenius = {{ temperature = {temperature!r}, reference = {reference!r}, energy = "{energy!r} kJ/mol" }}'
+        )
+    else:
+        c1, c2, off = dice.between(2, 10), dice.between(80, 150), temperature - reference
+        factor = 10 ** (-c1 * off / (c2 + off))
+        law = f"wlf = {{ temperature = {temperature!r}, reference = {reference!r}, c1 = {c1!r}, c2 = {c2!r} }}"
+    own = scaled(tree, 1.0, factor)
+    own.text = f"{tree.text}, shift = {{ {law} }}"
+    return own
+
+
+def of_material(dice, s):
+    """A pad of a material: its numbers are those of the material times area over thickness."""
+    thickness, area = float(f"{dice.between(3, 6) * s.y:.6g}"), dice.spread(1e-3, 1e-1)
+    modulus, viscosity = (float(f"{own * thickness / area:.6g}") for own in (s.k, dice.spread(0.05, 0.5) * s.c))
+    stuff = dice.pick(kelvin(modulus, viscosity), zener(modulus, modulus, viscosity))
+    own = scaled(stuff, area / thickness, area / thickness)
+    name = f"stuff-{dice.own.integers(10**6)}"
+    own.text = f'material = "{name}", thickness = {thickness!r}, area = {area!r}'
+    own.material = f"{name} = {{ {stuff.text} }}"
+    return own
+
+
+def materials(tree):
+    """Those that occur in a model."""
+    own = [tree.material] if hasattr(tree, "material") else []
+    return own + [one for branch in getattr(tree, "own", ()) for one in materials(branch)]
+
+
 def linear(dice, s):
+    own = of_material(dice, s) if dice.chance(0.1) else plain(dice, s)
+    return shifted(dice, own) if dice.chance(0.15) and not hasattr(own, "material") else own
+
+
+def plain(dice, s):
     k, c = dice.spread(0.5, 2) * s.k, lambda: dice.spread(0.03, 0.6) * s.c
     k = float(f"{k:.6g}")
     word = dice.pick("spring", "kelvin", "kelvin", "zener", "burgers", "prony", "chain", "jeffreys", "maxwell")
@@ -266,6 +322,8 @@ def sliding(dice, s):
 
 
 def law(dice, s, kind=None):
+    if kind is None and dice.chance(0.05):
+        return Row(rigid(), law(dice, s))
     kind = kind or dice.pick("linear", "linear", "elastic", "rate", "contact", "slide", "slide", "row", "gap")
     c = float(f"{dice.spread(0.03, 0.4) * s.c:.6g}")
     if kind == "linear":

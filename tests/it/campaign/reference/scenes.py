@@ -19,6 +19,7 @@ from models import (
     friction,
     kelvin,
     law,
+    materials,
     pulls,
     spring,
     zener,
@@ -39,7 +40,7 @@ class Scene:
         self.nodes, self.elements, self.effects, self.loads, self.measured = [], [], [], [], {}
         self.places = {"ground": 0}
         self.masses, self.sliders, self.first, self.pulls, self.elements_by_name = [], {}, {}, {}, {}
-        self.begins_at_rest = False
+        self.begins_at_rest, self.materials = False, []
 
     def node(self, name, mass=0.0, velocity=0.0, motion=None, drop=None):
         velocity = math.sqrt(2 * G0 * drop) if drop else velocity
@@ -80,6 +81,7 @@ class Scene:
     def element(self, name, a, b, tree, separation=None, face=None, stop=None):
         """`separation`: restitution; `face`: (mass, is struck); `stop`: (gap, e) or (gap, k, c)."""
         one, two = self.places[a], self.places[b]
+        self.materials += materials(tree)
         self.elements_by_name[name] = tree.text
         self.elements.append(f'{name} = {{ between = ["{a}", "{b}"], {tree.text} }}')
         end = one
@@ -130,7 +132,8 @@ class Scene:
         return first.mass > 0 and first.velocity > 0 and not re.search(r"gap = 0\.0*[1-9]", self.elements_by_name[name])
 
     def text(self, duration):
-        lines = ["[nodes]", *self.nodes, "[elements]", *self.elements]
+        lines = ["[materials]", *self.materials] if self.materials else []
+        lines += ["[nodes]", *self.nodes, "[elements]", *self.elements]
         for head, own in (("effects", self.effects), ("loads", self.loads)):
             lines += [f"[{head}]", *own] if own else []
         return "\n".join(lines + ["[run]", f"duration = {duration!r}", ""])
