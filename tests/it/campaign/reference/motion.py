@@ -47,7 +47,7 @@ class Solver(Switching):
                 x[n], w[n] = u + mode.offset[n] - own, du
         return x, w
 
-    def residual(self, mode, t, when, X, W, Acc, slopes=True):
+    def residual(self, mode, t, when, X, W, Acc):
         """Lack of balance of the free bodies, and its slopes over places and rates."""
         n = len(mode.free)
         x, w = self.places(mode, t, when, X, W)
@@ -89,14 +89,14 @@ class Solver(Switching):
         rate = np.where(heavy, V[:, None] + h * once, values)
         return place, rate, values
 
-    def step(self, mode, t, h, X, V, guess=None):
+    def step(self, mode, t, h, X, V):
         """The stages of a step, or None where Newton's method fails."""
         r = self.radau
         s, n = r.s, len(mode.free)
         if n == 0:
             return np.zeros((0, s))
         times, when = t + h * r.c, t + h / 2
-        u = np.zeros((n, s)) if guess is None else guess.copy()
+        u = np.zeros((n, s))
         # Places are known to their rounding, and rates of what is massless to that over the step.
         last, rounding = np.inf, 1e-11 + 1e-11 * self.length / (h * self.speed)
         for turn in range(30):
@@ -134,7 +134,7 @@ class Solver(Switching):
             last = change
         return None
 
-    def error(self, mode, h, V, u):
+    def error(self, mode, h, u):
         """The last coefficients of the stages' polynomials, in parts of the speeds."""
         if not len(u):
             return 0.0
@@ -261,12 +261,58 @@ class Solver(Switching):
     # The run
 
     def begin(self, length, speed, force, duration):
+        """The scales of a run, which tell what is rounding, and its length."""
         self.length, self.speed, self.force, self.duration = length, speed, force, duration
 
-    def run(self, x, h0=None):
+    def run(self, x):
+        """Follows the motion from the places `x`; places of driven nodes there do not matter."""
+        t, h, is_fresh, repeats = 0.0, 1e-4 * self.duration, True, 0
+        x, v, phases = self.first_phases(x)
+        mode = Mode(self.network, phases, x)
+        breaks = sorted({own for wave in self.waves for own in wave.breaks() if 0 < own < self.duration})
+        while t < self.duration:
+            if len(self.steps) > 6000 or self.events > 400:
+                raise Unfit("too many steps")
+            until = min([own for own in breaks if own > t] + [self.duration])
+            is_last = h >= until - t
+            # The last step before a break is not much shorter than the one before it.
+            own = until - t if is_last else min(h, 0.5 * (until - t))
+            u = self.step(mode, t, own, *self.start_of(mode, x, v))
+            error = self.error(mode, own, u) if u is not None else np.inf
+            if error > self.tolerance and own > 1e-13 * self.duration:
+                h = own * max(0.2, self.growth(error))
+                continue
+            if u is None or error > 1e-6:
+                raise Unfit("no step")
+            step = Step(mode, t, own, x, v, u)
+            found = self.first_end(step, is_fresh)
+            if found:
+                step = self.cut(step, *found)
+            if step:
+                self.steps.append(step)
+                t = until if is_last and not found else t + step.h
+                x, v = self.end_of(step)
+                repeats = 0 if step.h > 1e-13 * self.duration else repeats
+            if not found and not is_last:
+                is_fresh, h = False, own * min(2.0, self.growth(error))
+                continue
+            if found:
+                self.events, repeats = self.events + 1, repeats + 1
+                if repeats > 6:
+                    raise Unfit("events without end")
+                x, v, phases = self.switch(mode, x, v, t, found[1])
+            elif t < self.duration:
+                phases, x = self.behind_break(mode, x, v, t)
+            mode = Mode(self.network, phases, x)
+            is_fresh, h = True, min(h, 1e-3 * self.duration)
+        return self
+
+    def growth(self, error):
+        return 0.9 * (self.tolerance / max(error, 1e-300)) ** (1 / self.radau.s) if np.isfinite(error) else 0.3
+
+    def first_phases(self, x):
         nodes = self.network.nodes
         v = np.array([own.velocity for own in nodes])
-        t = 0.0
         for n, own in enumerate(nodes):
             if own.motion is not None:
                 u = own.motion.at(np.array([0.0]), 1e-300)
@@ -274,91 +320,45 @@ class Solver(Switching):
         phases = []
         for link in self.network.links:
             y, w = x[link.a] - x[link.b], v[link.a] - v[link.b]
-            if abs(y) < 1e-12 * self.length:
-                y = 0.0
-            if hasattr(link.part, "gap") and abs(y - link.part.gap) < 1e-12 * self.length:
-                y = link.part.gap
+            for level in (0.0, getattr(link.part, "gap", 0.0)):
+                if abs(y - level) < 1e-12 * self.length:
+                    y = level
             phases.append(link.part.start(y, w))
         x, v, phases = self.impacts(x, v, phases, 0.0)
-        phases, x = self.settle(phases, x, v, t, set(range(len(phases))))
-        breaks = sorted({own for wave in self.waves for own in wave.breaks() if 0 < own < self.duration})
-        h = h0 or 1e-4 * self.duration
-        is_fresh, repeats = True, 0
-        mode = Mode(self.network, phases, x)
-        while t < self.duration:
-            if len(self.steps) > 6000 or self.events > 400:
-                raise Unfit("too many steps")
-            until = min([own for own in breaks if own > t] + [self.duration])
-            is_last = h >= until - t
-            if not is_last and h > 0.5 * (until - t):
-                h = 0.5 * (until - t)
-            own = until - t if is_last else h
-            X, V = self.start_of(mode, x, v)
-            u = self.step(mode, t, own, X, V)
-            error = self.error(mode, own, V, u) if u is not None else np.inf
-            # At a breakpoint of a wave nothing need be smooth, and a leg may begin with a root of the time.
-            if error > self.tolerance and own > 1e-13 * self.duration:
-                h = own * (
-                    0.3 if not np.isfinite(error) else max(0.2, 0.9 * (self.tolerance / error) ** (1 / self.radau.s))
-                )
-                continue
-            if u is None or error > 1e-6:
-                raise Unfit("no step")
-            step = Step(mode, t, own, x, v, u)
-            found = self.first_end(step, is_fresh)
-            if found:
-                part, guard = found
-                part = 0.0 if part < 1e-13 else part
-                for _ in range(4):
-                    if part <= 0:
-                        break
-                    again = self.step(mode, t, own * part, X, V)
-                    if again is None:
-                        raise Unfit("no step to an event")
-                    cut = Step(mode, t, own * part, x, v, again)
-                    at, what, sign, level, _ = guard
-                    pick = {"F": 3, "y": 4, "w": 5}[what]
-                    lack = lambda s: float(sign * (self.signals(cut, np.array([s]))[pick][at][0] - level))
-                    here, before = lack(1.0), lack(0.999)
-                    # A secant on the length of the step.
-                    move = here * 0.001 / (before - here) if before != here else 0.0
-                    if abs(move) > 0.01 or abs(move) < 1e-15:
-                        break
-                    part *= 1 + move
-                step = cut if part > 0 else None
-            if step is not None:
-                self.steps.append(step)
-                t = t + step.h if not (is_last and not found) else until
-                xs, ws = self.signals(step, np.array([1.0]))[:2]
-                x = xs[:, 0].copy()
-                v = np.where([mode.mass[b] > 0 or mode.given[b] is not None for b in mode.body], ws[:, 0], 0.0)
-                repeats = 0 if step.h > 1e-13 * self.duration else repeats
-            if found:
-                self.events += 1
-                repeats += 1
-                if repeats > 6:
-                    raise Unfit("events without end")
-                x, v, phases = self.switch(mode, x, v, t, found[1])
-                mode = Mode(self.network, phases, x)
-                is_fresh = True
-                h = min(h, 1e-3 * self.duration)
-            elif is_last and t < self.duration:
-                # Behind a break of a wave.
-                for n, node in enumerate(nodes):
-                    if node.motion is not None:
-                        x[n] = node.motion.at(np.array([t]), t * (1 + 1e-15) + 1e-300)[0][0]
-                phases, x = self.settle(
-                    list(mode.phases),
-                    x,
-                    v,
-                    t,
-                    {i for i, l in enumerate(self.network.links) if l.part.held(mode.phases[i]) is not None},
-                )
-                mode = Mode(self.network, phases, x)
-                is_fresh = True
-                h = min(h, 1e-3 * self.duration)
-            else:
-                is_fresh = False
-                h = own * min(2.0, 0.9 * (self.tolerance / max(error, 1e-300)) ** (1 / self.radau.s))
-        self.end = (x, v, mode)
-        return self
+        phases, x = self.settle(phases, x, v, 0.0, set(range(len(phases))))
+        return x, v, phases
+
+    def cut(self, step, part, guard):
+        """The step up to an event, by a secant on its length; None where there is no way up to it."""
+        at, what, sign, level, _ = guard
+        pick = {"F": 3, "y": 4, "w": 5}[what]
+        found = None
+        for _ in range(4):
+            if part < 1e-13:
+                return None
+            h = step.h * part
+            u = self.step(step.mode, step.t, h, *self.start_of(step.mode, step.x, step.v))
+            if u is None:
+                raise Unfit("no step to an event")
+            found = Step(step.mode, step.t, h, step.x, step.v, u)
+            before, here = (sign * (self.signals(found, np.array([0.999, 1.0]))[pick][at] - level)).tolist()
+            move = here * 0.001 / (before - here) if before != here else 0.0
+            if abs(move) > 0.01 or abs(move) < 1e-15:
+                break
+            part *= 1 + move
+        return found
+
+    def end_of(self, step):
+        """Places of all nodes and speeds of those that have one of their own."""
+        mode = step.mode
+        x, w = (own[:, 0].copy() for own in self.signals(step, np.array([1.0]))[:2])
+        has_speed = [mode.mass[b] > 0 or mode.given[b] is not None for b in mode.body]
+        return x, np.where(has_speed, w, 0.0)
+
+    def behind_break(self, mode, x, v, t):
+        """Phases and places where a function of time has a jump or kink."""
+        for n, node in enumerate(self.network.nodes):
+            if node.motion is not None:
+                x[n] = node.motion.at(np.array([t]), t * (1 + 1e-15) + 1e-300)[0][0]
+        held = {at for at, link in enumerate(self.network.links) if link.part.held(mode.phases[at]) is not None}
+        return self.settle(list(mode.phases), x, v, t, held)

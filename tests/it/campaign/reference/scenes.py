@@ -39,7 +39,7 @@ class Scene:
         self.network.node("ground", motion=waves.constant(0.0))
         self.nodes, self.elements, self.effects, self.loads, self.measured = [], [], [], [], {}
         self.places = {"ground": 0}
-        self.masses, self.sliders, self.first, self.pulls, self.elements_by_name = [], {}, {}, {}, {}
+        self.masses, self.sliders, self.first, self.pulls, self.laws_of = [], {}, {}, {}, {}
         self.begins_at_rest, self.materials = False, []
 
     def node(self, name, mass=0.0, velocity=0.0, motion=None, drop=None):
@@ -82,7 +82,7 @@ class Scene:
         """`separation`: restitution; `face`: (mass, is struck); `stop`: (gap, e) or (gap, k, c)."""
         one, two = self.places[a], self.places[b]
         self.materials += materials(tree)
-        self.elements_by_name[name] = tree.text
+        self.laws_of[name] = tree.text
         self.elements.append(f'{name} = {{ between = ["{a}", "{b}"], {tree.text} }}')
         end = one
         if face is not None or separation is not None:
@@ -129,7 +129,7 @@ class Scene:
     def is_impact(self, name):
         """Whether an impactor strikes it at the start."""
         first = self.network.nodes[self.first[name]]
-        return first.mass > 0 and first.velocity > 0 and not re.search(r"gap = 0\.0*[1-9]", self.elements_by_name[name])
+        return first.mass > 0 and first.velocity > 0 and not re.search(r"gap = 0\.0*[1-9]", self.laws_of[name])
 
     def text(self, duration):
         lines = ["[materials]", *self.materials] if self.materials else []

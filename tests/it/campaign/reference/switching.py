@@ -166,7 +166,7 @@ class Switching:
         h = 1e-4 * self.duration
         for _ in range(9):
             u = self.step(mode, t, h, X, V)
-            if u is not None and self.error(mode, h, V, u) < 1e-7:
+            if u is not None and self.error(mode, h, u) < 1e-7:
                 break
             h /= 10
         if u is None:
