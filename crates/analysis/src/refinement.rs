@@ -136,13 +136,14 @@ impl Task<'_> {
     pub(crate) fn worst_excess(&self, outcome: &Outcome, other: &Outcome) -> f64 {
         let pairs = outcome.solved.readings.iter().zip(&other.solved.readings);
         let excesses = self.selected.iter().zip(pairs).zip(&outcome.of_method);
-        let excess = |((entry, (own, other)), &error): ((&Selected, (&Reading, &Reading)), _)| {
-            if own.value.is_some() && error.is_none() {
-                return f64::INFINITY;
-            }
-            let own = Reading { size: own.size.min(other.size), ..own.clone() };
-            excess(&own, error, self.settings.accuracy.of(&entry.key))
-        };
+        let excess =
+            |((entry, (own, other)), &error): ((&Selected, (&Reading, &Reading)), &Option<f64>)| {
+                if own.value.is_some() && error.is_none() {
+                    return f64::INFINITY;
+                }
+                let own = Reading { size: own.size.min(other.size), ..own.clone() };
+                excess(&own, error, self.settings.accuracy.of(&entry.key))
+            };
         excesses.map(excess).fold(0.0, f64::max)
     }
 

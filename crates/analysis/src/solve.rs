@@ -333,7 +333,7 @@ fn report(
 
 /// What is to be said of a solution in which so much energy is missing, or too much, that nothing of it
 /// can be trusted, or in which sliders do what they cannot.
-pub(crate) fn lost(assembly: &Arc<Assembly>, solved: &Solved) -> Option<RunError> {
+pub(crate) fn lost(assembly: &Assembly, solved: &Solved) -> Option<RunError> {
     let Solved { trajectory, energy, .. } = solved;
     let closure = energy.closure();
     let (method, solution) = (trajectory.method, Solution::new(assembly, trajectory));

@@ -127,7 +127,10 @@ impl Waveform {
 
     /// The pieces that hold anywhere on `[0, end]`.
     pub(crate) fn within(&self, end: f64) -> Self {
-        Self { pieces: self.pieces[self.index_at(0.0)..=self.index_at(end)].to_vec() }
+        Self {
+            pieces: self.pieces[self.index_at(0.0)..=self.index_at(end)].to_vec(),
+            given: self.given,
+        }
     }
 
     /// The largest absolute value on `[0, end]`, bounded from above.
