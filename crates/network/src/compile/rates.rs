@@ -128,17 +128,50 @@ impl Rates<'_> {
 }
 
 /// The rate of the force of a law of the deformation alone, over the deformation and its rate.
+///
+/// Its slope is that of a narrow secant: a method cannot step through the place at which the slope of a
+/// power law is infinitely steep, or that of a table jumps.
 #[derive(Debug)]
-pub(super) struct ForceRate(pub(super) Arc<dyn Element>);
+pub(super) struct ForceRate {
+    element: Arc<dyn Element>,
+    /// Half the length of the secant \[m\].
+    half: f64,
+}
 
-/// Half the distance over which the slope of a law is differenced, in parts of the deformation.
-const APART: f64 = 1e-6;
+/// Half the length of the secant in parts of the deformation at which sliders slip. What it leaves out of
+/// the slope is its square.
+const NARROW: f64 = 1e-4;
 
 impl ForceRate {
+    /// Of the law of `primitive`, among whose neighbours there are sliders that slip.
+    pub(super) fn of(expansion: &Expansion, primitive: usize) -> Self {
+        let own = &expansion.primitives[primitive];
+        let sliders = expansion.primitives.iter().filter_map(|own| own.origin.phases()?.capacity());
+        let most = sliders.fold(0.0, f64::max);
+        let force = |deformation: f64| own.element.force(deformation, 0.0).abs();
+        let [stiffness, _] = own.slopes();
+        let mut slips = most / stiffness;
+        for _ in 0..DOUBLINGS {
+            slips *= match (force(slips) < most, force(0.5 * slips) > most) {
+                (true, _) => 2.0,
+                (_, true) => 0.5,
+                _ => break,
+            };
+        }
+        Self { element: Arc::clone(&own.element), half: NARROW * slips }
+    }
+
+    fn secant(&self, deformation: f64, of: impl Fn(f64) -> f64) -> f64 {
+        (of(deformation + self.half) - of(deformation - self.half)) / (2.0 * self.half)
+    }
+
     fn slope(&self, deformation: f64) -> f64 {
-        self.0.tangent(deformation, 0.0).stiffness
+        self.secant(deformation, |at| self.element.force(at, 0.0))
     }
 }
+
+/// Doublings of a deformation until a law bears what is asked for.
+const DOUBLINGS: usize = 100;
 
 impl Characteristic for ForceRate {
     fn value(&self, [deformation, rate]: [f64; 2]) -> f64 {
@@ -146,12 +179,7 @@ impl Characteristic for ForceRate {
     }
 
     fn slopes(&self, [deformation, rate]: [f64; 2]) -> [f64; 2] {
-        let apart = APART * deformation.abs();
-        let bend = if apart > 0.0 {
-            (self.slope(deformation + apart) - self.slope(deformation - apart)) / (2.0 * apart)
-        } else {
-            0.0
-        };
+        let bend = self.secant(deformation, |at| self.element.tangent(at, 0.0).stiffness);
         [bend * rate, self.slope(deformation)]
     }
 }

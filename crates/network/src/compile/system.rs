@@ -130,7 +130,7 @@ pub(super) fn dimensionless(
                 (Arc::new(Reflected(element)), [sum.unwrap_or_default(), Row::default()])
             } else {
                 let law: Arc<dyn Characteristic> = if of_rate {
-                    Arc::new(ForceRate(element))
+                    Arc::new(ForceRate::of(expansion, primitive))
                 } else {
                     Arc::new(OfElement(element))
                 };

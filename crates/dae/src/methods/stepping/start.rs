@@ -125,13 +125,6 @@ pub(super) fn enter<M: Algebra>(
     let StateCommon { y, dy, g, dg, s, ds, sg, dsg, t, h } = &mut common;
     let mut view = StateRefMut { y, dy, g, dg, s, ds, sg, dsg, t, h };
     view.set_step_size(problem.h0, &problem.atol, problem.rtol, &problem.eqn, order);
-    // What is small beside its slope limits the estimate by the time in which it would double, at whatever
-    // tolerance.
-    let size = |own: &M::V| own.squared_norm(view.y, &problem.atol, problem.rtol).sqrt();
-    let doubling = size(view.y) / size(view.dy);
-    if (*view.h / doubling - 1.0).abs() < 1e-6 {
-        *view.h *= share(problem.rtol, order);
-    }
     if let Some(balance) = balance {
         balance.slopes(1, &problem.eqn, state, &mut slopes)?;
         common.dy.slice_mut().copy_from_slice(&slopes);
@@ -148,9 +141,8 @@ pub(super) fn enter<M: Algebra>(
     Ok(common)
 }
 
-/// By what a first step of a method of this order shrinks with the tolerance where something else than the
-/// tolerance limits it. Its error is that of its order and stays in the solution: where no smaller step is asked
-/// for, it would be the same at all tolerances.
+/// By what the longest first step of a method of this order shrinks with the tolerance. Its error is that of its order
+/// and stays in the solution: where no smaller step is asked for, it would be the same at all tolerances.
 fn share(rtol: f64, order: usize) -> f64 {
     let power = u32::try_from(order + 1).map_or(1.0, |own| f64::from(own).recip());
     (rtol / COARSE).powf(power).min(1.0)
@@ -173,29 +165,7 @@ fn is_at_rest<V: Slice>(state: &[f64], atol: &V) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::{
-        Method, Run, Silent, Waveform,
-        methods::{Bdf, Esdirk34, TrBdf2},
-        problems,
-    };
-
-    #[test]
-    fn first_steps_of_what_is_small_beside_its_slope_shrink_with_the_tolerance() {
-        let mut system = problems::driven_by_sine().system;
-        system.waveforms = vec![Waveform::constant(1.0)];
-        system.initial.iter_mut().for_each(|own| *own = 1e-5);
-        let run = Run::to(system.time_scale);
-        let first = |method: &dyn Method, rtol: f64| {
-            let run = run.clone().with_rtol(rtol);
-            let trajectory = method.integrate(&system, &run, &mut Silent).unwrap();
-            trajectory.signal(&system, 0).panels[0].length()
-        };
-        for (method, order) in [(&Bdf as &dyn Method, 1.0), (&TrBdf2, 2.0), (&Esdirk34, 3.0)] {
-            let [coarse, fine] = [1e-4, 1e-8].map(|rtol| first(method, rtol));
-            let expected = 1e-4_f64.powf(1.0 / (order + 1.0));
-            assert!(fine < 1.5 * expected * coarse, "{}: {coarse:e} {fine:e}", method.name());
-        }
-    }
+    use crate::{Method, Run, Silent, Waveform, methods::Bdf, problems};
 
     #[test]
     fn steps_of_what_never_grows_beyond_the_tolerance_follow_the_tolerance_all_the_same() {
