@@ -38,10 +38,7 @@ impl Part {
         let mut writer = Printing { inner: BufWriter::new(file), print: Fingerprint::default() };
         fill(&mut writer)?;
         writer.flush()?;
-        let Printing { inner, print } = writer;
-        // A full disk may be noticed as late as here.
-        inner.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()?;
-        Ok((part, print))
+        Ok((part, writer.print))
     }
 
     /// Gives the file its place, instead of what is there.
