@@ -10,7 +10,7 @@ use dashpot::{
     scene::{ReadOptions, read},
 };
 
-use super::{MASS, SPEED, STIFFNESS};
+use super::{MASS, STIFFNESS};
 use crate::thesis::{kelvin, spring};
 
 /// How many times as large the second of two scenes is.
@@ -66,20 +66,6 @@ fn free_chains_that_are_pushed_take_time_in_proportion_to_their_size() {
         let mut network = joined(count, |at| at - 1, false);
         let first = network.nodes().nth(1).unwrap().0;
         network.add_load("push", first, Waveform::constant(1e3));
-        drop(solve(&network, &settings(), &mut Silent).unwrap());
-    });
-}
-
-#[test]
-fn thrown_chains_take_time_in_proportion_to_their_size() {
-    assert_linear("a chain that is thrown", 1500, |count| {
-        let mut network = Network::new();
-        let mut last = network.ground();
-        for at in 0..count {
-            let next = network.add_node(Node::mass(format!("m{at}"), MASS).moving(SPEED));
-            network.connect(format!("l{at}"), next, last, spring(STIFFNESS));
-            last = next;
-        }
         drop(solve(&network, &settings(), &mut Silent).unwrap());
     });
 }
