@@ -26,7 +26,7 @@ pub(super) struct Chain {
 }
 
 /// Legs beyond which what makes further signals of a leg quicker takes too much memory.
-const MANY: usize = 256;
+const MANY: usize = 1000;
 /// Places within a panel at which two solutions are compared.
 const INSIDE: [f64; 3] = [-0.9, 0.0, 0.9];
 /// The error of a chain in parts of the difference that shaking makes.
