@@ -159,7 +159,13 @@ pub(crate) fn none_gets_through(
             error @ (SolveError::StepTooSmall { .. } | SolveError::NewtonFailed { .. }),
         )) => RunError::NoneGetsThrough { error, others },
         // That it does not apply says nothing of why the others fail.
-        Some(RunError::Solve(SolveError::NotApplicable { .. })) => last,
+        Some(RunError::Solve(SolveError::NotApplicable { .. })) => {
+            let (_, others) = others.split_last().unwrap_or((&"", &[]));
+            match last {
+                RunError::Solve(SolveError::NotApplicable { .. }) => last,
+                last => none_gets_through(Some(last.clone()), last, others.to_vec()),
+            }
+        }
         Some(first) => first,
         None => last,
     }

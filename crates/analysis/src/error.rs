@@ -17,7 +17,7 @@ pub enum RunError {
     #[error(transparent)]
     Solve(#[from] SolveError),
     /// No method that `auto` turns to gets through.
-    #[error("{error}; {} {}, too", listed(.others), if .others.len() == 1 { "fails" } else { "fail" })]
+    #[error("{error}{}", fail_too(.others))]
     NoneGetsThrough {
         /// What became of the first one.
         error: SolveError,
@@ -121,6 +121,15 @@ pub enum RunError {
         /// What, where and when.
         fault: SliderFault,
     },
+}
+
+/// That other methods fail as well, if there are any.
+fn fail_too(others: &[&str]) -> String {
+    match others {
+        [] => String::new(),
+        [one] => format!("; `{one}` fails, too"),
+        all => format!("; {} fail, too", listed(all)),
+    }
 }
 
 /// The words in a sentence.

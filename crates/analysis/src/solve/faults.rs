@@ -1,6 +1,6 @@
 //! Balances that do not close are told with time and place.
 
-use dashpot_dae::{Dense, Method, Signal, Silent, System, Trajectory};
+use dashpot_dae::{Dense, Method, Signal, Silent, SolveError, System, Trajectory};
 use dashpot_network::{
     Model, Network, Node,
     elements::{Dashpot, Spring},
@@ -139,6 +139,15 @@ fn where_every_method_gets_stuck_all_are_named() {
     let told = error.to_string();
     assert!(told.starts_with("the step of `bdf` became too small at 5.000e-1 s"), "{told}");
     assert!(told.ends_with("; `esdirk34` and `tr-bdf2` fail, too"), "{told}");
+    // That `exact` does not apply is not what they fail for.
+    let declines = SolveError::NotApplicable { method: "exact", reason: "not linear".to_owned() };
+    let first = Some(RunError::Solve(declines));
+    let error = none_gets_through(first, stuck("bdf").into(), vec!["bdf"]);
+    let RunError::NoneGetsThrough { error: SolveError::StepTooSmall { .. }, others } = &error
+    else {
+        panic!("{error}")
+    };
+    assert!(others.is_empty() && !error.to_string().contains("too,"), "{error}");
     let [_, alone] = both;
     assert_eq!(none_gets_through(None, alone.clone(), Vec::new()), alone);
 }
