@@ -33,9 +33,10 @@ fn energy(report: &RunReport) -> Option<String> {
 fn momentum(report: &RunReport, doubt: f64) -> Option<String> {
     let (assembly, solution) = (&report.assembly, report.solution());
     let whole = (0.0, solution.end());
-    let largest = assembly.nodes.iter().filter_map(|node| {
-        Some(node.mass * solution.signal(node.velocity?).bound())
-    });
+    let largest = assembly
+        .nodes
+        .iter()
+        .filter_map(|node| Some(node.mass * solution.signal(node.velocity?).bound()));
     // What is not moved trembles by roundings of what moves.
     let rounding = 1e-12 * largest.fold(0.0, f64::max);
     assembly.nodes.iter().filter(|node| node.mass > 0.0 && node.free).find_map(|node| {

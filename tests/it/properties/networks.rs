@@ -1,21 +1,21 @@
 //! Random networks as scenes: topology, twelve decades of parameters, contacts, friction, laws that
 //! are not linear.
 
-use std::fmt::Write;
+use std::{f64::consts::PI, fmt::Write};
 
 use proptest::prelude::*;
 
 /// Units of mass, length and time: a network is drawn in its own ones, and written in SI.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Units {
-    pub(super) mass: f64,
-    pub(super) length: f64,
-    pub(super) time: f64,
+pub(crate) struct Units {
+    pub(crate) mass: f64,
+    pub(crate) length: f64,
+    pub(crate) time: f64,
 }
 
 impl Units {
     /// The SI value of 1 in this unit.
-    pub(super) fn factor(self, unit: &str) -> f64 {
+    pub(crate) fn factor(self, unit: &str) -> f64 {
         let Self { mass, length, time } = self;
         match unit {
             "kg" => mass,
@@ -30,13 +30,15 @@ impl Units {
             "N s" => mass * length / time,
             "J" => mass * length * length / (time * time),
             "s/m" => time / length,
+            "m^2" => length * length,
+            "Pa" => mass / (length * time * time),
             "1" => 1.0,
             other => panic!("`{other}`"),
         }
     }
 
     /// Times other ones.
-    pub(super) fn times(self, other: Self) -> Self {
+    pub(crate) fn times(self, other: Self) -> Self {
         Self {
             mass: self.mass * other.mass,
             length: self.length * other.length,
@@ -47,65 +49,101 @@ impl Units {
 
 /// A node: its mass, its start velocity, and a force on it.
 #[derive(Debug, Clone)]
-pub(super) struct Body {
-    pub(super) mass: f64,
-    pub(super) velocity: f64,
-    pub(super) load: f64,
+pub(crate) struct Body {
+    pub(crate) mass: f64,
+    pub(crate) velocity: f64,
+    pub(crate) load: f64,
 }
 
 /// The law of an element; numbers in the network's units.
 #[derive(Debug, Clone)]
-pub(super) enum Law {
+pub(crate) enum Law {
     Spring(f64),
     Dashpot(f64),
     Kelvin(f64, f64),
     Maxwell(f64, f64),
     Zener(f64, f64, f64),
-    Contact { gap: f64, restitution: f64 },
-    Padded { gap: f64, restitution: f64, stiffness: f64, damping: f64 },
+    Contact {
+        gap: f64,
+        restitution: f64,
+    },
+    Padded {
+        gap: f64,
+        restitution: f64,
+        stiffness: f64,
+        damping: f64,
+    },
     Friction(f64),
     Cubic(f64, f64),
     PowerDashpot(f64, f64),
-    HuntCrossley { force: f64, dissipation: f64, gap: f64 },
+    HuntCrossley {
+        force: f64,
+        dissipation: f64,
+        gap: f64,
+    },
+    PowerSpring(f64, f64),
+    RateSpring {
+        force: f64,
+        exponent: f64,
+        gain: f64,
+        rate: f64,
+    },
+    Bumper {
+        force: f64,
+        restitution: f64,
+        gap: f64,
+    },
+    /// Modulus, plateau and densification as forces on a block of area and thickness 1.
+    Foam(f64, f64, f64),
 }
 
 /// An element between two nodes, by number; that of the ground is the number of nodes.
 #[derive(Debug, Clone)]
-pub(super) struct Link {
-    pub(super) between: [usize; 2],
-    pub(super) law: Law,
+pub(crate) struct Link {
+    pub(crate) between: [usize; 2],
+    pub(crate) law: Law,
     /// At which deformation it bottoms, and how much speed is given back.
-    pub(super) stop: Option<(f64, f64)>,
+    pub(crate) stop: Option<(f64, f64)>,
     /// Whether it can part.
-    pub(super) parts: bool,
+    pub(crate) parts: bool,
 }
 
 /// A network, and how long it runs.
 #[derive(Debug, Clone)]
-pub(super) struct Sketch {
-    pub(super) units: Units,
-    pub(super) bodies: Vec<Body>,
-    pub(super) links: Vec<Link>,
+pub(crate) struct Sketch {
+    pub(crate) units: Units,
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) links: Vec<Link>,
 }
 
 /// How a sketch is written down.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Way {
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Way {
     /// Nodes and elements in reverse order.
-    pub(super) backwards: bool,
+    pub(crate) backwards: bool,
     /// Seen in a mirror: all speeds and forces the other way, all ends exchanged.
-    pub(super) mirrored: bool,
+    pub(crate) mirrored: bool,
+    /// Numbers in other units than SI.
+    pub(crate) in_units: bool,
+    /// Power laws at references larger by this power of two.
+    pub(crate) referred: i32,
+    /// Models composed in another one of these ways.
+    pub(crate) nested: usize,
+    /// All begins at rest; pulses that bring the speeds, and the loads, begin at this time.
+    pub(crate) late: Option<f64>,
 }
 
 /// What may be drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kinds {
+pub(crate) enum Kinds {
     /// Springs and dashpots.
     Linear,
     /// Those, and what switches between linear laws.
     Switching,
     /// All laws.
     All,
+    /// Those, and more that are written with references.
+    Powers,
 }
 
 fn decades(spread: f64) -> impl Strategy<Value = f64> + Clone {
@@ -144,7 +182,23 @@ fn law(kinds: Kinds) -> BoxedStrategy<Law> {
             Law::HuntCrossley { force, dissipation, gap }
         }),
     ];
+    let powers = prop_oneof![
+        (decades(1.0), 1.0..3.5).prop_map(|(force, exponent)| Law::PowerSpring(force, exponent)),
+        (decades(1.0), 1.0..2.5, 0.02..0.5, decades(1.0)).prop_map(
+            |(force, exponent, gain, rate)| Law::RateSpring { force, exponent, gain, rate }
+        ),
+        (decades(1.0), 0.1..1.0, gap()).prop_map(|(force, restitution, gap)| Law::Bumper {
+            force,
+            restitution,
+            gap
+        }),
+        (decades(1.0), decades(1.0), decades(1.0))
+            .prop_map(|(modulus, plateau, dense)| Law::Foam(modulus, plateau, dense)),
+    ];
     match kinds {
+        Kinds::Powers => {
+            prop_oneof![3 => linear, 1 => switching, 1 => nonlinear, 2 => powers].boxed()
+        }
         Kinds::Linear => linear.boxed(),
         Kinds::Switching => prop_oneof![3 => linear, 2 => switching].boxed(),
         Kinds::All => prop_oneof![3 => linear, 1 => switching, 2 => nonlinear].boxed(),
@@ -153,7 +207,7 @@ fn law(kinds: Kinds) -> BoxedStrategy<Law> {
 
 /// A network of up to five nodes. Each node but the first may be massless; each has an element to
 /// a later one or to the ground, so that few of them are loose.
-pub(super) fn sketch(kinds: Kinds) -> impl Strategy<Value = Sketch> {
+pub(crate) fn sketch(kinds: Kinds) -> impl Strategy<Value = Sketch> {
     let units = (decades(6.0), decades(6.0), decades(6.0)).prop_map(|(mass, length, time)| Units {
         mass,
         length,
@@ -201,7 +255,7 @@ pub(super) fn sketch(kinds: Kinds) -> impl Strategy<Value = Sketch> {
 
 impl Sketch {
     /// The run's length: some periods of what strikes, but not too many of the fastest mass.
-    pub(super) fn duration(&self) -> f64 {
+    pub(crate) fn duration(&self) -> f64 {
         let frequency = |at: usize| {
             let own = self.links.iter().filter(|link| link.between.contains(&at));
             let stiffness: f64 = own.map(|link| link.law.stiffness()).sum();
@@ -215,12 +269,18 @@ impl Sketch {
     }
 
     /// The scene.
-    pub(super) fn text(&self, way: Way) -> String {
+    pub(crate) fn text(&self, way: Way) -> String {
         let sign = if way.mirrored { -1.0 } else { 1.0 };
         let si = |value: f64, unit: &str| {
-            let unit_text =
-                if unit == "N/m^3" || unit == "1" { String::new() } else { format!(" {unit}") };
-            let value = value * self.units.factor(unit);
+            let (unit_text, size) = match unit {
+                "N/m^3" | "1" => (String::new(), 1.0),
+                _ if way.in_units => {
+                    let (name, size) = other_unit(unit);
+                    (format!(" {name}"), size)
+                }
+                _ => (format!(" {unit}"), 1.0),
+            };
+            let value = value * self.units.factor(unit) / size;
             if unit_text.is_empty() {
                 format!("{value:e}")
             } else {
@@ -234,15 +294,24 @@ impl Sketch {
             if body.mass > 0.0 {
                 keys.push(format!("mass = {}", si(body.mass, "kg")));
             }
-            if body.velocity != 0.0 {
+            if body.velocity != 0.0 && way.late.is_none() {
                 keys.push(format!("velocity = {}", si(sign * body.velocity, "m/s")));
             }
             nodes.push(format!("n{at} = {{ {} }}", keys.join(", ")));
+            let mut load = |name: &str, force: String| {
+                let force = format!("force = {{ {force} }}");
+                loads.push(format!("{name}{at} = {{ on = \"n{at}\", {force} }}"));
+            };
+            let start =
+                way.late.map_or(String::new(), |late| format!(", start = {}", si(late, "s")));
+            if body.velocity != 0.0 && way.late.is_some() {
+                let peak = si(sign * 0.5 * PI * body.mass * body.velocity / PULSE, "N");
+                let length = si(PULSE, "s");
+                load("p", format!("half-sine = {{ peak = {peak}, duration = {length}{start} }}"));
+            }
             if body.load != 0.0 {
                 let force = si(sign * body.load, "N");
-                loads.push(format!(
-                    "l{at} = {{ on = \"n{at}\", force = {{ constant = {force} }} }}"
-                ));
+                load("l", format!("constant = {{ value = {force}{start} }}"));
             }
         }
         let node = |at: usize| match at < self.bodies.len() {
@@ -254,7 +323,7 @@ impl Sketch {
         for (at, link) in self.links.iter().enumerate() {
             let [a, b] = link.between.map(node);
             let [a, b] = if way.mirrored { [b, a] } else { [a, b] };
-            let law = link.law.text(&si);
+            let law = link.law.text(way, &si);
             elements.push(format!("e{at} = {{ between = [\"{a}\", \"{b}\"], {law} }}"));
             if let Some((limit, restitution)) = link.stop {
                 let limit = si(limit, "m");
@@ -283,7 +352,8 @@ impl Sketch {
                 let _ = writeln!(text, "[{section}]\n{}\n", lines.join("\n"));
             }
         }
-        let _ = writeln!(text, "[run]\nduration = {}", si(self.duration(), "s"));
+        let duration = way.late.unwrap_or(0.0) + self.duration();
+        let _ = writeln!(text, "[run]\nduration = {}", si(duration, "s"));
         text
     }
 }
@@ -296,7 +366,11 @@ impl Law {
             Self::Zener(k, other, _) => k + other,
             Self::Padded { stiffness, .. } => stiffness,
             Self::Cubic(k, cubic) => k + 3.0 * cubic,
-            Self::HuntCrossley { force, .. } => 10.0 * force,
+            Self::HuntCrossley { force, .. } | Self::Bumper { force, .. } => 10.0 * force,
+            Self::PowerSpring(force, exponent) | Self::RateSpring { force, exponent, .. } => {
+                force * exponent
+            }
+            Self::Foam(modulus, _, densification) => modulus + 10.0 * densification,
             Self::Dashpot(_)
             | Self::Contact { .. }
             | Self::Friction(_)
@@ -304,9 +378,18 @@ impl Law {
         }
     }
 
-    fn text(&self, si: &dyn Fn(f64, &str) -> String) -> String {
+    fn text(&self, way: Way, si: &dyn Fn(f64, &str) -> String) -> String {
+        if let Some(text) = self.nested(way.nested, si) {
+            return text;
+        }
         let k = |value: f64| si(value, "N/m");
         let c = |value: f64| si(value, "N s/m");
+        // A power law with a larger reference, and the force that it has there.
+        let at = f64::from(way.referred).exp2();
+        let power = |force: f64, exponent: f64, unit: &str| {
+            let force = si(force * at.powf(exponent), "N");
+            format!("force = {force}, at = {}", si(at, unit))
+        };
         match *self {
             Self::Spring(own) => format!("spring = {}", k(own)),
             Self::Dashpot(own) => format!("dashpot = {}", c(own)),
@@ -339,17 +422,93 @@ impl Law {
                 si(cubic, "N/m^3")
             ),
             Self::PowerDashpot(force, exponent) => format!(
-                "power-dashpot = {{ force = {}, at = {}, exponent = {exponent} }}",
-                si(force, "N"),
-                si(1.0, "m/s")
+                "power-dashpot = {{ {}, exponent = {exponent} }}",
+                power(force, exponent, "m/s")
             ),
             Self::HuntCrossley { force, dissipation, gap } => format!(
-                "hunt-crossley = {{ force = {}, at = {}, dissipation = {}, gap = {} }}",
-                si(force, "N"),
-                si(1.0, "m"),
+                "hunt-crossley = {{ {}, dissipation = {}, gap = {} }}",
+                power(force, 1.5, "m"),
                 si(dissipation, "s/m"),
                 si(gap, "m")
             ),
+            Self::PowerSpring(force, exponent) => format!(
+                "power-spring = {{ {}, exponent = {exponent} }}",
+                power(force, exponent, "m")
+            ),
+            Self::RateSpring { force, exponent, gain, rate } => format!(
+                "rate-spring = {{ {}, exponent = {exponent}, gain = {gain}, reference-rate = {} }}",
+                power(force, exponent, "m"),
+                si(rate, "m/s")
+            ),
+            Self::Bumper { force, restitution, gap } => format!(
+                "bumper = {{ {}, restitution = {restitution}, speed = {}, gap = {} }}",
+                power(force, 1.5, "m"),
+                si(1.0, "m/s"),
+                si(gap, "m")
+            ),
+            Self::Foam(modulus, plateau, densification) => format!(
+                "foam = {{ modulus = {}, plateau = {}, densification = {}, exponent = 2, \
+                 thickness = {}, area = {} }}",
+                si(modulus, "Pa"),
+                si(plateau, "Pa"),
+                si(densification, "Pa"),
+                si(1.0, "m"),
+                si(1.0, "m^2")
+            ),
         }
+    }
+
+    /// The same law composed otherwise; `None` for what has no other composition.
+    fn nested(&self, way: usize, si: &dyn Fn(f64, &str) -> String) -> Option<String> {
+        let spring = |k: f64| format!("spring = {}", si(k, "N/m"));
+        let dashpot = |c: f64| format!("dashpot = {}", si(c, "N s/m"));
+        let tree = |word: &str, parts: &[String]| {
+            let parts: Vec<String> = parts.iter().map(|own| format!("{{ {own} }}")).collect();
+            format!("{word} = [{}]", parts.join(", "))
+        };
+        let row = |parts: &[String]| tree("series", parts);
+        let beside = |parts: &[String]| tree("parallel", parts);
+        // Whole, in two halves, and those in groups of one.
+        let in_two = |word: &str, half: String| match way % 3 {
+            1 => tree(word, &[half.clone(), half]),
+            _ => tree(word, &[tree("series", &[half.clone()]), tree("parallel", &[half])]),
+        };
+        Some(match *self {
+            _ if way == 0 => return None,
+            Self::Spring(k) if way.is_multiple_of(2) => in_two("series", spring(2.0 * k)),
+            Self::Spring(k) => in_two("parallel", spring(0.5 * k)),
+            Self::Dashpot(c) if way.is_multiple_of(2) => in_two("series", dashpot(2.0 * c)),
+            Self::Dashpot(c) => in_two("parallel", dashpot(0.5 * c)),
+            Self::Kelvin(k, c) => beside(&[dashpot(c), beside(&[spring(k)])]),
+            Self::Maxwell(k, c) => row(&[dashpot(c), row(&[spring(k)])]),
+            Self::Zener(k, other, c) => {
+                beside(&[row(&[dashpot(c), spring(other)]), row(&[beside(&[spring(k)])])])
+            }
+            Self::Padded { gap, restitution, stiffness, damping } => {
+                let gap = si(gap, "m");
+                let contact = format!("contact = {{ gap = {gap}, restitution = {restitution} }}");
+                row(&[beside(&[dashpot(damping), spring(stiffness)]), contact])
+            }
+            _ => return None,
+        })
+    }
+}
+
+/// How long the pulse is that brings a speed, in the network's unit of time.
+const PULSE: f64 = 0.3;
+
+/// Another unit than this one of SI, and its size.
+fn other_unit(unit: &str) -> (&str, f64) {
+    match unit {
+        "kg" => ("g", 1e-3),
+        "m" => ("mm", 1e-3),
+        "s" => ("ms", 1e-3),
+        "m/s" => ("km/h", 1.0 / 3.6),
+        "N" => ("kN", 1e3),
+        "N/m" => ("N/mm", 1e3),
+        "N s/m" => ("kN s/m", 1e3),
+        "Pa" => ("MPa", 1e6),
+        "m^2" => ("cm^2", 1e-4),
+        other => (other, 1.0),
     }
 }

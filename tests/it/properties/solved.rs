@@ -9,7 +9,7 @@ use dashpot::{
 };
 
 /// The scene in a text, or nothing if it is refused.
-pub(super) fn scene(text: &str) -> Option<Scene> {
+pub(crate) fn scene(text: &str) -> Option<Scene> {
     read(text, &ReadOptions::default()).ok().map(|checked| checked.value)
 }
 
@@ -24,19 +24,19 @@ impl Observer for Patience {
 }
 
 /// The report on a scene by what is chosen for it.
-pub(super) fn by_auto(scene: &Scene) -> Result<RunReport, RunError> {
+pub(crate) fn by_auto(scene: &Scene) -> Result<RunReport, RunError> {
     solve(&scene.network, &scene.settings("auto"), &mut Patience(5_000))
 }
 
 /// The report on a scene by a method, at tolerances from 1e-4 to 1e-6.
-pub(super) fn by(scene: &Scene, method: &str) -> Result<RunReport, RunError> {
+pub(crate) fn by(scene: &Scene, method: &str) -> Result<RunReport, RunError> {
     let settings = SolveSettings { rtol: Some(1e-6), ..scene.settings(method) };
     solve(&scene.network, &settings, &mut Patience(1_500))
 }
 
 /// Part of the size of a measure that rounding makes where two networks are written down
 /// differently: their coefficients differ by a few roundings, which stiff scenes magnify.
-pub(super) const ROUNDING: f64 = 1e-9;
+pub(crate) const ROUNDING: f64 = 1e-9;
 
 /// Measures that are not compared: where a force dies out without passing zero, their end depends on
 /// the tolerance, and severities count in parts of the acceleration of gravity, whatever the units.
@@ -45,7 +45,7 @@ const OPEN: &[&str] = &["contact-time", "severity-index", "hic"];
 /// What is said where two reports tell different things, although neither says that it might.
 /// `bars` is how many times their errors they may differ by, `factor` of a unit what the values of
 /// the first report are to be multiplied by.
-pub(super) fn disagreement(
+pub(crate) fn disagreement(
     one: &RunReport,
     other: &RunReport,
     bars: f64,
@@ -71,19 +71,40 @@ pub(super) fn disagreement(
     })
 }
 
+/// How far apart the measures of two reports are that can be compared, in sums of their errors.
+pub(crate) fn apart(
+    one: &RunReport,
+    other: &RunReport,
+    factor: impl Fn(&str) -> f64,
+) -> Vec<(String, f64)> {
+    let own = one.measures.iter().filter(|own| !OPEN.contains(&own.kind));
+    let pairs = own.filter_map(|first| Some((first, other.measure(&first.key)?)));
+    let apart = |(first, second): (&MeasureReport, &MeasureReport)| {
+        (first.key.clone(), sums_apart(first, second, factor(first.unit)))
+    };
+    pairs.map(apart).collect()
+}
+
 fn is_same(one: &MeasureReport, other: &MeasureReport, bars: f64, factor: f64) -> bool {
+    sums_apart(one, other, factor) <= bars
+}
+
+/// The distance of two values in sums of their errors, less what rounding makes; infinite where only one
+/// of them has a value.
+fn sums_apart(one: &MeasureReport, other: &MeasureReport, factor: f64) -> f64 {
     let is_open = |own: &MeasureReport| own.error.is_some_and(f64::is_infinite);
     if is_open(one) || is_open(other) {
-        return true;
+        return 0.0;
     }
     match (one.value, other.value) {
-        (None, None) => true,
+        (None, None) => 0.0,
         (Some(first), Some(second)) => {
-            let allowed = bars * (factor * one.error.unwrap_or(0.0) + other.error.unwrap_or(0.0));
+            let sum = factor * one.error.unwrap_or(0.0) + other.error.unwrap_or(0.0);
             let size = (factor * one.size).max(other.size);
             // Where a mirror exchanges the ways, magnitudes are what stays.
-            (factor * first.abs() - second.abs()).abs() <= allowed + ROUNDING * size
+            let off = (factor * first.abs() - second.abs()).abs() - ROUNDING * size;
+            if off > 0.0 { off / sum } else { 0.0 }
         }
-        _ => false,
+        _ => f64::INFINITY,
     }
 }

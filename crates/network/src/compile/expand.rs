@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use dashpot_rheology::Tree;
 
-use super::sliders::{self, Share};
+use super::{
+    size::Size,
+    sliders::{self, Share},
+};
 use crate::{
     Network,
     elements::{Element, Law},
@@ -67,7 +70,13 @@ impl Primitive {
 
     /// Whether its law is solved as that of [`Element::reflected`].
     pub(crate) fn is_reflected(&self) -> bool {
-        self.is_nonlinear() && self.element.reflected(0.0).is_some()
+        self.is_nonlinear() && self.element.reflected(0.0, 1.0).is_some()
+    }
+
+    /// Whether the slope of its law over the rate may vanish.
+    pub(crate) fn may_be_flat(&self) -> bool {
+        let at_rest = self.element.reflected(0.0, 1.0);
+        self.is_nonlinear() && self.slopes()[1] > 0.0 && at_rest.is_none_or(|own| own[1] < 0.0)
     }
 
     /// Whether the law is not linear.
@@ -101,6 +110,8 @@ pub(crate) struct Expansion {
     pub(crate) primitives: Vec<Primitive>,
     /// Whether it is one phase of a network that switches.
     pub(crate) switches: bool,
+    /// How large the motion is, where that is known.
+    pub(crate) size: Option<Size>,
     /// For each connection its shape, the root first.
     pub(crate) shapes: Vec<Vec<Shape>>,
     /// For each joint inside of a model the name of its connection; `None` for nodes.
@@ -134,6 +145,15 @@ impl Expansion {
         expansion
     }
 
+    /// The same expansion for runs of this size.
+    pub(crate) fn of_size(mut self, size: Size) -> Self {
+        for primitive in self.primitives.iter_mut().filter(|own| own.is_nonlinear()) {
+            primitive.law = size.law(primitive.element.as_ref());
+        }
+        self.size = Some(size);
+        self
+    }
+
     /// The primitives that switch, by their numbers.
     pub(crate) fn phased(&self) -> Vec<usize> {
         (0..self.primitives.len()).filter(|&at| self.primitives[at].law == Law::Phased).collect()
@@ -158,7 +178,10 @@ impl Expansion {
                     primitive.push = force / primitive.share.map_or(1.0, |own| own.part);
                 }
                 PhaseLaw::Element(element) => {
-                    primitive.law = element.law();
+                    primitive.law = match &self.size {
+                        Some(size) => size.law(element.as_ref()),
+                        None => element.law(),
+                    };
                     primitive.element = element;
                 }
             }

@@ -18,6 +18,7 @@ mod dashpots;
 pub(crate) mod expand;
 mod form;
 mod inner_pads;
+mod laws;
 mod mesh;
 mod motion;
 mod outputs;
@@ -30,6 +31,7 @@ mod row;
 mod scales;
 mod segments;
 mod sides;
+pub(crate) mod size;
 mod sliders;
 mod speeds;
 mod springs;
@@ -56,6 +58,7 @@ use self::{
     outputs::Outputs,
     row::{Row, RowSum, Rows},
     scales::{Drives, Force, Scales},
+    size::Size,
     structure::Structure,
     system::Scaling,
     unknowns::{Inputs, Places},
@@ -116,6 +119,7 @@ impl Network {
             return Err(NetworkErrors(faults));
         }
         let held = beyond::held(self, duration)?;
+        let expansion = expansion.of_size(Size::of(&network, duration));
         let parts = expansion.phased();
         let mut assembly = if parts.is_empty() {
             network.assemble(&expansion, duration)?.assembly
@@ -201,8 +205,15 @@ impl Network {
             offsets.set(joint, &inputs.constant(offset));
         }
         let scaling = Scaling::of(&places, &inputs, &scales, duration);
-        let mut system =
-            system::dimensionless(expansion, &motion, &mut places, &inputs, &scaling, duration)?;
+        let mut system = system::dimensionless(
+            expansion,
+            &laws::least_dashpots(expansion, &bodies),
+            &motion,
+            &mut places,
+            &inputs,
+            &scaling,
+            duration,
+        )?;
         let masses: Vec<f64> = (0..expansion.joints)
             .map(|joint| self.nodes.get(joint).map_or(0.0, |node| node.mass))
             .collect();

@@ -1,60 +1,20 @@
 //! Rows in SI turned into a dimensionless system.
 
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
-use dashpot_dae::{
-    Argument, Characteristic, LinearForm, Outputs, System, Term, Unknown, UnknownKind,
-};
+use dashpot_dae::{Argument, LinearForm, Outputs, System, Term, Unknown, UnknownKind};
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use super::{
     expand::Expansion,
+    laws::law_of,
     motion::Motion,
     rates::ForceRate,
     row::{Combination, Row},
     scales::{Scales, power_of_two},
     unknowns::{Inputs, Law, Places},
 };
-use crate::{
-    NetworkError,
-    elements::{Element, Tangent},
-};
-
-/// The force of an element as a law of the equations.
-#[derive(Debug)]
-struct OfElement(Arc<dyn Element>);
-
-impl Characteristic for OfElement {
-    fn value(&self, [deformation, rate]: [f64; 2]) -> f64 {
-        self.0.force(deformation, rate)
-    }
-
-    fn slopes(&self, [deformation, rate]: [f64; 2]) -> [f64; 2] {
-        let Tangent { stiffness, damping } = self.0.tangent(deformation, rate);
-        [stiffness, damping]
-    }
-}
-
-/// What is left of the force of an element, over the sum of the force and that of the dashpot that
-/// stands for it.
-#[derive(Debug)]
-struct Reflected(Arc<dyn Element>);
-
-impl Reflected {
-    fn at(&self, sum: f64) -> [f64; 2] {
-        self.0.reflected(sum).unwrap_or_default()
-    }
-}
-
-impl Characteristic for Reflected {
-    fn value(&self, [sum, _]: [f64; 2]) -> f64 {
-        self.at(sum)[0]
-    }
-
-    fn slopes(&self, [sum, _]: [f64; 2]) -> [f64; 2] {
-        [self.at(sum)[1], 0.0]
-    }
-}
+use crate::NetworkError;
 
 /// What makes rows dimensionless.
 #[derive(Debug)]
@@ -90,6 +50,7 @@ impl Scaling {
 /// The system of all rows, without outputs; it takes the names of the drafts.
 pub(super) fn dimensionless(
     expansion: &Expansion,
+    least_dashpots: &BTreeMap<usize, f64>,
     motion: &Motion,
     places: &mut Places,
     inputs: &Inputs,
@@ -124,17 +85,17 @@ pub(super) fn dimensionless(
             let [_, damping] = own.slopes();
             let of_rate = matches!(draft.law, Some(Law::ForceRate(_)));
             let rate = motion.rate.get(primitive).filter(|_| damping > 0.0 || of_rate);
-            let element = Arc::clone(&own.element);
-            let (law, arguments): (Arc<dyn Characteristic>, _) = if own.is_reflected() {
-                let sum = rate.map(|rate| motion.force.row(primitive).plus(damping, &rate));
-                (Arc::new(Reflected(element)), [sum.unwrap_or_default(), Row::default()])
+            let least = least_dashpots.get(&primitive).copied().unwrap_or(0.0);
+            let law = if of_rate {
+                Arc::new(ForceRate::of(expansion, primitive))
             } else {
-                let law: Arc<dyn Characteristic> = if of_rate {
-                    Arc::new(ForceRate::of(expansion, primitive))
-                } else {
-                    Arc::new(OfElement(element))
-                };
-                (law, [motion.deformation.row(primitive), rate.unwrap_or_default()])
+                law_of(own, least)
+            };
+            let arguments = if own.is_reflected() {
+                let sum = rate.map(|rate| motion.force.row(primitive).plus(damping, &rate));
+                [sum.unwrap_or_default(), Row::default()]
+            } else {
+                [motion.deformation.row(primitive), rate.unwrap_or_default()]
             };
             let arguments = arguments.map(argument);
             terms.push(Term { row: at, factor: finite(factor * lift)?, law, arguments });

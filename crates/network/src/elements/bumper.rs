@@ -344,12 +344,11 @@ mod tests {
     }
 
     #[test]
-    fn it_never_pulls_but_for_what_a_massless_node_needs() {
+    fn it_never_pulls() {
         let bumper = Bumper::sample();
-        let least = -1e-9 * 1000.0 * bumper.dissipation();
         for rate in [-100.0, -1.0 / bumper.dissipation(), -1.0, 0.0, 5.0] {
             for depth in [1e-12, 1e-6, 1e-3, 0.1] {
-                assert!(bumper.force(depth, rate) >= least * rate.abs(), "{depth} {rate}");
+                assert!(bumper.force(depth, rate) >= 0.0, "{depth} {rate}");
             }
             assert!(bumper.force(-1e-6, rate).abs() <= 0.0);
         }

@@ -30,9 +30,12 @@ use crate::{
 ///
 /// # Limits
 ///
-/// It never pulls: where `ẏ < −1/c`, the factor `1 + c ẏ` counts as 0. The slope over the rate would
-/// vanish where it engages. So that a massless node finds its rate there, the term 10⁻⁹ `F_r c ẏ`
-/// is added while it is engaged; only by that much may the force be below zero.
+/// It never pulls: where `ẏ < −1/c`, the factor `1 + c ẏ` counts as 0. Any reference `y_r` with the force
+/// that the law has there is the same law, and gives the same results.
+///
+/// The slope over the rate vanishes where it engages. A massless node that nothing else damps finds its
+/// rate all the same: while it is engaged, the compiler puts a dashpot beside it there, of 10⁻⁹ of the slope
+/// that it has at the depth of the impact; only by its force may that of such a contact be below zero.
 ///
 /// # Examples
 ///
@@ -41,7 +44,7 @@ use crate::{
 ///
 /// let contact =
 ///     HuntCrossley { force: 1000.0, at: 0.001, dissipation: 0.2, exponent: 1.5, gap: 0.0 };
-/// assert!((contact.force(0.001, 2.0) - 1400.0).abs() < 1e-5);
+/// assert!((contact.force(0.001, 2.0) - 1400.0).abs() < 1e-10);
 /// assert_eq!(contact.force(-0.001, 2.0), 0.0);
 /// ```
 ///

@@ -44,7 +44,7 @@ impl<T: Impact> Phases for T {
     }
 }
 
-/// `F = F_r (z/y_r)^n max(0, 1 + c ẏ) + c₀ ẏ` for `z = y − gap > 0`, else 0.
+/// `F = F_r (z/y_r)^n max(0, 1 + c ẏ)` for `z = y − gap > 0`, else 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ImpactLaw {
     /// The force at rest over `z`.
@@ -54,9 +54,6 @@ pub(super) struct ImpactLaw {
     /// Deformation at which it engages \[m\].
     pub(super) gap: f64,
 }
-
-/// `c₀` in units of `F_r c`: the slope over the rate that the law has where it engages.
-const SMALL: f64 = 1e-9;
 
 const FREE: usize = 0;
 const ENGAGED: usize = 1;
@@ -74,19 +71,18 @@ impl ImpactLaw {
     /// The force while it is engaged.
     fn engaged_force(&self, deformation: f64, rate: f64) -> f64 {
         let factor = (1.0 + self.dissipation * rate).max(0.0);
-        self.power.value(self.depth(deformation)) * factor + SMALL * self.damping() * rate
+        self.power.value(self.depth(deformation)) * factor
     }
 
     fn engaged_tangent(&self, deformation: f64, rate: f64) -> Tangent {
         let depth = self.depth(deformation);
         let factor = 1.0 + self.dissipation * rate;
-        let least = SMALL * self.damping();
-        if factor <= 0.0 {
-            return Tangent { stiffness: 0.0, damping: least };
+        if factor <= 0.0 || deformation <= self.gap {
+            return Tangent::default();
         }
         Tangent {
-            stiffness: if deformation > self.gap { self.power.slope(depth) * factor } else { 0.0 },
-            damping: self.power.value(depth) * self.dissipation + least,
+            stiffness: self.power.slope(depth) * factor,
+            damping: self.power.value(depth) * self.dissipation,
         }
     }
 
@@ -110,7 +106,7 @@ impl ImpactLaw {
         self.power.validate()?;
         non_negative("dissipation", self.dissipation)?;
         finite("gap", self.gap)?;
-        if self.dissipation > 0.0 && !(SMALL * self.damping()).is_normal() {
+        if self.dissipation > 0.0 && !self.damping().is_normal() {
             let range = "such that the slope of the law fits into double precision";
             return Err(InvalidParameter::new("dissipation", range, self.dissipation));
         }
@@ -147,6 +143,10 @@ impl Element for Engaged {
 
     fn law(&self) -> Law {
         Law::Nonlinear { stiffness: self.impact.power.secant(), damping: self.impact.damping() }
+    }
+
+    fn grows_from(&self) -> Option<f64> {
+        Some(self.impact.gap)
     }
 
     fn validate(&self) -> Result<(), InvalidParameter> {

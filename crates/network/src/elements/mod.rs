@@ -71,13 +71,21 @@ pub trait Element: Debug + Send + Sync {
     /// The law as the compiler of networks sees it.
     fn law(&self) -> Law;
 
-    /// What is left of the force without a dashpot of the damping `c` of its [`Law::Nonlinear`],
-    /// `F − c ẏ` \[N\], where the force with it, `F + c ẏ` \[N\], is `sum`; and its slope over `sum`.
+    /// The deformation \[m\] from which on the force is a power of the deformation or rate beyond, or a sum
+    /// of such powers: then no slope is typical of the law. What stands for it is to have the slopes that
+    /// it has in the motion at hand, not those of its [`Law::Nonlinear`], which belong to an arbitrary
+    /// reference. `None` for all other laws.
+    fn grows_from(&self) -> Option<f64> {
+        None
+    }
+
+    /// What is left of the force without a dashpot of the `damping` `c` \[N s/m\], `F − c ẏ` \[N\], where
+    /// the force with it, `F + c ẏ` \[N\], is `sum`; and its slope over `sum`.
     ///
     /// For a law of the rate alone whose slope is zero or infinite at rest. Between the two there is a
     /// law whose slope lies from −1 to 1 whatever that of the force, so that the equations are solved
     /// for it. `None` for all other laws.
-    fn reflected(&self, _sum: f64) -> Option<[f64; 2]> {
+    fn reflected(&self, _sum: f64, _damping: f64) -> Option<[f64; 2]> {
         None
     }
 
@@ -88,8 +96,7 @@ pub trait Element: Debug + Send + Sync {
         None
     }
 
-    /// Whether its law has no tension: `F ≥ 0` in every phase, but for what a massless node needs to
-    /// find its rate.
+    /// Whether its law has no tension: `F ≥ 0` in every phase.
     fn never_pulls(&self) -> bool {
         false
     }

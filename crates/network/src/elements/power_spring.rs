@@ -81,6 +81,10 @@ impl Element for PowerSpring {
         }
     }
 
+    fn grows_from(&self) -> Option<f64> {
+        Some(0.0)
+    }
+
     fn validate(&self) -> Result<(), InvalidParameter> {
         self.power().validate()
     }

@@ -68,9 +68,13 @@ impl Element for Slice {
         }
     }
 
-    fn reflected(&self, sum: f64) -> Option<[f64; 2]> {
-        // The damping is multiplied by what the rate is divided by.
-        self.of.reflected(sum)
+    fn grows_from(&self) -> Option<f64> {
+        self.of.grows_from().map(|own| own / self.count)
+    }
+
+    fn reflected(&self, sum: f64, damping: f64) -> Option<[f64; 2]> {
+        // The rate is divided by what the damping is multiplied by.
+        self.of.reflected(sum, damping / self.count)
     }
 
     fn phases(&self) -> Option<&dyn Phases> {

@@ -1,0 +1,140 @@
+//! A law is the same at whichever reference it is given.
+
+use dashpot::{
+    analysis::{RunReport, SolveSettings, solve},
+    dae::Silent,
+    network::elements::{ElementKind, ElementVisitor, visit_elements},
+    scene::{ReadOptions, read},
+};
+
+/// A law with a reference, as a key of a model for each reference that is asked for.
+struct Referred {
+    kind: &'static str,
+    /// Names and values of its parameters.
+    values: Vec<(&'static str, f64)>,
+}
+
+impl Referred {
+    fn get(&self, name: &str) -> f64 {
+        self.values.iter().find(|own| own.0 == name).unwrap().1
+    }
+
+    fn with(&self, name: &str, value: f64) -> Self {
+        let changed =
+            |&(own, old): &(&'static str, f64)| (own, if own == name { value } else { old });
+        Self { kind: self.kind, values: self.values.iter().map(changed).collect() }
+    }
+
+    /// The same law with a reference that is larger by a factor, and the force that it has there.
+    fn at(&self, factor: f64) -> String {
+        let force = self.get("force") * factor.powf(self.get("exponent"));
+        let same = self.with("at", self.get("at") * factor).with("force", force);
+        let values = same.values.iter().map(|(name, value)| format!("{name} = {value:e}"));
+        format!("{} = {{ {} }}", self.kind, values.collect::<Vec<_>>().join(", "))
+    }
+}
+
+/// Every kind of the register that has a reference, with exponents by which forces at references that are
+/// powers of two apart are numbers without rounding.
+fn referred() -> Vec<Referred> {
+    struct Kinds(Vec<Referred>);
+    impl ElementVisitor for Kinds {
+        fn visit<E: ElementKind>(&mut self) {
+            let names = E::PARAMETERS.iter().map(|own| own.name);
+            if !names.clone().any(|name| name == "at") {
+                return;
+            }
+            let values = E::sample().values();
+            let numbers = values.iter().map(|own| own.number().unwrap());
+            let own = Referred { kind: E::KIND, values: names.zip(numbers).collect() };
+            let exponents: &[f64] = if E::KIND == "power-dashpot" {
+                &[0.25, 0.5, 1.5, 2.0, 3.0]
+            } else {
+                &[1.5, 2.0, 3.0]
+            };
+            self.0.extend(exponents.iter().map(|&exponent| own.with("exponent", exponent)));
+        }
+    }
+    let mut kinds = Kinds(Vec::new());
+    visit_elements(&mut kinds);
+    let mut names: Vec<&str> = kinds.0.iter().map(|own| own.kind).collect();
+    names.dedup();
+    assert_eq!(names, ["power-spring", "rate-spring", "power-dashpot", "hunt-crossley", "bumper"]);
+    kinds.0
+}
+
+/// The law alone under a head that strikes it, and before and behind others.
+fn scenes(law: &str) -> [String; 4] {
+    let spring = "{ spring = 400000 }";
+    let kelvin = "{ kelvin-voigt = { spring = 300000, dashpot = 40 } }";
+    let pads = [
+        law.to_owned(),
+        format!("series = [{{ {law} }}, {spring}]"),
+        format!("series = [{kelvin}, {{ {law} }}]"),
+        format!("parallel = [{spring}, {{ {law} }}]"),
+    ];
+    pads.map(|pad| {
+        format!(
+            "[nodes]\nhead = {{ mass = 2, velocity = 1.5 }}\n[elements]\n\
+             pad = {{ between = [\"head\", \"ground\"], {pad} }}\n[effects]\n\
+             gravity = {{ start = \"unloaded\" }}\n[measures]\n\
+             head = [\"end-velocity\", \"end-position\"]\n[run]\nduration = 0.02\n"
+        )
+    })
+}
+
+fn run(text: &str, method: &str) -> Result<RunReport, String> {
+    let scene = read(text, &ReadOptions::default()).map_err(|own| own.to_string())?.value;
+    let settings = SolveSettings { rtol: Some(1e-6), ..scene.settings(method) };
+    solve(&scene.network, &settings, &mut Silent).map_err(|own| own.to_string())
+}
+
+/// All values and errors of a report.
+fn numbers(report: &Result<RunReport, String>) -> Result<Vec<(&str, Option<f64>, f64)>, &String> {
+    let report = report.as_ref()?;
+    let numbers = report.measures.iter();
+    let numbers = numbers.map(|own| (own.key.as_str(), own.value, own.error.unwrap_or(0.0)));
+    Ok(numbers.collect())
+}
+
+#[test]
+fn laws_at_references_that_are_powers_of_two_apart_give_the_same_numbers_to_the_bit() {
+    for law in referred() {
+        for (at, text) in scenes(&law.at(1.0)).iter().enumerate() {
+            for method in ["bdf", "esdirk34"] {
+                let first = run(text, method);
+                for shift in [-20, -8, 4, 20] {
+                    let other = &scenes(&law.at(f64::from(shift).exp2()))[at];
+                    let second = run(other, method);
+                    let [one, two] = [&first, &second].map(|own| format!("{:?}", numbers(own)));
+                    assert_eq!(one, two, "{method}\n{text}\n{other}");
+                }
+                assert!(first.is_ok(), "{method}: {first:?}\n{text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn laws_at_references_that_are_powers_of_ten_apart_give_the_same_numbers_to_a_hundredth_of_their_bars()
+ {
+    for law in referred() {
+        for (at, text) in scenes(&law.at(1.0)).iter().enumerate() {
+            let first = run(text, "bdf");
+            for factor in [1e-6, 1e-3, 1e3, 1e6] {
+                let other = &scenes(&law.at(factor))[at];
+                let second = run(other, "bdf");
+                let pairs = numbers(&first).unwrap().into_iter().zip(numbers(&second).unwrap());
+                for ((key, one, bar), (_, two, _)) in pairs {
+                    let off = one.zip(two).map_or(0.0, |(one, two)| (one - two).abs());
+                    let rounding = 1e-12 * one.unwrap_or(0.0).abs();
+                    assert_eq!(one.is_some(), two.is_some(), "{key}\n{text}\n{other}");
+                    assert!(
+                        off <= 0.01 * bar + rounding,
+                        "{key}: {one:?} {two:?} ± {bar}\n{other}"
+                    );
+                }
+            }
+        }
+    }
+}
