@@ -203,7 +203,9 @@ impl<'a> Settling<'a> {
             let primitive = &self.expansion.primitives[at];
             let [a, b] = primitive.ends;
             let way = position[a] - position[b] - (self.before[a] - self.before[b]);
-            !primitive.origin.phases().is_none_or(is_contact) && way.abs() > near
+            // Between what is given, the deformation is given, too.
+            let follows = self.is_light(a) || self.is_light(b);
+            follows && !primitive.origin.phases().is_none_or(is_contact) && way.abs() > near
         };
         match self.parts.iter().find(is_deformed) {
             None => Ok(()),
