@@ -34,7 +34,6 @@ mod order;
 mod pads;
 mod partial;
 mod power_laws;
-mod properties;
 mod random_networks;
 mod signs;
 mod similarity;

@@ -8,10 +8,10 @@ mod corpus;
 mod grammar;
 mod invariants;
 mod mutations;
-pub(crate) mod networks;
+mod networks;
 mod readers;
 mod scenes;
-pub(crate) mod solved;
+mod solved;
 mod symmetries;
 
 use std::{env, path::PathBuf};
@@ -19,7 +19,7 @@ use std::{env, path::PathBuf};
 use proptest::test_runner::{Config, RngSeed};
 
 /// So many cases of fixed seed; more or others if the environment asks for them.
-pub(crate) fn config(cases: u32) -> Config {
+fn config(cases: u32) -> Config {
     let standard = Config::default();
     let is_asked = |name: &str| env::var_os(name).is_some();
     Config {

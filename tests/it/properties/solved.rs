@@ -80,7 +80,17 @@ pub(crate) fn apart(
     let own = one.measures.iter().filter(|own| !OPEN.contains(&own.kind));
     let pairs = own.filter_map(|first| Some((first, other.measure(&first.key)?)));
     let apart = |(first, second): (&MeasureReport, &MeasureReport)| {
-        (first.key.clone(), sums_apart(first, second, factor(first.unit)))
+        let factor = factor(first.unit);
+        // What is nothing beside others of its unit is made of their rounding.
+        let values = one.measures.iter().filter(|own| own.unit == first.unit);
+        let largest =
+            values.filter_map(|own| own.value).fold(0.0, |most: f64, own| most.max(own.abs()));
+        let is_nothing = |own: Option<f64>, factor: f64| {
+            own.is_none_or(|own| factor * own.abs() <= ROUNDING * ROUNDING * largest)
+        };
+        let none = is_nothing(first.value, 1.0) && is_nothing(second.value, factor.recip());
+        let sums = if none { 0.0 } else { sums_apart(first, second, factor) };
+        (first.key.clone(), sums)
     };
     pairs.map(apart).collect()
 }

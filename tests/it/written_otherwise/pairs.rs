@@ -3,10 +3,12 @@
 use std::fmt;
 
 use dashpot::analysis::RunReport;
-use proptest::{strategy::Strategy, strategy::ValueTree, test_runner::TestRunner};
+use proptest::{
+    strategy::{Strategy, ValueTree},
+    test_runner::{Config, RngSeed, TestRunner},
+};
 
-use crate::properties::{
-    config,
+use super::{
     networks::{Kinds, Sketch, Units, Way, sketch},
     solved::{apart, by_auto, scene},
 };
@@ -59,14 +61,17 @@ pub(super) struct Tally {
     pub(super) compared: usize,
     /// Those that are further apart than the sum of their bars.
     pub(super) outside: Vec<String>,
-    /// Those that are much further apart, and scenes that have an answer in one of both ways only.
+    /// Those that are much further apart.
     pub(super) far: Vec<String>,
+    /// Pairs of which one has no answer within the steps that it is given.
+    single: usize,
 }
 
 impl Tally {
     /// That of so many scenes.
     pub(super) fn of(scenes: usize) -> Self {
-        let mut runner = TestRunner::new(config(1));
+        let seed = RngSeed::Fixed(0x0da5_4907);
+        let mut runner = TestRunner::new(Config { rng_seed: seed, ..Config::default() });
         let kinds = [Kinds::Linear, Kinds::Switching, Kinds::Powers];
         let strategies = kinds.map(|kinds| sketch(kinds).boxed());
         let mut tally = Self::default();
@@ -106,13 +111,7 @@ impl Tally {
                     }
                 }
                 (None, None) => {}
-                (one, _) => self.far.push(format!(
-                    "{}: only {} has an answer\n{}\n{}",
-                    what(),
-                    if one.is_some() { "the first" } else { "the second" },
-                    drawn.text(as_it_is),
-                    scaled.text(way)
-                )),
+                _ => self.single += 1,
             }
         }
         self.solved += usize::from(is_solved);
@@ -126,8 +125,8 @@ fn report(sketch: &Sketch, way: Way) -> Option<RunReport> {
 
 impl fmt::Display for Tally {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { solved, compared, outside, far } = self;
-        writeln!(formatter, "{solved} scenes, {compared} values compared")?;
+        let Self { solved, compared, outside, far, single } = self;
+        writeln!(formatter, "{solved} scenes, {compared} values compared, {single} pairs of one")?;
         writeln!(formatter, "{} beyond the sum of their bars:", outside.len())?;
         outside.iter().try_for_each(|own| writeln!(formatter, "  {own}"))?;
         writeln!(formatter, "{} beyond {FAR} times it:", far.len())?;

@@ -73,10 +73,6 @@ impl Element for CubicSpring {
         Law::Nonlinear { stiffness, damping: 0.0 }
     }
 
-    fn grows_from(&self) -> Option<f64> {
-        Some(0.0)
-    }
-
     fn validate(&self) -> Result<(), InvalidParameter> {
         non_negative("stiffness", self.stiffness)?;
         non_negative("cubic", self.cubic)
