@@ -155,3 +155,63 @@ fn laws_that_are_not_linear_slip_behind_sliders() {
         }
     }
 }
+
+/// A guard of 200 N beside a slider of 300 N behind a spring: at the turn the springs push with 773 N.
+#[test]
+fn a_guard_lets_go_of_what_pushes_harder_than_it_can_hold() {
+    let pad = Pad {
+        mass: 4.0,
+        velocity: 3.0,
+        stiffness: 20e3,
+        damping: 30.0,
+        guard: 200.0,
+        branches: vec![Jenkins { stiffness: 47e3, force: 300.0 }],
+    };
+    for order in orders(4) {
+        for method in ALL {
+            let report = run(&pad.scene(&order, 0.2), method);
+            let solution = report.solution();
+            let signal = |name: &str| solution.signal(report.assembly.output(name).expect(name));
+            let rest = signal("head.position").value(0.2);
+            let near = if *method == "exact" { 1e-7 } else { 2e-5 };
+            assert!((rest - 6.4887e-3).abs() < near, "{rest} by {method} in {order:?}");
+            let push = pad.stiffness * rest + signal("pad.series.spring.force").value(0.2);
+            let held = signal("pad.friction.force").value(0.2);
+            assert!(
+                push.abs() <= pad.guard && (push + held).abs() < 1e-3 * pad.guard,
+                "{push} {held}"
+            );
+        }
+    }
+}
+
+/// A panel on a guard and on a law that stiffens behind a slider, in a run that did not end. Judge: three
+/// methods.
+#[test]
+fn a_panel_on_a_guard_and_a_law_behind_a_slider_comes_to_its_end() {
+    let text = "
+        [nodes]
+        head = { mass = 0.5737, velocity = 5.599 }
+        panel = { mass = 4.702, velocity = -2.233 }
+        [elements]
+        pad = { between = [\"head\", \"panel\"], parallel = [{ power-spring = { force = 846.0, at = 0.007085, exponent = 3.0 } }, { dashpot = 115.0 }] }
+        mount = { between = [\"panel\", \"ground\"], parallel = [{ spring = 501940.0 }, { dashpot = 37.41 }, { friction = 623.7 }, { series = [{ cubic-spring = { stiffness = 71640.0, cubic = 7136000000.0 } }, { friction = 401.8 }] }] }
+        [loads.push]
+        on = \"panel\"
+        force = { half-sine = { peak = 1313.0, duration = 0.002192, start = 0.001206 } }
+        [run]
+        duration = 0.005877
+        ";
+    let ends = |method: &str| {
+        let report = run(text, method);
+        let solution = report.solution();
+        ["head.position", "panel.position"]
+            .map(|name| solution.signal(report.assembly.output(name).expect(name)).value(0.005877))
+    };
+    let first = ends("auto");
+    for method in ["esdirk34", "tr-bdf2"] {
+        for (one, two) in first.into_iter().zip(ends(method)) {
+            assert!((one - two).abs() < 1e-5, "{method}: {one} {two}");
+        }
+    }
+}
