@@ -38,6 +38,9 @@ const COARSE: f64 = 1e-4;
 /// is.
 const GUESS: (f64, f64) = (1e-4, 1e-12);
 
+/// Part of the tolerance below which the estimate of the first step takes unknowns and slopes as none.
+const LEAST: f64 = 1e-5;
+
 /// Tightest tolerance that the Newton iterations can meet.
 const TIGHTEST: f64 = 1e-14;
 
@@ -125,6 +128,13 @@ pub(super) fn enter<M: Algebra>(
     let StateCommon { y, dy, g, dg, s, ds, sg, dsg, t, h } = &mut common;
     let mut view = StateRefMut { y, dy, g, dg, s, ds, sg, dsg, t, h };
     view.set_step_size(problem.h0, &problem.atol, problem.rtol, &problem.eqn, order);
+    // What is small beside its slope limits the estimate by the time in which it would double, at whatever
+    // tolerance.
+    let size = |own: &M::V| own.squared_norm(view.y, &problem.atol, problem.rtol).sqrt();
+    let (own, slope) = (size(view.y), size(view.dy));
+    if own.min(slope) >= LEAST {
+        *view.h = view.h.min(own / slope * share(problem.rtol, order));
+    }
     if let Some(balance) = balance {
         balance.slopes(1, &problem.eqn, state, &mut slopes)?;
         common.dy.slice_mut().copy_from_slice(&slopes);
@@ -141,8 +151,9 @@ pub(super) fn enter<M: Algebra>(
     Ok(common)
 }
 
-/// By what the longest first step of a method of this order shrinks with the tolerance. Its error is that of its order
-/// and stays in the solution: where no smaller step is asked for, it would be the same at all tolerances.
+/// By what a first step of a method of this order shrinks with the tolerance where something else than the
+/// tolerance limits it. Its error is that of its order and stays in the solution: where no smaller step is asked
+/// for, it would be the same at all tolerances.
 fn share(rtol: f64, order: usize) -> f64 {
     let power = u32::try_from(order + 1).map_or(1.0, |own| f64::from(own).recip());
     (rtol / COARSE).powf(power).min(1.0)
@@ -160,12 +171,34 @@ fn smallest_step(fastest: f64, length: f64) -> f64 {
 /// and the same guess for all tolerances then; and where nothing ever grows beyond the tolerance, so would
 /// be all steps, and the differences of solutions, which error bars are taken from, would be none.
 fn is_at_rest<V: Slice>(state: &[f64], atol: &V) -> bool {
-    state.iter().zip(atol.slice()).all(|(value, atol)| value.abs() < 1e-5 * atol)
+    state.iter().zip(atol.slice()).all(|(value, atol)| value.abs() < LEAST * atol)
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::{Method, Run, Silent, Waveform, methods::Bdf, problems};
+    use crate::{
+        Method, Run, Silent, Waveform,
+        methods::{Bdf, Esdirk34, TrBdf2},
+        problems,
+    };
+
+    #[test]
+    fn first_steps_of_what_is_small_beside_its_slope_shrink_with_the_tolerance() {
+        let mut system = problems::driven_by_sine().system;
+        system.waveforms = vec![Waveform::constant(1.0)];
+        system.initial.iter_mut().for_each(|own| *own = 1e-5);
+        let run = Run::to(system.time_scale);
+        let first = |method: &dyn Method, rtol: f64| {
+            let run = run.clone().with_rtol(rtol);
+            let trajectory = method.integrate(&system, &run, &mut Silent).unwrap();
+            trajectory.signal(&system, 0).panels[0].length()
+        };
+        for (method, order) in [(&Bdf as &dyn Method, 1.0), (&TrBdf2, 2.0), (&Esdirk34, 3.0)] {
+            let [coarse, fine] = [1e-4, 1e-8].map(|rtol| first(method, rtol));
+            let expected = 1e-4_f64.powf(1.0 / (order + 1.0));
+            assert!(fine < 1.5 * expected * coarse, "{}: {coarse:e} {fine:e}", method.name());
+        }
+    }
 
     #[test]
     fn steps_of_what_never_grows_beyond_the_tolerance_follow_the_tolerance_all_the_same() {
