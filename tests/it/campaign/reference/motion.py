@@ -192,14 +192,14 @@ class Solver(Switching):
         guards = self.guards(step.mode)
         if not guards:
             return None
-        theta = np.concatenate([np.linspace(0, 1, 49)])
+        theta = np.linspace(0, 1, 49)
         _, _, _, F, y, w = self.signals(step, theta)
         values = {"y": y, "w": w, "F": F}
         best = None
         for guard in guards:
             at, what, sign, level, _ = guard
             own = sign * (values[what][at] - level)
-            noise = 1e-11 * self.scales()[what] if what != "y" else 1e-13 * self.scales()[what]
+            noise = (1e-13 if what == "y" else 1e-11) * self.scales()[what]
             below = own < (-noise if is_fresh else 0)
             # What begins at its level leaves it first: rounding there is no end.
             if is_fresh and abs(own[0]) <= noise:

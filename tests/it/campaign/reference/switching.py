@@ -26,6 +26,8 @@ class Switching:
         phases[at] = link.part.enter(follower, y)
         if follower == "closed" and self.is_heavy(mode, link.a) and self.is_heavy(mode, link.b):
             wa, wb = (self.rate_of(mode, x, v, t, n) for n in (link.a, link.b))
+            if abs(y - link.part.gap) > 1e-10 * self.length:
+                raise Unfit("a bounce too short to tell")
             if wa - wb > 0:
                 x, v, phases = self.impact(mode, x, v, phases, at, wa, wb, t)
         phases, x = self.settle(phases, x, v, t, {at})
