@@ -31,11 +31,18 @@ const METHODS: [&str; 6] = ["auto", "exact", "bdf", "tr-bdf2", "esdirk34", "tsit
 /// Steps that a method may take for one scene, with all its solutions.
 const PATIENCE: usize = 200_000;
 
-/// Kept scenes that the program does not solve rightly, and why.
-const KNOWN: [(&str, &str); 5] = [
-    ("12 driven", "bars of esdirk34 beside a rate spring are half as wide as they ought to be"),
-    ("34 struck", "the linear part of a power dashpot is beyond the bars of fine solutions"),
-    ("36 struck", "the end of an impact on a face with mass is beyond three bars"),
+/// Scenes that the program does not solve rightly, by all methods or by one, and why.
+const KNOWN: [(&str, &str); 6] = [
+    (
+        "12 driven by esdirk34",
+        "bars of esdirk34 beside a rate spring are half as wide as they ought to be",
+    ),
+    (
+        "34 struck by esdirk34",
+        "the linear part of a power dashpot is beyond the bars of fine solutions",
+    ),
+    ("36 struck by tr-bdf2", "the end of an impact on a face with mass is beyond three bars"),
+    ("36 struck by esdirk34", "the end of an impact on a face with mass is beyond one bar"),
     ("68 driven", "a slider that sticks to a driven place is refused where the motion has a kink"),
     ("109 driven", "a slider that sticks to a driven place is refused where the motion has a kink"),
 ];
@@ -45,7 +52,8 @@ fn campaign<'a>(path: &str, methods: impl Fn(usize) -> Vec<&'a str>) -> Tally {
     let table = fs::read_to_string(path).unwrap();
     let mut tally = Tally::default();
     for (at, entry) in Entry::all(&table).enumerate() {
-        if KNOWN.iter().any(|(name, _)| *name == entry.name) {
+        let is_known = |name: &str| KNOWN.iter().any(|(known, _)| name.starts_with(known));
+        if is_known(&entry.name) {
             tally.known += 1;
             continue;
         }
@@ -58,6 +66,10 @@ fn campaign<'a>(path: &str, methods: impl Fn(usize) -> Vec<&'a str>) -> Tally {
         };
         for method in methods(at) {
             let name = format!("{} by {method}", entry.name);
+            if is_known(&name) {
+                tally.known += 1;
+                continue;
+            }
             let settings = scene.settings(method);
             match solve(&scene.network, &settings, &mut Patience { steps: PATIENCE }) {
                 Ok(report) => tally.add(&name, &entry, &report),

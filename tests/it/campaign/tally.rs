@@ -17,7 +17,7 @@ const FARTHEST: f64 = 3.0;
 #[derive(Debug, Default)]
 pub(super) struct Tally {
     runs: usize,
-    /// Scenes that are left out.
+    /// Scenes, or runs of them, that are left out.
     pub(super) known: usize,
     values: usize,
     /// Values that are told to be anywhere, or not at all.
@@ -73,7 +73,7 @@ impl fmt::Display for Tally {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             formatter,
-            "{} runs, {} scenes left out; {} values and {} open ones: {} beyond one bar, {} beyond three; \
+            "{} runs, {} left out; {} values and {} open ones: {} beyond one bar, {} beyond three; \
              {} runs too long, {} failed",
             self.runs,
             self.known,
