@@ -13,7 +13,7 @@ use crate::{
 const FURTHER: u64 = 4;
 /// Work of a method with steps where there are more oscillations than `exact` follows: enough where they are
 /// not excited.
-pub(crate) const HOPELESS: u64 = 50_000_000;
+pub(crate) const HOPELESS: u64 = 10_000_000;
 /// Work of a method after one that has failed, or as much as that: some seconds.
 const AFTER_ANOTHER: u64 = 200_000_000;
 /// Such work that is always granted: some tenths of a second.
@@ -29,8 +29,8 @@ pub(crate) struct Found {
 /// Solves by `method` and, where that fails and `others` are given, by them, the last one first.
 ///
 /// Each but the last may take half of what is left of the budget, so that one that is stuck leaves something
-/// to the next; the first one no more than `most`, and the others no more than a while, because what ends
-/// one method seldom lets another through.
+/// to the next; none more than `most`, and those after the first no more than a while, because what ends one
+/// method seldom lets another through.
 ///
 /// # Errors
 ///
@@ -45,8 +45,8 @@ pub(crate) fn first_that_solves(
     let (mut first, mut tried): (Option<RunError>, Vec<&str>) = (None, Vec::new());
     loop {
         let share = if others.is_empty() { u64::MAX } else { half(&run.budget, task) };
-        let granted = if first.is_some() { AFTER_ANOTHER.max(run.budget.done()) } else { most };
-        let share = run.budget.part(share.min(granted));
+        let granted = if first.is_some() { AFTER_ANOTHER.max(run.budget.done()) } else { u64::MAX };
+        let share = run.budget.part(share.min(granted).min(most));
         let own = Task { method: method.as_ref(), ..*task };
         let error = match own.run(&Run { budget: share, ..run.clone() }, observer) {
             Ok(outcome) => match lost(task.assembly, &outcome.solved) {

@@ -35,18 +35,19 @@ fn largest_momentum(solution: &Solution<'_>) -> f64 {
     kept.map(|(mass, speed)| mass * solution.signal(speed).bound()).fold(0.0, f64::max)
 }
 
-/// Whether a value is not known at all: its error exceeds it, and not even the first digit of the largest
-/// of its kind is known beside that.
+/// Whether a value is not known at all: its error exceeds it, and what is wanted, and not even the first digit
+/// of the largest of its kind is known beside that.
 pub(crate) fn is_open(
     reading: &Reading,
     error: Option<f64>,
+    wish: f64,
     largest: impl FnOnce() -> f64,
 ) -> bool {
     let Some((value, error)) = reading.value.zip(error.filter(|own| own.is_finite())) else {
         return false;
     };
     error > value.abs()
-        && error > FIRST_DIGIT * reading.size
+        && error > wish * reading.size
         && !is_lost_in_noise(reading, Some(error))
         && error > FIRST_DIGIT * largest()
 }

@@ -250,7 +250,7 @@ fn report(
         .map(|((entry, reading), error)| {
             let wish = task.settings.accuracy.of(&entry.key);
             let kind = || largest(&solution, &energy, entry.measure.unit());
-            let is_open = is_open(&reading, error, kind);
+            let is_open = is_open(&reading, error, wish, kind);
             let report = measure_report(entry, reading, error, wish);
             match (report.window.map(|own| own.1).or(report.time), cut) {
                 // What reaches to the end of a part of the run hangs on the rest of it.
