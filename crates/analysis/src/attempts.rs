@@ -102,7 +102,7 @@ pub(crate) fn of_a_part(
 /// its own method cannot make it so.
 ///
 /// They may take a few times the work that it was. Theirs is better where nothing was known of its errors,
-/// or where their worst error is the smaller one, each in parts of what is wanted of the same size.
+/// or where none of their bars is wider beyond what is wanted, and one is narrower.
 pub(crate) fn improved(
     task: &Task<'_>,
     run: &Run,
@@ -122,10 +122,8 @@ pub(crate) fn improved(
         let own = Task { method: other.as_ref(), ..*task };
         let Ok(outcome) = own.run(&Run { budget, ..run.clone() }, observer) else { continue };
         let is_known = before.knows(&found.outcome);
-        let is_better = own.knows(&outcome)
-            && (!is_known
-                || own.worst_excess(&outcome, &found.outcome)
-                    < own.worst_excess(&found.outcome, &outcome));
+        let is_better =
+            own.knows(&outcome) && (!is_known || own.is_better(&outcome, &found.outcome));
         if is_better && lost(task.assembly, &outcome.solved).is_none() {
             let name = found.method.name();
             let why = if !is_known {

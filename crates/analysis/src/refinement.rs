@@ -131,20 +131,27 @@ impl Task<'_> {
         !self.settings.estimate || !has_values || values.any(|(_, error)| error.is_some())
     }
 
-    /// How large the worst error of an outcome is in parts of what is wanted, of measures that are taken
-    /// for as large as in the smaller of two outcomes.
-    pub(crate) fn worst_excess(&self, outcome: &Outcome, other: &Outcome) -> f64 {
-        let pairs = outcome.solved.readings.iter().zip(&other.solved.readings);
-        let excesses = self.selected.iter().zip(pairs).zip(&outcome.of_method);
-        let excess =
-            |((entry, (own, other)), &error): ((&Selected, (&Reading, &Reading)), &Option<f64>)| {
-                if own.value.is_some() && error.is_none() {
+    /// Whether an outcome is more accurate than another: no error exceeds both what is wanted and that of the
+    /// other, and one that is more than is wanted there is smaller here. Each measure is taken for as large as
+    /// in the smaller of both.
+    pub(crate) fn is_better(&self, one: &Outcome, other: &Outcome) -> bool {
+        let mut improves = false;
+        for (at, entry) in self.selected.iter().enumerate() {
+            let pair = [one, other].map(|own| (&own.solved.readings[at], own.of_method[at]));
+            let size = pair[0].0.size.min(pair[1].0.size);
+            let [new, old] = pair.map(|(reading, error)| {
+                if reading.value.is_some() && error.is_none() {
                     return f64::INFINITY;
                 }
-                let own = Reading { size: own.size.min(other.size), ..own.clone() };
-                excess(&own, error, self.settings.accuracy.of(&entry.key))
-            };
-        excesses.map(excess).fold(0.0, f64::max)
+                let reading = Reading { size, ..reading.clone() };
+                excess(&reading, error, self.settings.accuracy.of(&entry.key))
+            });
+            if new > old.max(1.0) {
+                return false;
+            }
+            improves |= old > 1.0 && new < old;
+        }
+        improves
     }
 
     /// A solution with its measures. Where only a part of it is kept, and that turns out not to be all
