@@ -130,6 +130,6 @@ mod tests {
         report.assembly = Arc::new(assembly);
         let fault = slider_fault(&report.solution(), &energy).unwrap();
         assert!(matches!(fault, SliderFault::Overloaded { capacity: 1.5, .. }), "{fault}");
-        assert!(fault.to_string().contains("bears 3.000 N, and it can hold 1.500 N"), "{fault}");
+        assert!(fault.to_string().contains("bears 3.00 N, and it can hold 1.50 N"), "{fault}");
     }
 }

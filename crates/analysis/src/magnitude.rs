@@ -1,14 +1,12 @@
 //! How large the quantities of a run are.
 
-use crate::{
-    Ledger, Reading, Solution,
-    accuracy::{FIRST_DIGIT, is_lost_in_noise},
-    measures::STANDARD_GRAVITY,
-};
+use crate::{Ledger, Reading, Solution, measures::STANDARD_GRAVITY};
 
 /// How many outputs are looked at, of those that were kept; fewer can only make a quantity seem
 /// smaller.
 const MOST_OUTPUTS: usize = 1000;
+/// An error so many times the largest of its kind tells nothing.
+const FAR_BEYOND: f64 = 10.0;
 /// The exponent of the injury measures.
 const INJURY: f64 = 2.5;
 
@@ -35,8 +33,8 @@ fn largest_momentum(solution: &Solution<'_>) -> f64 {
     kept.map(|(mass, speed)| mass * solution.signal(speed).bound()).fold(0.0, f64::max)
 }
 
-/// Whether a value is not known at all: its error exceeds it, and what is wanted, and not even the first digit
-/// of the largest of its kind is known beside that.
+/// Whether a value is not known at all: its error exceeds it, and what is wanted, and is far beyond the
+/// largest of its kind.
 pub(crate) fn is_open(
     reading: &Reading,
     error: Option<f64>,
@@ -46,10 +44,7 @@ pub(crate) fn is_open(
     let Some((value, error)) = reading.value.zip(error.filter(|own| own.is_finite())) else {
         return false;
     };
-    error > value.abs()
-        && error > wish * reading.size
-        && !is_lost_in_noise(reading, Some(error))
-        && error > FIRST_DIGIT * largest()
+    error > value.abs() && error > wish * reading.size && error > FAR_BEYOND * largest()
 }
 
 fn largest_signal(solution: &Solution<'_>, unit: &str) -> f64 {

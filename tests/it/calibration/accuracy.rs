@@ -92,7 +92,7 @@ fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
         duration = \"0.9251 s\"\n";
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let mut settings = scene.settings("auto");
-    settings.accuracy.default = 1e-5;
+    settings.accuracy.default = 1e-6;
     let report = solve(&scene.network, &settings, &mut Silent).unwrap();
     assert!(!admits(&report), "{:?}", report.warnings);
     assert_eq!(report.solver.method, "esdirk34");

@@ -82,6 +82,7 @@ impl<'a> Trial<'a> {
         };
         let is_warned = own.excess > 1.0
             || own.error.is_some_and(f64::is_infinite)
+            || own.is_undetermined
             || self.report.warnings.iter().any(names_it);
         let error = own.value.map_or(f64::INFINITY, |value| (value - truth).abs());
         // Not a number stays none.

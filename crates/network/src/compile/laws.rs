@@ -6,8 +6,8 @@
 //! * A massless node has no rate where all laws at it are flat over the rate. What may be flat and is needed to
 //!   tell a rate gets a dashpot beside it, of [`LEAST`] of the slope that it has in the motion at hand. A law of
 //!   the rate alone has that slope only where its own is smaller, and is untouched beyond.
-//! * A law that is steep at rest, such as √ẏ, is a straight line as long as its slope is [`LEAST`]⁻¹ times
-//!   that in the motion at hand.
+//! * A law that is steep at rest, such as √ẏ, is a straight line up to [`LEAST`] of the rate of the motion at
+//!   hand.
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -21,7 +21,7 @@ use super::{
 use crate::elements::{Element, Law, Tangent};
 
 /// The least slope over the rate, in parts of that in the motion at hand.
-const LEAST: f64 = 1e-9;
+const LEAST: f64 = 1e-8;
 
 /// The dashpots \[N s/m\] that primitives get so that massless nodes find their rates.
 pub(super) fn least_dashpots(expansion: &Expansion, bodies: &Bodies) -> BTreeMap<usize, f64> {
@@ -104,7 +104,7 @@ impl Line {
         let secant = |rate: f64| element.force(0.0, rate) / rate;
         let is_steep = element.reflected(0.0, damping).is_some_and(|own| own[1] > 0.0);
         let end = if is_steep {
-            first(|rate| secant(rate) < damping / LEAST)
+            LEAST * first(|rate| secant(rate) < damping)
         } else if least > 0.0 {
             first(|rate| secant(rate) > least)
         } else {

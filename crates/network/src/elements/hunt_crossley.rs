@@ -34,7 +34,7 @@ use crate::{
 /// that the law has there is the same law, and gives the same results.
 ///
 /// The slope over the rate vanishes where it engages. A massless node that nothing else damps finds its
-/// rate all the same: while it is engaged, the compiler puts a dashpot beside it there, of 10⁻⁹ of the slope
+/// rate all the same: while it is engaged, the compiler puts a dashpot beside it there, of 10⁻⁸ of the slope
 /// that it has at the depth of the impact; only by its force may that of such a contact be below zero.
 ///
 /// # Examples

@@ -23,9 +23,9 @@ use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, V
 /// Any reference `v_r` with the force that the law has there is the same law, and gives the same results.
 ///
 /// The power has an infinite slope at rest for `p < 1`, and none for `p > 1`. In a network it is a straight
-/// line through zero where its slope would be more than 10⁹ times that at the speeds of the run, and at a
-/// massless node that nothing else damps also where it would be less than 10⁻⁹ times that. For `p = ½` that is
-/// below 10⁻¹⁸ of these speeds, and for `p = 2` below 10⁻⁹; beyond, the law is the power to the last digit.
+/// line through zero below 10⁻⁸ of the speeds of the run for `p < 1`, and at a massless node that nothing else
+/// damps also where its slope would be less than 10⁻⁸ times that at these speeds; beyond, the law is the power
+/// to the last digit.
 ///
 /// # Examples
 ///

@@ -33,7 +33,7 @@ use crate::parameters::{
 /// # Limits
 ///
 /// In unloading the force does not depend on the rate at all, so a massless node that nothing else damps
-/// does not find its rate there. It gets a dashpot beside the spring, of 10⁻⁹ of the slope over the rate
+/// does not find its rate there. It gets a dashpot beside the spring, of 10⁻⁸ of the slope over the rate
 /// that the spring has in the motion at hand.
 ///
 /// # Examples

@@ -67,8 +67,8 @@ impl Table {
 
 impl WaveformKind for Table {
     const KIND: &'static str = "table";
-    const SUMMARY: &'static str = "straight lines through points [time, value], or those of a CSV file; equal times: a jump; \
-         beyond them as `outside` says";
+    const SUMMARY: &'static str =
+        "straight lines through points [time, value], or from a CSV file; equal times: a jump";
     const PARAMETERS: &'static [Parameter] = &[
         Parameter::required(
             "points",

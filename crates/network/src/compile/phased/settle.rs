@@ -6,7 +6,7 @@ use dashpot_dae::Waveform;
 use super::{
     super::{
         balance,
-        bodies::{Bodies, Body, Role, joint_name},
+        bodies::{Bodies, Body, Groups, Role, joint_name},
         expand::Expansion,
         structure::{Structure, jumps},
     },
@@ -15,7 +15,7 @@ use super::{
 use crate::{
     Network, NetworkError, NetworkErrors, Support,
     elements::Law,
-    phases::{Phase, PhaseLaw},
+    phases::{Phase, PhaseLaw, Phases},
 };
 
 /// Overlaps of contacts, and ways, that are rounding, in parts of the places.
@@ -203,9 +203,12 @@ impl<'a> Settling<'a> {
             let primitive = &self.expansion.primitives[at];
             let [a, b] = primitive.ends;
             let way = position[a] - position[b] - (self.before[a] - self.before[b]);
-            // Between what is given, the deformation is given, too.
+            // Between what is given, the deformation is given, too, and places between sliders matter to
+            // nothing.
             let follows = self.is_light(a) || self.is_light(b);
-            follows && !primitive.origin.phases().is_none_or(is_contact) && way.abs() > near
+            let is_slider = primitive.origin.phases().and_then(Phases::capacity).is_some();
+            let matters = follows && (!is_slider || self.reaches_mass(a) || self.reaches_mass(b));
+            matters && !primitive.origin.phases().is_none_or(is_contact) && way.abs() > near
         };
         match self.parts.iter().find(is_deformed) {
             None => Ok(()),
@@ -218,12 +221,35 @@ impl<'a> Settling<'a> {
         self.apart.all[self.apart.of_joint[joint]].is_massless()
     }
 
+    /// Whether a joint is of a mass, or joined to one by what moves freely.
+    fn reaches_mass(&self, joint: usize) -> bool {
+        let bodies = &self.apart.all;
+        let is_free = |body: usize| matches!(bodies[body].role, Role::Mass(_) | Role::Massless);
+        let mut groups = Groups::new(bodies.len());
+        for primitive in &self.expansion.primitives {
+            let [a, b] = primitive.ends.map(|joint| self.apart.of_joint[joint]);
+            if is_free(a) && is_free(b) {
+                groups.join(a, b);
+            }
+        }
+        let own = groups.of(self.apart.of_joint[joint]);
+        let is_mass = |&at: &usize| matches!(bodies[at].role, Role::Mass(_));
+        (0..bodies.len()).filter(is_mass).any(|at| groups.of(at) == own)
+    }
+
+    /// Whether a joint is moved by forces, at once or as a mass.
+    fn is_moved(&self, joint: usize) -> bool {
+        let role = self.apart.all[self.apart.of_joint[joint]].role;
+        !matches!(role, Role::Fixed | Role::Prescribed(_))
+    }
+
     /// Refuses jumps across a dashpot alone.
     fn check_dashpots(&self) -> Result<(), NetworkErrors> {
         let way = |joint: usize| self.after[joint] - self.before[joint];
         for primitive in self.expansion.primitives.iter().filter(|own| own.slopes()[1] > 0.0) {
             let [a, b] = primitive.ends;
-            if !self.is_light(a) && !self.is_light(b) && way(a) - way(b) != 0.0 {
+            let is_moved = [a, b].into_iter().any(|joint| self.is_moved(joint));
+            if is_moved && !self.is_light(a) && !self.is_light(b) && way(a) - way(b) != 0.0 {
                 let (node, other) = if way(a) == 0.0 { (b, a) } else { (a, b) };
                 let [node, other] =
                     [node, other].map(|at| joint_name(self.network, self.expansion, at));
