@@ -213,10 +213,10 @@ fn control_characters_of_others_never_reach_a_terminal() {
         &["explain", text(&good)],
         &["check", text(&odd)],
         &["run", &missing],
-        &["run", "--set", &sequence],
-        &["run", &sequence, "--unknown", &sequence],
-        &["sweep", text(&good), "--vary", &sequence],
-        &["rheometer", &sequence],
+        &["run", "--set", sequence],
+        &["run", sequence, "--unknown", sequence],
+        &["sweep", text(&good), "--vary", sequence],
+        &["rheometer", sequence],
     ] {
         let output = run(arguments);
         for stream in [out(&output), err(&output)] {

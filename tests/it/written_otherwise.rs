@@ -29,6 +29,7 @@ const OUTSIDE: f64 = 0.01;
 /// load that changes what an element takes up by 10⁻⁵, and an impact that a mirror ends later.
 const MOST_FAR: f64 = 0.002;
 
+#[expect(clippy::print_stdout, reason = "the full campaign is read")]
 fn holds(scenes: usize) {
     let tally = Tally::of(scenes);
     println!("{tally}");

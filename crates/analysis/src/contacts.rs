@@ -167,8 +167,8 @@ pub(crate) fn left_for_good(assembly: &Assembly, trajectory: &Trajectory) -> Vec
     let left = assembly.connections.iter().filter_map(|connection| {
         let node = connection.between.map(NodeId::index).into_iter().find(is_alone)?;
         let own = parts(assembly, connection).iter().filter(|own| is_contact(own));
-        let switched = own.filter_map(|own| last.get(own.name.as_str()));
-        let opened = switched.last().filter(|switch| switch.phase == 0)?;
+        let mut switched = own.filter_map(|own| last.get(own.name.as_str()));
+        let opened = switched.next_back().filter(|switch| switch.phase == 0)?;
         let suffix = format!(".{}", Contact::KIND);
         let element = connection.name.strip_suffix(&suffix).unwrap_or(&connection.name);
         Some((opened.time, format!("{} leaves the {element}", assembly.nodes[node].name)))

@@ -320,6 +320,7 @@ impl CliError {
     }
 
     /// What to do, where that can be said.
+    #[expect(clippy::too_many_lines, reason = "one line or two for each error")]
     pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Unreadable { name, similar: None, .. } if is_unit(name) => {

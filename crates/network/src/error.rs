@@ -274,7 +274,8 @@ impl NetworkError {
             | Self::ContradictingMotions { second: name, .. }
             | Self::MotionOfMass { node: name, .. }
             | Self::StepThroughContact { node: name, .. }
-            | Self::StepAcrossDashpots { node: name, .. } => node(name),
+            | Self::StepAcrossDashpots { node: name, .. }
+            | Self::OutsideTable { name, is_load: false, .. } => node(name),
             Self::Undetermined { nodes } | Self::Loose { nodes } | Self::NoBalance { nodes } => {
                 nodes.first().and_then(node)
             }
@@ -289,7 +290,6 @@ impl NetworkError {
                 Some(Subject::Element { name, path: path.collect() })
             }
             Self::OutsideTable { name, is_load: true, .. } => Some(Subject::Load(name.clone())),
-            Self::OutsideTable { name, .. } => node(name),
             Self::OutOfScale { .. } | Self::TooFaint { .. } => None,
         }
     }

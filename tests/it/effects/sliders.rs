@@ -206,7 +206,7 @@ fn a_panel_on_a_guard_and_a_law_behind_a_slider_comes_to_its_end() {
         let report = run(text, method);
         let solution = report.solution();
         ["head.position", "panel.position"]
-            .map(|name| solution.signal(report.assembly.output(name).expect(name)).value(0.005877))
+            .map(|name| solution.signal(report.assembly.output(name).expect(name)).value(0.005_877))
     };
     let first = ends("auto");
     for method in ["esdirk34", "tr-bdf2"] {

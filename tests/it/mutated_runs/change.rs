@@ -85,7 +85,7 @@ fn without_line(dice: &mut Dice, text: &str) -> String {
     let lines: Vec<&str> = text.lines().collect();
     let out = dice.below(lines.len());
     let kept = lines.iter().enumerate().filter(|(at, _)| *at != out);
-    kept.map(|(_, line)| format!("{line}\n")).collect()
+    kept.flat_map(|(_, line)| [line, "\n"]).collect()
 }
 
 /// The line of an inline table once more, under another name.
@@ -98,9 +98,9 @@ fn doubled(dice: &mut Dice, text: &str) -> String {
     let twice = tables[dice.below(tables.len())];
     let mut all = String::new();
     for (at, line) in lines.iter().enumerate() {
-        all += &format!("{line}\n");
+        all.extend([line, "\n"]);
         if at == twice {
-            all += &format!("{}\n", line.replacen(" = {", "-again = {", 1));
+            all.extend([&line.replacen(" = {", "-again = {", 1), "\n"]);
         }
     }
     all

@@ -314,9 +314,8 @@ impl Sketch {
                 load("l", format!("constant = {{ value = {force}{start} }}"));
             }
         }
-        let node = |at: usize| match at < self.bodies.len() {
-            true => format!("n{at}"),
-            false => "ground".to_owned(),
+        let node = |at: usize| {
+            if at < self.bodies.len() { format!("n{at}") } else { "ground".to_owned() }
         };
         let mut elements: Vec<String> = Vec::new();
         let mut effects: Vec<String> = Vec::new();
@@ -332,7 +331,7 @@ impl Sketch {
             }
             if link.parts {
                 // Seen in a mirror, the other of the two ends is the first one.
-                let first = if link.between[0] < self.bodies.len() { 0 } else { 1 };
+                let first = usize::from(link.between[0] >= self.bodies.len());
                 effects.push(format!(
                     "separation.e{at} = {{ at = \"{}\" }}",
                     node(link.between[first])
@@ -471,7 +470,10 @@ impl Law {
         // Whole, in two halves, and those in groups of one.
         let in_two = |word: &str, half: String| match way % 3 {
             1 => tree(word, &[half.clone(), half]),
-            _ => tree(word, &[tree("series", &[half.clone()]), tree("parallel", &[half])]),
+            _ => tree(
+                word,
+                &[tree("series", std::slice::from_ref(&half)), tree("parallel", &[half])],
+            ),
         };
         Some(match *self {
             _ if way == 0 => return None,

@@ -87,7 +87,9 @@ fn run(text: &str, method: &str) -> Result<RunReport, String> {
 }
 
 /// All values and errors of a report.
-fn numbers(report: &Result<RunReport, String>) -> Result<Vec<(&str, Option<f64>, f64)>, &String> {
+type Number<'a> = (&'a str, Option<f64>, f64);
+
+fn numbers(report: &Result<RunReport, String>) -> Result<Vec<Number<'_>>, &String> {
     let report = report.as_ref()?;
     let numbers = report.measures.iter();
     let numbers = numbers.map(|own| (own.key.as_str(), own.value, own.error.unwrap_or(0.0)));

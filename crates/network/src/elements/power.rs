@@ -110,7 +110,7 @@ fn split(number: f64) -> (f64, f64) {
 
 /// `2^exponent` of a whole exponent, or the nearest to it that is a normal number.
 fn power_of_two(exponent: f64) -> f64 {
-    f64::from_bits(((exponent.clamp(-1022.0, 1023.0) + 1023.0) as u64) << 52)
+    exponent.clamp(-1022.0, 1023.0).exp2()
 }
 
 /// Accepts finite numbers ≥ 1.

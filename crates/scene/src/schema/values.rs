@@ -100,8 +100,8 @@ pub(super) fn table_or_file(table: &Value) -> Value {
         pair(&unit, &unit),
         "units of time and value, where the header of the file does not say them",
     );
-    let of_points = table["anyOf"].as_array().into_iter().flatten();
-    let outside = of_points.filter_map(|own| own["properties"].get("outside")).next().cloned();
+    let mut of_points = table["anyOf"].as_array().into_iter().flatten();
+    let outside = of_points.find_map(|own| own["properties"].get("outside")).cloned();
     let detailed = json!({
         "type": "object",
         "properties": {

@@ -21,6 +21,11 @@ use crate::{
 /// Overlaps of contacts, and ways, that are rounding, in parts of the places.
 const NEAR: f64 = 1e-9;
 
+/// What is rounding beside these places \[m\].
+fn near(position: &[f64]) -> f64 {
+    NEAR * position.iter().fold(0.0_f64, |most, own| most.max(own.abs()))
+}
+
 /// A start at which motions have jumped.
 pub(super) struct Settling<'a> {
     network: &'a Network,
@@ -105,7 +110,7 @@ impl<'a> Settling<'a> {
         // Of springs and contacts there is one balance: each round brings it nearer.
         for _ in 0..=2 * contacts.len() {
             let beyond = |part: &usize| (*part, self.beyond(*part, &position));
-            let overlaps = contacts.iter().map(beyond).filter(|own| own.1 > self.near(&position));
+            let overlaps = contacts.iter().map(beyond).filter(|own| own.1 > near(&position));
             let Some((deepest, _)) = overlaps.max_by(|a, b| a.1.total_cmp(&b.1)) else {
                 self.check_others(&position)?;
                 return Ok(Settled { position, phases });
@@ -160,10 +165,6 @@ impl<'a> Settling<'a> {
         position[a] - position[b] - self.level(part).unwrap_or(0.0)
     }
 
-    fn near(&self, position: &[f64]) -> f64 {
-        NEAR * position.iter().fold(0.0_f64, |most, own| most.max(own.abs()))
-    }
-
     /// Places of all joints with contacts in these phases. Sliders hold nothing here.
     fn balanced(&self, phases: &[Phase]) -> Result<Vec<f64>, NetworkErrors> {
         let mut expansion = self.expansion.in_phases(self.parts, phases);
@@ -179,9 +180,9 @@ impl<'a> Settling<'a> {
                 primitive.law = Law::Rigid;
             }
         }
-        let bodies = Bodies::of(&self.held, &expansion).map_err(|found| self.refused(found))?;
+        let bodies = Bodies::of(&self.held, &expansion).map_err(|found| self.refused(&found))?;
         let structure = Structure::of(&self.held, &expansion, &bodies, self.duration);
-        let structure = structure.map_err(|found| self.refused(found))?;
+        let structure = structure.map_err(|found| self.refused(&found))?;
         let given = |body: &Body| match body.role {
             Role::Prescribed(node) => self.after[node] - bodies.offset[node],
             Role::Fixed => 0.0,
@@ -191,14 +192,14 @@ impl<'a> Settling<'a> {
         let weights = vec![0.0; bodies.all.len()];
         let places =
             balance::positions(&self.held, &expansion, &bodies, &structure, &weights, &given, &[]);
-        let places = places.map_err(|found| self.refused(found))?;
+        let places = places.map_err(|found| self.refused(&found))?;
         let place = |joint: usize| places[bodies.of_joint[joint]] + bodies.offset[joint];
         Ok((0..self.expansion.joints).map(place).collect())
     }
 
     /// Refuses jumps that reach what remembers or slides: where that ends follows from the way there.
     fn check_others(&self, position: &[f64]) -> Result<(), NetworkErrors> {
-        let near = self.near(position);
+        let near = near(position);
         let is_deformed = |&&at: &&usize| {
             let primitive = &self.expansion.primitives[at];
             let [a, b] = primitive.ends;
@@ -260,7 +261,7 @@ impl<'a> Settling<'a> {
     }
 
     /// What is to be said where masses and motions would be joined.
-    fn refused(&self, found: Vec<NetworkError>) -> NetworkErrors {
+    fn refused(&self, found: &[NetworkError]) -> NetworkErrors {
         let name = |node: usize| &self.network.nodes[node].name;
         let contradiction = found.iter().find_map(|error| match error {
             NetworkError::ContradictingMotions { first, second, .. } => {
