@@ -51,7 +51,6 @@ fn a_force_that_comes_to_nothing_is_not_said_to_push_until_the_end() {
 /// A pad without a rate of its own, so that its peak rate is read off its deformation, in a run with steps as
 /// short as the time is told: they are where the rate passes the power dashpot's singular zero.
 #[test]
-#[ignore = "at some tolerances a step as short as a rounding of the time still gives a peak of the rate"]
 fn steps_of_a_rounding_do_not_make_rates() {
     let text = r#"
 [nodes]

@@ -16,24 +16,30 @@ impl Signal {
 
     /// The derivative with respect to time \[unit/s\], panel by panel: jumps leave no trace in it.
     ///
-    /// The shorter a panel, the more of its slope is rounding. Where that would stand out among the slopes
-    /// that are known, it is that of a line between the panels beside it.
+    /// The shorter a panel, the more of its slope is rounding, of the values and of the times. Where that would
+    /// stand out among the slopes that are known, and accounts for what lies between the slope and a line from
+    /// the panel before to the one behind, it is that line.
     ///
     /// Its `noise` is an estimate, in proportion to the size of the values; an error bound it has
     /// none.
     #[must_use]
     pub fn derivative(&self) -> Self {
         let mut panels: Vec<Panel> = self.panels.iter().map(Panel::derivative).collect();
-        let roundings: Vec<f64> = self.panels.iter().map(Panel::slope_rounding).collect();
         let sizes: Vec<f64> =
             panels.iter().map(|panel| chebyshev::bound(&panel.coefficients)).collect();
+        let roundings: Vec<f64> = self
+            .panels
+            .iter()
+            .zip(&sizes)
+            .map(|(panel, size)| panel.slope_rounding(*size))
+            .collect();
         let is_told = |(rounding, size): (&f64, &f64)| *rounding <= OF_SLOPE * size;
         let told = roundings.iter().zip(&sizes).filter(|own| is_told(*own)).map(|own| *own.1);
         let largest = told.fold(0.0, f64::max);
         if largest > 0.0 {
             let is_known = |own: (&f64, &f64)| *own.0 <= OF_LARGEST * largest || is_told(own);
             let is_known: Vec<bool> = roundings.iter().zip(&sizes).map(is_known).collect();
-            bridge(&mut panels, &is_known);
+            bridge(&mut panels, &roundings, &is_known);
         }
         let mut slope = Self { panels, error: None, noise: 0.0 };
         let size = self.bound();
@@ -121,9 +127,9 @@ fn part(panel: &Panel, start: f64, end: f64) -> Vec<f64> {
     }
 }
 
-/// Replaces each run of panels that are not known by a line from the end of the one before to the begin
-/// of the one behind.
-fn bridge(panels: &mut [Panel], is_known: &[bool]) {
+/// Replaces the panels of each run that are not known by a line from the end of the panel before to the begin
+/// of the one behind, as far as their roundings account for the difference.
+fn bridge(panels: &mut [Panel], roundings: &[f64], is_known: &[bool]) {
     let mut at = 0;
     while let Some(from) = is_known[at..].iter().position(|known| !known).map(|own| at + own) {
         let run = is_known[from..].iter().position(|known| *known);
@@ -131,13 +137,20 @@ fn bridge(panels: &mut [Panel], is_known: &[bool]) {
         let before = panels[..from].last().map(|own| (own.end, own.value(own.end)));
         let behind = panels.get(to).map(|own| (own.start, own.value(own.start)));
         let ends = before.or(behind).zip(behind.or(before));
-        for panel in &mut panels[from..to] {
+        for (panel, rounding) in panels[from..to].iter_mut().zip(&roundings[from..to]) {
             let Some(((start, first), (end, last))) = ends else { continue };
             let part = |t: f64| {
                 if end > start { ((t - start) / (end - start)).clamp(0.0, 1.0) } else { 0.0 }
             };
             let [left, right] = [panel.start, panel.end].map(|t| first + (last - first) * part(t));
-            panel.coefficients = vec![0.5 * (left + right), 0.5 * (right - left)];
+            let line = [0.5 * (left + right), 0.5 * (right - left)];
+            let mut between = panel.coefficients.clone();
+            between.resize(between.len().max(2), 0.0);
+            between.iter_mut().zip(line).for_each(|(own, line)| *own -= line);
+            let is_more = chebyshev::bound(&between) > *rounding;
+            if !is_more {
+                panel.coefficients = line.to_vec();
+            }
         }
         at = to;
     }

@@ -74,12 +74,13 @@ impl Panel {
         Self { start: self.start, end: self.end, coefficients }
     }
 
-    /// How much of its [derivative](Self::derivative) may be the rounding of its values \[unit/s\]; infinite, or
-    /// no number, where it has no length.
-    pub(super) fn slope_rounding(&self) -> f64 {
+    /// How much of a [derivative](Self::derivative) that no `|slope|` exceeds may be the rounding of its values
+    /// and of the times of its ends \[unit/s\]; infinite, or no number, where it has no length.
+    pub(super) fn slope_rounding(&self, slope: f64) -> f64 {
         let size: f64 = self.coefficients.iter().map(|c| c.abs()).sum();
         let degree = self.coefficients.iter().skip(1).map(|_| 1.0).sum::<f64>().max(1.0);
-        2.0 * f64::EPSILON / self.length() * degree * degree * size
+        let latest = self.start.abs().max(self.end.abs());
+        2.0 * f64::EPSILON / self.length() * (degree * degree * size + latest * slope)
     }
 
     /// The part of it from `start` to `end`, which must lie within.

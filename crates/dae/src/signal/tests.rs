@@ -347,6 +347,40 @@ fn slopes_of_panels_that_are_too_short_to_have_one_are_those_beside_them() {
 }
 
 #[test]
+fn a_step_of_a_few_roundings_of_the_time_has_no_slope_of_its_own() {
+    // 12 m/s in steps of 3, 30, … roundings of the time, taken for one more or less than they are.
+    let ulp = 0.03_f64.next_up() - 0.03;
+    for more in [-1.0, 1.0] {
+        let mut borders = vec![0.0, 0.01, 0.03];
+        let mut values = vec![0.0, 0.12, 0.36];
+        let (mut at, mut value) = (0.03, 0.36);
+        for length in [3.0, 30.0, 300.0, 3e5] {
+            at += (length + more) * ulp;
+            value += 12.0 * length * ulp;
+            borders.push(at);
+            values.push(value);
+        }
+        borders.push(0.04);
+        values.push(value + 12.0 * (0.04 - at));
+        let pairs = borders.windows(2).zip(values.windows(2));
+        let line = |(time, value): (&[f64], &[f64])| Panel {
+            start: time[0],
+            end: time[1],
+            coefficients: vec![0.5 * (value[0] + value[1]), 0.5 * (value[1] - value[0])],
+        };
+        let slope = Signal::new(pairs.map(line).collect(), None, 0.0).derivative();
+        for extreme in [slope.maximum(EVERYWHERE), slope.minimum(EVERYWHERE)] {
+            assert!((extreme.value - 12.0).abs() < 1e-3, "{more}: {extreme:?}");
+        }
+    }
+    // What roundings do not account for stays, however late.
+    let borders = [0.0, 1.0, 1e9, 1e9 + 1e-5, 1e9 + 2e-5, 1e9 + 3e-5, 1e9 + 1e-3];
+    let late = signal(&borders, 2, |t| 1e3 * (t - 1e9 - 2e-5).abs().min(1e-5));
+    let slope = late.derivative();
+    assert!((slope.value(1e9 + 2.5e-5) - 1e3).abs() < 50.0, "{}", slope.value(1e9 + 2.5e-5));
+}
+
+#[test]
 fn denormal_panels_do_no_harm() {
     let borders = [0.0, 5e-324, 1e-320, 1e-300, 1e-15, 0.5, 0.5, 2.0];
     let line = signal(&borders, 3, |t| t - 1.0);
