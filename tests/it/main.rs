@@ -34,6 +34,7 @@ mod order;
 mod pads;
 mod partial;
 mod power_laws;
+mod properties;
 mod random_networks;
 mod signs;
 mod similarity;

@@ -1,20 +1,19 @@
 //! What always holds, on generated input: networks through all methods, and texts of every kind.
 //!
 //! The seed is fixed, so a run repeats; `PROPTEST_CASES` asks for more cases and `PROPTEST_RNG_SEED`
-//! for others. A case that fails is shrunk and printed; it goes into `tests/corpus`, all of which is
-//! replayed.
+//! for others. A case that fails is shrunk and printed; networks that failed are in `tests/corpus`, all of
+//! which is replayed.
 
-mod corpus;
 mod grammar;
 mod invariants;
+mod methods;
 mod mutations;
-mod networks;
+pub(crate) mod networks;
 mod readers;
 mod scenes;
-mod solved;
-mod symmetries;
+pub(crate) mod solved;
 
-use std::{env, path::PathBuf};
+use std::env;
 
 use proptest::test_runner::{Config, RngSeed};
 
@@ -33,18 +32,4 @@ fn config(cases: u32) -> Config {
         max_shrink_iters: 400,
         ..standard
     }
-}
-
-/// The files of a folder of the corpus, by name.
-fn corpus(folder: &str) -> Vec<(String, Vec<u8>)> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/corpus").join(folder);
-    let files = folder.read_dir().unwrap().map(|entry| entry.unwrap().path());
-    let mut files: Vec<_> = files
-        .map(|path| {
-            let name = path.file_name().unwrap().to_string_lossy().into_owned();
-            (name, std::fs::read(path).unwrap())
-        })
-        .collect();
-    files.sort();
-    files
 }

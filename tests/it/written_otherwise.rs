@@ -6,14 +6,8 @@
 //! `cargo test --test it written_otherwise::full -- --ignored --nocapture`.
 
 mod laws;
-#[path = "properties/networks.rs"]
-#[expect(dead_code, reason = "other tests draw other kinds")]
-mod networks;
 mod pairs;
 mod references;
-#[path = "properties/solved.rs"]
-#[expect(dead_code, reason = "other tests compare otherwise")]
-mod solved;
 
 use pairs::Tally;
 

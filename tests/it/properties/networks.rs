@@ -142,8 +142,6 @@ pub(crate) enum Kinds {
     Switching,
     /// All laws.
     All,
-    /// Those, and more that are written with references.
-    Powers,
 }
 
 fn decades(spread: f64) -> impl Strategy<Value = f64> + Clone {
@@ -196,12 +194,9 @@ fn law(kinds: Kinds) -> BoxedStrategy<Law> {
             .prop_map(|(modulus, plateau, dense)| Law::Foam(modulus, plateau, dense)),
     ];
     match kinds {
-        Kinds::Powers => {
-            prop_oneof![3 => linear, 1 => switching, 1 => nonlinear, 2 => powers].boxed()
-        }
         Kinds::Linear => linear.boxed(),
         Kinds::Switching => prop_oneof![3 => linear, 2 => switching].boxed(),
-        Kinds::All => prop_oneof![3 => linear, 1 => switching, 2 => nonlinear].boxed(),
+        Kinds::All => prop_oneof![3 => linear, 1 => switching, 1 => nonlinear, 2 => powers].boxed(),
     }
 }
 

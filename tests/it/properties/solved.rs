@@ -29,37 +29,30 @@ pub(crate) fn by_auto(scene: &Scene) -> Result<RunReport, RunError> {
 }
 
 /// The report on a scene by a method, at tolerances from 1e-4 to 1e-6.
-pub(crate) fn by(scene: &Scene, method: &str) -> Result<RunReport, RunError> {
+pub(super) fn by(scene: &Scene, method: &str) -> Result<RunReport, RunError> {
     let settings = SolveSettings { rtol: Some(1e-6), ..scene.settings(method) };
     solve(&scene.network, &settings, &mut Patience(1_500))
 }
 
 /// Part of the size of a measure that rounding makes where two networks are written down
 /// differently: their coefficients differ by a few roundings, which stiff scenes magnify.
-pub(crate) const ROUNDING: f64 = 1e-9;
+const ROUNDING: f64 = 1e-9;
 
 /// Measures that are not compared: where a force dies out without passing zero, their end depends on
 /// the tolerance, and severities count in parts of the acceleration of gravity, whatever the units.
 const OPEN: &[&str] = &["contact-time", "severity-index", "hic"];
 
 /// What is said where two reports tell different things, although neither says that it might.
-/// `bars` is how many times their errors they may differ by, `factor` of a unit what the values of
-/// the first report are to be multiplied by.
-pub(crate) fn disagreement(
-    one: &RunReport,
-    other: &RunReport,
-    bars: f64,
-    factor: impl Fn(&str) -> f64,
-) -> Option<String> {
+/// `bars` is how many times their errors they may differ by.
+pub(super) fn disagreement(one: &RunReport, other: &RunReport, bars: f64) -> Option<String> {
     one.measures.iter().filter(|own| !OPEN.contains(&own.kind)).find_map(|first| {
         let second = other.measure(&first.key)?;
-        let factor = factor(first.unit);
-        (!is_same(first, second, bars, factor)).then(|| {
+        (sums_apart(first, second, 1.0) > bars).then(|| {
             format!(
                 "{}: {:?} ± {:?} by {}, {:?} ± {:?} by {} ({:?}, {:?})",
                 first.key,
-                first.value.map(|value| value * factor),
-                first.error.map(|error| error * factor),
+                first.value,
+                first.error,
                 one.solver.method,
                 second.value,
                 second.error,
@@ -95,14 +88,11 @@ pub(crate) fn apart(
     pairs.map(apart).collect()
 }
 
-fn is_same(one: &MeasureReport, other: &MeasureReport, bars: f64, factor: f64) -> bool {
-    sums_apart(one, other, factor) <= bars
-}
-
 /// The distance of two values in sums of their errors, less what rounding makes; infinite where only one
-/// of them has a value.
+/// of them has a value, and nothing where one says that it is not known.
 fn sums_apart(one: &MeasureReport, other: &MeasureReport, factor: f64) -> f64 {
-    let is_open = |own: &MeasureReport| own.error.is_some_and(f64::is_infinite);
+    let is_open =
+        |own: &MeasureReport| own.is_undetermined || own.error.is_some_and(f64::is_infinite);
     if is_open(one) || is_open(other) {
         return 0.0;
     }

@@ -8,7 +8,7 @@ use proptest::{
     test_runner::{Config, RngSeed, TestRunner},
 };
 
-use super::{
+use crate::properties::{
     networks::{Kinds, Sketch, Units, Way, sketch},
     solved::{apart, by_auto, scene},
 };
@@ -72,7 +72,7 @@ impl Tally {
     pub(super) fn of(scenes: usize) -> Self {
         let seed = RngSeed::Fixed(0x0da5_4907);
         let mut runner = TestRunner::new(Config { rng_seed: seed, ..Config::default() });
-        let kinds = [Kinds::Linear, Kinds::Switching, Kinds::Powers];
+        let kinds = [Kinds::Linear, Kinds::Switching, Kinds::All];
         let strategies = kinds.map(|kinds| sketch(kinds).boxed());
         let mut tally = Self::default();
         let mut at = 0;

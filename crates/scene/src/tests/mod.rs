@@ -2,7 +2,6 @@
 
 mod effects;
 mod equality;
-mod fuzz;
 mod hints;
 mod layers;
 mod limits;
