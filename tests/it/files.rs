@@ -199,11 +199,13 @@ fn pipes_and_devices_are_no_files_to_read() {
 #[test]
 fn control_characters_of_others_never_reach_a_terminal() {
     let folder = TempDir::new().unwrap();
-    let sequence = "\u{1b}]0;pwn\u{7}\u{9b}31mgrün\u{202e}";
-    let toml = scene("pad", "TITLE").replace("TITLE", "\\u001b]0;pwn\\u0007\\u009b31mgrün\\u202e");
+    let sequence = "\u{1b}]0;pwn\u{7}\u{9b}31mgrün\u{202e}\u{200b}\u{2028}\u{feff}";
+    let toml = scene("pad", "TITLE")
+        .replace("TITLE", "\\u001b]0;pwn\\u0007\\u009b31mgrün\u{202e}\u{200b}");
     let good = file(&folder, "good.toml", &toml);
     let odd =
         file(&folder, "odd\u{1b}[31m.toml", &toml.replace("mass = 5", "mass = \"\\u001b[2J\""));
+    let named = file(&folder, "named.toml", &scene("a\u{200b}b", ""));
     let results = folder.path().join("results");
     let missing = format!("{sequence}.toml");
     for arguments in [
@@ -217,10 +219,14 @@ fn control_characters_of_others_never_reach_a_terminal() {
         &["run", sequence, "--unknown", sequence],
         &["sweep", text(&good), "--vary", sequence],
         &["rheometer", sequence],
+        &["convert", &missing, "--to", "zener"],
+        &["check", text(&named)],
+        &["groups", text(&good)],
     ] {
         let output = run(arguments);
         for stream in [out(&output), err(&output)] {
-            let is_control = |own: char| own.is_control() && own != '\n' || own == '\u{202e}';
+            let hidden = ['\u{202e}', '\u{200b}', '\u{2028}', '\u{feff}'];
+            let is_control = |own: char| own.is_control() && own != '\n' || hidden.contains(&own);
             // In JSON they are escaped by its own rules, or ordinary characters.
             let is_raw =
                 |own: char| is_control(own) && !(arguments.contains(&"--json") && own > '\u{7f}');
@@ -228,7 +234,7 @@ fn control_characters_of_others_never_reach_a_terminal() {
         }
     }
     let shown = out(&run(&["run", text(&good), "--color", "always"]));
-    assert!(shown.contains("\\u001b]0;pwn\\u0007\\u009b31mgrün\\u202e"), "{shown}");
+    assert!(shown.contains("\\u001b]0;pwn\\u0007\\u009b31mgrün\\u202e\\u200b"), "{shown}");
     assert!(shown.contains("\u{1b}[1m") && !shown.contains("\u{1b}]"), "{shown}");
 }
 
@@ -241,8 +247,8 @@ fn names_in_tables_are_no_formulas_and_read_back() {
         assert_eq!(code(&run(&["run", text(&source), "--out", text(&results)])), 0);
         let table = fs::read_to_string(results.join("exact.csv")).unwrap();
         let peak = format!("--measure={pad}.peak-force");
-        let sweep = ["--vary", "head.velocity=2,3 m/s", &peak];
-        let swept = out(&run(&[&["sweep", text(&source)], &sweep[..]].concat()));
+        let vary = format!("--vary={pad}.spring=1e5,2e5 N/m");
+        let swept = out(&run(&["sweep", text(&source), &vary, &peak]));
         for header in [table.lines().next().unwrap(), swept.lines().next().unwrap()] {
             let bare = header.replace('"', "");
             let is_live = |cell: &str| cell.starts_with(['=', '+', '-', '@']);
@@ -260,6 +266,34 @@ fn names_in_tables_are_no_formulas_and_read_back() {
         let output = run(&["check", text(&file(&folder, "driven.toml", &driven))]);
         assert_eq!(code(&output), 0, "{pad}: {}", err(&output));
     }
+}
+
+#[test]
+fn names_with_characters_that_are_not_to_be_seen_are_refused() {
+    let folder = TempDir::new().unwrap();
+    for own in ["a\u{200b}b", "a\u{202e}b", "a\u{2028}b", "a\u{e0041}b"] {
+        let output = run(&["check", text(&file(&folder, "scene.toml", &scene(own, "")))]);
+        assert_eq!(code(&output), 2, "{own:?}");
+        assert!(said(&output).contains("characters that are not to be seen"), "{}", err(&output));
+    }
+}
+
+#[test]
+fn folders_of_earlier_versions_are_refused_and_it_is_told_what_to_do() {
+    let folder = TempDir::new().unwrap();
+    let scene = file(&folder, "scene.toml", &scene("pad", ""));
+    let results = folder.path().join("results");
+    fs::create_dir(&results).unwrap();
+    for (name, content) in [(".dashpot-files", "exact.csv\nresult.json\n"), ("exact.csv", "old")] {
+        fs::write(results.join(name), content).unwrap();
+    }
+    let arguments = ["run", text(&scene), "--out", text(&results)];
+    let output = run(&arguments);
+    assert_eq!(code(&output), 2);
+    assert!(said(&output).contains("move this file and the results beside it away"), "{output:?}");
+    assert_eq!(fs::read_to_string(results.join("exact.csv")).unwrap(), "old");
+    fs::rename(&results, folder.path().join("old")).unwrap();
+    assert_eq!(code(&run(&arguments)), 0);
 }
 
 #[test]

@@ -5,6 +5,9 @@ use dashpot::{
     dae::Silent,
     scene::{Checked, Diagnostics, ReadOptions, Scene, read},
 };
+use tempfile::TempDir;
+
+use crate::cli::{code, err, file, json, out, run, text};
 
 const METHODS: [&str; 4] = ["exact", "bdf", "esdirk34", "tr-bdf2"];
 const RECORD: &str = "time [ms], force [N]\n0, 0\n20, 1000\n";
@@ -150,6 +153,65 @@ fn where_outside_stands_in_the_wrong_place_the_right_one_is_told() {
     let unknown = pushed(&format!("{{ points = {POINTS}, outside = \"nothing\" }}"));
     let shown = read_beside(&unknown, "").unwrap_err().render(false);
     assert!(shown.contains("hold") && shown.contains("zero") && shown.contains("error"), "{shown}");
+}
+
+/// A free mass that the ramp pushes, with this after it; the run ends with the ramp.
+fn ramp(folder: &TempDir, outside: &str) -> std::path::PathBuf {
+    let table = format!("{{ points = {POINTS}{outside} }}");
+    let scene = pushed(&table).replace("duration = 0.1", "duration = \"20 ms\"");
+    file(folder, "ramp.toml", &scene)
+}
+
+#[test]
+fn sweeps_take_what_a_table_is_beyond_its_points() {
+    let folder = TempDir::new().unwrap();
+    // The end velocity of 2 kg after half of the ramp, after all of it, and 80 ms later.
+    for (outside, last, is_told) in [
+        ("", 45.0, true),
+        (", outside = \"hold\"", 45.0, false),
+        (", outside = \"zero\"", 5.0, false),
+    ] {
+        let scene = ramp(&folder, outside);
+        let vary = ["--vary", "duration=10,20,100 ms", "--measure", "head.end-velocity"];
+        let swept = run(&[&["sweep", text(&scene)], &vary[..]].concat());
+        assert_eq!(code(&swept), 0, "{}", err(&swept));
+        let table = out(&swept);
+        let rows = table.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
+        let found: Vec<(f64, f64)> =
+            rows.map(|own| (own[1].parse().unwrap(), own[2].parse().unwrap())).collect();
+        assert_eq!(found.len(), 3, "{table}");
+        for ((value, error), expected) in found.into_iter().zip([1.25, 5.0, last]) {
+            assert!((value - expected).abs() <= error + 1e-12, "{outside}: {value} {error:e}");
+        }
+        let words = err(&swept).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(words.contains("at 1 of 3 points"), is_told, "{words}");
+        assert_eq!(words.contains("is held to the end of the run at 100 ms"), is_told, "{words}");
+    }
+    let scene = ramp(&folder, ", outside = \"error\"");
+    let sweep = |durations: &str| run(&["sweep", text(&scene), "--vary", durations]);
+    let within = sweep("duration=10,20 ms");
+    assert_eq!(code(&within), 0, "{}", err(&within));
+    let beyond = sweep("duration=10,20,100 ms");
+    assert_eq!(code(&beyond), 2, "{}", out(&beyond));
+    assert!(err(&beyond).contains("is given from 0 s to 0.02 s"), "{}", err(&beyond));
+}
+
+#[test]
+fn shaking_does_not_ask_what_a_table_is_beyond_its_points() {
+    let folder = TempDir::new().unwrap();
+    let response = |scene: &str| {
+        let path = file(&folder, "shaken.toml", scene);
+        json(&["vibrate", text(&path), "--from", "1 Hz", "--to", "100 Hz", "--json"])
+    };
+    for key in ["motion", "acceleration"] {
+        let sine = moved(key, POINTS).replace("table = ", "").replace(POINTS, "constant = 0");
+        let expected = response(&sine);
+        assert!(!expected["responses"].is_null(), "{expected}");
+        for outside in ["hold", "zero", "error"] {
+            let table = moved(key, "{ points = [[0, 0], [0.1, 1], [0.2, 1]], outside = \"OUT\" }");
+            assert_eq!(response(&table.replace("OUT", outside)), expected, "{key} {outside}");
+        }
+    }
 }
 
 #[test]

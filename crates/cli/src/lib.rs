@@ -28,12 +28,12 @@ mod text;
 mod thesis_folder;
 mod vibration_folder;
 
-use std::process::ExitCode;
+use std::{io::ErrorKind, process::ExitCode};
 
 use clap::Parser;
 
 use args::{Arguments, Command};
-use error::Status;
+use error::{CliError, Status};
 use terminal::Terminal;
 
 /// Does what the command line says. The exit code is 0 when it is done (warnings included), 1 when
@@ -44,13 +44,7 @@ pub fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(message) => {
             let message = args::explained(message);
-            // Help is asked for, all else is wrong input; a reader that is gone is no matter.
-            if message.use_stderr() && message.to_string().chars().any(dashpot_scene::is_control) {
-                terminal::note(&message.to_string());
-            } else {
-                let _ = message.print();
-            }
-            return if message.use_stderr() { Status::InputWrong } else { Status::Done }.into();
+            return told(&message).into();
         }
     };
     let terminal = Terminal::new(arguments.color);
@@ -76,4 +70,25 @@ pub fn main() -> ExitCode {
         error.status()
     });
     status.into()
+}
+
+/// Tells what is wrong with a command line, or the help or version that it asks for.
+fn told(message: &clap::Error) -> Status {
+    if !message.use_stderr() {
+        return match message.print() {
+            // A reader that is gone is no matter.
+            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                terminal::note(&format!("error: {}", CliError::Output(error)));
+                Status::RunFailed
+            }
+            _ => Status::Done,
+        };
+    }
+    if message.to_string().contains(dashpot_scene::is_control) {
+        terminal::note(&message.to_string());
+    } else {
+        // There is nowhere left to complain to.
+        let _ = message.print();
+    }
+    Status::InputWrong
 }

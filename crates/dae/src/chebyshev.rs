@@ -107,11 +107,6 @@ pub fn integral(coefficients: &[f64]) -> f64 {
     even.map(|(k, c)| 2.0 * c / (1.0 - order(k) * order(k))).sum()
 }
 
-/// The integral of `p` from `a` to `b`, both in `[−1, 1]`; its error is relative to `|b − a|`.
-pub fn integral_over(coefficients: &[f64], a: f64, b: f64) -> f64 {
-    0.5 * (b - a) * integral(&restrict(coefficients, a, b))
-}
-
 /// The polynomial seen on `[a, b]` only: the `q` of the same degree with
 /// `q(ξ) = p((a + b)/2 + ξ (b − a)/2)`, exact up to the rounding of [`bound`]`(p)`.
 pub fn restrict(coefficients: &[f64], a: f64, b: f64) -> Vec<f64> {

@@ -5,7 +5,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::{LinearModel, Primitive, Tree, linear::Derivatives};
+use crate::{Primitive, Tree, linear::Derivatives};
 
 /// A parameter of a model.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,20 +86,10 @@ impl Sensitivity {
     }
 }
 
-/// The map from the parameters of a tree to the constants of one of its canonical forms.
-pub fn map_to_canonical<P>(
-    tree: &Tree<P>,
-    leaf: impl Fn(&P) -> Primitive,
-    form: crate::Canonical,
-) -> Option<ParameterMap> {
-    let canonical = LinearModel::of(tree, &leaf).tree(form)?;
-    sensitivity(tree, leaf)?.map_to(&sensitivity(&canonical, |&part| part)?)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Canonical;
+    use crate::{Canonical, LinearModel};
     use Primitive::{Dashpot, Spring};
 
     fn burgers(constants: [f64; 4]) -> Tree<Primitive> {
@@ -121,7 +111,11 @@ mod tests {
     #[test]
     fn the_map_is_the_derivative_of_the_conversion() {
         let constants = [2e7, 6e3, 2.5e7, 4e3];
-        let map = map_to_canonical(&burgers(constants), |&part| part, Canonical::Maxwell).unwrap();
+        let leaf = |part: &Primitive| *part;
+        let tree = burgers(constants);
+        let canonical = LinearModel::of(&tree, leaf).tree(Canonical::Maxwell).unwrap();
+        let [own, other] = [&tree, &canonical].map(|tree| sensitivity(tree, leaf).unwrap());
+        let map = own.map_to(&other).unwrap();
         let step = 1e-5;
         for column in 0..4 {
             let at = |factor: f64| {

@@ -9,7 +9,7 @@ use annotate_snippets::{
 use crate::{
     diagnostics::{Diagnostic, Diagnostics, Severity},
     source::Source,
-    visible::visible,
+    visible::{is_control, visible},
 };
 
 /// So many lines of the text are shown for one fault.
@@ -92,9 +92,23 @@ fn snippet<'a>(
     let end = start + marked(&source.text[start..end], width.saturating_sub(MARGIN)).len();
     let span = start - lines.start..end - lines.start;
     let annotation = AnnotationKind::Primary.span(span).label(diagnostic.fault.label());
-    // The renderer shows other control characters; these take as many bytes as what stands for them.
-    let text = source.text[lines].replace(|own| matches!(own, '\u{80}'..='\u{9f}'), "\u{b7}");
+    let text = stood_in(&source.text[lines]);
     Snippet::source(text).line_start(first_line).path(visible(&source.name)).annotation(annotation)
+}
+
+/// The text with others for characters that are not to be seen, of as many bytes, so that places stay.
+/// The renderer shows control characters of one byte.
+fn stood_in(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for own in text.chars() {
+        match own.len_utf8() {
+            2 if is_control(own) => shown.push('\u{b7}'),
+            3 if is_control(own) => shown.push('\u{fffd}'),
+            4 if is_control(own) => shown.push_str("\u{b7}\u{b7}"),
+            _ => shown.push(own),
+        }
+    }
+    shown
 }
 
 /// Columns beside a mark: the number of the line, and what shows that the line goes on.

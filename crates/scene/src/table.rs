@@ -8,6 +8,7 @@ use crate::{
     fault::Fault,
     nearest::nearest,
     source::Place,
+    visible::is_hidden,
 };
 
 /// Reads one table.
@@ -137,8 +138,8 @@ pub(crate) fn check_name(name: &str, place: Place, faults: &Faults) {
         "it is empty"
     } else if name.contains(['.', ':']) {
         "`.` and `:` separate names"
-    } else if name.chars().any(char::is_control) || name.trim() != name {
-        "it has control characters, or spaces at an end"
+    } else if name.contains(|own: char| own.is_control() || is_hidden(own)) || name.trim() != name {
+        "it has characters that are not to be seen, or spaces at an end"
     } else {
         return;
     };

@@ -150,7 +150,7 @@ impl Variation {
     /// What is wrong with the text.
     pub fn parse(text: &str) -> Result<Self, VariationFault> {
         let nothing = || VariationFault::NoValues { text: text.trim().to_owned() };
-        let (name, values) = text.split_once('=').ok_or_else(nothing)?;
+        let (name, values) = text.rsplit_once('=').ok_or_else(nothing)?;
         let (name, values) = (name.trim(), values.trim());
         if name.is_empty() || values.is_empty() {
             return Err(nothing());

@@ -3,10 +3,27 @@
 use std::{borrow::Cow, fmt::Write as _};
 
 /// Whether a character does something to a terminal instead of being seen: control characters but the
-/// end of a line and the tab, and those that turn the direction of what is around them.
+/// end of a line and the tab, and [hidden](is_hidden) ones.
 pub fn is_control(own: char) -> bool {
-    let turns = matches!(own, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    own.is_control() && !matches!(own, '\n' | '\t') || turns
+    own.is_control() && !matches!(own, '\n' | '\t') || is_hidden(own)
+}
+
+/// Whether a character is none to be seen: one that turns the direction of what is around it, has no
+/// width, separates lines or is a tag. What joins letters or keeps them apart belongs to them.
+pub(crate) fn is_hidden(own: char) -> bool {
+    matches!(
+        own,
+        '\u{ad}'
+            | '\u{61c}'
+            | '\u{180e}'
+            | '\u{200b}'
+            | '\u{200e}'..='\u{200f}'
+            | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{feff}'
+            | '\u{fff9}'..='\u{fffb}'
+            | '\u{e0000}'..='\u{e007f}'
+    )
 }
 
 /// The text with its control characters as TOML and JSON write them in strings, `\u001b` for escape.
@@ -26,7 +43,10 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     while let Some(own) = all.next() {
         let ends_line = own == '\r' && all.peek() == Some(&'\n');
         if is_control(own) && !ends_line {
-            let _ = write!(shown, "\\u{:04x}", u32::from(own));
+            let _ = match u32::from(own) {
+                code @ ..=0xffff => write!(shown, "\\u{code:04x}"),
+                code => write!(shown, "\\U{code:08x}"),
+            };
         } else {
             shown.push(own);
         }

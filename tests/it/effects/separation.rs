@@ -107,17 +107,19 @@ fn bounces(trial: &Trial<'_>) {
     }
 }
 
+fn bounces_to_rest(trial: &Trial<'_>) {
+    bounces(trial);
+    let end = trial.end();
+    trial.value("head.position", end, Side::Before, "end.position");
+    trial.value("head.velocity", end, Side::Before, "end.velocity");
+    trial.loss("pad", end, "dissipated");
+}
+
 #[test]
 fn a_mass_bounces_on_a_kelvin_voigt_pad_until_it_rests() {
     let case = Case::of("kv-bouncing");
     let text = scene(KELVIN_VOIGT, "gravity = { value = <g> }", "<horizon>");
-    judge(case, ALL, &text, |trial| {
-        bounces(trial);
-        let end = trial.end();
-        trial.value("head.position", end, Side::Before, "end.position");
-        trial.value("head.velocity", end, Side::Before, "end.velocity");
-        trial.loss("pad", end, "dissipated");
-    });
+    judge(case, ALL, &text, bounces_to_rest);
 }
 
 #[test]
@@ -179,13 +181,7 @@ fn a_mass_bounces_on_zener_pads_whose_faces_recover_fast_and_slowly() {
     for variant in ["", "-slow-face"] {
         let case = Case::of(&format!("zener-bouncing{variant}"));
         let text = scene(ZENER, "gravity = { value = <g> }", "<horizon>");
-        judge(case, ALL, &text, |trial| {
-            bounces(trial);
-            let end = trial.end();
-            trial.value("head.position", end, Side::Before, "end.position");
-            trial.value("head.velocity", end, Side::Before, "end.velocity");
-            trial.loss("pad", end, "dissipated");
-        });
+        judge(case, ALL, &text, bounces_to_rest);
     }
 }
 

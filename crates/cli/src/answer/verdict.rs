@@ -244,7 +244,8 @@ fn energy(answer: &Answer, run: &RunReport) -> Option<String> {
     };
     let part = value / (impact + work.max(0.0));
     // What rests on springs at the start may be given to the pad as well.
-    let part = if part <= 1.0 + LITTLE && part.abs() > ZERO {
+    let is_told = part <= 1.0 + LITTLE && part.abs() > ZERO;
+    let part = if is_told && !Zeros::of(&answer.runs).has(measure) {
         format!(" ({})", share(part))
     } else {
         String::new()

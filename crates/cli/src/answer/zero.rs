@@ -53,9 +53,12 @@ impl Zeros {
         measure.value.is_some_and(|value| value.abs() <= error.max(rounding))
     }
 
-    /// The unit of a zero: that of its size, or of what else is measured so.
+    /// The unit of a zero: that of its size, or of what else is measured so. A value that is lost in
+    /// its error has that of the error instead, which may be far below its size.
     pub(super) fn unit(&self, measure: &MeasureReport) -> Unit {
-        match self.largest(measure.unit).max(measure.size) {
+        let error = measure.error.filter(|error| error.is_finite()).unwrap_or(0.0);
+        let own = if error > ROUNDING * measure.size { error } else { measure.size };
+        match self.largest(measure.unit).max(own) {
             0.0 => Unit::plain(measure.unit),
             size => Unit::suiting(size, measure.unit),
         }

@@ -4,7 +4,7 @@ use dashpot_analysis::Accuracy;
 use dashpot_scene::units::parse_quantity;
 
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
-    let (name, value) = text.split_once('=').unwrap_or((text, ""));
+    let (name, value) = text.rsplit_once('=').unwrap_or((text, ""));
     if name.trim().is_empty() || value.trim().is_empty() {
         return Err("write a name, `=` and a value, such as \"K=25 MN/m\"".to_owned());
     }

@@ -40,8 +40,9 @@ impl List {
         let path = folder.join(LIST);
         let foreign = || CliError::Foreign {
             path: path.clone(),
-            help: "it is no list of results as `--out` writes it: choose another folder, or move the \
-                   file away",
+            help: "it is no list of results as this version writes it, but an earlier version's or \
+                   somebody else's: choose another folder, or move this file and the results \
+                   beside it away",
         };
         match metadata(&path).map_err(unwritable(&path))? {
             None => return Ok(Self::default()),

@@ -73,29 +73,4 @@ impl Interpolation {
             }
         }
     }
-
-    /// As [`coefficients`](Self::coefficients) for many functions at a time: row `j` of `values`
-    /// holds their values at node `j`, row `k` of `out` their coefficients of `T_k`, each row
-    /// `columns` long.
-    ///
-    /// # Panics
-    ///
-    /// When `values` or `out` has not `(degree + 1) · columns` entries.
-    pub fn coefficients_of_columns(&self, values: &[f64], columns: usize, out: &mut [f64]) {
-        let count = self.nodes.len();
-        assert_eq!(values.len(), count * columns, "one row of values for each node");
-        assert_eq!(out.len(), count * columns, "one row of coefficients for each node");
-        if columns == 0 {
-            return;
-        }
-        out.fill(0.0);
-        let weights = self.transform.chunks_exact(count);
-        for (value_row, weights) in values.chunks_exact(columns).zip(weights) {
-            for (row, weight) in out.chunks_exact_mut(columns).zip(weights) {
-                for (sum, value) in row.iter_mut().zip(value_row) {
-                    *sum += weight * value;
-                }
-            }
-        }
-    }
 }

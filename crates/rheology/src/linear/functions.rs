@@ -21,11 +21,6 @@ impl LinearModel {
         self.kelvin.as_ref().map_or(0.0, |form| form.0.at_zero.recip_or_infinity())
     }
 
-    /// Whether the model bears a constant force in the end.
-    pub fn is_solid(&self) -> bool {
-        self.equilibrium_stiffness() > 0.0
-    }
-
     /// Relaxation stiffness `G(t) = K_e + Σ K_j e^(−r_j t)` \[N/m\] at the time `t ≥ 0` \[s\] after a
     /// sudden deformation, the force over it. The impulse of a dashpot that stands beside all else
     /// is not part of it. Infinite for a rigid link.

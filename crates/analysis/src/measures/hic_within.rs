@@ -1,4 +1,4 @@
-//! Head injury criterion over at most 36 ms.
+//! Head injury criterion over at most 15 and 36 ms.
 
 use std::sync::Arc;
 
@@ -7,28 +7,41 @@ use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
 use super::{Family, Hic, Measure, MeasureKind, Needs, Reading, window};
 use crate::{Solution, similarity::Scale};
 
-/// The head injury criterion over intervals of at most 36 ms \[s\]; otherwise as [`Hic`].
+/// The head injury criterion over intervals of at most 15 or 36 ms \[s\]; otherwise as [`Hic`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hic36 {
+pub struct HicWithin<const MILLISECONDS: u32> {
     /// The part of the run in which the interval lies.
     pub window: WindowWish,
 }
 
-impl Default for Hic36 {
+/// The head injury criterion over intervals of at most 15 ms \[s\].
+pub type Hic15 = HicWithin<15>;
+
+/// The head injury criterion over intervals of at most 36 ms \[s\].
+pub type Hic36 = HicWithin<36>;
+
+impl<const MILLISECONDS: u32> Default for HicWithin<MILLISECONDS> {
     fn default() -> Self {
         Self { window: WindowWish::Impact }
     }
 }
 
-impl Hic36 {
+impl<const MILLISECONDS: u32> HicWithin<MILLISECONDS> {
+    /// Its words, and what it is.
+    const TEXTS: (&'static str, &'static str) = match MILLISECONDS {
+        15 => ("hic15", "head injury criterion over intervals up to 15 ms [s]"),
+        36 => ("hic36", "head injury criterion over intervals up to 36 ms [s]"),
+        _ => panic!("of 15 and 36 ms only"),
+    };
+
     fn hic(self) -> Hic {
-        Hic { cap: 0.036, window: self.window }
+        Hic { cap: f64::from(MILLISECONDS) / 1e3, window: self.window }
     }
 }
 
-impl MeasureKind for Hic36 {
-    const KIND: &'static str = "hic36";
-    const SUMMARY: &'static str = "head injury criterion over intervals up to 36 ms [s]";
+impl<const MILLISECONDS: u32> MeasureKind for HicWithin<MILLISECONDS> {
+    const KIND: &'static str = Self::TEXTS.0;
+    const SUMMARY: &'static str = Self::TEXTS.1;
     const UNIT: &'static str = "s";
     const APPLIES_TO: Family = Family::Node;
     const NEEDS: Needs = Needs::Acceleration;
