@@ -32,6 +32,7 @@ pub use derivatives::{Derivatives, derivatives};
 pub use digest::{Digest, Jump, Product};
 pub use error::SolveError;
 pub use events::{Direction, Event, Guard};
+pub use exact::Shared;
 pub use linear_form::{FormRef, LinearForm};
 pub use methods::{Method, MethodKind};
 pub use outputs::{Output, Outputs};

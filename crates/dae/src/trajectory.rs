@@ -2,7 +2,7 @@
 
 use std::{fmt::Debug, time::Duration};
 
-use crate::{Digest, Event, Signal, Switch, System};
+use crate::{Digest, Event, Shared, Signal, Switch, System};
 
 /// How much work a run was.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -75,7 +75,11 @@ pub trait Dense: Debug + Send + Sync {
     }
 
     /// Gives back memory that was taken so that further signals are quicker; they are the same without.
+    /// What other solutions share stays.
     fn forget(&self) {}
+
+    /// Shares what it has alike with other solutions of the same run, bit by bit.
+    fn share(&mut self, _shared: &mut Shared) {}
 
     /// Memory that the solution takes \[B\], where it grows with the steps.
     fn bytes(&self) -> usize {

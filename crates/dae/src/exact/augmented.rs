@@ -1,5 +1,7 @@
 //! The unknowns and the generators of their driving functions in one autonomous system.
 
+use std::{ops::Deref, sync::Arc};
+
 use nalgebra::DMatrix;
 
 use super::{
@@ -30,20 +32,35 @@ impl Span {
 /// that balances `Ā = D⁻¹ [A B C; 0 G] D`.
 #[derive(Debug, Clone)]
 pub(crate) struct Augmented {
+    /// What does not depend on where the run begins and ends.
+    pub(super) equations: Arc<Equations>,
+    /// `z` at the start of the run.
+    pub(super) initial: Vec<f64>,
+    /// The spans in order of time; at least one.
+    pub(super) spans: Vec<Span>,
+}
+
+/// The equations of an augmented system.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Equations {
     /// Number of unknowns `y`.
     pub(super) states: usize,
     /// `Ā`.
     pub(super) matrix: DMatrix<f64>,
     /// The diagonal of `D`.
     pub(super) units: Vec<f64>,
-    /// `z` at the start of the run.
-    pub(super) initial: Vec<f64>,
-    /// The spans in order of time; at least one.
-    pub(super) spans: Vec<Span>,
     /// The generators.
     pub(super) generators: Generators,
     /// The inputs as forms over `[y; g]`.
     inputs: Vec<LinearForm>,
+}
+
+impl Deref for Augmented {
+    type Target = Equations;
+
+    fn deref(&self) -> &Equations {
+        &self.equations
+    }
 }
 
 impl Augmented {
@@ -66,15 +83,8 @@ impl Augmented {
         }
         generators.fill(&mut matrix, states);
         scale_generators(&mut matrix, &mut units, &generators, end);
-        let mut augmented = Self {
-            states,
-            matrix,
-            units,
-            initial: Vec::new(),
-            spans: Vec::new(),
-            generators,
-            inputs,
-        };
+        let equations = Arc::new(Equations { states, matrix, units, generators, inputs });
+        let mut augmented = Self { equations, initial: Vec::new(), spans: Vec::new() };
         augmented.cut(system, end);
         let unknowns = system.initial.iter();
         let first = augmented.spans[0].generators.iter();

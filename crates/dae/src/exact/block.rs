@@ -13,7 +13,7 @@ pub(super) const STEPS: f64 = 16.0;
 pub(super) const TERMS: usize = 200;
 
 /// A square block `D_i` of the block-diagonal form: a single eigenvalue, or a cluster.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Block {
     /// Index of its first mode.
     pub(super) start: usize,

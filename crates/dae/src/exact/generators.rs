@@ -18,7 +18,7 @@ enum Role {
 /// The generator states that drive a system: for each waveform in use its polynomial part and the
 /// derivatives of it that are not zero, from the lowest order in use on, and one pair for each of its
 /// frequencies. Frequencies that are swept have no generators.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Generators {
     states: Vec<(usize, Role)>,
 }

@@ -25,6 +25,7 @@ mod panels;
 mod propagator;
 mod refinement;
 mod schur;
+mod shared;
 mod shares;
 mod solution;
 mod tables;
@@ -34,6 +35,7 @@ mod walk;
 mod tests;
 
 pub(crate) use augmented::Augmented;
+pub use shared::Shared;
 pub(crate) use solution::Solution;
 
 /// A complex number.

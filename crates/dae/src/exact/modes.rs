@@ -13,7 +13,7 @@ use super::{
 
 /// `Ā X = X D` with block-diagonal `D`, to nearly twice the digits of a double where the size
 /// allows that.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Modes {
     /// `X`, rounded.
     pub(super) basis: DMatrix<Complex>,

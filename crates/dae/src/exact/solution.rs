@@ -12,7 +12,7 @@ use super::{
     number,
     panels::{ModalRow, Piece, Quality, coordinates_at},
     propagator::{Grid, advance, march},
-    tables::Tables,
+    shared::{Form, Shared},
 };
 use crate::{Budget, Dense, Panel, Signal, System};
 
@@ -45,21 +45,20 @@ pub(crate) struct Solution {
 
 #[derive(Debug)]
 struct Modal {
-    modes: Modes,
+    form: Arc<Form>,
     spans: Vec<SpanCoordinates>,
-    tables: Tables,
 }
 
 impl Modal {
     fn of(system: &Augmented, modes: Modes) -> Self {
         let spans = follow(system, &modes);
-        Self { modes, spans, tables: Tables::default() }
+        Self { form: Arc::new(Form::of(modes)), spans }
     }
 
     /// The largest error bound of any state relative to the largest state at any breakpoint, in the
     /// units of `z`. Not finite where nothing is known.
     fn loss(&self, system: &Augmented) -> f64 {
-        let modes = &self.modes;
+        let modes = &self.form.modes;
         let rows: Vec<ModalRow> =
             (0..modes.len()).map(|k| ModalRow::new(modes, &[(k, 1.0)])).collect();
         let (mut size, mut error) = (0.0_f64, 0.0_f64);
@@ -137,26 +136,27 @@ impl Solution {
     /// A mode that decays is forgotten after so many lifetimes, and one that stands still in a span,
     /// as that of a pulse before and after it, passes through none there.
     pub(crate) fn radians(&self, end: f64, lifetimes: f64) -> f64 {
-        let Modal { modes, spans, .. } = self.modal();
+        let Modal { form, spans } = self.modal();
         let of_block = |block: &Block| {
             let spans = self.system.spans.iter().zip(spans);
             let moving = spans.filter(|(_, coordinates)| moves(block, coordinates));
             let length = moving.map(|(span, _)| (span.end.min(end) - span.start).max(0.0)).sum();
             radians(block, length, lifetimes)
         };
-        modes.blocks.iter().map(of_block).sum()
+        form.modes.blocks.iter().map(of_block).sum()
     }
 
     /// The same if every mode that moves went on until `end`, which may lie beyond that of the run.
     pub(crate) fn radians_beyond(&self, end: f64, lifetimes: f64) -> f64 {
-        let Modal { modes, spans, .. } = self.modal();
-        let moving = modes.blocks.iter().filter(|own| spans.iter().any(|at| moves(own, at)));
+        let Modal { form, spans } = self.modal();
+        let moving = form.modes.blocks.iter().filter(|own| spans.iter().any(|at| moves(own, at)));
         moving.map(|block| radians(block, end, lifetimes)).sum()
     }
 
     /// All unknowns at `times` from the modal form.
     pub(super) fn by_modes(&self, times: &[f64]) -> Vec<f64> {
-        let Modal { modes, spans, .. } = self.modal();
+        let Modal { form, spans } = self.modal();
+        let modes = &form.modes;
         let rows: Vec<ModalRow> = (0..self.system.states)
             .map(|i| ModalRow::new(modes, &[(i, self.system.units[i])]))
             .collect();
@@ -227,7 +227,8 @@ impl Solution {
 impl Dense for Solution {
     fn signal(&self, system: &System, output: usize) -> Signal {
         let output = system.outputs.at(output);
-        let Modal { modes, spans, tables } = self.modal();
+        let Modal { form, spans } = self.modal();
+        let Form { modes, tables } = form.as_ref();
         let row = ModalRow::new(modes, &self.system.form(output));
         let lengths = || self.system.spans.iter().zip(spans);
         let scale = lengths()
@@ -261,8 +262,16 @@ impl Dense for Solution {
     }
 
     fn forget(&self) {
-        if let Some(modal) = self.modal.get() {
-            modal.tables.clear();
+        let own = self.modal.get().filter(|modal| Arc::strong_count(&modal.form) == 1);
+        if let Some(modal) = own {
+            modal.form.tables.clear();
+        }
+    }
+
+    fn share(&mut self, shared: &mut Shared) {
+        shared.equations(&mut self.system.equations);
+        if let Some(modal) = self.modal.get_mut().and_then(Arc::get_mut) {
+            shared.form(&mut modal.form);
         }
     }
 
@@ -270,9 +279,11 @@ impl Dense for Solution {
         /// Entries of the size of a number for each of a matrix: it, the modes with their low digits and
         /// their inverse, what both miss, and the blocks.
         const ENTRIES: usize = 12;
-        let spans =
-            self.system.spans.len() * (4 * self.system.size() + self.system.generators.len());
-        size_of::<f64>() * (ENTRIES * self.system.size().pow(2) + spans)
+        let size = self.system.size();
+        let is_shared = Arc::strong_count(&self.system.equations) > 1;
+        let matrices = if is_shared { 0 } else { ENTRIES * size.pow(2) };
+        let spans = self.system.spans.len() * (4 * size + self.system.generators.len());
+        size_of::<Self>() + size_of::<f64>() * (matrices + spans)
     }
 }
 

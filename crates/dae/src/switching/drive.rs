@@ -13,8 +13,8 @@ use super::{
     shaken::{Afterwards, Shaken},
 };
 use crate::{
-    Event, Keep, Method, Observer, Outcome, Progress, Run, SolveError, Statistics, Trajectory,
-    pieces::MOST_BYTES,
+    Event, Keep, Method, Observer, Outcome, Progress, Run, Shared, SolveError, Statistics,
+    Trajectory, pieces::MOST_BYTES,
 };
 
 /// Most legs of a run.
@@ -51,19 +51,21 @@ pub fn integrate(
     } else {
         (ERRORS_PER_TOLERANCE * run.rtol).min(LARGEST_ERROR)
     };
+    let mut shared = Shared::default();
     let Solution { mut chain, name, t_end, first_phases, mut found } =
-        solve(method, switching, run, (doubt, MOST_LEGS), observer)?;
+        solve(method, switching, run, (doubt, MOST_LEGS), &mut shared, observer)?;
     if method.is_exact() && chain.legs.len() > 1 {
         let shaken = Shaken { inner: switching };
         let unwatched = Run { guards: Vec::new(), t_end, ..run.clone() };
         let limits = (doubt, Shaken::most_legs(chain.legs.len()));
         let end = Progress { time: t_end, steps: found.statistics.accepted };
         let mut afterwards = Afterwards { end, observer };
-        chain.doubled = Some(match solve(method, &shaken, &unwatched, limits, &mut afterwards) {
-            Ok(other) => other.chain.legs,
-            Err(error @ SolveError::Cancelled { .. }) => return Err(error),
-            Err(_) => Vec::new(),
-        });
+        chain.doubled =
+            Some(match solve(method, &shaken, &unwatched, limits, &mut shared, &mut afterwards) {
+                Ok(other) => other.chain.legs,
+                Err(error @ SolveError::Cancelled { .. }) => return Err(error),
+                Err(_) => Vec::new(),
+            });
     }
     found.statistics.wall = begin.elapsed();
     let outcome = found.outcome.map_or(Outcome::Finished, |guard| Outcome::Stopped { guard });
@@ -93,6 +95,7 @@ fn solve(
     switching: &dyn Switching,
     run: &Run,
     (doubt, most_legs): (f64, usize),
+    shared: &mut Shared,
     observer: &mut dyn Observer,
 ) -> Result<Solution, SolveError> {
     let mut leg = switching.first(doubt)?;
@@ -103,7 +106,7 @@ fn solve(
     let (mut at_once, mut bytes) = (0, 0);
     loop {
         let start = drive.start.high();
-        let (trajectory, reached) = drive.leg(method, &leg, &mut found)?;
+        let (mut trajectory, reached) = drive.leg(method, &leg, &mut found)?;
         let t_end = reached.high();
         let own = leg.guards.len();
         let goes_on = match trajectory.outcome {
@@ -134,6 +137,7 @@ fn solve(
         let fired: Vec<usize> =
             trajectory.events.iter().filter(at_end).map(|event| event.guard).collect();
         let name = trajectory.method;
+        trajectory.dense.share(shared);
         bytes += trajectory.dense.bytes();
         drive.chain.legs.push(Solved {
             start,
