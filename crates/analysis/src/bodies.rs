@@ -14,6 +14,7 @@ pub(crate) fn count(assembly: &Assembly) -> usize {
 pub(crate) struct Members {
     nodes: Lists,
     connections: Lists,
+    masses: Vec<f64>,
 }
 
 impl Members {
@@ -25,7 +26,11 @@ impl Members {
             let [a, b] = between(assembly, own);
             [Some((a, at)), (a != b).then_some((b, at))].into_iter().flatten()
         });
-        Self { nodes: Lists::of(bodies, nodes), connections: Lists::of(bodies, ends) }
+        let mut masses = vec![0.0; bodies];
+        for node in &assembly.nodes {
+            masses[node.body] += node.mass;
+        }
+        Self { nodes: Lists::of(bodies, nodes), connections: Lists::of(bodies, ends), masses }
     }
 
     /// The nodes of a body, in order.
@@ -35,6 +40,11 @@ impl Members {
         body: usize,
     ) -> impl Iterator<Item = &'a NodeOutputs> {
         self.nodes.of_body(body).iter().map(|&at| &assembly.nodes[at])
+    }
+
+    /// The mass of a body \[kg\].
+    pub(crate) fn mass(&self, body: usize) -> f64 {
+        self.masses[body]
     }
 
     /// The connections that can deform at a body, in order, each with the sign of its force on the body; of

@@ -37,6 +37,23 @@ pub enum RunError {
         /// The limit, in steps.
         most: usize,
     },
+    /// The network takes more memory than a run may.
+    #[error(
+        "{parts} parts with {unknowns} unknowns take some {} GB to be solved, and a run may take {}; join \
+         parts that are alike, or use fewer masses",
+        gigabytes(*.bytes),
+        gigabytes(*.limit)
+    )]
+    TooMuchMemory {
+        /// Springs, dashpots and the like.
+        parts: u64,
+        /// Unknowns.
+        unknowns: u64,
+        /// What they take, foreseen \[B\].
+        bytes: u64,
+        /// What they may take \[B\].
+        limit: u64,
+    },
     /// There is no such method.
     #[error("unknown method `{name}`; known methods: {}", .known.join(", "))]
     UnknownMethod {
@@ -121,6 +138,11 @@ pub enum RunError {
         /// What, where and when.
         fault: SliderFault,
     },
+}
+
+fn gigabytes(bytes: u64) -> String {
+    let tenths = bytes.div_ceil(100_000_000);
+    format!("{}.{}", tenths / 10, tenths % 10)
 }
 
 /// That other methods fail as well, if there are any.

@@ -21,7 +21,7 @@ impl Through {
         if !solution.keeps(output) {
             return None;
         }
-        let deformation = solution.signal(output);
+        let deformation = solution.glance(output);
         let deepest = deformation.maximum((0.0, solution.end()));
         let noise = deformation.error.unwrap_or(0.0).max(ROUNDING * thickness);
         (deepest.value > thickness + noise).then(|| Self {
@@ -109,7 +109,7 @@ impl Beyond {
     fn of(solution: &Solution<'_>, part: &PrimitiveOutputs) -> Vec<Self> {
         let measured = part.element.measured().filter(|_| solution.keeps(part.deformation));
         let Some((first, last)) = measured else { return Vec::new() };
-        let deformation = solution.signal(part.deformation);
+        let deformation = solution.glance(part.deformation);
         let run = (0.0, solution.end());
         let noise = deformation.error.unwrap_or(0.0).max(ROUNDING * (last - first));
         let (deepest, longest) = (deformation.maximum(run), deformation.minimum(run));

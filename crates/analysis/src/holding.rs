@@ -63,7 +63,7 @@ pub(crate) fn slider_fault(solution: &Solution<'_>, energy: &Ledger) -> Option<S
     });
     let mut largest = None;
     sliders.find_map(|(own, capacity)| {
-        let force = solution.signal(own.force);
+        let force = solution.glance(own.force);
         let peak = force.absolute_maximum((force.start(), force.end()));
         if peak.value.abs() > capacity * (1.0 + MOST) {
             let largest = *largest.get_or_insert_with(|| largest_force(solution));
@@ -72,7 +72,7 @@ pub(crate) fn slider_fault(solution: &Solution<'_>, energy: &Ledger) -> Option<S
                 return Some(SliderFault::Overloaded { part, time: peak.time, force, capacity });
             }
         }
-        let place = solution.signal(own.deformation);
+        let place = solution.glance(own.deformation);
         let mut times: Vec<f64> =
             solution.trajectory().switches.iter().map(|switch| switch.time).collect();
         times.dedup();
@@ -92,7 +92,7 @@ fn largest_force(solution: &Solution<'_>) -> f64 {
     let forces = solution.assembly().connections.iter().filter_map(|own| own.force);
     let kept = forces.filter(|&force| solution.keeps(force));
     kept.map(|force| {
-        let force = solution.signal(force);
+        let force = solution.glance(force);
         force.absolute_maximum((force.start(), force.end())).value.abs()
     })
     .fold(0.0, f64::max)

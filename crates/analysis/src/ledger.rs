@@ -141,7 +141,7 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
     let (mut start, mut kinetic) = (0.0, 0.0);
     for node in assembly.nodes.iter().filter(|node| node.mass > 0.0) {
         let Some(velocity) = node.velocity else { continue };
-        let velocity = solution.signal(velocity);
+        let velocity = solution.glance(velocity);
         let energy = |v: f64| 0.5 * node.mass * v * v;
         let last = velocity.value(time);
         start += energy(velocity.value(0.0));
@@ -153,7 +153,7 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
         let own = Accounts::of(primitive.element.as_ref());
         let mut gained = 0.0;
         if own.stores {
-            let deformation = solution.signal(primitive.deformation);
+            let deformation = solution.glance(primitive.deformation);
             let last = deformation.left_value(time);
             let first = deformation.value(0.0);
             let at_start = accounts::stored(solution, primitive, 0.0, first);
@@ -176,7 +176,7 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
         .iter()
         .map(|drive| {
             let velocity = solution.rate(drive.velocity, assembly.nodes[drive.node].position);
-            (drive.name.clone(), balance.work(solution.signal(drive.force), &velocity, window))
+            (drive.name.clone(), balance.work(&solution.glance(drive.force), &velocity, window))
         })
         .collect();
     let (struck, worked) = at_impacts(solution, window);
@@ -214,7 +214,7 @@ fn dissipation(
     window: (f64, f64),
     balance: &mut Balance,
 ) -> f64 {
-    let force = solution.signal(primitive.force);
+    let force = &solution.glance(primitive.force);
     let rate = &solution.rate(primitive.rate, primitive.deformation);
     let lost = accounts::lost_in_impacts(solution, primitive, window);
     if !does_work(primitive) {
@@ -240,7 +240,7 @@ pub(crate) fn does_work(primitive: &PrimitiveOutputs) -> bool {
 /// come to rest again with all energy given back.
 fn most_in_one_place(solution: &Solution<'_>, window: (f64, f64)) -> f64 {
     let assembly = solution.assembly();
-    let largest = |output: usize| solution.signal(output).absolute_maximum(window).value;
+    let largest = |output: usize| solution.glance(output).absolute_maximum(window).value;
     let masses = assembly.nodes.iter().filter(|node| node.mass > 0.0).filter_map(|node| {
         let fastest = largest(node.velocity?);
         Some(0.5 * node.mass * fastest * fastest)
@@ -307,9 +307,9 @@ pub(crate) fn steps(solution: &Solution<'_>, primitives: Range<usize>, window: (
     });
     springs
         .map(|primitive| {
-            let deformation = solution.signal(primitive.deformation);
+            let deformation = solution.glance(primitive.deformation);
             let energy = |y: f64| primitive.element.stored(y);
-            let taken = times.iter().filter_map(|&time| jump(deformation, time));
+            let taken = times.iter().filter_map(|&time| jump(&deformation, time));
             taken.map(|(before, after)| energy(after) - energy(before)).sum::<f64>()
         })
         .sum()

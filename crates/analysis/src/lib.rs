@@ -26,6 +26,7 @@ mod large;
 pub mod ledger;
 mod magnitude;
 pub mod measures;
+mod memory;
 mod open_end;
 mod padding;
 pub mod partial;

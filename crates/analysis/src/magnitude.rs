@@ -30,7 +30,7 @@ fn largest_momentum(solution: &Solution<'_>) -> f64 {
     let nodes = solution.assembly().nodes.iter().filter(|node| node.mass > 0.0);
     let speeds = nodes.filter_map(|node| Some((node.mass, node.velocity?)));
     let kept = speeds.filter(|(_, speed)| solution.keeps(*speed)).take(MOST_OUTPUTS);
-    kept.map(|(mass, speed)| mass * solution.signal(speed).bound()).fold(0.0, f64::max)
+    kept.map(|(mass, speed)| mass * solution.glance(speed).bound()).fold(0.0, f64::max)
 }
 
 /// Whether a value is not known at all: its error exceeds it, and what is wanted, and is far beyond the
@@ -51,5 +51,5 @@ fn largest_signal(solution: &Solution<'_>, unit: &str) -> f64 {
     let outputs = solution.assembly().system.outputs.iter().enumerate();
     let kept = outputs.filter(|(at, _)| solution.keeps(*at)).take(MOST_OUTPUTS);
     let alike = kept.filter(|(_, output)| output.unit == unit);
-    alike.map(|(at, _)| solution.signal(at).bound()).fold(0.0, f64::max)
+    alike.map(|(at, _)| solution.glance(at).bound()).fold(0.0, f64::max)
 }

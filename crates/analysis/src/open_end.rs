@@ -37,7 +37,7 @@ impl OpenEnd {
             doubt_at(Some(finest.rtol)),
         );
         let time = ends.iter().map(|own| own.1).reduce(f64::min)?;
-        let earlier = task.read(&finest.as_read(task.assembly).ending(ends));
+        let earlier = task.read(&mut finest.as_read(task.assembly).ending(ends));
         let (mut measures, mut undecided, mut most) = (Vec::new(), Vec::new(), 0.0_f64);
         for (at, ((error, own), other)) in
             errors.iter_mut().zip(&finest.readings).zip(&earlier).enumerate()

@@ -17,6 +17,7 @@ use crate::{
     large::keep_also,
     ledger::ledger,
     magnitude::largest,
+    memory,
     open_end::OpenEnd,
     run_end,
     selection::Selected,
@@ -182,8 +183,8 @@ impl Task<'_> {
             Some(phased) => switching::integrate(self.method, phased.as_ref(), run, observer)?,
         };
         let doubt = doubt_at((!self.method.is_exact()).then_some(run.rtol));
-        let solution = Solution::new(self.assembly, &trajectory).doubting(doubt);
-        let readings = self.read_under(&solution, observer)?;
+        let mut solution = Solution::new(self.assembly, &trajectory).doubting(doubt);
+        let readings = self.read_under(&mut solution, observer)?;
         let pulls = if doubt > 0.0 { solution.first_pulls() } else { Vec::new() };
         let tension = if doubt > 0.0 { solution.tension() } else { None };
         let tension = tension.map_or(0.0, |own| own.part);
@@ -203,22 +204,27 @@ impl Task<'_> {
     /// The measures of a solution, whose signals may not be made before. The observer is told of each.
     fn read_under(
         &self,
-        solution: &Solution<'_>,
+        solution: &mut Solution<'_>,
         observer: &mut dyn Observer,
     ) -> Result<Vec<Reading>, SolveError> {
         let trajectory = solution.trajectory();
         let (time, steps) = (trajectory.t_end, trajectory.statistics.accepted);
-        let read = |entry: &Selected| {
+        let mut read = |entry: &Selected| {
             let reading = entry.measure.read(solution, entry.target);
+            solution.make_room();
             let is_over = observer.progress(Progress { time, steps }).is_break();
             if is_over { Err(SolveError::Cancelled { time }) } else { Ok(reading) }
         };
-        self.selected.iter().map(read).collect()
+        self.selected.iter().map(&mut read).collect()
     }
 
-    pub(crate) fn read(&self, solution: &Solution<'_>) -> Vec<Reading> {
-        let read = |entry: &Selected| entry.measure.read(solution, entry.target);
-        self.selected.iter().map(read).collect()
+    pub(crate) fn read(&self, solution: &mut Solution<'_>) -> Vec<Reading> {
+        let mut read = |entry: &Selected| {
+            let reading = entry.measure.read(solution, entry.target);
+            solution.make_room();
+            reading
+        };
+        self.selected.iter().map(&mut read).collect()
     }
 
     /// Reads solutions again with the doubts about their contact forces that all of them together
@@ -228,7 +234,7 @@ impl Task<'_> {
         for (solved, doubt) in solved.iter_mut().zip(doubts) {
             if solved.doubt.to_bits() != doubt.to_bits() {
                 solved.doubt = doubt;
-                let readings = self.read(&solved.as_read(self.assembly));
+                let readings = self.read(&mut solved.as_read(self.assembly));
                 solved.readings = readings;
             }
         }
@@ -268,6 +274,10 @@ impl Task<'_> {
             let own = Run { budget: budget.clone(), ..run.clone() }.with_rtol(rtol);
             match self.solve(&own, observer) {
                 Ok(finer) => {
+                    if let Some(error) = memory::one_too_many(&last, &finer) {
+                        obstacle = Some(error);
+                        break;
+                    }
                     most = ALWAYS.max(FINER * budget.done());
                     solves += 1;
                     alike = 0;
@@ -282,7 +292,11 @@ impl Task<'_> {
                 }
                 Err(error) if is_final(&error) => return Err(error),
                 // A finer solution takes no less.
-                Err(error @ (SolveError::BudgetSpent { .. } | SolveError::TooManySteps { .. })) => {
+                Err(
+                    error @ (SolveError::BudgetSpent { .. }
+                    | SolveError::TooManySteps { .. }
+                    | SolveError::TooLarge { .. }),
+                ) => {
                     obstacle = Some(error);
                     break;
                 }
@@ -385,6 +399,7 @@ impl Task<'_> {
             if excess(reading, error, wish) <= 1.0 {
                 continue;
             }
+            solution.make_room();
             let largest = largest(&solution, &solved.energy, entry.measure.unit());
             if is_as_good_as_zero(reading, error, (largest, wish)) {
                 reading.size = reading.size.max(largest);

@@ -4,7 +4,6 @@ use std::{
     borrow::Cow,
     cell::{OnceCell, RefCell},
     collections::BTreeSet,
-    sync::Arc,
 };
 
 use dashpot_dae::{Signal, Trajectory};
@@ -20,12 +19,14 @@ use crate::{
 
 mod grazing;
 mod rest;
+mod signals;
 mod tension;
 mod twins;
 
 use grazing::Feels;
 pub(crate) use grazing::{Grazes, grazes};
 use rest::{only_at_rest, resting_from_switches};
+use signals::Signals;
 use twins::Twins;
 
 /// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
@@ -56,11 +57,12 @@ pub struct Solution<'a> {
 /// What has been found in a solution so far.
 #[derive(Debug)]
 pub(crate) struct Known {
-    signals: Vec<OnceCell<Arc<Signal>>>,
+    signals: Signals,
     twins: Twins,
     element_impacts: Vec<OnceCell<Box<Impact>>>,
     body_impacts: Vec<OnceCell<Box<Impact>>>,
     blows: OnceCell<Vec<Vec<Blow>>>,
+    faces: OnceCell<Vec<(usize, FaceContact)>>,
     members: OnceCell<Members>,
     scene_impact: OnceCell<Impact>,
 }
@@ -70,11 +72,12 @@ impl Known {
         // In large networks few of them are ever filled.
         let cells = |count: usize| (0..count).map(|_| OnceCell::new()).collect();
         Self {
-            signals: (0..assembly.system.outputs.len()).map(|_| OnceCell::new()).collect(),
+            signals: Signals::of(assembly.system.outputs.len()),
             twins: Twins::default(),
             element_impacts: cells(assembly.connections.len()),
             body_impacts: cells(bodies::count(assembly)),
             blows: OnceCell::new(),
+            faces: OnceCell::new(),
             members: OnceCell::new(),
             scene_impact: OnceCell::new(),
         }
@@ -118,12 +121,6 @@ impl<'a> Solution<'a> {
         self.assembly
     }
 
-    /// How many panels the signals have that were asked for.
-    pub(crate) fn panels(&self) -> u64 {
-        let known = self.known.signals.iter().filter_map(OnceCell::get);
-        known.map(|signal| signal.panels.len() as u64).sum()
-    }
-
     /// The trajectory.
     pub fn trajectory(&self) -> &'a Trajectory {
         self.trajectory
@@ -134,30 +131,8 @@ impl<'a> Solution<'a> {
         self.trajectory.t_end
     }
 
-    /// An output as a function of time; one that was not [kept](Self::keeps) is not a number
-    /// throughout.
-    ///
-    /// # Panics
-    ///
-    /// When the assembly has no such output.
-    pub fn signal(&self, output: usize) -> &Signal {
-        self.known.signals[output].get_or_init(|| {
-            if !self.keeps(output) {
-                self.missing.borrow_mut().insert(output);
-                return Arc::new(self.found(output));
-            }
-            // Each leg of a run that switches has equations of its own.
-            if self.assembly.switching.is_none() {
-                let first = self.known.twins.first(&self.assembly.system.outputs, output);
-                if let Some(same) = self.known.signals[first].get().filter(|_| first != output) {
-                    return Arc::clone(same);
-                }
-            }
-            Arc::new(self.found(output))
-        })
-    }
-
-    fn found(&self, output: usize) -> Signal {
+    /// An output as the trajectory tells it.
+    fn made(&self, output: usize) -> Signal {
         let signal = self.trajectory.signal(&self.assembly.system, output);
         // Laws that are not linear may give no force at all by themselves.
         let is_linear = self.assembly.system.is_linear();
@@ -183,8 +158,8 @@ impl<'a> Solution<'a> {
     /// When the assembly has no such outputs.
     pub fn rate(&self, rate: Option<usize>, deformation: usize) -> Cow<'_, Signal> {
         match rate {
-            Some(rate) => Cow::Borrowed(self.signal(rate)),
-            None => Cow::Owned(self.signal(deformation).derivative()),
+            Some(rate) => self.glance(rate),
+            None => Cow::Owned(self.glance(deformation).derivative()),
         }
     }
 
@@ -193,7 +168,7 @@ impl<'a> Solution<'a> {
     pub(crate) fn rate_of(&self, connection: &ConnectionOutputs) -> Cow<'_, Signal> {
         let [a, b] = connection.between.map(|end| self.assembly.nodes[end.index()].velocity);
         match (connection.rate, a, b) {
-            (None, Some(a), Some(b)) => Cow::Owned(self.signal(a).plus(self.signal(b), -1.0)),
+            (None, Some(a), Some(b)) => Cow::Owned(self.glance(a).plus(&self.glance(b), -1.0)),
             _ => self.rate(connection.rate, connection.deformation),
         }
     }
@@ -204,7 +179,7 @@ impl<'a> Solution<'a> {
     pub(crate) fn approach(&self, connection: &ConnectionOutputs) -> Cow<'_, Signal> {
         let [a, b] = connection.between.map(|end| self.velocity_of_body(end.index()));
         match (connection.rate, a, b) {
-            (None, Some(a), Some(b)) => Cow::Owned(self.signal(a).plus(self.signal(b), -1.0)),
+            (None, Some(a), Some(b)) => Cow::Owned(self.glance(a).plus(&self.glance(b), -1.0)),
             _ => self.rate(connection.rate, connection.deformation),
         }
     }
@@ -213,7 +188,7 @@ impl<'a> Solution<'a> {
     /// one of those has no velocity.
     pub(crate) fn approach_of(&self, [a, b]: [usize; 2]) -> Option<Signal> {
         let (a, b) = (self.velocity_of_body(a)?, self.velocity_of_body(b)?);
-        Some(self.signal(a).plus(self.signal(b), -1.0))
+        Some(self.glance(a).plus(&self.glance(b), -1.0))
     }
 
     /// The speed at which the ends of an element approach each other just before `time` \[m/s\]:
@@ -323,11 +298,23 @@ impl<'a> Solution<'a> {
 
     /// How the element number `element` is struck through its face, where an impactor does so.
     pub(crate) fn struck_face(&self, element: usize) -> Option<FaceContact> {
-        let connections = &self.assembly.connections;
-        let face = padding::face_contact(self.assembly, element)?;
-        let is_through_it = self.touches_impactor(&connections[face.connection])
-            && !self.touches_impactor(&connections[element]);
-        is_through_it.then_some(face)
+        let faces = self.struck_faces();
+        let at = faces.binary_search_by_key(&element, |own| own.0).ok()?;
+        Some(faces[at].1)
+    }
+
+    /// The elements that an impactor strikes through their faces, in order.
+    fn struck_faces(&self) -> &[(usize, FaceContact)] {
+        self.known.faces.get_or_init(|| {
+            let connections = &self.assembly.connections;
+            let struck = |element: usize| {
+                let face = padding::face_contact(self.assembly, element)?;
+                let is_through_it = self.touches_impactor(&connections[face.connection])
+                    && !self.touches_impactor(&connections[element]);
+                is_through_it.then_some((element, face))
+            };
+            (0..connections.len()).filter_map(struck).collect()
+        })
     }
 
     /// The impact of such an element.
@@ -345,8 +332,7 @@ impl<'a> Solution<'a> {
     /// The impacts, longer than the first contact of a face, of the elements that are struck through
     /// their faces by `body`, or by any.
     fn longer_impacts(&self, body: Option<usize>) -> Vec<Through> {
-        let found = (0..self.assembly.connections.len()).filter_map(|element| {
-            let face = self.struck_face(element)?;
+        let found = self.struck_faces().iter().filter_map(|&(element, face)| {
             let is_meant = body.is_none_or(|body| {
                 let ends =
                     bodies::between(self.assembly, &self.assembly.connections[face.connection]);
@@ -359,13 +345,12 @@ impl<'a> Solution<'a> {
 
     /// Bound of the error of the velocity of a node \[m/s\], where it has one.
     pub(crate) fn velocity_error(&self, node: usize) -> Option<f64> {
-        self.signal(self.assembly.nodes[node].velocity?).error
+        self.glance(self.assembly.nodes[node].velocity?).error
     }
 
     /// The mass of the body that a node belongs to \[kg\].
     pub(crate) fn body_mass(&self, node: usize) -> f64 {
-        let body = self.assembly.nodes[node].body;
-        self.members().nodes(self.assembly, body).map(|node| node.mass).sum()
+        self.members().mass(self.assembly.nodes[node].body)
     }
 
     /// The force on a body with the sign with which what acts on it begins; `None` if nothing
@@ -379,9 +364,9 @@ impl<'a> Solution<'a> {
     /// The sum of the forces \[N\] that the elements put on a body; `None` if nothing touches it.
     fn force_on(&self, body: usize) -> Option<Signal> {
         let pushing = self.members().connections(self.assembly, body).filter(|own| own.1 != 0.0);
-        let forces = pushing.filter_map(|(own, sign)| Some((self.signal(own.force?), sign)));
+        let forces = pushing.filter_map(|(own, sign)| Some((self.glance(own.force?), sign)));
         forces.fold(None, |sum: Option<Signal>, (force, sign)| {
-            Some(sum.map_or_else(|| force.scaled(sign), |sum| sum.plus(force, sign)))
+            Some(sum.map_or_else(|| force.scaled(sign), |sum| sum.plus(&force, sign)))
         })
     }
 

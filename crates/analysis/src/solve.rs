@@ -19,6 +19,7 @@ use crate::{
     large::{is_large, keep},
     ledger::{leak, ledger},
     magnitude::{is_open, largest},
+    memory,
     partial::solve_partial,
     refinement::{MOST_LOST, Outcome, Solved, Task},
     selection::{Selected, select},
@@ -67,6 +68,7 @@ pub fn solve_assembly(
     observer: &mut dyn Observer,
 ) -> Result<RunReport, RunError> {
     settings.validate()?;
+    memory::foresee(assembly)?;
     let selected = select(assembly, &settings.measures)?;
     check_keys(settings, &selected)?;
     let run = Run {

@@ -55,8 +55,8 @@ impl MeasureKind for Impulse {
             let is_free = solution.assembly().nodes[at].free;
             if is_free { solution.body_mass(at) } else { f64::INFINITY }
         });
-        let each =
-            solution.approach(connection).error.map(|error| 2.0 * mass[0].min(mass[1]) * error);
+        let of_approach = if blows.is_empty() { None } else { solution.approach(connection).error };
+        let each = of_approach.map(|error| 2.0 * mass[0].min(mass[1]) * error);
         let error = each.map(|each| each * blows.iter().map(|_| 1.0).sum::<f64>());
         with_blows(integral(force, &span), sum, sum.abs(), error)
     }

@@ -200,11 +200,11 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     let magnitude = |signal: &Signal| signal.absolute_maximum(window).value;
     let most_force = magnitude(force);
     // What a spring of this peak force and deformation takes up, and may give back.
-    let deformation = solution.signal(connection.deformation);
+    let deformation = solution.glance(connection.deformation);
     let deformation = if connection.never_pulls {
         deformation.maximum(window).value.max(0.0)
     } else {
-        magnitude(deformation)
+        magnitude(&deformation)
     };
     let area = |signal: &Signal| signal.area_bound(window);
     let noise = force.noise * area(&rate) + rate.noise * area(force);
@@ -212,7 +212,8 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     let lost: f64 = blows.iter().map(|own| own.lost).sum();
     let push: f64 = blows.iter().map(|own| own.impulse).sum();
     // What is lost changes with the speeds by no more than the impulse.
-    let error_of_lost = solution.approach(connection).error.map(|error| push * error);
+    let of_approach = if lost == 0.0 { None } else { solution.approach(connection).error };
+    let error_of_lost = of_approach.map(|error| push * error);
     let reading = Reading::over(span, value, error)
         .of_size(0.5 * most_force * deformation)
         .above(noise)
@@ -244,7 +245,7 @@ fn work_of_parts(
     for primitive in primitives.unwrap_or(&[]) {
         let own = Accounts::of(primitive.element.as_ref());
         let error = if own.dissipates {
-            let force = solution.signal(primitive.force);
+            let force = &solution.glance(primitive.force);
             let rate = solution.rate(primitive.rate, primitive.deformation);
             if ledger::does_work(primitive) {
                 work += force.integral_of_product(&rate, window);
@@ -253,7 +254,7 @@ fn work_of_parts(
                 Some(0.0)
             }
         } else if own.stores {
-            let deformation = solution.signal(primitive.deformation);
+            let deformation = solution.glance(primitive.deformation);
             let stored = |time, y| accounts::stored(solution, primitive, time, y);
             let (from, to) = (deformation.value(window.0), deformation.left_value(window.1));
             work += stored(window.1, to) - stored(window.0, from);

@@ -11,8 +11,7 @@ pub(super) fn only_at_rest(mut signal: Signal, switches: &[Switch]) -> Signal {
     let mut last: Option<(f64, bool)> = None;
     for panel in &mut signal.panels {
         let is_zero = panel.coefficients.iter().all(|own| *own == 0.0);
-        let is_switched =
-            |from: f64| switches.iter().any(|own| from < own.time && own.time < panel.end);
+        let is_switched = |from: f64| is_within(switches, (from, panel.end));
         let by_rounding = is_zero && last.is_some_and(|(from, acts)| acts && !is_switched(from));
         if by_rounding {
             *panel = Panel::constant(panel.start, panel.end, f64::MIN_POSITIVE);
@@ -20,6 +19,12 @@ pub(super) fn only_at_rest(mut signal: Signal, switches: &[Switch]) -> Signal {
         last = Some((panel.start, !is_zero || by_rounding));
     }
     signal
+}
+
+/// Whether anything switches between two times; `switches` are in order of time.
+fn is_within(switches: &[Switch], (from, to): (f64, f64)) -> bool {
+    let next = switches.partition_point(|own| own.time <= from);
+    switches.get(next).is_some_and(|own| own.time < to)
 }
 
 /// Roundings of the terms of a sum, in parts of its noise, that may be left where they cancel.
@@ -32,7 +37,7 @@ pub(super) fn resting_from_switches(mut sum: Signal, switches: &[Switch]) -> Sig
     let (mut before, mut rests) = (f64::INFINITY, false);
     for panel in &mut sum.panels {
         let is_faint = panel.coefficients.iter().map(|own| own.abs()).sum::<f64>() <= floor;
-        let is_switched = || switches.iter().any(|own| before < own.time && own.time < panel.end);
+        let is_switched = || is_within(switches, (before, panel.end));
         rests = is_faint && (rests || is_switched());
         before = panel.start;
         if rests {

@@ -27,7 +27,7 @@ impl Solution<'_> {
         let connections = self.assembly.connections.iter().enumerate();
         let forces = connections.filter(|(_, own)| contacts::has_contact(self.assembly, own));
         let extremes = forces.filter_map(|(at, own)| {
-            let force = self.signal(own.force?);
+            let force = self.glance(own.force?);
             let least = force.minimum(window);
             Some((at, force.maximum(window).value, least, force.noise))
         });

@@ -1,0 +1,117 @@
+//! The signals of a solution that are kept at hand.
+
+use std::{
+    borrow::Cow,
+    cell::{Cell, OnceCell, RefCell},
+    sync::Arc,
+};
+
+use dashpot_dae::{Panel, Signal};
+
+use super::Solution;
+
+/// Memory \[B\] of signals at hand beyond which a look at one does not keep it, and all are dropped between
+/// two measures.
+const MOST_BYTES: usize = 32 << 20;
+
+/// Signals by the number of their output.
+#[derive(Debug)]
+pub(super) struct Signals {
+    cells: Vec<OnceCell<Arc<Signal>>>,
+    /// The numbers of those at hand.
+    filled: RefCell<Vec<usize>>,
+    /// Memory that those at hand take \[B\].
+    bytes: Cell<usize>,
+    /// How many panels have been made.
+    panels: Cell<u64>,
+    /// Memory \[B\] that may be at hand.
+    most: usize,
+}
+
+impl Signals {
+    /// Room for those of so many outputs.
+    pub(super) fn of(outputs: usize) -> Self {
+        let cells = (0..outputs).map(|_| OnceCell::new()).collect();
+        let filled = RefCell::default();
+        Self { cells, filled, bytes: Cell::new(0), panels: Cell::new(0), most: MOST_BYTES }
+    }
+
+    fn count(&self, signal: &Signal) {
+        self.panels.set(self.panels.get() + signal.panels.len() as u64);
+    }
+}
+
+/// Memory that a signal takes \[B\].
+fn bytes(signal: &Signal) -> usize {
+    let coefficients: usize = signal.panels.iter().map(|own| own.coefficients.len()).sum();
+    size_of::<Panel>() * signal.panels.len() + size_of::<f64>() * coefficients
+}
+
+impl Solution<'_> {
+    /// How many panels the signals have had that were asked for.
+    pub(crate) fn panels(&self) -> u64 {
+        self.known.signals.panels.get()
+    }
+
+    /// An output as a function of time; one that was not [kept](Self::keeps) is not a number
+    /// throughout.
+    ///
+    /// # Panics
+    ///
+    /// When the assembly has no such output.
+    pub fn signal(&self, output: usize) -> &Signal {
+        let signals = &self.known.signals;
+        signals.cells[output].get_or_init(|| {
+            let signal = self.same_as(output).unwrap_or_else(|| {
+                let signal = Arc::new(self.found(output));
+                signals.bytes.set(signals.bytes.get() + bytes(&signal));
+                signal
+            });
+            signals.count(&signal);
+            signals.filled.borrow_mut().push(output);
+            signal
+        })
+    }
+
+    /// The same for one look: where signals take much memory already, this one is not kept.
+    pub(crate) fn glance(&self, output: usize) -> Cow<'_, Signal> {
+        let signals = &self.known.signals;
+        if signals.bytes.get() <= signals.most || signals.cells[output].get().is_some() {
+            return Cow::Borrowed(self.signal(output));
+        }
+        let signal = self.found(output);
+        signals.count(&signal);
+        Cow::Owned(signal)
+    }
+
+    /// The signal of an output that is the same sum, where there is one at hand.
+    fn same_as(&self, output: usize) -> Option<Arc<Signal>> {
+        // Each leg of a run that switches has equations of its own.
+        if self.assembly.switching.is_some() || !self.keeps(output) {
+            return None;
+        }
+        let first = self.known.twins.first(&self.assembly.system.outputs, output);
+        self.known.signals.cells[first].get().filter(|_| first != output).map(Arc::clone)
+    }
+
+    fn found(&self, output: usize) -> Signal {
+        if !self.keeps(output) {
+            self.missing.borrow_mut().insert(output);
+        }
+        self.made(output)
+    }
+
+    /// Drops the signals at hand where they take much memory; they are made anew where they are asked for.
+    pub(crate) fn make_room(&mut self) {
+        let signals = &mut self.known.signals;
+        if signals.bytes.get() > signals.most {
+            for at in signals.filled.get_mut().drain(..) {
+                signals.cells[at].take();
+            }
+            signals.bytes.set(0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
