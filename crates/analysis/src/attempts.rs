@@ -13,7 +13,7 @@ use crate::{
 const FURTHER: u64 = 4;
 /// Work of a method with steps where there are more oscillations than `exact` follows: enough where they are
 /// not excited.
-pub(crate) const HOPELESS: u64 = 10_000_000;
+pub(crate) const HOPELESS: u64 = 2_000_000;
 /// Work of a method after one that has failed, or as much as that: some seconds.
 const AFTER_ANOTHER: u64 = 200_000_000;
 /// Such work that is always granted: some tenths of a second.
@@ -50,6 +50,8 @@ pub(crate) fn first_that_solves(
         let own = Task { method: method.as_ref(), ..*task };
         let error = match own.run(&Run { budget: share, ..run.clone() }, observer) {
             Ok(outcome) => match lost(task.assembly, &outcome.solved) {
+                // The run itself is what has no numbers.
+                Some(error @ RunError::BeyondRange) => return Err(error),
                 Some(error) => error,
                 None => return Ok(Found { method, why, outcome }),
             },

@@ -115,6 +115,9 @@ pub enum RunError {
         /// Names of the outputs.
         outputs: Vec<String>,
     },
+    /// The energies have no numbers.
+    #[error("the energies of the run are beyond the range of double precision")]
+    BeyondRange,
     /// Energy appeared or vanished.
     #[error(
         "the solution of `{method}` cannot be trusted: {} of the energy turned over {}{}",

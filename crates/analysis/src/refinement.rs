@@ -42,7 +42,7 @@ const SOLUTIONS_FOR_ENDS: usize = 2;
 const FINEST: i32 = 24;
 
 /// Work of reading a panel of a signal.
-const READING: u64 = 8;
+const READING: u64 = 48;
 
 /// What is to be solved, and how.
 #[derive(Clone, Copy)]

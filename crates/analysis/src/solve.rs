@@ -339,7 +339,10 @@ pub(crate) fn lost(assembly: &Assembly, solved: &Solved) -> Option<RunError> {
     let Solved { trajectory, energy, .. } = solved;
     let closure = energy.closure();
     let (method, solution) = (trajectory.method, Solution::new(assembly, trajectory));
-    if closure.is_nan() || closure.abs() > MOST_LOST {
+    if !closure.is_finite() {
+        return Some(RunError::BeyondRange);
+    }
+    if closure.abs() > MOST_LOST {
         return Some(RunError::EnergyLost { method, closure, leak: leak(&solution) });
     }
     slider_fault(&solution, energy).map(|fault| RunError::Slider { method, fault })

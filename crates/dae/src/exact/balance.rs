@@ -2,6 +2,8 @@
 
 use nalgebra::DMatrix;
 
+use super::components::Components;
+
 /// Most sweeps; each lowers the norm, so few are ever needed.
 const SWEEPS: usize = 40;
 
@@ -62,44 +64,6 @@ pub(super) fn balance(a: &mut DMatrix<f64>, n: usize) -> Vec<f64> {
 /// The power of two next to a positive number.
 pub(super) fn power_of_two(x: f64) -> f64 {
     x.log2().round().clamp(-900.0, 900.0).exp2()
-}
-
-/// Which states act on which, directly or through others: one row of bits for each state.
-struct Components {
-    words: usize,
-    bits: Vec<u64>,
-}
-
-impl Components {
-    fn of(a: &DMatrix<f64>, n: usize) -> Self {
-        let words = n.div_ceil(64);
-        let mut bits = vec![0; n * words];
-        for (j, column) in a.column_iter().take(n).enumerate() {
-            for (i, _) in column.iter().take(n).enumerate().filter(|(_, entry)| **entry != 0.0) {
-                bits[i * words + j / 64] |= 1 << (j % 64);
-            }
-        }
-        let mut components = Self { words, bits };
-        for via in 0..n {
-            for i in 0..n {
-                if components.reaches(i, via) {
-                    for word in 0..words {
-                        components.bits[i * words + word] |= components.bits[via * words + word];
-                    }
-                }
-            }
-        }
-        components
-    }
-
-    fn reaches(&self, i: usize, j: usize) -> bool {
-        self.bits[i * self.words + j / 64] >> (j % 64) & 1 == 1
-    }
-
-    /// Whether both states act on each other.
-    fn together(&self, i: usize, j: usize) -> bool {
-        self.reaches(i, j) && self.reaches(j, i)
-    }
 }
 
 /// Sums of the sizes of column and row `i` of the leading block without the diagonal, over the

@@ -14,6 +14,7 @@ mod balance;
 mod block;
 mod bounds;
 mod clusters;
+mod components;
 mod coordinates;
 mod decoupling;
 mod drift;

@@ -153,6 +153,21 @@ impl Solution {
         moving.map(|block| radians(block, end, lifetimes)).sum()
     }
 
+    /// The most by which rounding of the entries of `Ā` may change a mode until `end`, dimensionless, or until
+    /// it has decayed.
+    pub(crate) fn blur(&self, end: f64) -> f64 {
+        let modes = &self.modal().modes;
+        let sizes = self.system.matrix.abs() * modes.basis.map(Complex::norm);
+        let blur = modes.dual.map(Complex::norm) * sizes * f64::EPSILON;
+        let of_block = |block: &Block| {
+            let life = |at: usize| end.min(block.matrix[(at, at)].re.abs().recip());
+            let places = (0..block.len()).flat_map(|i| (0..block.len()).map(move |j| (i, j)));
+            places.map(|(i, j)| blur[(block.start + i, block.start + j)] * life(j)).sum()
+        };
+        let all: Vec<f64> = modes.blocks.iter().map(of_block).collect();
+        all.into_iter().fold(0.0, |most, own| if own > most || own.is_nan() { own } else { most })
+    }
+
     /// All unknowns at `times` from the modal form.
     pub(super) fn by_modes(&self, times: &[f64]) -> Vec<f64> {
         let Modal { form, spans } = self.modal();

@@ -14,8 +14,10 @@ use crate::{
 const STATES: usize = 200;
 /// Most states with the generators of the driving functions.
 const SIZE: usize = 300;
-/// Largest `‖A‖T`; beyond it the eigenvalues found in double precision are no start for a refinement.
+/// `‖A‖T` beyond which rounding of the entries may change all that is slow.
 const STIFFNESS: f64 = 1e15;
+/// The most by which rounding of the entries may change a mode until the end of its life or of the run.
+const BLUR: f64 = 1e-9;
 /// `‖A‖T` up to which the number of panels needs no counting.
 const QUICK: f64 = 6e6;
 /// Most radians that all oscillations together may pass through: some two million panels.
@@ -47,7 +49,8 @@ const BEYOND: f64 = 1.25;
 ///
 /// - The values are those of the matrices as given. Their entries are rounded, and where an entry is
 ///   a difference of great numbers the slow motion of the *matrices* differs from that of the scene,
-///   whoever solves them; no bound knows of that. Beyond `‖A‖T = 1e15` scenes are declined.
+///   whoever solves them; no bound knows of that. Beyond `‖A‖T = 1e15` scenes are declined unless no
+///   mode is changed by it.
 /// - The modal form is refined in twice the digits of a double, so the error of a signal is that of
 ///   its evaluation: about `16 ε` of the largest sum of its modes' sizes, which is more than that of
 ///   the signal itself where modes cancel. The stated bound says how much.
@@ -92,18 +95,6 @@ impl Exact {
         let reach = run.t_end * (REACH / radians);
         let part = Run { t_end: reach, ..run.clone() };
         (reach > 0.0 && Self::solve(system, &part).is_ok()).then_some(reach)
-    }
-
-    /// The system with its generators, if its structure and stiffness permit.
-    fn prepare(system: &System, run: &Run) -> Result<Augmented, SolveError> {
-        let augmented = Self::structured(system, run)?;
-        let stiffness = augmented.norm() * (run.t_end / system.time_scale);
-        if !stiffness.is_finite() || stiffness > STIFFNESS {
-            return Self::decline(format!(
-                "too stiff for the exact method in double precision: ‖A‖T = {stiffness:.1e}"
-            ));
-        }
-        Ok(augmented)
     }
 
     /// The system with its generators, if its structure permits.
@@ -156,10 +147,17 @@ impl Exact {
     }
 
     fn solve(system: &System, run: &Run) -> Result<Solution, SolveError> {
-        let augmented = Self::prepare(system, run)?;
+        let augmented = Self::structured(system, run)?;
         let end = run.t_end / system.time_scale;
-        let quick = augmented.norm() * end <= QUICK;
+        let stiffness = augmented.norm() * end;
+        let quick = stiffness <= QUICK;
         let solution = Solution::new(augmented, (run.t_end, system.time_scale), run.budget.clone());
+        let is_blurred = || stiffness > STIFFNESS && !(solution.blur(end) <= BLUR);
+        if !stiffness.is_finite() || is_blurred() {
+            return Self::decline(format!(
+                "too stiff for the exact method in double precision: ‖A‖T = {stiffness:.1e}"
+            ));
+        }
         // A run that may stop is counted as far as it is searched.
         if !quick && !may_stop(run) {
             Self::count(&solution, end)?;

@@ -15,6 +15,9 @@ use super::{
 /// Up to so many times the momentum of a mass, dashpots may take up within the run at its velocity and
 /// their rounding does no harm: six bits.
 const HARMLESS: f64 = 64.0;
+/// Beyond so many times, what rounding leaves of the velocity between two masses makes a force between them
+/// that is worth mentioning, though no other dashpot holds them: twenty bits.
+const STRONG: f64 = 1_048_576.0;
 
 /// For each mass the one that its velocity is counted from, if any.
 ///
@@ -22,7 +25,7 @@ const HARMLESS: f64 = 64.0;
 /// counted from the heavier one, so that what moves a group as a whole is no small difference of
 /// large terms. What is fixed or moved from outside is the heaviest, and nothing is counted from it. Where
 /// no mass is held by more than one dashpot, or they are weak for a run of `duration` \[s\], all
-/// velocities stand for themselves.
+/// velocities stand for themselves; those of two masses that a single one makes as good as one do not.
 pub(super) fn parents(bodies: &Bodies, structure: &Structure, duration: f64) -> Vec<Option<usize>> {
     let count = bodies.all.len();
     let mut parents = vec![None; count];
@@ -52,7 +55,8 @@ pub(super) fn parents(bodies: &Bodies, structure: &Structure, duration: f64) -> 
     }
     let is_mixed = |body: usize| {
         let damping: f64 = mesh.links(body).map(|(_, link)| link.conductance.high()).sum();
-        mesh.links(body).count() > 1 && damping * duration > HARMLESS * mass(body)
+        let harmless = if mesh.links(body).count() > 1 { HARMLESS } else { STRONG };
+        damping * duration > harmless * mass(body)
     };
     pairs.retain(|(_, ends)| ends.iter().any(|&end| is_mixed(end)));
     pairs.sort_by(|one, other| other.0.total_cmp(&one.0));
