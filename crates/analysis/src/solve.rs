@@ -16,6 +16,7 @@ use crate::{
     contacts::{self, meetings_after},
     events,
     holding::slider_fault,
+    idle::{idle_times, without_idle_forces},
     large::{is_large, keep},
     ledger::{leak, ledger},
     magnitude::{is_open, largest},
@@ -244,6 +245,7 @@ fn report(
     if let Some(known) = known {
         solution = solution.knowing(known);
     }
+    let idle = idle_times(&solution);
     let measures: Vec<MeasureReport> = task
         .selected
         .iter()
@@ -254,6 +256,7 @@ fn report(
             let kind = || largest(&solution, &energy, entry.measure.unit());
             let is_open = is_open(&reading, error, wish, kind);
             let report = measure_report(entry, reading, error, wish);
+            let report = without_idle_forces(report, &solution, &idle);
             match (report.window.map(|own| own.1).or(report.time), cut) {
                 // What reaches to the end of a part of the run hangs on the rest of it.
                 (until, Some(end)) if until.is_none_or(|until| until >= end) => {
@@ -284,6 +287,7 @@ fn report(
         obstacle: obstacle.as_ref(),
         guards: &run.guards,
         effects,
+        idle: &idle,
     });
     if let Some(end) = cut {
         warnings.insert(0, followed_in_part(end, task.settings.duration));

@@ -12,6 +12,7 @@ use dashpot_network::{
 use crate::{
     Accuracy, ContactReport, Ledger, MeasureReport, Solution, contacts,
     extremes::{beyond_measured, pressed_through},
+    idle::Idle,
     impact::{Contact, Impact},
     ledger::leak,
     measures::{
@@ -36,6 +37,7 @@ pub(crate) struct Findings<'a> {
     pub(crate) obstacle: Option<&'a SolveError>,
     pub(crate) guards: &'a [Guard],
     pub(crate) effects: &'a [&'static str],
+    pub(crate) idle: &'a [Idle],
 }
 
 /// Closure in parts of the energy turned over that rounding may leave.
@@ -55,6 +57,7 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
     warnings.extend(beyond_measured(findings.solution));
     warnings.extend(crushed_layers(findings));
     warnings.extend(energy(findings));
+    warnings.extend(findings.idle.iter().map(Idle::to_string));
     warnings.extend(stops_that_hold(findings));
     warnings.extend(still_falling(findings.solution));
     warnings.extend(still_in_contact(findings));

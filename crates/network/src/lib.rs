@@ -30,7 +30,7 @@ pub use assembly::{
 pub use compile::{
     HeldTable, Unsaid,
     blueprint::{Blueprint, Stamp},
-    phased::{PhasedNetwork, PhasedPart},
+    phased::{IdleSlider, PhasedNetwork, PhasedPart},
 };
 pub use effects::Effect;
 pub use elements::Element;

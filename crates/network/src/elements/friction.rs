@@ -21,7 +21,8 @@ use crate::{
 ///
 /// `F_c` does not depend on a normal force, on the speed or on the time of rest. Between two given
 /// motions it cannot stick: it slides the way they go, and while they pause it keeps the force that
-/// it had. Sliders side by side between the same two places slide together, and each reports its part
+/// it had, and so it does while something else holds its ends, though its force follows from nothing
+/// then. Sliders side by side between the same two places slide together, and each reports its part
 /// of their force in proportion to its `F_c`, also while they stick: how they would share it then
 /// depends on how each of them came to rest, which this law does not know.
 ///

@@ -7,6 +7,7 @@
 mod choice;
 mod continuity;
 mod groups;
+mod idle;
 mod impacts;
 mod judge;
 mod jumps;
@@ -25,6 +26,7 @@ use std::{
 
 use dashpot_dae::{Direction, Guard, Leg, LegEnd, SolveError, Switch, Switching, System};
 
+pub use self::idle::IdleSlider;
 use self::judge::Choice;
 use super::{
     Compiled,

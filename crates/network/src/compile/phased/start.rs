@@ -56,8 +56,8 @@ pub(super) fn bodies_apart(
     Ok(apart)
 }
 
-/// Lets those sliders slide that would hold together what is given different motions, the way that
-/// their rate goes at the start.
+/// Lets those sliders slide that would hold together what is given different motions, or what others
+/// hold together, the way that their rate goes at the start.
 ///
 /// # Errors
 ///
@@ -100,7 +100,11 @@ fn slip(
                 }
                 continue;
             }
-            joined.join(ends[0], ends[1]);
+            if !joined.join(ends[0], ends[1]) && slides {
+                // What is held already needs no second slider, whose force would follow from nothing.
+                let rate = apart.all[ends[0]].velocity - apart.all[ends[1]].velocity;
+                phase.index = moving(own, *phase, rate).unwrap_or(phase.index);
+            }
             given[joined.of(ends[0])] = a.or(b);
         }
     }
