@@ -40,7 +40,8 @@ def solved(seed, stages, tolerance):
     for name in scene.measured:
         force, ends = scene.forces(name)
         inner = any(links[at].name == name for at in struck_links)
-        found |= measure.element(run, name, force, ends, inner, scene.pulls[name], scene.is_impact(name))
+        pulls, is_impact, touch = scene.pulls[name], scene.is_impact(name), scene.touches.get(name)
+        found |= measure.element(run, name, force, ends, inner, pulls, is_impact, touch)
     # What is joined to a struck mass for good feels the blow, too.
     for n in scene.masses:
         found |= measure.node(run, scene.network, n, n in struck_nodes, cap if n == scene.masses[0] else None)

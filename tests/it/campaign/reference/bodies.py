@@ -72,6 +72,11 @@ class Mode:
         self.laws = [at for at, _, level in held if level is None]
         self.map = np.array([self.index.get(b, -1) for b in self.body])
 
+    def has_idle_slider(self):
+        """Whether a slider lies beside what holds its ends, so that its force follows from nothing."""
+        links = (self.network.links[at] for at in self.laws)
+        return any(hasattr(own.part, "strength") and self.body[own.a] == self.body[own.b] for own in links)
+
     def side(self, at):
         """The nodes on one side of a constraint, without a given place, and whether it is side a."""
         for first, is_a in ((self.network.links[at].a, True), (self.network.links[at].b, False)):

@@ -104,6 +104,8 @@ def hic(signal, cap):
     found = 0.0
     if value.max() == 0:
         return 0.0
+    # Where the cap meets an end of the run.
+    found = max(best_of(np.array([own]), np.array([own + cap]))[0, 0] for own in (0.0, end - cap))
     seen = []
     flat = np.argsort(-value, axis=None)
     for own in flat[:200]:
@@ -111,22 +113,34 @@ def hic(signal, cap):
         if any(abs(grid[i] - a) < 0.05 * end and abs(grid[j] - b) < 0.05 * end for a, b in seen) or len(seen) > 2:
             continue
         seen.append((grid[i], grid[j]))
-        t1, t2, width = grid[i], grid[j], 1.5 * end / 239
-        for _ in range(14):
-            one = np.clip(np.linspace(t1 - width, t1 + width, 9), 0, end)
-            two = np.clip(np.linspace(t2 - width, t2 + width, 9), 0, end)
-            table = best_of(one, two)
-            # Along the cap, too, where the grid misses it.
-            capped = np.clip(one + cap, 0, end)
-            line = np.array([best_of(one[i : i + 1], capped[i : i + 1])[0, 0] for i in range(len(one))])
-            if line.max() > table.max():
-                i = int(np.argmax(line))
-                t1, t2, now = one[i], capped[i], line.max()
-            else:
-                i, j = np.unravel_index(int(np.argmax(table)), table.shape)
-                t1, t2, now = one[i], two[j], table.max()
-            found = max(found, now)
-            width /= 2.5
+        found = max(found, climb(best_of, grid[i], grid[j], 1.5 * end / 239, cap, end))
+    return found
+
+
+def climb(best_of, t1, t2, width, cap, end):
+    """The top near two times: a window around the best pair, which shrinks once that lies inside of it."""
+    found, least = 0.0, 1e-13 * end
+    for _ in range(200):
+        if width < least:
+            break
+        one = np.clip(np.linspace(t1 - width, t1 + width, 9), 0, end)
+        two = np.clip(np.linspace(t2 - width, t2 + width, 9), 0, end)
+        table = best_of(one, two)
+        i, j = np.unravel_index(int(np.argmax(table)), table.shape)
+        best, now = (one[i], two[j], i, j), table[i, j]
+        # Along the cap, too, where the grid misses it.
+        capped = np.clip(one + cap, 0, end)
+        line = np.array([best_of(one[i : i + 1], capped[i : i + 1])[0, 0] for i in range(len(one))])
+        if line.max() >= now:
+            i = int(np.argmax(line))
+            best, now = (one[i], capped[i], i, 4), line[i]
+        at_border = any(k in (0, 8) and 0 < t < end for k, t in zip(best[2:], best[:2]))
+        rises = now > found * (1 + 1e-15)
+        if now > found:
+            t1, t2 = best[:2]
+            found = now
+        if not (at_border and rises):
+            width /= 2.0
     return found
 
 
@@ -154,12 +168,18 @@ def contact(force):
     return None
 
 
-def impact(force, power):
-    """Measures of what touches an impactor, from the start to the end of the impact."""
+def impact(force, power, touch):
+    """Measures of what touches an impactor, from the start to the end of the impact. Where a face with mass is struck,
+    `touch` is its contact: it ends no sooner than that opens."""
     found = contact(force)
     if found is None:
         return {}
     last, part = found
+    if touch is not None:
+        while force.steps[last].mode.phases[touch] == "closed":
+            last, part = last + 1, 0.0
+            if last == len(force.steps):
+                return {}
     lengths = [1.0] * last + [part]
 
     def until(signal):
@@ -174,8 +194,8 @@ def impact(force, power):
     }
 
 
-def element(run, name, force, ends, struck, pulls, is_impact):
-    """Measures of an element: `force` is a list of (link, part)."""
+def element(run, name, force, ends, struck, pulls, is_impact, touch):
+    """Measures of an element: `force` is a list of (link, part), `touch` the contact of its face with mass."""
     a, b = ends
     F = Signal(run, lambda x, w, acc, F, y, dy: sum(share * F[at] for at, share in force))
     y = Signal(run, lambda x, w, acc, F, *_: x[a] - x[b])
@@ -186,7 +206,7 @@ def element(run, name, force, ends, struck, pulls, is_impact):
     if not struck:
         found |= {"peak-force": F.peak(), "impulse": F.integral(), "energy": power.integral()}
         if is_impact:
-            found |= impact(F, power)
+            found |= impact(F, power, touch)
     return {f"{name}.{kind}": own for kind, own in found.items()}
 
 

@@ -284,6 +284,8 @@ class Solver(Switching):
                 continue
             if u is None or error > 1e-6:
                 raise Unfit("no step")
+            if mode.has_idle_slider():
+                raise Unfit("a slider of which the force follows from nothing")
             step = Step(mode, t, own, x, v, u)
             found = self.first_end(step, is_fresh)
             if found:

@@ -40,7 +40,7 @@ class Scene:
         self.nodes, self.elements, self.effects, self.loads, self.measured = [], [], [], [], {}
         self.places = {"ground": 0}
         self.masses, self.sliders, self.first, self.pulls, self.laws_of = [], {}, {}, {}, {}
-        self.begins_at_rest, self.materials = False, []
+        self.begins_at_rest, self.materials, self.touches = False, [], {}
 
     def node(self, name, mass=0.0, velocity=0.0, motion=None, drop=None):
         velocity = math.sqrt(2 * G0 * drop) if drop else velocity
@@ -93,6 +93,9 @@ class Scene:
             self.effects.append(f'separation.{name} = {{ at = "{a}", restitution = {separation or 0.0!r} }}')
             if face:
                 touch = "impact" if face[1] else "moving"
+                # A face that begins with the speed of what strikes is a part of that.
+                if face[1]:
+                    self.touches[name] = len(self.network.links) - 1
                 self.effects.append(f'face.{name} = {{ mass = {mass!r}, touch = "{touch}" }}')
         force = self.build(name, end, two, tree)
         if stop:
