@@ -44,6 +44,9 @@ def at_rest(network, struck):
                     for column, other in ((i, 1), (j, -1)):
                         if column is not None:
                             K[row, column] += sign * other * k[0]
+        # Where a dashpot alone is in the way rounding hides that nothing holds.
+        if len(free) and not np.linalg.cond(K) < 1e13:
+            raise Unfit("no balance of the weights")
         try:
             d = np.linalg.solve(K, R) if len(free) else np.zeros(0)
         except np.linalg.LinAlgError:
