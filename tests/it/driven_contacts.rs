@@ -176,3 +176,91 @@ fn impact_of_what_sliders_hold_ends_however_many_share_the_force() {
         }
     }
 }
+
+/// All methods that solve it.
+const METHODS: [&str; 4] = ["exact", "bdf", "esdirk34", "tr-bdf2"];
+
+fn is_near(report: &RunReport, key: &str, expected: f64) {
+    let (found, error) = value(report, key);
+    let allowed = error + 1e-12 * expected.abs();
+    let method = &report.solver.method;
+    assert!((found - expected).abs() <= allowed, "{method}: {key} {found} ± {error:e}, {expected}");
+    assert!(error <= 2e-3 * expected.abs(), "{method}: {key} ± {error:e}");
+}
+
+#[test]
+fn mass_that_a_slider_holds_to_a_floor_slips_where_the_floor_starts_and_stops() {
+    // From rest to 3 m/s at once, and back to rest: twice 2 kg · 3 m/s : 100 N = 60 ms of sliding.
+    let text = "[nodes]\n\
+        floor = { motion = { ramp = { height = 0.3, rise = 0.1, start = 0.05 } } }\n\
+        box = { mass = 2 }\n\
+        [elements]\n\
+        pad = { between = [\"floor\", \"box\"], friction = 100 }\n\
+        [measures]\n\
+        box = [\"peak-acceleration\", \"peak-displacement\"]\n\
+        pad = [\"peak-deformation\", \"energy\"]\n\
+        [run]\n\
+        duration = 0.4\n";
+    for method in METHODS {
+        let report = run(text, method);
+        is_near(&report, "pad.peak-deformation", 0.09);
+        is_near(&report, "pad.energy", 18.0);
+        is_near(&report, "box.peak-acceleration", 50.0);
+        is_near(&report, "box.peak-displacement", 0.3);
+        let switches: Vec<&str> = report.trajectory.switches.iter().map(|own| own.what).collect();
+        let slips = ["sliding forward", "stuck", "sliding backward", "stuck"];
+        assert_eq!(switches, slips, "{method}");
+    }
+}
+
+#[test]
+fn kinks_of_a_table_move_what_sticks_as_friction_lets_them() {
+    // Between its points the floor goes at 1, −1 and 0.5 m/s; a change by Δv slides for m Δv / F and
+    // takes m Δv² / 2.
+    let text = "[nodes]\n\
+        floor = { motion = { table = { points = [[0, 0], [0.1, 0], [0.2, 0.1], [0.3, 0], [0.5, 0.1]] } } }\n\
+        box = { mass = 3 }\n\
+        [elements]\n\
+        pad = { between = [\"floor\", \"box\"], friction = 300 }\n\
+        [measures]\n\
+        pad = [\"energy\", \"impulse\"]\n\
+        [run]\n\
+        duration = 0.45\n";
+    for method in METHODS {
+        let report = run(text, method);
+        is_near(&report, "pad.energy", 1.5 * (1.0 + 4.0 + 2.25));
+        is_near(&report, "pad.impulse", 1.5);
+    }
+}
+
+#[test]
+fn floor_that_starts_and_stops_at_once_hits_and_throws_what_lies_on_it() {
+    // It goes up at 3 m/s from 50 ms to 150 ms.
+    let text = |restitution: f64| {
+        format!(
+            "[nodes]\n\
+            ball = {{ mass = 2 }}\n\
+            floor = {{ motion = {{ ramp = {{ height = -0.3, rise = 0.1, start = 0.05 }} }} }}\n\
+            [elements]\n\
+            pad = {{ between = [\"ball\", \"floor\"], contact = {{ restitution = {restitution} }} }}\n\
+            [effects]\n\
+            gravity = {{ value = 9.81, start = \"unloaded\" }}\n\
+            [measures]\n\
+            ball = [\"peak-displacement\"]\n\
+            pad = [\"impulse\", \"energy\"]\n\
+            [run]\n\
+            duration = 0.6\n"
+        )
+    };
+    for method in METHODS {
+        // Carried by the floor, and thrown where it stops.
+        let report = run(&text(0.0), method);
+        is_near(&report, "pad.impulse", 2.0 * 3.0 + 2.0 * 9.81 * 0.15);
+        is_near(&report, "pad.energy", 0.5 * 2.0 * 9.0);
+        is_near(&report, "ball.peak-displacement", 0.3 + 4.5 / 9.81);
+        // Hit where it starts, and thrown from there.
+        let report = run(&text(0.5), method);
+        is_near(&report, "pad.impulse", 2.0 * 4.5 + 2.0 * 9.81 * 0.05);
+        is_near(&report, "pad.energy", 0.5 * 2.0 * 9.0 * 0.75);
+    }
+}

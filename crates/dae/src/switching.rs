@@ -31,9 +31,11 @@ pub struct Leg {
     pub switches: Vec<Switch>,
     /// The guard that ends the leg, where that is known already: no method need look for it.
     pub flight: Option<Flight>,
+    /// The time in the run \[s\] at which the leg ends, whatever its guards say.
+    pub until: Option<f64>,
 }
 
-/// The end of a leg at guards.
+/// The end of a leg at guards, or at the time at which it had to end.
 #[derive(Debug, Clone, Copy)]
 pub struct LegEnd<'a> {
     /// The leg.

@@ -125,6 +125,13 @@ impl Waveform {
         Self { pieces: self.pieces[first..].iter().map(shifted).collect(), given }
     }
 
+    /// The same function, which goes on smoothly where a piece begins at `end` or later.
+    #[must_use]
+    pub fn until(&self, end: f64) -> Self {
+        let last = self.pieces.partition_point(|piece| piece.start < end).max(1);
+        Self { pieces: self.pieces[..last].to_vec(), given: self.given }
+    }
+
     /// The pieces that hold anywhere on `[0, end]`.
     pub(crate) fn within(&self, end: f64) -> Self {
         Self {

@@ -9,7 +9,8 @@ use crate::Solution;
 /// given back, be it stored or dissipated.
 ///
 /// Where a prescribed motion or a load jumps, the jump of the stored energy is counted; where masses
-/// meet in the element, the energy that the impact loses.
+/// meet in the element, the energy that the impact loses. What it holds as the run begins is not: of a load
+/// or motion that is there from the start on, and of what has no mass, that is all that they do at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energy {
     /// The part of the run that it looks at.

@@ -124,6 +124,7 @@ fn solve(
                 found.outcome = Some(guard - own);
                 false
             }
+            Outcome::Finished if t_end < run.t_end => true,
             Outcome::Finished => {
                 if !method.is_exact() {
                     drive.chain.margin = margin(&leg, trajectory.dense.as_ref(), run, doubt);
@@ -221,8 +222,9 @@ impl Drive<'_> {
         found: &mut Found,
     ) -> Result<(Trajectory, Twofold), SolveError> {
         let own = leg.guards.len();
+        let last = leg.until.map_or(self.run.t_end, |own| own.min(self.run.t_end));
         let run = Run {
-            t_end: (Twofold::from(self.run.t_end) - self.start).high(),
+            t_end: (Twofold::from(last) - self.start).high(),
             rtol: self.run.rtol,
             nominal: Vec::new(),
             guards: leg.guards.iter().chain(&self.run.guards).cloned().collect(),
@@ -240,7 +242,7 @@ impl Drive<'_> {
             None => solve_to_size(leg, method, run, &mut shifted)?,
         };
         let finished = trajectory.outcome == Outcome::Finished;
-        let t_end = if finished { self.run.t_end.into() } else { self.start + trajectory.t_end };
+        let t_end = if finished { last.into() } else { self.start + trajectory.t_end };
         let users = trajectory.events.iter().filter(|event| event.guard >= own);
         found.events.extend(users.map(|event| Event {
             time: (self.start + event.time).high(),

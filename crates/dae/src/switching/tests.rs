@@ -34,7 +34,14 @@ impl Walls {
             rate_of: None,
         };
         let guards = [(0, Direction::Falling), (1, Direction::Rising)].map(guard).to_vec();
-        Leg { system: Arc::new(system), phases: vec![(0, 0.0)], guards, switches, flight: None }
+        Leg {
+            system: Arc::new(system),
+            phases: vec![(0, 0.0)],
+            guards,
+            switches,
+            flight: None,
+            until: None,
+        }
     }
 }
 

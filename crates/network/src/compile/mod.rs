@@ -101,6 +101,8 @@ struct Parts<'a> {
 struct Compiled {
     assembly: Assembly,
     carry: Option<Carry>,
+    /// See [`Structure::kinks`].
+    kinks: Vec<f64>,
 }
 
 impl Network {
@@ -243,7 +245,7 @@ impl Network {
             held: Vec::new(),
             switching: None,
         };
-        Ok(Compiled { assembly, carry })
+        Ok(Compiled { assembly, carry, kinks: structure.kinks })
     }
 
     /// The given displacements of bodies as rows.

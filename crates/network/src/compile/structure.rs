@@ -10,7 +10,7 @@ use super::{
     expand::Expansion,
     speeds,
 };
-use crate::{Network, NetworkError, Support};
+use crate::{Network, NetworkError, Support, elements::Law};
 
 /// A spring or dashpot that takes part, between two different bodies.
 #[derive(Debug, Clone, Copy)]
@@ -46,6 +46,9 @@ pub(super) struct Structure {
     pub(super) first_jump: Vec<Option<f64>>,
     /// The mass that each mass's velocity is counted from, if any.
     pub(super) pace: Vec<Option<usize>>,
+    /// When what holds a mass to a given place must give way, in rising order: the motion has a kink
+    /// there \[s\].
+    pub(super) kinks: Vec<f64>,
 }
 
 impl Structure {
@@ -87,7 +90,7 @@ impl Structure {
         structure.pace = speeds::parents(bodies, &structure, duration);
         let mut errors = structure.undetermined(network, expansion, bodies);
         errors.extend(structure.steps_across_dashpots(network, expansion, bodies));
-        errors.extend(structure.motions_of_masses(network, bodies, duration));
+        errors.extend(structure.motions_of_masses(network, expansion, bodies, duration));
         if errors.is_empty() { Ok(structure) } else { Err(errors) }
     }
 
@@ -157,9 +160,11 @@ impl Structure {
         loose.into_values().map(|nodes| NetworkError::Undetermined { nodes }).collect()
     }
 
+    /// Refuses what would take an infinite force, and notes the kinks at which masses are let go.
     fn motions_of_masses(
-        &self,
+        &mut self,
         network: &Network,
+        expansion: &Expansion,
         bodies: &Bodies,
         duration: f64,
     ) -> Vec<NetworkError> {
@@ -171,7 +176,11 @@ impl Structure {
                 continue;
             }
             let jump = self.first_jump[at].map(|time| ("jumps", time));
-            let kink = || first_kink(motion, duration).map(|time| ("has a kink", time));
+            if jump.is_none() && !bears_mass(network, expansion, body) {
+                self.kinks.extend(kinks(motion, duration));
+                continue;
+            }
+            let kink = || kinks(motion, duration).next().map(|time| ("has a kink", time));
             if let Some((fault, time)) = jump.or_else(kink) {
                 let nodes = || body.joints.iter().filter_map(|&joint| network.nodes.get(joint));
                 let heavy = nodes().find(|own| own.mass > 0.0).map(|own| own.name.clone());
@@ -180,6 +189,7 @@ impl Structure {
                 errors.push(NetworkError::MotionOfMass { node, heavy, fault, time });
             }
         }
+        self.kinks.sort_by(f64::total_cmp);
         errors
     }
 
@@ -248,8 +258,22 @@ pub(super) fn jumps(network: &Network, motion: &Waveform, duration: f64) -> Vec<
     at_start.into_iter().chain(later).collect()
 }
 
-/// The first time in `(0, duration]` at which the rate of a displacement jumps \[s\].
-fn first_kink(motion: &Waveform, duration: f64) -> Option<f64> {
+/// Whether what is given the motion of a body has mass, or is linked to one by what never gives way.
+fn bears_mass(network: &Network, expansion: &Expansion, body: &Body) -> bool {
+    let mut groups = Groups::new(expansion.joints);
+    for part in expansion.primitives.iter().filter(|own| own.law == Law::Rigid && !own.is_phased())
+    {
+        groups.join(part.ends[0], part.ends[1]);
+    }
+    let nodes = || body.joints.iter().filter_map(|&at| Some((at, network.nodes.get(at)?)));
+    let heavy = nodes().filter(|(_, own)| own.mass > 0.0).map(|own| own.0);
+    let heavy: BTreeSet<usize> = heavy.map(|at| groups.of(at)).collect();
+    let mut given = nodes().filter(|(_, own)| own.support != Support::Free);
+    given.any(|(at, _)| heavy.contains(&groups.of(at)))
+}
+
+/// The times in `(0, duration]` at which the rate of a displacement jumps \[s\].
+fn kinks(motion: &Waveform, duration: f64) -> impl Iterator<Item = f64> {
     let pairs = motion.pieces().windows(2);
     let kinks = pairs.filter(|pair| {
         let time = pair[1].start;
@@ -261,5 +285,5 @@ fn first_kink(motion: &Waveform, duration: f64) -> Option<f64> {
         };
         (after - before).abs() > 1e-12 * (size(&pair[0]) + size(&pair[1]))
     });
-    kinks.map(|pair| pair[1].start).find(|&time| time > 0.0 && time <= duration)
+    kinks.map(|pair| pair[1].start).filter(move |&time| time > 0.0 && time <= duration)
 }

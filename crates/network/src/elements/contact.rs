@@ -17,7 +17,8 @@ use crate::{
 /// It closes where the deformation reaches the gap and opens where the force falls to zero. Where
 /// both sides have mass, closing is an impact: the relative speed is reversed and multiplied by `e`
 /// (Newton), momentum is kept, and the loss of energy is booked in the ledger. A massless side takes
-/// the speed of the other one without any impact.
+/// the speed of the other one without any impact. Where a given motion on one side has a kink, a mass that lies
+/// on it is hit by the difference of the speeds, or parts with it.
 ///
 /// # Limits
 ///

@@ -15,7 +15,8 @@ use crate::{
 ///
 /// It sticks where its rate comes to zero, and slides again where the force that holds it would
 /// exceed `F_c`: sticking is exact, not a creep. It stores no energy and dissipates `F_c |ẏ|`. Static
-/// and kinetic friction are the same. `F_c = 0` is no slider at all.
+/// and kinetic friction are the same. `F_c = 0` is no slider at all. A mass that it holds to a given motion
+/// slides where that has a kink.
 ///
 /// # Limits
 ///

@@ -6,6 +6,7 @@
 
 mod choice;
 mod continuity;
+mod faces;
 mod groups;
 mod idle;
 mod impacts;
@@ -30,12 +31,12 @@ pub use self::idle::IdleSlider;
 use self::judge::Choice;
 use super::{
     Compiled,
-    bodies::Bodies,
+    bodies::{Bodies, Role},
     carry::{Carry, State},
     expand::Expansion,
 };
 use crate::{
-    Assembly, Network, NetworkError, NetworkErrors,
+    Assembly, Network, NetworkError, NetworkErrors, Support,
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
@@ -67,6 +68,8 @@ pub(super) struct Mode {
     guards: Vec<Guard>,
     /// Part and exit of each guard.
     of_guard: Vec<(usize, usize)>,
+    /// When a motion has a kink that the mass which is held to it does not follow \[s\].
+    kinks: Vec<f64>,
 }
 
 /// A part that switches, as it is reported.
@@ -181,7 +184,7 @@ impl PhasedNetwork {
     }
 
     fn build(&self, phases: &[Phase]) -> Result<Mode, NetworkErrors> {
-        let Compiled { assembly, carry } = self.compiled(phases)?;
+        let Compiled { assembly, carry, kinks } = self.compiled(phases)?;
         let (mut guards, mut of_guard) = (Vec::new(), Vec::new());
         let exits: Vec<Vec<Exit>> = self
             .parts
@@ -214,46 +217,19 @@ impl PhasedNetwork {
             }
         }
         let carry = carry.unwrap_or_default();
-        Ok(Mode { system: Arc::new(assembly.system), carry, exits, guards, of_guard })
+        Ok(Mode { system: Arc::new(assembly.system), carry, exits, guards, of_guard, kinks })
     }
 
-    /// Numbers the bodies as if every contact with a massless side were closed, so that what is
-    /// struck through one belongs to the body that strikes, whichever phase the run begins in. A massless
-    /// side of several belongs to one body only.
-    fn join_bodies(&self, assembly: &mut Assembly) {
-        let mut groups = super::bodies::Groups::new(self.apart.all.len());
-        let is_held = |part: &usize| {
-            let law = self.phases_of(self.parts[*part]).map(|own| own.law(self.first[*part]));
-            matches!(law, Some(PhaseLaw::Held(_)))
-        };
-        // What lies on something from the start belongs to that, whatever else it meets later.
-        let (held, open): (Vec<usize>, Vec<usize>) = (0..self.parts.len()).partition(is_held);
-        let mut has_joined = vec![false; self.apart.all.len()];
-        for part in held.into_iter().chain(open) {
-            let primitive = &self.expansion.primitives[self.parts[part]];
-            let ends = primitive.ends.map(|joint| self.apart.of_joint[joint]);
-            let is_direct = primitive.ends.iter().all(|&joint| joint < self.network.nodes.len());
-            let face = ends.into_iter().find(|&end| self.apart.all[end].is_massless());
-            let Some(face) = face.filter(|&face| is_direct && !has_joined[face]) else { continue };
-            if self.phases_of(self.parts[part]).is_some_and(is_contact) {
-                groups.join(ends[0], ends[1]);
-                has_joined[face] = true;
-            }
-        }
-        for (at, node) in assembly.nodes.iter_mut().enumerate() {
-            node.body = groups.of(self.apart.of_joint[at]);
-        }
-        for connection in &mut assembly.connections {
-            let [a, b] = connection.between.map(|id| groups.of(self.apart.of_joint[id.index()]));
-            connection.is_rigid = a == b;
-        }
-    }
-
-    /// The leg that begins with these phases.
-    fn leg(choice: Choice, switches: Vec<Switch>) -> Leg {
+    /// The leg that begins at `time` with these phases.
+    fn leg(time: f64, choice: Choice, switches: Vec<Switch>) -> Leg {
         let Choice { mode, system, phases, unknowns, levels, flight } = choice;
         let mut system = System::clone(&system);
         system.initial = unknowns;
+        let until = mode.kinks.get(mode.kinks.partition_point(|&kink| kink <= time)).copied();
+        if let Some(until) = until {
+            let end = until / system.time_scale - time / system.time_scale;
+            system.waveforms = system.waveforms.iter().map(|own| own.until(end)).collect();
+        }
         Leg {
             system: Arc::new(system),
             phases: phases.iter().map(|phase| (phase.index, phase.memory)).collect(),
@@ -265,6 +241,18 @@ impl PhasedNetwork {
                 .collect(),
             switches,
             flight,
+            until,
+        }
+    }
+
+    /// Gives what moves as it is told the velocity that it has from `time` on.
+    fn go_on(&self, state: &mut State, time: f64) {
+        for body in &self.apart.all {
+            let Role::Prescribed(node) = body.role else { continue };
+            if let Support::Prescribed(motion) = &self.network.nodes[node].support {
+                let velocity = motion.piece_at(time).derivative(1, time);
+                body.joints.iter().for_each(|&joint| state.velocity[joint] = velocity);
+            }
         }
     }
 
@@ -322,7 +310,7 @@ impl Switching for PhasedNetwork {
         };
         // Phases that hold from the start are no switchings.
         let switches = switches.into_iter().filter(|own| own.impulse > 0.0).collect();
-        Ok(Self::leg(choice, switches))
+        Ok(Self::leg(0.0, choice, switches))
     }
 
     fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError> {
@@ -332,10 +320,13 @@ impl Switching for PhasedNetwork {
         let mut inputs = vec![0.0; end.leg.system.inputs.len()];
         end.leg.system.inputs_at(end.length, end.length, &mut inputs);
         let mut state = mode.carry.read(end.state, &inputs, &self.start);
+        if end.leg.until == Some(end.time) {
+            self.go_on(&mut state, end.time);
+        }
         let fired: Vec<(usize, usize)> =
             end.fired.iter().filter_map(|&guard| mode.of_guard.get(guard).copied()).collect();
         let (choice, switches) = self.choose(&mut state, end.time, &phases, &fired, end.doubt)?;
-        Ok(Self::leg(choice, switches))
+        Ok(Self::leg(end.time, choice, switches))
     }
 }
 
