@@ -6,19 +6,27 @@ import laws
 from bodies import Unfit
 
 
+def is_face(network, name, node):
+    return network.nodes[node].name == f"{name}.face"
+
+
 def at_rest(network, struck):
     """Places of all nodes. What touches one of the elements `struck` hangs unloaded on the node beyond it.
 
-    `struck` lists (name of an element, its far node): its links, and the body that strikes it, take no part.
+    `struck` lists (name of an element, the node that is struck): the links between that and what strikes, which goes
+    along with it, take no part. That node is the far one, or a face with mass, which sags by its own weight.
     """
     count = len(network.nodes)
-    names = [name for name, _ in struck]
-    own_links = [own for own in network.links if not any(own.name in (n, f"{n}.contact", f"{n}.stop") for n in names)]
-    follows = {}
+    own_links, follows = [], {}
     for own in network.links:
-        for name, far in struck:
-            if own.name in (name, f"{name}.contact", f"{name}.stop"):
-                follows |= {n: far for n in (own.a, own.b) if n != far}
+        hits = [
+            far
+            for name, far in struck
+            if own.name == f"{name}.contact" or not is_face(network, name, far) and own.name in (name, f"{name}.stop")
+        ]
+        if not hits:
+            own_links.append(own)
+        follows |= {n: far for far in hits for n in (own.a, own.b) if n != far}
     joined = list(range(count))
     for own in own_links:
         if isinstance(own.part, laws.Contact) and own.name.endswith(".contact"):

@@ -126,7 +126,11 @@ class Scene:
         if not self.begins_at_rest:
             return np.zeros(len(self.network.nodes))
         moving = {n for n in self.masses if self.network.nodes[n].velocity}
-        struck = [(name, ends[1]) for name, (_, ends) in self.measured.items() if self.first[name] in moving]
+        struck = [
+            (name, ends[0] if name in self.touches else ends[1])
+            for name, (_, ends) in self.measured.items()
+            if self.first[name] in moving
+        ]
         return at_rest(self.network, struck)
 
     def is_impact(self, name):
