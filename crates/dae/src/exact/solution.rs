@@ -156,7 +156,7 @@ impl Solution {
     /// The most by which rounding of the entries of `Ā` may change a mode until `end`, dimensionless, or until
     /// it has decayed.
     pub(crate) fn blur(&self, end: f64) -> f64 {
-        let modes = &self.modal().modes;
+        let modes = &self.modal().form.modes;
         let sizes = self.system.matrix.abs() * modes.basis.map(Complex::norm);
         let blur = modes.dual.map(Complex::norm) * sizes * f64::EPSILON;
         let of_block = |block: &Block| {
