@@ -7,6 +7,7 @@ use dashpot_network::{
     Assembly, NodeOutputs,
     parameters::{Value, WindowWish},
 };
+use serde::Serialize;
 
 use crate::{
     Impact, Ledger, Partial, Segmentation, Solution, accuracy::FIRST_DIGIT, solution::is_impactor,
@@ -68,7 +69,7 @@ pub struct SolverReport {
 }
 
 /// What was solved.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SystemReport {
     /// Differential unknowns.
     pub states: usize,
@@ -161,13 +162,14 @@ pub struct ContactReport {
 }
 
 /// Something that happened.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EventReport {
     /// When \[s\].
     pub time: f64,
     /// What, in words.
     pub what: String,
     /// Whether it ended the run.
+    #[serde(skip)]
     pub stops: bool,
 }
 

@@ -13,6 +13,7 @@ use dashpot_network::{
     Network,
     layers::{Recut, recut},
 };
+use serde::Serialize;
 
 use crate::{RunError, RunReport, SolveSettings, partial::words, solve_assembly, wording::percent};
 
@@ -20,11 +21,12 @@ use crate::{RunError, RunReport, SolveSettings, partial::words, solve_assembly, 
 const SAFETY: f64 = 4.0;
 
 /// The segments of layers beside other numbers of them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Segmentation {
     /// Segments of all pads.
     pub segments: usize,
     /// Those of the solution that they were compared with.
+    #[serde(rename = "compared_with")]
     pub others: usize,
 }
 

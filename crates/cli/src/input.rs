@@ -6,8 +6,10 @@ use std::{
     path::Path,
 };
 
+use dashpot_network::parameters::Dimension;
 use dashpot_scene::{
-    Checked, ReadOptions, Scene, nearest, read, references, text_of_bytes, units::parse_dimension,
+    Checked, ReadOptions, Scene, nearest, read, references, text_of_bytes,
+    units::{parse_dimension, parse_quantity},
 };
 
 use crate::error::CliError;
@@ -72,6 +74,24 @@ pub(crate) fn read_scene(
 ) -> Result<Checked<Scene>, CliError> {
     let input = Input::of(path)?;
     read(input.text()?, &input.options(set)).map_err(CliError::Scene)
+}
+
+/// The value of a setting of this name, in SI units.
+pub(crate) fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64, CliError> {
+    let wrong = |reason: String| CliError::WrongSetting { name: name.to_owned(), reason };
+    let found = parse_quantity(text).map_err(|error| wrong(error.to_string()))?;
+    match found.dimension {
+        Some(own) if own != expected => {
+            let unit = |own: Dimension| own.named().map_or("another unit", |own| own.1);
+            Err(wrong(format!("`{text}` is in {}, where {} is wanted", unit(own), unit(expected))))
+        }
+        _ if found.angle == 0 => Ok(found.value),
+        Some(Dimension::FREQUENCY) => {
+            let frequency = found.value / std::f64::consts::TAU;
+            Err(wrong(format!("`{text}` is an angular frequency; write \"{frequency:.6} Hz\"")))
+        }
+        _ => Err(wrong(format!("`{text}` is an angle"))),
+    }
 }
 
 /// Whether a word is a unit, which belongs to the quantity before it.

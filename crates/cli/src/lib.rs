@@ -3,30 +3,23 @@
 //!
 //! Results go to standard output, progress and warnings to standard error.
 
-mod answer;
 mod args;
-mod as_run;
 mod commands;
-mod cost_folder;
 mod entanglement;
 mod error;
 mod folder;
 mod input;
 mod numbers;
 mod operand;
+mod output;
 mod part;
 mod progress;
 mod registers;
-mod rheometer_folder;
-mod run_folder;
-mod series;
 mod shown;
 mod sketch;
-mod sweep_folder;
+mod studies;
 mod terminal;
 mod text;
-mod thesis_folder;
-mod vibration_folder;
 
 use std::{io::ErrorKind, process::ExitCode};
 
@@ -49,17 +42,17 @@ pub fn main() -> ExitCode {
     };
     let terminal = Terminal::new(arguments.color);
     let result = match arguments.command {
-        Command::Run(arguments) => commands::run(&arguments, terminal),
+        Command::Run(arguments) => studies::run(&arguments, terminal),
         Command::Check(arguments) => commands::check(&arguments, terminal),
         Command::Explain(arguments) => commands::explain(&arguments, terminal),
         Command::Convert(arguments) => commands::convert(&arguments, terminal),
-        Command::Compare(arguments) => commands::compare(&arguments, terminal),
-        Command::Rheometer(arguments) => commands::rheometer(&arguments, terminal),
-        Command::Cost(arguments) => commands::cost(&arguments, terminal),
-        Command::Sweep(arguments) => commands::sweep(&arguments, terminal),
-        Command::Vibrate(arguments) => commands::vibrate(&arguments, terminal),
-        Command::Groups(arguments) => commands::groups(&arguments, terminal),
-        Command::Thesis(arguments) => commands::thesis(&arguments, terminal),
+        Command::Compare(arguments) => studies::compare(&arguments, terminal),
+        Command::Rheometer(arguments) => studies::rheometer(&arguments, terminal),
+        Command::Cost(arguments) => studies::cost(&arguments, terminal),
+        Command::Sweep(arguments) => studies::sweep(&arguments, terminal),
+        Command::Vibrate(arguments) => studies::vibrate(&arguments, terminal),
+        Command::Groups(arguments) => studies::groups(&arguments, terminal),
+        Command::Thesis(arguments) => studies::thesis(&arguments, terminal),
         Command::List(arguments) => commands::list(&arguments, terminal),
         Command::New(arguments) => commands::new(&arguments),
         Command::Schema => commands::schema(),

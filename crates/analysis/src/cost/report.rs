@@ -1,6 +1,7 @@
 //! What is known in the end.
 
 use dashpot_dae::Statistics;
+use serde::Serialize;
 
 use crate::RunError;
 
@@ -62,9 +63,10 @@ pub struct TrueMeasure {
 }
 
 /// An error that was measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Deviation {
     /// The relative difference from the truth; infinite where one of both has no value.
+    #[serde(rename = "error")]
     pub value: f64,
     /// How well the truth is known, relative; infinite where nothing tells.
     pub known_within: f64,
@@ -110,10 +112,11 @@ pub struct CostPoint {
 }
 
 /// How well the times of events are met.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Timing {
     /// The largest error of the time of an event, relative to the length of the run, the first of a
     /// kind compared with the first, and so on; `None` where there is none to compare.
+    #[serde(flatten)]
     pub deviation: Option<Deviation>,
     /// Number of true events that do not occur in the solution.
     pub missed: usize,
@@ -134,13 +137,15 @@ pub struct MeasureDeviation {
 }
 
 /// A time that was measured several times \[s\].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spread {
     /// The median.
     pub median: f64,
     /// The lower quartile.
+    #[serde(rename = "lower_quartile")]
     pub lower: f64,
     /// The upper quartile.
+    #[serde(rename = "upper_quartile")]
     pub upper: f64,
 }
 

@@ -1,9 +1,11 @@
 //! How far measures are moved by what is left out.
 
+use serde::Serialize;
+
 use crate::{MeasureReport, RunReport};
 
 /// How far a measure is moved by what was left out.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Cost {
     /// Key of the measure, for instance `padding.peak-force`.
     pub measure: String,

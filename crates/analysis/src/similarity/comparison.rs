@@ -1,6 +1,7 @@
 //! Whether two networks are similar.
 
 use dashpot_network::{Network, parameters::InvalidParameter};
+use serde::Serialize;
 
 use super::{
     groups::{Group, Groups},
@@ -11,9 +12,10 @@ use super::{
 };
 
 /// A group of two networks.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupPair {
     /// The parameter that it belongs to.
+    #[serde(rename = "parameter")]
     pub name: String,
     /// What it is.
     pub formula: String,

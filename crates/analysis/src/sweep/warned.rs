@@ -1,10 +1,12 @@
 //! What the runs of a sweep are warned of, told once for all points.
 
+use serde::Serialize;
+
 use super::Row;
 use crate::{extremes::Through, warnings::pulls};
 
 /// A warning of the runs at some points.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SweepWarning {
     /// What the run at the first of the points is warned of. At the others the numbers differ.
     pub text: String,

@@ -27,6 +27,8 @@
 //! # Ok::<(), dashpot_analysis::vibration::VibrationError>(())
 //! ```
 
+use serde::Serialize;
+
 mod contacts;
 mod curve;
 mod drive;
@@ -61,7 +63,7 @@ pub use self::{
 };
 
 /// A sinusoidal quantity: `amplitude · cos(ωt + phase)` where the drive is `cos(ωt)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Swing {
     /// Amplitude, ≥ 0, in the unit of the quantity.
     pub amplitude: f64,

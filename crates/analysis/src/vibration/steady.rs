@@ -3,6 +3,7 @@
 use std::{cell::OnceCell, f64::consts::TAU};
 
 use nalgebra::Complex;
+use serde::Serialize;
 
 use super::{
     Drive, DriveKind, Swing, Vibration, VibrationError,
@@ -13,9 +14,10 @@ use super::{
 /// A network in steady oscillation under a drive of a given amplitude.
 ///
 /// All amplitudes are deviations from rest; weights and other constant forces come on top.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Steady {
     /// What shakes the network.
+    #[serde(skip)]
     pub drive: Drive,
     /// The frequency \[Hz\].
     pub frequency: f64,
@@ -35,7 +37,7 @@ pub struct Steady {
 }
 
 /// The oscillation of a node.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SteadyNode {
     /// The node.
     pub name: String,
@@ -46,7 +48,7 @@ pub struct SteadyNode {
 }
 
 /// The oscillation of an element.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SteadyElement {
     /// The element.
     pub name: String,
@@ -55,11 +57,12 @@ pub struct SteadyElement {
     /// Force \[N\], positive in compression; `None` where it is undetermined.
     pub force: Option<Swing>,
     /// Its thickness \[m\], where it is a pad.
+    #[serde(skip)]
     pub thickness: Option<f64>,
 }
 
 /// The force on a node that is held or moved.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SteadySupport {
     /// The node.
     pub name: String,

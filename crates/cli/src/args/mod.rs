@@ -116,6 +116,13 @@ pub(crate) enum When {
     Never,
 }
 
+impl When {
+    /// Whether it is done where a terminal is attended, or not.
+    pub(crate) fn is_now(self, attended: bool) -> bool {
+        self == Self::Always || self == Self::Auto && attended
+    }
+}
+
 /// On or off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Switch {

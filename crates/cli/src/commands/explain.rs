@@ -2,7 +2,6 @@
 
 mod effects;
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use dashpot_analysis::{choice, reported_measures};
@@ -12,17 +11,17 @@ use dashpot_plot::Table;
 use dashpot_scene::Scene;
 
 use crate::{
-    answer::{estimate, title},
     args::ExplainArguments,
     entanglement::notes,
     error::{CliError, Status},
     input::read_scene,
     numbers::{constant, quantity},
+    output::Text,
     part::write_drawing,
-    shown::Tone,
     sketch::{MOST_DRAWN, element, sketch, waveform},
+    studies::{estimate, title},
     terminal::{Terminal, WIDTH, print},
-    text::{fitted, indented, labelled, wrapped},
+    text::{fitted, indented},
 };
 
 /// What stands below the unknowns.
@@ -46,36 +45,34 @@ pub(crate) fn explain(
     } else {
         drawing().text(WIDTH - 4)
     };
-    let mut text = String::new();
-    for line in wrapped(title(&scene), WIDTH) {
-        let _ = writeln!(text, "{}", terminal.toned(Tone::Heading, &line));
-    }
-    let _ = write!(text, "\n{}", indented(&drawn));
-    let tables = [nodes(&scene), elements(&scene), layers(&scene), parts(&scene), loads(&scene)];
-    for content in tables.iter().filter(|content| !content.rows.is_empty()) {
-        text += &section(content, terminal);
-    }
-    let remarks = notes(&scene);
-    if !remarks.is_empty() {
-        let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, "Notes"));
-        for line in remarks.iter().flat_map(|own| wrapped(own, WIDTH - 2)) {
-            let _ = writeln!(text, "  {line}");
+    let solving = solving(&scene)?;
+    let mut text = Text::written(terminal, |text| {
+        text.title(title(&scene));
+        text.blank();
+        text.lines(&indented(&drawn));
+        for content in
+            [nodes(&scene), elements(&scene), layers(&scene), parts(&scene), loads(&scene)]
+        {
+            section(text, &content);
         }
-    }
-    text += &effects::section(&scene, terminal);
-    let _ = writeln!(text, "\n{}", terminal.toned(Tone::Heading, "Solving"));
-    for (label, words) in solving(&scene)? {
-        text += &labelled(label, 10, &words, WIDTH);
-    }
-    let unknowns = unknowns(&scene);
-    if !unknowns.rows.is_empty() {
-        text += &section(&unknowns, terminal);
-        text += UNKNOWNS;
-    }
+        let remarks = notes(&scene);
+        if !remarks.is_empty() {
+            text.heading("Notes");
+            text.paragraphs(remarks);
+        }
+        effects::section(text, &scene);
+        text.heading("Solving");
+        solving.iter().for_each(|(label, words)| text.labelled(label, 10, words));
+        let unknowns = unknowns(&scene);
+        section(text, &unknowns);
+        if !unknowns.rows.is_empty() {
+            text.lines(UNKNOWNS);
+        }
+    });
     if let Some(path) = &arguments.out {
         let file = svg_path(path);
         write_drawing(&file, &drawing().svg())?;
-        let _ = writeln!(text, "\nwrote {}", file.display());
+        text += &format!("\nwrote {}\n", file.display());
     }
     print(&text)?;
     Ok(Status::Done)
@@ -87,7 +84,7 @@ fn svg_path(path: &Path) -> PathBuf {
 }
 
 fn rows(caption: &str, rows: Vec<Vec<String>>) -> Table {
-    Table { caption: caption.to_owned(), header: Vec::new(), rows }
+    Table::new(caption, &[], rows)
 }
 
 fn nodes(scene: &Scene) -> Table {
@@ -219,14 +216,22 @@ fn solving(scene: &Scene) -> Result<Vec<(&'static str, String)>, CliError> {
     ])
 }
 
-fn section(content: &Table, terminal: Terminal) -> String {
-    let mut text = format!("\n{}\n", terminal.toned(Tone::Heading, &content.caption));
+/// Adds a table without a header, its first rows.
+fn section(text: &mut Text, content: &Table) {
+    if content.rows.is_empty() {
+        return;
+    }
+    text.heading(&content.caption);
     let rows: Vec<Vec<String>> = content.rows.iter().take(MOST).cloned().collect();
     for line in fitted(&Table { rows, ..Table::default() }, WIDTH - 2) {
-        let _ = writeln!(text, "  {line}");
+        text.line(&format!("  {line}"));
     }
-    if content.rows.len() > MOST {
-        let _ = writeln!(text, "  and {} more", content.rows.len() - MOST);
+    more(text, content.rows.len());
+}
+
+/// Says how many rows are only counted.
+fn more(text: &mut Text, count: usize) {
+    if count > MOST {
+        text.line(&format!("  and {} more", count - MOST));
     }
-    text
 }

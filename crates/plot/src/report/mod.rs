@@ -58,6 +58,23 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
+impl Table {
+    /// A table with these column headings, none for none.
+    pub fn new(
+        caption: impl Into<String>,
+        header: &[&str],
+        rows: impl IntoIterator<Item = Vec<String>>,
+    ) -> Self {
+        let header = header.iter().map(|own| (*own).to_owned()).collect();
+        Self { caption: caption.into(), header, rows: rows.into_iter().collect() }
+    }
+
+    /// A table of one column without a heading.
+    pub fn list(caption: impl Into<String>, lines: impl IntoIterator<Item = String>) -> Self {
+        Self::new(caption, &[], lines.into_iter().map(|line| vec![line]))
+    }
+}
+
 /// A drawing with its caption.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ReportFigure {

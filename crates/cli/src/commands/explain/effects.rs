@@ -1,6 +1,6 @@
 //! The effects of a scene: on, off or dropped, what each adds, and how much it matters.
 
-use std::{fmt::Write as _, sync::Arc};
+use std::sync::Arc;
 
 use dashpot_analysis::{Partial, solve_partial};
 use dashpot_dae::{Silent, switching::Switching};
@@ -11,13 +11,8 @@ use dashpot_network::{
 use dashpot_plot::Table;
 use dashpot_scene::{Scene, write_effect};
 
-use super::MOST;
-use crate::{
-    answer::estimate,
-    shown::Tone,
-    terminal::{Terminal, WIDTH},
-    text::{labelled, table, wrapped},
-};
+use super::{MOST, more};
+use crate::{output::Text, studies::estimate};
 
 /// What the columns mean.
 const MEANING: &str = "What each adds, or would add with its defaults: unknowns, modes as a \
@@ -45,29 +40,20 @@ struct Row {
 }
 
 /// The section with all effects.
-pub(super) fn section(scene: &Scene, terminal: Terminal) -> String {
+pub(super) fn section(text: &mut Text, scene: &Scene) {
     let rows = rows(scene);
     let shown = &rows[..rows.len().min(MOST)];
-    let mut text = format!("\n{}\n", terminal.toned(Tone::Heading, "Effects"));
-    let (header, lines) = table(&counts(shown));
-    for line in std::iter::once(header).chain(lines) {
-        let _ = writeln!(text, "  {line}");
-    }
-    if rows.len() > MOST {
-        let _ = writeln!(text, "  and {} more", rows.len() - MOST);
-    }
-    text.push('\n');
+    text.table(&counts(shown));
+    more(text, rows.len());
+    text.blank();
     for row in shown {
         let number =
             row.influence.as_ref().map(|own| format!("; {}", estimate(&own.formula, own.value)));
         let words = format!("{}{}", row.words, number.unwrap_or_default());
-        text += &labelled(&row.name, LABELS, &words, WIDTH);
+        text.labelled(&row.name, LABELS, &words);
     }
-    text.push('\n');
-    for line in wrapped(MEANING, WIDTH - 2) {
-        let _ = writeln!(text, "  {line}");
-    }
-    text
+    text.blank();
+    text.paragraphs([MEANING]);
 }
 
 /// Columns of the effects' names.
@@ -97,11 +83,7 @@ fn counts(rows: &[Row]) -> Table {
             number.unwrap_or_else(|| "–".to_owned()),
         ]
     };
-    Table {
-        caption: "Effects".to_owned(),
-        header: header.map(str::to_owned).to_vec(),
-        rows: rows.iter().map(row).collect(),
-    }
+    Table::new("Effects", &header, rows.iter().map(row))
 }
 
 fn number(value: f64) -> String {

@@ -1,0 +1,153 @@
+//! Results for people: headings, paragraphs, tables and plots in 80 columns.
+
+use dashpot_plot::{Chart, Table};
+
+use super::Study;
+use crate::{
+    shown::Tone,
+    terminal::{Terminal, WIDTH},
+    text::{columns, labelled, side_by_side, table, wrapped},
+};
+
+/// A text that is being written.
+pub(crate) struct Text {
+    terminal: Terminal,
+    text: String,
+}
+
+impl Text {
+    /// What a study says.
+    pub(crate) fn of(study: &impl Study, terminal: Terminal) -> String {
+        Self::written(terminal, |text| study.text(text))
+    }
+
+    /// What `write` writes.
+    pub(crate) fn written(terminal: Terminal, write: impl FnOnce(&mut Self)) -> String {
+        let mut text = Self { terminal, text: String::new() };
+        write(&mut text);
+        text.text
+    }
+
+    /// Whether a plot is wanted: on terminals, unless the command line says otherwise.
+    pub(crate) fn is_plotted(&self, wish: crate::args::When) -> bool {
+        wish.is_now(self.terminal.output.attended)
+    }
+
+    /// A line as it is.
+    pub(crate) fn line(&mut self, line: &str) {
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    /// Lines as they are.
+    pub(crate) fn lines(&mut self, lines: &str) {
+        self.text.push_str(lines);
+    }
+
+    /// Warnings, each behind a mark.
+    pub(crate) fn warnings(&mut self, warnings: &[String]) {
+        for warning in warnings {
+            for (at, line) in wrapped(warning, WIDTH - 2).iter().enumerate() {
+                let line = format!("{} {line}", if at == 0 { "!" } else { " " });
+                self.line(&self.terminal.toned(Tone::Warning, &line));
+            }
+        }
+    }
+
+    /// An empty line.
+    pub(crate) fn blank(&mut self) {
+        self.line("");
+    }
+
+    /// The title of the whole, or of what follows an empty line.
+    pub(crate) fn title(&mut self, words: &str) {
+        self.toned(Tone::Heading, words);
+    }
+
+    /// Words in a tone.
+    pub(crate) fn toned(&mut self, tone: Tone, words: &str) {
+        for line in wrapped(words, WIDTH) {
+            self.line(&self.terminal.toned(tone, &line));
+        }
+    }
+
+    /// A line that begins in a tone.
+    pub(crate) fn begun(&mut self, tone: Tone, begin: &str, rest: &str) {
+        self.line(&(self.terminal.toned(tone, begin) + rest));
+    }
+
+    /// A heading after an empty line.
+    pub(crate) fn heading(&mut self, words: &str) {
+        self.blank();
+        self.title(words);
+    }
+
+    /// Words over the whole width.
+    pub(crate) fn words(&mut self, words: &str) {
+        wrapped(words, WIDTH).iter().for_each(|line| self.line(line));
+    }
+
+    /// Words that are less important, indented.
+    pub(crate) fn faint(&mut self, words: &str) {
+        for line in wrapped(words, WIDTH - 2) {
+            self.line(&format!("  {}", self.terminal.toned(Tone::Faint, &line)));
+        }
+    }
+
+    /// Indented paragraphs, one for each of these texts.
+    pub(crate) fn paragraphs<S: AsRef<str>>(&mut self, texts: impl IntoIterator<Item = S>) {
+        for text in texts {
+            wrapped(text.as_ref(), WIDTH - 2)
+                .iter()
+                .for_each(|line| self.line(&format!("  {line}")));
+        }
+    }
+
+    /// The same, each of them with all but its first line indented further.
+    pub(crate) fn items<S: AsRef<str>>(&mut self, texts: impl IntoIterator<Item = S>) {
+        for text in texts {
+            for (at, line) in wrapped(text.as_ref(), WIDTH - 4).iter().enumerate() {
+                self.line(&format!("{}{line}", if at == 0 { "  " } else { "    " }));
+            }
+        }
+    }
+
+    /// A label and a text beside it.
+    pub(crate) fn labelled(&mut self, label: &str, label_width: usize, words: &str) {
+        self.text += &labelled(label, label_width, words, WIDTH);
+    }
+
+    /// A table after an empty line, in parts where it is too wide; nothing if it has no rows.
+    pub(crate) fn table(&mut self, table: &Table) {
+        if table.rows.is_empty() {
+            return;
+        }
+        self.blank();
+        if !table.caption.is_empty() {
+            self.title(&table.caption);
+        }
+        self.rows(table);
+    }
+
+    /// A table without its caption after an empty line, with a faint header.
+    pub(crate) fn figures(&mut self, content: &Table) {
+        let (header, rows) = table(content);
+        self.line(&format!("\n  {}", self.terminal.toned(Tone::Faint, &header)));
+        rows.iter().for_each(|row| self.line(&format!("  {row}")));
+    }
+
+    /// The header and the rows of a table.
+    pub(crate) fn rows(&mut self, content: &Table) {
+        for part in side_by_side(content, WIDTH - 2) {
+            let (header, rows) = table(&part);
+            for line in [header].iter().chain(&rows).filter(|line| columns(line) > 0) {
+                self.line(&format!("  {line}"));
+            }
+        }
+    }
+
+    /// A chart of so many lines after an empty line.
+    pub(crate) fn chart(&mut self, chart: &Chart, height: usize) {
+        self.text += &format!("\n{}", chart.text(WIDTH, height));
+    }
+}

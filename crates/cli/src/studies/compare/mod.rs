@@ -1,0 +1,219 @@
+//! `dashpot compare`.
+
+mod found;
+mod words;
+
+use dashpot_analysis::{RunReport, SolveSettings, differences, solve};
+use dashpot_dae::Silent;
+use dashpot_network::{
+    Model,
+    driving_point::{Agreement, Hidden, Receptance, Response},
+    primitive,
+};
+use dashpot_rheology::{equivalence, identifiability::Entangled, sensitivity::sensitivity};
+use serde::Serialize;
+
+use self::{
+    found::{About, Cancelled, Comparison, Form, Impact, Map, Measured, Together, Worst},
+    words::sentences,
+};
+use crate::{
+    args::CompareArguments,
+    entanglement::{combinations, groups},
+    error::{CliError, Status},
+    input::read_scene,
+    operand::{Operand, Subject, canonical_model, parted},
+    output::{Study, Text, emit},
+    shown::Tone,
+    terminal::Terminal,
+};
+
+/// Maps of more parameters than this are in the JSON only.
+const MOST_SHOWN: usize = 8;
+/// Models of more parts than this have no map: it would take longer than all else.
+const MOST_MAPPED: usize = 120;
+
+/// Says whether two models are the same.
+pub(crate) fn compare(
+    arguments: &CompareArguments,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let set = &arguments.values.set;
+    let operands =
+        [&arguments.first, &arguments.second].map(|word| Operand::read(word, set, terminal));
+    let [first, second] = operands;
+    let operands = [first?, second?];
+    if operands[0].is_material() != operands[1].is_material() {
+        return Err(CliError::MaterialAndPad);
+    }
+    let mut found = compared(&operands)?;
+    found.models = operands.iter().map(about).collect::<Result<_, _>>()?;
+    if let (true, [Some(first), Some(second)]) =
+        (found.same, [&operands[0], &operands[1]].map(Operand::model))
+    {
+        found.map = map(first, second);
+    }
+    if let Some(impact) = &arguments.impact {
+        found.impact = Some(same_impact(impact, &operands, set, terminal)?);
+    }
+    emit(&found, arguments.json, None, terminal)?;
+    Ok(if found.same { Status::Done } else { Status::NotSame })
+}
+
+impl Study for Comparison {
+    fn text(&self, text: &mut Text) {
+        let [first, second] = &self.compared;
+        let (verdict, tone) =
+            if self.same { ("The same", Tone::Heading) } else { ("Not the same", Tone::Warning) };
+        text.begun(tone, verdict, &format!(": {first} and {second}"));
+        text.paragraphs(sentences(self));
+        let small = self.map.as_ref().filter(|map| map.is_at_most(MOST_SHOWN)).map(Map::table);
+        let impact = self.impact.as_ref().map(Impact::table);
+        let tables = self.forms.iter().map(Form::table).chain(small).chain(impact);
+        tables.for_each(|own| text.table(&own));
+    }
+
+    fn object(&self) -> impl Serialize {
+        self
+    }
+}
+
+fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
+    let words = [&operands[0], &operands[1]].map(|own| own.word.clone());
+    let is_material = operands[0].is_material();
+    if let [Some(first), Some(second)] = [&operands[0].linear()?, &operands[1].linear()?] {
+        let found = equivalence::compare(first, second);
+        let error = operands.iter().map(Operand::error).fold(0.0, f64::max);
+        if !found.is_same && error > equivalence::SAME_WITHIN {
+            return Err(CliError::Undecided { error });
+        }
+        return Ok(Comparison::of(words, is_material, &found));
+    }
+    let receptance = |own: &Operand| match &own.subject {
+        Subject::Response(Response::Massive(receptance)) => Some(receptance.clone()),
+        _ => None,
+    };
+    let none =
+        equivalence::Equivalence { is_same: false, maxwell: None, kelvin: None, worst: None };
+    let mut comparison = Comparison::of(words, is_material, &none);
+    let [Some(first), Some(second)] = [&operands[0], &operands[1]].map(receptance) else {
+        return Ok(comparison);
+    };
+    match first.agreement(&second) {
+        Agreement::Same { difference } => {
+            comparison.same = true;
+            comparison.largest_difference = Some(difference);
+        }
+        Agreement::Different { omega, size, time, after_impulse, is_growing, until } => {
+            comparison.worst = Some(Worst {
+                frequency: Some(omega / std::f64::consts::TAU),
+                response: size,
+                time: Some(time),
+                creep: None,
+                after_impulse: Some(after_impulse),
+                is_growing: Some(is_growing),
+                until: Some(until),
+                instant_left_out: [&first, &second]
+                    .iter()
+                    .any(|own| own.instantaneous_compliance() > 0.0),
+            });
+        }
+        Agreement::Undecided { error } => return Err(CliError::Undecided { error }),
+    }
+    Ok(comparison)
+}
+
+/// What is known of one operand by itself.
+fn about(operand: &Operand) -> Result<About, CliError> {
+    let linear = operand.linear()?;
+    let hidden = |own: &Hidden| Cancelled { pole: own.rate, count: own.count };
+    let mut cancelled: Vec<Cancelled> = match &operand.subject {
+        Subject::Model(_) => Vec::new(),
+        Subject::Response(Response::Massless(own)) => own.hidden.iter().map(hidden).collect(),
+        Subject::Response(Response::Massive(own)) => {
+            Receptance::hidden(own).iter().map(hidden).collect()
+        }
+    };
+    let merged = linear.iter().flat_map(|own| own.merged().to_vec());
+    cancelled.extend(
+        merged.map(|own| Cancelled { pole: [-own.time.recip(), 0.0], count: own.count - 1 }),
+    );
+    let tree = operand.model();
+    let poles = match &operand.subject {
+        Subject::Response(Response::Massive(own)) => {
+            Some(own.poles().iter().map(|pole| pole.order).sum())
+        }
+        _ => None,
+    };
+    Ok(About {
+        poles,
+        elements: tree.map(|tree| tree.leaves().count()),
+        least_elements: linear.as_ref().map(dashpot_rheology::LinearModel::least_elements),
+        maxwell_form: linear.as_ref().is_some_and(|own| own.maxwell().is_some()),
+        kelvin_form: linear.as_ref().is_some_and(|own| own.kelvin().is_some()),
+        cancelled,
+        entangled: tree.map(together).unwrap_or_default(),
+    })
+}
+
+fn together(model: &Model) -> Vec<Together> {
+    let of = |group: &Entangled| Together {
+        parameters: group.parameters.clone(),
+        combinations: combinations(group),
+    };
+    groups(model).iter().map(of).collect()
+}
+
+fn map(first: &Model, second: &Model) -> Option<Map> {
+    let is_small = |own: &&Model| own.leaves().nth(MOST_MAPPED).is_none();
+    let of = |own: &Model| sensitivity(own, |element| primitive(element.as_ref()));
+    let [first, second] = [first, second].map(|own| Some(own).filter(is_small).and_then(of));
+    Some(Map::of(&first?.map_to(&second?)?))
+}
+
+/// Solves the impact with each model in the place of the element's own.
+fn same_impact(
+    word: &str,
+    operands: &[Operand; 2],
+    set: &[(String, String)],
+    terminal: Terminal,
+) -> Result<Impact, CliError> {
+    let (path, element) = parted(word);
+    let checked = read_scene(Some(std::path::Path::new(path)), set)?;
+    terminal.diagnose(&checked.warnings);
+    let scene = checked.value;
+    let names = || scene.network.connections().iter().map(|own| own.name.clone());
+    let element =
+        if element.is_empty() { names().next().unwrap_or_default() } else { element.to_owned() };
+    let at = names().position(|name| name == element).ok_or_else(|| CliError::UnknownElement {
+        name: element.clone(),
+        known: names().collect(),
+    })?;
+    let settings = SolveSettings { measures: Vec::new(), ..scene.settings("auto") };
+    let run = |operand: &Operand| -> Result<RunReport, CliError> {
+        if operand.is_material() {
+            return Err(CliError::MaterialInImpact { word: operand.word.clone() });
+        }
+        let mut network = scene.network.clone();
+        network.set_model(at, canonical_model(operand)?);
+        Ok(solve(&network, &settings, &mut Silent)?)
+    };
+    let [first, second] = [run(&operands[0])?, run(&operands[1])?];
+    let apart = differences(&first, &second);
+    let measures = first.measures.iter().filter_map(|own| {
+        let other = second.measures.iter().find(|other| other.key == own.key)?;
+        Some(Measured {
+            measure: own.key.clone(),
+            unit: own.unit,
+            value: [own.value, other.value],
+            error: [own.error, other.error],
+            difference: apart.iter().find(|known| known.key == own.key).map(|own| own.relative),
+        })
+    });
+    Ok(Impact {
+        scene: path.to_owned(),
+        element,
+        method: [first.solver.method, second.solver.method],
+        measures: measures.collect(),
+    })
+}

@@ -1,0 +1,207 @@
+//! `dashpot groups`.
+
+mod factors;
+mod laboratory;
+mod opposed;
+mod pair;
+mod thesis;
+
+use std::path::Path;
+
+use dashpot_analysis::{
+    SolveSettings,
+    similarity::{FourParameterImpact, Groups, Quantity, Reference, SimilarityError},
+};
+use dashpot_network::{Network, parameters::Dimension};
+use dashpot_plot::Table;
+use dashpot_scene::{Scene, write_scene};
+use serde::Serialize;
+
+use self::{laboratory::Test, pair::Pair, thesis::Thesis};
+use crate::{
+    args::GroupsArguments,
+    error::{CliError, Status},
+    input::{read_scene, setting},
+    numbers::{constant, significant},
+    operand::tell,
+    output::{Study, Text, emit, list, object},
+    part::write_text,
+    studies::title,
+    terminal::{Terminal, remark},
+};
+
+/// Digits of groups.
+const DIGITS: usize = 6;
+
+/// All that is told.
+struct Told {
+    /// What the groups are of.
+    scene: String,
+    groups: Groups,
+    /// Those of the thesis, for scenes of its form.
+    thesis: Option<Thesis>,
+    /// Another scene beside this one.
+    pair: Option<Pair>,
+    laboratory: Option<Test>,
+}
+
+/// Tells of groups, similar scenes and laboratory tests.
+pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<Status, CliError> {
+    let scene = read(arguments.first.as_deref(), arguments, terminal)?;
+    let mut network = scene.network.clone();
+    let mut name = title(&scene).to_owned();
+    if !arguments.from.is_empty() {
+        network = with_groups(&network, &arguments.from)?;
+        name = format!("{name}, with other groups");
+    }
+    let mut told = Told {
+        scene: name,
+        groups: Groups::of(&network).map_err(SimilarityError::from)?,
+        thesis: FourParameterImpact::of(&network).ok().map(Thesis::of),
+        pair: None,
+        laboratory: None,
+    };
+    if let Some(second) = &arguments.second {
+        let other = read(Some(second), arguments, terminal)?;
+        told.pair = Some(Pair::of(&scene, &other, arguments)?);
+    }
+    if !arguments.lab.is_empty() {
+        told.laboratory = Some(Test::of(&scene, arguments)?);
+    } else if let Some(path) = &arguments.out {
+        let title = format!("{} (groups {})", title(&scene), pairs(&arguments.from));
+        let settings = scene.settings("auto");
+        write(path, &title, &network, &settings, (&scene, arguments))?;
+        remark(&format!("wrote {}", path.display()));
+    }
+    emit(&told, arguments.json, None, terminal)?;
+    let is_other = told.pair.is_some_and(|own| !own.found.is_similar());
+    Ok(if is_other { Status::NotSame } else { Status::Done })
+}
+
+fn read(
+    path: Option<&Path>,
+    arguments: &GroupsArguments,
+    terminal: Terminal,
+) -> Result<Scene, CliError> {
+    let checked = read_scene(path, &arguments.values.set)?;
+    terminal.diagnose(&checked.warnings);
+    tell(&checked.value.notes);
+    Ok(checked.value)
+}
+
+fn with_groups(network: &Network, wanted: &[(String, String)]) -> Result<Network, CliError> {
+    let mut groups = FourParameterImpact::of(network)?.groups();
+    for (name, text) in wanted {
+        groups = groups.with(name, setting(name, text, Dimension::NUMBER)?)?;
+    }
+    Ok(groups.put_into(network)?)
+}
+
+/// Writes a scene with the settings of a run.
+fn write(
+    path: &Path,
+    title: &str,
+    network: &Network,
+    settings: &SolveSettings,
+    (scene, arguments): (&Scene, &GroupsArguments),
+) -> Result<(), CliError> {
+    let run = dashpot_scene::RunSettings {
+        duration: settings.duration,
+        stops: settings.stops.clone(),
+        ..scene.run.clone()
+    };
+    let name =
+        arguments.first.as_deref().map_or("reference".to_owned(), |own| own.display().to_string());
+    let wish = if arguments.lab.is_empty() { &arguments.from } else { &arguments.lab };
+    let comment = format!("Made from {name} for {}.", pairs(wish));
+    let text = write_scene(title, &[comment], network, &run, &settings.measures)?;
+    write_text(path, &text, arguments.force)
+}
+
+fn pairs(all: &[(String, String)]) -> String {
+    let pairs: Vec<String> = all.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    pairs.join(", ")
+}
+
+impl Study for Told {
+    fn text(&self, text: &mut Text) {
+        text.title(&self.scene);
+        if let Some(pair) = &self.pair {
+            return pair.text(text);
+        }
+        if let Some(test) = &self.laboratory {
+            return test.text(text);
+        }
+        if let Some(thesis) = &self.thesis {
+            text.table(&thesis.table());
+            text.blank();
+            text.paragraphs([thesis.parameters(), thesis.independent(), thesis.region()]);
+        }
+        text.table(&self.table());
+        text.blank();
+        text.paragraphs([self.summary()]);
+    }
+
+    fn object(&self) -> impl Serialize {
+        let groups = &self.groups;
+        object! {
+            scene: &self.scene,
+            parameters: groups.groups.len() + groups.references.len(),
+            rank: groups.rank(),
+            references: list(groups.references.iter().map(|own| quantity(own.symbol, &own.quantity))),
+            groups: list(groups.groups.iter().map(|own| object! {
+                parameter: &own.quantity.name, formula: &own.formula, value: own.value,
+            })),
+            thesis: self.thesis.as_ref().map(Thesis::object),
+            similarity: self.pair.as_ref().map(Pair::object),
+            laboratory: self.laboratory.as_ref().map(Test::object),
+        }
+    }
+}
+
+impl Told {
+    /// The groups that are not zero.
+    fn table(&self) -> Table {
+        let rows = self.groups.groups.iter().filter(|own| own.value != 0.0);
+        let rows = rows.map(|own| vec![own.formula.clone(), significant(own.value, DIGITS)]);
+        Table::new("Independent groups", &["group", "value"], rows)
+    }
+
+    /// How many groups there are, and what they refer to.
+    fn summary(&self) -> String {
+        let Groups { groups, references, .. } = &self.groups;
+        let count = match groups.iter().filter(|own| own.value == 0.0).count() {
+            0 => format!("{} groups", groups.len()),
+            zero => format!("{} groups, {zero} of them 0 and not shown", groups.len()),
+        };
+        let one = |Reference { symbol, quantity }: &Reference| {
+            let value = constant(quantity.value, si(quantity.dimension));
+            format!("{symbol} = {} = {value}", quantity.name)
+        };
+        format!(
+            "{} parameters, whose dimensions have the rank {}: {count}, by {}.",
+            groups.len() + references.len(),
+            self.groups.rank(),
+            list(references.iter().map(one)).join(", ")
+        )
+    }
+}
+
+/// The object of a reference.
+fn quantity(symbol: &'static str, own: &Quantity) -> impl Serialize {
+    object! { symbol, name: &own.name, value: own.value, unit: si(own.dimension) }
+}
+
+/// The SI unit of a dimension; that without a name is left out.
+fn si(dimension: Dimension) -> &'static str {
+    dimension.named().map_or("", |own| own.1)
+}
+
+/// Tells of what was not compared.
+fn left_out(text: &mut Text, all: &[String]) {
+    if !all.is_empty() {
+        text.blank();
+        let names = all.join(", ");
+        text.paragraphs([format!("Not compared, because they have times of their own: {names}.")]);
+    }
+}

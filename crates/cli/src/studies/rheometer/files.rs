@@ -1,0 +1,150 @@
+//! What the rheometer writes into a folder.
+
+use std::f64::consts::TAU;
+
+use dashpot_analysis::rheometer::{RheometerReport, Series, Specimen};
+use dashpot_plot::{
+    Measured, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
+    figures::model::{LossFactor, MODEL_FIGURES, ModelFigure, Sweep},
+};
+use dashpot_rheology::MaxwellForm;
+
+use super::{Tested, Units};
+use crate::{
+    error::CliError,
+    folder::Staged,
+    output::{csv, list},
+};
+
+/// Points of a curve of a model, and how far beyond its times it goes.
+const POINTS: i32 = 400;
+const BEYOND: f64 = 100.0;
+
+/// The points of a series, from the model and from the first computation.
+fn points(report: &RheometerReport, series: &Series) -> [Vec<(f64, f64)>; 2] {
+    let places = &report.abscissa.values;
+    let model = places.iter().copied().zip(series.model.iter().copied());
+    let computed = series.computed.first().map_or(&[][..], |own| &own.values);
+    let computed = places.iter().zip(computed).filter_map(|(&at, value)| Some((at, (*value)?)));
+    [model.collect(), computed.collect()]
+}
+
+/// A test over time as a figure; a sweep is one of the model's.
+pub(super) fn series(report: &RheometerReport, units: Units) -> Option<RheometerSeries> {
+    let series = report.series.first().filter(|_| report.abscissa.unit == "s")?;
+    let [model, simulated] = points(report, series);
+    let measured = match (series.unit, units.is_material) {
+        ("N", false) => Measured::Force,
+        ("N", true) => Measured::Stress,
+        (_, false) => Measured::Deformation,
+        (_, true) => Measured::Strain,
+    };
+    let line = |at: f64, label: &str| RheometerLine { at, label: label.to_owned() };
+    let lasting = report.figure("stays for good").and_then(|own| own.model);
+    let held = report.settings.iter().filter(|own| matches!(own.name, "hold" | "rise"));
+    let held: f64 = held.map(|own| own.value).sum();
+    Some(RheometerSeries {
+        title: report.protocol.to_owned(),
+        measured,
+        model,
+        simulated,
+        levels: lasting.map(|own| line(own, "ε3, stays for good")).into_iter().collect(),
+        instants: (held > 0.0 && measured_under_force(measured))
+            .then(|| line(held, "unloading"))
+            .into_iter()
+            .collect(),
+    })
+}
+
+fn measured_under_force(measured: Measured) -> bool {
+    matches!(measured, Measured::Deformation | Measured::Strain)
+}
+
+/// The files of these tests.
+pub(super) fn names(tests: &[String]) -> Vec<String> {
+    let models = MODEL_FIGURES.iter().map(|own| format!("model-{}.svg", own.name()));
+    let tests = tests.iter().flat_map(|test| [format!("{test}.csv"), format!("{test}.svg")]);
+    models.chain(tests).collect()
+}
+
+/// Adds all files but the result.
+pub(super) fn write(files: &mut Staged<'_>, tested: &Tested) -> Result<(), CliError> {
+    let subject = if tested.units.is_material { ModelSubject::Material } else { ModelSubject::Pad };
+    let curves = curves(&tested.word, &tested.specimen, &tested.reports);
+    for own in MODEL_FIGURES {
+        let is_swept = [Sweep.name(), LossFactor.name()].contains(&own.name());
+        let shown = if is_swept { &curves[..] } else { &curves[..1] };
+        files.add(format!("model-{}.svg", own.name()), own.chart(shown, subject).svg()?)?;
+    }
+    for report in &tested.reports {
+        let columns = columns(report, tested.units);
+        let header = columns.iter().map(|own| own.0.clone());
+        let value = |own: &(String, Vec<Option<f64>>), row: usize| {
+            // A zero has no sign, and what is infinite no number.
+            own.1.get(row).copied().flatten().filter(|own| own.is_finite()).map(|own| own + 0.0)
+        };
+        let rows = 0..report.abscissa.values.len();
+        let rows = rows.map(|row| list(columns.iter().map(|own| value(own, row))));
+        files.add_with(format!("{}.csv", report.protocol), |out| csv(out, header, rows))?;
+        if let Some(series) = series(report, tested.units) {
+            files.add(format!("{}.svg", report.protocol), series.chart().svg()?)?;
+        }
+    }
+    Ok(())
+}
+
+/// The model's own functions, and what a sweep of the network found.
+fn curves(word: &str, specimen: &Specimen, reports: &[RheometerReport]) -> Vec<ModelSeries> {
+    let (fastest, slowest) = specimen.range_of_times();
+    let (low, high) = (fastest / BEYOND, slowest * BEYOND);
+    let times: Vec<f64> =
+        (0..=POINTS).map(|at| low * (high / low).powf(f64::from(at) / f64::from(POINTS))).collect();
+    let linear = specimen.linear();
+    let over = |value: &dyn Fn(f64) -> f64, places: &[f64]| {
+        places.iter().map(|&at| (at, value(at))).filter(|own| own.1.is_finite()).collect::<Vec<_>>()
+    };
+    let omegas: Vec<f64> = times.iter().rev().map(|time| time.recip()).collect();
+    let spectrum = linear.maxwell().map(MaxwellForm::elements).unwrap_or_default();
+    let model = ModelSeries {
+        name: word.to_owned(),
+        relaxation: over(&|t| linear.relaxation(t), &times),
+        spectrum: spectrum.iter().map(|own| (own.relaxation_time, own.stiffness)).collect(),
+        creep: over(&|t| linear.creep(t), &times),
+        storage: over(&|omega| linear.storage(omega), &omegas),
+        loss: over(&|omega| linear.loss(omega), &omegas),
+        loss_factor: over(&|omega| linear.loss_factor(omega), &omegas),
+        markers: Vec::new(),
+    };
+    let sweep = reports.iter().find(|report| report.abscissa.unit == "Hz");
+    let network = sweep.map(|report| {
+        let of = |name: &str| {
+            let found = report.series(name).map(|series| points(report, series)[1].clone());
+            found.unwrap_or_default().into_iter().map(|(at, value)| (TAU * at, value)).collect()
+        };
+        ModelSeries {
+            name: "network".to_owned(),
+            storage: of("storage stiffness"),
+            loss: of("loss stiffness"),
+            loss_factor: of("loss factor"),
+            ..ModelSeries::default()
+        }
+    });
+    [model].into_iter().chain(network).collect()
+}
+
+/// All that a test has found, in columns.
+fn columns(report: &RheometerReport, units: Units) -> Vec<(String, Vec<Option<f64>>)> {
+    let header = |name: &str, unit| format!("{name} [{}]", units.of(unit));
+    let all = |values: &[f64]| values.iter().copied().map(Some).collect();
+    let given = [Some(&report.abscissa), report.drive.as_ref()].into_iter().flatten();
+    let given = given.map(|own| (header(&own.name, own.unit), all(&own.values)));
+    let found = report.series.iter().flat_map(|series| {
+        let computed = series.computed.iter().zip(&report.computations).map(|(own, by)| {
+            let name = format!("{} by {}", series.name, by.method);
+            (header(&name, series.unit), own.values.clone())
+        });
+        let model = (header(series.name, series.unit), all(&series.model));
+        list([model].into_iter().chain(computed))
+    });
+    list(given.chain(found))
+}

@@ -1,0 +1,196 @@
+//! `dashpot rheometer`.
+
+mod asked;
+mod files;
+mod tables;
+
+use dashpot_analysis::rheometer::{RheometerReport, Series, Specimen, protocol};
+use dashpot_plot::Table;
+use serde::Serialize;
+
+use self::{
+    asked::{given, has_parameter, summary, tests},
+    tables::{
+        agreement, characteristics, figure_table, missing, settings, spectra, spectrum_table,
+    },
+};
+use crate::{
+    args::{RheometerArguments, When},
+    error::{CliError, Status},
+    folder::{Folder, Staged},
+    operand::{Operand, canonical_model},
+    output::{Study, Text, VERSION, emit, list, object},
+    terminal::{Terminal, WIDTH, remark},
+    text::{columns, table, wrapped},
+};
+
+/// Lines of a plot.
+const PLOT_HEIGHT: usize = 12;
+/// Unit of a strain rate.
+const STRAIN_RATE: &str = "1/s";
+
+/// What the tests of a model have found.
+struct Tested {
+    word: String,
+    units: Units,
+    specimen: Specimen,
+    reports: Vec<RheometerReport>,
+    plot: When,
+}
+
+/// Tests a model.
+pub(crate) fn rheometer(
+    arguments: &RheometerArguments,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let operand = Operand::read(&arguments.model, &arguments.values.set, terminal)?;
+    let model = canonical_model(&operand)?;
+    let units = Units { is_material: operand.is_material() };
+    let specimen = Specimen::new(&model)?;
+    let methods: Vec<&str> = arguments.method.iter().map(String::as_str).collect();
+    let folder = Folder::wanted(arguments.out.as_deref(), files::names(&tests(arguments)))?;
+    let given = given(arguments, units)?;
+    let mut reports = Vec::new();
+    for test in tests(arguments) {
+        let own: Vec<(&str, f64)> =
+            given.iter().filter(|own| has_parameter(&test, own.0)).copied().collect();
+        match protocol(&test, &own)?.run(&specimen, &methods) {
+            Ok(report) => reports.push(report),
+            // One test alone was asked for; of several, the others go on.
+            Err(error) if arguments.test.len() != 1 => remark(&error.to_string()),
+            Err(error) => return Err(error.into()),
+        }
+    }
+    let tested = Tested { word: operand.word, units, specimen, reports, plot: arguments.plot };
+    emit(&tested, arguments.json, folder, terminal)?;
+    Ok(Status::Done)
+}
+
+/// The units of a pad, or those of a material: per thickness and area.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Units {
+    /// Whether they are those of a material.
+    pub(super) is_material: bool,
+}
+
+impl Units {
+    /// The unit that stands for one of a pad.
+    pub(super) fn of(self, unit: &'static str) -> &'static str {
+        if !self.is_material {
+            return unit;
+        }
+        match unit {
+            "N" | "N/m" => "Pa",
+            "N s/m" => "Pa s",
+            "m" => "1",
+            "m/s" => STRAIN_RATE,
+            "m/N" => "1/Pa",
+            other => other,
+        }
+    }
+
+    /// The word that stands for one of a pad.
+    fn word(self, name: &str) -> String {
+        if !self.is_material {
+            return name.to_owned();
+        }
+        name.replace("stiffness", "modulus")
+            .replace("deformation", "strain")
+            .replace("force", "stress")
+    }
+}
+
+impl Study for Tested {
+    fn text(&self, text: &mut Text) {
+        let Self { units, reports, .. } = self;
+        let common = characteristics(reports);
+        text.title(&self.word);
+        show(text, &figure_table(common, *units));
+        text.paragraphs(missing(common, *units));
+        let spectra = spectrum_table(&self.specimen, *units);
+        if !spectra.rows.is_empty() {
+            text.heading(&spectra.caption);
+            show(text, &spectra);
+        }
+        for report in reports {
+            text.heading(&format!("{}: {}", report.protocol, summary(report.protocol)));
+            text.faint(&settings(&report.settings, *units));
+            show(text, &figure_table(&report.figures[common.len()..], *units));
+            text.paragraphs(agreement(report).iter().chain(&report.notes));
+            let series = files::series(report, *units).filter(|_| text.is_plotted(self.plot));
+            if let Some(series) = series {
+                text.chart(&series.chart(), PLOT_HEIGHT);
+            }
+        }
+    }
+
+    fn object(&self) -> impl Serialize {
+        let [relaxation, retardation] = spectra(&self.specimen);
+        object! {
+            dashpot: VERSION,
+            model: &self.word,
+            material: self.units.is_material,
+            relaxation_spectrum: relaxation,
+            retardation_spectrum: retardation,
+            tests: list(self.reports.iter().map(|own| test(own, self.units))),
+        }
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        files::write(files, self)
+    }
+}
+
+fn test(report: &RheometerReport, units: Units) -> impl Serialize {
+    object! {
+        test: report.protocol,
+        settings: list(report.settings.iter().map(|own| object! {
+            name: own.name, unit: units.of(own.unit), value: own.value,
+        })),
+        abscissa: column(&report.abscissa, units),
+        drive: report.drive.as_ref().map(|own| column(own, units)),
+        series: list(report.series.iter().map(|own| answers(report, own, units))),
+        figures: list(report.figures.iter().map(|own| object! {
+            name: units.word(own.name),
+            unit: units.of(own.unit),
+            model: own.model,
+            computed: own.computed,
+            note: own.note,
+        })),
+        notes: &report.notes,
+    }
+}
+
+fn column(own: &dashpot_analysis::Column, units: Units) -> impl Serialize {
+    object! { name: units.word(&own.name), unit: units.of(own.unit), values: &own.values }
+}
+
+fn answers(report: &RheometerReport, own: &Series, units: Units) -> impl Serialize {
+    let computed = own.computed.iter().zip(&report.computations);
+    object! {
+        name: units.word(own.name),
+        unit: units.of(own.unit),
+        model: &own.model,
+        computed: list(computed.map(|(own, by)| object! {
+            method: by.method,
+            obstacle: &by.obstacle,
+            values: &own.values,
+            difference: own.difference.map(|own| own.relative),
+            stated: own.difference.and_then(|own| own.stated),
+        })),
+    }
+}
+
+/// Adds the lines of a table, those that are too wide cut.
+fn show(text: &mut Text, own: &Table) {
+    let (header, rows) = table(own);
+    for line in [header].iter().chain(&rows).filter(|line| !line.trim().is_empty()) {
+        if columns(line) <= WIDTH - 2 {
+            text.line(&format!("  {line}"));
+            continue;
+        }
+        for (at, part) in wrapped(line, WIDTH - 6).iter().enumerate() {
+            text.line(&format!("{}{part}", if at == 0 { "  " } else { "      " }));
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What `run` draws, and what it writes into a folder.
+
+use std::io::{self, Write};
+
+use dashpot_analysis::{RunReport, regular_times, resolving_times, table_at, touching};
+use dashpot_plot::{ReportFigure, figures::FIGURES};
+use dashpot_scene::RunSettings;
+
+use super::{Answer, as_run, page::page, series::curves_and_energies};
+use crate::{
+    error::CliError,
+    folder::Staged,
+    output::{csv, list},
+    sketch::{MOST_DRAWN, sketch},
+};
+
+/// The scene with what the command line changed.
+const SCENE: &str = "scene-as-run.toml";
+/// The drawing of the network.
+const DRAWING: &str = "network.svg";
+/// Everything on one page.
+const PAGE: &str = "report.html";
+/// Figures show at least so many points, and at most so many.
+const POINTS: (usize, usize) = (4001, 20_001);
+/// Rows of a table that are in memory at once.
+const CHUNK: usize = 4096;
+
+/// The files that are written besides the result and the tables of the methods.
+pub(super) fn names() -> impl Iterator<Item = String> {
+    let figures = FIGURES.iter().map(|figure| format!("{}.svg", figure.name()));
+    figures.chain([SCENE, DRAWING, PAGE].map(str::to_owned))
+}
+
+/// Adds everything that an answer holds but the result.
+pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError> {
+    files.add(SCENE, as_run::text(&answer.scene, &answer.changes))?;
+    let network = &answer.scene.network;
+    let is_drawn = network.connections().len() <= MOST_DRAWN;
+    let (low, high) = POINTS;
+    let count = answer.scene.run.samples.clamp(low, high);
+    let series = curves_and_energies(&answer.runs, count);
+    let mut figures = Vec::new();
+    if is_drawn {
+        let svg = sketch(network, answer.scene.run.duration).svg();
+        files.add(DRAWING, &svg)?;
+        figures.push(ReportFigure { caption: "The network".to_owned(), svg });
+    }
+    for figure in FIGURES {
+        let chart = figure.chart(&series);
+        // Of a rigid contact alone there is no force over a deformation.
+        if chart.series.is_empty() {
+            continue;
+        }
+        let svg = chart.svg()?;
+        files.add(format!("{}.svg", figure.name()), &svg)?;
+        figures.push(ReportFigure { caption: String::new(), svg });
+    }
+    files.add(PAGE, page(answer, figures).html())?;
+    for run in &answer.runs {
+        let times = sample_times(run, &answer.scene.run);
+        let name = format!("{}.csv", run.solver.method);
+        files.add_with(name, |out| write_table(run, &times, out))?;
+    }
+    Ok(())
+}
+
+/// Regular times where the scene says how many, else times closer to each other in short contacts.
+fn sample_times(run: &RunReport, settings: &RunSettings) -> Vec<f64> {
+    let (end, count) = (run.trajectory.t_end, settings.samples);
+    if settings.samples_given {
+        return regular_times(end, count);
+    }
+    resolving_times((0.0, end), &touching(&run.solution()), count)
+}
+
+/// Writes all outputs at these times \[s\] as CSV.
+fn write_table(run: &RunReport, times: &[f64], out: &mut dyn Write) -> io::Result<()> {
+    let at = |times: &[f64]| table_at(&run.assembly, &run.trajectory, times.to_vec());
+    let columns = at(&[]).columns.into_iter();
+    let header = columns.map(|own| format!("{} [{}]", own.name, own.unit));
+    let rows = times.chunks(CHUNK).flat_map(|chunk| {
+        let table = at(chunk);
+        let row = |(row, time): (usize, &f64)| {
+            let values = table.columns.iter().map(|column| column.values[row]);
+            // A zero has no sign.
+            list([*time].into_iter().chain(values).map(|own| own + 0.0))
+        };
+        list(table.times.iter().enumerate().map(row))
+    });
+    csv(out, ["time [s]".to_owned()].into_iter().chain(header), rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use dashpot_analysis::solve;
+    use dashpot_dae::Silent;
+    use dashpot_scene::{ReadOptions, read};
+
+    use super::*;
+
+    #[test]
+    fn samples_resolve_a_short_contact_unless_the_scene_says_how_many() {
+        let text = "[nodes]\nhead = { mass = \"4 kg\", drop = \"1 m\" }\n[elements]\n\
+            pad = { between = [\"head\", \"ground\"], spring = \"1 MN/m\" }\n[effects]\n\
+            separation.pad = {}\ngravity = { value = \"9.81 m/s^2\" }\n[run]\n";
+        let times = |run: &str| {
+            let scene = read(&format!("{text}{run}"), &ReadOptions::default()).unwrap().value;
+            let report = solve(&scene.network, &scene.settings("exact"), &mut Silent).unwrap();
+            sample_times(&report, &scene.run)
+        };
+        let met = (2.0_f64 / 9.81).sqrt();
+        let left = met + std::f64::consts::PI * (4.0_f64 / 1e6).sqrt();
+        let within = |times: &[f64]| times.iter().filter(|t| (met..left).contains(*t)).count();
+        let free = times("duration = \"600 ms\"\n");
+        assert_eq!((free.len(), free[0], free[500]), (501, 0.0, 0.6));
+        assert!(within(&free) > 200, "{}", within(&free));
+        let given = times("duration = \"600 ms\"\nsamples = 501\n");
+        assert_eq!(given, regular_times(0.6, 501));
+    }
+}

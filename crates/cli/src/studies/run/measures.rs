@@ -1,0 +1,237 @@
+//! All measures, one column for each method.
+
+use std::collections::{HashMap, HashSet};
+
+use dashpot_analysis::{
+    Difference, MeasureKind, MeasureReport, RunReport,
+    measures::{PeakStrain, STANDARD_GRAVITY},
+};
+use dashpot_network::parameters::{Value, WindowWish};
+use dashpot_plot::Table;
+
+use super::{Answer, verdict::is_index, zero::Zeros};
+use crate::{
+    numbers::{self, MOST_DIGITS, Unit, bound, constant, quantity, share},
+    text,
+};
+
+/// Runs that stand side by side, and the columns besides names and values.
+#[derive(Debug, Clone, Copy)]
+struct Block<'r> {
+    runs: &'r [RunReport],
+    errors: bool,
+    times: bool,
+    /// Whether the differences between all runs stand here.
+    apart: bool,
+}
+
+/// All measures with their errors, times and differences.
+pub(super) fn measures_table(answer: &Answer) -> Table {
+    build(answer, &whole(answer))
+}
+
+fn whole(answer: &Answer) -> Block<'_> {
+    let runs = &answer.runs;
+    let has_errors =
+        runs.iter().flat_map(|run| &run.measures).any(|measure| measure.error.is_some());
+    Block { runs, errors: has_errors, times: true, apart: runs.len() > 1 }
+}
+
+/// The same in tables of at most `limit` columns of text: where the methods do not fit side by
+/// side, they stand below each other; times are left out to keep the limit.
+pub(super) fn measures_tables(answer: &Answer, limit: usize) -> Vec<Table> {
+    let fits = |block: &Block<'_>| {
+        let table = build(answer, block);
+        (text::width(&table) <= limit).then_some(table)
+    };
+    let whole = whole(answer);
+    let without_times = Block { times: false, ..whole };
+    if let Some(table) = fits(&whole).or_else(|| fits(&without_times)) {
+        return vec![table];
+    }
+    let mut tables = Vec::new();
+    let mut rest = whole.runs;
+    while !rest.is_empty() {
+        let block = |count: usize| Block {
+            runs: &rest[..count],
+            apart: whole.apart && count == rest.len(),
+            ..without_times
+        };
+        let found = (1..=rest.len()).rev().find_map(|count| Some((count, fits(&block(count))?)));
+        let (count, table) = found.unwrap_or_else(|| {
+            let narrow = Block { errors: false, ..block(1) };
+            (1, build(answer, &narrow))
+        });
+        tables.push(table);
+        rest = &rest[count..];
+    }
+    tables
+}
+
+fn build(answer: &Answer, block: &Block<'_>) -> Table {
+    let mut header = vec!["measure".to_owned()];
+    for run in block.runs {
+        header.push(run.solver.method.to_owned());
+        if block.errors {
+            header.push("error".to_owned());
+        }
+    }
+    header.push("unit".to_owned());
+    if block.times {
+        header.push("at".to_owned());
+    }
+    if block.apart {
+        header.push("apart".to_owned());
+    }
+    let differences = answer.differences();
+    let apart: HashMap<&str, &Difference> =
+        differences.iter().map(|own| (own.key.as_str(), own)).collect();
+    let [all_runs, shown_runs] = [&answer.runs, block.runs]
+        .map(|runs| runs.iter().map(RunReport::by_key).collect::<Vec<_>>());
+    let kinds = Kinds::of(answer);
+    let zeros = Zeros::of(&answer.runs);
+    let mut rows = Vec::new();
+    for (key, first) in &kinds.measures {
+        let all = all_runs.iter().filter_map(|run| run.get(key)).copied();
+        let readings: Vec<Option<&MeasureReport>> =
+            shown_runs.iter().map(|run| run.get(key).copied()).collect();
+        let apart = apart.get(key);
+        for (at, unit) in units(all, first, &zeros).iter().enumerate() {
+            let main = at == 0;
+            let mut row = vec![if main { kinds.name(first) } else { String::new() }];
+            for reading in &readings {
+                row.push(reading.map_or("–".to_owned(), |own| value(own, unit, &zeros)));
+                if block.errors {
+                    let text = |own: &MeasureReport| error(own, unit, &zeros);
+                    row.push(reading.filter(|_| main).map_or(String::new(), text));
+                }
+            }
+            row.push(unit.symbol.clone());
+            if block.times {
+                let time = first.time.filter(|_| main);
+                row.push(time.map_or(String::new(), |time| quantity(time, "s", 4)));
+            }
+            if block.apart {
+                let apart = apart.filter(|_| main).map(|apart| share(apart.relative));
+                row.push(apart.unwrap_or_default());
+            }
+            rows.push(row);
+        }
+    }
+    Table { caption: "Measures".to_owned(), header, rows }
+}
+
+/// The measures of an answer, and how many of a kind each target has.
+struct Kinds<'r> {
+    /// Each key once, with the first measure of it.
+    measures: Vec<(&'r str, &'r MeasureReport)>,
+    counts: HashMap<(&'static str, &'r str), usize>,
+}
+
+impl<'r> Kinds<'r> {
+    fn of(answer: &'r Answer) -> Self {
+        let (mut measures, mut counts) = (Vec::new(), HashMap::new());
+        let mut known: HashSet<&str> = HashSet::new();
+        for measure in answer.runs.iter().flat_map(|run| &run.measures) {
+            if known.insert(&measure.key) {
+                measures.push((measure.key.as_str(), measure));
+                *counts.entry((measure.kind, measure.target.as_str())).or_default() += 1;
+            }
+        }
+        Self { measures, counts }
+    }
+
+    /// The key; where the target has several measures of the kind, also what sets them apart.
+    fn name(&self, measure: &MeasureReport) -> String {
+        match self.counts.get(&(measure.kind, measure.target.as_str())) {
+            Some(2..) => told_apart(measure),
+            _ => measure.key.clone(),
+        }
+    }
+}
+
+/// The key of a measure with what sets it apart.
+fn told_apart(measure: &MeasureReport) -> String {
+    let window = measure.window_wish.map(|wish| match wish {
+        WindowWish::Impact => "impact".to_owned(),
+        WindowWish::Run => "run".to_owned(),
+        WindowWish::Times(from, to) => format!("{}–{}", constant(from, "s"), constant(to, "s")),
+    });
+    let parameters = measure.parameters.iter().filter_map(|(name, value)| match value {
+        Value::Number(number) => Some(format!("{name} {number}")),
+        Value::Word(word) => Some(format!("{name} {word}")),
+        _ => None,
+    });
+    let marks: Vec<String> = parameters.chain(window).collect();
+    if marks.is_empty() {
+        return measure.key.clone();
+    }
+    format!("{} ({})", measure.key, marks.join(", "))
+}
+
+/// The units in which a measure is shown, one below the other.
+fn units<'r>(
+    readings: impl Iterator<Item = &'r MeasureReport>,
+    first: &MeasureReport,
+    zeros: &Zeros,
+) -> Vec<Unit> {
+    let largest = readings
+        .filter(|reading| !zeros.has(reading))
+        .filter_map(|reading| reading.value)
+        .map(f64::abs)
+        .fold(0.0, f64::max);
+    match (unit_of_kind(first.kind, first.unit), first.unit) {
+        (Some(own), "m/s^2") => vec![own, Unit::plain(first.unit)],
+        (Some(own), _) => vec![own],
+        (None, si) if largest > 0.0 => vec![Unit::suiting(largest, si)],
+        (None, _) => vec![zeros.unit(first)],
+    }
+}
+
+/// The unit in which measures of a kind, in SI units `si`, are read whatever their size.
+pub(crate) fn unit_of_kind(kind: &str, si: &str) -> Option<Unit> {
+    match si {
+        "m/s^2" => Some(Unit::new("g", STANDARD_GRAVITY)),
+        "s" if is_index(kind) => Some(Unit::plain("s")),
+        "1" if kind == PeakStrain::KIND => Some(Unit::new("%", 0.01)),
+        _ => None,
+    }
+}
+
+fn value(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
+    match measure.value {
+        None if measure.is_undetermined => "not determined".to_owned(),
+        None => "–".to_owned(),
+        Some(_) if zeros.has(measure) => "0".to_owned(),
+        Some(value) => unit.number(value, numbers::digits(value, measure.error, MOST_DIGITS)),
+    }
+}
+
+/// The error relative to the value; that of what is next to nothing in its unit.
+fn error(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
+    let Some(absolute) = measure.error.filter(|_| measure.value.is_some()) else {
+        return "–".to_owned();
+    };
+    if zeros.has(measure) || measure.is_next_to_nothing() {
+        // The unit stands behind it.
+        return format!("±{}", unit.number(absolute, 1));
+    }
+    match measure.relative_error() {
+        Some(error) => format!("±{}", bound(error)),
+        None => "±0 %".to_owned(),
+    }
+}
+
+/// What is to be said about single measures, each once.
+pub(super) fn notes(answer: &Answer) -> Vec<String> {
+    let mut notes: Vec<(String, Vec<&str>)> = Vec::new();
+    for measure in answer.runs.iter().flat_map(|run| &run.measures) {
+        let Some(note) = &measure.note else { continue };
+        match notes.iter_mut().find(|(known, _)| known == note) {
+            Some((_, keys)) if keys.contains(&measure.key.as_str()) => {}
+            Some((_, keys)) => keys.push(&measure.key),
+            None => notes.push((note.clone(), vec![&measure.key])),
+        }
+    }
+    notes.into_iter().map(|(note, keys)| format!("{}: {note}", keys.join(", "))).collect()
+}

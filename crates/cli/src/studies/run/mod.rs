@@ -1,0 +1,246 @@
+//! `dashpot run`.
+
+mod as_run;
+mod energy;
+mod files;
+mod measures;
+mod object;
+mod page;
+mod partial;
+mod series;
+mod settings;
+mod solving;
+mod verdict;
+mod zero;
+
+use std::{
+    collections::HashMap,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use dashpot_analysis::{
+    Accuracy, Difference, RunReport, SolveSettings, differences, solve_partial,
+};
+use dashpot_plot::figures::{Figure, ForceTime};
+use dashpot_scene::Scene;
+use serde::Serialize;
+
+use self::{
+    as_run::Changes,
+    energy::energy_table,
+    measures::{measures_tables, notes},
+    series::curves,
+    solving::{reasons, solving_table},
+    verdict::verdict,
+};
+pub(crate) use self::{measures::unit_of_kind, partial::estimate};
+use crate::{
+    args::{RunArguments, Switch, When},
+    commands::hopeless,
+    error::{CliError, Status},
+    folder::{Folder, Staged},
+    input::read_scene,
+    operand::tell,
+    output::{Study, Text, emit},
+    progress::Bar,
+    studies::title,
+    terminal::{Terminal, WIDTH},
+    text::indented,
+};
+
+/// Lines of the plot.
+const PLOT_HEIGHT: usize = 14;
+/// Points of a curve in the plot: many more than dots, so that quick oscillations fill their band.
+const PLOT_POINTS: usize = 8001;
+/// Columns of the verdict's labels.
+const LABELS: usize = 13;
+
+/// A scene and its runs.
+struct Answer {
+    /// What was solved.
+    pub(super) scene: Scene,
+    /// What the command line said in place of the scene.
+    pub(super) changes: Changes,
+    /// The accuracy and the other settings with which each method was asked, in their order.
+    pub(super) asked: Vec<SolveSettings>,
+    /// The runs that went well, in the order of the methods; at least one.
+    pub(super) runs: Vec<RunReport>,
+    /// What each of them took in all: solutions, measures and errors.
+    pub(super) elapsed: Vec<Duration>,
+    /// The methods that failed, and why.
+    pub(super) failed: Vec<(String, CliError)>,
+    /// Whether forces are plotted.
+    plot: When,
+}
+
+impl Answer {
+    /// The most accurate run; of equals the first. `None` if no run went well.
+    pub(super) fn best(&self) -> Option<&RunReport> {
+        let error = |run: &RunReport| run.worst_relative_error().unwrap_or(f64::INFINITY);
+        self.runs.iter().min_by(|one, other| error(one).total_cmp(&error(other)))
+    }
+
+    /// All warnings, the most important first; those that not every run gives name their methods.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let mut said: Vec<(&str, Vec<&str>)> = Vec::new();
+        let mut places = HashMap::new();
+        for run in &self.runs {
+            for warning in &run.warnings {
+                let place = *places.entry(warning.as_str()).or_insert_with(|| {
+                    said.push((warning.as_str(), Vec::new()));
+                    said.len() - 1
+                });
+                said[place].1.push(run.solver.method);
+            }
+        }
+        let text = |(warning, methods): (&str, Vec<&str>)| {
+            if methods.len() == self.runs.len() {
+                warning.to_owned()
+            } else {
+                format!("{}: {warning}", methods.join(", "))
+            }
+        };
+        said.into_iter().map(text).collect()
+    }
+
+    /// How far the runs are apart in each measure: the largest difference from the first one.
+    pub(super) fn differences(&self) -> Vec<Difference> {
+        let Some((first, others)) = self.runs.split_first() else { return Vec::new() };
+        let mut largest: Vec<Difference> = Vec::new();
+        for difference in others.iter().flat_map(|other| differences(first, other)) {
+            match largest.iter_mut().find(|known| known.key == difference.key) {
+                Some(known) => known.relative = known.relative.max(difference.relative),
+                None => largest.push(difference),
+            }
+        }
+        largest
+    }
+
+    /// The warnings but those that the scene's own text has brought already.
+    fn new_warnings(&self) -> Vec<String> {
+        let known = &self.scene.assembly.warnings;
+        self.warnings().into_iter().filter(|warning| !known.contains(warning)).collect()
+    }
+}
+
+/// Solves a scene by its methods, and reports.
+pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status, CliError> {
+    let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
+    terminal.diagnose(&checked.warnings);
+    tell(&checked.value.notes);
+    let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
+    if let Ok(texts) = hopeless(&checked.value) {
+        texts.iter().for_each(|text| terminal.warn(text));
+    }
+    let answer = solve_all(checked.value, arguments, terminal);
+    tell_failures(&answer, terminal);
+    let status = answer.failed.iter().map(|(_, error)| error.status()).max();
+    if arguments.json || !answer.runs.is_empty() {
+        // The report begins with them, so at one place they would be read twice.
+        if arguments.json || !terminal.is_one {
+            answer.new_warnings().iter().for_each(|warning| terminal.warn(warning));
+        }
+        let folder = folder.filter(|_| !answer.runs.is_empty());
+        emit(&answer, arguments.json, folder, terminal)?;
+    }
+    Ok(status.unwrap_or(Status::Done))
+}
+
+/// Tells of each error once, with the methods that it is about unless that is all of them.
+fn tell_failures(answer: &Answer, terminal: Terminal) {
+    let mut told: Vec<String> = Vec::new();
+    for (_, error) in &answer.failed {
+        let text = error.to_string();
+        if told.contains(&text) {
+            continue;
+        }
+        let same = answer.failed.iter().filter(|(_, other)| other.to_string() == text);
+        let methods: Vec<&str> = same.map(|(method, _)| method.as_str()).collect();
+        let is_all = methods.len() == answer.asked.len();
+        let prefix = if is_all { String::new() } else { format!("{}: ", methods.join(", ")) };
+        terminal.fail(&prefix, error);
+        told.push(text);
+    }
+}
+
+fn solve_all(scene: Scene, arguments: &RunArguments, terminal: Terminal) -> Answer {
+    let mut asked: Vec<SolveSettings> = Vec::new();
+    let methods = if arguments.method.is_empty() { &scene.run.methods } else { &arguments.method };
+    for method in methods {
+        if asked.iter().all(|own| own.method != *method) {
+            asked.push(settings(&scene, method, arguments));
+        }
+    }
+    let assembly = Arc::new(scene.assembly.clone());
+    let (mut runs, mut failed) = (Vec::<RunReport>::new(), Vec::new());
+    let mut elapsed = Vec::new();
+    for own in &asked {
+        let mut bar = Bar::new(&own.method, own.duration, terminal.error.attended);
+        let started = Instant::now();
+        match solve_partial(&scene.network, &assembly, own, &mut bar) {
+            // `auto` may choose what is asked for by name as well.
+            Ok(report) if is_new(&runs, &report) => {
+                runs.push(report);
+                elapsed.push(started.elapsed());
+            }
+            Ok(_) => {}
+            Err(error) => failed.push((own.method.clone(), CliError::Run(error))),
+        }
+    }
+    let (changes, plot) = (Changes::of(arguments), arguments.plot);
+    Answer { scene, changes, asked, runs, elapsed, failed, plot }
+}
+
+fn is_new(runs: &[RunReport], report: &RunReport) -> bool {
+    runs.iter().all(|run| run.solver.method != report.solver.method)
+}
+
+fn settings(scene: &Scene, method: &str, arguments: &RunArguments) -> SolveSettings {
+    let mut settings = scene.settings(method);
+    settings.estimate = arguments.estimate == Switch::On;
+    settings.budget = arguments.budget.unwrap_or(settings.budget);
+    settings.rtol = arguments.rtol.or(settings.rtol);
+    if let Some(accuracy) = arguments.accuracy {
+        let neglect_below = settings.accuracy.neglect_below;
+        settings.accuracy = Accuracy { neglect_below, ..Accuracy::of_all(accuracy) };
+        // A tolerance of the scene would keep the accuracy from being sought.
+        settings.rtol = None;
+    }
+    settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
+    settings
+}
+
+impl Study for Answer {
+    fn text(&self, text: &mut Text) {
+        text.warnings(&self.new_warnings());
+        text.title(title(&self.scene));
+        self.changes.told().iter().for_each(|told| text.words(told));
+        text.blank();
+        for line in verdict(self) {
+            text.labelled(line.label, LABELS, &line.text);
+        }
+        if let Some(best) = self.best().filter(|_| text.is_plotted(self.plot)) {
+            let chart = ForceTime.chart(&[curves(best, PLOT_POINTS)]);
+            text.blank();
+            text.lines(&indented(&chart.text(WIDTH - 4, PLOT_HEIGHT)));
+        }
+        for table in measures_tables(self, WIDTH - 2) {
+            text.figures(&table);
+        }
+        notes(self).iter().for_each(|note| text.labelled("", 0, note));
+        self.best().iter().for_each(|best| text.figures(&energy_table(best)));
+        text.figures(&solving_table(self));
+        for (method, why) in reasons(self) {
+            text.labelled(&method, 8, &why);
+        }
+    }
+
+    fn object(&self) -> impl Serialize {
+        object::object(self)
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        files::write(files, self)
+    }
+}

@@ -1,0 +1,39 @@
+//! The answer as one HTML page.
+
+use dashpot_plot::{Report, ReportFigure, Table};
+
+use super::{
+    Answer, as_run,
+    energy::energy_table,
+    measures::{measures_table, notes},
+    settings::settings_table,
+    solving::{reasons, solving_table},
+    verdict::verdict,
+};
+use crate::studies::title;
+
+/// The page with these drawings.
+pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
+    let mut tables = vec![measures_table(answer)];
+    tables.extend(Some(Table::list("Remarks", notes(answer))).filter(|own| !own.rows.is_empty()));
+    tables.extend(answer.best().map(energy_table));
+    let why = reasons(answer).into_iter().map(|(method, why)| vec![method, why]);
+    let failed = answer.failed.iter().map(|(method, error)| format!("{method} failed: {error}"));
+    let details = vec![
+        solving_table(answer),
+        Table::new("Why these methods", &[], why),
+        settings_table(answer),
+    ];
+    let changes = answer.changes.told().into_iter();
+    let verdict = verdict(answer).into_iter();
+    let lines = verdict.map(|line| format!("{}: {}", line.label, line.text));
+    Report {
+        title: title(&answer.scene).to_owned(),
+        warnings: failed.chain(answer.warnings()).collect(),
+        verdict: changes.chain(lines).collect(),
+        tables,
+        figures,
+        details,
+        scene_text: as_run::text(&answer.scene, &answer.changes),
+    }
+}

@@ -1,0 +1,248 @@
+//! What `sweep` draws, and what it writes into a folder.
+
+use std::{fmt::Write as _, io};
+
+use dashpot_analysis::sweep::{Column, SweepReport};
+use dashpot_plot::{Chart, Direction, Map, MapLimit, ReferenceLine, Scale, Series};
+use dashpot_scene::Variation;
+
+use super::{
+    Swept,
+    words::{self, name, shown},
+};
+use crate::{
+    error::CliError,
+    folder::Staged,
+    numbers::Unit,
+    output::{csv, list},
+    studies::title,
+};
+
+/// Values at all points.
+const TABLE: &str = "sweep.csv";
+/// Heading of the numbers of warnings.
+const WARNINGS: &str = "warnings";
+/// A family of at most so many lines is drawn besides its map …
+const MOST_FAMILY: usize = 12;
+/// … and of any family at most so many lines, as many as there are colours.
+const MOST_LINES: usize = 7;
+/// A map has at least so many rows and columns.
+const LEAST_OF_MAP: usize = 4;
+/// What is to be said of a padding that is as deep as it is thick.
+const PRESSED: &str = "ξmax = 1";
+
+/// The figures of a sweep.
+#[derive(Clone, Copy)]
+struct Figures {
+    lines: bool,
+    map: bool,
+}
+
+impl Figures {
+    fn of(variations: &[Variation]) -> Self {
+        match variations {
+            [_] => Self { lines: true, map: false },
+            [first, second] => {
+                let map = first.len() >= LEAST_OF_MAP && second.len() >= LEAST_OF_MAP;
+                Self { lines: !map || second.len() <= MOST_FAMILY, map }
+            }
+            _ => Self { lines: false, map: false },
+        }
+    }
+}
+
+/// Why there is no figure, where there is none.
+pub(super) fn undrawn(variations: &[Variation]) -> Option<&'static str> {
+    let figures = Figures::of(variations);
+    let is_drawn = figures.lines || figures.map;
+    (!is_drawn).then_some("no figures: lines and maps are drawn over one parameter or two")
+}
+
+fn line_file(column: &Column) -> String {
+    stem(column) + ".svg"
+}
+
+fn map_file(column: &Column) -> String {
+    stem(column) + "-map.svg"
+}
+
+/// The key of a column as the name of a file: what is no part of such a name everywhere is written as
+/// in addresses, so that different keys have different names.
+fn stem(column: &Column) -> String {
+    let mut name = String::new();
+    for own in column.key.chars() {
+        if "/\\:*?\"<>|%".contains(own) {
+            let _ = write!(name, "%{:02X}", u32::from(own));
+        } else {
+            name.push(own);
+        }
+    }
+    name + if column.is_share { "-over-thickness" } else { "" }
+}
+
+/// The files that are written besides the result.
+pub(super) fn names(variations: &[Variation], columns: &[Column]) -> Vec<String> {
+    let figures = Figures::of(variations);
+    let lines = columns.iter().filter(|_| figures.lines).map(line_file);
+    let maps = columns.iter().filter(|_| figures.map).map(map_file);
+    [TABLE.to_owned()].into_iter().chain(lines).chain(maps).collect()
+}
+
+/// Adds all files but the result.
+pub(super) fn write(files: &mut Staged<'_>, swept: &Swept) -> Result<(), CliError> {
+    files.add_with(TABLE, |out| table(swept, out))?;
+    let figures = Figures::of(&swept.variations);
+    for (at, column) in swept.report.columns.iter().enumerate() {
+        if figures.lines {
+            files.add(line_file(column), lines(swept, at).svg()?)?;
+        }
+        if figures.map {
+            files.add(map_file(column), map(swept, at).svg())?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes values and errors at all points, in SI units, and the numbers of the warnings there, as CSV;
+/// what is missing is blank.
+pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
+    let Swept { variations, report, .. } = swept;
+    let own = variations.iter().enumerate();
+    let own = own.map(|(at, own)| format!("{} [{}]", own.name, swept.unit(at)));
+    let found = report.columns.iter().flat_map(|own| {
+        let (name, unit) = (name(own), own.unit);
+        [format!("{name} [{unit}]"), format!("error of {name} [{unit}]")]
+    });
+    let header = own.chain(found).chain([WARNINGS.to_owned()]);
+    let width = report.columns.len();
+    let points = report.values.chunks(width).zip(report.errors.chunks(width));
+    let mut warned = list(report.warnings.iter().map(|own| own.points.iter().peekable()));
+    let rows = points.enumerate().map(|(point, (values, errors))| {
+        let places = swept.grid.places(point).into_iter();
+        let own = places.zip(variations).map(|(place, own)| own.values[place]);
+        let both = values.iter().zip(errors).flat_map(|(value, error)| [*value, *error]);
+        let raised = warned
+            .iter_mut()
+            .enumerate()
+            .filter_map(|(at, points)| points.next_if_eq(&&point).map(|_| (at + 1).to_string()));
+        let raised = list(raised).join(" ");
+        list(own.chain(both).map(number).chain([raised]))
+    });
+    csv(out, header, rows)
+}
+
+/// The shortest digits that give the number back.
+fn number(value: f64) -> String {
+    if !value.is_finite() {
+        return String::new();
+    }
+    let (plain, scientific) = (value.to_string(), format!("{value:e}"));
+    if scientific.len() < plain.len() { scientific } else { plain }
+}
+
+/// The unit in which a column is drawn: that of its largest value.
+fn unit(report: &SweepReport, column: usize) -> Unit {
+    let most = report.column(column).filter(|own| own.is_finite()).map(f64::abs);
+    words::unit(&report.columns[column], most.fold(0.0, f64::max))
+}
+
+fn label(name: &str, unit: &Unit) -> String {
+    if unit.symbol.is_empty() { name.to_owned() } else { format!("{name} ({})", unit.symbol) }
+}
+
+/// Label, scale and places of a parameter, in the unit of the command line.
+fn axis(swept: &Swept, parameter: usize) -> (String, Scale, Vec<f64>) {
+    let own = &swept.variations[parameter];
+    let (unit, places) = if own.unit.is_empty() {
+        (swept.unit(parameter), &own.values)
+    } else {
+        (own.unit.clone(), &own.numbers)
+    };
+    let scale = if own.is_logarithmic { Scale::logarithmic("") } else { Scale::Linear };
+    (label(&own.name, &Unit::plain(&unit)), scale, places.clone())
+}
+
+/// Positions of at most [`MOST_LINES`] lines of a family, from its first to its last one.
+fn drawn(count: usize) -> Vec<usize> {
+    let wanted = count.min(MOST_LINES);
+    (0..wanted).map(|at| at * (count - 1) / (wanted - 1).max(1)).collect()
+}
+
+/// A column over the first parameter, one line for each value of the second.
+fn lines(swept: &Swept, column: usize) -> Chart {
+    let report = &swept.report;
+    let (x_label, x_scale, x) = axis(swept, 0);
+    let unit = unit(report, column);
+    let values: Vec<f64> = report.column(column).map(|own| unit.of(own)).collect();
+    let (count, name_of): (usize, Box<dyn Fn(usize) -> String>) = match &swept.variations[..] {
+        [_, second] => {
+            (second.len(), Box::new(|at| format!("{} = {}", second.name, shown(second, at))))
+        }
+        _ => (1, Box::new(|_| String::new())),
+    };
+    let line = |at: usize| {
+        let points = x.iter().enumerate().map(|(place, x)| (*x, values[place * count + at]));
+        Series::new(name_of(at), points.collect())
+    };
+    let own = &report.columns[column];
+    let left_out =
+        if count > MOST_LINES { format!(", {MOST_LINES} of {count} lines") } else { String::new() };
+    let limit = ReferenceLine {
+        direction: Direction::Horizontal,
+        at: 1.0,
+        label: PRESSED.to_owned(),
+        colour: None,
+    };
+    Chart {
+        title: name(own) + &left_out,
+        note: title(&swept.scene).to_owned(),
+        x_label,
+        x_scale,
+        y_label: label(&name(own), &unit),
+        series: drawn(count).into_iter().map(line).collect(),
+        lines: if own.is_share { vec![limit] } else { Vec::new() },
+        ..Chart::default()
+    }
+}
+
+/// A column over both parameters, with the line on which a padding is pressed to nothing.
+fn map(swept: &Swept, column: usize) -> Map {
+    let report = &swept.report;
+    let (x_label, x_scale, x) = axis(swept, 0);
+    let (y_label, y_scale, y) = axis(swept, 1);
+    let turned = |values: Vec<f64>| -> Vec<f64> {
+        let place = |at: usize| (at % x.len()) * y.len() + at / x.len();
+        (0..values.len()).map(|at| values[place(at)]).collect()
+    };
+    let own = &report.columns[column];
+    let element = own.key.rsplit_once('.').map(|key| key.0);
+    let limits = report.columns.iter().enumerate().filter(|(_, other)| {
+        let other_element = other.key.rsplit_once('.').map(|key| key.0);
+        other.is_share && (other_element == element || shares(report) == 1)
+    });
+    let limits = limits.map(|(at, _)| MapLimit {
+        values: turned(report.column(at).collect()),
+        at: 1.0,
+        label: PRESSED.to_owned(),
+    });
+    let limits = limits.collect();
+    let unit = unit(report, column);
+    Map {
+        title: name(own),
+        note: title(&swept.scene).to_owned(),
+        x_label,
+        y_label,
+        x_scale,
+        y_scale,
+        value_label: label(&name(own), &unit),
+        values: turned(report.column(column).map(|own| unit.of(own)).collect()),
+        limits,
+        x,
+        y,
+    }
+}
+
+/// How many columns are shares of a thickness.
+fn shares(report: &SweepReport) -> usize {
+    report.columns.iter().filter(|own| own.is_share).count()
+}

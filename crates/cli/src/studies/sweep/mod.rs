@@ -1,0 +1,204 @@
+//! `dashpot sweep`.
+
+mod files;
+mod remarks;
+mod words;
+
+use std::{num::NonZero, thread::available_parallelism};
+
+use dashpot_analysis::{
+    partial::Cost,
+    sweep::{Column, Grid, Pose, Posed, SweepReport, columns, sweep as solve},
+};
+use dashpot_scene::{Diagnostics, Scene, Tunables, Variation, read};
+use serde::Serialize;
+
+use self::{remarks::remarks, words::summary};
+use crate::{
+    args::SweepArguments,
+    error::{CliError, Status},
+    folder::{Folder, Staged},
+    input::Input,
+    output::{Study, Text, VERSION, emit, list, object},
+    progress::Count,
+    studies::title,
+    terminal::{Terminal, remark},
+};
+
+/// What was varied, in what, and what was found.
+struct Swept {
+    scene: Scene,
+    tunables: Tunables,
+    variations: Vec<Variation>,
+    /// The number of the scene that each variation is of.
+    matched: Vec<usize>,
+    grid: Grid,
+    report: SweepReport,
+}
+
+/// Solves a scene for many values of its parameters.
+pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<Status, CliError> {
+    let input = Input::of(arguments.scene.scene.as_deref())?;
+    let set = &arguments.scene.values.set;
+    let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
+    terminal.diagnose(&checked.warnings);
+    let scene = checked.value;
+    let tunables = Tunables::of(input.text()?, Some(&input.file)).map_err(CliError::Scene)?;
+    let variations: Vec<Variation> =
+        arguments.vary.iter().map(|own| Variation::parse(own)).collect::<Result<_, _>>()?;
+    let matched = tunables.matched(&variations)?;
+    if let Some((name, _)) = set.iter().find(|own| is_varied(&tunables, &matched, &own.0)) {
+        return Err(CliError::SetAndVaried { name: name.clone() });
+    }
+    let grid = Grid::new(variations.iter().map(Variation::len).collect())
+        .filter(|grid| grid.len() <= MOST)
+        .ok_or(CliError::TooManyPoints { most: MOST })?;
+    let posed = |scene: Scene| {
+        let method = match (&arguments.method, &scene.run.methods[..]) {
+            (Some(wanted), _) => wanted,
+            (None, [only]) => only,
+            _ => "auto",
+        };
+        let mut settings = scene.settings(method);
+        settings.budget = arguments.budget.unwrap_or(settings.budget);
+        settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
+        Posed { network: scene.network, settings }
+    };
+    let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
+    let (columns, wishes) = columns(&posed(scene.clone()), &keys)?;
+    let names = files::names(&variations, &columns);
+    let folder = Folder::wanted(arguments.out.as_deref(), names)?;
+    let pose = |places: &[usize]| {
+        let text = text_at(&tunables, &variations, &matched, places);
+        let checked = read(&text, &input.options(set)).map_err(|faults| {
+            let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
+            messages.collect::<Vec<_>>().join("; ")
+        })?;
+        let mut posed = posed(checked.value);
+        posed.settings.measures.clone_from(&wishes);
+        Ok(posed)
+    };
+    let mut told = checked.warnings.list;
+    let before = told.len();
+    // A fault at the ends of a range is shown in the scene's text, with the value under a caret.
+    for point in grid.corners().into_iter().take(MOST_CORNERS) {
+        let text = text_at(&tunables, &variations, &matched, &grid.places(point));
+        let found = read(&text, &input.options(set)).map_err(CliError::Scene)?.warnings;
+        let known: Vec<String> = told.iter().map(dashpot_scene::Diagnostic::message).collect();
+        told.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
+    }
+    terminal.diagnose(&Diagnostics { list: told.split_off(before), omitted: 0 });
+    let report = solved(arguments, &grid, &pose, &columns, terminal)?;
+    let swept = Swept { scene, tunables, variations, matched, grid, report };
+    let has_folder = folder.is_some();
+    emit(&swept, arguments.json, folder, terminal)?;
+    files::undrawn(&swept.variations).filter(|_| has_folder).into_iter().for_each(remark);
+    let failed = swept.report.gaps.iter().filter(|own| own.column.is_none()).count();
+    Ok(if failed == swept.points() { Status::RunFailed } else { Status::Done })
+}
+
+/// More points are not solved in one sweep.
+const MOST: usize = 10_000_000;
+/// So many corners of the grid are read before anything is solved.
+const MOST_CORNERS: usize = 64;
+
+/// Whether a named value is among the numbers that vary.
+fn is_varied(tunables: &Tunables, matched: &[usize], name: &str) -> bool {
+    let path = format!("values.{name}");
+    matched.iter().any(|&at| tunables.all()[at].path == path)
+}
+
+fn text_at(
+    tunables: &Tunables,
+    variations: &[Variation],
+    matched: &[usize],
+    places: &[usize],
+) -> String {
+    let all = matched.iter().zip(variations).zip(places);
+    let values: Vec<(usize, String)> =
+        all.map(|((at, own), place)| (*at, own.text(*place))).collect();
+    tunables.text_with(&values)
+}
+
+fn solved(
+    arguments: &SweepArguments,
+    grid: &Grid,
+    pose: &Pose<'_>,
+    columns: &[Column],
+    terminal: Terminal,
+) -> Result<SweepReport, CliError> {
+    let all = || available_parallelism().map_or(1, NonZero::get);
+    let threads = arguments.threads.map_or_else(all, NonZero::get);
+    let mut bar = Count::new("sweep", terminal.error.attended);
+    Ok(solve(grid, pose, columns, threads, &mut |done, of| bar.tell(done, of))?)
+}
+
+impl Study for Swept {
+    fn text(&self, text: &mut Text) {
+        text.title(title(&self.scene));
+        self.in_words().iter().for_each(|own| text.faint(own));
+        text.table(&summary(&self.report));
+        text.paragraphs(remarks(self));
+    }
+
+    fn data(&self) -> Option<String> {
+        let mut bytes = Vec::new();
+        files::table(self, &mut bytes).ok()?;
+        String::from_utf8(bytes).ok()
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        remarks(self)
+    }
+
+    /// Values stand in the order of the points: the last parameter varies fastest.
+    fn object(&self) -> impl Serialize {
+        let Self { scene, report, .. } = self;
+        let parameters = self.variations.iter().zip(&self.matched).enumerate();
+        let measures = report.columns.iter().enumerate();
+        let column = |all: &[f64], at: usize| {
+            let own = all.iter().skip(at).step_by(report.columns.len());
+            list(own.map(|own| own.is_finite().then_some(*own)))
+        };
+        object! {
+            dashpot: VERSION,
+            title: &scene.title,
+            file: &scene.file,
+            parameters: list(parameters.map(|(at, (own, &tunable))| object! {
+                name: &own.name,
+                path: &self.tunables.all()[tunable].path,
+                unit: self.unit(at),
+                values: &own.values,
+            })),
+            measures: list(measures.map(|(at, own)| object! {
+                key: &own.key,
+                over_thickness: own.is_share,
+                unit: own.unit,
+                values: column(&report.values, at),
+                errors: column(&report.errors, at),
+            })),
+            points: self.points(),
+            stamped: report.stamped,
+            checked: &report.checked,
+            largest_difference: report.largest_difference,
+            gaps: list(report.gaps.iter().map(|own| object! {
+                point: own.point,
+                measure: own.column.map(|at| &report.columns[at].key),
+                reason: &own.reason,
+            })),
+            warnings: &report.warnings,
+            left_out: report.partial.as_ref().map(|own| object! {
+                bound: own.bound,
+                effects: list(own.left_out.iter().map(|own| &own.effect)),
+                checked: &own.checked,
+                measure: own.worst.as_ref().map(|own| &own.measure),
+                moves: own.worst.as_ref().map(Cost::most).filter(|own| own.is_finite()),
+                solves: own.solves,
+            }),
+        }
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        files::write(files, self)
+    }
+}

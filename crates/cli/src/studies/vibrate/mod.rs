@@ -1,0 +1,216 @@
+//! `dashpot vibrate`.
+
+mod tables;
+
+use std::f64::consts::TAU;
+
+use dashpot_analysis::vibration::{
+    DriveKind, Resonance, Steady, Sweep, SweepSettings, Swing, Transmission, Vibration,
+};
+use dashpot_network::parameters::Dimension;
+use dashpot_plot::{VibrationCurve, VibrationSeries};
+use dashpot_scene::{Scene, units::parse_quantity};
+use serde::Serialize;
+
+use self::tables::{degrees, drive, remarks, resonances, response, steady, steady_remarks};
+use crate::{
+    args::{VibrateArguments, When},
+    error::{CliError, Status},
+    folder::{Folder, Staged},
+    input::read_scene,
+    numbers::{Unit, quantity},
+    output::{Study, Text, VERSION, csv, emit, list, object},
+    studies::title,
+    terminal::{Terminal, WIDTH},
+};
+
+/// Ratios and phases at all frequencies.
+const TABLE: &str = "response.csv";
+/// The figures.
+const FIGURES: [&str; 2] = ["transmissibility.svg", "phase.svg"];
+/// Digits in the text of a peak.
+const DIGITS: usize = 3;
+/// Lines of a plot.
+const PLOT_HEIGHT: usize = 16;
+
+/// What shaking a scene has shown.
+struct Shaken {
+    scene: Scene,
+    sweep: Sweep,
+    steady: Option<Steady>,
+    plot: When,
+}
+
+/// Shakes a scene.
+pub(crate) fn vibrate(
+    arguments: &VibrateArguments,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
+    terminal.diagnose(&checked.warnings);
+    let scene = checked.value;
+    let vibration = Vibration::new(&scene.network, scene.run.duration, arguments.drive.as_deref())?;
+    let names = FIGURES.iter().chain([&TABLE]).map(|own| (*own).to_owned());
+    let folder = Folder::wanted(arguments.out.as_deref(), names)?;
+    let sweep = vibration.sweep(&SweepSettings {
+        from: arguments.from,
+        to: arguments.to,
+        points: arguments.points,
+        of: arguments.of.iter().map(|own| own.trim().to_owned()).collect(),
+    })?;
+    let steady = match (arguments.at, &arguments.amplitude) {
+        (Some(frequency), Some(text)) => {
+            Some(vibration.steady(frequency, amplitude(&vibration, frequency, text)?)?)
+        }
+        _ => None,
+    };
+    for warning in steady.iter().flat_map(|own| &own.warnings) {
+        terminal.warn(warning);
+    }
+    let found = Shaken { scene, sweep, steady, plot: arguments.plot };
+    emit(&found, arguments.json, folder, terminal)?;
+    Ok(Status::Done)
+}
+
+/// The amplitude of the drive \[m or N\]: that of an acceleration is one of a displacement, too.
+fn amplitude(vibration: &Vibration, frequency: f64, text: &str) -> Result<f64, CliError> {
+    let drive = vibration.drive();
+    let wrong = |reason: String| CliError::WrongAmplitude { drive: drive.name.clone(), reason };
+    let quantity = parse_quantity(text).map_err(|error| wrong(error.to_string()))?;
+    let omega = TAU * frequency;
+    let value = match (drive.kind, quantity.dimension) {
+        (DriveKind::Motion, None | Some(Dimension::LENGTH))
+        | (DriveKind::Load, None | Some(Dimension::FORCE)) => quantity.value,
+        (DriveKind::Motion, Some(Dimension::ACCELERATION)) => quantity.value / (omega * omega),
+        (DriveKind::Motion, Some(_)) => {
+            let wanted = "a displacement or an acceleration is wanted, such as \"1 mm\" or";
+            let grams = text.trim().strip_suffix('g').map(str::trim);
+            let grams = grams.filter(|number| number.parse::<f64>().is_ok());
+            let number = grams.unwrap_or("0.5");
+            let gram = "; `g` is the gram, the acceleration of gravity is `g0`";
+            let gram = if grams.is_some() { gram } else { "" };
+            return Err(wrong(format!("{wanted} \"{number} g0\"{gram}")));
+        }
+        (DriveKind::Load, Some(_)) => {
+            return Err(wrong("a force is wanted, such as \"10 N\"".to_owned()));
+        }
+    };
+    if value.is_normal() && value > 0.0 {
+        Ok(value)
+    } else {
+        Err(wrong(format!("`{text}` is not a positive amplitude")))
+    }
+}
+
+impl Study for Shaken {
+    fn text(&self, text: &mut Text) {
+        let Self { sweep, .. } = self;
+        text.title(title(&self.scene));
+        text.faint(&drive(&sweep.drive));
+        if let Some(own) = &self.steady {
+            steady(own).iter().for_each(|own| text.table(own));
+            text.paragraphs(steady_remarks(own));
+        }
+        text.table(&resonances(sweep));
+        text.paragraphs(remarks(sweep).iter().chain(&sweep.notes));
+        if self.steady.is_none() {
+            let (content, left_out) = response(sweep, WIDTH - 2);
+            text.table(&content);
+            text.paragraphs(left_out.map(|own| format!("{own}; `--out` writes all of them")));
+        }
+        if text.is_plotted(self.plot) {
+            text.chart(&series(sweep).ratio_chart(), PLOT_HEIGHT);
+        }
+    }
+
+    fn object(&self) -> impl Serialize {
+        let Self { scene, sweep, .. } = self;
+        let kind = match sweep.drive.kind {
+            DriveKind::Motion => "motion",
+            DriveKind::Load => "load",
+        };
+        let (name, node, unit) = (&sweep.drive.name, &sweep.drive.node, sweep.drive.kind.unit());
+        object! {
+            dashpot: VERSION,
+            title: &scene.title,
+            file: &scene.file,
+            drive: object! { name, kind, node, unit },
+            frequencies: &sweep.frequencies,
+            responses: list(sweep.transmissions.iter().map(response_object)),
+            steady: &self.steady,
+            notes: &sweep.notes,
+        }
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        let all = &self.sweep.transmissions;
+        let header = all.iter().flat_map(|Transmission { name, .. }| {
+            [("ratio", "1"), ("phase", "deg"), ("error", "1")]
+                .map(|(what, unit)| format!("{what} of {name} [{unit}]"))
+        });
+        let header = ["frequency [Hz]".to_owned()].into_iter().chain(header);
+        let row = |(at, frequency): (usize, &f64)| {
+            let values = all.iter().flat_map(|own| {
+                let swing = own.swings[at];
+                // A zero has no sign.
+                let phase = swing.map(|own| degrees(own.phase) + 0.0);
+                [swing.map(|own| own.amplitude), phase, swing.map(|own| own.error)]
+            });
+            list([Some(*frequency)].into_iter().chain(values))
+        };
+        let rows = self.sweep.frequencies.iter().enumerate().map(row);
+        files.add_with(TABLE, |out| csv(out, header, rows))?;
+        let series = series(&self.sweep);
+        let [ratio, phase] = FIGURES;
+        files.add(ratio, series.ratio_chart().svg()?)?;
+        files.add(phase, series.phase_chart().svg()?)
+    }
+}
+
+fn response_object(own: &Transmission) -> impl Serialize {
+    let all = |value: fn(Swing) -> f64| list(own.swings.iter().map(|own| own.map(value)));
+    let peak = |own: &Resonance| {
+        let Resonance { frequency, frequency_error, swing, band } = *own;
+        object! { frequency, frequency_error, response: swing, band, quality: own.quality() }
+    };
+    object! {
+        name: &own.name,
+        ratio: all(|own| own.amplitude),
+        phase: all(|own| own.phase),
+        error: all(|own| own.error),
+        resonances: list(own.resonances.iter().map(peak)),
+        at_rest: own.at_rest,
+    }
+}
+
+/// The responses as the plain numbers that figures are drawn from, with their peaks between the
+/// frequencies of the list.
+fn series(sweep: &Sweep) -> VibrationSeries {
+    VibrationSeries {
+        title: format!("Response to {}", sweep.drive.name),
+        curves: sweep.transmissions.iter().map(|own| curve(sweep, own)).collect(),
+    }
+}
+
+fn curve(sweep: &Sweep, own: &Transmission) -> VibrationCurve {
+    let mut points: Vec<(f64, Option<Swing>)> =
+        sweep.frequencies.iter().copied().zip(own.swings.iter().copied()).collect();
+    points.extend(own.resonances.iter().map(|own| (own.frequency, own.swing)));
+    points.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let peaks = own.resonances.iter().filter_map(|own| {
+        let height = own.swing?.amplitude;
+        let value = Unit::plain("1").number(height, DIGITS);
+        let label = format!("{value} at {}", quantity(own.frequency, "Hz", DIGITS));
+        Some((own.frequency, height, label))
+    });
+    let value = |of: fn(Swing) -> f64| {
+        points.iter().map(|own| own.1.map_or(f64::NAN, of)).collect::<Vec<f64>>()
+    };
+    VibrationCurve {
+        name: own.name.clone(),
+        frequency: points.iter().map(|own| own.0).collect(),
+        ratio: value(|own| own.amplitude),
+        phase: value(|own| degrees(own.phase)),
+        peaks: peaks.collect(),
+    }
+}

@@ -1,0 +1,205 @@
+//! What was found as tables and in words.
+
+use std::f64::consts::PI;
+
+use dashpot_analysis::vibration::{Drive, DriveKind, Steady, Sweep, Swing, Transmission};
+use dashpot_plot::Table;
+
+use crate::{
+    numbers::{Unit, bound, quantity},
+    text::width,
+};
+
+/// Digits of what is computed.
+const DIGITS: usize = 4;
+/// More rows of a table are left out; of frequencies at regular distances.
+const MOST_ROWS: usize = 25;
+/// Standard gravity \[m/s²\].
+const GRAVITY: f64 = 9.806_65;
+/// What does not exist.
+const NONE: &str = "–";
+
+/// A phase in degrees.
+pub(super) fn degrees(phase: f64) -> f64 {
+    phase * (180.0 / PI)
+}
+
+/// What is driven, and what the ratio is.
+pub(super) fn drive(drive: &Drive) -> String {
+    let name = &drive.name;
+    match drive.kind {
+        DriveKind::Motion => format!(
+            "The motion of `{name}` is a sine, all else that drives is silent. Transmissibility: \
+             amplitude of a node over that of `{name}`."
+        ),
+        DriveKind::Load => format!(
+            "The load `{name}` on `{}` is a sine, all else that drives is silent. \
+             Transmissibility: amplitude of the force on a support over that of `{name}`.",
+            drive.node
+        ),
+    }
+}
+
+fn ratio(value: f64) -> String {
+    Unit::plain("1").number(value, DIGITS)
+}
+
+fn angle(phase: f64) -> String {
+    Unit::plain("1").decimal(degrees(phase), 1)
+}
+
+fn hertz(value: f64) -> String {
+    quantity(value, "Hz", DIGITS)
+}
+
+fn watts(value: f64) -> String {
+    let units = [("kW", 1e3), ("W", 1.0), ("mW", 1e-3)];
+    let (symbol, factor) = units.into_iter().find(|own| value >= own.1).unwrap_or(("µW", 1e-6));
+    Unit::new(symbol, factor).text(value, DIGITS)
+}
+
+/// The resonances of every response, up to a number of them.
+pub(super) fn resonances(sweep: &Sweep) -> Table {
+    let rows = sweep.transmissions.iter().flat_map(|transmission| {
+        transmission.resonances.iter().map(|own| {
+            let none = || NONE.to_owned();
+            let swing = |text: fn(f64) -> String, value: fn(Swing) -> f64| {
+                own.swing.map_or_else(none, |own| text(value(own)))
+            };
+            let band = own.band.map(|[low, high]| format!("{} to {}", hertz(low), hertz(high)));
+            vec![
+                transmission.name.clone(),
+                hertz(own.frequency),
+                swing(ratio, |own| own.amplitude),
+                swing(angle, |own| own.phase),
+                own.quality().map_or_else(none, ratio),
+                band.unwrap_or_else(none),
+            ]
+        })
+    });
+    let header = ["", "frequency", "ratio", "phase °", "Q", "half power"];
+    Table::new("Resonances", &header, rows.take(MOST_ROWS))
+}
+
+/// What is to be known beside the tables, in whole sentences.
+pub(super) fn remarks(sweep: &Sweep) -> Vec<String> {
+    let all = || sweep.transmissions.iter();
+    let mut remarks = Vec::new();
+    let still: Vec<&str> =
+        all().filter(|own| own.resonances.is_empty()).map(|own| own.name.as_str()).collect();
+    if !still.is_empty() {
+        remarks.push(format!("no resonance of {} in this range", still.join(", ")));
+    }
+    let count = all().map(|own| own.resonances.len()).sum::<usize>();
+    if count > MOST_ROWS {
+        remarks
+            .push(format!("{MOST_ROWS} of {count} resonances; `--of` chooses, `--json` has all"));
+    }
+    if all().flat_map(|own| &own.resonances).any(|own| own.swing.is_none()) {
+        remarks.push("a resonance without a ratio is not damped: it has no limit".to_owned());
+    }
+    remarks.push(format!("limit at slow oscillation: {}", limits(&sweep.transmissions)));
+    let worst = all().map(Transmission::worst_error).fold(0.0, f64::max);
+    remarks.push(format!("every ratio is good to {}, by rounding", bound(worst)));
+    remarks
+}
+
+/// The limits of slow oscillation; one that all have in common is said once.
+fn limits(all: &[Transmission]) -> String {
+    let text =
+        |own: &Transmission| own.at_rest.map_or("none".to_owned(), |own| ratio(own.amplitude));
+    match all {
+        [first, _, ..] if all.iter().all(|own| text(own) == text(first)) => {
+            format!("{} of all", text(first))
+        }
+        _ => {
+            let each: Vec<String> =
+                all.iter().map(|own| format!("{} of {}", text(own), own.name)).collect();
+            each.join(", ")
+        }
+    }
+}
+
+/// Ratios and phases over frequency, as many responses as fit into so many columns, and a word on
+/// what is left out.
+pub(super) fn response(sweep: &Sweep, columns: usize) -> (Table, Option<String>) {
+    let total = sweep.frequencies.len();
+    let count = total.min(MOST_ROWS);
+    let places: Vec<usize> =
+        (0..count).map(|at| (at * (total - 1) + (count - 1) / 2) / (count - 1).max(1)).collect();
+    let whole = |shown: &[Transmission]| {
+        let mut header = vec!["frequency"];
+        header.extend(shown.iter().flat_map(|own| [own.name.as_str(), "phase °"]));
+        let row = |&at: &usize| {
+            let mut row = vec![hertz(sweep.frequencies[at])];
+            for own in shown {
+                match own.swings[at] {
+                    Some(own) => row.extend([ratio(own.amplitude), angle(own.phase)]),
+                    None => row.extend([NONE, NONE].map(str::to_owned)),
+                }
+            }
+            row
+        };
+        Table::new("Transmissibility", &header, places.iter().map(row))
+    };
+    let all = &sweep.transmissions;
+    let fitting = (1..=all.len()).rev().find(|&own| width(&whole(&all[..own])) <= columns);
+    let shown = fitting.unwrap_or(1);
+    let mut left_out = Vec::new();
+    if count < total {
+        left_out.push(format!("{count} of {total} frequencies"));
+    }
+    if shown < all.len() {
+        left_out.push(format!("{shown} of {} responses; `--of` chooses others", all.len()));
+    }
+    let remark = (!left_out.is_empty()).then(|| left_out.join(", "));
+    (whole(&all[..shown]), remark)
+}
+
+/// The peaks of the steady state.
+pub(super) fn steady(steady: &Steady) -> Vec<Table> {
+    let unit = steady.drive.kind.unit();
+    let amplitude = quantity(steady.amplitude, unit, DIGITS);
+    let name = &steady.drive.name;
+    let caption = format!("Peaks at {} with {amplitude} of {name}", hertz(steady.frequency));
+    let nodes = steady.nodes.iter().map(|own| {
+        let acceleration = own.acceleration.amplitude;
+        vec![
+            own.name.clone(),
+            quantity(own.displacement.amplitude, "m", DIGITS),
+            quantity(acceleration, "m/s^2", DIGITS),
+            format!("{} g", ratio(acceleration / GRAVITY)),
+            angle(own.displacement.phase),
+        ]
+    });
+    let elements = steady.elements.iter().map(|own| {
+        let force =
+            |text: &dyn Fn(Swing) -> String| own.force.map_or_else(|| NONE.to_owned(), text);
+        vec![
+            own.name.clone(),
+            force(&|own| quantity(own.amplitude, "N", DIGITS)),
+            force(&|own| angle(own.phase)),
+            quantity(own.deformation.amplitude, "m", DIGITS),
+            angle(own.deformation.phase),
+        ]
+    });
+    let supports = steady.supports.iter().map(|own| {
+        vec![own.name.clone(), quantity(own.force.amplitude, "N", DIGITS), angle(own.force.phase)]
+    });
+    let header = ["node", "displacement", "acceleration", "", "phase °"];
+    let nodes = Table::new(caption, &header, nodes);
+    let header = ["element", "force", "phase °", "deformation", "phase °"];
+    let elements = Table::new("", &header, elements);
+    let supports = Table::new("", &["support", "force", "phase °"], supports);
+    vec![nodes, elements, supports]
+}
+
+/// What is to be known beside them.
+pub(super) fn steady_remarks(steady: &Steady) -> Vec<String> {
+    let power = steady.power.map(|own| {
+        // A power that only rounding makes is none.
+        format!("the drive puts in {} on average", watts(own.max(0.0)))
+    });
+    let note = "weights and other constant forces come on top; elements pull as they push";
+    power.into_iter().chain([note.to_owned()]).collect()
+}
