@@ -47,83 +47,37 @@ pub(crate) enum CliError {
     Scene(Diagnostics),
     /// A scene that cannot be read.
     #[error("`{name}` cannot be read: {reason}")]
-    Unreadable {
-        /// The file as it was named.
-        name: String,
-        /// Why.
-        reason: String,
-        /// What may be meant instead.
-        similar: Option<String>,
-    },
+    Unreadable { name: String, reason: String, similar: Option<String> },
     /// A file that is there already.
     #[error("`{}` exists already", .path.display())]
-    Foreign {
-        /// The file.
-        path: PathBuf,
-        /// What to do.
-        help: &'static str,
-    },
+    Foreign { path: PathBuf, help: &'static str },
     /// A file or folder that cannot be written.
     #[error("`{}` cannot be written: {}", .path.display(), reason(.source))]
-    Unwritable {
-        /// The file or folder.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
+    Unwritable { path: PathBuf, source: io::Error },
     /// A folder that another process writes to.
     #[error("another run is writing to `{}`", .path.display())]
-    Busy {
-        /// The folder.
-        path: PathBuf,
-    },
+    Busy { path: PathBuf },
     /// A file where a folder is wanted.
     #[error("`{}` is a file; `--out` wants a folder", .path.display())]
-    NotAFolder {
-        /// The file.
-        path: PathBuf,
-    },
+    NotAFolder { path: PathBuf },
     /// A word that no register has.
     #[error("there is no kind `{word}`")]
-    UnknownKind {
-        /// The word.
-        word: String,
-    },
+    UnknownKind { word: String },
     /// A node that a network does not have.
     #[error("there is no node `{name}`; the nodes are {}", .known.join(", "))]
-    UnknownNode {
-        /// The name.
-        name: String,
-        /// The nodes that there are.
-        known: Vec<String>,
-    },
+    UnknownNode { name: String, known: Vec<String> },
     /// A response that cannot be given.
     #[error(transparent)]
     Response(#[from] DrivingPointError),
     /// A network with moving masses where a model of springs and dashpots is wanted.
     #[error("`{word}` has masses that move: no springs and dashpots alone respond like it")]
-    MovingMasses {
-        /// The network as it was named.
-        word: String,
-    },
+    MovingMasses { word: String },
     /// A model that is not linear, where one is wanted that is.
     #[error("`{kind}` in `{word}` is not linear")]
-    NotLinear {
-        /// The model as it was named.
-        word: String,
-        /// Word of the first element that is not linear.
-        kind: &'static str,
-    },
+    NotLinear { word: String, kind: &'static str },
     /// A model that cannot be brought into a form.
     #[error("`{word}` cannot be written as `{form}`: {reason}")]
-    Unfit {
-        /// The model as it was named.
-        word: String,
-        /// The form.
-        form: &'static str,
-        /// Why.
-        reason: Unfit,
-    },
+    Unfit { word: String, form: &'static str, reason: Unfit },
     /// A test that cannot be made.
     #[error(transparent)]
     Rheometer(#[from] RheometerError),
@@ -132,12 +86,7 @@ pub(crate) enum CliError {
     Vibration(#[from] VibrationError),
     /// An amplitude that does not suit the drive.
     #[error("`--amplitude` of `{drive}`: {reason}")]
-    WrongAmplitude {
-        /// The drive.
-        drive: String,
-        /// Why.
-        reason: String,
-    },
+    WrongAmplitude { drive: String, reason: String },
     /// Values of a parameter that cannot be read.
     #[error("`--vary`: {0}")]
     Variation(#[from] VariationFault),
@@ -146,76 +95,40 @@ pub(crate) enum CliError {
     Tunable(#[from] TunableFault),
     /// A named value that is both set and varied.
     #[error("`{name}` is set and varied: leave out one of both")]
-    SetAndVaried {
-        /// The name.
-        name: String,
-    },
+    SetAndVaried { name: String },
     /// A grid that is too large.
     #[error("these are more than {most} points")]
-    TooManyPoints {
-        /// The largest number.
-        most: usize,
-    },
+    TooManyPoints { most: usize },
     /// A sweep that cannot be done.
     #[error(transparent)]
     Sweep(SweepError),
     /// A parameter that no test has.
     #[error("no test has a `{name}`; there are {}", .known.join(", "))]
-    UnknownSetting {
-        /// The name.
-        name: String,
-        /// What there is.
-        known: Vec<&'static str>,
-    },
+    UnknownSetting { name: String, known: Vec<&'static str> },
     /// A parameter of a test with a value that cannot be used.
     #[error("`{name}`: {reason}")]
-    WrongSetting {
-        /// The name.
-        name: String,
-        /// Why.
-        reason: String,
-    },
+    WrongSetting { name: String, reason: String },
     /// An element that a scene does not have.
     #[error("there is no element `{name}`; the elements are {}", .known.join(", "))]
-    UnknownElement {
-        /// The name.
-        name: String,
-        /// The elements that there are.
-        known: Vec<String>,
-    },
+    UnknownElement { name: String, known: Vec<String> },
     /// Constants that are too far apart.
     #[error("the constants of `{word}` are too far apart for double precision")]
-    OutOfRange {
-        /// The model as it was named.
-        word: String,
-    },
+    OutOfRange { word: String },
     /// A response between a node and itself.
     #[error("both nodes are `{name}`: nothing deforms between a node and itself")]
-    OneNode {
-        /// The node.
-        name: String,
-    },
+    OneNode { name: String },
     /// A material and a pad.
     #[error("one of them is a material, in Pa, the other a model of a pad, in N/m")]
     MaterialAndPad,
     /// A material where a pad is wanted.
     #[error("`{word}` is a material; the impact needs a pad with thickness and area")]
-    MaterialInImpact {
-        /// The material as it was named.
-        word: String,
-    },
+    MaterialInImpact { word: String },
     /// Two networks whose responses are not known well enough.
     #[error("the responses are known only within {error:.0e}, too little to tell")]
-    Undecided {
-        /// Their relative errors together.
-        error: f64,
-    },
+    Undecided { error: f64 },
     /// A text in which a model cannot be replaced.
     #[error("the text of `{word}` cannot be rewritten with another model")]
-    NotReplaced {
-        /// The model as it was named.
-        word: String,
-    },
+    NotReplaced { word: String },
     /// Standard output that cannot be written.
     #[error("the output cannot be written: {0}")]
     Output(io::Error),
@@ -259,32 +172,6 @@ impl CliError {
     /// The one table of exit codes.
     pub(crate) fn status(&self) -> Status {
         match self {
-            Self::Scene(_)
-            | Self::Unreadable { .. }
-            | Self::Foreign { .. }
-            | Self::NotAFolder { .. }
-            | Self::UnknownKind { .. }
-            | Self::UnknownNode { .. }
-            | Self::Response(_)
-            | Self::MovingMasses { .. }
-            | Self::NotLinear { .. }
-            | Self::Unfit { .. }
-            | Self::UnknownElement { .. }
-            | Self::Rheometer(_)
-            | Self::WrongAmplitude { .. }
-            | Self::Variation(_)
-            | Self::Tunable(_)
-            | Self::SetAndVaried { .. }
-            | Self::TooManyPoints { .. }
-            | Self::UnknownSetting { .. }
-            | Self::WrongSetting { .. }
-            | Self::Similarity(_)
-            | Self::Unwritten(_)
-            | Self::MaterialAndPad
-            | Self::OutOfRange { .. }
-            | Self::OneNode { .. }
-            | Self::MaterialInImpact { .. }
-            | Self::NotReplaced { .. } => Status::InputWrong,
             // The place is wrong; all else, such as a full disk, is a failure.
             Self::Unwritable { source, .. } if is_wrong_place(source) => Status::InputWrong,
             Self::Run(error) => match error {
@@ -316,11 +203,11 @@ impl CliError {
             | Self::Thesis(_)
             | Self::Plot(_)
             | Self::Json(_) => Status::RunFailed,
+            _ => Status::InputWrong,
         }
     }
 
     /// What to do, where that can be said.
-    #[expect(clippy::too_many_lines, reason = "one line or two for each error")]
     pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Unreadable { name, similar: None, .. } if is_unit(name) => {
@@ -371,59 +258,68 @@ impl CliError {
                     format!("there are {known}")
                 })
             }
-            Self::Vibration(VibrationError::NoDrive { known, .. }) => match known.first() {
-                Some(name) => Some(format!("`--drive {name}` shakes `{name}`")),
-                None => Some(
-                    "hold a node with `fixed = true`, or put a load on one under [loads]".to_owned(),
-                ),
-            },
-            Self::Vibration(VibrationError::Loose { .. }) => Some(
-                "gravity presses parts together, `[effects]` with `gravity = { value = \"1 g0\" }`; \
-                 or leave out the separation: then it pulls as it pushes"
-                    .to_owned(),
-            ),
-            Self::Vibration(
-                VibrationError::NotLinear { .. } | VibrationError::OnStop { .. },
-            ) => Some(
-                "`dashpot run` solves it in time: give the node that shakes \
-                 `motion = { sine = { amplitude = \"1 mm\", frequency = \"20 Hz\" } }` (a load \
-                 likewise a `force`), a `duration` of many periods, and ask for its measures with \
-                 `window = \"run\"`; or leave out of [effects] what switches"
-                    .to_owned(),
-            ),
+            Self::Vibration(error) => vibration_help(error),
             Self::Run(RunError::NoneGetsThrough { .. }) => Some(
                 "`--accuracy 1%` asks for less; a shorter `duration` gives what comes until then"
                     .to_owned(),
             ),
-            Self::Run(RunError::Solve(error)) => match error {
-                SolveError::NotApplicable { .. } => {
-                    Some("`--method auto` chooses one that can".to_owned())
-                }
-                SolveError::TooManySteps { method, .. }
-                | SolveError::StepTooSmall { method, .. }
-                | SolveError::NewtonFailed { method, .. } => Some(if *method == Tsit45::KIND {
-                    "an explicit method takes short steps where parts are stiff, whatever the \
-                     accuracy; `--method auto` chooses one that suits"
-                        .to_owned()
-                } else {
-                    "`--method auto` tries another method where one gets stuck; `--accuracy 1%` asks \
-                     for less"
-                        .to_owned()
-                }),
-                SolveError::BudgetSpent { work, .. } => Some(format!(
-                    "`--budget {:.0e}` grants more; a shorter `duration` or `--accuracy 1%` asks for \
-                     less",
-                    10.0 * *work as f64
-                )),
-                SolveError::TooManySwitches { .. } => Some(
-                    "what loses nothing in its impacts bounces for ever, ever lower as others lose \
-                     speed: a `restitution` below 1 lets it come to rest; or a shorter `duration`"
-                        .to_owned(),
-                ),
-                _ => None,
-            },
+            Self::Run(RunError::Solve(error)) => solve_help(error),
             _ => None,
         }
+    }
+}
+
+/// What to do about a scene that cannot be shaken.
+fn vibration_help(error: &VibrationError) -> Option<String> {
+    match error {
+        VibrationError::NoDrive { known, .. } => match known.first() {
+            Some(name) => Some(format!("`--drive {name}` shakes `{name}`")),
+            None => Some(
+                "hold a node with `fixed = true`, or put a load on one under [loads]".to_owned(),
+            ),
+        },
+        VibrationError::Loose { .. } => Some(
+            "gravity presses parts together, `[effects]` with `gravity = { value = \"1 g0\" }`; \
+                 or leave out the separation: then it pulls as it pushes"
+                .to_owned(),
+        ),
+        VibrationError::NotLinear { .. } | VibrationError::OnStop { .. } => Some(
+            "`dashpot run` solves it in time: give the node that shakes \
+                 `motion = { sine = { amplitude = \"1 mm\", frequency = \"20 Hz\" } }` (a load \
+                 likewise a `force`), a `duration` of many periods, and ask for its measures with \
+                 `window = \"run\"`; or leave out of [effects] what switches"
+                .to_owned(),
+        ),
+        _ => None,
+    }
+}
+
+/// What to do about a solution that failed.
+fn solve_help(error: &SolveError) -> Option<String> {
+    match error {
+        SolveError::NotApplicable { .. } => Some("`--method auto` chooses one that can".to_owned()),
+        SolveError::TooManySteps { method, .. }
+        | SolveError::StepTooSmall { method, .. }
+        | SolveError::NewtonFailed { method, .. } => Some(if *method == Tsit45::KIND {
+            "an explicit method takes short steps where parts are stiff, whatever the \
+                     accuracy; `--method auto` chooses one that suits"
+                .to_owned()
+        } else {
+            "`--method auto` tries another method where one gets stuck; `--accuracy 1%` asks \
+                     for less"
+                .to_owned()
+        }),
+        SolveError::BudgetSpent { work, .. } => Some(format!(
+            "`--budget {:.0e}` grants more; a shorter `duration` or `--accuracy 1%` asks for \
+                     less",
+            10.0 * *work as f64
+        )),
+        SolveError::TooManySwitches { .. } => Some(
+            "what loses nothing in its impacts bounces for ever, ever lower as others lose \
+                     speed: a `restitution` below 1 lets it come to rest; or a shorter `duration`"
+                .to_owned(),
+        ),
+        _ => None,
     }
 }
 
