@@ -1,6 +1,6 @@
 //! How large the quantities of a run are.
 
-use crate::{Ledger, Reading, Solution, accuracy::is_lost_in_noise, measures::STANDARD_GRAVITY};
+use crate::{Ledger, Reading, Solution, measures::STANDARD_GRAVITY};
 
 /// How many outputs are looked at, of those that were kept; fewer can only make a quantity seem
 /// smaller.
@@ -33,8 +33,8 @@ fn largest_momentum(solution: &Solution<'_>) -> f64 {
     kept.map(|(mass, speed)| mass * solution.glance(speed).bound()).fold(0.0, f64::max)
 }
 
-/// Whether a value is not known at all: its error exceeds it, and what is wanted or is that of rounding, and
-/// is far beyond the largest of its kind.
+/// Whether a value is not known at all: its error exceeds it, and what is wanted, and is far beyond the
+/// largest of its kind.
 pub(crate) fn is_open(
     reading: &Reading,
     error: Option<f64>,
@@ -44,8 +44,7 @@ pub(crate) fn is_open(
     let Some((value, error)) = reading.value.zip(error.filter(|own| own.is_finite())) else {
         return false;
     };
-    let is_felt = error > wish * reading.size || is_lost_in_noise(reading, Some(error));
-    error > value.abs() && is_felt && error > FAR_BEYOND * largest()
+    error > value.abs() && error > wish * reading.size && error > FAR_BEYOND * largest()
 }
 
 fn largest_signal(solution: &Solution<'_>, unit: &str) -> f64 {

@@ -65,9 +65,9 @@ impl Solution<'_> {
             let signal = self.same_as(output).unwrap_or_else(|| {
                 let signal = Arc::new(self.found(output));
                 signals.bytes.set(signals.bytes.get() + bytes(&signal));
+                signals.count(&signal);
                 signal
             });
-            signals.count(&signal);
             signals.filled.borrow_mut().push(output);
             signal
         })

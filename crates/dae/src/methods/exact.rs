@@ -16,6 +16,8 @@ const STATES: usize = 200;
 const SIZE: usize = 300;
 /// `‖A‖T` beyond which rounding of the entries may change all that is slow.
 const STIFFNESS: f64 = 1e15;
+/// `‖A‖T` beyond which no mode is looked for: they would be sought among numbers whose squares leave the range.
+const BEYOND_MODES: f64 = 1e20;
 /// The most by which rounding of the entries may change a mode until the end of its life or of the run.
 const BLUR: f64 = 1e-9;
 /// `‖A‖T` up to which the number of panels needs no counting.
@@ -152,8 +154,9 @@ impl Exact {
         let stiffness = augmented.norm() * end;
         let quick = stiffness <= QUICK;
         let solution = Solution::new(augmented, (run.t_end, system.time_scale), run.budget.clone());
+        let is_far = !stiffness.is_finite() || stiffness > BEYOND_MODES;
         let is_blurred = || stiffness > STIFFNESS && !(solution.blur(end) <= BLUR);
-        if !stiffness.is_finite() || is_blurred() {
+        if is_far || is_blurred() {
             return Self::decline(format!(
                 "too stiff for the exact method in double precision: ‖A‖T = {stiffness:.1e}"
             ));
