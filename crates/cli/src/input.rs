@@ -76,6 +76,11 @@ pub(crate) fn read_scene(
     read(input.text()?, &input.options(set)).map_err(CliError::Scene)
 }
 
+/// The scene's title, or the name of its file.
+pub(crate) fn title(scene: &Scene) -> &str {
+    scene.title.as_deref().or(scene.file.as_deref()).unwrap_or("a scene without title")
+}
+
 /// The value of a setting of this name, in SI units.
 pub(crate) fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64, CliError> {
     let wrong = |reason: String| CliError::WrongSetting { name: name.to_owned(), reason };

@@ -188,6 +188,12 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// An estimate with its formula.
+pub(crate) fn estimate(formula: &str, value: f64) -> String {
+    let number = if value > 0.0 { significant(value, 2) } else { "0".to_owned() };
+    format!("{formula} = {number}")
+}
+
 /// Powers as people write them.
 fn pretty(text: &str) -> String {
     text.replace("^2", "²").replace("^3", "³")

@@ -47,7 +47,7 @@ pub(crate) fn emit(
             print_data(&data)?;
             study.remarks().iter().for_each(|own| remark(own));
         }
-        None => print(&Text::of(study, terminal))?,
+        None => print(&Text::written(terminal, |text| study.text(text)))?,
     }
     match folder {
         Some(folder) => folder.write(|files| study.files(files), &object()?, json),

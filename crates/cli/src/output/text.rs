@@ -2,7 +2,6 @@
 
 use dashpot_plot::{Chart, Table};
 
-use super::Study;
 use crate::{
     shown::Tone,
     terminal::{Terminal, WIDTH},
@@ -16,11 +15,6 @@ pub(crate) struct Text {
 }
 
 impl Text {
-    /// What a study says.
-    pub(crate) fn of(study: &impl Study, terminal: Terminal) -> String {
-        Self::written(terminal, |text| study.text(text))
-    }
-
     /// What `write` writes.
     pub(crate) fn written(terminal: Terminal, write: impl FnOnce(&mut Self)) -> String {
         let mut text = Self { terminal, text: String::new() };

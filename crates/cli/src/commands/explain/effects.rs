@@ -12,7 +12,7 @@ use dashpot_plot::Table;
 use dashpot_scene::{Scene, write_effect};
 
 use super::{MOST, more};
-use crate::{output::Text, studies::estimate};
+use crate::{numbers::estimate, output::Text};
 
 /// What the columns mean.
 const MEANING: &str = "What each adds, or would add with its defaults: unknowns, modes as a \

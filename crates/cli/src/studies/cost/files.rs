@@ -11,9 +11,9 @@ use super::{
 use crate::{
     error::CliError,
     folder::Staged,
+    input::title,
     output::{csv, list},
     sketch::sketch,
-    studies::title,
 };
 
 /// One row for each solution.

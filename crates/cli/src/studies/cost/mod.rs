@@ -19,12 +19,11 @@ use crate::{
     args::CostArguments,
     error::{CliError, Status},
     folder::{Folder, Staged},
-    input::read_scene,
+    input::{read_scene, title},
     numbers::rounded,
     operand::tell,
     output::{Study, Text, emit},
     progress::Bar,
-    studies::title,
     terminal::Terminal,
 };
 

@@ -13,11 +13,10 @@ use super::{
 use crate::{
     args::GroupsArguments,
     error::CliError,
-    input::setting,
+    input::{setting, title},
     numbers::{constant, significant},
     output::{Text, list, object},
     shown::Tone,
-    studies::title,
 };
 
 /// A laboratory test.

@@ -21,12 +21,11 @@ use self::{laboratory::Test, pair::Pair, thesis::Thesis};
 use crate::{
     args::GroupsArguments,
     error::{CliError, Status},
-    input::{read_scene, setting},
+    input::{read_scene, setting, title},
     numbers::{constant, significant},
     operand::tell,
     output::{Study, Text, emit, list, object},
     part::write_text,
-    studies::title,
     terminal::{Terminal, remark},
 };
 

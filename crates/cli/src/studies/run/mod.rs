@@ -26,6 +26,7 @@ use dashpot_plot::figures::{Figure, ForceTime};
 use dashpot_scene::Scene;
 use serde::Serialize;
 
+pub(crate) use self::measures::unit_of_kind;
 use self::{
     as_run::Changes,
     energy::energy_table,
@@ -34,17 +35,15 @@ use self::{
     solving::{reasons, solving_table},
     verdict::verdict,
 };
-pub(crate) use self::{measures::unit_of_kind, partial::estimate};
 use crate::{
     args::{RunArguments, Switch, When},
     commands::hopeless,
     error::{CliError, Status},
     folder::{Folder, Staged},
-    input::read_scene,
+    input::{read_scene, title},
     operand::tell,
     output::{Study, Text, emit},
     progress::Bar,
-    studies::title,
     terminal::{Terminal, WIDTH},
     text::indented,
 };

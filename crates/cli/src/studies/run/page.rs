@@ -10,7 +10,7 @@ use super::{
     solving::{reasons, solving_table},
     verdict::verdict,
 };
-use crate::studies::title;
+use crate::input::title;
 
 /// The page with these drawings.
 pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {

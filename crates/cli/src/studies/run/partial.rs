@@ -5,10 +5,8 @@ use dashpot_analysis::{
     partial::{Cost, Verification, Why},
 };
 
-use crate::numbers::{apart, duration, quantity, significant};
+use crate::numbers::{apart, duration, estimate, quantity};
 
-/// Digits of an estimate.
-const DIGITS: usize = 2;
 /// Digits of a time.
 const TIME_DIGITS: usize = 3;
 
@@ -52,12 +50,6 @@ fn why(partial: &Partial, why: &Why) -> String {
             format!("without it the {element} pulls from {} on", quantity(*time, "s", TIME_DIGITS))
         }
     }
-}
-
-/// An estimate with its formula.
-pub(crate) fn estimate(formula: &str, value: f64) -> String {
-    let number = if value > 0.0 { significant(value, DIGITS) } else { "0".to_owned() };
-    format!("{formula} = {number}")
 }
 
 fn moved(cost: &Cost) -> String {

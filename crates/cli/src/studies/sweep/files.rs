@@ -13,9 +13,9 @@ use super::{
 use crate::{
     error::CliError,
     folder::Staged,
+    input::title,
     numbers::Unit,
     output::{csv, list},
-    studies::title,
 };
 
 /// Values at all points.

@@ -18,10 +18,9 @@ use crate::{
     args::SweepArguments,
     error::{CliError, Status},
     folder::{Folder, Staged},
-    input::Input,
+    input::{Input, title},
     output::{Study, Text, VERSION, emit, list, object},
     progress::Count,
-    studies::title,
     terminal::{Terminal, remark},
 };
 

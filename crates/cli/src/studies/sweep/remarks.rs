@@ -3,10 +3,7 @@
 use dashpot_analysis::sweep::{PartialOfSweep, SweepReport, SweepWarning};
 
 use super::{Swept, words::name};
-use crate::{
-    numbers::{apart, bound, duration},
-    studies::estimate,
-};
+use crate::numbers::{apart, bound, duration, estimate};
 
 /// Faults of so many kinds are told.
 const MOST_TOLD: usize = 3;

@@ -17,10 +17,9 @@ use crate::{
     args::{VibrateArguments, When},
     error::{CliError, Status},
     folder::{Folder, Staged},
-    input::read_scene,
+    input::{read_scene, title},
     numbers::{Unit, quantity},
     output::{Study, Text, VERSION, csv, emit, list, object},
-    studies::title,
     terminal::{Terminal, WIDTH},
 };
 
