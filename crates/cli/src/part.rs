@@ -84,12 +84,21 @@ pub(crate) fn part_name(token: &str, number: usize) -> String {
     format!("{}{token}-{number}{}", NAME[0], NAME[1])
 }
 
+/// Whether a file has the name of the first part of some writer.
+pub(crate) fn is_first_part(name: &OsStr) -> bool {
+    token_and_number(name).is_some_and(|(token, number)| is_token(token) && number == "0")
+}
+
 /// Whether a file has the name of a part of the writer with this token.
 pub(crate) fn is_part_of(name: &OsStr, token: &str) -> bool {
+    token_and_number(name).is_some_and(|(own, number)| {
+        own == token && !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit())
+    })
+}
+
+fn token_and_number(name: &OsStr) -> Option<(&str, &str)> {
     let [begin, end] = NAME;
-    let name = name.to_str().and_then(|own| own.strip_prefix(begin)?.strip_suffix(end));
-    let number = name.and_then(|own| own.strip_prefix(token)?.strip_prefix('-'));
-    number.is_some_and(|own| !own.is_empty() && own.bytes().all(|digit| digit.is_ascii_digit()))
+    name.to_str()?.strip_prefix(begin)?.strip_suffix(end)?.split_once('-')
 }
 
 /// Writes `text` to a file that is not there yet, or in place of a regular one with `force`.

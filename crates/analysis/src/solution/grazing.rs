@@ -9,9 +9,8 @@ use crate::impact::{Impact, NO_PULL, first_pull};
 
 /// How much larger one force may be than another that is the same.
 const SAME: f64 = 1.5;
-/// How many times as long as it would take to reach zero at its pace a force may take that is about to: what
-/// falls like a power of the time that is left takes the exponent times as long.
-const SLOW: f64 = 12.0;
+/// How many times as long as it would take to reach zero at its pace a force may take that is about to.
+const SLOW: f64 = 3.0;
 
 /// Where a force comes near zero without going on to pull: it turns back, or lingers.
 struct Lull {

@@ -8,7 +8,7 @@ use std::{
 use super::RESULT;
 use crate::{
     error::{CliError, unwritable},
-    part::{Fingerprint, Part, is_part_of, is_token, metadata, part_name},
+    part::{Fingerprint, Part, is_first_part, is_part_of, is_token, metadata, part_name},
 };
 
 /// The file of the list.
@@ -108,17 +108,28 @@ impl List {
         Fingerprint::of(&path).is_ok_and(|print| listed.any(|own| own.1 == print))
     }
 
-    /// Removes the parts of a writer that did not come to its end.
+    /// Removes the parts of writers that did not come to their end: those of the one that is listed, and
+    /// what others left before they were.
     pub(super) fn tidy(&self, folder: &Path) -> io::Result<()> {
-        let Some(token) = &self.at_work else { return Ok(()) };
         for entry in fs::read_dir(folder)? {
             let entry = entry?;
-            if is_part_of(&entry.file_name(), token) && entry.file_type()?.is_file() {
+            let name = entry.file_name();
+            let is_listed = self.at_work.as_ref().is_some_and(|token| is_part_of(&name, token));
+            let is_left = || is_listed || (is_first_part(&name) && is_of_list(&entry.path()));
+            if entry.file_type()?.is_file() && is_left() {
                 fs::remove_file(entry.path())?;
             }
         }
         Ok(())
     }
+}
+
+/// Whether a file is empty or begins as the list does: what the first part of a writer may hold.
+fn is_of_list(path: &Path) -> bool {
+    fs::read(path).is_ok_and(|own| {
+        let length = own.len().min(HEAD.len());
+        own[..length] == HEAD.as_bytes()[..length]
+    })
 }
 
 /// Whether a result may have this name: that of a file in the folder itself, with a known ending.
