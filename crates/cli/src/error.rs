@@ -192,11 +192,8 @@ impl CliError {
                 | SweepError::NoneReported => Status::InputWrong,
                 _ => Status::RunFailed,
             },
-            Self::Vibration(error) => match error {
-                VibrationError::Unbounded { .. } => Status::RunFailed,
-                _ => Status::InputWrong,
-            },
-            Self::Undecided { .. }
+            Self::Vibration(VibrationError::Unbounded { .. })
+            | Self::Undecided { .. }
             | Self::Busy { .. }
             | Self::Unwritable { .. }
             | Self::Output(_)

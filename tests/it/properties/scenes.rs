@@ -1,5 +1,6 @@
 //! Texts of scenes: read or refused, at a place within the text.
 
+use std::fmt::Write as _;
 use std::sync::LazyLock;
 
 use dashpot::{
@@ -93,11 +94,13 @@ fn written_again(network: &Network) -> Result<(), String> {
     );
     let models: Vec<&Model> = network.connections().iter().map(|own| &own.model).collect();
     for (at, model) in models.iter().enumerate() {
-        text += &format!("m{at} = {}\n", write_model(model));
+        writeln!(text, "m{at} = {}", write_model(model)).map_err(|error| error.to_string())?;
     }
     text += "[elements]\n";
     for at in 0..models.len() {
-        text += &format!("e{at} = {{ between = [\"a\", \"b\"], model = \"m{at}\" }}\n");
+        let between = "between = [\"a\", \"b\"]";
+        writeln!(text, "e{at} = {{ {between}, model = \"m{at}\" }}")
+            .map_err(|error| error.to_string())?;
     }
     let again = read_network(&text, &ReadOptions::default());
     let again = again.map_err(|errors| format!("is written as what is refused:\n{errors}"))?;
@@ -140,7 +143,8 @@ fn shown(value: &Value) -> String {
     match value {
         Value::Number(own) => format!("{own:.14e}"),
         Value::Table(rows) => {
-            rows.iter().map(|(a, b)| format!("{a:.14e} {b:.14e}, ")).collect::<String>()
+            let row = |(a, b): &(f64, f64)| format!("{a:.14e} {b:.14e}");
+            rows.iter().map(row).collect::<Vec<_>>().join(", ")
         }
         other => format!("{other:?}"),
     }
@@ -194,13 +198,15 @@ proptest! {
         let mut text = String::new();
         for (first, second, shape) in &keys {
             let [first, second] = [first, second].map(|own| &words[own.index(words.len())]);
-            text += &match shape {
-                0 => format!("[{first}]\n"),
-                1 => format!("[{first}.{second}]\n"),
-                2 => format!("{first} = \"{second}\"\n"),
-                3 => format!("{first} = {{ {second} = 1 }}\n"),
-                _ => format!("{first} = [[\"{second}\", 1]]\n"),
+            let line = match shape {
+                0 => format!("[{first}]"),
+                1 => format!("[{first}.{second}]"),
+                2 => format!("{first} = \"{second}\""),
+                3 => format!("{first} = {{ {second} = 1 }}"),
+                _ => format!("{first} = [[\"{second}\", 1]]"),
             };
+            text.push_str(&line);
+            text.push('\n');
         }
         checked(text.as_bytes())?;
     }

@@ -71,7 +71,9 @@ pub(crate) fn explain(
     if let Some(path) = &arguments.out {
         let file = svg_path(path);
         write_drawing(&file, &drawing().svg())?;
-        text += &format!("\nwrote {}\n", file.display());
+        text.push_str("\nwrote ");
+        text.push_str(&file.display().to_string());
+        text.push('\n');
     }
     print(&text)?;
     Ok(Status::Done)

@@ -142,6 +142,7 @@ impl Text {
 
     /// A chart of so many lines after an empty line.
     pub(crate) fn chart(&mut self, chart: &Chart, height: usize) {
-        self.text += &format!("\n{}", chart.text(WIDTH, height));
+        self.text.push('\n');
+        self.text.push_str(&chart.text(WIDTH, height));
     }
 }

@@ -165,7 +165,9 @@ impl Solution {
             places.map(|(i, j)| blur[(block.start + i, block.start + j)] * life(j)).sum()
         };
         let all: Vec<f64> = modes.blocks.iter().map(of_block).collect();
-        all.into_iter().fold(0.0, |most, own| if own > most || own.is_nan() { own } else { most })
+        all.into_iter()
+            .map(|own| if own.is_nan() { f64::INFINITY } else { own })
+            .fold(0.0, f64::max)
     }
 
     /// All unknowns at `times` from the modal form.

@@ -155,7 +155,7 @@ impl Exact {
         let quick = stiffness <= QUICK;
         let solution = Solution::new(augmented, (run.t_end, system.time_scale), run.budget.clone());
         let is_far = !stiffness.is_finite() || stiffness > BEYOND_MODES;
-        let is_blurred = || stiffness > STIFFNESS && !(solution.blur(end) <= BLUR);
+        let is_blurred = || stiffness > STIFFNESS && solution.blur(end) > BLUR;
         if is_far || is_blurred() {
             return Self::decline(format!(
                 "too stiff for the exact method in double precision: ‖A‖T = {stiffness:.1e}"
