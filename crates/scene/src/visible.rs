@@ -3,7 +3,7 @@
 use std::{borrow::Cow, fmt::Write as _};
 
 /// Whether a character does something to a terminal instead of being seen: control characters but the
-/// end of a line and the tab, and [hidden](is_hidden) ones.
+/// end of a line and the tab, and hidden ones.
 pub fn is_control(own: char) -> bool {
     own.is_control() && !matches!(own, '\n' | '\t') || is_hidden(own)
 }
