@@ -7,22 +7,24 @@ use dashpot_network::{Assembly, Network, NetworkErrors};
 
 pub use crate::sections::RunSettings;
 use crate::{
-    diagnostics::{Checked, Diagnostics, Faults},
-    document::{Entry, MAX_BYTES, parse},
-    fault::Fault,
+    check::{
+        network_faults::{note_errors, note_held, note_warnings},
+        review::{outlasted, review, upward, weightless},
+    },
+    diagnostics::{Checked, Diagnostics, Faults, fault::Fault},
     kinds::{Example, registers},
-    library::{Library, Loader},
-    models::ModelReader,
-    network_faults::{note_errors, note_held, note_warnings},
-    notes::ModelNote,
-    review::{outlasted, review, upward, weightless},
+    models::{ModelReader, notes::ModelNote},
+    quantities::values::{NamedValue, Overrides},
     sections::{
         Reading, StopText, Targets, check_stops, read_accuracy, read_effects, read_elements,
         read_loads, read_measures, read_nodes, read_run,
     },
-    source::Source,
-    table::text_of,
-    values::{NamedValue, Overrides},
+    text::{
+        document::{Entry, MAX_BYTES, parse},
+        library::{Library, Loader},
+        source::Source,
+        table::text_of,
+    },
 };
 
 /// The sections of a scene and of a file of models.

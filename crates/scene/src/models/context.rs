@@ -4,15 +4,17 @@ use dashpot_network::parameters::{Dimension, positive};
 
 use super::Spot;
 use crate::{
-    basis::{AREA, Basis, Pad, SIZE, is_sized},
-    diagnostics::Faults,
-    document::{Content, Entry},
-    fault::Fault,
-    kinds::{Example, registers},
-    library::{Library, Shelf},
-    pad::{Size, Surroundings},
-    parameters::KindReader,
-    table::wrong_type,
+    diagnostics::{Faults, fault::Fault},
+    kinds::{Example, parameters::KindReader, registers},
+    quantities::{
+        basis::{AREA, Basis, Pad, SIZE, is_sized},
+        pad::{Size, Surroundings},
+    },
+    text::{
+        document::{Content, Entry},
+        library::{Library, Shelf},
+        table::wrong_type,
+    },
 };
 
 /// What becomes of the values in a table.

@@ -7,11 +7,12 @@ use dashpot_network::{
 use dashpot_rheology::{Branch, Part, Role, Tree};
 
 use crate::{
-    document::Entry,
-    kinds::{Example, registers},
-    parameters::KindReader,
-    quantity::Quantities,
-    table::{Table, wrong_type},
+    kinds::{Example, parameters::KindReader, registers},
+    quantities::quantity::Quantities,
+    text::{
+        document::Entry,
+        table::{Table, wrong_type},
+    },
 };
 
 /// Reads named forms; their depth is that of the register.

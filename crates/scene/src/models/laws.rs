@@ -9,16 +9,14 @@ use dashpot_rheology::Tree;
 
 use super::{context::Context, forms::FormReader};
 use crate::{
-    basis::{Basis, Pad, SIZE, fits_material, is_size},
-    diagnostics::Faults,
-    document::Entry,
-    fault::Fault,
-    kinds::{CompositeEntry, registers},
-    library::Library,
-    pad::Extent,
-    parameters::KindReader,
-    quantity::Quantities,
-    source::Place,
+    diagnostics::{Faults, fault::Fault},
+    kinds::{CompositeEntry, parameters::KindReader, registers},
+    quantities::{
+        basis::{Basis, Pad, SIZE, fits_material, is_size},
+        pad::Extent,
+        quantity::Quantities,
+    },
+    text::{document::Entry, library::Library, source::Place},
 };
 
 /// Reads such laws.

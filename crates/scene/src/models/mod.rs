@@ -3,6 +3,9 @@
 //! Models may nest 1000 levels in one text and deeper through names, so they are read with a stack
 //! of tasks and not by recursion.
 
+pub(crate) mod named;
+pub(crate) mod notes;
+
 mod context;
 mod forms;
 mod laws;
@@ -22,17 +25,20 @@ use dashpot_network::{
 };
 use dashpot_rheology::Tree;
 
+use self::notes::{ModelNote, Notes};
 use self::{context::Context, laws::LawReader, sizes::Sizes};
 use crate::{
-    basis::{Basis, Pad},
-    diagnostics::Faults,
-    document::Item,
-    fault::Fault,
+    diagnostics::{Faults, fault::Fault},
     kinds::registers,
-    library::{Library, Reference, SHELVES, Shelf},
-    notes::{ModelNote, Notes},
-    pad::Extent,
-    source::Place,
+    quantities::{
+        basis::{Basis, Pad},
+        pad::Extent,
+    },
+    text::{
+        document::Item,
+        library::{Library, Reference, SHELVES, Shelf},
+        source::Place,
+    },
 };
 
 /// The keys of a model or material besides its law.

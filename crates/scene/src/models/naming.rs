@@ -10,7 +10,7 @@ use dashpot_network::Element;
 use dashpot_rheology::Branch;
 
 use super::Done;
-use crate::{diagnostics::Faults, fault::Fault};
+use crate::diagnostics::{Faults, fault::Fault};
 
 /// The branches by the names that they are given, or else by their words, numbered from the second
 /// one of a word on; `None` where one could not be read.

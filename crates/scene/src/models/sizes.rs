@@ -5,7 +5,7 @@ use std::{
     collections::{HashMap, HashSet},
 };
 
-use crate::{
+use crate::text::{
     document::{Content, Item},
     library::{Library, Reference, SHELVES},
 };

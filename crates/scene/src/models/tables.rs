@@ -5,10 +5,12 @@ use super::{
     context::{Besides, Shift},
 };
 use crate::{
-    document::{Entry, Item},
-    fault::Fault,
-    library::{Reference, Shelf},
-    table::{check_name, entries_of, list_of, text_of},
+    diagnostics::fault::Fault,
+    text::{
+        document::{Entry, Item},
+        library::{Reference, Shelf},
+        table::{check_name, entries_of, list_of, text_of},
+    },
 };
 
 impl<'d> ModelReader<'d> {

@@ -5,8 +5,8 @@ use serde_json::{Map, Value, json};
 
 use super::{described_as, reference};
 use crate::{
-    basis::{Basis, is_size},
-    fault::{described, example_text},
+    diagnostics::fault::{described, example_text},
+    quantities::basis::{Basis, is_size},
 };
 
 /// What the values of a kind measure.

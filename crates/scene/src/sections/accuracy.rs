@@ -5,9 +5,11 @@ use dashpot_network::parameters::{Dimension, InvalidParameter};
 
 use super::{Reading, Targets, measures::measure_of};
 use crate::{
-    document::{Content, Entry},
-    fault::Fault,
-    source::Place,
+    diagnostics::fault::Fault,
+    text::{
+        document::{Content, Entry},
+        source::Place,
+    },
 };
 
 /// Reads the wishes, relative to the size of each measure.

@@ -9,12 +9,11 @@ use dashpot_network::{
 
 use super::Reading;
 use crate::{
-    document::{Content, Entry, Item},
-    fault::Fault,
-    kinds::{EffectEntry, Example, registers},
-    network_faults::value_of,
-    parameters::KindReader,
-    quantity::{Quantities, Target},
+    check::network_faults::value_of,
+    diagnostics::fault::Fault,
+    kinds::{EffectEntry, Example, parameters::KindReader, registers},
+    quantities::quantity::{Quantities, Target},
+    text::document::{Content, Entry, Item},
     units::{parse_quantity, si_unit},
 };
 

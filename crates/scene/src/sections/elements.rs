@@ -7,12 +7,16 @@ use dashpot_network::{
 
 use super::{Reading, layers::read_layers};
 use crate::{
-    basis::{AREA, SIZE},
-    document::{Content, Entry},
-    fault::Fault,
+    diagnostics::fault::Fault,
     models::{ModelReader, Read},
-    pad::Size,
-    table::{Table, check_name, wrong_type},
+    quantities::{
+        basis::{AREA, SIZE},
+        pad::Size,
+    },
+    text::{
+        document::{Content, Entry},
+        table::{Table, check_name, wrong_type},
+    },
 };
 
 /// The keys of an element besides its law.

@@ -7,15 +7,16 @@ use dashpot_network::parameters::{Dimension, Value};
 
 use super::Reading;
 use crate::{
-    csv::{Csv, CsvFault, Field},
-    document::{Content, Entry, Item},
-    fault::Fault,
-    kinds::Kind,
-    library::TableFile,
-    parameters::KindReader,
-    quantity::Quantities,
-    source::Place,
-    table::{Table, text_of, wrong_type},
+    diagnostics::fault::Fault,
+    kinds::{Kind, parameters::KindReader},
+    quantities::quantity::Quantities,
+    text::{
+        csv::{Csv, CsvFault, Field},
+        document::{Content, Entry, Item},
+        library::TableFile,
+        source::Place,
+        table::{Table, text_of, wrong_type},
+    },
     units::{parse_quantity, si_unit},
 };
 

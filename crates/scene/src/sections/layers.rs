@@ -7,11 +7,13 @@ use dashpot_network::{
 
 use super::Reading;
 use crate::{
-    basis::{AREA, DENSITY},
-    document::{Content, Entry, Item},
-    fault::Fault,
+    diagnostics::fault::Fault,
     models::ModelReader,
-    table::{Table, list_of, text_of, wrong_type},
+    quantities::basis::{AREA, DENSITY},
+    text::{
+        document::{Content, Entry, Item},
+        table::{Table, list_of, text_of, wrong_type},
+    },
 };
 
 /// The keys of a layer besides its material.

@@ -4,9 +4,11 @@ use dashpot_network::{Network, parameters::Dimension};
 
 use super::Reading;
 use crate::{
-    document::{Content, Entry},
-    fault::Fault,
-    table::check_name,
+    diagnostics::fault::Fault,
+    text::{
+        document::{Content, Entry},
+        table::check_name,
+    },
 };
 
 /// Reads the loads into `network`.

@@ -7,14 +7,15 @@ use dashpot_network::parameters::{ModelValue, Parameter, ParameterKind, Value};
 
 use super::{Reading, Targets};
 use crate::{
-    document::{Content, Entry, Item},
-    fault::Fault,
-    kinds::{Kind, MeasureEntry, registers},
+    diagnostics::fault::Fault,
+    kinds::{Kind, MeasureEntry, parameters::KindReader, registers},
     models::ModelReader,
-    nearest::list,
-    parameters::KindReader,
-    source::Place,
-    table::{one_or_many, text_of, wrong_type},
+    text::{
+        document::{Content, Entry, Item},
+        nearest::list,
+        source::Place,
+        table::{one_or_many, text_of, wrong_type},
+    },
 };
 
 /// Reads the measures that are wanted.

@@ -27,15 +27,15 @@ use std::collections::HashMap;
 use dashpot_network::{NodeId, parameters::Dimension};
 
 use crate::{
-    diagnostics::Faults,
-    document::{Entry, Item},
-    fault::Fault,
-    kinds::{Example, Kind, registers},
-    library::Library,
-    parameters::KindReader,
-    quantity::Quantities,
-    source::Place,
-    table::{Table, entries_of, text_of, wrong_type},
+    diagnostics::{Faults, fault::Fault},
+    kinds::{Example, Kind, parameters::KindReader, registers},
+    quantities::quantity::Quantities,
+    text::{
+        document::{Entry, Item},
+        library::Library,
+        source::Place,
+        table::{Table, entries_of, text_of, wrong_type},
+    },
 };
 
 /// What the readers of sections share.

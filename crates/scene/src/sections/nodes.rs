@@ -8,9 +8,11 @@ use dashpot_network::{
 
 use super::Reading;
 use crate::{
-    document::{Content, Entry},
-    fault::Fault,
-    table::{check_name, wrong_type},
+    diagnostics::fault::Fault,
+    text::{
+        document::{Content, Entry},
+        table::{check_name, wrong_type},
+    },
 };
 
 /// Reads the nodes into `network`.

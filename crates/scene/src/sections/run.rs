@@ -9,11 +9,13 @@ use dashpot_network::{
 
 use super::Reading;
 use crate::{
-    document::{Content, Entry, Item},
-    fault::Fault,
+    diagnostics::fault::Fault,
     kinds::registers,
-    source::Place,
-    table::{Table, list_of, one_or_many, text_of, wrong_type},
+    text::{
+        document::{Content, Entry, Item},
+        source::Place,
+        table::{Table, list_of, one_or_many, text_of, wrong_type},
+    },
     units::parse_dimension,
 };
 

@@ -6,7 +6,7 @@ use dashpot_analysis::Family;
 use dashpot_network::Network;
 
 use super::Reading;
-use crate::{document::Item, source::Place};
+use crate::text::{document::Item, source::Place};
 
 /// The elements and nodes that a report shows by name.
 pub(crate) struct Targets<'r, 'd> {

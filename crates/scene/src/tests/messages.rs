@@ -1,7 +1,7 @@
 //! The words of the main errors, in full.
 
 use super::{messages, on_model, read_text};
-use crate::{kinds::registers, nearest::list};
+use crate::{kinds::registers, text::nearest::list};
 
 const FAULTS_OF_THE_TEXT: &str = r#"titel = "Head on a pad"
 

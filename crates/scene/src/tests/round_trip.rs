@@ -16,8 +16,8 @@ use dashpot_rheology::{Branch, Form, FormVisitor, Role, Tree, forms::build, visi
 use super::{on_model, scene, shape};
 use crate::{
     NamedModel, ReadOptions,
-    basis::{self, fits_material},
     kinds::registers,
+    quantities::basis::{self, fits_material},
     read_named_model, read_network, write_effect, write_kind, write_material_table, write_model,
     write_model_table,
 };

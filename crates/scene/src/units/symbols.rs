@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use dashpot_network::parameters::Dimension;
 
-use crate::nearest::nearest;
+use crate::text::nearest::nearest;
 
 /// A unit as a multiple of the SI unit of its dimension: `factor · 10^exponent`.
 ///

@@ -1,0 +1,254 @@
+//! What is odd about a scene as a whole, but not wrong.
+
+use std::collections::HashMap;
+
+use dashpot_dae::Waveform;
+use dashpot_network::{
+    Network, Node, Start, Support,
+    effects::{EffectKind, Stop},
+    parameters::{Dimension, ParameterKind, Value},
+};
+
+use super::{driven::Driven, network_faults::value_of};
+use crate::{
+    diagnostics::fault::Fault,
+    kinds::registers,
+    models::notes::ModelNote,
+    sections::{Reading, file_named},
+    text::{
+        document::{Content, Entry, Item},
+        library::is_table,
+        source::Place,
+    },
+    units::format_short,
+};
+
+/// Warns of what is odd in a scene that has been read without errors.
+pub(crate) fn review(reading: &Reading<'_>, network: &Network, duration: f64) {
+    unused_values(reading);
+    still(reading, network);
+    deep_stops(reading, network);
+    let mut ends = vec![[0_usize; 2]; network.nodes().count()];
+    for own in network.connections() {
+        own.between.iter().enumerate().for_each(|(end, id)| ends[id.index()][end] += 1);
+    }
+    let entries: HashMap<&str, &Entry> =
+        reading.section("nodes").iter().map(|own| (own.key.as_str(), own)).collect();
+    for (id, node) in network.nodes().filter(|(id, _)| *id != network.ground()) {
+        let Some(&entry) = entries.get(node.name.as_str()) else { continue };
+        let [starting, ending] = ends[id.index()];
+        if starting + ending == 0 {
+            let message = format!("no element touches `{}`", node.name);
+            let help = "name it in the `between` of an element, or remove it";
+            reading.faults.warning(entry.key_place, Fault::odd(message, help));
+        }
+        if ending == 0 && starting > 0 {
+            moving_away(reading, entry, node);
+        }
+    }
+    let driving = Driving::of(network);
+    for (section, key) in [("loads", "force"), ("nodes", "motion"), ("nodes", "acceleration")] {
+        for own in reading.section(section) {
+            let Some(driven) = value_of(own, key) else { continue };
+            time_table(reading, driven, duration);
+            if let Some(waveform) = driving.named(section, &own.key) {
+                file(reading, driven, waveform, duration);
+                let (name, item) = (own.key.as_str(), driven);
+                Driven { name, key, item, waveform }.review(reading, duration);
+            }
+        }
+    }
+}
+
+fn unused_values(reading: &Reading<'_>) {
+    let entries = reading.library.section("values").and_then(|entry| entry.item.table());
+    for entry in entries.unwrap_or(&[]) {
+        let known = reading.library.values().get(entry.key.as_str());
+        if known.is_some_and(|known| !known.is_used.get()) {
+            let message = format!("nothing uses the value `{}`", entry.key);
+            let help = format!("write \"{}\" where it is meant, or remove it", entry.key);
+            reading.faults.warning(entry.key_place, Fault::odd(message, help));
+        }
+    }
+}
+
+/// Warns of stops that are met only when the padding is used up.
+fn deep_stops(reading: &Reading<'_>, network: &Network) {
+    for effect in network.effects().iter().filter(|own| own.kind() == Stop::KIND) {
+        let Some(name) = effect.target() else { continue };
+        let element = network.connections().iter().find(|own| own.name == name);
+        let thickness = element.and_then(|own| own.thickness);
+        let Some((&Value::Number(at), thickness)) = effect.values().first().zip(thickness) else {
+            continue;
+        };
+        if at > thickness {
+            let kind = reading.section("effects").iter().find(|own| own.key == Stop::KIND);
+            let own = kind.and_then(|kind| kind.item.table()?.iter().find(|own| own.key == name));
+            let place = own.and_then(|own| value_of(own, "at")).map(|item| item.place);
+            let [at, thickness] =
+                [at, thickness].map(|own| format_short(own, Dimension::LENGTH, 4));
+            let message = format!(
+                "the stop of `{name}` at {at} lies deeper than its thickness of {thickness}"
+            );
+            let help = "the padding is used up before the stop is met: give a smaller `at`, or \
+                        leave it out for the thickness";
+            reading.faults.warning(place, Fault::odd(message, help));
+        }
+    }
+}
+
+/// What is left out of a drop where gravity is off.
+pub(crate) fn weightless(network: &Network) -> Vec<ModelNote> {
+    if network.effects().iter().any(|own| own.gravity().is_some()) {
+        return Vec::new();
+    }
+    let mut notes = Vec::new();
+    for (_, node) in network.nodes() {
+        let Start::Drop(height) = node.start else { continue };
+        if height > 0.0 && node.mass > 0.0 {
+            let height = format_short(height, Dimension::LENGTH, 4);
+            let text = format!(
+                "dropped from {height} with gravity off: it begins at touch with the speed of the \
+                 fall, weighs nothing, and never falls back on what it has left; `gravity = {{}}` \
+                 under [effects] gives it its weight"
+            );
+            notes.push(ModelNote { subject: format!("node `{}`", node.name), text, until: None });
+        }
+    }
+    notes
+}
+
+/// That weight pulls away from the support, where it does.
+pub(crate) fn upward(network: &Network) -> Option<ModelNote> {
+    let value = network.effects().iter().find_map(|own| own.gravity())?;
+    let shown = format_short(value, Dimension::ACCELERATION, 4);
+    (value < 0.0).then(|| ModelNote {
+        subject: "gravity".to_owned(),
+        text: format!("{shown} pulls away from the support; positive is towards it"),
+        until: None,
+    })
+}
+
+/// Warns of a network in which all that begins at rest stays at rest.
+fn still(reading: &Reading<'_>, network: &Network) {
+    let starts = |node: &Node| match node.start {
+        Start::Rest => false,
+        Start::Velocity(speed) => speed != 0.0,
+        Start::Drop(height) => height > 0.0,
+    };
+    let is_driven = |node: &Node| matches!(node.support, Support::Prescribed(_));
+    let moves = !network.loads().is_empty()
+        || network.nodes().any(|(_, node)| starts(node) || is_driven(node))
+        || network
+            .effects()
+            .iter()
+            .any(|effect| effect.gravity().is_some() && !effect.starts_in_balance());
+    if !moves {
+        let message =
+            "nothing moves: no node has `velocity` or `drop`, there is no load and no motion";
+        let place = reading.library.section("nodes").map(|entry| entry.key_place);
+        let help = "for example `velocity = \"10 m/s\"` at the node that strikes";
+        reading.faults.warning(place, Fault::odd(message, help));
+    }
+}
+
+/// Warns of an impactor that is at the outer end of all its elements and moves outward.
+fn moving_away(reading: &Reading<'_>, entry: &Entry, node: &Node) {
+    if let Start::Velocity(speed) = node.start
+        && speed < 0.0
+    {
+        let message =
+            format!("`{}` moves away from the support: positive is towards it", node.name);
+        let place = value_of(entry, "velocity").map_or(entry.key_place, |item| item.place);
+        let help = "turn its sign; if it comes from the other side, turn the `between` of what it \
+                    strikes instead";
+        reading.faults.warning(place, Fault::odd(message, help));
+    }
+}
+
+/// Warns of models that stand for their description only up to a time within the run.
+pub(crate) fn outlasted(reading: &Reading<'_>, notes: &[ModelNote], duration: f64) {
+    let run = reading.section("run").iter().find(|own| own.key == "duration");
+    let place = run.map(|own| own.item.place);
+    for ModelNote { subject, until, .. } in notes {
+        let Some(until) = until.filter(|until| *until < duration) else { continue };
+        let [until, end] = [until, duration].map(|time| format_short(time, Dimension::TIME, 4));
+        let message =
+            format!("{subject} stands for its spectrum up to {until}; the run lasts {end}");
+        let help = "give the spectrum a later `to`";
+        reading.faults.warning(place, Fault::odd(message, help));
+    }
+}
+
+/// What drives loads and nodes, by name.
+struct Driving<'n> {
+    loads: HashMap<&'n str, &'n Waveform>,
+    nodes: HashMap<&'n str, &'n Waveform>,
+}
+
+impl<'n> Driving<'n> {
+    fn of(network: &'n Network) -> Self {
+        let loads = network.loads().iter().map(|load| (load.name.as_str(), &load.force));
+        let nodes = network.nodes().filter_map(|(_, node)| match &node.support {
+            Support::Prescribed(motion) => Some((node.name.as_str(), motion)),
+            _ => None,
+        });
+        Self { loads: loads.collect(), nodes: nodes.collect() }
+    }
+
+    fn named(&self, section: &str, name: &str) -> Option<&'n Waveform> {
+        if section == "loads" { self.loads.get(name) } else { self.nodes.get(name) }.copied()
+    }
+}
+
+/// Warns of rows of a file that have no influence.
+fn file(reading: &Reading<'_>, driven: &Item, waveform: &Waveform, duration: f64) {
+    let table = driven.table().unwrap_or(&[]).iter().find(|own| is_table(&own.key));
+    let Some(named) = table.and_then(|own| file_named(&own.item)) else { return };
+    let count = waveform.breakpoints().count();
+    let late = waveform.breakpoints().filter(|time| *time > duration).count();
+    if late > 0 {
+        late_points(reading, named.place, (late, count, "times"), duration);
+    }
+}
+
+fn late_points(
+    reading: &Reading<'_>,
+    place: Place,
+    (late, count, what): (usize, usize, &str),
+    duration: f64,
+) {
+    let end = format_short(duration, Dimension::TIME, 4);
+    let verb = if late == 1 { "lies" } else { "lie" };
+    let message = format!("{late} of {count} {what} {verb} after the end of the run at {end}");
+    let help = "give a longer `duration` in [run], or check the unit of the times";
+    reading.faults.warning(place, Fault::odd(message, help));
+}
+
+/// Warns of points of a table of time that have no influence.
+fn time_table(reading: &Reading<'_>, driven: &Item, duration: f64) {
+    let kinds = &registers().waveforms;
+    for own in driven.table().unwrap_or(&[]) {
+        let kind = kinds.iter().find(|kind| kind.word == own.key);
+        let parameter = kind.and_then(|kind| {
+            kind.parameters.iter().find(|own| own.kind == ParameterKind::TimeTable)
+        });
+        let Some(parameter) = parameter else { continue };
+        let item = value_of(own, parameter.name).unwrap_or(&own.item);
+        let Content::List(points) = &item.value else { continue };
+        if points.len() == 1 {
+            let message = "a table with one point is a constant for ever";
+            let help = "give at least two points, or write `constant`";
+            reading.faults.warning(item.place, Fault::odd(message, help));
+        }
+        let is_late = |point: &&Item| {
+            let Content::List(pair) = &point.value else { return false };
+            let time = pair.first().and_then(|time| reading.quantities().peek(time));
+            time.is_some_and(|time| time > duration)
+        };
+        let late = points.iter().filter(is_late).count();
+        if late > 0 {
+            late_points(reading, item.place, (late, points.len(), "points"), duration);
+        }
+    }
+}

@@ -1,0 +1,489 @@
+//! What can be wrong with a scene, in words.
+
+use dashpot_network::{
+    NetworkError,
+    parameters::{Dimension, InvalidParameter},
+};
+use thiserror::Error;
+
+use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help, wrong_dimension_help};
+use crate::{
+    quantities::basis::{AREA, Basis, DENSITY},
+    text::{
+        csv::CsvFault,
+        nearest::{list, suggestion},
+    },
+    units::{UnitError, si_unit},
+};
+
+/// One thing that is wrong, or odd, in a scene.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The text is larger than the limit.
+    #[error("the text has {bytes} bytes; the limit is 64 MB")]
+    TooLarge {
+        /// Its size.
+        bytes: usize,
+    },
+    /// The bytes are not UTF-8.
+    #[error("the text is not UTF-8: byte {at} cannot be read (line {line})")]
+    NotUtf8 {
+        /// The first byte that cannot be read, from 0.
+        at: usize,
+        /// Its line, from 1.
+        line: usize,
+    },
+    /// There is nothing in the text.
+    #[error("the scene is empty")]
+    Empty,
+    /// Brackets or dotted keys nest too deeply.
+    #[error("the text nests {levels} levels deep; the limit is 1000")]
+    TooDeep {
+        /// Depth.
+        levels: usize,
+    },
+    /// The text is not TOML.
+    #[error("{message}")]
+    Syntax {
+        /// What is wrong.
+        message: String,
+    },
+    /// A string is not quoted.
+    #[error("text and quantities with units are written in quotes")]
+    NotQuoted {
+        /// What was given.
+        text: String,
+    },
+    /// A key stands twice.
+    #[error("`{key}` is given twice")]
+    DuplicateKey {
+        /// The key.
+        key: String,
+    },
+    /// A key that has no meaning where it stands.
+    #[error("unknown key `{key}` in {owner}")]
+    UnknownKey {
+        /// The key.
+        key: String,
+        /// What it stands in.
+        owner: String,
+        /// The keys that are known there.
+        known: Vec<&'static str>,
+    },
+    /// A required key is missing.
+    #[error("{owner} has no `{key}`")]
+    MissingKey {
+        /// The key.
+        key: String,
+        /// Where it is missing.
+        owner: String,
+        /// How it might be written.
+        example: String,
+    },
+    /// A value of a wrong type.
+    #[error("{what} is {expected}, but this is {found}")]
+    WrongType {
+        /// What is given by the value.
+        what: String,
+        /// The type that is expected, with an article.
+        expected: String,
+        /// What was found, in words.
+        found: String,
+    },
+    /// A value of another type where a quantity is expected.
+    #[error("{} is expected here, but this is {found}", described(*.expected))]
+    NoQuantity {
+        /// What was found, in words.
+        found: String,
+        /// What is expected.
+        expected: Dimension,
+    },
+    /// A quantity that cannot be read.
+    #[error("{error}")]
+    Unreadable {
+        /// Why.
+        error: UnitError,
+        /// What is expected.
+        expected: Dimension,
+    },
+    /// A named value that cannot be read.
+    #[error("{error}")]
+    BadValue {
+        /// Why.
+        error: UnitError,
+        /// How a value may be written.
+        example: &'static str,
+    },
+    /// A quantity of a wrong dimension.
+    #[error("`{text}` is {}; {} is expected here", described(*.found), described(*.expected))]
+    WrongDimension {
+        /// What was given.
+        text: String,
+        /// What it measures.
+        found: Dimension,
+        /// What is expected.
+        expected: Dimension,
+    },
+    /// An angular frequency in place of a frequency.
+    #[error("`{text}` is an angular frequency; a frequency (Hz) is expected here")]
+    AngularFrequency {
+        /// What was given.
+        text: String,
+        /// The same as a frequency \[Hz\].
+        frequency: f64,
+    },
+    /// A temperature in place of a difference of temperatures.
+    #[error("`{text}` is a temperature; a difference of temperatures (K) is expected here")]
+    CelsiusDifference {
+        /// What was given.
+        text: String,
+    },
+    /// A name that stands for nothing.
+    #[error("there is no {family} named `{name}`")]
+    UnknownName {
+        /// What is named: node, model, value …
+        family: &'static str,
+        /// The name.
+        name: String,
+        /// The names that are known.
+        known: Vec<String>,
+    },
+    /// A word that is none of those that may stand there.
+    #[error("`{word}` is not {family}")]
+    UnknownWord {
+        /// What is chosen, with an article.
+        family: String,
+        /// The word.
+        word: String,
+        /// The words that are known.
+        known: Vec<&'static str>,
+    },
+    /// A name that cannot be used.
+    #[error("`{name}` cannot be a name: {reason}")]
+    BadName {
+        /// The name.
+        name: String,
+        /// Why not.
+        reason: &'static str,
+    },
+    /// A value that refers to itself.
+    #[error("the value `{}` refers to itself ({})", .names.first().map_or("", String::as_str), .names.join(" → "))]
+    SelfReference {
+        /// The names in the circle.
+        names: Vec<String>,
+    },
+    /// A model that contains itself.
+    #[error("the {family} `{}` contains itself ({})", .names.first().map_or("", String::as_str), .names.join(" → "))]
+    ModelInItself {
+        /// What it is: a model or a material.
+        family: &'static str,
+        /// The names in the circle.
+        names: Vec<String>,
+    },
+    /// A table that says nothing about its law.
+    #[error("{owner} has no law")]
+    NoLaw {
+        /// The table.
+        owner: String,
+        /// Words that are laws.
+        known: Vec<&'static str>,
+    },
+    /// Several laws in one table.
+    #[error("{owner} has several laws ({}) and does not say how they are composed", list(.words))]
+    SeveralLaws {
+        /// The table.
+        owner: String,
+        /// The laws.
+        words: Vec<String>,
+    },
+    /// A model within a material.
+    #[error("`model` cannot stand in a material: models are in N/m, materials in Pa")]
+    ModelInMaterial,
+    /// A contact within a material.
+    #[error("`{word}` cannot stand in a material: it acts across a gap")]
+    ElementInMaterial {
+        /// Word of the element.
+        word: &'static str,
+    },
+    /// Two sizes of one pad.
+    #[error("`{key}` is {found} here, but {expected} in {place}")]
+    SizesDiffer {
+        /// `thickness` or `area`.
+        key: &'static str,
+        /// What it is where the fault is noted.
+        found: String,
+        /// What it is elsewhere.
+        expected: String,
+        /// Where that is.
+        place: String,
+    },
+    /// The size of a pad where there is none.
+    #[error("`{key}` goes with a material or foam, which {owner} is not")]
+    SizeWithoutMaterial {
+        /// `thickness` or `area`.
+        key: &'static str,
+        /// What it stands in.
+        owner: String,
+    },
+    /// The size of a pad within a material.
+    #[error("a material has no `{key}`; the pads that are made of it have one")]
+    SizeInMaterial {
+        /// `thickness` or `area`.
+        key: &'static str,
+    },
+    /// A text with several models, or none, and no word on which is meant.
+    #[error("{}", if .known.is_empty() { "there is no model here" } else { "there are several models here" })]
+    WhichModel {
+        /// The names that are known.
+        known: Vec<String>,
+    },
+    /// A driving function that is not given.
+    #[error("{owner} names no function of time")]
+    NoFunction {
+        /// What is driven.
+        owner: String,
+        /// Words that are functions.
+        known: Vec<&'static str>,
+    },
+    /// Several driving functions in one place.
+    #[error("one function of time is expected, but there are several ({})", list(.words))]
+    SeveralFunctions {
+        /// The functions.
+        words: Vec<String>,
+    },
+    /// A section that every scene has.
+    #[error("the scene has no [{section}]")]
+    MissingSection {
+        /// The section.
+        section: &'static str,
+    },
+    /// A list without entries.
+    #[error("`{key}` is an empty list")]
+    EmptyList {
+        /// What the list is.
+        key: String,
+    },
+    /// Models that expand to more than memory should hold.
+    #[error(
+        "{model} expands to {parts} parts, about {:.0} GB of memory; the limit is {:.0} GB",
+        *.bytes as f64 * 1e-9,
+        *.limit as f64 * 1e-9
+    )]
+    TooManyParts {
+        /// The model.
+        model: String,
+        /// Parts and compositions up to here.
+        parts: u64,
+        /// What they take \[B\].
+        bytes: u64,
+        /// What they may take \[B\].
+        limit: u64,
+    },
+    /// Two keys that contradict each other.
+    #[error("`{first}` and `{second}` exclude each other")]
+    Exclusive {
+        /// One key.
+        first: &'static str,
+        /// The other key.
+        second: &'static str,
+    },
+    /// A parameter out of its range.
+    #[error("{0}")]
+    Invalid(InvalidParameter),
+    /// A network that cannot be turned into a system.
+    #[error("{0}")]
+    Network(NetworkError),
+    /// Another file cannot be read.
+    #[error("`{path}` cannot be read: {reason}")]
+    Unloadable {
+        /// The path as written.
+        path: String,
+        /// Why.
+        reason: String,
+    },
+    /// A file of numbers that is no table.
+    #[error("{0}")]
+    Csv(CsvFault),
+    /// Something that is odd but not wrong.
+    #[error("{message}")]
+    Odd {
+        /// What.
+        message: String,
+        /// What to do about it.
+        help: Option<String>,
+    },
+    /// A fault about which its surroundings tell more.
+    #[error("{fault}")]
+    Explained {
+        /// The fault.
+        fault: Box<Self>,
+        /// How to put it right; the fault's own help where there is none.
+        help: Option<String>,
+        /// What else there is to know.
+        note: Option<String>,
+    },
+}
+
+impl From<InvalidParameter> for Fault {
+    fn from(invalid: InvalidParameter) -> Self {
+        Self::Invalid(invalid)
+    }
+}
+
+impl Fault {
+    /// The fault with other help.
+    #[must_use]
+    pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
+        Self::Explained { fault: Box::new(self), help: Some(help.into()), note: None }
+    }
+
+    /// The fault with a remark.
+    #[must_use]
+    pub(crate) fn with_note(self, note: impl Into<String>) -> Self {
+        Self::Explained { fault: Box::new(self), help: None, note: Some(note.into()) }
+    }
+
+    /// Something odd, and what to do about it.
+    pub(crate) fn odd(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Odd { message: message.into(), help: Some(help.into()) }
+    }
+
+    /// What else there is to know.
+    pub fn note(&self) -> Option<String> {
+        match self {
+            Self::Explained { fault, note, .. } => note.clone().or_else(|| fault.note()),
+            _ => None,
+        }
+    }
+
+    /// How to put it right, where that can be said.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Odd { help, .. } => help.clone(),
+            Self::Explained { fault, help, .. } => help.clone().or_else(|| fault.help()),
+            Self::Empty => Some("`dashpot new` writes a commented scene to start from".to_owned()),
+            Self::NotUtf8 { .. } => Some("save the file with the encoding UTF-8".to_owned()),
+            Self::NotQuoted { text } if text.is_empty() => {
+                Some("a value is missing after `=`".to_owned())
+            }
+            Self::NotQuoted { text } => Some(format!("write \"{text}\"")),
+            Self::DuplicateKey { .. } => Some(
+                "names and keys are unique within their table; remove or rename one".to_owned(),
+            ),
+            Self::UnknownKey { key, known, .. } => suggestion(key, "keys", known),
+            Self::MissingKey { example, .. } => {
+                (!example.is_empty()).then(|| format!("for example `{example}`"))
+            }
+            Self::Unreadable { error, expected } => Some(unreadable_help(error, *expected)),
+            Self::BadValue { error, example } => Some(bad_value_help(error, example)),
+            Self::WrongDimension { text, found, expected } => {
+                Some(wrong_dimension_help(text, *found, *expected))
+            }
+            Self::NoQuantity { expected, .. } => Some(example(*expected)),
+            Self::AngularFrequency { frequency, .. } => {
+                Some(format!("divide by 2 pi: \"{frequency:.6} Hz\""))
+            }
+            Self::CelsiusDifference { .. } => Some(
+                "write the same number with `K`: a difference of 1 degree Celsius is 1 K"
+                    .to_owned(),
+            ),
+            Self::UnknownName { family, name, known } => unknown_name_help(family, name, known),
+            Self::UnknownWord { word, known, .. } => suggestion(word, "words", known),
+            Self::NoLaw { known, .. } | Self::NoFunction { known, .. } => Some(format!("give one of: {}", known.join(", "))),
+            Self::SeveralLaws { words, .. } => {
+                let branches =
+                    words.iter().map(|word| format!("{{ {word} = … }}")).collect::<Vec<_>>();
+                Some(format!("for example `parallel = [{}]`", branches.join(", ")))
+            }
+            Self::ModelInMaterial => Some(
+                "write `material = \"…\"` for another material; to join both, compose them in [models] \
+                 with `{ material = \"…\", thickness = \"2 cm\", area = \"100 cm^2\" }`"
+                    .to_owned(),
+            ),
+            Self::ElementInMaterial { .. } => Some(
+                "write it in [models] or [elements], with the values of the pad".to_owned(),
+            ),
+            Self::SizeWithoutMaterial { .. } => Some(
+                "leave it out, or write it beside the material or foam whose size it is".to_owned(),
+            ),
+            Self::SizeInMaterial { key } => Some(format!(
+                "leave `{key}` out here, and write it beside `material = \"…\"` in [models] or [elements]"
+            )),
+            Self::WhichModel { known } if known.is_empty() => {
+                Some("[models], [materials] and [elements] hold models".to_owned())
+            }
+            Self::WhichModel { known } => Some(format!("name one of: {}", list(known))),
+            Self::MissingSection { section: "run" } => {
+                Some("for example:\n\n[run]\nduration = \"20 ms\"".to_owned())
+            }
+            Self::MissingSection { .. } => Some(
+                "for example:\n\n[elements]\npadding = { between = [\"head\", \"ground\"], spring = \"20 MN/m\" }"
+                    .to_owned(),
+            ),
+            Self::Csv(fault) => fault.help(),
+            Self::EmptyList { .. } => Some("leave the key out, or give an entry".to_owned()),
+            _ => None,
+        }
+    }
+
+    /// A few words for directly under the place.
+    pub fn label(&self) -> Option<String> {
+        match self {
+            Self::DuplicateKey { .. } => Some("second one".to_owned()),
+            Self::AngularFrequency { .. } => Some("in radians".to_owned()),
+            Self::Explained { fault, .. } => fault.label(),
+            _ => None,
+        }
+    }
+}
+
+/// A dimension by its name and unit, with an article: "a stiffness (N/m)".
+pub(crate) fn described(dimension: Dimension) -> String {
+    match dimension.named() {
+        _ if dimension == Dimension::NUMBER => "a pure number".to_owned(),
+        Some((name, unit)) => format!("{} {name} ({unit})", article(name)),
+        None if dimension == Basis::MATERIAL.dimension(Dimension::COMPLIANCE) => {
+            "a compliance of a material (1/Pa)".to_owned()
+        }
+        None if dimension == AREA => "an area (m^2)".to_owned(),
+        None if dimension == DENSITY => "a density (kg/m^3)".to_owned(),
+        None => format!("a quantity in {}", si_unit(dimension)),
+    }
+}
+
+/// `a` or `an`, as the word wants it.
+pub(crate) fn article(word: &str) -> &'static str {
+    if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
+}
+
+/// How a quantity of a dimension is written.
+pub(crate) fn example_text(dimension: Dimension) -> &'static str {
+    match dimension {
+        Dimension::NUMBER => "0.1 %",
+        Dimension::MASS => "10 kg",
+        Dimension::LENGTH => "2 cm",
+        Dimension::TIME => "10 ms",
+        Dimension::FREQUENCY => "50 Hz",
+        Dimension::VELOCITY => "10 m/s",
+        Dimension::ACCELERATION => "9.81 m/s^2",
+        Dimension::FORCE => "2 kN",
+        Dimension::STIFFNESS => "20 MN/m",
+        Dimension::DAMPING => "6 kN s/m",
+        Dimension::IMPULSE => "3 N s",
+        Dimension::ENERGY => "80 kJ/mol",
+        Dimension::PRESSURE => "2 MPa",
+        Dimension::VISCOSITY => "5 kPa s",
+        Dimension::COMPLIANCE => "0.05 mm/kN",
+        Dimension::TEMPERATURE => "20 degC",
+        AREA => "100 cm^2",
+        DENSITY => "120 kg/m^3",
+        _ if dimension == Basis::MATERIAL.dimension(Dimension::COMPLIANCE) => "0.5 1/MPa",
+        _ => "1.5",
+    }
+}
+
+/// The same in a sentence.
+pub(crate) fn example(dimension: Dimension) -> String {
+    format!("for example \"{}\"", example_text(dimension))
+}

@@ -1,0 +1,239 @@
+//! Faults at their places in the text, collected and reported together.
+
+pub(crate) mod fault;
+pub(crate) mod fault_help;
+pub(crate) mod render;
+
+use std::{cell::RefCell, collections::HashSet, fmt, ops::Range, sync::Arc};
+
+use self::fault::Fault;
+use crate::text::source::{Place, SET, Source};
+
+/// So many faults are kept; the others are counted.
+const KEPT: usize = 100;
+
+/// How bad a fault is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Severity {
+    /// The scene cannot be used.
+    Error,
+    /// The scene can be used; something in it is odd.
+    Warning,
+}
+
+/// One fault and where it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnostic {
+    /// How bad it is.
+    pub severity: Severity,
+    /// What is wrong.
+    pub fault: Fault,
+    /// The text in which it is.
+    pub source: Option<Arc<Source>>,
+    /// The bytes of the text that it is about.
+    pub span: Option<Range<usize>>,
+}
+
+impl Diagnostic {
+    /// What is wrong, in one sentence.
+    pub fn message(&self) -> String {
+        self.fault.to_string()
+    }
+
+    /// What else there is to know.
+    pub fn note(&self) -> Option<String> {
+        self.fault.note()
+    }
+
+    /// How to put it right, where that can be said.
+    pub fn help(&self) -> Option<String> {
+        self.fault.help()
+    }
+
+    /// Name of the file.
+    pub fn file(&self) -> Option<&str> {
+        self.source.as_deref().map(|source| source.name.as_str())
+    }
+
+    /// Line and column, both from 1.
+    pub fn line_and_column(&self) -> Option<(usize, usize)> {
+        let (source, span) = self.source.as_deref().zip(self.span.as_ref())?;
+        Some(source.line_and_column(span.start))
+    }
+}
+
+/// All that was found in one reading.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Diagnostics {
+    /// The faults in the order of the text, errors first.
+    pub list: Vec<Diagnostic>,
+    /// How many more there are that were not kept.
+    pub omitted: usize,
+}
+
+impl Diagnostics {
+    /// One fault without a place.
+    pub(crate) fn single(fault: Fault, source: Option<Arc<Source>>) -> Self {
+        let diagnostic = Diagnostic { severity: Severity::Error, fault, source, span: None };
+        Self { list: vec![diagnostic], omitted: 0 }
+    }
+
+    /// Whether nothing was found.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The text for a terminal: message, place, the value under a caret and help for each fault.
+    pub fn render(&self, color: bool) -> String {
+        render::render(self, color, usize::MAX)
+    }
+
+    /// The same in `width` columns: messages, notes and help are wrapped, and long lines of the text are
+    /// cut around what is at fault.
+    pub fn render_within(&self, color: bool, width: usize) -> String {
+        render::render(self, color, width)
+    }
+}
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for Diagnostics {}
+
+/// A value and the warnings that came with it.
+#[derive(Debug, Clone)]
+pub struct Checked<T> {
+    /// The value.
+    pub value: T,
+    /// What is odd about its text.
+    pub warnings: Diagnostics,
+}
+
+/// Takes up faults while a text is read.
+#[derive(Debug, Default)]
+pub(crate) struct Faults {
+    state: RefCell<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    sources: Vec<Arc<Source>>,
+    list: Vec<(Option<Place>, Diagnostic)>,
+    seen: HashSet<(Option<Place>, String)>,
+    omitted: usize,
+    errors: usize,
+    damaged: bool,
+}
+
+impl Faults {
+    /// Adds a text; places refer to it by the number returned.
+    pub(crate) fn add_source(&self, source: Arc<Source>) -> u32 {
+        let sources = &mut self.state.borrow_mut().sources;
+        sources.push(source);
+        u32::try_from(sources.len() - 1).unwrap_or(u32::MAX)
+    }
+
+    /// Notes an error. The same one at the same place counts once.
+    pub(crate) fn error(&self, place: impl Into<Option<Place>>, fault: Fault) {
+        self.note(Severity::Error, place.into(), fault);
+    }
+
+    /// Notes something odd.
+    pub(crate) fn warning(&self, place: impl Into<Option<Place>>, fault: Fault) {
+        self.note(Severity::Warning, place.into(), fault);
+    }
+
+    /// Says that the text is not TOML throughout: what is missing may have been meant to be there.
+    pub(crate) fn damage(&self) {
+        self.state.borrow_mut().damaged = true;
+    }
+
+    /// Whether parts of the text could not be parsed.
+    pub(crate) fn damaged(&self) -> bool {
+        self.state.borrow().damaged
+    }
+
+    /// Number of errors so far.
+    pub(crate) fn errors(&self) -> usize {
+        self.state.borrow().errors
+    }
+
+    /// The text at a place.
+    pub(crate) fn text(&self, place: Place) -> String {
+        let state = self.state.borrow();
+        let source = state.sources.get(place.source as usize);
+        source
+            .map_or_else(String::new, |source| source.text[source.clamp(&place.span())].to_owned())
+    }
+
+    /// Where a value comes from, in words.
+    pub(crate) fn origin(&self, place: Place) -> String {
+        let state = self.state.borrow();
+        match state.sources.get(place.source as usize) {
+            Some(source) if source.name == SET => format!("set by `{SET}`"),
+            Some(source) => {
+                let (line, _) = source.line_and_column(place.start as usize);
+                format!("defined in line {line}")
+            }
+            None => String::new(),
+        }
+    }
+
+    /// The line and file of a place, in words.
+    pub(crate) fn whereabouts(&self, place: Place) -> String {
+        let state = self.state.borrow();
+        state.sources.get(place.source as usize).map_or_else(String::new, |source| {
+            let (line, _) = source.line_and_column(place.start as usize);
+            format!("line {line} of {}", source.name)
+        })
+    }
+
+    /// How many faults are kept so far, and how many are not.
+    pub(crate) fn counts(&self) -> (usize, usize) {
+        let state = self.state.borrow();
+        (state.list.len(), state.omitted)
+    }
+
+    /// Takes back what was noted after these [`counts`](Self::counts).
+    pub(crate) fn take_back(&self, (kept, omitted): (usize, usize)) {
+        let mut state = self.state.borrow_mut();
+        state.list.truncate(kept);
+        state.omitted = omitted;
+    }
+
+    /// All that was found, errors first, in the order of the text.
+    pub(crate) fn finish(self) -> Diagnostics {
+        let mut state = self.state.into_inner();
+        state.list.sort_by_key(|(place, diagnostic)| {
+            let at = place.map_or((u32::MAX, 0), |place| (place.source, place.start));
+            (diagnostic.severity == Severity::Warning, at)
+        });
+        let list = state.list.into_iter().map(|(_, diagnostic)| diagnostic).collect();
+        Diagnostics { list, omitted: state.omitted }
+    }
+
+    fn note(&self, severity: Severity, place: Option<Place>, fault: Fault) {
+        let mut state = self.state.borrow_mut();
+        state.errors += usize::from(severity == Severity::Error);
+        if state.list.len() >= KEPT {
+            state.omitted += 1;
+            let is_odd = |own: &(Option<Place>, Diagnostic)| own.1.severity == Severity::Warning;
+            match state.list.iter().rposition(is_odd) {
+                // An error is not left out for something odd.
+                Some(last) if severity == Severity::Error => drop(state.list.remove(last)),
+                _ => return,
+            }
+        }
+        if !state.seen.insert((place, fault.to_string())) {
+            return;
+        }
+        // What has no place, such as a section that is missing, is about the text that is read.
+        let number = place.map_or(0, |place| place.source as usize);
+        let source = state.sources.get(number).cloned();
+        let span = place.zip(source.as_deref()).map(|(place, source)| source.clamp(&place.span()));
+        state.list.push((place, Diagnostic { severity, fault, source, span }));
+    }
+}

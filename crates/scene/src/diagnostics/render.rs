@@ -1,0 +1,135 @@
+//! Diagnostics as text for a terminal.
+
+use std::ops::Range;
+
+use annotate_snippets::{
+    AnnotationKind, Group, Level, Renderer, Snippet, renderer::DEFAULT_TERM_WIDTH,
+};
+
+use super::{Diagnostic, Diagnostics, Severity};
+use crate::text::{
+    source::Source,
+    visible::{is_control, visible},
+};
+
+/// So many lines of the text are shown for one fault.
+const LINES: usize = 3;
+
+/// Longer lines are cut around the place, in bytes.
+const LONG_LINE: usize = 400;
+
+/// See [`Diagnostics::render`].
+pub(crate) fn render(diagnostics: &Diagnostics, color: bool, width: usize) -> String {
+    let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+    let renderer = renderer.term_width(width.min(DEFAULT_TERM_WIDTH));
+    let mut texts: Vec<String> =
+        diagnostics.list.iter().map(|diagnostic| one(&renderer, diagnostic, width)).collect();
+    if diagnostics.omitted > 0 {
+        texts.push(format!("and {} more", diagnostics.omitted));
+    }
+    texts.join("\n\n")
+}
+
+fn one(renderer: &Renderer, diagnostic: &Diagnostic, width: usize) -> String {
+    let inner = width.saturating_sub(INNER_LEAD);
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let title = level.primary_title(wrapped(&diagnostic.message(), width.saturating_sub(LEAD)));
+    let mut group = match (&diagnostic.source, &diagnostic.span) {
+        (Some(source), Some(span)) => title.element(snippet(source, span, diagnostic, width)),
+        (Some(source), None) => {
+            title.element(annotate_snippets::Origin::path(visible(&source.name)))
+        }
+        _ => Group::with_title(title),
+    };
+    if let Some(note) = diagnostic.note() {
+        group = group.element(Level::NOTE.message(wrapped(&note, inner)));
+    }
+    if let Some(help) = diagnostic.help() {
+        group = group.element(Level::HELP.message(wrapped(&help, inner)));
+    }
+    // Where no line has a number, the name of the file stands where it would with one.
+    let renderer = renderer.clone().anonymized_snippet_line_numbers(diagnostic.span.is_none());
+    renderer.render(&[group])
+}
+
+/// Columns before a message.
+const LEAD: usize = "warning: ".len();
+/// Columns before its help or a note, in texts of up to 999 lines.
+const INNER_LEAD: usize = "    = help: ".len();
+
+/// The text in lines of at most `room` columns.
+fn wrapped(text: &str, room: usize) -> String {
+    let text = &*visible(text);
+    let (mut shown, mut columns) = (String::with_capacity(text.len()), 0);
+    for word in text.split(' ') {
+        let own = word.chars().count();
+        if columns > 0 && columns + 1 + own > room {
+            shown.push('\n');
+            columns = 0;
+        } else if !shown.is_empty() {
+            shown.push(' ');
+            columns += 1;
+        }
+        shown.push_str(word);
+        columns += own;
+    }
+    shown
+}
+
+fn snippet<'a>(
+    source: &'a Source,
+    span: &Range<usize>,
+    diagnostic: &Diagnostic,
+    width: usize,
+) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
+    let lines = excerpt(source, span);
+    let first_line = source.line_and_column(lines.start).0;
+    let start = span.start.clamp(lines.start, lines.end);
+    let end = span.end.clamp(start, lines.end);
+    let end = start + marked(&source.text[start..end], width.saturating_sub(MARGIN)).len();
+    let span = start - lines.start..end - lines.start;
+    let annotation = AnnotationKind::Primary.span(span).label(diagnostic.fault.label());
+    let text = stood_in(&source.text[lines]);
+    Snippet::source(text).line_start(first_line).path(visible(&source.name)).annotation(annotation)
+}
+
+/// The text with others for characters that are not to be seen, of as many bytes, so that places stay.
+/// The renderer shows control characters of one byte.
+fn stood_in(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for own in text.chars() {
+        match own.len_utf8() {
+            2 if is_control(own) => shown.push('\u{b7}'),
+            3 if is_control(own) => shown.push('\u{fffd}'),
+            4 if is_control(own) => shown.push_str("\u{b7}\u{b7}"),
+            _ => shown.push(own),
+        }
+    }
+    shown
+}
+
+/// Columns beside a mark: the number of the line, and what shows that the line goes on.
+const MARGIN: usize = 20;
+
+/// So much of the text of a place that its line can be cut around the mark under it.
+fn marked(text: &str, room: usize) -> &str {
+    let end = text.char_indices().nth(room).map(|own| own.0);
+    end.filter(|_| !text.contains('\n')).map_or(text, |end| &text[..end])
+}
+
+/// The lines to show: few, and cut where they are very long.
+fn excerpt(source: &Source, span: &Range<usize>) -> Range<usize> {
+    let mut lines = source.lines(span, LINES);
+    if source.text[lines.clone()].starts_with('\u{feff}') {
+        lines.start += '\u{feff}'.len_utf8();
+    }
+    if lines.len() <= LONG_LINE {
+        return lines;
+    }
+    let start = span.start.saturating_sub(LONG_LINE / 2).max(lines.start);
+    let end = (span.start + LONG_LINE / 2).min(lines.end);
+    source.clamp(&(start..end))
+}

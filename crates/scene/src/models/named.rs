@@ -1,0 +1,191 @@
+//! Models by their names, as in `pads.toml:felt`.
+
+use std::ops::Range;
+
+use dashpot_network::Model;
+
+use super::{ModelReader, notes::ModelNote};
+use crate::{
+    check::network_faults::value_of,
+    diagnostics::{Checked, Diagnostics, fault::Fault},
+    scene::{ReadOptions, checked, load},
+    sections::ELEMENT_KEYS,
+    text::{
+        document::{Content, Entry, Item},
+        library::{Library, SHELVES, Shelf},
+        source::Source,
+    },
+};
+
+/// A two-terminal model that a text gives a name.
+#[derive(Debug, Clone)]
+pub struct NamedModel {
+    /// Its name.
+    pub name: String,
+    /// The model. That of a material has the values of a pad of 1 m² that is 1 m thick: its
+    /// stiffnesses in N/m are the moduli in Pa.
+    pub model: Model,
+    /// Where it stands: `models`, `materials` or `elements`.
+    pub section: &'static str,
+    /// Whether it is a material.
+    pub is_material: bool,
+    /// What is to be said about it.
+    pub notes: Vec<ModelNote>,
+    /// The bytes of the whole lines of the text on which it stands, from its header or key to its
+    /// last value.
+    pub span: Range<usize>,
+}
+
+/// Where a name leads.
+enum Found<'d> {
+    OnShelf(crate::text::library::Reference),
+    Element(&'d Entry),
+}
+
+/// Reads the model that `name` means in a text: one of `[models]`, else of `[materials]`, else that
+/// of one of `[elements]`. `models.felt`, `materials.felt` and `elements.felt` tell models of one
+/// name apart.
+///
+/// Without a name it is the only model or material, else the model of the only element. What the
+/// text says besides is not looked at: it may be a scene, or a file of models alone.
+///
+/// The model may hold elements that are not linear. Whoever wants its
+/// [linear model](dashpot_network::linear_model) asks
+/// [`first_nonlinear`](dashpot_network::first_nonlinear) before.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_scene::{ReadOptions, read_named_model};
+///
+/// let text = "[materials]\nfoam = { kelvin = { spring = \"2 MPa\", dashpot = \"5 kPa s\" } }\n";
+/// let foam = read_named_model(text, "foam", &ReadOptions::default())?.value;
+/// assert!(foam.is_material);
+/// assert_eq!(read_named_model(text, "", &ReadOptions::default())?.value.name, "foam");
+///
+/// let faults = read_named_model(text, "faom", &ReadOptions::default()).unwrap_err();
+/// assert!(faults.render(false).contains("did you mean `foam`?"));
+/// # Ok::<(), dashpot_scene::Diagnostics>(())
+/// ```
+///
+/// # Errors
+///
+/// All faults of the model, each with its place; a name that the text does not have; no name where
+/// there are several models.
+pub fn read_named_model(
+    text: &str,
+    name: &str,
+    options: &ReadOptions<'_>,
+) -> Result<Checked<NamedModel>, Diagnostics> {
+    checked(|faults| {
+        let (library, source) = load(text, options, faults)?;
+        let models = ModelReader::new(&library, faults);
+        let (found, is_shared) = match find(&library, name) {
+            Ok(found) => found,
+            Err(fault) => {
+                if !faults.damaged() {
+                    faults.error(None, fault);
+                }
+                return None;
+            }
+        };
+        let (entry, model) = match found {
+            Found::OnShelf(reference) => (library.entry(reference), models.named(reference)?),
+            Found::Element(entry) => {
+                let owner = format!("element `{}`", entry.key);
+                if let Some(layers) = value_of(entry, "layers") {
+                    let message =
+                        format!("{owner} is made of layers with mass, which no model has");
+                    let help = "ask for one of its materials";
+                    faults.error(layers.place, Fault::odd(message, help));
+                    return None;
+                }
+                let keys = ELEMENT_KEYS;
+                (entry, models.element(&entry.item, owner, entry.key_place, keys)?.model)
+            }
+        };
+        let is_material =
+            matches!(found, Found::OnShelf(reference) if reference.shelf == Shelf::Materials);
+        let (name, mut notes, span) =
+            (entry.key.to_string(), models.notes(), lines_of(&source, entry));
+        if is_shared {
+            let subject = match found {
+                Found::OnShelf(reference) => format!("{} `{name}`", reference.shelf.word()),
+                Found::Element(_) => format!("element `{name}`"),
+            };
+            notes.push(ModelNote { subject, text: shared(&name), until: None });
+        }
+        let section = match found {
+            Found::OnShelf(reference) => reference.shelf.section(),
+            Found::Element(_) => "elements",
+        };
+        Some(NamedModel { name, model, section, is_material, notes, span })
+    })
+}
+
+/// Where a name leads, and whether it leads elsewhere, too.
+fn find<'d>(library: &'d Library, name: &str) -> Result<(Found<'d>, bool), Fault> {
+    let elements = library.section("elements").and_then(|entry| entry.item.table()).unwrap_or(&[]);
+    let shelves = || SHELVES.into_iter().flat_map(|shelf| library.models(0, shelf));
+    if name.is_empty() {
+        let found: Vec<Found<'_>> = if shelves().next().is_some() {
+            shelves().map(Found::OnShelf).collect()
+        } else {
+            elements.iter().map(Found::Element).collect()
+        };
+        let mut found = found.into_iter();
+        return match (found.next(), found.next()) {
+            (Some(only), None) => Ok((only, false)),
+            _ => Err(Fault::WhichModel { known: known(library, elements) }),
+        };
+    }
+    let (section, word) =
+        name.split_once('.').map_or((None, name), |(own, word)| (Some(own), word));
+    let is_asked = |own: &str| section.is_none_or(|section| section == own);
+    let on_shelf = |shelf: Shelf| {
+        let found = library.own(0, shelf, word).filter(|_| is_asked(shelf.section()));
+        found.map(Found::OnShelf)
+    };
+    let element = elements.iter().find(|entry| entry.key == word && is_asked("elements"));
+    let all = SHELVES.into_iter().filter_map(on_shelf).chain(element.map(Found::Element));
+    let mut all = all.collect::<Vec<_>>().into_iter();
+    let first = all.next().ok_or_else(|| {
+        let (family, known) = ("model, material or element", known(library, elements));
+        Fault::UnknownName { family, name: name.to_owned(), known }
+    })?;
+    Ok((first, all.next().is_some()))
+}
+
+/// What is said of a name that is that of several things.
+fn shared(name: &str) -> String {
+    format!(
+        "the name is also that of another; `models.{name}`, `materials.{name}` and \
+         `elements.{name}` tell them apart"
+    )
+}
+
+/// All names that lead to a model.
+fn known(library: &Library, elements: &[Entry]) -> Vec<String> {
+    let shelves = SHELVES.into_iter().flat_map(|shelf| library.names(0, shelf));
+    let mut known: Vec<String> =
+        shelves.chain(elements.iter().map(|entry| entry.key.to_string())).collect();
+    known.sort();
+    known.dedup();
+    known
+}
+
+/// The whole lines that an entry takes.
+fn lines_of(source: &Source, entry: &Entry) -> Range<usize> {
+    let mut span = entry.key_place.span();
+    let mut open: Vec<&Item> = vec![&entry.item];
+    while let Some(item) = open.pop() {
+        let own = item.place.span();
+        span = span.start.min(own.start)..span.end.max(own.end);
+        match &item.value {
+            Content::List(items) => open.extend(items),
+            Content::Table(entries) => open.extend(entries.iter().map(|entry| &entry.item)),
+            _ => {}
+        }
+    }
+    source.lines(&span, usize::MAX)
+}

@@ -1,0 +1,313 @@
+//! Quantities where they stand: numbers, texts with units, and named values.
+
+use std::{cell::Cell, collections::HashMap};
+
+use dashpot_network::parameters::Dimension;
+
+use super::{
+    basis::{Basis, powers},
+    plausible,
+};
+use crate::{
+    diagnostics::{Faults, fault::Fault},
+    text::{
+        document::{Content, Item},
+        source::Place,
+    },
+    units::{Quantity, UnitError, format_short, parse_quantity, si_unit},
+};
+
+/// The named values of one document.
+pub(crate) type Values = HashMap<String, Known>;
+
+/// What a name stands for.
+#[derive(Debug)]
+pub(crate) struct Known {
+    /// The quantity, `None` where it is faulty.
+    pub(crate) quantity: Option<Quantity>,
+    /// Where it comes from in the end.
+    pub(crate) definition: Option<Definition>,
+    /// Whether something refers to it.
+    pub(crate) is_used: Cell<bool>,
+}
+
+/// What stands for a name: a text or number, and its place.
+#[derive(Debug, Clone)]
+pub(crate) struct Definition {
+    /// As written.
+    pub(crate) text: String,
+    /// Where it stands.
+    pub(crate) place: Place,
+}
+
+/// What to do where only an acceleration is known.
+const MOTION_HELP: &str = "a motion is a displacement: write `acceleration` in place of `motion`";
+
+/// What to do with the values of a material in a model.
+const MATERIAL_IN_MODEL_HELP: &str = "stresses and strains belong in [materials]; a pad is made of one by \
+                                      `material = \"…\", thickness = \"2 cm\", area = \"100 cm^2\"`";
+
+/// What to do with the values of a pad in a material.
+fn pad_in_material_help(in_model: Dimension) -> String {
+    let [forces, lengths] = powers(in_model);
+    let factor = |power: i32, name: &str| match power.abs() {
+        0 => None,
+        1 => Some(name.to_owned()),
+        power => Some(format!("{name}^{power}")),
+    };
+    let both = [factor(forces, "area"), factor(lengths, "thickness")];
+    let [area, thickness] = both.each_ref().map(|own| own.clone().unwrap_or_default());
+    let what = match (forces.signum(), lengths.signum()) {
+        (1, -1) => format!("multiply them by {thickness} / {area}"),
+        (-1, 1) => format!("multiply them by {area} / {thickness}"),
+        (sign, other) => {
+            let verb = if sign + other > 0 { "divide" } else { "multiply" };
+            let names: Vec<String> = both.into_iter().flatten().collect();
+            format!("{verb} them by the {}", names.join(" and the "))
+        }
+    };
+    format!(
+        "values in {} belong in [models]; for a material, {what} of the specimen",
+        si_unit(in_model)
+    )
+}
+
+/// Reads quantities with the names that hold in one document.
+#[derive(Clone, Copy)]
+pub(crate) struct Quantities<'d> {
+    /// Named values.
+    pub(crate) values: &'d Values,
+    /// Where errors go.
+    pub(crate) faults: &'d Faults,
+    /// Whether they are displacements of a node over time.
+    pub(crate) is_motion: bool,
+    /// Whether they belong to a model or to a material.
+    pub(crate) basis: Basis,
+    /// The element that they are about, where an effect on one is read.
+    pub(crate) element: Option<Target<'d>>,
+    /// What is said of those that are unusual.
+    pub(crate) subject: Subject<'d>,
+}
+
+/// What a quantity is called where it is unusual.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Subject<'d> {
+    /// By its own text.
+    Value,
+    /// By its key.
+    Key(&'d str),
+    /// Nothing is said: it may have any size, or others look at it.
+    Unwatched,
+}
+
+/// An element whose thickness may be what a share is meant of.
+#[derive(Clone, Copy)]
+pub(crate) struct Target<'d> {
+    pub(crate) name: &'d str,
+    /// Its thickness \[m\], where it has one.
+    pub(crate) thickness: Option<f64>,
+}
+
+impl Target<'_> {
+    /// What to write in place of `text`, the `share` of a length.
+    fn help(self, text: &str, share: f64) -> String {
+        let name = self.name;
+        match self.thickness {
+            Some(thickness) => {
+                let length = format_short(share * thickness, Dimension::LENGTH, SHARE_DIGITS);
+                format!("write \"{length}\", which is {text} of the thickness of `{name}`")
+            }
+            None => format!(
+                "write a length such as \"10 mm\": `{name}` has no `thickness` to take a share of"
+            ),
+        }
+    }
+}
+
+/// Digits of a length that a share was meant for.
+const SHARE_DIGITS: usize = 7;
+
+impl<'d> Quantities<'d> {
+    /// Those of a key.
+    pub(crate) fn of(self, key: &'d str) -> Self {
+        Self { subject: Subject::Key(key), ..self }
+    }
+
+    /// Those of which nothing is said where they are unusual.
+    pub(crate) fn unwatched(self) -> Self {
+        Self { subject: Subject::Unwatched, ..self }
+    }
+
+    /// The quantity `item` as written, in SI units, with an error where it does not have the
+    /// dimension that is `expected` in a model, and a warning where it is unusual.
+    pub(crate) fn read(self, item: &Item, expected: Dimension) -> Option<f64> {
+        let value = self.read_quietly(item, expected)?;
+        plausible::check(self, item, self.basis.dimension(expected), value);
+        Some(value)
+    }
+
+    fn read_quietly(self, item: &Item, expected: Dimension) -> Option<f64> {
+        let in_model = expected;
+        let expected = self.basis.dimension(in_model);
+        let quantity = match &item.value {
+            Content::Number(digits) => self.parsed(digits, item.place, expected)?,
+            Content::Text(text) => match self.values.get(text.trim()) {
+                Some(known) => {
+                    known.is_used.set(true);
+                    known.quantity?
+                }
+                None => self.parsed(text, item.place, expected)?,
+            },
+            _ => {
+                let fault = Fault::NoQuantity { found: item.type_name(), expected };
+                self.faults.error(item.place, fault);
+                return None;
+            }
+        };
+        self.checked(quantity, item, in_model)
+    }
+
+    /// The quantity that passes `check`, which says what is wrong with it.
+    pub(crate) fn read_checked<E: Into<Fault>>(
+        self,
+        item: &Item,
+        expected: Dimension,
+        check: impl FnOnce(f64) -> Result<(), E>,
+    ) -> Option<f64> {
+        let value = self.read_quietly(item, expected)?;
+        match check(value) {
+            Ok(()) => {
+                plausible::check(self, item, self.basis.dimension(expected), value);
+                Some(value)
+            }
+            Err(fault) => {
+                self.faults.error(item.place, self.traced(item, fault.into()));
+                None
+            }
+        }
+    }
+
+    /// The difference of temperatures `item` \[K\]. Degrees Celsius are an error: they say a
+    /// temperature.
+    pub(crate) fn read_difference(self, item: &Item) -> Option<f64> {
+        let value = self.read_quietly(item, Dimension::TEMPERATURE)?;
+        if self.is(item, |quantity| quantity.is_celsius) {
+            let fault = Fault::CelsiusDifference { text: self.shown(item) };
+            self.faults.error(item.place, self.traced(item, fault));
+            return None;
+        }
+        Some(value)
+    }
+
+    /// The quantity `item` as written, in SI units, where it is one of any dimension.
+    pub(crate) fn peek(self, item: &Item) -> Option<f64> {
+        match &item.value {
+            Content::Number(digits) => parse_quantity(digits).ok(),
+            Content::Text(text) => match self.values.get(text.trim()) {
+                Some(known) => known.quantity,
+                None => parse_quantity(text).ok(),
+            },
+            _ => None,
+        }
+        .map(|quantity| quantity.value)
+    }
+
+    /// Whether `item` gives a number without a unit.
+    pub(crate) fn is_bare(self, item: &Item) -> bool {
+        self.is(item, |quantity| quantity.dimension.is_none())
+    }
+
+    fn is(self, item: &Item, fits: impl Fn(Quantity) -> bool) -> bool {
+        match &item.value {
+            Content::Number(digits) => parse_quantity(digits).is_ok_and(fits),
+            Content::Text(text) => match self.values.get(text.trim()) {
+                Some(known) => known.quantity.is_some_and(fits),
+                None => parse_quantity(text).is_ok_and(fits),
+            },
+            _ => false,
+        }
+    }
+
+    /// `item` as it is written.
+    pub(crate) fn shown(self, item: &Item) -> String {
+        match &item.value {
+            Content::Text(text) => text.trim().to_owned(),
+            _ => self.faults.text(item.place),
+        }
+    }
+
+    /// The quantity that `item` stands for as it is written, where it has a name under that.
+    pub(crate) fn written(self, item: &Item) -> String {
+        let known = self.values.get(item.text().map_or("", str::trim));
+        let definition = known.and_then(|known| known.definition.as_ref());
+        definition.map_or_else(|| self.shown(item), |own| own.text.clone())
+    }
+
+    /// `fault`, which is about `item`, with the definition of the name that stands there.
+    pub(crate) fn traced(self, item: &Item, fault: Fault) -> Fault {
+        let name = item.text().map_or("", str::trim);
+        let known = self.values.get(name).and_then(|known| known.definition.as_ref());
+        let Some(Definition { text, place }) = known else { return fault };
+        let origin = self.faults.origin(*place);
+        fault.with_note(format!("`{name}` is \"{}\", {origin}", text.trim()))
+    }
+
+    fn parsed(self, text: &str, place: Place, expected: Dimension) -> Option<Quantity> {
+        let error = match parse_quantity(text) {
+            Ok(quantity) => return Some(quantity),
+            Err(error) => error,
+        };
+        let name = text.trim();
+        if name.is_empty() && self.faults.damaged() {
+            return None;
+        }
+        let fault = if matches!(error, UnitError::NoNumber { .. }) && could_be_name(name) {
+            let mut known: Vec<String> = self.values.keys().cloned().collect();
+            known.sort();
+            Fault::UnknownName { family: "value", name: name.to_owned(), known }
+        } else {
+            Fault::Unreadable { error, expected }
+        };
+        self.faults.error(place, fault);
+        None
+    }
+
+    fn checked(self, quantity: Quantity, item: &Item, in_model: Dimension) -> Option<f64> {
+        let expected = self.basis.dimension(in_model);
+        let found = quantity.dimension.unwrap_or(expected);
+        let shown = || self.shown(item);
+        if found != expected {
+            let fault = Fault::WrongDimension { text: shown(), found, expected };
+            let fault = match found {
+                Dimension::ACCELERATION if self.is_motion => fault.with_help(MOTION_HELP),
+                Dimension::VELOCITY if self.is_motion => {
+                    fault.with_help("a motion is a displacement: integrate the velocity")
+                }
+                Dimension::NUMBER if expected == Dimension::LENGTH && self.element.is_some() => {
+                    let help = self.element.map(|own| own.help(&shown(), quantity.value));
+                    fault.with_help(help.unwrap_or_default())
+                }
+                _ if found == in_model => fault.with_help(pad_in_material_help(in_model)),
+                _ if found == Basis::MATERIAL.dimension(in_model) => {
+                    fault.with_help(MATERIAL_IN_MODEL_HELP)
+                }
+                _ => fault,
+            };
+            self.faults.error(item.place, self.traced(item, fault));
+            return None;
+        }
+        if expected == Dimension::FREQUENCY && quantity.angle != 0 {
+            let frequency = quantity.value / std::f64::consts::TAU;
+            let fault = Fault::AngularFrequency { text: shown(), frequency };
+            self.faults.error(item.place, self.traced(item, fault));
+            return None;
+        }
+        Some(quantity.value)
+    }
+}
+
+/// Whether a text that is no number can be meant as the name of a value.
+fn could_be_name(text: &str) -> bool {
+    text.starts_with(|first: char| first.is_alphabetic() || first == '_')
+        && !text.contains(char::is_whitespace)
+}

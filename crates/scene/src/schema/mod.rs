@@ -1,0 +1,380 @@
+//! The JSON schema of scenes, made from the registers.
+
+mod values;
+
+use std::collections::BTreeMap;
+
+use dashpot_analysis::Family;
+use dashpot_network::{layers::MOST_SEGMENTS, parameters::Dimension};
+use dashpot_rheology::{Part, Role};
+use serde_json::{Map, Value, json};
+
+use self::values::{Values, named_quantity, quantity, table_or_file};
+use crate::{
+    kinds::{CompositeEntry, EffectEntry, Kind, registers},
+    quantities::basis::{AREA, Basis, DENSITY, fits_material},
+};
+
+/// The JSON schema (draft 2020-12) of scenes, for editors: `#:schema ./scene.schema.json`.
+pub fn schema() -> Value {
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "dashpot scene",
+        "description": "Masses, springs and dashpots, and an impact on them.",
+        "type": "object",
+        "properties": {
+            "title": { "type": "string", "description": "what the scene is" },
+            "values": {
+                "description": "named values, usable wherever a quantity is expected",
+                "type": "object",
+                "additionalProperties": { "type": ["number", "string"] },
+            },
+            "models": {
+                "description": "two-terminal models, by name",
+                "type": "object",
+                "additionalProperties": reference("model"),
+            },
+            "materials": {
+                "description": "laws of stress over strain, which become pads by thickness and area",
+                "type": "object",
+                "additionalProperties": reference("material"),
+            },
+            "nodes": {
+                "description": "points with one displacement; `ground` is always there",
+                "type": "object",
+                "additionalProperties": reference("node"),
+            },
+            "elements": {
+                "description": "models between nodes",
+                "type": "object",
+                "additionalProperties": reference("element"),
+            },
+            "effects": closed(
+                "what acts besides the elements, and only if named",
+                registers().effects.iter().map(|entry| (entry.word, effect(entry))),
+            ),
+            "loads": {
+                "description": "forces on nodes",
+                "type": "object",
+                "additionalProperties": reference("load"),
+            },
+            "measures": {
+                "description": "measures of elements and nodes besides those always reported",
+                "type": "object",
+                "additionalProperties": one_or_many(&reference("measure")),
+            },
+            "accuracy": accuracy(),
+            "run": run(),
+        },
+        "required": ["elements", "run"],
+        "additionalProperties": false,
+        "$defs": definitions(),
+    })
+}
+
+fn definitions() -> Value {
+    let mut all = Map::new();
+    let mut add = |name: &str, schema: Value| all.insert(name.to_owned(), schema);
+    for dimension in Dimension::all_named() {
+        if let Some((name, _)) = dimension.named() {
+            add(name, quantity(dimension));
+        }
+    }
+    let name =
+        || ("name", described_as(json!({ "type": "string" }), "name of the branch in paths"));
+    add("shift", shift());
+    add("model", composed("a two-terminal model", [], &[], Basis::Model));
+    add("branch", composed("a branch of a model", [name()], &[], Basis::Model));
+    add("material", composed("a model in Pa", [], &[], Basis::MATERIAL));
+    let branch = composed("a branch of a material", [name()], &[], Basis::MATERIAL);
+    add("material-branch", branch);
+    let between = json!({
+        "description": "its ends, the impactor's side first",
+        "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2,
+    });
+    let own = [("between", between.clone()), ("thickness", thickness())];
+    let of_model = composed("a model between two nodes", own, &["between"], Basis::Model);
+    add("element", json!({ "anyOf": [of_model, layered(&between)] }));
+    add("node", node());
+    add("force-function", function(Dimension::FORCE));
+    add("length-function", function(Dimension::LENGTH));
+    add("acceleration-function", function(Dimension::ACCELERATION));
+    add(
+        "load",
+        json!({
+            "type": "object",
+            "properties": {
+                "on": { "type": "string", "description": "the node that feels the force" },
+                "force": described_as(reference("force-function"), "positive towards the support"),
+            },
+            "required": ["on", "force"],
+            "additionalProperties": false,
+        }),
+    );
+    add("measure", measure());
+    Value::Object(all)
+}
+
+fn node() -> Value {
+    let properties = [
+        ("mass", described_as(reference("mass"), "mass [kg], zero or positive; none by default")),
+        ("velocity", described_as(reference("velocity"), "start velocity: makes it an impactor")),
+        (
+            "drop",
+            described_as(
+                reference("length"),
+                "height of a fall: begins at touch with its speed, sqrt(2 g h); where gravity is on and \
+                 all that touches it can part, begins that high above, at rest",
+            ),
+        ),
+        ("fixed", json!({ "const": true, "description": "nothing moves it" })),
+        ("motion", described_as(reference("length-function"), "its displacement over time")),
+        (
+            "acceleration",
+            described_as(
+                reference("acceleration-function"),
+                "its acceleration over time, from rest at t = 0",
+            ),
+        ),
+    ];
+    closed("a point with one displacement", properties)
+}
+
+fn measure() -> Value {
+    let measures = &registers().measures;
+    let words = measures.iter().map(|measure| measure.kind.word).collect::<Vec<_>>();
+    let tables = measures.iter().map(|measure| {
+        let of = match measure.family {
+            Family::Element => "of an element",
+            Family::Node => "of a node",
+        };
+        let mut properties = Values::driving(Dimension::NUMBER).parameters(measure.kind.parameters);
+        properties.insert("kind".to_owned(), json!({ "const": measure.kind.word }));
+        json!({
+            "description": format!("{} ({of})", measure.kind.summary),
+            "type": "object",
+            "properties": properties,
+            "required": ["kind"],
+            "additionalProperties": false,
+        })
+    });
+    let plain = json!({ "enum": words });
+    json!({ "anyOf": std::iter::once(plain).chain(tables).collect::<Vec<_>>() })
+}
+
+fn accuracy() -> Value {
+    let wish = reference("number");
+    let below = "what moves no measure by more may be left out; nothing is";
+    json!({
+        "description": "how accurate the measures are to be, relative to their size",
+        "type": "object",
+        "properties": {
+            "default": described_as(wish.clone(), "for all measures; 0.1 %"),
+            "neglect-below": described_as(wish.clone(), below),
+        },
+        "additionalProperties": {
+            "anyOf": [wish.clone(), { "type": "object", "additionalProperties": wish }],
+        },
+    })
+}
+
+fn run() -> Value {
+    let method = json!({ "enum": registers().methods });
+    let condition = json!({
+        "type": "object",
+        "properties": {
+            "when": { "type": "string", "description": "an output, for instance `padding.force`" },
+            "falls-below": { "type": ["number", "string"] },
+            "rises-above": { "type": ["number", "string"] },
+        },
+        "required": ["when"],
+        "oneOf": [{ "required": ["falls-below"] }, { "required": ["rises-above"] }],
+        "additionalProperties": false,
+    });
+    json!({
+        "description": "how long, by which methods, and when to stop",
+        "type": "object",
+        "properties": {
+            "duration": described_as(reference("time"), "length of the run [s]"),
+            "samples": {
+                "description": "points of the output grid; the solution does not depend on it",
+                "type": "integer", "minimum": 1, "maximum": 10_000_000, "default": 501,
+            },
+            "methods": described_as(one_or_many(&method), "methods; `auto` chooses"),
+            "rtol": described_as(reference("number"), "the methods' own relative tolerance"),
+            "stop": {
+                "description": "conditions that end the run early",
+                "type": "array", "items": condition,
+            },
+        },
+        "required": ["duration"],
+        "additionalProperties": false,
+    })
+}
+
+/// A table with one law and the keys `own`.
+fn composed<'k>(
+    description: &str,
+    own: impl IntoIterator<Item = (&'k str, Value)>,
+    required: &[&str],
+    basis: Basis,
+) -> Value {
+    let is_material = basis.is_material();
+    let mut laws = BTreeMap::new();
+    let fits = |kind: &&Kind<_>| !is_material || fits_material(kind.parameters);
+    for kind in registers().elements.iter().filter(fits) {
+        let values = Values { driven: Dimension::FORCE, basis };
+        laws.insert(kind.word, described_as(values.of_kind(kind.parameters), kind.summary));
+    }
+    for form in &registers().forms {
+        for word in [&[form.word], form.aliases].concat() {
+            laws.insert(word, described_as(parts(form.parts, basis), form.summary));
+        }
+    }
+    for CompositeEntry { kind, amplitude } in &registers().composites {
+        let values = Values { driven: *amplitude, basis };
+        laws.insert(kind.word, described_as(values.of_kind(kind.parameters), kind.summary));
+    }
+    let branch = reference(if is_material { "material-branch" } else { "branch" });
+    let branches = json!({ "type": "array", "items": branch, "minItems": 1 });
+    laws.insert("series", described_as(branches.clone(), "branches in a row"));
+    laws.insert("parallel", described_as(branches, "branches side by side"));
+    let by_name = |word: &str| {
+        let description = format!("a {word} by name, or `file.toml:name`");
+        json!({ "type": "string", "description": description })
+    };
+    laws.insert("material", by_name("material"));
+    let mut properties = object(own);
+    properties.insert("shift".to_owned(), reference("shift"));
+    if !is_material {
+        laws.insert("model", by_name("model"));
+        properties.insert("thickness".to_owned(), thickness());
+        let area = described_as(quantity(AREA), "area of the pad [m^2], positive");
+        properties.insert("area".to_owned(), area);
+    }
+    let one = laws.keys().map(|&word| match word {
+        "material" if !is_material => json!({ "required": [word, "thickness", "area"] }),
+        word => json!({ "required": [word] }),
+    });
+    let one = one.collect::<Vec<_>>();
+    properties.extend(laws.into_iter().map(|(word, schema)| (word.to_owned(), schema)));
+    json!({
+        "description": description,
+        "type": "object",
+        "properties": properties,
+        "required": required,
+        "oneOf": one,
+        "additionalProperties": false,
+    })
+}
+
+/// An element made of layers.
+fn layered(between: &Value) -> Value {
+    let material = json!({ "type": "string", "description": "a material by name" });
+    let area = described_as(quantity(AREA), "area [m^2], positive");
+    let density = described_as(quantity(DENSITY), "density [kg/m^3], zero or positive");
+    let mut layer = closed(
+        "a layer with mass",
+        [
+            ("material", material),
+            ("thickness", described_as(reference("length"), "thickness [m], positive")),
+            ("area", area),
+            ("density", density),
+            ("shift", reference("shift")),
+        ],
+    );
+    layer["required"] = json!(["material", "thickness", "area", "density"]);
+    let segments = json!({
+        "description": "into how many segments the pad is cut",
+        "type": "integer", "minimum": 1, "maximum": MOST_SEGMENTS,
+    });
+    let accuracy = "relative error of the speed of waves; 1 %";
+    let mut table = closed(
+        "a pad of layers in which waves travel",
+        [
+            ("between", between.clone()),
+            ("layers", json!({ "type": "array", "items": layer, "minItems": 1 })),
+            ("segments", segments),
+            ("accuracy", described_as(reference("number"), accuracy)),
+        ],
+    );
+    table["required"] = json!(["between", "layers"]);
+    table
+}
+
+fn thickness() -> Value {
+    described_as(reference("length"), "thickness of the pad [m], positive")
+}
+
+/// A table with one shift.
+fn shift() -> Value {
+    let kinds = registers().shifts.iter();
+    let values = Values::driving(Dimension::NUMBER);
+    let schema = |kind: &Kind<_>| described_as(values.of_kind(kind.parameters), kind.summary);
+    let description = "what multiplies all times of the model";
+    let mut table = closed(description, kinds.map(|kind| (kind.word, schema(kind))));
+    (table["minProperties"], table["maxProperties"]) = (json!(1), json!(1));
+    table
+}
+
+fn parts(parts_of_form: &[Part], basis: Basis) -> Value {
+    let schema = |part: &Part| match part.role {
+        Role::Spring => named_quantity(basis.dimension(Dimension::STIFFNESS)),
+        Role::Dashpot => named_quantity(basis.dimension(Dimension::DAMPING)),
+        Role::Form { parts: inner, .. } => parts(inner, basis),
+    };
+    let names = parts_of_form.iter().map(|part| part.name).collect::<Vec<_>>();
+    let mut table = closed("", parts_of_form.iter().map(|part| (part.name, schema(part))));
+    table["required"] = json!(names);
+    table
+}
+
+/// A table with one function of time.
+fn function(driven: Dimension) -> Value {
+    let kinds = registers().waveforms.iter();
+    let schema = |kind: &Kind<_>| {
+        let values = Values::driving(driven).of_kind(kind.parameters);
+        let values = if kind.is_table() { table_or_file(&values) } else { values };
+        described_as(values, kind.summary)
+    };
+    let mut table = closed("a function of time", kinds.map(|kind| (kind.word, schema(kind))));
+    (table["minProperties"], table["maxProperties"]) = (json!(1), json!(1));
+    table
+}
+
+fn effect(entry: &EffectEntry) -> Value {
+    let table = Values::driving(Dimension::FORCE).of_kind(entry.parameters);
+    let plain = entry.parameters.iter().all(|parameter| parameter.default.is_some());
+    let schema = if plain { json!({ "anyOf": [{ "const": true }, table] }) } else { table };
+    if entry.is_per_element {
+        let by_element = json!({ "type": "object", "additionalProperties": schema });
+        return described_as(by_element, &format!("by elements: {}", entry.summary));
+    }
+    described_as(schema, entry.summary)
+}
+
+fn one_or_many(schema: &Value) -> Value {
+    json!({ "anyOf": [schema, { "type": "array", "items": schema, "minItems": 1 }] })
+}
+
+fn closed<'k>(description: &str, own: impl IntoIterator<Item = (&'k str, Value)>) -> Value {
+    let table =
+        json!({ "type": "object", "properties": object(own), "additionalProperties": false });
+    if description.is_empty() { table } else { described_as(table, description) }
+}
+
+fn object<'k>(entries: impl IntoIterator<Item = (&'k str, Value)>) -> Map<String, Value> {
+    entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+fn described_as(mut schema: Value, description: &str) -> Value {
+    schema["description"] = json!(description);
+    schema
+}
+
+fn reference(name: &str) -> Value {
+    json!({ "$ref": format!("#/$defs/{name}") })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,296 @@
+//! A TOML text as a tree of values that know their places.
+
+mod blocks;
+mod word;
+
+use std::{ops::Range, sync::Arc};
+
+use toml::{
+    Spanned,
+    de::{DeTable, DeValue},
+};
+
+pub(crate) use self::word::Word;
+use self::word::Words;
+use super::{
+    nesting,
+    repair::repaired,
+    source::{Place, Source},
+};
+use crate::diagnostics::{Faults, fault::Fault};
+
+/// A text may have so many bytes.
+pub const MAX_BYTES: usize = 64 << 20;
+
+/// Arrays, tables and dotted keys may nest so deeply in a text.
+pub(crate) const MAX_LEVELS: usize = 1000;
+
+/// Texts that nest no deeper than this are parsed on the caller's stack.
+const SHALLOW: usize = 48;
+
+/// Stack for parsing the deepest text that is allowed; a level takes less than 4 kB.
+const DEEP_STACK: usize = 16 << 20;
+
+/// A value and its place.
+#[derive(Debug, Clone)]
+pub(crate) struct Item {
+    /// The value.
+    pub(crate) value: Content,
+    /// Where it stands. For a table under a header that is the header.
+    pub(crate) place: Place,
+}
+
+/// What a value is.
+#[derive(Debug, Clone)]
+pub(crate) enum Content {
+    /// A string.
+    Text(Word),
+    /// An integer or a float, as decimal digits.
+    Number(Word),
+    /// `true` or `false`.
+    Switch(bool),
+    /// A date or a time.
+    Date,
+    /// A list.
+    List(Box<[Item]>),
+    /// A table, in the order of the text.
+    Table(Box<[Entry]>),
+}
+
+/// A key and its value.
+#[derive(Debug, Clone)]
+pub(crate) struct Entry {
+    /// The key.
+    pub(crate) key: Word,
+    /// Where the key stands.
+    pub(crate) key_place: Place,
+    /// The value.
+    pub(crate) item: Item,
+}
+
+impl Item {
+    /// The type in words.
+    pub(crate) fn type_name(&self) -> String {
+        match &self.value {
+            Content::Text(_) => "a text".to_owned(),
+            Content::Number(_) => "a number".to_owned(),
+            Content::Switch(switch) => format!("`{switch}`"),
+            Content::Date => "a date".to_owned(),
+            Content::List(items) if items.len() == 1 => "a list of 1 entry".to_owned(),
+            Content::List(items) => format!("a list of {} entries", items.len()),
+            Content::Table(_) => "a table".to_owned(),
+        }
+    }
+
+    /// The entries, where it is a table.
+    pub(crate) fn table(&self) -> Option<&[Entry]> {
+        if let Content::Table(entries) = &self.value { Some(entries) } else { None }
+    }
+
+    /// The text, where it is one.
+    pub(crate) fn text(&self) -> Option<&str> {
+        if let Content::Text(text) = &self.value { Some(text) } else { None }
+    }
+}
+
+/// Parses `source`; `None` when there is nothing to go on with.
+pub(crate) fn parse(source: &Arc<Source>, faults: &Faults) -> Option<Item> {
+    let number = faults.add_source(Arc::clone(source));
+    let text = &source.text;
+    let whole = Place::new(number, &(0..0));
+    if text.len() > MAX_BYTES {
+        faults.error(None, Fault::TooLarge { bytes: text.len() });
+        return None;
+    }
+    if text.trim_start_matches('\u{feff}').trim().is_empty() {
+        faults.error(whole, Fault::Empty);
+        return None;
+    }
+    let (levels, deepest) = nesting::depth(text);
+    if levels > MAX_LEVELS {
+        let place = Place::new(number, &(deepest..deepest + 1));
+        faults.error(place, Fault::TooDeep { levels });
+        return None;
+    }
+    let parsed = |text: &str| {
+        if levels <= SHALLOW {
+            return parse_text(text, number);
+        }
+        on_deep_stack(text, number).unwrap_or_else(|reason| {
+            faults.error(whole, Fault::Unloadable { path: source.name.clone(), reason });
+            (None, Vec::new())
+        })
+    };
+    let (mut root, mut errors) = parsed(text);
+    if !errors.is_empty() {
+        let (text, slips) = repaired(text);
+        if !slips.is_empty() {
+            (root, errors) = parsed(&text);
+        }
+        for (span, fault) in slips {
+            faults.error(Place::new(number, &span), fault);
+        }
+    }
+    let mut last = None;
+    for (place, fault) in errors {
+        // The parser may say the same thing twice in other words.
+        let is_echo = last.replace(place.start) == Some(place.start);
+        if is_echo && matches!(fault, Fault::Syntax { .. }) {
+            continue;
+        }
+        if !matches!(fault, Fault::DuplicateKey { .. } | Fault::NotQuoted { .. }) {
+            faults.damage();
+        }
+        faults.error(place, fault);
+    }
+    root
+}
+
+type Parsed = (Option<Item>, Vec<(Place, Fault)>);
+
+fn on_deep_stack(text: &str, number: u32) -> Result<Parsed, String> {
+    std::thread::scope(|scope| {
+        let deep = std::thread::Builder::new().stack_size(DEEP_STACK);
+        let handle = deep.spawn_scoped(scope, || parse_text(text, number));
+        let handle = handle.map_err(|error| error.to_string())?;
+        handle.join().map_err(|_| "the parser failed".to_owned())
+    })
+}
+
+fn parse_text(text: &str, number: u32) -> Parsed {
+    let mut builder = Builder { number, words: Words::default() };
+    if let Some(root) = blocks::root(text, &mut builder) {
+        return (Some(root), Vec::new());
+    }
+    let (root, errors) = DeTable::parse_recoverable(text);
+    let place = Place::new(number, &root.span());
+    let entries = builder.entries(root.into_inner(), 0);
+    let faults = errors.iter().map(|error| syntax_fault(text, number, error)).collect();
+    (Some(Item { value: Content::Table(entries.into_boxed_slice()), place }), faults)
+}
+
+fn syntax_fault(text: &str, number: u32, error: &toml::de::Error) -> (Place, Fault) {
+    let span = error.span().unwrap_or(0..0);
+    let at = text.get(span.clone()).unwrap_or_default().to_owned();
+    let fault = match error.message() {
+        "duplicate key" => Fault::DuplicateKey { key: at },
+        message if message.starts_with("string values must be quoted") => {
+            Fault::NotQuoted { text: at }
+        }
+        message => Fault::Syntax { message: message.to_owned() },
+    };
+    (Place::new(number, &span), fault)
+}
+
+/// Makes items of what the parser found.
+struct Builder {
+    /// Number of the source.
+    number: u32,
+    words: Words,
+}
+
+impl Builder {
+    /// The entries of a table in the part of the text that begins at the byte `start`.
+    fn entries(&mut self, table: DeTable<'_>, start: usize) -> Vec<Entry> {
+        let mut entries = Vec::with_capacity(table.len());
+        for (key, value) in table {
+            entries.push(Entry {
+                key_place: self.place(&key.span(), start),
+                key: self.words.word(key.get_ref()),
+                item: self.item(value, start),
+            });
+        }
+        // The parser sorts by key; the order of the text decides the order of nodes and branches.
+        entries.sort_by_key(|entry| entry.key_place.start);
+        entries
+    }
+
+    fn item(&mut self, value: Spanned<DeValue<'_>>, start: usize) -> Item {
+        let place = self.place(&value.span(), start);
+        let value = match value.into_inner() {
+            DeValue::String(text) => Content::Text(self.words.word(&text)),
+            DeValue::Integer(integer) => {
+                let digits = decimal(integer.as_str(), integer.radix());
+                Content::Number(self.words.word(&digits))
+            }
+            DeValue::Float(float) => Content::Number(self.words.word(float.as_str())),
+            DeValue::Boolean(switch) => Content::Switch(switch),
+            DeValue::Datetime(_) => Content::Date,
+            DeValue::Array(items) => {
+                let mut list = Vec::with_capacity(items.len());
+                for value in items {
+                    list.push(self.item(value, start));
+                }
+                Content::List(list.into_boxed_slice())
+            }
+            DeValue::Table(table) => Content::Table(self.entries(table, start).into_boxed_slice()),
+        };
+        Item { value, place }
+    }
+
+    fn place(&self, span: &Range<usize>, start: usize) -> Place {
+        Place::new(self.number, &(start + span.start..start + span.end))
+    }
+}
+
+fn decimal(digits: &str, radix: u32) -> String {
+    match u128::from_str_radix(digits, radix) {
+        Ok(value) if radix != 10 => value.to_string(),
+        _ => digits.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> (Option<Item>, String) {
+        let faults = Faults::default();
+        let item = parse(&Arc::new(Source::new("a.toml", text)), &faults);
+        (item, faults.finish().render(false))
+    }
+
+    #[test]
+    fn entries_keep_the_order_of_the_text() {
+        let (item, errors) = parsed("z = 1\na = 2\n[m]\nc = 0x10\nb = true\n");
+        let item = item.unwrap();
+        let keys = |item: &Item| {
+            item.table().unwrap().iter().map(|entry| entry.key.to_string()).collect::<Vec<_>>()
+        };
+        assert_eq!(keys(&item), ["z", "a", "m"]);
+        let inner = &item.table().unwrap()[2].item;
+        assert_eq!(keys(inner), ["c", "b"]);
+        assert!(matches!(&inner.table().unwrap()[0].item.value, Content::Number(n) if *n == "16"));
+        assert!(errors.is_empty());
+    }
+
+    #[test]
+    fn deep_texts_are_parsed_up_to_the_limit_and_refused_beyond() {
+        for (open, close) in [("[", "]"), ("{a=", "}")] {
+            let text = |n: usize| format!("a = {}1{}\n", open.repeat(n), close.repeat(n));
+            let (item, errors) = parsed(&text(MAX_LEVELS));
+            assert!(item.is_some() && errors.is_empty(), "{errors}");
+            for n in [MAX_LEVELS + 1, 100_000] {
+                let (item, errors) = parsed(&text(n));
+                assert!(item.is_none() && errors.contains("the limit is 1000"), "{errors}");
+            }
+        }
+        let dotted = format!("{}a = 1\n", "a.".repeat(100_000));
+        assert!(parsed(&dotted).1.contains("the limit is 1000"));
+        assert!(parsed(&"[".repeat(100_000)).1.contains("the limit is 1000"));
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_content() {
+        assert!(parsed("\u{feff}a = 1\n").1.is_empty());
+        assert!(parsed("\u{feff} \n").1.contains("the scene is empty"));
+    }
+
+    #[test]
+    fn several_syntax_errors_come_at_once() {
+        let (_, errors) = parsed("a = 10 kg\na = 3\nb = 'x\n");
+        assert!(errors.contains("write \"10 kg\""), "{errors}");
+        assert!(errors.contains("`a` is given twice"), "{errors}");
+        assert!(errors.contains("invalid literal string"), "{errors}");
+    }
+}

@@ -1,0 +1,370 @@
+//! The documents of a scene: its own, and those whose models it uses.
+
+use std::{
+    collections::{HashMap, VecDeque},
+    sync::Arc,
+};
+
+use super::{
+    document::{Content, Entry, Item, MAX_BYTES, parse},
+    source::{Place, Source},
+    table::{check_name, entries_of},
+};
+use crate::{
+    diagnostics::{Faults, fault::Fault},
+    kinds::registers,
+    quantities::{
+        basis::Basis,
+        quantity::{Quantities, Subject, Values},
+        values::{self, Overrides},
+    },
+    sections::file_named,
+};
+
+/// Gives the text of another file by its path.
+pub type Loader<'l> = &'l dyn Fn(&str) -> Result<String, String>;
+
+/// A scene may use models from so many files.
+const MAX_FILES: usize = 1000;
+
+/// Which of the two tables of models.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Shelf {
+    /// `[models]`, in N/m.
+    Models,
+    /// `[materials]`, in Pa.
+    Materials,
+}
+
+/// Both, in the order in which a name is looked up.
+pub(crate) const SHELVES: [Shelf; 2] = [Shelf::Models, Shelf::Materials];
+
+impl Shelf {
+    /// What a model of it is called; also the key that refers to one.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Models => "model",
+            Self::Materials => "material",
+        }
+    }
+
+    /// The other one.
+    pub(crate) fn other(self) -> Self {
+        match self {
+            Self::Models => Self::Materials,
+            Self::Materials => Self::Models,
+        }
+    }
+
+    pub(crate) fn section(self) -> &'static str {
+        match self {
+            Self::Models => "models",
+            Self::Materials => "materials",
+        }
+    }
+
+    fn entries(self, root: &Item) -> &[Entry] {
+        section(root, self.section()).and_then(|entry| entry.item.table()).unwrap_or(&[])
+    }
+}
+
+/// A model or a material of a document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct Reference {
+    /// Index of the document.
+    pub(crate) document: usize,
+    /// The table in which it is.
+    pub(crate) shelf: Shelf,
+    index: usize,
+}
+
+#[derive(Debug)]
+struct Document {
+    path: String,
+    root: Item,
+    values: Values,
+    /// Index of each model in its table.
+    models: HashMap<(Shelf, String), usize>,
+}
+
+/// A file of numbers that a driving function is read from.
+#[derive(Debug)]
+pub(crate) struct TableFile {
+    /// Number of its text among the sources.
+    pub(crate) number: u32,
+    /// Its text.
+    pub(crate) source: Arc<Source>,
+}
+
+/// All documents of one reading, the scene's own first.
+#[derive(Debug)]
+pub(crate) struct Library {
+    documents: Vec<Document>,
+    /// The files of numbers by their paths, `None` where one could not be read.
+    tables: HashMap<String, Option<TableFile>>,
+    /// Index of the document of each path that was asked for, `None` where it could not be read.
+    files: HashMap<String, Option<usize>>,
+}
+
+impl Library {
+    /// The document `root` of the file `path`, and all files that its models refer to.
+    pub(crate) fn load(
+        path: &str,
+        root: Item,
+        loader: Option<Loader<'_>>,
+        overrides: &Overrides,
+        faults: &Faults,
+    ) -> Self {
+        let mut library =
+            Self { documents: Vec::new(), tables: HashMap::new(), files: HashMap::new() };
+        library.add(path, root, overrides, faults);
+        let mut next = 0;
+        while next < library.documents.len() {
+            for (path, place) in library.files_wanted(next) {
+                library.open(&path, place, loader, overrides, faults);
+            }
+            next += 1;
+        }
+        let known: Vec<&Values> = library.documents.iter().map(|own| &own.values).collect();
+        overrides.check(&known, faults);
+        library
+    }
+
+    /// Reads the files of numbers that the loads and nodes of the scene name.
+    pub(crate) fn load_tables(&mut self, loader: Option<Loader<'_>>, faults: &Faults) {
+        for (path, place) in self.tables_wanted() {
+            if self.tables.contains_key(&path) {
+                continue;
+            }
+            let text = match loader {
+                None => Err("no other files can be read here".to_owned()),
+                Some(_) if self.tables.len() >= MAX_FILES => {
+                    Err(format!("a scene may use {MAX_FILES} files of numbers"))
+                }
+                Some(loader) => loader(&path),
+            };
+            let text = text.and_then(|text| match text.len() {
+                0..=MAX_BYTES => Ok(text),
+                bytes => Err(format!("it has {bytes} bytes; the limit is 64 MB")),
+            });
+            let file = match text {
+                Ok(text) => {
+                    let source = Arc::new(Source::new(&*path, text));
+                    let number = faults.add_source(Arc::clone(&source));
+                    Some(TableFile { number, source })
+                }
+                Err(reason) => {
+                    faults.error(place, Fault::Unloadable { path: path.clone(), reason });
+                    None
+                }
+            };
+            self.tables.insert(path, file);
+        }
+    }
+
+    /// The file of numbers that the scene calls `path`; `None` where it could not be read.
+    pub(crate) fn table_file(&self, path: &str) -> Option<&TableFile> {
+        self.tables.get(&beside(&self.documents.first()?.path, path))?.as_ref()
+    }
+
+    /// The entry of a key of the scene's own document.
+    pub(crate) fn section(&self, key: &str) -> Option<&Entry> {
+        section(&self.documents.first()?.root, key)
+    }
+
+    /// All entries at the top of the scene's own document.
+    pub(crate) fn sections(&self) -> &[Entry] {
+        self.documents.first().and_then(|own| own.root.table()).unwrap_or(&[])
+    }
+
+    /// Reads quantities of a document.
+    pub(crate) fn quantities<'d>(&'d self, document: usize, faults: &'d Faults) -> Quantities<'d> {
+        let values = &self.documents[document].values;
+        Quantities {
+            values,
+            faults,
+            is_motion: false,
+            basis: Basis::Model,
+            element: None,
+            subject: Subject::Value,
+        }
+    }
+
+    /// The values of the scene's own document.
+    pub(crate) fn values(&self) -> &Values {
+        &self.documents[0].values
+    }
+
+    /// The models of a table of a document.
+    pub(crate) fn models(&self, document: usize, shelf: Shelf) -> impl Iterator<Item = Reference> {
+        let count = shelf.entries(&self.documents[document].root).len();
+        (0..count).map(move |index| Reference { document, shelf, index })
+    }
+
+    /// The entry of a model.
+    pub(crate) fn entry(&self, reference: Reference) -> &Entry {
+        &reference.shelf.entries(&self.documents[reference.document].root)[reference.index]
+    }
+
+    /// The model of this name in a document, with no file before it.
+    pub(crate) fn own(&self, document: usize, shelf: Shelf, name: &str) -> Option<Reference> {
+        let index = *self.documents[document].models.get(&(shelf, name.to_owned()))?;
+        Some(Reference { document, shelf, index })
+    }
+
+    /// The names of a table of a document, sorted.
+    pub(crate) fn names(&self, document: usize, shelf: Shelf) -> Vec<String> {
+        let models = self.documents[document].models.keys().filter(|(own, _)| *own == shelf);
+        let mut names: Vec<String> = models.map(|(_, name)| name.clone()).collect();
+        names.sort();
+        names
+    }
+
+    /// The model of `shelf` that a document means by `text`, a name or `file:name`; `None` where a
+    /// fault has been noted already.
+    pub(crate) fn find(
+        &self,
+        document: usize,
+        shelf: Shelf,
+        text: &str,
+    ) -> Result<Option<Reference>, Fault> {
+        let (document, name) = match text.rsplit_once(':') {
+            None => (document, text),
+            Some((path, name)) => {
+                let path = beside(&self.documents[document].path, path);
+                match self.files.get(&path).copied().flatten() {
+                    Some(document) => (document, name),
+                    None => return Ok(None),
+                }
+            }
+        };
+        if let Some(found) = self.own(document, shelf, name) {
+            return Ok(Some(found));
+        }
+        let (family, known) = (shelf.word(), self.names(document, shelf));
+        let fault = Fault::UnknownName { family, name: name.to_owned(), known };
+        Err(match (self.own(document, shelf.other(), name), shelf) {
+            (None, _) => fault,
+            (Some(_), Shelf::Materials) => {
+                fault.with_help(format!("`{name}` is a model: write `model = \"{text}\"`"))
+            }
+            (Some(_), Shelf::Models) => fault.with_help(format!(
+                "`{name}` is a material: write `material = \"{text}\"` with the `thickness` and \
+                 the `area` of the pad"
+            )),
+        })
+    }
+
+    fn add(&mut self, path: &str, root: Item, overrides: &Overrides, faults: &Faults) {
+        let own = section(&root, "values").map(|entry| &entry.item);
+        let values = values::read(own, overrides, faults);
+        let mut models = HashMap::new();
+        for shelf in SHELVES {
+            if let Some(entry) = section(&root, shelf.section()) {
+                entries_of(&entry.item, &format!("[{}]", shelf.section()), faults);
+            }
+            for (index, entry) in shelf.entries(&root).iter().enumerate() {
+                check_name(&entry.key, entry.key_place, faults);
+                models.insert((shelf, entry.key.to_string()), index);
+            }
+        }
+        self.documents.push(Document { path: path.to_owned(), root, values, models });
+    }
+
+    fn open(
+        &mut self,
+        path: &str,
+        place: Place,
+        loader: Option<Loader<'_>>,
+        overrides: &Overrides,
+        faults: &Faults,
+    ) {
+        if self.files.contains_key(path) {
+            return;
+        }
+        self.files.insert(path.to_owned(), None);
+        let text = match loader {
+            None => Err("no other files can be read here".to_owned()),
+            Some(_) if self.documents.len() >= MAX_FILES => {
+                Err(format!("a scene may use models from {MAX_FILES} files"))
+            }
+            Some(loader) => loader(path),
+        };
+        match text {
+            Err(reason) => {
+                faults.error(place, Fault::Unloadable { path: path.to_owned(), reason });
+            }
+            Ok(text) => {
+                if let Some(root) = parse(&Arc::new(Source::new(path, text)), faults) {
+                    self.files.insert(path.to_owned(), Some(self.documents.len()));
+                    self.add(path, root, overrides, faults);
+                }
+            }
+        }
+    }
+
+    /// The paths in `table = "path"` and `table = { file = "path" }` in the scene's loads and nodes,
+    /// with their places.
+    fn tables_wanted(&self) -> Vec<(String, Place)> {
+        let sections = ["loads", "nodes"].into_iter().filter_map(|key| self.section(key));
+        let mut queue: VecDeque<&Item> = sections.map(|entry| &entry.item).collect();
+        let mut wanted = Vec::new();
+        while let Some(item) = queue.pop_front() {
+            for entry in item.table().unwrap_or(&[]) {
+                let named = file_named(&entry.item).filter(|_| is_table(&entry.key));
+                match named.and_then(|named| Some((named.text()?, named.place))) {
+                    Some((path, place)) => {
+                        wanted.push((beside(&self.documents[0].path, path), place));
+                    }
+                    None => queue.push_back(&entry.item),
+                }
+            }
+        }
+        wanted
+    }
+
+    /// The paths in `model = "path:name"` and `material = "path:name"` anywhere in a document, with
+    /// their places.
+    fn files_wanted(&self, document: usize) -> Vec<(String, Place)> {
+        let own = &self.documents[document];
+        let mut wanted = Vec::new();
+        let mut queue = VecDeque::from([&own.root]);
+        while let Some(item) = queue.pop_front() {
+            match &item.value {
+                Content::List(items) => queue.extend(items),
+                Content::Table(entries) => {
+                    for entry in entries {
+                        let refers = SHELVES.iter().any(|shelf| shelf.word() == entry.key);
+                        let text = entry.item.text().filter(|_| refers);
+                        match text.and_then(|text| text.rsplit_once(':')) {
+                            Some((path, _)) => {
+                                wanted.push((beside(&own.path, path), entry.item.place));
+                            }
+                            None => queue.push_back(&entry.item),
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        wanted
+    }
+}
+
+/// Whether `word` is that of a driving function that is a table.
+pub(crate) fn is_table(word: &str) -> bool {
+    registers().waveforms.iter().any(|kind| kind.word == word && kind.is_table())
+}
+
+fn section<'r>(root: &'r Item, key: &str) -> Option<&'r Entry> {
+    root.table()?.iter().find(|entry| entry.key == key)
+}
+
+/// A path as seen from the file `from`: beside it, unless it is absolute.
+fn beside(from: &str, path: &str) -> String {
+    let absolute = path.starts_with(['/', '\\']) || path.contains(':');
+    match from.rfind(['/', '\\']) {
+        Some(end) if !absolute => format!("{}{path}", &from[..=end]),
+        _ => path.to_owned(),
+    }
+}

@@ -1,0 +1,11 @@
+//! What is read: TOML and CSV texts, as values that know their places.
+
+pub(crate) mod csv;
+pub(crate) mod document;
+pub(crate) mod library;
+pub(crate) mod nearest;
+pub(crate) mod nesting;
+pub(crate) mod repair;
+pub(crate) mod source;
+pub(crate) mod table;
+pub(crate) mod visible;

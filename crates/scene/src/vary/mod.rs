@@ -1,0 +1,4 @@
+//! The numbers of a scene that a sweep may give other values.
+
+pub(crate) mod tunable;
+pub(crate) mod variation;

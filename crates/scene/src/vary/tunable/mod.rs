@@ -1,0 +1,335 @@
+//! The numbers of a scene that a sweep may give other values.
+//!
+//! Every number in the text is one, by its path: `nodes.head.velocity`,
+//! `models.valox-pad.burgers.maxwell.spring`. Any parts of the path that are not needed to tell it may be
+//! left out, but for the last one. The numbers of a model also go by the elements that are made of it, as
+//! `padding.maxwell.spring`; and a number that stands for a named value is that value.
+
+mod fault;
+
+use std::{collections::BTreeMap, ops::Range, sync::Arc};
+
+use dashpot_network::parameters::Dimension;
+
+use super::variation::{Written, in_words, other_dimension};
+use crate::{
+    Variation,
+    diagnostics::{Diagnostics, Faults},
+    text::{
+        document::{Content, Item, parse},
+        nearest::{nearest, synonym},
+        source::Source,
+    },
+    units::{parse_quantity, si_unit},
+};
+
+pub use fault::TunableFault;
+
+/// The tables whose numbers may vary.
+const SECTIONS: [&str; 7] =
+    ["values", "models", "materials", "nodes", "elements", "effects", "loads"];
+/// The key under `[run]` that may vary.
+const RUN: (&str, &str) = ("run", "duration");
+/// A node has one of both.
+const START: [&str; 2] = ["drop", "velocity"];
+
+/// A number in the text of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tunable {
+    /// Its path in full.
+    pub path: String,
+    /// The shortest end of the path that tells it from all others.
+    pub name: String,
+    /// Its value in SI units.
+    pub value: f64,
+    /// What it measures, where a unit is given.
+    pub dimension: Option<Dimension>,
+    /// Its unit as written, empty where there is none.
+    pub unit: String,
+    span: Range<usize>,
+}
+
+/// The numbers of a scene's text.
+#[derive(Debug, Clone)]
+pub struct Tunables {
+    text: Arc<str>,
+    all: Vec<Tunable>,
+    /// Every path, the alternative ones included, and the number that it leads to.
+    paths: Vec<(Vec<String>, usize)>,
+}
+
+/// What stands in a text: numbers, and words that may be names of values.
+#[derive(Default)]
+struct Found {
+    numbers: Vec<(Vec<String>, Range<usize>, String)>,
+    words: Vec<(Vec<String>, String)>,
+}
+
+impl Tunables {
+    /// The numbers of a scene's text; those of other files are not among them.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the text as TOML.
+    pub fn of(text: &str, file: Option<&str>) -> Result<Self, Diagnostics> {
+        let faults = Faults::default();
+        let source = Arc::new(Source::new(file.unwrap_or("scene"), text));
+        let root = parse(&source, &faults);
+        let Some(root) = root.filter(|_| faults.errors() == 0) else {
+            return Err(faults.finish());
+        };
+        let mut found = Found::default();
+        for entry in root.table().unwrap_or(&[]) {
+            if SECTIONS.contains(&entry.key.as_str()) {
+                collect(&entry.item, &mut vec![entry.key.to_string()], &mut found);
+            } else if entry.key == RUN.0 {
+                let own = entry.item.table().unwrap_or(&[]).iter().filter(|own| own.key == RUN.1);
+                let path = || vec![RUN.0.to_owned(), RUN.1.to_owned()];
+                own.for_each(|own| collect(&own.item, &mut path(), &mut found));
+            }
+        }
+        Ok(Self::with(Arc::clone(&source.text), found))
+    }
+
+    fn with(text: Arc<str>, found: Found) -> Self {
+        let mut own = Self { text, all: Vec::new(), paths: Vec::new() };
+        for (path, span, content) in found.numbers {
+            let Ok(quantity) = parse_quantity(&content) else { continue };
+            own.paths.push((path.clone(), own.all.len()));
+            own.all.push(Tunable {
+                path: path.join("."),
+                name: String::new(),
+                value: quantity.value,
+                dimension: quantity.dimension,
+                unit: Written::of(&content).map_or("", |own| own.unit).to_owned(),
+                span,
+            });
+        }
+        // Where a word is the name of a value, it stands for its number.
+        for (path, word) in &found.words {
+            let value = ["values".to_owned(), word.clone()];
+            let known = own.paths.iter().find(|known| known.0 == value).map(|known| known.1);
+            own.paths.extend(known.map(|at| (path.clone(), at)));
+        }
+        // An element of a model has the numbers of the model.
+        for (path, word) in &found.words {
+            let [section, element, key] = path.as_slice() else { continue };
+            let shelf = if key == "material" { "materials" } else { "models" };
+            if section != "elements" || !["model", "material"].contains(&key.as_str()) {
+                continue;
+            }
+            let inner: Vec<(Vec<String>, usize)> = own
+                .paths
+                .iter()
+                .filter(|known| known.0.len() > 2 && known.0[0] == shelf && known.0[1] == *word)
+                .map(|known| {
+                    let mut path = vec![section.clone(), element.clone()];
+                    path.extend_from_slice(&known.0[2..]);
+                    (path, known.1)
+                })
+                .collect();
+            own.paths.extend(inner);
+        }
+        for at in 0..own.all.len() {
+            own.all[at].name = own.shortest(at);
+        }
+        own
+    }
+
+    /// All numbers, in the order of the text.
+    pub fn all(&self) -> &[Tunable] {
+        &self.all
+    }
+
+    /// The position of the number of this name.
+    ///
+    /// # Errors
+    ///
+    /// Where none or several go by it.
+    pub fn find(&self, name: &str) -> Result<usize, TunableFault> {
+        let wanted: Vec<&str> = name.split('.').map(str::trim).collect();
+        match self.led_to(&wanted)[..] {
+            [only] => Ok(only),
+            [] => {
+                let known: Vec<String> = self.all.iter().map(|own| own.name.clone()).collect();
+                let near = self.akin(&wanted).or_else(|| {
+                    let paths = self.paths.iter().map(|own| own.0[1..].join("."));
+                    let words: Vec<String> = known.iter().cloned().chain(paths).collect();
+                    nearest(name, words.iter().map(String::as_str)).map(str::to_owned)
+                });
+                Err(TunableFault::Unknown { name: name.to_owned(), near, known })
+            }
+            ref several => {
+                let names = several.iter().map(|&at| format!("`{}`", self.all[at].name)).collect();
+                Err(TunableFault::Ambiguous { name: name.to_owned(), names })
+            }
+        }
+    }
+
+    /// The name of the number that goes by another word for the end of a path, or has this end and
+    /// belongs to another part of the scene.
+    fn akin(&self, wanted: &[&str]) -> Option<String> {
+        let (last, owner) = wanted.split_last()?;
+        let start = START.iter().find(|own| *own != last).filter(|_| START.contains(last));
+        let end = start.copied().or_else(|| synonym(last)).unwrap_or(last);
+        let with_owner = [owner, &[end]].concat();
+        let found = [self.led_to(&with_owner), self.led_to(&[end])];
+        let only =
+            found.iter().find_map(|own| if let [only] = own[..] { Some(only) } else { None });
+        only.map(|at| self.all[at].name.clone())
+    }
+
+    /// The number that each variation is of.
+    ///
+    /// # Errors
+    ///
+    /// A name that leads to none or several, values of another dimension than the number in the text,
+    /// bare ones where that has a unit other than that of SI, and two variations of one number.
+    pub fn matched(&self, variations: &[Variation]) -> Result<Vec<usize>, TunableFault> {
+        let mut found: Vec<usize> = Vec::with_capacity(variations.len());
+        for own in variations {
+            let at = self.find(&own.name)?;
+            if let (Some(given), Some(wanted)) = (own.dimension, self.all[at].dimension)
+                && given != wanted
+            {
+                let reason = other_dimension(&own.text(0), given, wanted);
+                return Err(TunableFault::OtherDimension { name: own.name.clone(), reason });
+            }
+            if let Some(fault) = self.without_unit(at, own) {
+                return Err(fault);
+            }
+            if let Some(before) = found.iter().position(|other| *other == at) {
+                let (first, second) = (variations[before].name.clone(), own.name.clone());
+                return Err(TunableFault::Twice { first, second });
+            }
+            found.push(at);
+        }
+        Ok(found)
+    }
+
+    /// What is wrong with a variation that has no unit, where the number has one.
+    fn without_unit(&self, at: usize, variation: &Variation) -> Option<TunableFault> {
+        let number = &self.all[at];
+        let dimension = number.dimension.filter(|own| *own != Dimension::NUMBER)?;
+        let one = parse_quantity(&format!("1 {}", number.unit)).ok()?;
+        #[expect(clippy::float_cmp, reason = "1 is the factor of SI units")]
+        let is_si = one.value == 1.0;
+        if variation.dimension.is_some() || is_si {
+            return None;
+        }
+        Some(TunableFault::NoUnit {
+            bare: variation.with_unit(""),
+            si: si_unit(dimension),
+            scene: self.text[number.span.clone()].trim_matches(['"', '\'']).to_owned(),
+            meant: variation.with_unit(&number.unit),
+        })
+    }
+
+    /// The text of the scene with other values in the place of some numbers.
+    pub fn text_with(&self, values: &[(usize, String)]) -> String {
+        let mut values: Vec<(&Range<usize>, &str)> =
+            values.iter().map(|(at, value)| (&self.all[*at].span, value.as_str())).collect();
+        values.sort_by_key(|own| own.0.start);
+        let mut text = String::with_capacity(self.text.len() + 16 * values.len());
+        let mut from = 0;
+        for (span, value) in values {
+            text.push_str(&self.text[from..span.start]);
+            // Counts have to stand without quotes, quantities with their units within.
+            let quote = if value.parse::<f64>().is_ok() { "" } else { "\"" };
+            text.extend([quote, value, quote]);
+            from = span.end;
+        }
+        text.push_str(&self.text[from..]);
+        text
+    }
+
+    /// The value of a number in words.
+    pub fn shown(&self, at: usize) -> String {
+        in_words(self.all[at].value, self.all[at].dimension)
+    }
+
+    /// The numbers that a path leads to, rising.
+    fn led_to(&self, wanted: &[&str]) -> Vec<usize> {
+        let whole = self.paths.iter().filter(|own| own.0[1..] == *wanted || own.0 == *wanted);
+        let mut found: Vec<usize> = whole.map(|own| own.1).collect();
+        if found.is_empty() {
+            found =
+                self.paths.iter().filter(|own| holds(&own.0, wanted)).map(|own| own.1).collect();
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// The shortest name that leads to a number alone and says what it is of: parts of its path, or of
+    /// that of an element, with the end.
+    fn shortest(&self, at: usize) -> String {
+        let own = self.paths.iter().filter(|path| path.1 == at);
+        let mut names: BTreeMap<(usize, usize), String> = BTreeMap::new();
+        for (order, (path, _)) in own.enumerate() {
+            let last = path.len() - 1;
+            // The end with one part before it; with the thing's name and one part besides; all of it.
+            let mut picks: Vec<Vec<usize>> = (1..last).map(|first| vec![first, last]).collect();
+            picks.extend((2..last).map(|second| vec![1, second, last]));
+            picks.push((1..=last).collect());
+            for pick in picks {
+                let parts: Vec<&str> = pick.iter().map(|&part| path[part].as_str()).collect();
+                if self.led_to(&parts) == [at] {
+                    names.entry((parts.len(), order)).or_insert_with(|| parts.join("."));
+                    break;
+                }
+            }
+        }
+        names.into_values().next().unwrap_or_else(|| self.all[at].path.clone())
+    }
+}
+
+/// Whether a path has these parts in this order, its end included.
+fn holds(path: &[String], wanted: &[&str]) -> bool {
+    let Some((last, inner)) = wanted.split_last() else { return false };
+    let Some((end, mut rest)) = path.split_last() else { return false };
+    if end != last {
+        return false;
+    }
+    for part in inner {
+        match rest.iter().position(|own| own == part) {
+            Some(at) => rest = &rest[at + 1..],
+            None => return false,
+        }
+    }
+    true
+}
+
+/// Adds all that stands in an item. Members of a list go by their names, or by their numbers from 1.
+fn collect(item: &Item, path: &mut Vec<String>, found: &mut Found) {
+    match &item.value {
+        Content::Number(digits) => {
+            found.numbers.push((path.clone(), item.place.span(), digits.to_string()));
+        }
+        Content::Text(text) if parse_quantity(text).is_ok() => {
+            found.numbers.push((path.clone(), item.place.span(), text.to_string()));
+        }
+        Content::Text(text) => found.words.push((path.clone(), text.trim().to_owned())),
+        Content::Table(entries) => {
+            for entry in entries {
+                path.push(entry.key.to_string());
+                collect(&entry.item, path, found);
+                path.pop();
+            }
+        }
+        Content::List(items) => {
+            for (at, item) in items.iter().enumerate() {
+                let entries = item.table().unwrap_or(&[]);
+                let name = entries.iter().find(|entry| entry.key == "name");
+                let name = name.and_then(|entry| entry.item.text());
+                path.push(name.map_or_else(|| (at + 1).to_string(), str::to_owned));
+                collect(item, path, found);
+                path.pop();
+            }
+        }
+        Content::Switch(_) | Content::Date => {}
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,321 @@
+//! What values a parameter takes in a sweep, from a text such as `K2=5..30 MN/m,26,log`.
+
+use dashpot_network::parameters::Dimension;
+use thiserror::Error;
+
+use crate::{
+    text::nearest::nearest,
+    units::{UnitError, format_short, parse_quantity, si_unit},
+};
+
+/// Values in a range where their number is not given.
+const USUAL: usize = 11;
+/// A parameter takes at most so many values.
+const MOST: usize = 1_000_000;
+/// The words for the distances between values.
+const SCALES: [&str; 2] = ["lin", "log"];
+
+/// The values that a parameter takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variation {
+    /// The parameter, as it was named.
+    pub name: String,
+    /// The unit of the values as it was written; empty where they are bare numbers.
+    pub unit: String,
+    /// The values in that unit, rising.
+    pub numbers: Vec<f64>,
+    /// The same in SI units.
+    pub values: Vec<f64>,
+    /// What they measure, where there is a unit.
+    pub dimension: Option<Dimension>,
+    /// Whether they stand at equal ratios.
+    pub is_logarithmic: bool,
+}
+
+/// Why a text does not say how a parameter varies.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum VariationFault {
+    /// There is no name, or nothing behind it.
+    #[error("`{text}` does not name a parameter and its values")]
+    NoValues {
+        /// What was given.
+        text: String,
+    },
+    /// A value that is no quantity.
+    #[error("{error}")]
+    BadValue {
+        /// What is wrong with it.
+        error: UnitError,
+    },
+    /// Values of different dimensions.
+    #[error("`{first}` and `{second}` do not measure the same")]
+    Mixed {
+        /// One of both.
+        first: String,
+        /// The other one.
+        second: String,
+    },
+    /// Values that do not rise.
+    #[error("the values do not rise: `{second}` stands behind `{first}`")]
+    Falling {
+        /// One of both.
+        first: String,
+        /// The one behind it.
+        second: String,
+    },
+    /// A count that cannot be used.
+    #[error("`{text}` is not a number of values from 2 to 1000000")]
+    BadCount {
+        /// What was given.
+        text: String,
+    },
+    /// A word that is no scale.
+    #[error("`{word}` is not a scale; there are `lin` and `log`")]
+    UnknownScale {
+        /// What was given.
+        word: String,
+        /// What was probably meant.
+        near: Option<&'static str>,
+    },
+    /// Equal ratios from zero or below.
+    #[error("equal ratios cannot begin at `{text}`: `log` is for positive values")]
+    NotPositive {
+        /// What was given.
+        text: String,
+    },
+    /// Something behind the scale.
+    #[error("`{text}` stands behind the values, their number and their scale")]
+    TooMuch {
+        /// What was given.
+        text: String,
+    },
+}
+
+impl VariationFault {
+    /// What to write.
+    pub fn help(&self) -> String {
+        match self {
+            Self::UnknownScale { near: Some(near), .. } => format!("did you mean `{near}`?"),
+            Self::Falling { first, second } => format!("write them as `{second}..{first}`, rising"),
+            _ => "write `--vary \"K=5..30 MN/m,26,log\"` for 26 values at equal ratios (`lin`: equal \
+                  differences), or `--vary \"K=5,10,20 MN/m\"` for a list"
+                .to_owned(),
+        }
+    }
+}
+
+/// A number, its unit, and the text of both.
+pub(crate) struct Written<'t> {
+    number: f64,
+    /// Its unit, empty where it has none.
+    pub(crate) unit: &'t str,
+    text: &'t str,
+}
+
+impl<'t> Written<'t> {
+    pub(crate) fn of(text: &'t str) -> Result<Self, VariationFault> {
+        let text = text.trim();
+        parse_quantity(text).map_err(|error| VariationFault::BadValue { error })?;
+        // The longest beginning that is a number.
+        let borders = text.char_indices().map(|own| own.0).chain([text.len()]);
+        let mut found =
+            borders.filter_map(|at| Some((text[..at].trim().parse().ok()?, &text[at..])));
+        let (number, unit) = found.next_back().unwrap_or((f64::NAN, text));
+        Ok(Self { number, unit: unit.trim(), text })
+    }
+
+    /// The number in another unit, where it has one of its own.
+    fn in_unit(&self, unit: &str) -> Result<f64, VariationFault> {
+        if self.unit.is_empty() || self.unit == unit {
+            return Ok(self.number);
+        }
+        let parse =
+            |text: &str| parse_quantity(text).map_err(|error| VariationFault::BadValue { error });
+        let (own, one) = (parse(self.text)?, parse(&format!("1 {unit}"))?);
+        if own.dimension != one.dimension || own.is_celsius || one.is_celsius {
+            let first = self.text.to_owned();
+            return Err(VariationFault::Mixed { first, second: format!("1 {unit}") });
+        }
+        Ok(own.value / one.value)
+    }
+}
+
+impl Variation {
+    /// Reads a text: `name=first..last unit,count,scale` or `name=one,other,… unit`. Without a count a range
+    /// has eleven values, without a scale they stand at equal differences.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the text.
+    pub fn parse(text: &str) -> Result<Self, VariationFault> {
+        let nothing = || VariationFault::NoValues { text: text.trim().to_owned() };
+        let (name, values) = text.rsplit_once('=').ok_or_else(nothing)?;
+        let (name, values) = (name.trim(), values.trim());
+        if name.is_empty() || values.is_empty() {
+            return Err(nothing());
+        }
+        let parts: Vec<&str> = values.split(',').map(str::trim).collect();
+        let (numbers, unit, is_logarithmic) = match parts[0].split_once("..") {
+            Some((first, last)) => range(first, last, &parts[1..])?,
+            None => list(&parts)?,
+        };
+        let mut own = Self {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            values: Vec::with_capacity(numbers.len()),
+            numbers,
+            dimension: None,
+            is_logarithmic,
+        };
+        for at in 0..own.numbers.len() {
+            let quantity = parse_quantity(&own.text(at))
+                .map_err(|error| VariationFault::BadValue { error })?;
+            own.dimension = quantity.dimension;
+            own.values.push(quantity.value);
+        }
+        match own.values.windows(2).position(|pair| pair[1] <= pair[0]) {
+            None => Ok(own),
+            Some(at) => {
+                Err(VariationFault::Falling { first: own.text(at), second: own.text(at + 1) })
+            }
+        }
+    }
+
+    /// How many values there are.
+    #[expect(clippy::len_without_is_empty, reason = "there is one at least")]
+    pub fn len(&self) -> usize {
+        self.numbers.len()
+    }
+
+    /// Its name and the range of its values with another unit behind them.
+    pub(crate) fn with_unit(&self, unit: &str) -> String {
+        let [first, last] = [self.numbers[0], self.numbers[self.len() - 1]];
+        let rest = if self.len() == 1 { String::new() } else { format!("..{last}") };
+        format!("{}={first}{rest} {unit}", self.name).trim_end().to_owned()
+    }
+
+    /// A value as it would be written in a scene.
+    pub fn text(&self, at: usize) -> String {
+        let number = self.numbers[at];
+        let (plain, scientific) = (number.to_string(), format!("{number:e}"));
+        let number = if scientific.len() < plain.len() { scientific } else { plain };
+        if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
+    }
+}
+
+type Numbers<'t> = (Vec<f64>, &'t str, bool);
+
+fn range<'t>(first: &'t str, last: &'t str, rest: &[&str]) -> Result<Numbers<'t>, VariationFault> {
+    let (first, last) = (Written::of(first)?, Written::of(last)?);
+    let unit = if last.unit.is_empty() { first.unit } else { last.unit };
+    let (low, high) = (first.in_unit(unit)?, last.in_unit(unit)?);
+    let mut rest = rest.iter().filter(|own| !own.is_empty()).peekable();
+    let count = match rest.next_if(|own| own.starts_with(|c: char| !c.is_alphabetic())) {
+        None => USUAL,
+        Some(text) => match text.parse() {
+            Ok(count @ 2..=MOST) => count,
+            _ => return Err(VariationFault::BadCount { text: (*text).to_owned() }),
+        },
+    };
+    let is_logarithmic = match rest.next() {
+        None => false,
+        Some(word) if SCALES.contains(word) => *word == "log",
+        Some(word) => {
+            let near = nearest(word, SCALES);
+            return Err(VariationFault::UnknownScale { word: (*word).to_owned(), near });
+        }
+    };
+    if let Some(text) = rest.next() {
+        return Err(VariationFault::TooMuch { text: (*text).to_owned() });
+    }
+    if high <= low {
+        let text = |number: f64| format!("{number} {unit}").trim_end().to_owned();
+        return Err(VariationFault::Falling { first: text(low), second: text(high) });
+    }
+    if is_logarithmic && low <= 0.0 {
+        return Err(VariationFault::NotPositive { text: first.text.to_owned() });
+    }
+    let value = |at: usize| {
+        let share = at as f64 / (count - 1) as f64;
+        match at {
+            0 => low,
+            _ if at == count - 1 => high,
+            _ if is_logarithmic => handy(low * (high / low).powf(share)),
+            _ => handy(low + (high - low) * share),
+        }
+    };
+    Ok(((0..count).map(value).collect(), unit, is_logarithmic))
+}
+
+/// A number without the rounding in its last digit.
+fn handy(number: f64) -> f64 {
+    format!("{number:.14e}").parse().unwrap_or(number)
+}
+
+fn list<'t>(parts: &[&'t str]) -> Result<Numbers<'t>, VariationFault> {
+    let written: Vec<Written<'t>> =
+        parts.iter().map(|own| Written::of(own)).collect::<Result<_, _>>()?;
+    let unit = written.iter().rev().map(|own| own.unit).find(|own| !own.is_empty());
+    let unit = unit.unwrap_or("");
+    let numbers = written.iter().map(|own| own.in_unit(unit)).collect::<Result<Vec<f64>, _>>()?;
+    Ok((numbers, unit, false))
+}
+
+/// What is wrong with values of one dimension where another is wanted.
+pub(crate) fn other_dimension(text: &str, own: Dimension, wanted: Dimension) -> String {
+    format!("`{text}` is in {}, the value in the scene in {}", si_unit(own), si_unit(wanted))
+}
+
+/// A value of a scene in words.
+pub(crate) fn in_words(value: f64, dimension: Option<Dimension>) -> String {
+    format_short(value, dimension.unwrap_or(Dimension::NUMBER), 4)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fault(text: &str) -> String {
+        Variation::parse(text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_range_has_its_ends_exactly_and_equal_ratios_or_differences_between() {
+        let own = Variation::parse("K2 = 5..30 MN/m, 26, log").unwrap();
+        assert_eq!((own.name.as_str(), own.unit.as_str(), own.len()), ("K2", "MN/m", 26));
+        assert_eq!((own.values[0], own.values[25]), (5e6, 3e7));
+        assert!(own.is_logarithmic && own.dimension == Some(Dimension::STIFFNESS));
+        let ratio = own.values[1] / own.values[0];
+        assert!(own.values.windows(2).all(|pair| (pair[1] / pair[0] / ratio - 1.0).abs() < 1e-14));
+        let own = Variation::parse("head.velocity=1..2 m/s,5").unwrap();
+        assert_eq!(own.numbers, [1.0, 1.25, 1.5, 1.75, 2.0]);
+        assert_eq!(Variation::parse("x=0..1").unwrap().len(), 11);
+        assert_eq!(Variation::parse("x=500 g..2 kg,2").unwrap().numbers, [0.5, 2.0]);
+    }
+
+    #[test]
+    fn a_list_takes_the_unit_that_stands_last() {
+        let own = Variation::parse("C=2, 4,6.5 kN s/m").unwrap();
+        assert_eq!(own.values, [2e3, 4e3, 6.5e3]);
+        assert_eq!(own.text(2), "6.5 kN s/m");
+        assert_eq!(Variation::parse("h=8 mm,2 cm").unwrap().numbers, [0.8, 2.0]);
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_said() {
+        assert!(fault("K2").contains("does not name a parameter"));
+        assert!(fault("K2=").contains("does not name a parameter"));
+        assert!(fault("K2=a..b").contains("does not begin with a number"));
+        assert!(fault("K2=1..2 N/m,1").contains("not a number of values from 2"));
+        assert!(fault("K2=1..2 N/m,5,lgo").contains("`lgo` is not a scale"));
+        let help = Variation::parse("K2=1..2 N/m,5,lgo").unwrap_err().help();
+        assert_eq!(help, "did you mean `log`?");
+        assert!(fault("K2=0..2 N/m,5,log").contains("cannot begin at `0`"));
+        assert!(fault("K2=1..2 N/m,5,log,7").contains("`7` stands behind"));
+        assert!(fault("K2=30..5 N/m").contains("do not rise"));
+        assert!(fault("K2=1,1 N/m").contains("do not rise"));
+        assert!(fault("K2=1 s..2 m").contains("do not measure the same"));
+        assert!(fault("K2=1..2 MegaN").contains("not a known unit"));
+    }
+}

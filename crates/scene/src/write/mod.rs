@@ -1,0 +1,285 @@
+//! Models and kinds as TOML text that is read back equal, to the last bits.
+
+pub(crate) mod rewrite;
+pub(crate) mod scene;
+pub(crate) mod waveform;
+
+use std::collections::HashMap;
+
+use dashpot_network::{
+    Effect, Element, Model,
+    parameters::{Dimension, ModelValue, Parameter, ParameterKind, Value, WindowWish},
+};
+use dashpot_rheology::{Branch, Tree};
+
+use crate::{
+    kinds::registers,
+    quantities::basis::{Basis, is_size},
+    units::{exact_quantity, tidy},
+};
+
+/// A model as an inline table, for instance `{ parallel = [{ spring = "20 MN/m" }, …] }`.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{elements::{Dashpot, Spring}, part};
+/// use dashpot_rheology::Tree;
+/// use dashpot_scene::write_model;
+///
+/// let pad = Tree::series([part(Spring { stiffness: 2e7 }), part(Dashpot { damping: 6e3 })]);
+/// assert!(write_model(&pad).starts_with("{ series = [{ spring = \"20 MN/m\", name = \"1\" }, "));
+/// ```
+pub fn write_model(model: &Model) -> String {
+    format!("{{ {} }}", law(model, Basis::Model, false))
+}
+
+/// A model as a table `[models.NAME]` with one branch on each line, below comment lines.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{elements::{Dashpot, Spring}, part};
+/// use dashpot_rheology::{Branch, Tree};
+/// use dashpot_scene::write_model_table;
+///
+/// let pad = Tree::Parallel(vec![
+///     Branch::new("spring", part(Spring { stiffness: 2e7 })),
+///     Branch::new("rest", part(Dashpot { damping: 6e3 })),
+/// ]);
+/// let text = write_model_table("pad", &pad, &["relaxes within 1 ms".to_owned()]);
+/// assert_eq!(
+///     text,
+///     r#"# relaxes within 1 ms
+/// [models.pad]
+/// parallel = [
+///   { spring = "20 MN/m", name = "spring" },
+///   { dashpot = "6 kN s/m", name = "rest" },
+/// ]
+/// "#
+/// );
+/// ```
+pub fn write_model_table(name: &str, model: &Model, comments: &[String]) -> String {
+    table("models", name, model, Basis::Model, comments)
+}
+
+/// A material as a table `[materials.NAME]` with one branch on each line, below comment lines.
+///
+/// `model` has the values of a pad of 1 m² that is 1 m thick, as in
+/// [`NamedModel`](crate::NamedModel): its stiffnesses in N/m are the moduli in Pa.
+pub fn write_material_table(name: &str, model: &Model, comments: &[String]) -> String {
+    table("materials", name, model, Basis::MATERIAL, comments)
+}
+
+fn table(section: &str, name: &str, model: &Model, basis: Basis, comments: &[String]) -> String {
+    comment_lines(comments) + &format!("[{section}.{}]\n{}\n", key(name), law(model, basis, true))
+}
+
+/// Comments, each of their lines with its mark.
+pub(crate) fn comment_lines(comments: &[String]) -> String {
+    let mut text = String::new();
+    for line in comments.iter().flat_map(|comment| comment.lines()) {
+        // Other control characters may not stand in a comment.
+        let line = line.replace(char::is_control, " ");
+        text.push_str(if line.is_empty() { "#" } else { "# " });
+        text.push_str(&line);
+        text.push('\n');
+    }
+    text
+}
+
+/// A name as a key.
+pub(crate) fn key(name: &str) -> String {
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
+    if !name.is_empty() && name.chars().all(is_bare) { name.to_owned() } else { quoted(name) }
+}
+
+/// A model by its law: `spring = "20 MN/m"`, `series = […]`; `in_lines` gives each of the outer
+/// branches a line of its own.
+pub(crate) fn law(model: &Model, basis: Basis, in_lines: bool) -> String {
+    enum Step<'m> {
+        Law(&'m Model),
+        Text(&'static str),
+        Name(&'m str),
+    }
+    let mut text = String::new();
+    // Models nest without limit, so the way back is kept here and not on the stack.
+    let mut steps = vec![Step::Law(model)];
+    while let Some(step) = steps.pop() {
+        match step {
+            Step::Text(own) => text.push_str(own),
+            Step::Name(name) => {
+                text.push_str(", name = ");
+                text.push_str(&quoted(name));
+            }
+            Step::Law(tree) => {
+                let (word, branches) = match tree {
+                    Tree::Part(element) => {
+                        text.push_str(&write_element(element.as_ref(), basis));
+                        continue;
+                    }
+                    Tree::Series(branches) => ("series = [", branches),
+                    Tree::Parallel(branches) => ("parallel = [", branches),
+                };
+                let in_lines = in_lines && std::ptr::eq(tree, model);
+                text.push_str(word);
+                steps.push(Step::Text(if in_lines { "\n]" } else { "]" }));
+                let named = !has_plain_names(branches);
+                for (at, branch) in branches.iter().enumerate().rev() {
+                    steps.push(Step::Text(match (in_lines, at + 1 == branches.len()) {
+                        (true, _) => " },",
+                        (false, true) => " }",
+                        (false, false) => " }, ",
+                    }));
+                    if named {
+                        steps.push(Step::Name(&branch.name));
+                    }
+                    steps.push(Step::Law(&branch.tree));
+                    steps.push(Step::Text(if in_lines { "\n  { " } else { "{ " }));
+                }
+            }
+        }
+    }
+    text
+}
+
+/// A kind with its values as `word = …`; `driven` is the dimension of amplitudes.
+///
+/// The values are those for `parameters`, in their order.
+pub fn write_kind(
+    word: &str,
+    parameters: &[Parameter],
+    values: &[Value],
+    driven: Dimension,
+) -> String {
+    write_kind_in(Basis::Model, (word, parameters, values), driven)
+}
+
+fn write_kind_in(
+    basis: Basis,
+    (word, parameters, values): (&str, &[Parameter], &[Value]),
+    driven: Dimension,
+) -> String {
+    let write_value = |kind: ParameterKind, value: &Value| {
+        let (beside, dimension) = match kind {
+            ParameterKind::Quantity(dimension) => (Dimension::TIME, dimension),
+            ParameterKind::TemperatureDifference => (Dimension::TIME, Dimension::TEMPERATURE),
+            ParameterKind::Curve(first, second) => (first, second),
+            _ => (Dimension::TIME, driven),
+        };
+        write_value(value, basis.dimension(dimension), basis.dimension(beside))
+    };
+    let pairs = parameters.iter().zip(values);
+    let mut required = parameters.iter().zip(values).filter(|own| own.0.default.is_none());
+    let others = parameters.iter().zip(values).filter(|own| own.0.default.is_some());
+    let is_alone = others.clone().all(|own| *own.1 == Value::LeftOut);
+    // A model is a table itself, which would be read as that of the parameters.
+    if let (Some((parameter, value)), None) = (required.next(), required.next())
+        && is_alone
+        && (parameters.len() == 1 || !matches!(value, Value::Model(_)))
+    {
+        return format!("{word} = {}", write_value(parameter.kind, value));
+    }
+    let is_given = |parameter: &Parameter, value: &Value| {
+        *value != Value::LeftOut && !(basis.is_material() && is_size(parameter))
+    };
+    let given = pairs.filter(|(parameter, value)| is_given(parameter, value));
+    let written = given.map(|(parameter, value)| {
+        format!("{} = {}", parameter.name, write_value(parameter.kind, value))
+    });
+    format!("{word} = {{ {} }}", written.collect::<Vec<_>>().join(", "))
+}
+
+/// The values of parameters as `name = …`, each; those that follow from the rest of a scene are left
+/// out.
+pub(crate) fn write_pairs(
+    parameters: &[Parameter],
+    values: &[Value],
+    driven: Dimension,
+) -> Vec<String> {
+    let pairs = parameters.iter().zip(values).filter(|pair| *pair.1 != Value::LeftOut);
+    let written = pairs.map(|(own, value)| {
+        let dimension = match own.kind {
+            ParameterKind::Quantity(dimension) => dimension,
+            _ => driven,
+        };
+        format!("{} = {}", own.name, write_value(value, dimension, Dimension::TIME))
+    });
+    written.collect()
+}
+
+/// An effect as it stands under `[effects]`.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::effects::Separation;
+/// use dashpot_scene::write_effect;
+///
+/// let separation =
+///     Separation { element: "padding".into(), at: Some("head".into()), restitution: 0.0 };
+/// let written = write_effect(&separation);
+/// assert_eq!(written, "separation.padding = { at = \"head\", restitution = 0.0 }");
+/// ```
+pub fn write_effect(effect: &dyn Effect) -> String {
+    let word = effect.kind();
+    let parameters = registers().effect(word).map_or(&[][..], |entry| entry.parameters);
+    let word = match effect.target() {
+        Some(element) => format!("{word}.{}", key(element)),
+        None => word.to_owned(),
+    };
+    write_kind(&word, parameters, &effect.values(), Dimension::FORCE)
+}
+
+fn write_element(element: &dyn Element, basis: Basis) -> String {
+    let parameters = registers().element(element.kind()).map_or(&[][..], |kind| kind.parameters);
+    write_kind_in(basis, (element.kind(), parameters, &element.values()), Dimension::FORCE)
+}
+
+/// A value; numbers, and the second ones of pairs, are of this dimension, the first ones of pairs of
+/// that `beside`.
+fn write_value(value: &Value, dimension: Dimension, beside: Dimension) -> String {
+    let quantity = |value: f64, dimension| match dimension {
+        Dimension::NUMBER => format!("{:?}", tidy(value)),
+        dimension => quoted(&exact_quantity(value, dimension)),
+    };
+    let time = |time: f64| quantity(time, Dimension::TIME);
+    match value {
+        Value::Number(number) => quantity(*number, dimension),
+        Value::Table(points) => {
+            let points = points.iter().map(|&(at, own)| {
+                format!("[{}, {}]", quantity(at, beside), quantity(own, dimension))
+            });
+            format!("[{}]", points.collect::<Vec<_>>().join(", "))
+        }
+        Value::Word(word) => quoted(word),
+        Value::Flag => "true".to_owned(),
+        Value::LeftOut => String::new(),
+        Value::Model(ModelValue(model)) => write_model(model),
+        Value::Window(WindowWish::Impact) => quoted("impact"),
+        Value::Window(WindowWish::Run) => quoted("run"),
+        Value::Window(WindowWish::Times(from, to)) => format!("[{}, {}]", time(*from), time(*to)),
+    }
+}
+
+/// Whether a reader would give the branches these names by itself.
+fn has_plain_names(branches: &[Branch<std::sync::Arc<dyn Element>>]) -> bool {
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    branches.iter().all(|branch| {
+        let word = match &branch.tree {
+            Tree::Part(element) => element.kind(),
+            Tree::Series(_) => "series",
+            Tree::Parallel(_) => "parallel",
+        };
+        let count = counts.entry(word).or_default();
+        *count += 1;
+        match *count {
+            1 => branch.name == word,
+            count => branch.name == format!("{word}-{count}"),
+        }
+    })
+}
+
+pub(crate) fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}
