@@ -3,7 +3,7 @@
 
 use dashpot::thesis::{
     Claim, Groups, Impact, Misprint, Number, NumberVerdict, Parameter, Pulse, Recomputation,
-    Scales, Varied, Verdict, best_pulse, chapter_3_table, figures, left_out,
+    Scales, Varied, Verdict, best_pulse, chapter_3_table, figures,
 };
 use nalgebra::DMatrix;
 
@@ -74,7 +74,7 @@ fn chapter_3_has_the_numbers_of_its_equations() {
     digits("3.59", pulse.closed_energy(f64::INFINITY).unwrap(), "0.728823");
     digits("3.57", pulse.checks().energy, "0.728823");
     digits("3.1", pulse.slope / (pulse.decay * std::f64::consts::E), "1.175");
-    digits("3.54, left out", 1e10 * left_out(&pulse, 2.0).abs(), "8.74");
+    digits("3.54, left out", 1e10 * pulse.left_out(2.0).abs(), "8.74");
     let limit = pulse.limit(Parameter::B).unwrap();
     digits("3.55", limit, "79.501");
     assert_eq!(number(&all, "3.55", "b").verdict, NumberVerdict::Rounded);

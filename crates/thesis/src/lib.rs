@@ -36,7 +36,7 @@ mod roots;
 mod study;
 mod words;
 
-pub use claims::{Claim, Verdict, claims, energy_changes};
+pub use claims::{Claim, Verdict, claims};
 pub use error::ThesisError;
 pub use figures::{
     Column, Drawing, EQUATIONS, Figure, GraphCase, figure_stems, figures, graph_cases,
@@ -47,8 +47,8 @@ pub use impact::{DURATION, Impact};
 pub use lambert::intersections;
 pub use misprints::{Demonstration, Misprint, misprint_table, misprints};
 pub use numbers::{
-    Number, NumberVerdict, STANDARD_GRAVITY, chapter_3_table, exact_table, fit_table, left_out,
-    number_table, numbers,
+    Number, NumberVerdict, STANDARD_GRAVITY, chapter_3_table, exact_table, fit_table, number_table,
+    numbers,
 };
 pub use pulse::{Checks, Constants, Parameter, Pulse};
 pub use report::Recomputation;

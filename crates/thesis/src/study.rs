@@ -195,6 +195,21 @@ impl Study {
     pub fn family(&self, varied: Varied) -> Option<&Family> {
         self.families().find(|own| own.varied == varied)
     }
+
+    /// The largest change of the energy at a time \[s\] over the family of each group, relative to its
+    /// base.
+    pub fn energy_changes(&self, time: f64) -> Vec<(&'static str, f64)> {
+        let tau = time / Scales::CHAPTER_4.time();
+        let base = self.printed.energy(tau);
+        let change = |family: &Family| {
+            let all = family.each(|own| own.energy(tau));
+            let (low, high) = all
+                .iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), own| (l.min(*own), h.max(*own)));
+            (family.varied.symbol(), (high - low) / base)
+        };
+        self.groups.iter().map(change).collect()
+    }
 }
 
 impl Family {

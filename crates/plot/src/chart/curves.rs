@@ -4,8 +4,8 @@ use plotters::element::Circle;
 use plotters::style::Color;
 
 use super::canvas::{Area, canvas, path, pen, pixels};
+use super::frame::{Drawn, Frame};
 use super::naming::Place;
-use super::svg::{Drawn, Frame};
 use super::{Chart, Pattern, Stroke};
 use crate::theme;
 use crate::thinning::{Path, stretches, thin};

@@ -2,6 +2,7 @@
 
 mod canvas;
 mod curves;
+mod frame;
 mod labels;
 mod legend;
 mod naming;

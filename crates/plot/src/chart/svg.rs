@@ -8,39 +8,15 @@ use super::canvas::{
     Area, Fault, canvas, dashes, layer, line, opening, path, pen, pixels, text_style,
 };
 use super::curves::{draw_curve, draw_stem, places};
+use super::frame::{Drawn, Ends, Frame};
 use super::legend::{Entry, Legend, Sample};
 use super::naming::{same_curves, same_name};
 use super::texts::draw_texts;
 use super::{Chart, Direction, Pattern, ReferenceLine};
 use crate::PlotError;
-use crate::axis::Axis;
 use crate::lettering::{clip_width, escape, one_line, text_width};
 use crate::theme;
 use crate::thinning::Path;
-
-/// Both ends of a straight line \[px\].
-pub(super) type Ends = [(f64, f64); 2];
-/// What drawing answers.
-pub(super) type Drawn = Result<(), Fault>;
-
-/// The plotting frame and its axes \[px\].
-pub(super) struct Frame {
-    pub(super) left: f64,
-    pub(super) right: f64,
-    pub(super) top: f64,
-    pub(super) bottom: f64,
-    pub(super) x: Axis,
-    pub(super) y: Axis,
-}
-
-impl Frame {
-    pub(super) fn at(&self, x: f64, y: f64) -> (f64, f64) {
-        (
-            self.left + self.x.fraction(x) * (self.right - self.left),
-            self.bottom - self.y.fraction(y) * (self.bottom - self.top),
-        )
-    }
-}
 
 impl Chart {
     /// The chart as one SVG element, 760 pixels wide, without any outer resource.

@@ -4,8 +4,8 @@ use plotters::element::Text;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::canvas::{Area, Fault, canvas, text_style};
+use super::frame::{Ends, Frame};
 use super::labels::{self, Leader};
-use super::svg::{Ends, Frame};
 use super::{Chart, Direction, ReferenceLine};
 use crate::lettering::one_line;
 use crate::theme;

@@ -3,7 +3,6 @@
 mod contours;
 mod lines;
 mod marks;
-mod surround;
 mod svg;
 
 use crate::{Scale, axis::Axis};

@@ -1,8 +1,7 @@
 //! A network as a list with counts, where a drawing would be too wide or too large.
 
 use super::symbols::SYMBOLS;
-use super::text::{gravity, lines_and_loads};
-use super::{Census, Sketch, SketchKind, SketchTree};
+use super::{Census, Sketch, SketchGravity, SketchKind, SketchNode, SketchTree};
 use crate::lettering::{clip_columns, columns, one_line};
 
 /// Rows of one table before the rest is only counted.
@@ -39,6 +38,18 @@ fn sentence(counts: &[(usize, &str, &str)]) -> String {
         .map(|(count, one, many)| format!("{count} {}", if *count == 1 { one } else { many }))
         .collect();
     if parts.is_empty() { String::from("none") } else { parts.join(", ") }
+}
+
+/// The values of a node and the forces on it, line by line.
+pub(super) fn lines_and_loads(node: &SketchNode) -> Vec<String> {
+    let loads = node.loads.iter().map(|load| format!("⇒ {}", one_line(load)));
+    node.lines.iter().map(|line| one_line(line)).chain(loads).collect()
+}
+
+/// Gravity in one line.
+pub(super) fn gravity(gravity: &SketchGravity) -> String {
+    let arrow = if gravity.pulls_back { '←' } else { '→' };
+    format!("g = {} {arrow}", one_line(&gravity.label))
 }
 
 /// Counts and tables of nodes and links in lines of at most `width` columns.

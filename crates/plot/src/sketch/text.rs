@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 use super::blocks::Sizes;
 use super::grid::{Grid, centred};
 use super::layout::{Metrics, Placed, plan};
+use super::list::{gravity, lines_and_loads};
 use super::order::Extent;
 use super::symbols::symbol_of;
-use super::{Sketch, SketchGravity, SketchKind, SketchLink, SketchNode, SketchTree, list};
+use super::{Sketch, SketchKind, SketchLink, SketchNode, SketchTree, list};
 use crate::lettering::{self, one_line};
 
 /// Elements or nodes beyond which a list is clearer.
@@ -175,18 +176,6 @@ fn inscription(node: &SketchNode, is_left_end: bool) -> Vec<String> {
         SketchKind::Fixed => format!("▒ {name}"),
     };
     std::iter::once(first).chain(lines_and_loads(node)).collect()
-}
-
-/// The values of a node and the forces on it, line by line.
-pub(super) fn lines_and_loads(node: &SketchNode) -> Vec<String> {
-    let loads = node.loads.iter().map(|load| format!("⇒ {}", one_line(load)));
-    node.lines.iter().map(|line| one_line(line)).chain(loads).collect()
-}
-
-/// Gravity in one line.
-pub(super) fn gravity(gravity: &SketchGravity) -> String {
-    let arrow = if gravity.pulls_back { '←' } else { '→' };
-    format!("g = {} {arrow}", one_line(&gravity.label))
 }
 
 fn node_extent(node: &SketchNode) -> Extent {

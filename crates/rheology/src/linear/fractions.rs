@@ -2,22 +2,13 @@
 
 use dashpot_twofold::Twofold;
 
-use super::secular::Secular;
+use super::secular::{Line, Secular};
 
 /// Modes whose rates differ by less, relatively, become one when models are composed.
 ///
 /// Apart by this much or less, two modes differ from one by 10⁻²⁵ in every response, because the
 /// one keeps the sum of the strengths and that of the strengths over the rates.
 pub const MERGED_BELOW: f64 = 1e-12;
-
-/// One mode: a pole at `-rate`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Line {
-    /// Rate \[1/s\], > 0 except for the pole at zero.
-    pub(crate) rate: Twofold,
-    /// Strength, > 0: a stiffness \[N/m\], or a compliance times its rate \[m/(N s)\].
-    pub(crate) strength: Twofold,
-}
 
 /// Several modes that became one.
 #[derive(Debug, Clone, Copy, PartialEq)]

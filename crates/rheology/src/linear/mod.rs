@@ -25,8 +25,9 @@ pub use forms::{Canonical, KelvinElement, KelvinForm, MaxwellElement, MaxwellFor
 pub use fractions::MERGED_BELOW;
 
 pub(crate) use derivatives::Derivatives;
+pub(crate) use fractions::Fractions;
 use fractions::Merger;
-pub(crate) use fractions::{Fractions, Line};
+pub(crate) use secular::Line;
 
 /// Where numbers have twice the digits of a double, and their quotients, too.
 const RANGE: std::ops::Range<f64> = 1e-150..1e150;

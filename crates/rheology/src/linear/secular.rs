@@ -7,14 +7,21 @@
 
 use dashpot_twofold::Twofold;
 
-use super::fractions::Line;
-
 /// Newton steps in doubles; about eight are usual, and bisection alone takes this many at worst.
 const MOST_STEPS: usize = 200;
 /// Newton steps in twice the digits; one or two are usual.
 const MOST_POLISHING: usize = 4;
 /// Relative change after which a zero is final: the next would be about its square.
 const FINAL: f64 = 1e-14;
+
+/// One mode: a pole at `-rate`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Line {
+    /// Rate \[1/s\], > 0 except for the pole at zero.
+    pub(crate) rate: Twofold,
+    /// Strength, > 0: a stiffness \[N/m\], or a compliance times its rate \[m/(N s)\].
+    pub(crate) strength: Twofold,
+}
 
 /// The function `F(x) = c − Σ w_j/(x − p_j)`, poles in rising order.
 pub(super) struct Secular<'l> {

@@ -14,10 +14,10 @@ use crate::{
     diagnostics::fault::Fault,
     kinds::registers,
     models::notes::ModelNote,
-    sections::{Reading, file_named},
+    sections::Reading,
     text::{
         document::{Content, Entry, Item},
-        library::is_table,
+        library::{file_named, is_table},
         source::Place,
     },
     units::format_short,

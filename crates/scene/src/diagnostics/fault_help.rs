@@ -2,8 +2,8 @@
 
 use dashpot_network::parameters::Dimension;
 
-use super::fault::{described, example};
 use crate::{
+    quantities::words::{described, example},
     text::nearest::suggestion,
     units::{UnitError, foreign, meant_as, parse_dimension, parse_quantity},
 };

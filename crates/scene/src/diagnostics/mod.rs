@@ -4,7 +4,7 @@ pub(crate) mod fault;
 pub(crate) mod fault_help;
 pub(crate) mod render;
 
-use std::{cell::RefCell, collections::HashSet, fmt, ops::Range, sync::Arc};
+use std::{cell::RefCell, collections::HashSet, ops::Range, sync::Arc};
 
 use self::fault::Fault;
 use crate::text::source::{Place, SET, Source};
@@ -82,26 +82,7 @@ impl Diagnostics {
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
-
-    /// The text for a terminal: message, place, the value under a caret and help for each fault.
-    pub fn render(&self, color: bool) -> String {
-        render::render(self, color, usize::MAX)
-    }
-
-    /// The same in `width` columns: messages, notes and help are wrapped, and long lines of the text are
-    /// cut around what is at fault.
-    pub fn render_within(&self, color: bool, width: usize) -> String {
-        render::render(self, color, width)
-    }
 }
-
-impl fmt::Display for Diagnostics {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.render(false))
-    }
-}
-
-impl std::error::Error for Diagnostics {}
 
 /// A value and the warnings that came with it.
 #[derive(Debug, Clone)]

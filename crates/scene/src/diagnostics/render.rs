@@ -1,6 +1,6 @@
 //! Diagnostics as text for a terminal.
 
-use std::ops::Range;
+use std::{fmt, ops::Range};
 
 use annotate_snippets::{
     AnnotationKind, Group, Level, Renderer, Snippet, renderer::DEFAULT_TERM_WIDTH,
@@ -18,17 +18,30 @@ const LINES: usize = 3;
 /// Longer lines are cut around the place, in bytes.
 const LONG_LINE: usize = 400;
 
-/// See [`Diagnostics::render`].
-pub(crate) fn render(diagnostics: &Diagnostics, color: bool, width: usize) -> String {
-    let renderer = if color { Renderer::styled() } else { Renderer::plain() };
-    let renderer = renderer.term_width(width.min(DEFAULT_TERM_WIDTH));
-    let mut texts: Vec<String> =
-        diagnostics.list.iter().map(|diagnostic| one(&renderer, diagnostic, width)).collect();
-    if diagnostics.omitted > 0 {
-        texts.push(format!("and {} more", diagnostics.omitted));
+impl Diagnostics {
+    /// The text for a terminal: message, place, the value under a caret and help for each fault.
+    pub fn render(&self, color: bool) -> String {
+        self.render_within(color, usize::MAX)
     }
-    texts.join("\n\n")
+
+    /// The same in `width` columns: messages, notes and help are wrapped, and long lines of the text are
+    /// cut around what is at fault.
+    pub fn render_within(&self, color: bool, width: usize) -> String {
+        let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+        let renderer = renderer.term_width(width.min(DEFAULT_TERM_WIDTH));
+        let texts = self.list.iter().map(|diagnostic| one(&renderer, diagnostic, width));
+        let omitted = (self.omitted > 0).then(|| format!("and {} more", self.omitted));
+        texts.chain(omitted).collect::<Vec<_>>().join("\n\n")
+    }
 }
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for Diagnostics {}
 
 fn one(renderer: &Renderer, diagnostic: &Diagnostic, width: usize) -> String {
     let inner = width.saturating_sub(INNER_LEAD);

@@ -20,7 +20,7 @@ use dashpot_network::{
 };
 use dashpot_rheology::{Form, FormVisitor, Part, Role, visit_forms};
 
-use crate::{diagnostics::fault::example_text, quantities::basis::Basis};
+use crate::quantities::{basis::Basis, words::example_text};
 
 /// What a reader needs to know about a kind that becomes a `T`.
 pub(crate) struct Kind<T> {

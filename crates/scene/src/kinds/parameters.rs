@@ -10,7 +10,6 @@ use crate::{
     quantities::{
         basis::{Basis, SIZE, is_size},
         pad::{Size, Surroundings},
-        plausible,
         quantity::{Quantities, Values},
     },
     text::{
@@ -373,7 +372,7 @@ impl<'d> KindReader<'d> {
             let largest = sizes(at).max_by(|first, other| first.0.abs().total_cmp(&other.0.abs()));
             if let Some((value, Item { value: Content::List(pair), .. })) = largest {
                 let dimension = self.quantities.basis.dimension(dimension);
-                plausible::check(self.quantities, &pair[at], dimension, value);
+                self.quantities.warn(&pair[at], dimension, value);
             }
         }
     }

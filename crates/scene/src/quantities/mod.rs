@@ -5,3 +5,4 @@ pub(crate) mod pad;
 pub(crate) mod plausible;
 pub(crate) mod quantity;
 pub(crate) mod values;
+pub(crate) mod words;

@@ -5,11 +5,8 @@ use std::ops::RangeInclusive;
 
 use dashpot_network::parameters::Dimension;
 
-use super::{
-    basis::{AREA, DENSITY},
-    quantity::{Quantities, Subject},
-};
-use crate::{diagnostics::fault::Fault, text::document::Item};
+use super::basis::{AREA, DENSITY};
+use crate::diagnostics::fault::Fault;
 
 /// What a bare number usually is.
 struct Usual {
@@ -56,30 +53,11 @@ const USUAL: &[Usual] = &[
 const SLIPS: &[(&str, &str, Dimension)] =
     &[("mPa", "MPa", Dimension::PRESSURE), ("mN/m", "MN/m", Dimension::STIFFNESS)];
 
-/// Warns of the quantity `item` of this dimension, whose value is in SI units, if it is unusual.
-pub(crate) fn check(quantities: Quantities<'_>, item: &Item, dimension: Dimension, value: f64) {
-    let key = match quantities.subject {
-        Subject::Unwatched => return,
-        Subject::Key(key) => key,
-        Subject::Value => "",
-    };
-    let fault = if quantities.is_bare(item) {
-        let fits = |own: &&Usual| own.dimension == dimension && [key, ""].contains(&own.key);
-        USUAL.iter().find(fits).and_then(|usual| usual.fault(&subject(quantities, item), value))
-    } else {
-        slip(&quantities.written(item), dimension, value)
-    };
-    if let Some(fault) = fault {
-        quantities.faults.warning(item.place, quantities.traced(item, fault));
-    }
-}
-
-/// What a message calls the value: by its key, else as it is written.
-fn subject(quantities: Quantities<'_>, item: &Item) -> String {
-    match quantities.subject {
-        Subject::Key(key) => key.to_owned(),
-        _ => quantities.shown(item),
-    }
+/// What is odd about a bare number of this dimension, in SI units, at the key `key`, where something is;
+/// it is called `subject`.
+pub(super) fn bare(key: &str, subject: &str, dimension: Dimension, value: f64) -> Option<Fault> {
+    let fits = |own: &&Usual| own.dimension == dimension && [key, ""].contains(&own.key);
+    USUAL.iter().find(fits).and_then(|usual| usual.fault(subject, value))
 }
 
 impl Usual {
@@ -111,7 +89,7 @@ impl Usual {
 }
 
 /// What is odd about a quantity `text` in a thousandth of a unit of which a million is usual.
-fn slip(text: &str, dimension: Dimension, value: f64) -> Option<Fault> {
+pub(super) fn slip(text: &str, dimension: Dimension, value: f64) -> Option<Fault> {
     let (milli, mega, _) =
         SLIPS.iter().find(|own| own.2 == dimension && text.trim().ends_with(own.0))?;
     if value == 0.0 || value.abs() >= 1.0 {

@@ -142,7 +142,7 @@ impl<'d> Quantities<'d> {
     /// dimension that is `expected` in a model, and a warning where it is unusual.
     pub(crate) fn read(self, item: &Item, expected: Dimension) -> Option<f64> {
         let value = self.read_quietly(item, expected)?;
-        plausible::check(self, item, self.basis.dimension(expected), value);
+        self.warn(item, self.basis.dimension(expected), value);
         Some(value)
     }
 
@@ -177,7 +177,7 @@ impl<'d> Quantities<'d> {
         let value = self.read_quietly(item, expected)?;
         match check(value) {
             Ok(()) => {
-                plausible::check(self, item, self.basis.dimension(expected), value);
+                self.warn(item, self.basis.dimension(expected), value);
                 Some(value)
             }
             Err(fault) => {
@@ -250,6 +250,24 @@ impl<'d> Quantities<'d> {
         let Some(Definition { text, place }) = known else { return fault };
         let origin = self.faults.origin(*place);
         fault.with_note(format!("`{name}` is \"{}\", {origin}", text.trim()))
+    }
+
+    /// Warns of the value of `item`, in SI units, where it is unusual.
+    pub(crate) fn warn(self, item: &Item, dimension: Dimension, value: f64) {
+        let key = match self.subject {
+            Subject::Unwatched => return,
+            Subject::Key(key) => key,
+            Subject::Value => "",
+        };
+        let fault = if self.is_bare(item) {
+            let subject = if key.is_empty() { self.shown(item) } else { key.to_owned() };
+            plausible::bare(key, &subject, dimension, value)
+        } else {
+            plausible::slip(&self.written(item), dimension, value)
+        };
+        if let Some(fault) = fault {
+            self.faults.warning(item.place, self.traced(item, fault));
+        }
     }
 
     fn parsed(self, text: &str, place: Place, expected: Dimension) -> Option<Quantity> {

@@ -8,12 +8,12 @@ use std::{
 
 use dashpot_network::parameters::Dimension;
 
-use super::quantity::{Definition, Known, Values};
+use super::{
+    quantity::{Definition, Known, Values},
+    words::example_text,
+};
 use crate::{
-    diagnostics::{
-        Faults,
-        fault::{Fault, example_text},
-    },
+    diagnostics::{Faults, fault::Fault},
     text::{
         document::{Content, Item},
         nearest::list,

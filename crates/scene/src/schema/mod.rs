@@ -9,7 +9,10 @@ use dashpot_network::{layers::MOST_SEGMENTS, parameters::Dimension};
 use dashpot_rheology::{Part, Role};
 use serde_json::{Map, Value, json};
 
-use self::values::{Values, named_quantity, quantity, table_or_file};
+use self::values::{
+    Values, closed, described_as, named_quantity, object, one_or_many, quantity, reference,
+    table_or_file,
+};
 use crate::{
     kinds::{CompositeEntry, EffectEntry, Kind, registers},
     quantities::basis::{AREA, Basis, DENSITY, fits_material},
@@ -351,29 +354,6 @@ fn effect(entry: &EffectEntry) -> Value {
         return described_as(by_element, &format!("by elements: {}", entry.summary));
     }
     described_as(schema, entry.summary)
-}
-
-fn one_or_many(schema: &Value) -> Value {
-    json!({ "anyOf": [schema, { "type": "array", "items": schema, "minItems": 1 }] })
-}
-
-fn closed<'k>(description: &str, own: impl IntoIterator<Item = (&'k str, Value)>) -> Value {
-    let table =
-        json!({ "type": "object", "properties": object(own), "additionalProperties": false });
-    if description.is_empty() { table } else { described_as(table, description) }
-}
-
-fn object<'k>(entries: impl IntoIterator<Item = (&'k str, Value)>) -> Map<String, Value> {
-    entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
-}
-
-fn described_as(mut schema: Value, description: &str) -> Value {
-    schema["description"] = json!(description);
-    schema
-}
-
-fn reference(name: &str) -> Value {
-    json!({ "$ref": format!("#/$defs/{name}") })
 }
 
 #[cfg(test)]

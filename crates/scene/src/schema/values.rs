@@ -1,12 +1,11 @@
-//! Schemas of quantities and parameters.
+//! Schemas of quantities and parameters, and what all schemas are made of.
 
 use dashpot_network::parameters::{Dimension, Parameter, ParameterKind};
 use serde_json::{Map, Value, json};
 
-use super::{described_as, reference};
-use crate::{
-    diagnostics::fault::{described, example_text},
-    quantities::basis::{Basis, is_size},
+use crate::quantities::{
+    basis::{Basis, is_size},
+    words::{described, example_text},
 };
 
 /// What the values of a kind measure.
@@ -134,4 +133,32 @@ pub(super) fn quantity(dimension: Dimension) -> Value {
 fn temperature_difference() -> Value {
     let description = "a difference of temperatures (K), a bare number in K, or a named value";
     json!({ "description": description, "type": ["number", "string"], "examples": ["50 K"] })
+}
+
+pub(super) fn one_or_many(schema: &Value) -> Value {
+    json!({ "anyOf": [schema, { "type": "array", "items": schema, "minItems": 1 }] })
+}
+
+pub(super) fn closed<'k>(
+    description: &str,
+    own: impl IntoIterator<Item = (&'k str, Value)>,
+) -> Value {
+    let table =
+        json!({ "type": "object", "properties": object(own), "additionalProperties": false });
+    if description.is_empty() { table } else { described_as(table, description) }
+}
+
+pub(super) fn object<'k>(
+    entries: impl IntoIterator<Item = (&'k str, Value)>,
+) -> Map<String, Value> {
+    entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+pub(super) fn described_as(mut schema: Value, description: &str) -> Value {
+    schema["description"] = json!(description);
+    schema
+}
+
+pub(super) fn reference(name: &str) -> Value {
+    json!({ "$ref": format!("#/$defs/{name}") })
 }

@@ -12,7 +12,7 @@ use crate::{
     quantities::quantity::Quantities,
     text::{
         csv::{Csv, CsvFault, Field},
-        document::{Content, Entry, Item},
+        document::{Content, Item},
         library::TableFile,
         source::Place,
         table::{Table, text_of, wrong_type},
@@ -222,18 +222,4 @@ impl<'d> Reading<'d> {
         }
         Some(Some(factor))
     }
-}
-
-/// Whether a table is given by `item` as a file, and not as its `points`.
-pub(super) fn names_file(item: &Item) -> bool {
-    let has_points = |entries: &[Entry]| entries.iter().any(|entry| entry.key == "points");
-    item.text().is_some() || item.table().is_some_and(|entries| !has_points(entries))
-}
-
-/// The file that a table is read from, where `item` names one.
-pub(crate) fn file_named(item: &Item) -> Option<&Item> {
-    let named = item.table().map_or(Some(item), |entries| {
-        entries.iter().find(|entry| entry.key == "file").map(|entry| &entry.item)
-    });
-    named.filter(|item| item.text().is_some())
 }

@@ -14,7 +14,6 @@ mod targets;
 pub(crate) use accuracy::read_accuracy;
 pub(crate) use effects::read_effects;
 pub(crate) use elements::{ELEMENT_KEYS, read_elements};
-pub(crate) use files::file_named;
 pub(crate) use loads::read_loads;
 pub(crate) use measures::read_measures;
 pub(crate) use nodes::read_nodes;
@@ -32,7 +31,7 @@ use crate::{
     quantities::quantity::Quantities,
     text::{
         document::{Entry, Item},
-        library::Library,
+        library::{Library, names_file},
         source::Place,
         table::{Table, entries_of, text_of, wrong_type},
     },
@@ -152,7 +151,7 @@ impl<'d> Reading<'d> {
             self.faults.error(entry.item.place, fault);
         }
         let (kind, own) = found?;
-        if kind.is_table() && files::names_file(&own.item) {
+        if kind.is_table() && names_file(&own.item) {
             return self.read_file(kind, &own.item, own.key_place, (&entry.key, driven));
         }
         KindReader { driven, ..KindReader::new(self.quantities()) }.read(

@@ -18,7 +18,6 @@ use crate::{
         quantity::{Quantities, Subject, Values},
         values::{self, Overrides},
     },
-    sections::file_named,
 };
 
 /// Gives the text of another file by its path.
@@ -354,6 +353,20 @@ impl Library {
 /// Whether `word` is that of a driving function that is a table.
 pub(crate) fn is_table(word: &str) -> bool {
     registers().waveforms.iter().any(|kind| kind.word == word && kind.is_table())
+}
+
+/// Whether a table is given by `item` as a file, and not as its `points`.
+pub(crate) fn names_file(item: &Item) -> bool {
+    let has_points = |entries: &[Entry]| entries.iter().any(|entry| entry.key == "points");
+    item.text().is_some() || item.table().is_some_and(|entries| !has_points(entries))
+}
+
+/// The file that a table is read from, where `item` names one.
+pub(crate) fn file_named(item: &Item) -> Option<&Item> {
+    let named = item.table().map_or(Some(item), |entries| {
+        entries.iter().find(|entry| entry.key == "file").map(|entry| &entry.item)
+    });
+    named.filter(|item| item.text().is_some())
 }
 
 fn section<'r>(root: &'r Item, key: &str) -> Option<&'r Entry> {

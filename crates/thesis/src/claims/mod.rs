@@ -13,8 +13,6 @@ use dashpot_plot::Table;
 
 use crate::{Impact, Scales, Study, ThesisError, words::listed};
 
-pub use order::energy_changes;
-
 /// A claim with its evidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claim {

@@ -9,26 +9,12 @@ use crate::{
 /// The order in which the thesis says that the groups matter for the energy.
 const CLAIMED: [&str; 4] = ["d", "c", "b", "a"];
 
-/// The largest change of the energy at a time \[s\] over the family of each group, relative to its base.
-pub fn energy_changes(study: &Study, time: f64) -> Vec<(&'static str, f64)> {
-    let tau = time / Scales::CHAPTER_4.time();
-    let base = study.printed.energy(tau);
-    let change = |family: &Family| {
-        let all = family.each(|own| own.energy(tau));
-        let (low, high) = all
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), own| (l.min(*own), h.max(*own)));
-        (family.varied.symbol(), (high - low) / base)
-    };
-    study.groups.iter().map(change).collect()
-}
-
 pub(super) fn claims(study: &Study) -> Vec<Claim> {
     vec![size(study), order(study), early_peak(study)]
 }
 
 fn size(study: &Study) -> Claim {
-    let changes = energy_changes(study, 0.01);
+    let changes = study.energy_changes(0.01);
     let is_in = |relative: f64| (0.03..=0.07).contains(&relative);
     let cases: Vec<_> = changes.iter().map(|own| (own.0.to_owned(), is_in(own.1))).collect();
     let words: Vec<String> = changes
@@ -38,7 +24,7 @@ fn size(study: &Study) -> Claim {
     let times = [0.001, 0.002, 0.004, 0.01];
     let rows = changes.iter().enumerate().map(|(at, own)| {
         let each = times.map(|time| {
-            let relative = energy_changes(study, time)[at].1;
+            let relative = study.energy_changes(time)[at].1;
             format!("{} %", significant(100.0 * relative, 2))
         });
         row([own.0.to_owned()].into_iter().chain(each))

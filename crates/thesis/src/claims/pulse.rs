@@ -4,7 +4,7 @@ use super::{Claim, Verdict, row, table};
 use crate::{
     Fit, GraphCase, Parameter, Pulse, Study, ThesisError, Varied, best_pulse, graph_cases,
     intersections, misfit,
-    numbers::{fit_table, left_out},
+    numbers::fit_table,
     words::{listed, significant},
 };
 
@@ -83,7 +83,7 @@ fn left_out_term() -> Claim {
     let pulse = Pulse::PRINTED;
     let (time, deepest) = pulse.deepest();
     let end = pulse.final_deformation();
-    let (printed, own) = (left_out(&pulse, 2.0), deepest - end);
+    let (printed, own) = (pulse.left_out(2.0), deepest - end);
     let rows = [("ν τ* = 20, τ* = 2", printed), ("its own time", own)]
         .map(|(at, term)| row([at.to_owned(), significant(term, 3)]));
     Claim {

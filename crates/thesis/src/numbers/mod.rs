@@ -6,7 +6,6 @@ use dashpot_plot::Table;
 
 use crate::{
     Fit, Groups, Padding, Parameter, Pulse, Scales, Study, Support, best_pulse,
-    claims::energy_changes,
     words::{change, listed, short, significant},
 };
 
@@ -163,7 +162,7 @@ fn chapter_3(study: &Study) -> Vec<Number> {
             "3.54",
             "what is left out at ν τ* = 20, in size",
             (".876×10⁻⁹", "0.876e-9"),
-            left_out(&pulse, 2.0).abs(),
+            pulse.left_out(2.0).abs(),
         ),
         judged(
             "3.55",
@@ -180,14 +179,6 @@ fn chapter_3(study: &Study) -> Vec<Number> {
         all.push(judged("III", "A (here P), against the best fit", ("9.9", "9.9"), best.slope));
     }
     all
-}
-
-/// The term of 3.54 that is left out, at ν τ* = 20 and this τ*.
-pub fn left_out(pulse: &Pulse, time: f64) -> f64 {
-    pulse.constants().map_or(f64::NAN, |own| {
-        let ratio = (own.r1 * time + own.r2) / (own.l3 * time + own.l4);
-        (-20.0_f64).exp() * (own.l2 + ratio)
-    })
 }
 
 fn chapter_4() -> Vec<Number> {
@@ -234,7 +225,7 @@ fn chapter_4() -> Vec<Number> {
 }
 
 fn chapter_5(study: &Study) -> Vec<Number> {
-    let changes = energy_changes(study, 0.01);
+    let changes = study.energy_changes(0.01);
     let percent = |own: &f64| 100.0 * own;
     let least = changes.iter().map(|own| percent(&own.1)).fold(f64::INFINITY, f64::min);
     let most = changes.iter().map(|own| percent(&own.1)).fold(0.0, f64::max);

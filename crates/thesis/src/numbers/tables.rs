@@ -4,7 +4,6 @@ use std::f64::consts::E;
 
 use dashpot_plot::Table;
 
-use super::left_out;
 use crate::{Fit, Impact, Parameter, Pulse, Study, best_pulse, misfit, words::significant};
 
 /// What chapter III has no numbers for: its constants and results for the padding of chapter IV.
@@ -27,7 +26,7 @@ pub fn chapter_3_table() -> Table {
     rows.extend([
         ("3.34", "τ* of the largest deformation", time),
         ("3.54", "largest deformation", deepest),
-        ("3.54", "what is left out at ν τ* = 20 and τ* = 2", left_out(&pulse, 2.0)),
+        ("3.54", "what is left out at ν τ* = 20 and τ* = 2", pulse.left_out(2.0)),
         ("3.55", "b with which the deformation ends at 1", {
             pulse.limit(Parameter::B).unwrap_or(f64::NAN)
         }),

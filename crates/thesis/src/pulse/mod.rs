@@ -196,6 +196,14 @@ impl Pulse {
         is_known.then_some(Constants { nu, r1, r2, l1, l2, l3, l4, theta, psi: l4 })
     }
 
+    /// The term of 3.54 that is left out, at ν τ* = 20 and this τ*; NaN where `m = ν`.
+    pub fn left_out(&self, time: f64) -> f64 {
+        self.constants().map_or(f64::NAN, |own| {
+            let ratio = (own.r1 * time + own.r2) / (own.l3 * time + own.l4);
+            (-20.0_f64).exp() * (own.l2 + ratio)
+        })
+    }
+
     /// The energy by 3.59, closed; `None` where m = ν.
     pub fn closed_energy(&self, time: f64) -> Option<f64> {
         let Constants { nu, r1, r2, l2, .. } = self.constants()?;

@@ -2,8 +2,10 @@
 
 use thiserror::Error;
 
-use super::MOST_ROWS;
 use crate::{diagnostics::fault_help::comma_help, units::UnitError};
+
+/// A file may have so many rows of numbers.
+pub(crate) const MOST_ROWS: usize = 1_000_000;
 
 /// Why a file is no table of values over time.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -12,11 +12,10 @@ use std::ops::Range;
 
 pub use cell::text_cell;
 pub use fault::CsvFault;
+use fault::MOST_ROWS;
 
 use crate::units::{UnitError, parse_quantity};
 
-/// A file may have so many rows of numbers.
-pub(crate) const MOST_ROWS: usize = 1_000_000;
 /// After so many faults the rest of a file is not looked at.
 const TOLD: usize = 10;
 

@@ -8,7 +8,7 @@
 
 use toml::de::DeTable;
 
-use super::{Builder, Content, Entry, Item};
+use super::tree::{Builder, Content, Entry, Item};
 use crate::text::{nesting, source::Place};
 
 /// Texts longer than this are parsed in blocks of about this many bytes.
