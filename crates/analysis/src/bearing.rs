@@ -6,16 +6,11 @@ use dashpot_network::{Assembly, ConnectionOutputs, NodeId};
 /// there: the element itself, or the contact of a face at this end, and a stop that by-passes it.
 pub(crate) fn on_support(assembly: &Assembly, element: usize) -> Vec<(usize, f64)> {
     let own = &assembly.connections[element];
-    let find = |part: &str| {
-        let name = format!("{}.{part}", own.name);
-        assembly.connections.iter().position(|other| other.name == name)
-    };
-    let face = format!("{}.face", own.name);
-    let is_face = |end: usize| assembly.nodes.get(end).is_some_and(|node| node.name == face);
     let ends = |connection: &ConnectionOutputs| connection.between.map(NodeId::index);
-    let [contact, stop] = ["contact", "stop"].map(find);
     let last = ends(own)[1];
-    let behind_face = contact.filter(|_| is_face(last));
+    let pad = assembly.pad(element);
+    let (contact, stop) = pad.map_or((None, None), |pad| (pad.contact, pad.stop));
+    let behind_face = contact.filter(|_| pad.is_some_and(|pad| pad.face == Some(last)));
     let support = behind_face.map_or(last, |contact| ends(&assembly.connections[contact])[1]);
     let sign = |&at: &usize| {
         let [from, to] = ends(&assembly.connections[at]);

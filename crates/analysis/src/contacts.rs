@@ -28,15 +28,11 @@ pub(crate) fn has_contact(assembly: &Assembly, connection: &ConnectionOutputs) -
 /// Word for what leaves a phase as it was.
 const IMPACT: &str = "impact";
 
-/// Name of the contact that opens an element, where an effect has put it there.
-pub(crate) fn contact_of(element: &str) -> String {
-    format!("{element}.contact")
-}
-
 /// Whether an element can part from what lies at one of its ends: it has a contact of its own there,
 /// or nothing but contacts holds a massless end of it.
-fn separates(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
-    let own = assembly.connection(&contact_of(&connection.name));
+fn separates(assembly: &Assembly, at: usize) -> bool {
+    let connection = &assembly.connections[at];
+    let own = assembly.pad(at).and_then(|pad| assembly.connections.get(pad.contact?));
     if own.is_some_and(|own| has_contact(assembly, own)) {
         return true;
     }
@@ -67,8 +63,9 @@ fn is_slider(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
 }
 
 /// Whether an element pulls where its force turns to tension.
-pub(crate) fn is_glued(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
-    !connection.never_pulls && !separates(assembly, connection) && !is_slider(assembly, connection)
+pub(crate) fn is_glued(assembly: &Assembly, at: usize) -> bool {
+    let connection = &assembly.connections[at];
+    !connection.never_pulls && !separates(assembly, at) && !is_slider(assembly, connection)
 }
 
 /// What switches, in words, with the time of each \[s\].
@@ -82,29 +79,26 @@ pub(crate) fn switchings(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f
     let mut found = Vec::with_capacity(trajectory.switches.len());
     for own in &trajectory.switches {
         let is_again = met.contains(&own.part);
-        let is_contact = assembly
-            .primitives
-            .iter()
-            .find(|primitive| primitive.name == own.name)
-            .is_some_and(is_contact);
-        let what = if is_contact {
-            if !is_again {
-                met.push(own.part);
+        let at = assembly.primitives.iter().position(|primitive| primitive.name == own.name);
+        let what = match at.filter(|&at| is_contact(&assembly.primitives[at])) {
+            Some(at) => {
+                if !is_again {
+                    met.push(own.part);
+                }
+                of_contact(assembly, own, at, is_again)
             }
-            of_contact(assembly, own, is_again)
-        } else {
-            format!("{}: {}", own.name, own.what)
+            None => format!("{}: {}", own.name, own.what),
         };
         found.push((own.time, what));
     }
     found
 }
 
-fn of_contact(assembly: &Assembly, own: &Switch, is_again: bool) -> String {
+fn of_contact(assembly: &Assembly, own: &Switch, at: usize, is_again: bool) -> String {
+    let owner = assembly.owner(at);
     // A contact that is all of an element goes by the element's name.
-    let whole = own.name.strip_suffix(&format!(".{}", Contact::KIND));
-    let is_connection = assembly.connection(&own.name).is_some();
-    let name = whole.filter(|_| !is_connection).unwrap_or(&own.name);
+    let is_connection = owner.is_some_and(|at| assembly.connections[at].name == own.name);
+    let name = if is_connection { &own.name } else { assembly.primitives[at].place() };
     let again = if is_again { " again" } else { "" };
     let (impulse, lost) = (quantity(own.impulse, "N s"), quantity(own.lost.max(0.0), "J"));
     let blow = format!("impact of {impulse}, which loses {lost}");
@@ -115,7 +109,7 @@ fn of_contact(assembly: &Assembly, own: &Switch, is_again: bool) -> String {
             format!("{name} passes on {impulse}")
         };
     }
-    let told = match sides(assembly, name) {
+    let told = match owner.and_then(|at| sides(assembly, at)) {
         Some((node, element)) if is_meeting(own) => format!("{node} meets the {element}{again}"),
         Some((node, element)) => format!("{node} leaves the {element}"),
         None if own.phase > 0 => format!("{name} closes{again}"),
@@ -135,15 +129,12 @@ fn stays_closed(own: &Switch) -> bool {
     own.time > 0.0 && own.phase > 0 && own.what == IMPACT
 }
 
-/// The node and the element between which the contact of this name is, where an effect has put it
-/// there.
-fn sides<'a>(assembly: &'a Assembly, contact: &'a str) -> Option<(&'a str, &'a str)> {
-    let element = contact.strip_suffix(&format!(".{}", Contact::KIND))?;
-    assembly.connection(element)?;
-    let face = format!("{element}.face");
-    let mut ends = assembly.connection(contact)?.between.iter();
-    let node = ends.find(|end| assembly.nodes[end.index()].name != face)?;
-    Some((assembly.nodes[node.index()].name.as_str(), element))
+/// The node and the element between which this contact is, where an effect has put it there.
+fn sides(assembly: &Assembly, contact: usize) -> Option<(&str, &str)> {
+    let pad = assembly.pad_behind(contact)?;
+    let mut ends = assembly.connections[contact].between.into_iter().map(NodeId::index);
+    let node = ends.find(|&end| pad.face != Some(end))?;
+    Some((&assembly.nodes[node].name, &assembly.connections[pad.element].name))
 }
 
 /// Free masses that nothing but one contact touches, where it is open at the end of a run: name of the
@@ -164,14 +155,15 @@ pub(crate) fn left_for_good(assembly: &Assembly, trajectory: &Trajectory) -> Vec
         let node = &assembly.nodes[*end];
         node.free && node.mass > 0.0 && touching[*end] == 1
     };
-    let left = assembly.connections.iter().filter_map(|connection| {
+    let left = assembly.connections.iter().enumerate().filter_map(|(at, connection)| {
         let node = connection.between.map(NodeId::index).into_iter().find(is_alone)?;
         let own = parts(assembly, connection).iter().filter(|own| is_contact(own));
         let mut switched = own.filter_map(|own| last.get(own.name.as_str()));
         let opened = switched.next_back().filter(|switch| switch.phase == 0)?;
-        let suffix = format!(".{}", Contact::KIND);
-        let element = connection.name.strip_suffix(&suffix).unwrap_or(&connection.name);
-        Some((opened.time, format!("{} leaves the {element}", assembly.nodes[node].name)))
+        let pad = assembly.pad_behind(at);
+        let element = pad.map_or(connection, |pad| &assembly.connections[pad.element]);
+        let text = format!("{} leaves the {}", assembly.nodes[node].name, element.name);
+        Some((opened.time, text))
     });
     left.collect()
 }
@@ -181,15 +173,15 @@ pub(crate) fn left_for_good(assembly: &Assembly, trajectory: &Trajectory) -> Vec
 pub(crate) fn meetings_after(
     assembly: &Assembly,
     trajectory: &Trajectory,
-    element: &str,
+    element: usize,
     time: f64,
 ) -> usize {
-    let contact = contact_of(element);
-    let names =
-        [element, contact.as_str()].into_iter().filter_map(|name| assembly.connection(name));
-    let parts: Vec<&PrimitiveOutputs> = names
-        .filter(|own| own.never_pulls || own.name == contact)
-        .flat_map(|connection| parts(assembly, connection))
+    let own = Some(element).filter(|&at| assembly.connections[at].never_pulls);
+    let contact = assembly.pad(element).and_then(|pad| pad.contact);
+    let parts: Vec<&PrimitiveOutputs> = own
+        .into_iter()
+        .chain(contact)
+        .flat_map(|at| parts(assembly, &assembly.connections[at]))
         .collect();
     let opens = |own: &Switch, index: usize, memory: f64| {
         let part = parts.iter().find(|part| part.name == own.name);

@@ -4,7 +4,7 @@
 use dashpot_dae::Signal;
 use dashpot_network::phases::{Phase, PhaseLaw, Phases};
 
-use crate::{Solution, contacts::contact_of};
+use crate::Solution;
 
 /// Part of the largest force by which a force may change where nothing happens.
 const STILL: f64 = 0.01;
@@ -32,8 +32,8 @@ pub fn touching(solution: &Solution<'_>) -> Vec<(f64, f64)> {
         let phases = assembly.primitives[at].element.phases()?;
         let opens = (0..part.phases.len()).any(|index| is_open(phases, index, 0.0));
         // Where an effect has put a contact before a padding, that one tells.
-        let element = assembly.connections.iter().find(|own| own.primitives.contains(&at))?;
-        let is_behind = assembly.connection(&contact_of(&element.name)).is_some();
+        let pad = assembly.pad(assembly.owner(at)?);
+        let is_behind = pad.is_some_and(|pad| pad.contact.is_some());
         (opens && !is_behind).then_some((number, phases))
     });
     joined(counted.flat_map(|own| closed(solution, own)).collect())

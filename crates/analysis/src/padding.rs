@@ -21,16 +21,12 @@ pub(crate) struct FaceContact {
 /// The contact of the face of the element number `element`, where that has mass.
 pub(crate) fn face_contact(assembly: &Assembly, element: usize) -> Option<FaceContact> {
     let own = &assembly.connections[element];
-    let is_face = |&end: &usize| {
-        let node = &assembly.nodes[end];
-        let name = node.name.strip_suffix(".face");
-        node.free && node.mass > 0.0 && name == Some(own.name.as_str())
-    };
+    let (face, connection) = assembly.pad(element).and_then(|pad| pad.face.zip(pad.contact))?;
+    let (node, contact) = (&assembly.nodes[face], &assembly.connections[connection]);
+    if !(node.free && node.mass > 0.0) {
+        return None;
+    }
     let mut ends = own.between.map(NodeId::index);
-    let face = ends.iter().copied().find(is_face)?;
-    let name = contacts::contact_of(&own.name);
-    let connection = assembly.connections.iter().position(|other| other.name == name)?;
-    let contact = &assembly.connections[connection];
     if !contacts::has_contact(assembly, contact) {
         return None;
     }

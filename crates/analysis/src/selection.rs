@@ -134,7 +134,10 @@ fn reported_elements(assembly: &Assembly) -> Vec<usize> {
     let impactors = bodies::with_impactor(assembly);
     if impactors.contains(&true) {
         let mut found = touching(&impactors);
-        found.extend(behind_contacts(assembly, &found));
+        // What is struck through its face by one of them.
+        let behind = |&at: &usize| assembly.pad_behind(at).map(|pad| pad.element);
+        let behind: Vec<usize> = found.iter().filter_map(behind).collect();
+        found.extend(behind);
         found.sort_unstable();
         found.dedup();
         return found;
@@ -145,14 +148,6 @@ fn reported_elements(assembly: &Assembly) -> Vec<usize> {
     }
     let found = touching(&masses);
     if found.is_empty() { touching(&vec![true; masses.len()]) } else { found }
-}
-
-/// The elements whose face has mass and is struck through one of the elements `struck`, which is the
-/// contact that an effect has put there.
-fn behind_contacts(assembly: &Assembly, struck: &[usize]) -> Vec<usize> {
-    let named = |name: &str| assembly.connections.iter().position(|own| own.name == name);
-    let contact = |&at: &usize| assembly.connections[at].name.strip_suffix(".contact");
-    struck.iter().filter_map(contact).filter_map(named).collect()
 }
 
 /// The impactors; without one the free masses that an element touches.

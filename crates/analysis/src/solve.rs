@@ -416,8 +416,8 @@ fn contact_reports(solution: &Solution<'_>) -> Vec<ContactReport> {
         .map(|(at, connection)| {
             let impact = solution.element_impact(at);
             let (assembly, trajectory) = (solution.assembly(), solution.trajectory());
-            let again = meetings_after(assembly, trajectory, &connection.name, impact.end);
-            let is_glued = contacts::is_glued(assembly, connection);
+            let again = meetings_after(assembly, trajectory, at, impact.end);
+            let is_glued = contacts::is_glued(assembly, at);
             ContactReport { element: connection.name.clone(), impact, is_glued, again }
         })
         .collect()

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use dashpot_dae::{Direction, Guard, SolveError};
 use dashpot_network::{
-    ConnectionOutputs, HeldTable, NodeId,
+    HeldTable, NodeId,
     effects::{EffectKind, Gravity},
     parameters::{Dimension, WindowWish},
 };
@@ -87,8 +87,7 @@ fn pulling(findings: &Findings<'_>) -> Vec<String> {
     };
     let assembly = findings.solution.assembly();
     let is_glued = |element: &&str| {
-        let connection = assembly.connection(element);
-        connection.is_some_and(|connection| contacts::is_glued(assembly, connection))
+        assembly.position(element).is_some_and(|at| contacts::is_glued(assembly, at))
     };
     let contacts = findings.contacts.iter().map(|own| (own.element.as_str(), own.impact));
     let warning =
@@ -296,8 +295,7 @@ fn peak_of_run(solution: &Solution<'_>, measure: &MeasureReport) -> Option<Readi
     let (assembly, window) = (solution.assembly(), WindowWish::Run);
     match measure.kind {
         PeakForce::KIND => {
-            let of_target = |own: &ConnectionOutputs| own.name == measure.target;
-            let at = assembly.connections.iter().position(of_target)?;
+            let at = assembly.position(&measure.target)?;
             solution.keeps(assembly.connections[at].force?).then_some(())?;
             Some(PeakForce { window }.read(solution, at))
         }

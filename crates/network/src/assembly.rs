@@ -21,6 +21,8 @@ pub struct Assembly {
     pub primitives: Vec<PrimitiveOutputs>,
     /// What does work on the network from outside: loads, body forces, prescribed motions.
     pub drives: Vec<DriveOutputs>,
+    /// What effects have put at elements, one entry for each element that has anything.
+    pub pads: Vec<PadOutputs>,
     /// What is odd but not wrong.
     pub warnings: Vec<String>,
     /// Tables of time that hold a value within the run although nobody says so.
@@ -85,6 +87,20 @@ pub struct ConnectionOutputs {
     pub segments: Vec<SegmentOutputs>,
     /// Whether it is made of layers.
     pub has_layers: bool,
+}
+
+/// What effects have put at an element.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PadOutputs {
+    /// The element, in [`Assembly::connections`].
+    pub element: usize,
+    /// The node in [`Assembly::nodes`] that is an end of the element in place of that which it lies
+    /// at, where it has such a face.
+    pub face: Option<usize>,
+    /// The connection between the face and that node: a contact, or a rigid link.
+    pub contact: Option<usize>,
+    /// The connection beside the element that is its stop.
+    pub stop: Option<usize>,
 }
 
 /// Outputs of a part of a pad in which force and strain are the same all over.
@@ -166,6 +182,18 @@ pub enum Source {
     Motion,
 }
 
+impl PrimitiveOutputs {
+    /// Its path without the word of its kind, where that is the end: what it stands for alone.
+    pub fn place(&self) -> &str {
+        place(&self.name, self.element.kind())
+    }
+}
+
+/// The path of a primitive without the word `kind` at its end.
+pub(crate) fn place<'n>(name: &'n str, kind: &str) -> &'n str {
+    name.strip_suffix(kind).and_then(|own| own.strip_suffix('.')).unwrap_or(name)
+}
+
 impl Assembly {
     /// The connection of the given name.
     pub fn connection(&self, name: &str) -> Option<&ConnectionOutputs> {
@@ -175,6 +203,27 @@ impl Assembly {
     /// The node of the given name.
     pub fn node(&self, name: &str) -> Option<&NodeOutputs> {
         self.nodes.iter().find(|node| node.name == name)
+    }
+
+    /// What effects have put at the element of this position.
+    pub fn pad(&self, element: usize) -> Option<&PadOutputs> {
+        self.pads.iter().find(|own| own.element == element)
+    }
+
+    /// The element whose face the connection of this position links, and what else is there.
+    pub fn pad_behind(&self, contact: usize) -> Option<&PadOutputs> {
+        self.pads.iter().find(|own| own.contact == Some(contact))
+    }
+
+    /// Position of the connection of the given name.
+    pub fn position(&self, connection: &str) -> Option<usize> {
+        self.connections.iter().position(|own| own.name == connection)
+    }
+
+    /// Position of the connection that the primitive of this position is part of.
+    pub fn owner(&self, primitive: usize) -> Option<usize> {
+        let at = self.connections.partition_point(|own| own.primitives.end <= primitive);
+        (at < self.connections.len()).then_some(at)
     }
 
     /// The output of the given name, for instance `padding.force`.

@@ -24,8 +24,8 @@ pub mod shifts;
 pub mod waveforms;
 
 pub use assembly::{
-    Assembly, ConnectionOutputs, DriveOutputs, NodeOutputs, PrimitiveOutputs, SegmentOutputs,
-    SegmentPlace, Source,
+    Assembly, ConnectionOutputs, DriveOutputs, NodeOutputs, PadOutputs, PrimitiveOutputs,
+    SegmentOutputs, SegmentPlace, Source,
 };
 pub use compile::{
     HeldTable, Unsaid,

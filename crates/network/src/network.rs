@@ -6,6 +6,7 @@ use dashpot_dae::Waveform;
 use dashpot_rheology::Tree;
 
 use crate::{
+    PadOutputs,
     effects::Effect,
     elements::Element,
     layers::{Layers, Piece},
@@ -201,6 +202,8 @@ pub struct Network {
     pub(crate) connections: Vec<Connection>,
     pub(crate) loads: Vec<Load>,
     pub(crate) effects: Vec<Arc<dyn Effect>>,
+    /// What its effects have put into it.
+    pub(crate) pads: Vec<PadOutputs>,
 }
 
 impl Default for Network {
@@ -217,6 +220,7 @@ impl Network {
             connections: Vec::new(),
             loads: Vec::new(),
             effects: Vec::new(),
+            pads: Vec::new(),
         }
     }
 
@@ -327,6 +331,20 @@ impl Network {
     /// The models between nodes.
     pub fn connections(&self) -> &[Connection] {
         &self.connections
+    }
+
+    /// What effects have put at the element of this position; see [`with_effects`](Self::with_effects).
+    pub fn pad(&self, element: usize) -> Option<&PadOutputs> {
+        self.pads.iter().find(|own| own.element == element)
+    }
+
+    /// The same, to be put there.
+    pub(crate) fn pad_mut(&mut self, element: usize) -> &mut PadOutputs {
+        let at = self.pads.iter().position(|own| own.element == element).unwrap_or_else(|| {
+            self.pads.push(PadOutputs { element, face: None, contact: None, stop: None });
+            self.pads.len() - 1
+        });
+        &mut self.pads[at]
     }
 
     /// The forces on nodes.

@@ -77,7 +77,7 @@ impl Similarity {
         }
         let first = &completed(first, second)?;
         let second = &completed(second, first)?;
-        for second in [second.clone(), mirrored(second)?] {
+        for second in [second.clone(), mirrored(second)] {
             let drawn = drawn_as_burgers(first).zip(drawn_as_burgers(&second));
             let ordered = sorted(first);
             let like = sorted_like(&second, &ordered);

@@ -4,6 +4,7 @@ use std::{cmp::Ordering, collections::HashMap, sync::Arc};
 
 use dashpot_network::{
     Effect, Model, Network, Node, Start, Support,
+    effects::{Face, Gravity},
     parameters::{InvalidParameter, Value},
 };
 use dashpot_rheology::{Branch, Tree};
@@ -11,12 +12,8 @@ use dashpot_rheology::{Branch, Tree};
 use super::{
     FourParameterImpact,
     names::{retargeted, with_names},
-    registers,
 };
 use crate::measures::STANDARD_GRAVITY;
-
-/// Effects whose first value is what they are of: with 0 they do nothing.
-const VANISHING: [&str; 2] = ["gravity", "face"];
 
 /// The network with the effects of another that it has not, with nothing in them: no gravity is
 /// gravity of 0, and no mass on a face one of 0. The same network where both have not as many nodes
@@ -32,8 +29,8 @@ pub(super) fn completed(network: &Network, like: &Network) -> Result<Network, In
     let elements = elements.map(|(other, own)| (other.name.as_str(), own.name.as_str()));
     let names: HashMap<&str, &str> = nodes.chain(elements).collect();
     let mut missing = Vec::new();
-    for effect in like.effects().iter().filter(|own| VANISHING.contains(&own.kind())) {
-        let nothing = retargeted(&with_first(effect, |_| 0.0)?, &names)?;
+    for effect in like.effects().iter().filter_map(vanishing) {
+        let nothing = retargeted(&effect, &names)?;
         let is_there = |own: &&Arc<dyn Effect>| {
             own.kind() == nothing.kind() && own.target() == nothing.target()
         };
@@ -59,7 +56,7 @@ pub(super) fn completed(network: &Network, like: &Network) -> Result<Network, In
 }
 
 /// The network seen from the other side: what was positive is negative.
-pub(super) fn mirrored(network: &Network) -> Result<Network, InvalidParameter> {
+pub(super) fn mirrored(network: &Network) -> Network {
     let mut again = with_nodes(network, |node| {
         let start = match node.start {
             Start::Rest => Start::Rest,
@@ -77,12 +74,12 @@ pub(super) fn mirrored(network: &Network) -> Result<Network, InvalidParameter> {
         again.add_load(&*load.name, load.node, load.force.in_units(1.0, -1.0));
     }
     for effect in network.effects() {
-        again.add_shared_effect(match effect.kind() {
-            "gravity" => with_first(effect, |own| -own)?,
-            _ => Arc::clone(effect),
-        });
+        match effect.of_kind::<Gravity>() {
+            Some(own) => again.add_effect(Gravity { acceleration: -own.acceleration, ..*own }),
+            None => again.add_shared_effect(Arc::clone(effect)),
+        }
     }
-    Ok(again)
+    again
 }
 
 /// The network with the branches of each model in one order, that of their kinds and values: within a
@@ -164,19 +161,13 @@ fn order(one: &Key, other: &Key) -> Ordering {
     one.0.cmp(&other.0).then_with(|| by_value().unwrap_or(Ordering::Equal))
 }
 
-/// The effect with another first value.
-pub(super) fn with_first(
-    effect: &Arc<dyn Effect>,
-    change: impl Fn(f64) -> f64,
-) -> Result<Arc<dyn Effect>, InvalidParameter> {
-    let mut values = effect.values();
-    if let Some(Value::Number(own)) = values.first_mut() {
-        *own = change(*own);
+/// The effect with nothing in it, where it is one of those that then do nothing.
+fn vanishing(effect: &Arc<dyn Effect>) -> Option<Arc<dyn Effect>> {
+    if let Some(own) = effect.of_kind::<Gravity>() {
+        return Some(Arc::new(Gravity { acceleration: 0.0, ..*own }));
     }
-    registers::effect(effect.kind()).map_or_else(
-        || Ok(Arc::clone(effect)),
-        |maker| (maker.make)(effect.target().unwrap_or_default(), &values),
-    )
+    let face = effect.of_kind::<Face>()?;
+    Some(Arc::new(Face { mass: 0.0, ..face.clone() }))
 }
 
 fn speed_of_fall(network: &Network, start: Start) -> f64 {

@@ -5,9 +5,8 @@ use std::borrow::Cow;
 
 use dashpot_dae::Silent;
 use dashpot_network::{
-    Connection, Detail, Network, Start,
-    effects::{EffectKind, Gravity, GravityStart, Separation, Stop},
-    parameters::Value,
+    Assembly, Connection, Detail, Effect, Network, Start,
+    effects::{Gravity, GravityStart, Separation, Stop},
 };
 
 use super::{
@@ -41,7 +40,8 @@ pub struct Limit {
     /// By how much its force \[N\] or deformation \[m\] may swing: the force at rest, or what is left
     /// to the stop.
     pub reserve: f64,
-    element: String,
+    /// The element, in [`Assembly::connections`].
+    element: usize,
     /// Whether it is the second end of the element that parts.
     at_second: bool,
 }
@@ -63,9 +63,9 @@ pub(super) fn closed(
     network: &Network,
     duration: f64,
 ) -> Result<(Cow<'_, Network>, Vec<Limit>), VibrationError> {
-    let is_limit = |kind: &str| kind == Separation::KIND || kind == Stop::KIND;
     let effects = network.effects().iter().enumerate();
-    let found: Vec<_> = effects.filter(|(_, own)| is_limit(own.kind())).collect();
+    let found: Vec<_> =
+        effects.filter_map(|(at, own)| Some((at, opening(own.as_ref())?))).collect();
     if found.is_empty() {
         return Ok((Cow::Borrowed(network), Vec::new()));
     }
@@ -74,22 +74,43 @@ pub(super) fn closed(
     let mut limits = Vec::new();
     let rest = Rest::of(&linear, duration)?;
     let solution = rest.report.solution();
-    for (_, effect) in found {
-        let named = |own: &&Connection| effect.target() == Some(&own.name);
-        let Some(element) = network.connections().iter().find(named) else { continue };
-        let first = effect.values().into_iter().next();
-        let limit = if effect.kind() == Separation::KIND {
-            let ends = element.between.map(|id| &network.node(id).name);
-            let at_second = matches!(&first, Some(Value::Word(at)) if at == ends[1]);
-            parting(&solution, &element.name, at_second)?
-        } else {
-            let at = first.as_ref().and_then(Value::number).or(element.thickness);
-            let Some(at) = at else { continue };
-            stop(&solution, &element.name, at)?
+    let whole = network.with_effects()?;
+    for (_, opening) in found {
+        let (Opening::Separation(Separation { element, .. }) | Opening::Stop(Stop { element, .. })) =
+            opening;
+        let named = |own: &Connection| own.name == *element;
+        let Some(element) = network.connections().iter().position(named) else { continue };
+        let own = &network.connections()[element];
+        let name = |at: Option<usize>| Some(whole.connections()[at?].name.as_str());
+        let pad = whole.pad(element);
+        let limit = match opening {
+            Opening::Separation(separation) => {
+                let second = &network.node(own.between[1]).name;
+                let at_second = separation.at.as_ref() == Some(second);
+                let Some(name) = pad.and_then(|pad| name(pad.contact)) else { continue };
+                parting(&solution, name, (element, at_second))?
+            }
+            Opening::Stop(own_stop) => {
+                let at = own_stop.at.or(own.thickness);
+                let Some((at, pad)) = at.zip(pad) else { continue };
+                let Some(name) = name(pad.stop) else { continue };
+                stop(&solution, name, (element, at))?
+            }
         };
         limits.push(limit);
     }
     Ok((Cow::Owned(linear), limits))
+}
+
+/// An effect that opens or closes something.
+enum Opening<'n> {
+    Separation(&'n Separation),
+    Stop(&'n Stop),
+}
+
+fn opening(effect: &dyn Effect) -> Option<Opening<'_>> {
+    let stop = || effect.of_kind().map(Opening::Stop);
+    effect.of_kind().map(Opening::Separation).or_else(stop)
 }
 
 /// A linear network under its weights, with nothing that moves.
@@ -126,38 +147,40 @@ impl Rest {
 }
 
 /// The force \[N\] that presses the contact of an element together.
-fn contact_force(
-    assembly: &dashpot_network::Assembly,
-    element: &str,
-    at_second: bool,
-) -> Option<usize> {
+fn contact_force(assembly: &Assembly, element: usize, at_second: bool) -> Option<usize> {
     // A face with mass is linked by a contact of its own.
-    let contact = assembly.connection(&format!("{element}.contact"));
-    let own = assembly.connection(element)?;
-    contact.map_or(if at_second { own.transmitted } else { own.force }, |contact| contact.force)
+    let contact = assembly.pad(element).and_then(|pad| pad.contact);
+    let own = &assembly.connections[element];
+    let through = if at_second { own.transmitted } else { own.force };
+    contact.map_or(through, |contact| assembly.connections[contact].force)
 }
 
-fn parting(rest: &Solution<'_>, element: &str, at_second: bool) -> Result<Limit, VibrationError> {
+fn parting(
+    rest: &Solution<'_>,
+    name: &str,
+    (element, at_second): (usize, bool),
+) -> Result<Limit, VibrationError> {
     let assembly = rest.assembly();
     let force = |at: usize| rest.signal(at).value(0.0);
     let reserve = contact_force(assembly, element, at_second).map_or(0.0, force);
     let all = assembly.connections.iter().filter_map(|own| own.force);
     let largest = all.map(|at| force(at).abs()).fold(0.0, f64::max);
-    let name = format!("{element}.contact");
+    let name = name.to_owned();
     if reserve > LOOSE * largest {
-        let element = element.to_owned();
         Ok(Limit { kind: LimitKind::Parting, name, reserve, element, at_second })
     } else {
         Err(VibrationError::Loose { contact: name })
     }
 }
 
-fn stop(rest: &Solution<'_>, element: &str, at: f64) -> Result<Limit, VibrationError> {
-    let own = rest.assembly().connection(element).map(|own| own.deformation);
-    let reserve = at - own.map_or(0.0, |own| rest.signal(own).value(0.0));
-    let name = format!("{element}.stop");
+fn stop(
+    rest: &Solution<'_>,
+    name: &str,
+    (element, at): (usize, f64),
+) -> Result<Limit, VibrationError> {
+    let own = rest.assembly().connections[element].deformation;
+    let (reserve, name) = (at - rest.signal(own).value(0.0), name.to_owned());
     if reserve > 0.0 {
-        let element = element.to_owned();
         Ok(Limit { kind: LimitKind::Stop, name, reserve, element, at_second: false })
     } else {
         Err(VibrationError::OnStop { stop: name })
@@ -169,8 +192,8 @@ impl Limit {
     fn observed(&self, vibration: &Vibration, order: u32) -> Option<Observed> {
         let assembly = &vibration.assembly;
         let output = match self.kind {
-            LimitKind::Parting => contact_force(assembly, &self.element, self.at_second)?,
-            LimitKind::Stop => assembly.connection(&self.element)?.deformation,
+            LimitKind::Parting => contact_force(assembly, self.element, self.at_second)?,
+            LimitKind::Stop => assembly.connections[self.element].deformation,
         };
         Some(Observed::output(&self.name, output, order))
     }

@@ -122,7 +122,7 @@ impl Network {
         }
         let held = beyond::held(self, duration)?;
         let expansion = expansion.of_size(Size::of(&network, duration));
-        let parts = expansion.phased();
+        let (parts, pads) = (expansion.phased(), network.pads.clone());
         let mut assembly = if parts.is_empty() {
             network.assemble(&expansion, duration)?.assembly
         } else {
@@ -130,6 +130,7 @@ impl Network {
         };
         assembly.warnings.extend(layers::warnings(self, duration));
         assembly.held = held;
+        assembly.pads = pads;
         Ok(assembly)
     }
 
@@ -241,6 +242,7 @@ impl Network {
             connections,
             primitives,
             drives: driven,
+            pads: Vec::new(),
             warnings,
             held: Vec::new(),
             switching: None,

@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{
     Network, Support,
+    assembly::place,
     elements::Law,
     phases::{Phase, PhaseLaw, Phases},
 };
@@ -63,17 +64,12 @@ fn shared_contacts(parts: &Parts<'_>) -> Vec<String> {
             warnings.push(format!(
                 "`{}` and `{}` close at once between the same masses: how they share force and \
                  impulse is not determined, only the sum is; a stiffness in one of them settles it",
-                told(&one.name),
-                told(&own.name)
+                place(&one.name, one.origin.kind()),
+                place(&own.name, own.origin.kind())
             ));
         }
     }
     warnings
-}
-
-/// The name of a contact as the scene has it: that of the stop or of the element.
-fn told(contact: &str) -> &str {
-    contact.strip_suffix(".contact").unwrap_or(contact)
 }
 
 /// The deformation \[m\] at which a rigid contact closes.

@@ -2,7 +2,7 @@
 
 use super::{
     Effect, EffectKind,
-    site::{AT, Site, at_of, at_value, contact_of, face_of},
+    site::{AT, Site, at_of, at_value, connection_of, face_of},
 };
 use crate::{
     Influence, Network, NetworkError, Node, NodeId, Situation, Start, Support,
@@ -102,13 +102,11 @@ impl Effect for Face {
         if self.mass == 0.0 {
             return Ok(());
         }
-        let contact = contact_of(&self.element);
-        let contact = network.connections.iter().find(|own| own.name == contact);
-        let face = network.node_named(&face_of(&self.element));
-        if let (Some(face), Some(contact)) = (face, contact) {
-            let [from, to] = contact.between;
-            let body = if from == face { to } else { from };
-            return self.weigh(network, face, body);
+        let pad = network.pad(connection_of(network, Self::KIND, &self.element)?);
+        if let Some((face, contact)) = pad.and_then(|own| own.face.zip(own.contact)) {
+            let [from, to] = network.connections[contact].between;
+            let body = if from.0 == face { to } else { from };
+            return self.weigh(network, NodeId(face), body);
         }
         let site = Site::of(network, Self::KIND, &self.element, self.at.as_deref())?;
         let start = start_with(network, site.node(network));

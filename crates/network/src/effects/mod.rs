@@ -9,7 +9,7 @@ mod stop;
 #[cfg(test)]
 mod tests;
 
-use std::{fmt::Debug, sync::Arc};
+use std::{any::Any, fmt::Debug, sync::Arc};
 
 use dashpot_dae::Waveform;
 pub use face::{Face, Touch};
@@ -25,7 +25,7 @@ use crate::{
 /// Something that acts on a network without being a two-terminal law.
 ///
 /// An effect states only what it does; the defaults do nothing and cost nothing.
-pub trait Effect: Debug + Send + Sync {
+pub trait Effect: Any + Debug + Send + Sync {
     /// Word for the effect, for instance `gravity`.
     fn kind(&self) -> &'static str;
 
@@ -82,6 +82,13 @@ pub trait Effect: Debug + Send + Sync {
 
     /// The parameters' values in the order of [`EffectKind::PARAMETERS`].
     fn values(&self) -> Vec<Value>;
+}
+
+impl dyn Effect {
+    /// The effect as one of the kind `E`, if it is one.
+    pub fn of_kind<E: EffectKind>(&self) -> Option<&E> {
+        (self as &dyn Any).downcast_ref()
+    }
 }
 
 /// What an effect kind says about itself.

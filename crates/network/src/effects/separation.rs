@@ -61,11 +61,8 @@ impl Separation {
 
     /// Whether the element's face has mass.
     fn has_heavy_face(&self, network: &Network) -> bool {
-        let mut faces = network.effects.iter().filter(|own| own.kind() == Face::KIND);
-        let is_heavy = |own: &Value| own.number().is_some_and(|mass| mass > 0.0);
-        faces.any(|own| {
-            own.target() == Some(&self.element) && own.values().first().is_some_and(is_heavy)
-        })
+        let mut faces = network.effects.iter().filter_map(|own| own.of_kind::<Face>());
+        faces.any(|own| own.element == self.element && own.mass > 0.0)
     }
 }
 
@@ -90,15 +87,10 @@ impl Effect for Separation {
     fn leave(&self, network: &mut Network) {
         let Some(at) = &self.at else { return };
         // The face stays where it is: without a place of its own it would be on the other side.
-        let is_ours = |own: &&mut Arc<dyn Effect>| {
-            own.kind() == Face::KIND && own.target() == Some(&self.element)
-        };
-        for own in network.effects.iter_mut().filter(is_ours) {
-            let mut values = own.values();
-            let Some(place @ Value::LeftOut) = values.get_mut(1) else { continue };
-            *place = Value::Word(at.clone());
-            if let Ok(face) = Face::from_values(&self.element, &values) {
-                *own = Arc::new(face);
+        for own in &mut network.effects {
+            let face = own.of_kind::<Face>().filter(|face| face.element == self.element);
+            if let Some(face) = face.filter(|face| face.at.is_none()) {
+                *own = Arc::new(Face { at: Some(at.clone()), ..face.clone() });
             }
         }
     }

@@ -42,7 +42,7 @@ pub(super) fn face_of(element: &str) -> String {
 }
 
 /// Name of the connection between that node and its face.
-pub(super) fn contact_of(element: &str) -> String {
+fn contact_of(element: &str) -> String {
     format!("{element}.contact")
 }
 
@@ -99,5 +99,8 @@ impl Site {
         let name = contact_of(&element.name);
         let [from, to] = if self.end == 0 { [body, face] } else { [face, body] };
         network.connect(name, from, to, link);
+        let contact = network.connections.len() - 1;
+        let pad = network.pad_mut(self.connection);
+        (pad.face, pad.contact) = (Some(face.0), Some(contact));
     }
 }

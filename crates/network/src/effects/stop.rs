@@ -88,12 +88,14 @@ impl Effect for Stop {
     }
 
     fn rewrite(&self, network: &mut Network) -> Result<(), NetworkError> {
-        let element = &network.connections[connection_of(network, Self::KIND, &self.element)?];
+        let at = connection_of(network, Self::KIND, &self.element)?;
+        let element = &network.connections[at];
         let gap = self.at.or(element.thickness);
         let gap = gap.ok_or_else(|| NetworkError::NoDepth { element: self.element.clone() })?;
         let [from, to] = element.between;
         if let Some(model) = self.model(gap) {
             network.connect(format!("{}.stop", self.element), from, to, model);
+            network.pad_mut(at).stop = Some(network.connections.len() - 1);
         }
         Ok(())
     }

@@ -7,7 +7,7 @@
 //! without limit.
 
 use super::{Layer, Layers, MOST_SEGMENTS, Recut, Resolution, stiffness::Stiffness};
-use crate::{Connection, Network, NodeId, compile::bodies::start_velocity};
+use crate::{Connection, Network, NodeId, compile::bodies::start_velocity, effects::Face};
 
 /// Largest excess of the force on a face over that of a step, `∫₀^2.405 J₀ − 1`.
 const EXCESS: f64 = 0.470_3;
@@ -42,10 +42,8 @@ fn blow(
     let body = ends[at];
     let speed = start_velocity(network, body.start) - start_velocity(network, ends[1 - at].start);
     // A mass of the face itself blunts what comes.
-    let is_faced = network
-        .effects
-        .iter()
-        .any(|effect| effect.kind() == "face" && effect.target() == Some(&connection.name));
+    let mut faces = network.effects.iter().filter_map(|own| own.of_kind::<Face>());
+    let is_faced = faces.any(|own| own.element == connection.name);
     if is_faced || body.mass <= 0.0 || speed == 0.0 {
         return None;
     }

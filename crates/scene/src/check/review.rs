@@ -6,7 +6,7 @@ use dashpot_dae::Waveform;
 use dashpot_network::{
     Network, Node, Start, Support,
     effects::{EffectKind, Stop},
-    parameters::{Dimension, ParameterKind, Value},
+    parameters::{Dimension, ParameterKind},
 };
 
 use super::{driven::Driven, network_faults::value_of};
@@ -74,13 +74,11 @@ fn unused_values(reading: &Reading<'_>) {
 
 /// Warns of stops that are met only when the padding is used up.
 fn deep_stops(reading: &Reading<'_>, network: &Network) {
-    for effect in network.effects().iter().filter(|own| own.kind() == Stop::KIND) {
-        let Some(name) = effect.target() else { continue };
+    for stop in network.effects().iter().filter_map(|own| own.of_kind::<Stop>()) {
+        let name = stop.element.as_str();
         let element = network.connections().iter().find(|own| own.name == name);
         let thickness = element.and_then(|own| own.thickness);
-        let Some((&Value::Number(at), thickness)) = effect.values().first().zip(thickness) else {
-            continue;
-        };
+        let Some((at, thickness)) = stop.at.zip(thickness) else { continue };
         if at > thickness {
             let kind = reading.section("effects").iter().find(|own| own.key == Stop::KIND);
             let own = kind.and_then(|kind| kind.item.table()?.iter().find(|own| own.key == name));

@@ -1,8 +1,9 @@
 //! Impacts of the thesis' form, told from their networks.
 
 use dashpot_network::{
-    Connection, Network, Node, NodeId, Start, Support, first_nonlinear, linear_model,
-    parameters::Value,
+    Connection, Network, Node, NodeId, Start, Support,
+    effects::{Face, Gravity, Separation},
+    first_nonlinear, linear_model,
 };
 
 use super::{FourParameterImpact, rewrite::constants};
@@ -96,16 +97,15 @@ fn holder(mount: &Connection) -> Result<(f64, f64), &'static str> {
 fn effects(network: &Network, impactor: &str) -> Result<(f64, f64), &'static str> {
     let (mut face, mut gravity) = (0.0, 0.0);
     for effect in network.effects() {
-        match (effect.kind(), effect.values().as_slice()) {
-            ("gravity", [Value::Number(own), ..]) => gravity = *own,
-            ("face", [Value::Number(mass), at, ..]) => {
-                if matches!(at, Value::Word(name) if name != impactor) {
-                    return Err("the mass on the padding is not on the impactor's side");
-                }
-                face = *mass;
+        if let Some(own) = effect.of_kind::<Gravity>() {
+            gravity = own.acceleration;
+        } else if let Some(own) = effect.of_kind::<Face>() {
+            if own.at.as_ref().is_some_and(|name| name != impactor) {
+                return Err("the mass on the padding is not on the impactor's side");
             }
-            ("separation", _) => {}
-            _ => return Err("an effect acts on it that the thesis leaves out"),
+            face = own.mass;
+        } else if effect.of_kind::<Separation>().is_none() {
+            return Err("an effect acts on it that the thesis leaves out");
         }
     }
     Ok((face, gravity))

@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use dashpot_network::{
     Model, Network, Start,
+    effects::{EffectKind, Face, Gravity},
     elements::{Dashpot, Law, Spring},
     first_nonlinear, linear_model, part,
 };
 use dashpot_rheology::{Branch, Tree};
 
 use super::{FourParameterGroups, FourParameterImpact, FourParameterPadding, face, weight};
-use crate::similarity::{SimilarityError, views::with_first};
+use crate::similarity::SimilarityError;
 
 /// A drawing of the padding stands for it if its constants come back within this, relatively.
 const SAME: f64 = 1e-9;
@@ -60,17 +61,19 @@ impl FourParameterGroups {
             connection.pads.clone_from(&own.pads);
         }
         for effect in network.effects() {
-            again.add_shared_effect(match effect.kind() {
-                "gravity" => with_first(effect, |_| after.gravity)?,
-                "face" => with_first(effect, |_| after.face_mass)?,
-                _ => Arc::clone(effect),
-            });
+            if let Some(own) = effect.of_kind::<Gravity>() {
+                again.add_effect(Gravity { acceleration: after.gravity, ..*own });
+            } else if let Some(own) = effect.of_kind::<Face>() {
+                again.add_effect(Face { mass: after.face_mass, ..own.clone() });
+            } else {
+                again.add_shared_effect(Arc::clone(effect));
+            }
         }
         let has = |kind: &str| network.effects().iter().any(|own| own.kind() == kind);
-        if after.face_mass > 0.0 && !has("face") {
+        if after.face_mass > 0.0 && !has(Face::KIND) {
             again.add_effect(face(&after.names[1], &after.names[0], after.face_mass));
         }
-        if after.gravity != 0.0 && !has("gravity") {
+        if after.gravity != 0.0 && !has(Gravity::KIND) {
             again.add_effect(weight(after.gravity));
         }
         Ok(again)
