@@ -64,7 +64,7 @@ fn parts_that_share_a_signal_have_the_numbers_of_one_part() {
 
 #[test]
 #[cfg(unix)]
-fn models_nested_deeply_by_name_take_memory_in_proportion() {
+fn models_nested_too_deeply_by_name_are_refused() {
     let folder = TempDir::new().unwrap();
     let mut scene = nested(0, 1, "parallel = [{ spring = 10 }, { model = \"m1\" }]");
     for at in 1..20_000 {
@@ -76,7 +76,8 @@ fn models_nested_deeply_by_name_take_memory_in_proportion() {
     }
     scene += "m20000 = { spring = 1e4 }\n";
     let output = within(800_000, "check", &file(&folder, "deep.toml", &scene));
-    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert_eq!(code(&output), 2, "{}", err(&output));
+    assert!(err(&output).contains("nested 128 levels deep already"), "{}", err(&output));
 }
 
 #[test]

@@ -16,8 +16,6 @@ use crate::numbers::{constant, rounded};
 
 /// Digits of what is computed from a driving function.
 const DIGITS: usize = 4;
-/// Deeper nesting is drawn as one box: no drawing shows it, and the way down is a recursion.
-const DEEPEST: usize = 500;
 
 /// Networks of more elements are not drawn: nothing could be read off the drawing.
 pub(crate) const MOST_DRAWN: usize = 500;
@@ -38,7 +36,7 @@ pub(crate) fn sketch(network: &Network, duration: f64) -> Sketch {
         name: connection.name.clone(),
         from: place(connection.between[0]),
         to: place(connection.between[1]),
-        tree: tree(&connection.model, built.effect_of_connection(at), 0),
+        tree: tree(&connection.model, built.effect_of_connection(at)),
     });
     let gravity = network.effects().iter().find_map(|effect| effect.gravity());
     Sketch {
@@ -224,12 +222,9 @@ fn number(element: &dyn Element, name: &str) -> Option<f64> {
 
 /// The drawing of a model; contacts are drawn as what the effect makes of them that has put it
 /// there.
-fn tree(model: &Tree<Arc<dyn Element>>, effect: Option<&'static str>, depth: usize) -> SketchTree {
-    if depth > DEEPEST {
-        return SketchTree::element("…", "");
-    }
+fn tree(model: &Tree<Arc<dyn Element>>, effect: Option<&'static str>) -> SketchTree {
     let parts = |branches: &[dashpot_rheology::Branch<Arc<dyn Element>>]| {
-        branches.iter().map(|branch| tree(&branch.tree, effect, depth + 1)).collect()
+        branches.iter().map(|branch| tree(&branch.tree, effect)).collect()
     };
     match model {
         Tree::Part(part) => {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use dashpot_rheology::MOST_LEVELS;
 use thiserror::Error;
 
 use crate::parameters::InvalidParameter;
@@ -47,6 +48,12 @@ pub enum NetworkError {
         subject: Subject,
         /// Parameter, range and value.
         invalid: InvalidParameter,
+    },
+    /// A model that nests too deeply.
+    #[error("the model of `{element}` nests more than {MOST_LEVELS} levels deep")]
+    TooDeep {
+        /// The element.
+        element: String,
     },
     /// Both ends of an element are one node.
     #[error("both ends of `{element}` are at `{node}`")]
@@ -266,7 +273,7 @@ impl NetworkError {
             Self::DuplicateName { subject, .. } | Self::Invalid { subject, .. } => {
                 Some(subject.clone())
             }
-            Self::BothEndsAtOneNode { element, .. } => {
+            Self::BothEndsAtOneNode { element, .. } | Self::TooDeep { element } => {
                 Some(Subject::Element { name: element.clone(), path: Vec::new() })
             }
             Self::IsolatedNode { node: name }

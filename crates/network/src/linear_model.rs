@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use dashpot_rheology::{Branch, LinearModel, Primitive, Tree};
+use dashpot_rheology::{LinearModel, Primitive, Tree};
 
 use crate::{
     Element, Model,
     elements::{Dashpot, Law, Rigid, Spring},
+    part,
 };
 
 /// What a model is, seen from outside: all its material functions and canonical forms.
@@ -32,20 +33,7 @@ pub fn is_linear(model: &Model) -> bool {
 
 /// The first element of a model that is no linear spring, dashpot or rigid link.
 pub fn first_nonlinear(model: &Model) -> Option<&Arc<dyn Element>> {
-    let mut left = vec![model];
-    while let Some(tree) = left.pop() {
-        match tree {
-            Tree::Part(element) => {
-                if matches!(element.law(), Law::Nonlinear { .. } | Law::Phased) {
-                    return Some(element);
-                }
-            }
-            Tree::Series(branches) | Tree::Parallel(branches) => {
-                left.extend(branches.iter().rev().map(|branch| &branch.tree));
-            }
-        }
-    }
-    None
+    model.leaves().find(|own| matches!(own.law(), Law::Nonlinear { .. } | Law::Phased))
 }
 
 /// An element as a part of a linear model. One that is not [linear](is_linear) has no linear model;
@@ -59,20 +47,11 @@ pub fn primitive(element: &dyn Element) -> Primitive {
     }
 }
 
-/// The elements of a canonical network, which is three levels deep at most.
+/// The elements of a canonical network.
 pub fn model_of(tree: &Tree<Primitive>) -> Model {
-    let branches = |all: &[Branch<Primitive>]| {
-        all.iter().map(|own| Branch::new(own.name.as_str(), model_of(&own.tree))).collect()
-    };
-    match tree {
-        Tree::Part(Primitive::Spring(stiffness)) => {
-            Tree::Part(Arc::new(Spring { stiffness: *stiffness }))
-        }
-        Tree::Part(Primitive::Dashpot(damping)) => {
-            Tree::Part(Arc::new(Dashpot { damping: *damping }))
-        }
-        Tree::Part(Primitive::Rigid) => Tree::Part(Arc::new(Rigid)),
-        Tree::Series(all) => Tree::Series(branches(all)),
-        Tree::Parallel(all) => Tree::Parallel(branches(all)),
-    }
+    tree.map(|own| match *own {
+        Primitive::Spring(stiffness) => part(Spring { stiffness }),
+        Primitive::Dashpot(damping) => part(Dashpot { damping }),
+        Primitive::Rigid => part(Rigid),
+    })
 }

@@ -187,26 +187,18 @@ pub struct ModelValue(pub Model);
 
 impl PartialEq for ModelValue {
     fn eq(&self, other: &Self) -> bool {
-        let mut left = vec![(&self.0, &other.0)];
-        while let Some((one, other)) = left.pop() {
-            let is_same = match (one, other) {
-                (Tree::Part(one), Tree::Part(other)) => {
-                    one.kind() == other.kind() && one.values() == other.values()
-                }
-                (Tree::Series(one), Tree::Series(other))
-                | (Tree::Parallel(one), Tree::Parallel(other)) => {
-                    left.extend(one.iter().zip(other).map(|(one, other)| (&one.tree, &other.tree)));
-                    one.len() == other.len()
-                        && one.iter().zip(other).all(|(one, other)| one.name == other.name)
-                }
-                _ => false,
-            };
-            if !is_same {
-                return false;
-            }
-        }
-        true
+        is_same(&self.0, &other.0)
     }
+}
+
+fn is_same(one: &Model, other: &Model) -> bool {
+    if let (Tree::Part(one), Tree::Part(other)) = (one, other) {
+        return one.kind() == other.kind() && one.values() == other.values();
+    }
+    let pairs = || one.branches().iter().zip(other.branches());
+    std::mem::discriminant(one) == std::mem::discriminant(other)
+        && one.branches().len() == other.branches().len()
+        && pairs().all(|(one, other)| one.name == other.name && is_same(&one.tree, &other.tree))
 }
 
 /// The part of a run that a measure looks at.

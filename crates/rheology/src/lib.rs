@@ -13,4 +13,4 @@ mod tree;
 
 pub use forms::{Form, FormVisitor, Part, Role, visit_forms};
 pub use linear::{Canonical, KelvinForm, LinearModel, MaxwellForm, Primitive, Twofold};
-pub use tree::{Branch, Tree};
+pub use tree::{Branch, MOST_LEVELS, Tree};

@@ -1,10 +1,16 @@
 //! Series–parallel trees.
 
+use std::convert::Infallible;
+
+/// Levels of composition that a tree may have in a network or a scene, which refuse more. Whatever
+/// walks a tree calls itself once for each level.
+pub const MOST_LEVELS: usize = 128;
+
 /// A two-terminal model composed of parts of type `P`.
 ///
 /// In a [`Series`](Self::Series) one force passes through all branches and their deformations add
 /// up, in order from the impactor's side; in a [`Parallel`](Self::Parallel) all branches have one
-/// deformation and their forces add up. Nesting has no limit but memory.
+/// deformation and their forces add up.
 ///
 /// # Examples
 ///
@@ -74,8 +80,7 @@ impl<P> Tree<P> {
     }
 
     /// Works the tree off from its parts upwards: `leaf` turns a part into a `T`, `compose` puts
-    /// those of the branches of a composition together, in order. The depth of the tree has no
-    /// limit.
+    /// those of the branches of a composition together, in order.
     ///
     /// # Examples
     ///
@@ -94,37 +99,61 @@ impl<P> Tree<P> {
         mut leaf: impl FnMut(&'t P) -> T,
         mut compose: impl FnMut(&'t Self, Vec<T>) -> T,
     ) -> T {
-        enum Task<'t, P> {
-            Read(&'t Tree<P>),
-            Compose(&'t Tree<P>),
+        self.fold_with(&mut leaf, &mut compose)
+    }
+
+    fn fold_with<'t, T>(
+        &'t self,
+        leaf: &mut impl FnMut(&'t P) -> T,
+        compose: &mut impl FnMut(&'t Self, Vec<T>) -> T,
+    ) -> T {
+        if let Self::Part(part) = self {
+            return leaf(part);
         }
-        let mut done: Vec<T> = Vec::new();
-        let mut tasks = vec![Task::Read(self)];
-        while let Some(task) = tasks.pop() {
-            match task {
-                Task::Read(Self::Part(part)) => done.push(leaf(part)),
-                Task::Read(tree) => {
-                    tasks.push(Task::Compose(tree));
-                    tasks.extend(tree.branches().iter().rev().map(|own| Task::Read(&own.tree)));
-                }
-                Task::Compose(tree) => {
-                    let parts = done.split_off(done.len() - tree.branches().len());
-                    done.push(compose(tree, parts));
-                }
-            }
+        let parts = self.branches().iter().map(|own| own.tree.fold_with(leaf, compose)).collect();
+        compose(self, parts)
+    }
+
+    /// The same tree with another one in the place of each part.
+    pub fn map<Q>(&self, mut part: impl FnMut(&P) -> Tree<Q>) -> Tree<Q> {
+        let Ok(tree) = self.try_map(|own| Ok::<_, Infallible>(part(own)));
+        tree
+    }
+
+    /// The same tree with another one in the place of each part, or the first error of `part`.
+    ///
+    /// # Errors
+    ///
+    /// Those of `part`.
+    pub fn try_map<Q, E>(
+        &self,
+        mut part: impl FnMut(&P) -> Result<Tree<Q>, E>,
+    ) -> Result<Tree<Q>, E> {
+        self.try_map_with(&mut part)
+    }
+
+    fn try_map_with<Q, E>(
+        &self,
+        part: &mut impl FnMut(&P) -> Result<Tree<Q>, E>,
+    ) -> Result<Tree<Q>, E> {
+        if let Self::Part(own) = self {
+            return part(own);
         }
-        // One result is left, because every composition leaves one for all that it takes.
-        done.pop().unwrap_or_else(|| compose(self, Vec::new()))
+        let branch = |own: &Branch<P>| Ok(Branch::new(&*own.name, own.tree.try_map_with(part)?));
+        let branches = self.branches().iter().map(branch).collect::<Result<Vec<_>, E>>()?;
+        Ok(if self.is_series() { Tree::Series(branches) } else { Tree::Parallel(branches) })
     }
 
     /// How many parts and compositions there are.
     pub fn size(&self) -> usize {
-        let (mut open, mut count) = (vec![self], 0);
-        while let Some(tree) = open.pop() {
-            count += 1;
-            open.extend(tree.branches().iter().map(|own| &own.tree));
-        }
-        count
+        1 + self.branches().iter().map(|own| own.tree.size()).sum::<usize>()
+    }
+
+    /// Whether compositions stand within each other on more than this many levels.
+    pub fn is_deeper_than(&self, levels: usize) -> bool {
+        !self.branches().is_empty()
+            && (levels == 0
+                || self.branches().iter().any(|own| own.tree.is_deeper_than(levels - 1)))
     }
 
     /// All parts in the order in which [`fold`](Self::fold) meets them.
@@ -144,19 +173,19 @@ impl<P> Tree<P> {
     /// `kelvin.spring`; that of a tree of one part is empty.
     pub fn parts(&self) -> Vec<(String, &P)> {
         let mut parts = Vec::new();
-        let mut tasks = vec![(String::new(), self)];
-        while let Some((path, tree)) = tasks.pop() {
-            match tree {
-                Self::Part(part) => parts.push((path, part)),
-                Self::Series(branches) | Self::Parallel(branches) => {
-                    tasks.extend(branches.iter().rev().map(|own| {
-                        let separator = if path.is_empty() { "" } else { "." };
-                        (format!("{path}{separator}{}", own.name), &own.tree)
-                    }));
-                }
-            }
-        }
+        self.collect_parts(String::new(), &mut parts);
         parts
+    }
+
+    fn collect_parts<'t>(&'t self, path: String, parts: &mut Vec<(String, &'t P)>) {
+        if let Self::Part(part) = self {
+            parts.push((path, part));
+            return;
+        }
+        let separator = if path.is_empty() { "" } else { "." };
+        for own in self.branches() {
+            own.tree.collect_parts(format!("{path}{separator}{}", own.name), parts);
+        }
     }
 }
 

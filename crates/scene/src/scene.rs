@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use dashpot_analysis::{Accuracy, MeasureWish, SolveSettings, Stop};
-use dashpot_network::{Assembly, Network, NetworkErrors};
+use dashpot_analysis::{Accuracy, MeasureWish, SolveSettings};
+use dashpot_network::{Assembly, Network};
 
 pub use crate::sections::RunSettings;
 use crate::{
@@ -16,8 +16,8 @@ use crate::{
     models::{ModelReader, notes::ModelNote},
     quantities::values::{NamedValue, Overrides},
     sections::{
-        Reading, StopText, Targets, check_stops, read_accuracy, read_effects, read_elements,
-        read_loads, read_measures, read_nodes, read_run,
+        Reading, Targets, check_stops, read_accuracy, read_effects, read_elements, read_loads,
+        read_measures, read_nodes, read_run,
     },
     text::{
         document::{Entry, MAX_BYTES, parse},
@@ -290,19 +290,18 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         })
         .collect();
     values.sort_by(|a, b| a.name.cmp(&b.name));
-    // The entries of a large text take more memory than anything that the compiler makes of them.
-    drop(reading);
-    drop(library);
-    let compiled = network.compile(run.duration);
-    if compiled.is_err() {
-        // What is odd about a scene is of no interest while it has no answer.
-        faults.take_back(before);
-    }
-    let is_odd = |own: &Assembly| !own.warnings.is_empty() || !own.held.is_empty();
-    if !stops.is_empty() || compiled.as_ref().map_or(true, is_odd) {
-        run.stops = place(text, options, (&compiled, &stops), faults)?;
-    }
-    let Ok(assembly) = compiled else { return None };
+    let assembly = match network.compile(run.duration) {
+        Ok(assembly) => assembly,
+        Err(errors) => {
+            // What is odd about a scene is of no interest while it has no answer.
+            faults.take_back(before);
+            note_errors(&reading, &errors);
+            return None;
+        }
+    };
+    note_held(&reading, &assembly.held);
+    note_warnings(&reading, &assembly.warnings);
+    run.stops = check_stops(&reading, &stops, &assembly);
     Some(Scene {
         title,
         file: options.file.map(str::to_owned),
@@ -315,26 +314,4 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         values,
         text: Arc::clone(&source.text),
     })
-}
-
-/// Reads the text once more for the places of what the compiler says, and looks up what the conditions to
-/// stop name; returns these.
-fn place(
-    text: &str,
-    options: &ReadOptions<'_>,
-    (compiled, stops): (&Result<Assembly, NetworkErrors>, &[StopText]),
-    faults: &Faults,
-) -> Option<Vec<Stop>> {
-    // What is wrong with the text itself has been said.
-    let silent = Faults::default();
-    let (library, _) = load(text, options, &silent)?;
-    let reading = Reading::new(&library, faults);
-    match compiled {
-        Err(errors) => note_errors(&reading, errors),
-        Ok(assembly) => {
-            note_held(&reading, &assembly.held);
-            note_warnings(&reading, &assembly.warnings);
-        }
-    }
-    Some(check_stops(&reading, stops, compiled.as_ref().ok()?))
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dashpot_rheology::Tree;
+use dashpot_rheology::{MOST_LEVELS, Tree};
 
 use super::{
     size::Size,
@@ -126,11 +126,14 @@ fn says(name: &str, kind: &str) -> bool {
 /// Longest path that is written out in full; deeper parts are named by their number.
 pub(super) const LONGEST_PATH: usize = 160;
 
-struct Pending<'a> {
-    model: &'a Model,
+/// Where a model of a connection is expanded.
+struct Site {
     ends: [usize; 2],
     path: String,
+    /// Its place among the shapes.
     shape: usize,
+    /// Compositions around it.
+    levels: usize,
 }
 
 impl Expansion {
@@ -138,7 +141,7 @@ impl Expansion {
         let nodes = network.nodes.len();
         let mut expansion = Self { joints: nodes, owners: vec![None; nodes], ..Self::default() };
         for connection in &network.connections {
-            let shape = expansion.expand(connection);
+            let shape = expansion.shapes_of(connection);
             expansion.shapes.push(shape);
         }
         sliders::share(&mut expansion.primitives);
@@ -189,64 +192,64 @@ impl Expansion {
         copy
     }
 
-    /// Without recursion, because nesting has no limit.
-    fn expand(&mut self, whole: &Connection) -> Vec<Shape> {
-        let Connection { name: connection, model, between, through, .. } = whole;
-        let ends = between.map(|id| id.0);
+    /// The shapes of a connection.
+    fn shapes_of(&mut self, connection: &Connection) -> Vec<Shape> {
         let mut shapes = vec![Shape::Series(Vec::new())];
-        let root = Pending { model, ends, path: connection.clone(), shape: 0 };
-        let mut stack = vec![root];
-        while let Some(Pending { model, ends, path, shape }) = stack.pop() {
-            match model {
-                Tree::Part(element) => {
-                    shapes[shape] = Shape::Leaf(self.primitives.len());
-                    let is_whole = shape == 0 && !says(&path, element.kind());
-                    let name = if is_whole { format!("{path}.{}", element.kind()) } else { path };
-                    let law = element.law();
-                    self.primitives.push(Primitive {
-                        name,
-                        element: Arc::clone(element),
-                        origin: Arc::clone(element),
-                        is_link: law == Law::Rigid,
-                        law,
-                        held: 0.0,
-                        push: 0.0,
-                        share: None,
-                        ends,
-                    });
-                }
-                Tree::Series(branches) | Tree::Parallel(branches) => {
-                    let in_series = matches!(model, Tree::Series(_));
-                    let children: Vec<usize> =
-                        (shapes.len()..shapes.len() + branches.len()).collect();
-                    shapes.resize(shapes.len() + branches.len(), Shape::Series(Vec::new()));
-                    let mut left = ends[0];
-                    let last = branches.len().saturating_sub(1);
-                    let mut pending = Vec::with_capacity(branches.len());
-                    for (at, branch) in branches.iter().enumerate() {
-                        let right = match through.get(at) {
-                            _ if !in_series || at == last => ends[1],
-                            Some(node) if shape == 0 => node.0,
-                            _ => self.joint(connection),
-                        };
-                        pending.push(Pending {
-                            model: &branch.tree,
-                            ends: if in_series { [left, right] } else { ends },
-                            path: self.path(&path, connection, &branch.name),
-                            shape: children[at],
-                        });
-                        left = right;
-                    }
-                    stack.extend(pending.into_iter().rev());
-                    shapes[shape] = match in_series {
-                        true if shape == 0 && !through.is_empty() => Shape::Row(children),
-                        true => Shape::Series(children),
-                        false => Shape::Parallel(children),
-                    };
-                }
-            }
-        }
+        let ends = connection.between.map(|id| id.0);
+        let root = Site { ends, path: connection.name.clone(), shape: 0, levels: 0 };
+        self.expand(connection, &connection.model, root, &mut shapes);
         shapes
+    }
+
+    /// Expands a model of `whole`; what is nested too deeply, and refused, stays empty.
+    fn expand(&mut self, whole: &Connection, model: &Model, site: Site, shapes: &mut Vec<Shape>) {
+        let Site { ends, path, shape, levels } = site;
+        if let Tree::Part(element) = model {
+            shapes[shape] = Shape::Leaf(self.primitives.len());
+            let is_whole = shape == 0 && !says(&path, element.kind());
+            let name = if is_whole { format!("{path}.{}", element.kind()) } else { path };
+            let law = element.law();
+            self.primitives.push(Primitive {
+                name,
+                element: Arc::clone(element),
+                origin: Arc::clone(element),
+                is_link: law == Law::Rigid,
+                law,
+                held: 0.0,
+                push: 0.0,
+                share: None,
+                ends,
+            });
+            return;
+        }
+        if levels == MOST_LEVELS {
+            return;
+        }
+        let (branches, in_series) = (model.branches(), model.is_series());
+        let children: Vec<usize> = (shapes.len()..shapes.len() + branches.len()).collect();
+        shapes.resize(shapes.len() + branches.len(), Shape::Series(Vec::new()));
+        shapes[shape] = match in_series {
+            true if shape == 0 && !whole.through.is_empty() => Shape::Row(children.clone()),
+            true => Shape::Series(children.clone()),
+            false => Shape::Parallel(children.clone()),
+        };
+        let mut left = ends[0];
+        let last = branches.len().saturating_sub(1);
+        let mut sites = Vec::with_capacity(branches.len());
+        for (at, (branch, shape)) in branches.iter().zip(children).enumerate() {
+            let right = match whole.through.get(at) {
+                _ if !in_series || at == last => ends[1],
+                Some(node) if levels == 0 => node.0,
+                _ => self.joint(&whole.name),
+            };
+            let ends = if in_series { [left, right] } else { ends };
+            let path = self.path(&path, &whole.name, &branch.name);
+            sites.push(Site { ends, path, shape, levels: levels + 1 });
+            left = right;
+        }
+        for (branch, site) in branches.iter().zip(sites) {
+            self.expand(whole, &branch.tree, site, shapes);
+        }
     }
 
     fn joint(&mut self, connection: &str) -> usize {

@@ -11,61 +11,57 @@ pub(super) struct Located {
     pub(super) path: String,
 }
 
-/// A tree that has been begun, with the place of the one around it.
-struct Begun<'c> {
-    name: &'c str,
-    around: Option<usize>,
-}
-
-/// The inner pads of a connection, each with its place among the shapes. Without recursion, because
-/// nesting has no limit.
+/// The inner pads of a connection, each with its place among the shapes.
 pub(super) fn located<'c>(
     connection: &'c Connection,
     shapes: &[Shape],
 ) -> Vec<(&'c InnerPad, Located)> {
     let mut wanted: Vec<&InnerPad> = connection.pads.iter().collect();
     wanted.sort_by_key(|pad| std::cmp::Reverse(pad.at));
-    let mut found = Vec::with_capacity(wanted.len());
-    let mut begun = vec![Begun { name: &connection.name, around: None }];
-    // A tree, its shape, its place among those begun, and whether its branches are done.
-    let mut tasks: Vec<(&Model, usize, usize, bool)> = vec![(&connection.model, 0, 0, false)];
-    let mut done = 0;
-    while let (Some(next), Some((model, shape, place, is_done))) = (wanted.last(), tasks.pop()) {
-        let children: &[usize] = match &shapes[shape] {
-            Shape::Series(children) | Shape::Row(children) | Shape::Parallel(children) => children,
-            Shape::Leaf(_) => &[],
-        };
-        if is_done || children.is_empty() {
-            if next.at == done {
-                found.push((*next, Located { shape, path: path(&begun, place, connection) }));
-                wanted.pop();
-            }
-            done += 1;
-            continue;
-        }
-        tasks.push((model, shape, place, true));
-        let first = begun.len();
-        let branches = model.branches();
-        begun.extend(branches.iter().map(|own| Begun { name: &own.name, around: Some(place) }));
-        let below = branches.iter().zip(children).enumerate();
-        tasks.extend(below.rev().map(|(at, (own, &shape))| (&own.tree, shape, first + at, false)));
-    }
-    found
+    let names = vec![connection.name.as_str()];
+    let mut search = Search { shapes, wanted, names, done: 0, found: Vec::new() };
+    search.walk(&connection.model, 0);
+    search.found
 }
 
-/// The names around a tree and its own; of too many the first and the last one.
-fn path(begun: &[Begun<'_>], place: usize, connection: &Connection) -> String {
-    let mut names = Vec::new();
-    let mut length = 0;
-    let mut at = Some(place);
-    while let Some(own) = at.map(|at| &begun[at]) {
-        length += own.name.len();
-        if length > LONGEST_PATH {
-            return format!("{}.….{}", connection.name, begun[place].name);
+/// A walk through a model, each tree behind its branches.
+struct Search<'c, 's> {
+    shapes: &'s [Shape],
+    /// The pads that are not found yet, the next one last.
+    wanted: Vec<&'c InnerPad>,
+    /// The names around a tree and its own.
+    names: Vec<&'c str>,
+    /// Trees that are done.
+    done: usize,
+    found: Vec<(&'c InnerPad, Located)>,
+}
+
+impl<'c> Search<'c, '_> {
+    fn walk(&mut self, model: &'c Model, shape: usize) {
+        if let Shape::Series(children) | Shape::Row(children) | Shape::Parallel(children) =
+            &self.shapes[shape]
+        {
+            for (own, &shape) in model.branches().iter().zip(children) {
+                self.names.push(&own.name);
+                self.walk(&own.tree, shape);
+                self.names.pop();
+            }
         }
-        names.push(own.name);
-        at = own.around;
+        if let Some(pad) = self.wanted.pop_if(|pad| pad.at == self.done) {
+            self.found.push((pad, Located { shape, path: self.path() }));
+        }
+        self.done += 1;
     }
-    names.reverse();
-    names.join(".")
+
+    /// The names that lead to a tree; of too many the first and the last one.
+    fn path(&self) -> String {
+        match self.names[..] {
+            [first, .., last]
+                if self.names.iter().map(|own| own.len()).sum::<usize>() > LONGEST_PATH =>
+            {
+                format!("{first}.….{last}")
+            }
+            _ => self.names.join("."),
+        }
+    }
 }

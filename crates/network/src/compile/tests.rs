@@ -2,7 +2,7 @@ mod amplitudes;
 mod chains;
 
 use dashpot_dae::Waveform;
-use dashpot_rheology::{Branch, Tree};
+use dashpot_rheology::{Branch, MOST_LEVELS, Tree};
 
 use crate::{
     Assembly, Model, Network, NetworkError, Node,
@@ -337,4 +337,16 @@ fn a_rigid_link_is_not_said_to_carry_no_force() {
     assert!(assembly.warnings.is_empty());
     assert_eq!(assembly.nodes[1].body, assembly.nodes[2].body);
     assert!(assembly.connections[0].is_rigid && !assembly.connections[1].is_rigid);
+}
+
+#[test]
+fn models_nest_to_the_limit_and_are_refused_beyond() {
+    let nested = |levels: usize| {
+        let more = |model, _| Tree::series([spring(1e6), model]);
+        reference((0..levels).fold(spring(1e6), more))
+    };
+    assert!(nested(MOST_LEVELS).compile(0.01).is_ok());
+    let refused = error(&nested(MOST_LEVELS + 1));
+    assert_eq!(refused, NetworkError::TooDeep { element: "padding".to_owned() });
+    assert_eq!(refused.to_string(), "the model of `padding` nests more than 128 levels deep");
 }

@@ -2,6 +2,8 @@
 
 use std::collections::HashSet;
 
+use dashpot_rheology::MOST_LEVELS;
+
 use super::{bodies::node_subject, expand::Expansion};
 use crate::{
     Network, NetworkError, Start, Subject, Support,
@@ -82,6 +84,10 @@ fn connections(network: &Network, expansion: &Expansion, errors: &mut Vec<Networ
             connection.thickness.map(|thickness| positive("thickness", thickness))
         {
             errors.push(NetworkError::Invalid { subject: subject(), invalid });
+        }
+        if connection.model.is_deeper_than(MOST_LEVELS) {
+            errors.push(NetworkError::TooDeep { element: connection.name.clone() });
+            continue;
         }
         for part in shape {
             match part {

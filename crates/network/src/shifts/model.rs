@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dashpot_rheology::{Branch, Tree};
+use dashpot_rheology::Tree;
 
 use crate::{
     Element, Model,
@@ -35,34 +35,8 @@ use crate::{
 /// does not fit into double precision, or for an element whose force depends on the rate, but not
 /// in proportion to it.
 pub fn shifted(model: &Model, factor: f64) -> Result<Model, InvalidParameter> {
-    enum Step<'m> {
-        Enter(&'m Model),
-        Leave(&'m Model),
-    }
     positive("factor", factor)?;
-    let mut done: Vec<Model> = Vec::new();
-    // Models nest without limit, so the way back is kept here and not on the stack.
-    let mut steps = vec![Step::Enter(model)];
-    while let Some(step) = steps.pop() {
-        match step {
-            Step::Enter(Tree::Part(element)) => done.push(shifted_element(element, factor)?),
-            Step::Enter(tree) => {
-                steps.push(Step::Leave(tree));
-                steps.extend(tree.branches().iter().rev().map(|own| Step::Enter(&own.tree)));
-            }
-            Step::Leave(tree) => {
-                let own = tree.branches();
-                let trees = done.split_off(done.len() - own.len());
-                let named = own.iter().zip(trees).map(|(old, tree)| Branch::new(&old.name, tree));
-                let branches = named.collect();
-                done.push(match tree {
-                    Tree::Parallel(_) => Tree::Parallel(branches),
-                    _ => Tree::Series(branches),
-                });
-            }
-        }
-    }
-    Ok(done.pop().unwrap_or_else(|| Tree::Series(Vec::new())))
+    model.try_map(|element| shifted_element(element, factor))
 }
 
 /// Whether the force of an element depends on the size of its rate, in any of its phases. Laws whose

@@ -38,10 +38,12 @@ pub enum Fault {
     #[error("the scene is empty")]
     Empty,
     /// Brackets or dotted keys nest too deeply.
-    #[error("the text nests {levels} levels deep; the limit is 1000")]
+    #[error("the text nests {levels} levels deep; the limit is {limit}")]
     TooDeep {
         /// Depth.
         levels: usize,
+        /// The deepest that is read.
+        limit: usize,
     },
     /// The text is not TOML.
     #[error("{message}")]
@@ -180,6 +182,14 @@ pub enum Fault {
         family: &'static str,
         /// The names in the circle.
         names: Vec<String>,
+    },
+    /// A model within others, too many.
+    #[error(
+        "the models around this one are nested {limit} levels deep already, which is the limit"
+    )]
+    ModelTooDeep {
+        /// Tables of models within each other that are read.
+        limit: usize,
     },
     /// A table that says nothing about its law.
     #[error("{owner} has no law")]
@@ -381,6 +391,10 @@ impl Fault {
                 Some(wrong_dimension_help(text, *found, *expected))
             }
             Self::NoQuantity { expected, .. } => Some(example(*expected)),
+            Self::TooDeep { .. } | Self::ModelTooDeep { .. } => Some(
+                "write branches in a row, or side by side, into one list: `series = [a, b, c]`"
+                    .to_owned(),
+            ),
             Self::AngularFrequency { frequency, .. } => {
                 Some(format!("divide by 2 pi: \"{frequency:.6} Hz\""))
             }

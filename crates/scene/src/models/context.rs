@@ -1,8 +1,11 @@
 //! What the values in a table of a model mean: for which pad, at which temperature.
 
+use std::borrow::Cow;
+
 use dashpot_network::parameters::{Dimension, positive};
 
-use super::Spot;
+use super::BRANCH_KEYS;
+
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::{Example, parameters::KindReader, registers},
@@ -11,8 +14,9 @@ use crate::{
         pad::{Size, Surroundings},
     },
     text::{
-        document::{Content, Entry},
+        document::{Content, Entry, Item},
         library::{Library, Shelf},
+        source::Place,
         table::wrong_type,
     },
 };
@@ -26,6 +30,20 @@ pub(super) struct Context {
     pub(super) times: f64,
     /// What is known of the size of the pad.
     pub(super) size: Surroundings,
+}
+
+/// Where a model stands: its table, and what holds for the values in it.
+pub(super) struct Site<'d> {
+    pub(super) item: &'d Item,
+    /// What the table is, for messages.
+    pub(super) owner: Cow<'static, str>,
+    /// Where its name stands.
+    pub(super) place: Place,
+    pub(super) document: usize,
+    /// What becomes of its values.
+    pub(super) context: Context,
+    /// Keys that it may have besides its law.
+    pub(super) other_keys: &'static [&'static str],
 }
 
 /// A shift of a model.
@@ -48,6 +66,14 @@ impl Context {
     }
 }
 
+impl<'d> Site<'d> {
+    /// A branch of the model that stands here.
+    pub(super) fn branch(&self, item: &'d Item, context: Context) -> Self {
+        let (owner, document) = (Cow::Borrowed("this branch"), self.document);
+        Self { item, owner, place: item.place, document, context, other_keys: BRANCH_KEYS }
+    }
+}
+
 /// Reads what stands beside the law of a model.
 pub(super) struct Besides<'d> {
     /// The documents.
@@ -57,19 +83,19 @@ pub(super) struct Besides<'d> {
 }
 
 impl<'d> Besides<'d> {
-    /// The context of the law in `spot`, and the shift that stands there.
+    /// The context of the law in `site`, and the shift that stands there.
     ///
     /// Where a key is faulty it is left out: the error has been noted, and the rest of the model is
     /// still looked at.
     pub(super) fn read(
         &self,
-        spot: &Spot<'d>,
+        site: &Site<'d>,
         entries: &'d [Entry],
         law: &Entry,
     ) -> (Context, Option<Shift>) {
-        let mut context = spot.context;
+        let mut context = site.context;
         let find = |key: &str| entries.iter().find(|entry| entry.key == key);
-        let shift = find("shift").and_then(|entry| self.shift(spot, entry));
+        let shift = find("shift").and_then(|entry| self.shift(site, entry));
         if let Some(shift) = shift {
             context.times *= shift.factor;
         }
@@ -85,16 +111,16 @@ impl<'d> Besides<'d> {
         let mut sizes = SIZE.into_iter().zip(given);
         let mut beside = [(); 2].map(|()| {
             let (key, entry) = sizes.next()?;
-            entry.and_then(|entry| self.size(spot, key, entry))
+            entry.and_then(|entry| self.size(site, key, entry))
         });
         context.size.beside = [None; 2];
         context.size.is_faulty = [false; 2];
-        let is_element = spot.other_keys.contains(&"between");
+        let is_element = site.other_keys.contains(&"between");
         if law.key == Shelf::Materials.word() {
             for (key, (entry, size)) in SIZE.into_iter().zip(given.into_iter().zip(beside)) {
                 match size {
                     Some(size) => around.check(key, size, self.faults),
-                    None if entry.is_none() => self.missing(spot, around, key),
+                    None if entry.is_none() => self.missing(site, around, key),
                     None => {}
                 }
             }
@@ -110,7 +136,7 @@ impl<'d> Besides<'d> {
         } else {
             for (key, entry) in SIZE.into_iter().zip(given) {
                 let Some(entry) = entry else { continue };
-                let fault = Fault::SizeWithoutMaterial { key, owner: spot.owner.to_string() };
+                let fault = Fault::SizeWithoutMaterial { key, owner: site.owner.to_string() };
                 self.faults.error(entry.key_place, fault);
             }
         }
@@ -119,8 +145,8 @@ impl<'d> Besides<'d> {
     }
 
     /// The thickness or area of a pad.
-    fn size(&self, spot: &Spot<'d>, key: &'static str, entry: &Entry) -> Option<Size> {
-        let quantities = self.library.quantities(spot.document, self.faults);
+    fn size(&self, site: &Site<'d>, key: &'static str, entry: &Entry) -> Option<Size> {
+        let quantities = self.library.quantities(site.document, self.faults);
         let dimension = if key == SIZE[0] { Dimension::LENGTH } else { AREA };
         let check = |size| positive(key, size);
         let size = quantities.of(key).read_checked(&entry.item, dimension, check);
@@ -128,14 +154,14 @@ impl<'d> Besides<'d> {
     }
 
     /// Notes a size that a material needs.
-    fn missing(&self, spot: &Spot<'d>, around: Surroundings, key: &'static str) {
-        if let Some(fault) = around.missing(key, &spot.owner).filter(|_| !self.faults.damaged()) {
-            self.faults.error(spot.place, fault);
+    fn missing(&self, site: &Site<'d>, around: Surroundings, key: &'static str) {
+        if let Some(fault) = around.missing(key, &site.owner).filter(|_| !self.faults.damaged()) {
+            self.faults.error(site.place, fault);
         }
     }
 
     /// The shift in a table such as `{ wlf = { … } }`.
-    fn shift(&self, spot: &Spot<'d>, entry: &Entry) -> Option<Shift> {
+    fn shift(&self, site: &Site<'d>, entry: &Entry) -> Option<Shift> {
         let shifts = &registers().shifts;
         let known = || shifts.iter().map(|kind| kind.word).collect::<Vec<_>>();
         let Content::Table(own) = &entry.item.value else {
@@ -163,7 +189,7 @@ impl<'d> Besides<'d> {
             return None;
         };
         let kind = shifts.iter().find(|kind| kind.word == only.key)?;
-        let quantities = self.library.quantities(spot.document, self.faults);
+        let quantities = self.library.quantities(site.document, self.faults);
         let factor = KindReader::new(quantities).read(kind, &only.item, only.key_place)?;
         Some(Shift { word: kind.word, factor })
     }

@@ -31,7 +31,6 @@ pub(super) struct LawReader<'d> {
 type ComposedFor = (Place, [u64; 2]);
 
 /// What comes of a law.
-#[derive(Default)]
 pub(super) struct Made {
     /// The model, where it could be read.
     pub(super) model: Option<Model>,
@@ -53,7 +52,7 @@ impl<'d> LawReader<'d> {
         let quantities = Quantities { basis: context.basis, ..quantities };
         let registers = registers();
         let word = law.key.as_str();
-        let mut made = Made::default();
+        let mut made = Made { model: None, note: None, extent: Extent::UNKNOWN };
         if let Some(kind) = registers.element(word) {
             if context.basis.is_material() && !fits_material(kind.parameters) {
                 self.faults.error(law.key_place, Fault::ElementInMaterial { word: kind.word });

@@ -1,20 +1,15 @@
-//! Two-terminal models, composed as deeply as wanted.
-//!
-//! Models may nest 1000 levels in one text and deeper through names, so they are read with a stack
-//! of tasks and not by recursion.
-
-pub(crate) mod named;
-pub(crate) mod notes;
+//! Two-terminal models, read by recursion into their branches and the models that they name.
 
 mod context;
 mod forms;
 mod laws;
+pub(crate) mod named;
 mod naming;
+pub(crate) mod notes;
 mod sizes;
 mod tables;
 
 use std::{
-    borrow::Cow,
     cell::{Cell, RefCell},
     collections::HashSet,
 };
@@ -23,10 +18,15 @@ use dashpot_network::{
     InnerPad, Model,
     memory::{MOST_BYTES, PART_BYTES},
 };
-use dashpot_rheology::Tree;
+use dashpot_rheology::{MOST_LEVELS, Tree};
 
-use self::notes::{ModelNote, Notes};
-use self::{context::Context, laws::LawReader, sizes::Sizes};
+use self::{
+    context::{Context, Site},
+    laws::LawReader,
+    naming::{Given, ReadBranch},
+    notes::{ModelNote, Notes},
+    sizes::Sizes,
+};
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::registers,
@@ -60,61 +60,6 @@ pub(crate) struct ModelReader<'d> {
     parts: Cell<u64>,
 }
 
-/// A table with a model.
-struct Spot<'d> {
-    item: &'d Item,
-    /// What the table is, for messages.
-    owner: Cow<'static, str>,
-    /// Where its name stands.
-    place: Place,
-    document: usize,
-    /// What becomes of its values.
-    context: Context,
-    /// Keys that it may have besides its law.
-    other_keys: &'static [&'static str],
-}
-
-/// The name that a branch is given, and its place.
-type Given<'d> = Option<(&'d str, Place)>;
-
-/// A model by name.
-#[derive(Clone, Copy)]
-struct Entrance<'d> {
-    reference: Reference,
-    context: Context,
-    given: Given<'d>,
-}
-
-enum Task<'d> {
-    Read(Spot<'d>),
-    /// Begins a model by name.
-    Enter(Entrance<'d>),
-    /// Puts the last branches together.
-    Compose {
-        series: bool,
-        count: usize,
-        given: Given<'d>,
-    },
-    /// Ends a model that was entered by name.
-    Leave(Entrance<'d>),
-}
-
-/// What follows from a table.
-enum Step<'d> {
-    Done(Done<'d>),
-    Compose { series: bool, branches: &'d [Item], context: Context, given: Given<'d> },
-    Enter(Entrance<'d>),
-}
-
-/// A model that has been read, or could not be, with the name of its branch.
-struct Done<'d> {
-    word: &'d str,
-    given: Given<'d>,
-    model: Option<Model>,
-    /// The size of the pad that it is.
-    extent: Extent,
-}
-
 /// A model that an element is made of.
 pub(crate) struct Read {
     /// The model.
@@ -130,8 +75,6 @@ pub(crate) struct Read {
 struct Pads {
     count: usize,
     all: Vec<InnerPad>,
-    /// What had been read when each model that is open by name was entered.
-    entered: Vec<usize>,
 }
 
 impl Pads {
@@ -155,12 +98,27 @@ impl Pads {
     }
 }
 
-/// Models that have been entered and not left yet.
-struct Open {
-    order: Vec<Reference>,
-    set: HashSet<Reference>,
-    /// What notes on none of them are about; `None` where no notes are wanted.
+/// One way down into a model.
+struct Descent {
+    /// Tables that are open.
+    levels: usize,
+    /// Models that have been entered by name and not left yet.
+    open: Vec<Reference>,
+    /// What notes on none of them are about. Without it, models that have been visited before are not
+    /// looked at again, nothing is noted, and what is read is of no use.
     outer: Option<String>,
+    pads: Pads,
+}
+
+impl Descent {
+    fn new(outer: Option<String>) -> Self {
+        Self { levels: 0, open: Vec::new(), outer, pads: Pads::default() }
+    }
+
+    /// What has been read in the end.
+    fn finish(self, whole: ReadBranch<'_>) -> Option<Read> {
+        Some(Read { model: whole.model?, extent: whole.extent, pads: self.pads.within() })
+    }
 }
 
 impl<'d> ModelReader<'d> {
@@ -186,17 +144,19 @@ impl<'d> ModelReader<'d> {
         place: Place,
         other_keys: &'static [&'static str],
     ) -> Option<Read> {
-        let outer = Some(owner.clone());
+        let mut descent = Descent::new(Some(owner.clone()));
         let (owner, context) = (owner.into(), Context::of(Shelf::Models));
-        self.run(Task::Read(Spot { item, owner, place, document: 0, context, other_keys }), outer)
+        let site = Site { item, owner, place, document: 0, context, other_keys };
+        let whole = self.read(&site, &mut descent)?;
+        descent.finish(whole)
     }
 
     /// The model or material `reference`.
     pub(crate) fn named(&self, reference: Reference) -> Option<Model> {
         self.visited.borrow_mut().insert(reference);
         self.foresee(reference, self.library.entry(reference).key_place)?;
-        let named = Task::Enter(Entrance::plain(reference));
-        self.run(named, Some(String::new())).map(|own| own.model)
+        let mut descent = Descent::new(Some(String::new()));
+        self.enter(reference, Context::of(reference.shelf), &mut descent)?.model
     }
 
     /// The model that stands in `item`: its name, or a table of its own.
@@ -219,7 +179,7 @@ impl<'d> ModelReader<'d> {
     pub(crate) fn check_unused(&self) {
         for reference in SHELVES.into_iter().flat_map(|shelf| self.library.models(0, shelf)) {
             if self.visited.borrow_mut().insert(reference) {
-                self.run(Task::Enter(Entrance::plain(reference)), None);
+                self.enter(reference, Context::of(reference.shelf), &mut Descent::new(None));
             }
         }
     }
@@ -229,105 +189,102 @@ impl<'d> ModelReader<'d> {
         self.notes.all()
     }
 
-    fn spot(&self, entrance: &Entrance<'d>) -> Spot<'d> {
-        let Entrance { reference, context, .. } = *entrance;
+    /// "model `felt`".
+    fn called(&self, reference: Reference) -> String {
+        format!("{} `{}`", reference.shelf.word(), self.library.entry(reference).key)
+    }
+
+    /// The model in a table, one that failed where something in it is wrong; `None` where nothing more
+    /// is to be read, because there is too much of it.
+    fn read(&self, site: &Site<'d>, descent: &mut Descent) -> Option<ReadBranch<'d>> {
+        if descent.levels == MOST_LEVELS {
+            self.faults.error(site.place, Fault::ModelTooDeep { limit: MOST_LEVELS });
+            return None;
+        }
+        descent.levels += 1;
+        let read = match self.law(site, descent) {
+            Some(law) => self.of_law(site, law, descent),
+            None => self.uncomposed(ReadBranch::FAILED, site.place, descent),
+        };
+        descent.levels -= 1;
+        read
+    }
+
+    /// The branches of a composition, put together.
+    fn compose(
+        &self,
+        site: &Site<'d>,
+        (word, items, given): (&'d str, &'d [Item], Given<'d>),
+        context: Context,
+        descent: &mut Descent,
+    ) -> Option<ReadBranch<'d>> {
+        self.count(1, site.place)?;
+        let branches = items.iter().map(|item| self.read(&site.branch(item, context), descent));
+        let branches = branches.collect::<Option<Vec<_>>>()?;
+        descent.pads.read(1, Extent::UNKNOWN);
+        let in_series = word == "series";
+        let compose = if in_series { Tree::Series } else { Tree::Parallel };
+        let extents = branches.iter().map(|branch| branch.extent);
+        let extent = if in_series { Extent::in_row(extents) } else { Extent::beside(extents) };
+        let model = naming::named(branches, self.faults).map(compose);
+        Some(ReadBranch { word, given, model, extent })
+    }
+
+    /// The model that a table names.
+    fn refer(
+        &self,
+        reference: Reference,
+        context: Context,
+        place: Place,
+        descent: &mut Descent,
+    ) -> Option<ReadBranch<'d>> {
+        let is_new = self.visited.borrow_mut().insert(reference);
+        if descent.outer.is_some() {
+            self.foresee(reference, place)?;
+        } else if !is_new {
+            return Some(ReadBranch::FAILED);
+        }
+        self.enter(reference, context, descent)
+    }
+
+    /// Reads a model by name.
+    fn enter(
+        &self,
+        reference: Reference,
+        context: Context,
+        descent: &mut Descent,
+    ) -> Option<ReadBranch<'d>> {
         let entry = self.library.entry(reference);
-        Spot {
+        let site = Site {
             item: &entry.item,
             owner: self.called(reference).into(),
             place: entry.key_place,
             document: reference.document,
             context,
             other_keys: MODEL_KEYS,
+        };
+        let from = descent.pads.count;
+        descent.open.push(reference);
+        let mut own = self.read(&site, descent)?;
+        descent.open.pop();
+        if let (Shelf::Materials, Basis::Material(pad)) = (reference.shelf, context.basis) {
+            own.extent = Extent::of(pad);
+            descent.pads.merge(from, pad);
         }
+        Some(own)
     }
 
-    /// "model `felt`".
-    fn called(&self, reference: Reference) -> String {
-        format!("{} `{}`", reference.shelf.word(), self.library.entry(reference).key)
-    }
-
-    /// Works off `first` and all that follows from it; notes on tables without a name are about
-    /// `outer`. Without it, models that have been visited before are not looked at again, nothing
-    /// is noted, and the result is of no use.
-    fn run(&self, first: Task<'d>, outer: Option<String>) -> Option<Read> {
-        let mut tasks = vec![first];
-        let mut done: Vec<Done<'d>> = Vec::new();
-        let mut open = Open { order: Vec::new(), set: HashSet::new(), outer };
-        let mut pads = Pads::default();
-        while let Some(task) = tasks.pop() {
-            match task {
-                Task::Compose { series, count, given } => {
-                    let branches = done.split_off(done.len() - count);
-                    done.push(self.composed(series, branches, given));
-                    pads.read(1, Extent::default());
-                }
-                Task::Enter(entrance) => {
-                    open.order.push(entrance.reference);
-                    open.set.insert(entrance.reference);
-                    pads.entered.push(pads.count);
-                    tasks.push(Task::Leave(entrance));
-                    tasks.push(Task::Read(self.spot(&entrance)));
-                }
-                Task::Leave(Entrance { reference, given, context }) => {
-                    open.order.pop();
-                    open.set.remove(&reference);
-                    let from = pads.entered.pop();
-                    if let Some(last) = done.last_mut() {
-                        (last.word, last.given) = (&self.library.entry(reference).key, given);
-                        if let (Shelf::Materials, Basis::Material(pad)) =
-                            (reference.shelf, context.basis)
-                        {
-                            last.extent = Extent::of(pad);
-                            pads.merge(from.unwrap_or(0), pad);
-                        }
-                    }
-                }
-                Task::Read(spot) => {
-                    let failed = Step::Done(Done {
-                        word: "model",
-                        given: None,
-                        model: None,
-                        extent: Extent::default(),
-                    });
-                    match self.read(&spot, &open).unwrap_or(failed) {
-                        Step::Done(model) => {
-                            let parts = model.model.as_ref().map_or(1, Model::size);
-                            self.count(parts as u64, spot.place)?;
-                            pads.read(parts, model.extent);
-                            done.push(model);
-                        }
-                        Step::Compose { series, branches, context, given } => {
-                            self.count(1, spot.place)?;
-                            tasks.push(Task::Compose { series, count: branches.len(), given });
-                            let branch = |item| Task::Read(Spot::branch(item, context, &spot));
-                            tasks.extend(branches.iter().rev().map(branch));
-                        }
-                        Step::Enter(entrance) => {
-                            let Entrance { reference, given, .. } = entrance;
-                            let seen = !self.visited.borrow_mut().insert(reference);
-                            if seen && open.outer.is_none() {
-                                let word = &self.library.entry(reference).key;
-                                done.push(Done {
-                                    word,
-                                    given,
-                                    model: None,
-                                    extent: Extent::default(),
-                                });
-                                continue;
-                            }
-                            if open.outer.is_some() {
-                                self.foresee(reference, spot.place)?;
-                            }
-                            tasks.push(Task::Enter(entrance));
-                        }
-                    }
-                }
-            }
-        }
-        done.pop().and_then(|last| {
-            Some(Read { model: last.model?, extent: last.extent, pads: pads.within() })
-        })
+    /// Counts a model that is not composed of branches here, with the pad that it is.
+    fn uncomposed(
+        &self,
+        own: ReadBranch<'d>,
+        place: Place,
+        descent: &mut Descent,
+    ) -> Option<ReadBranch<'d>> {
+        let parts = own.model.as_ref().map_or(1, Model::size);
+        self.count(parts as u64, place)?;
+        descent.pads.read(parts, own.extent);
+        Some(own)
     }
 
     /// Looks ahead before a model is expanded; `None` where it has too many parts.
@@ -352,27 +309,5 @@ impl<'d> ModelReader<'d> {
         self.faults
             .error(place, Fault::TooManyParts { model, parts: all, bytes, limit: MOST_BYTES });
         None
-    }
-
-    fn composed(&self, series: bool, branches: Vec<Done<'d>>, given: Given<'d>) -> Done<'d> {
-        let word = if series { "series" } else { "parallel" };
-        let compose = if series { Tree::Series } else { Tree::Parallel };
-        let extents = branches.iter().map(|branch| branch.extent);
-        let extent = if series { Extent::in_row(extents) } else { Extent::beside(extents) };
-        Done { word, given, model: naming::named(branches, self.faults).map(compose), extent }
-    }
-}
-
-impl<'d> Spot<'d> {
-    fn branch(item: &'d Item, context: Context, outer: &Self) -> Self {
-        let (owner, document) = (Cow::Borrowed("this branch"), outer.document);
-        Self { item, owner, place: item.place, document, context, other_keys: BRANCH_KEYS }
-    }
-}
-
-impl Entrance<'_> {
-    /// A model for its own sake.
-    fn plain(reference: Reference) -> Self {
-        Self { reference, context: Context::of(reference.shelf), given: None }
     }
 }

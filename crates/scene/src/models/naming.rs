@@ -1,4 +1,4 @@
-//! Names of branches.
+//! Branches and their names.
 
 use std::{
     borrow::Cow,
@@ -6,16 +6,38 @@ use std::{
     sync::Arc,
 };
 
-use dashpot_network::Element;
+use dashpot_network::{Element, Model};
 use dashpot_rheology::Branch;
 
-use super::Done;
-use crate::diagnostics::{Faults, fault::Fault};
+use crate::{
+    diagnostics::{Faults, fault::Fault},
+    quantities::pad::Extent,
+    text::source::Place,
+};
+
+/// The name that a branch is given, and its place.
+pub(super) type Given<'d> = Option<(&'d str, Place)>;
+
+/// A model that has been read, or could not be, with the name of its branch.
+pub(super) struct ReadBranch<'d> {
+    /// By which it is called where it is given no name.
+    pub(super) word: &'d str,
+    pub(super) given: Given<'d>,
+    pub(super) model: Option<Model>,
+    /// The size of the pad that it is.
+    pub(super) extent: Extent,
+}
+
+impl ReadBranch<'_> {
+    /// One in which something is wrong.
+    pub(super) const FAILED: Self =
+        Self { word: "model", given: None, model: None, extent: Extent::UNKNOWN };
+}
 
 /// The branches by the names that they are given, or else by their words, numbered from the second
 /// one of a word on; `None` where one could not be read.
 pub(super) fn named(
-    branches: Vec<Done<'_>>,
+    branches: Vec<ReadBranch<'_>>,
     faults: &Faults,
 ) -> Option<Vec<Branch<Arc<dyn Element>>>> {
     let mut taken = HashSet::new();

@@ -1,8 +1,9 @@
 //! Tables with a model: the law, what stands beside it, and the models that it names.
 
 use super::{
-    Done, Entrance, Given, ModelReader, Open, Spot, Step,
-    context::{Besides, Shift},
+    Descent, ModelReader,
+    context::{Besides, Context, Shift, Site},
+    naming::{Given, ReadBranch},
 };
 use crate::{
     diagnostics::fault::Fault,
@@ -13,48 +14,75 @@ use crate::{
     },
 };
 
+/// The law in a table, what becomes of its values, and the name of the branch that it is.
+pub(super) struct Law<'d> {
+    entry: &'d Entry,
+    context: Context,
+    given: Given<'d>,
+}
+
 impl<'d> ModelReader<'d> {
-    /// What follows from the table `spot`, with a model of `open` around it.
-    pub(super) fn read(&self, spot: &Spot<'d>, open: &Open) -> Option<Step<'d>> {
-        let entries = entries_of(spot.item, &spot.owner, self.faults)?;
-        let law = self.law(spot, entries)?;
-        let given = spot.other_keys.contains(&"name").then(|| self.given_name(entries)).flatten();
+    /// The law in the table `site`.
+    pub(super) fn law(&self, site: &Site<'d>, descent: &Descent) -> Option<Law<'d>> {
+        let entries = entries_of(site.item, &site.owner, self.faults)?;
+        let entry = self.law_among(site, entries)?;
+        let given = site.other_keys.contains(&"name").then(|| self.given_name(entries)).flatten();
         let besides = Besides { library: self.library, faults: self.faults };
-        let (context, shift) = besides.read(spot, entries, law);
+        let (context, shift) = besides.read(site, entries, entry);
         if let Some(Shift { word, factor }) = shift {
             let text = format!("`{word}` multiplies its times by {factor:.3e}");
-            self.note(open, given, (text, None));
+            self.note(descent, given, (text, None));
         }
-        match law.key.as_str() {
+        Some(Law { entry, context, given })
+    }
+
+    /// The model that a law stands for; `None` as by [`read`](Self::read).
+    pub(super) fn of_law(
+        &self,
+        site: &Site<'d>,
+        Law { entry, context, given }: Law<'d>,
+        descent: &mut Descent,
+    ) -> Option<ReadBranch<'d>> {
+        match entry.key.as_str() {
             word @ ("series" | "parallel") => {
-                let branches = list_of(&law.item, &format!("`{word}`"), self.faults)?;
-                if branches.is_empty() {
-                    self.faults.error(law.item.place, Fault::EmptyList { key: word.to_owned() });
-                    return None;
+                if let Some(items) = self.branches(entry) {
+                    return self.compose(site, (word, items, given), context, descent);
                 }
-                Some(Step::Compose { series: word == "series", branches, context, given })
             }
             "model" if context.basis.is_material() => {
-                self.faults.error(law.key_place, Fault::ModelInMaterial);
-                None
+                self.faults.error(entry.key_place, Fault::ModelInMaterial);
             }
             word @ ("model" | "material") => {
                 let shelf = if word == "model" { Shelf::Models } else { Shelf::Materials };
-                let reference = self.reference(spot.document, shelf, &law.item, open)?;
-                Some(Step::Enter(Entrance { reference, context, given }))
+                if let Some(named) = self.reference(site.document, shelf, &entry.item, descent) {
+                    let own = self.refer(named, context, site.place, descent)?;
+                    return Some(ReadBranch { word: &self.library.entry(named).key, given, ..own });
+                }
             }
             word => {
-                let made = self.laws.read(spot.document, law, context);
-                made.note.into_iter().for_each(|note| self.note(open, given, note));
-                Some(Step::Done(Done { word, given, model: made.model, extent: made.extent }))
+                let made = self.laws.read(site.document, entry, context);
+                made.note.into_iter().for_each(|note| self.note(descent, given, note));
+                let own = ReadBranch { word, given, model: made.model, extent: made.extent };
+                return self.uncomposed(own, site.place, descent);
             }
         }
+        self.uncomposed(ReadBranch::FAILED, site.place, descent)
+    }
+
+    /// The branches of a composition.
+    fn branches(&self, law: &'d Entry) -> Option<&'d [Item]> {
+        let items = list_of(&law.item, &format!("`{}`", law.key), self.faults)?;
+        if items.is_empty() {
+            self.faults.error(law.item.place, Fault::EmptyList { key: law.key.to_string() });
+            return None;
+        }
+        Some(items)
     }
 
     /// Notes something about the table that is being read.
-    fn note(&self, open: &Open, given: Given<'d>, (text, until): (String, Option<f64>)) {
-        let Some(outer) = &open.outer else { return };
-        let inner = open.order.last().map_or_else(|| outer.clone(), |own| self.called(*own));
+    fn note(&self, descent: &Descent, given: Given<'d>, (text, until): (String, Option<f64>)) {
+        let Some(outer) = &descent.outer else { return };
+        let inner = descent.open.last().map_or_else(|| outer.clone(), |own| self.called(*own));
         let subject = match given {
             Some((name, _)) => format!("{inner}, branch `{name}`"),
             None => inner,
@@ -63,27 +91,27 @@ impl<'d> ModelReader<'d> {
     }
 
     /// The one entry that says what the model is.
-    fn law(&self, spot: &Spot<'d>, entries: &'d [Entry]) -> Option<&'d Entry> {
+    fn law_among(&self, site: &Site<'d>, entries: &'d [Entry]) -> Option<&'d Entry> {
         let is_law = |entry: &&Entry| self.words.contains(&entry.key.as_str());
         let mut strangers = entries
             .iter()
-            .filter(|entry| !is_law(entry) && !spot.other_keys.contains(&entry.key.as_str()))
+            .filter(|entry| !is_law(entry) && !site.other_keys.contains(&entry.key.as_str()))
             .peekable();
         let has_strangers = strangers.peek().is_some();
         for stranger in strangers {
-            let known = spot.other_keys.iter().chain(&self.words).copied().collect();
-            let (key, owner) = (stranger.key.to_string(), spot.owner.to_string());
+            let known = site.other_keys.iter().chain(&self.words).copied().collect();
+            let (key, owner) = (stranger.key.to_string(), site.owner.to_string());
             self.faults.error(stranger.key_place, Fault::UnknownKey { key, owner, known });
         }
         let mut laws = entries.iter().filter(is_law);
         let first = laws.next();
         if first.is_none() && !has_strangers && !self.faults.damaged() {
-            let fault = Fault::NoLaw { owner: spot.owner.to_string(), known: self.words.clone() };
-            self.faults.error(spot.place, fault);
+            let fault = Fault::NoLaw { owner: site.owner.to_string(), known: self.words.clone() };
+            self.faults.error(site.place, fault);
         }
         if let Some(second) = laws.next() {
             let words = entries.iter().filter(is_law).map(|entry| entry.key.to_string()).collect();
-            let fault = Fault::SeveralLaws { owner: spot.owner.to_string(), words };
+            let fault = Fault::SeveralLaws { owner: site.owner.to_string(), words };
             self.faults.error(second.key_place, fault);
             return None;
         }
@@ -102,7 +130,7 @@ impl<'d> ModelReader<'d> {
         document: usize,
         shelf: Shelf,
         item: &Item,
-        open: &Open,
+        descent: &Descent,
     ) -> Option<Reference> {
         let text = text_of(item, &format!("`{}`", shelf.word()), self.faults)?;
         let reference = match self.library.find(document, shelf, text) {
@@ -114,11 +142,10 @@ impl<'d> ModelReader<'d> {
                 return None;
             }
         };
-        if !open.set.contains(&reference) {
+        let Some(from) = descent.open.iter().position(|&passed| passed == reference) else {
             return Some(reference);
-        }
-        let from = open.order.iter().position(|&passed| passed == reference).unwrap_or(0);
-        let circle = open.order[from..].iter().chain([&reference]);
+        };
+        let circle = descent.open[from..].iter().chain([&reference]);
         let names = circle.map(|&model| self.library.entry(model).key.to_string()).collect();
         self.faults.error(item.place, Fault::ModelInItself { family: shelf.word(), names });
         None

@@ -80,7 +80,7 @@ impl Surroundings {
 }
 
 /// The size of what a model stands for, where it is known.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extent {
     /// Thickness h \[m\].
     pub(crate) thickness: Option<f64>,
@@ -91,6 +91,9 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
+    /// That of what no size is known of.
+    pub(crate) const UNKNOWN: Self = Self { thickness: None, area: None, least: 0.0 };
+
     /// That of a pad.
     pub(crate) fn of(Pad { thickness, area }: Pad) -> Self {
         Self { thickness: Some(thickness), area: Some(area), least: thickness }

@@ -18,7 +18,7 @@ pub(crate) use loads::read_loads;
 pub(crate) use measures::read_measures;
 pub(crate) use nodes::read_nodes;
 pub use run::RunSettings;
-pub(crate) use run::{StopText, check_stops, read_run};
+pub(crate) use run::{check_stops, read_run};
 pub(crate) use targets::Targets;
 
 use std::collections::HashMap;

@@ -26,9 +26,11 @@ fn a_text_may_nest_to_the_limit() {
         let open = "series = [{ spring = 1 }, { ".repeat(levels);
         on_model(&format!("{open}spring = 1{}", " }]".repeat(levels)))
     };
-    let deep = scene(&nested(499));
-    assert_eq!(super::shape(&deep.network.connections()[0].model).len(), 2 * 499 + 1);
-    assert!(messages(&nested(500)).contains("nests 1001 levels deep; the limit is 1000"));
+    let deep = scene(&nested(63));
+    assert_eq!(super::shape(&deep.network.connections()[0].model).len(), 2 * 63 + 1);
+    let refused = messages(&nested(64));
+    assert!(refused.contains("nests 129 levels deep; the limit is 128"), "{refused}");
+    assert!(refused.contains("into one list"), "{refused}");
 }
 
 #[test]

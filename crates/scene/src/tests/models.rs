@@ -72,22 +72,44 @@ fn circles_of_models_and_values_are_refused() {
     assert!(shown.contains("the value `z` refers to itself (z → z)"), "{shown}");
 }
 
-#[test]
-fn models_nest_ten_thousand_levels_through_names() {
+/// Models of so many tables within each other, by names and branches in turn, with springs beside them.
+fn nested_by_name(tables: usize) -> String {
     use std::fmt::Write;
-    const LEVELS: usize = 10_000;
     let mut text = "[models]\n".to_owned();
-    for at in 0..LEVELS {
+    for at in 0..tables / 2 {
         let next = at + 1;
-        let _ = writeln!(
-            text,
-            "m{at} = {{ parallel = [{{ spring = 1 }}, {{ series = [{{ spring = 1 }}, \
-             {{ model = \"m{next}\" }}] }}] }}"
-        );
+        let inner =
+            if 2 * next < tables { format!("model = \"m{next}\"") } else { "spring = 1".into() };
+        let _ = writeln!(text, "m{at} = {{ parallel = [{{ spring = 1 }}, {{ {inner} }}] }}");
     }
-    let _ = writeln!(text, "m{LEVELS} = {{ spring = 1 }}");
-    let deep = read_named_model(&text, "m0", &ReadOptions::default()).unwrap().value;
-    assert_eq!(shape(&deep.model).len(), 4 * LEVELS + 1);
+    text
+}
+
+#[test]
+fn models_nest_to_the_limit_through_names_on_a_small_stack() {
+    let on_stack = |tables: usize| {
+        let read = move || read_named_model(&nested_by_name(tables), "m0", &ReadOptions::default());
+        std::thread::Builder::new().stack_size(2 << 20).spawn(read).unwrap().join().unwrap()
+    };
+    let deep = on_stack(128).unwrap().value.model;
+    assert_eq!(shape(&deep).len(), 128 + 1);
+    assert!(!deep.is_deeper_than(64) && deep.is_deeper_than(63));
+    let refused = on_stack(130).unwrap_err().render(false);
+    let said = refused.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("nested 128 levels deep already, which is the limit"), "{refused}");
+    assert!(said.contains("scene:66:1"), "{refused}");
+    assert!(said.contains("into one list"), "{refused}");
+}
+
+#[test]
+fn models_in_an_element_nest_to_the_limit() {
+    let element = |tables: usize| {
+        let element = "[elements]\npad = { between = [\"head\", \"ground\"], model = \"m0\" }\n";
+        let nodes = "[nodes]\nhead = { mass = 1, velocity = 1 }\n";
+        format!("{}{nodes}{element}[run]\nduration = 1\n", nested_by_name(tables))
+    };
+    assert!(read_text(&element(126)).is_ok());
+    assert!(messages(&element(128)).contains("nested 128 levels deep already"));
 }
 
 #[test]

@@ -97,50 +97,24 @@ pub(crate) fn key(name: &str) -> String {
 /// A model by its law: `spring = "20 MN/m"`, `series = […]`; `in_lines` gives each of the outer
 /// branches a line of its own.
 pub(crate) fn law(model: &Model, basis: Basis, in_lines: bool) -> String {
-    enum Step<'m> {
-        Law(&'m Model),
-        Text(&'static str),
-        Name(&'m str),
+    let (word, branches) = match model {
+        Tree::Part(element) => return write_element(element.as_ref(), basis),
+        Tree::Series(branches) => ("series", branches),
+        Tree::Parallel(branches) => ("parallel", branches),
+    };
+    let has_plain_names = has_plain_names(branches);
+    let branches = branches.iter().map(|own| {
+        let law = law(&own.tree, basis, false);
+        let name =
+            if has_plain_names { String::new() } else { format!(", name = {}", quoted(&own.name)) };
+        format!("{{ {law}{name} }}")
+    });
+    if in_lines {
+        let lines = branches.map(|own| format!("  {own},\n")).collect::<Vec<_>>();
+        format!("{word} = [\n{}]", lines.concat())
+    } else {
+        format!("{word} = [{}]", branches.collect::<Vec<_>>().join(", "))
     }
-    let mut text = String::new();
-    // Models nest without limit, so the way back is kept here and not on the stack.
-    let mut steps = vec![Step::Law(model)];
-    while let Some(step) = steps.pop() {
-        match step {
-            Step::Text(own) => text.push_str(own),
-            Step::Name(name) => {
-                text.push_str(", name = ");
-                text.push_str(&quoted(name));
-            }
-            Step::Law(tree) => {
-                let (word, branches) = match tree {
-                    Tree::Part(element) => {
-                        text.push_str(&write_element(element.as_ref(), basis));
-                        continue;
-                    }
-                    Tree::Series(branches) => ("series = [", branches),
-                    Tree::Parallel(branches) => ("parallel = [", branches),
-                };
-                let in_lines = in_lines && std::ptr::eq(tree, model);
-                text.push_str(word);
-                steps.push(Step::Text(if in_lines { "\n]" } else { "]" }));
-                let named = !has_plain_names(branches);
-                for (at, branch) in branches.iter().enumerate().rev() {
-                    steps.push(Step::Text(match (in_lines, at + 1 == branches.len()) {
-                        (true, _) => " },",
-                        (false, true) => " }",
-                        (false, false) => " }, ",
-                    }));
-                    if named {
-                        steps.push(Step::Name(&branch.name));
-                    }
-                    steps.push(Step::Law(&branch.tree));
-                    steps.push(Step::Text(if in_lines { "\n  { " } else { "{ " }));
-                }
-            }
-        }
-    }
-    text
 }
 
 /// A kind with its values as `word = …`; `driven` is the dimension of amplitudes.

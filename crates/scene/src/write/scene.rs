@@ -5,13 +5,13 @@ use std::{collections::BTreeMap, fmt::Write as _};
 use dashpot_analysis::{MeasureWish, Stop, measures::Measure};
 use dashpot_dae::Direction;
 use dashpot_network::{
-    Connection, Model, Network, Node, NodeId, Start, Support,
+    Connection, Element, Model, Network, Node, NodeId, Start, Support,
     elements::{Dashpot, Law, Spring},
     layers::{Layers, Resolution},
     parameters::Dimension,
     part,
 };
-use dashpot_rheology::{Branch, Tree};
+use dashpot_rheology::Tree;
 use thiserror::Error;
 
 use super::{
@@ -201,21 +201,13 @@ impl Materials {
 
 /// The model of 1 m² of the material, 1 m thick; `None` where it is not linear.
 fn of_material(model: &Model, per_size: f64) -> Option<Model> {
-    model.fold(
-        |element| match element.law() {
-            Law::Spring(own) => Some(part(Spring { stiffness: own * per_size })),
-            Law::Dashpot(own) => Some(part(Dashpot { damping: own * per_size })),
-            Law::Rigid => Some(Tree::Part(std::sync::Arc::clone(element))),
-            Law::Nonlinear { .. } | Law::Phased => None,
-        },
-        |node, parts: Vec<Option<Model>>| {
-            let parts = parts.into_iter().collect::<Option<Vec<Model>>>()?;
-            let branches = node.branches().iter().zip(parts);
-            let branches = branches.map(|(own, tree)| Branch::new(own.name.as_str(), tree));
-            let branches = branches.collect();
-            Some(if node.is_series() { Tree::Series(branches) } else { Tree::Parallel(branches) })
-        },
-    )
+    let of_size = |element: &std::sync::Arc<dyn Element>| match element.law() {
+        Law::Spring(own) => Ok(part(Spring { stiffness: own * per_size })),
+        Law::Dashpot(own) => Ok(part(Dashpot { damping: own * per_size })),
+        Law::Rigid => Ok(Tree::Part(std::sync::Arc::clone(element))),
+        Law::Nonlinear { .. } | Law::Phased => Err(()),
+    };
+    model.try_map(of_size).ok()
 }
 
 fn wishes(measures: &[MeasureWish]) -> String {

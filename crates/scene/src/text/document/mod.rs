@@ -20,48 +20,33 @@ use crate::diagnostics::{Faults, fault::Fault};
 /// A text may have so many bytes.
 pub const MAX_BYTES: usize = 64 << 20;
 
-/// Arrays, tables and dotted keys may nest so deeply in a text.
-pub(crate) const MAX_LEVELS: usize = 1000;
-
-/// Texts that nest no deeper than this are parsed on the caller's stack.
-const SHALLOW: usize = 48;
-
-/// Stack for parsing the deepest text that is allowed; a level takes less than 4 kB.
-const DEEP_STACK: usize = 16 << 20;
+/// Arrays, tables and dotted keys may nest so deeply in a text. A level takes less than 4 kB of the
+/// stack.
+pub(crate) const MAX_LEVELS: usize = 128;
 
 /// Parses `source`; `None` when there is nothing to go on with.
 pub(crate) fn parse(source: &Arc<Source>, faults: &Faults) -> Option<Item> {
     let number = faults.add_source(Arc::clone(source));
     let text = &source.text;
-    let whole = Place::new(number, &(0..0));
     if text.len() > MAX_BYTES {
         faults.error(None, Fault::TooLarge { bytes: text.len() });
         return None;
     }
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
-        faults.error(whole, Fault::Empty);
+        faults.error(Place::new(number, &(0..0)), Fault::Empty);
         return None;
     }
     let (levels, deepest) = nesting::depth(text);
     if levels > MAX_LEVELS {
         let place = Place::new(number, &(deepest..deepest + 1));
-        faults.error(place, Fault::TooDeep { levels });
+        faults.error(place, Fault::TooDeep { levels, limit: MAX_LEVELS });
         return None;
     }
-    let parsed = |text: &str| {
-        if levels <= SHALLOW {
-            return parse_text(text, number);
-        }
-        on_deep_stack(text, number).unwrap_or_else(|reason| {
-            faults.error(whole, Fault::Unloadable { path: source.name.clone(), reason });
-            (None, Vec::new())
-        })
-    };
-    let (mut root, mut errors) = parsed(text);
+    let (mut root, mut errors) = parse_text(text, number);
     if !errors.is_empty() {
         let (text, slips) = repaired(text);
         if !slips.is_empty() {
-            (root, errors) = parsed(&text);
+            (root, errors) = parse_text(&text, number);
         }
         for (span, fault) in slips {
             faults.error(Place::new(number, &span), fault);
@@ -83,15 +68,6 @@ pub(crate) fn parse(source: &Arc<Source>, faults: &Faults) -> Option<Item> {
 }
 
 type Parsed = (Option<Item>, Vec<(Place, Fault)>);
-
-fn on_deep_stack(text: &str, number: u32) -> Result<Parsed, String> {
-    std::thread::scope(|scope| {
-        let deep = std::thread::Builder::new().stack_size(DEEP_STACK);
-        let handle = deep.spawn_scoped(scope, || parse_text(text, number));
-        let handle = handle.map_err(|error| error.to_string())?;
-        handle.join().map_err(|_| "the parser failed".to_owned())
-    })
-}
 
 fn parse_text(text: &str, number: u32) -> Parsed {
     let mut builder = Builder { number, words: Words::default() };
@@ -150,12 +126,12 @@ mod tests {
             assert!(item.is_some() && errors.is_empty(), "{errors}");
             for n in [MAX_LEVELS + 1, 100_000] {
                 let (item, errors) = parsed(&text(n));
-                assert!(item.is_none() && errors.contains("the limit is 1000"), "{errors}");
+                assert!(item.is_none() && errors.contains("the limit is 128"), "{errors}");
             }
         }
         let dotted = format!("{}a = 1\n", "a.".repeat(100_000));
-        assert!(parsed(&dotted).1.contains("the limit is 1000"));
-        assert!(parsed(&"[".repeat(100_000)).1.contains("the limit is 1000"));
+        assert!(parsed(&dotted).1.contains("the limit is 128"));
+        assert!(parsed(&"[".repeat(100_000)).1.contains("the limit is 128"));
     }
 
     #[test]
