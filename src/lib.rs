@@ -46,6 +46,7 @@ pub use dashpot_plot as plot;
 pub use dashpot_rheology as rheology;
 pub use dashpot_scene as scene;
 pub use dashpot_thesis as thesis;
+pub use dashpot_units as units;
 
 /// The examples of the README, which are tested with the others.
 #[cfg(doctest)]

@@ -21,10 +21,10 @@ mod schema;
 mod sections;
 mod shipped;
 mod text;
-pub mod units;
 mod vary;
 mod write;
 
+pub use dashpot_units as units;
 pub use diagnostics::fault::Fault;
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
 pub use models::named::{NamedModel, read_named_model};

@@ -68,8 +68,7 @@ use crate::{
     similarity::{Scale, scaled_values},
 };
 
-/// Standard gravity \[m/s²\], the unit of the injury measures (3rd CGPM, 1901).
-pub const STANDARD_GRAVITY: f64 = 9.806_65;
+pub use dashpot_units::STANDARD_GRAVITY;
 
 /// What a measure is a measure of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

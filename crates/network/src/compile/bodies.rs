@@ -76,8 +76,7 @@ pub(crate) fn start_velocity(network: &Network, start: Start) -> f64 {
     }
 }
 
-/// Standard acceleration of gravity \[m/s²\] (3rd CGPM, 1901).
-pub(crate) const STANDARD_GRAVITY: f64 = 9.806_65;
+pub(crate) use dashpot_units::STANDARD_GRAVITY;
 
 impl Bodies {
     /// Merges the joints at the ends of rigid links.

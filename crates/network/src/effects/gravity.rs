@@ -151,6 +151,6 @@ impl EffectKind for Gravity {
     }
 
     fn sample() -> Self {
-        Self { acceleration: 9.806_65, start: GravityStart::Equilibrium }
+        Self { acceleration: STANDARD_GRAVITY, start: GravityStart::Equilibrium }
     }
 }

@@ -1,6 +1,6 @@
 //! Shifts by closed forms.
 
-use dashpot_rheology::{Branch, Tree};
+use dashpot_rheology::{Branch, MOST_LEVELS, Tree};
 
 use super::*;
 use crate::{

@@ -1,5 +1,7 @@
 //! The word that was probably meant.
 
+use crate::units;
+
 /// How many known words a message shows.
 const SHOWN: usize = 20;
 
@@ -22,26 +24,9 @@ pub(crate) fn synonym(word: &str) -> Option<&'static str> {
 
 /// The word of `known` that is nearest to `word`, if one is near, or means the same.
 pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
-    let lower = word.to_lowercase();
-    let limit = match lower.chars().count() {
-        0 => return None,
-        1..=3 => 1,
-        count => (count / 3).max(2),
-    };
     let known = known.into_iter().collect::<Vec<_>>();
-    let same = synonym(&lower);
-    if let Some(same) = known.iter().find(|known| same == Some(**known)) {
-        return Some(*same);
-    }
-    known
-        .into_iter()
-        .map(|candidate| {
-            let distance = strsim::damerau_levenshtein(&lower, &candidate.to_lowercase());
-            (distance, candidate)
-        })
-        .filter(|(distance, candidate)| *distance <= limit && *distance < candidate.chars().count())
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, candidate)| candidate)
+    let same = synonym(word).filter(|same| known.contains(same));
+    same.or_else(|| units::nearest(word, known))
 }
 
 /// "did you mean …?" and the known words, as far as they fit into a line; `None` where none is known.

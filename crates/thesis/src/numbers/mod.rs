@@ -11,8 +11,7 @@ use crate::{
 
 pub use tables::{chapter_3_table, exact_table, fit_table};
 
-/// Standard acceleration of free fall \[m/s²\].
-pub const STANDARD_GRAVITY: f64 = 9.806_65;
+pub use dashpot_units::STANDARD_GRAVITY;
 
 /// A printed number.
 #[derive(Debug, Clone, PartialEq)]

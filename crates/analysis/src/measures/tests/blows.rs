@@ -177,8 +177,8 @@ fn pressed_for() -> f64 {
 #[test]
 fn plastic_touch_of_a_face_with_mass_keeps_momentum() {
     let report = solved(&faced(0.0), 0.03, &["pad.contact"], &["head"]);
-    is_infinite(&report, "pad.contact.peak-force", "0.00 s");
-    is_infinite(&report, "head.peak-acceleration", "0.00 s");
+    is_infinite(&report, "pad.contact.peak-force", "0 s");
+    is_infinite(&report, "head.peak-acceleration", "0 s");
     // Half of the reduced mass times the square of the speed is lost.
     is(&report, "pad.contact.energy", 0.5 * (10.0 / 11.0) * 100.0);
     // Both together are a Kelvin–Voigt oscillator; they part without speed where it has no force.

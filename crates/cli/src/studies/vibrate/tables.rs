@@ -14,8 +14,7 @@ use crate::{
 const DIGITS: usize = 4;
 /// More rows of a table are left out; of frequencies at regular distances.
 const MOST_ROWS: usize = 25;
-/// Standard gravity \[m/s²\].
-const GRAVITY: f64 = 9.806_65;
+use dashpot_units::STANDARD_GRAVITY as GRAVITY;
 /// What does not exist.
 const NONE: &str = "–";
 

@@ -1,8 +1,6 @@
 //! Quantities as text, in engineering units.
 
-use dashpot_network::parameters::Dimension;
-
-use super::{parse_quantity, symbols::MOLE};
+use super::{Dimension, parse_quantity, si_unit, symbols::MOLE};
 
 /// Units to choose from, smallest first: symbol and power of ten over the SI unit.
 fn scales(dimension: Dimension) -> &'static [(&'static str, i32)] {
@@ -34,8 +32,7 @@ fn scales(dimension: Dimension) -> &'static [(&'static str, i32)] {
 /// # Examples
 ///
 /// ```
-/// use dashpot_network::parameters::Dimension;
-/// use dashpot_scene::units::format_quantity;
+/// use dashpot_units::{Dimension, format_quantity};
 ///
 /// assert_eq!(format_quantity(38_359.4, Dimension::FORCE, 4), "38.36 kN");
 /// assert_eq!(format_quantity(7.4256e-3, Dimension::TIME, 3), "7.43 ms");
@@ -60,7 +57,7 @@ pub fn format_short(value: f64, dimension: Dimension, digits: usize) -> String {
 }
 
 /// A value as text that is read back to the same bits, or as [`tidy`].
-pub(crate) fn exact_quantity(value: f64, dimension: Dimension) -> String {
+pub fn exact_quantity(value: f64, dimension: Dimension) -> String {
     let molar = if dimension == Dimension::ENERGY { exact_molar(value) } else { None };
     let value = tidy(value);
     molar.unwrap_or_else(|| written(value, &format!("{value:e}"), dimension))
@@ -68,7 +65,7 @@ pub(crate) fn exact_quantity(value: f64, dimension: Dimension) -> String {
 
 /// The value, or where it is a number of few digits but for the rounding of what it was computed by,
 /// that number: 2 for 1.9999999999999998. Both differ by 4.5e-16 at most, relatively.
-pub(crate) fn tidy(value: f64) -> f64 {
+pub fn tidy(value: f64) -> f64 {
     const ROUNDING: f64 = 2.0 * f64::EPSILON;
     /// Of 15 digits.
     const FEW: usize = 12;
@@ -96,47 +93,33 @@ fn exact_molar(value: f64) -> Option<String> {
     is_same.then_some(text)
 }
 
-/// The SI unit of a dimension, with a name of its own or as a product of powers.
-pub fn si_unit(dimension: Dimension) -> String {
-    if let Some((_, unit)) = dimension.named() {
-        return unit.to_owned();
+/// The symbol of a unit in which what is of this power of ten \[SI\] is handy, and the power of ten of
+/// that unit.
+pub(crate) fn handy(dimension: Dimension, exponent: i32) -> (String, i32) {
+    let scales = scales(dimension);
+    let fitting = scales.iter().rev().find(|(_, power)| *power <= exponent).or(scales.first());
+    match fitting {
+        Some((symbol, power)) => ((*symbol).to_owned(), *power),
+        None => (symbol_of(dimension), 0),
     }
-    let powers = [
-        ("kg", dimension.mass),
-        ("m", dimension.length),
-        ("s", dimension.time),
-        ("K", dimension.temperature),
-    ];
-    powers
-        .iter()
-        .filter(|(_, power)| *power != 0)
-        .map(
-            |(unit, power)| {
-                if *power == 1 { (*unit).to_owned() } else { format!("{unit}^{power}") }
-            },
-        )
-        .collect::<Vec<_>>()
-        .join(" ")
+}
+
+/// The SI unit, nothing for pure numbers.
+fn symbol_of(dimension: Dimension) -> String {
+    if dimension == Dimension::NUMBER { String::new() } else { si_unit(dimension) }
 }
 
 /// `rounded` is the value in the form `d.ddde±x`.
 fn written(value: f64, rounded: &str, dimension: Dimension) -> String {
-    let si = if dimension == Dimension::NUMBER { String::new() } else { si_unit(dimension) };
     let Some((mantissa, exponent)) = rounded.split_once('e') else {
-        return joined(&value.to_string(), &si);
+        return joined(&value.to_string(), &symbol_of(dimension));
     };
-    let exponent = exponent.parse::<i32>().unwrap_or(0);
     if value == 0.0 {
-        return joined("0", &si);
+        return joined("0", &symbol_of(dimension));
     }
-    let scales = scales(dimension);
-    let (unit, power) = scales
-        .iter()
-        .rev()
-        .find(|(_, power)| *power <= exponent)
-        .or(scales.first())
-        .map_or((si.as_str(), 0), |(unit, power)| (*unit, *power));
-    joined(&positional(mantissa, exponent - power), unit)
+    let exponent = exponent.parse::<i32>().unwrap_or(0);
+    let (unit, power) = handy(dimension, exponent);
+    joined(&positional(mantissa, exponent - power), &unit)
 }
 
 fn joined(number: &str, unit: &str) -> String {

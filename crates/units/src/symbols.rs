@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use dashpot_network::parameters::Dimension;
-
-use crate::text::nearest::nearest;
+use super::{Dimension, STANDARD_GRAVITY, nearest};
 
 /// A unit as a multiple of the SI unit of its dimension: `factor · 10^exponent`.
 ///
@@ -54,7 +52,7 @@ const SYMBOLS: &[Symbol] = &[
     unit("W", 1.0, 0, Dimension::new(1, 2, -3), true),
     unit("Pa", 1.0, 0, Dimension::PRESSURE, true),
     unit("Hz", 1.0, 0, Dimension::FREQUENCY, true),
-    unit("g0", 9.806_65, 0, Dimension::ACCELERATION, false),
+    unit("g0", STANDARD_GRAVITY, 0, Dimension::ACCELERATION, false),
     unit("K", 1.0, 0, Dimension::TEMPERATURE, true),
     unit("mol", MOLE, 23, Dimension::NUMBER, true),
     unit("%", 1.0, -2, Dimension::NUMBER, false),
@@ -65,7 +63,7 @@ const SYMBOLS: &[Symbol] = &[
     unit("ft", 3048.0, -4, Dimension::LENGTH, false),
     unit("lb", 45_359_237.0, -8, Dimension::MASS, false),
     unit("lbf", 4.448_221_615_260_5, 0, Dimension::FORCE, false),
-    unit("kgf", 9.806_65, 0, Dimension::FORCE, false),
+    unit("kgf", STANDARD_GRAVITY, 0, Dimension::FORCE, false),
     unit("mph", 44_704.0, -5, Dimension::VELOCITY, false),
 ];
 
@@ -167,7 +165,7 @@ pub(crate) fn symbol(word: &str) -> Option<Unit> {
 }
 
 /// What one of a unit is that is known but not read.
-pub(crate) fn foreign(word: &str) -> Option<&'static str> {
+pub fn foreign(word: &str) -> Option<&'static str> {
     FOREIGN.iter().find(|entry| entry.0.eq_ignore_ascii_case(word)).map(|entry| entry.1)
 }
 
@@ -202,7 +200,7 @@ pub(crate) fn meant(word: &str) -> Option<String> {
 }
 
 /// What was probably meant by a unit that is not known where `expected` is measured.
-pub(crate) fn meant_as(unit: &str, expected: Dimension) -> Option<&'static str> {
+pub fn meant_as(unit: &str, expected: Dimension) -> Option<&'static str> {
     let known = COMPOUND.iter().chain(USUAL).copied();
     let known = known.chain(SYMBOLS.iter().map(|symbol| symbol.word));
     let known = known.chain(CELSIUS.iter().copied());
@@ -226,7 +224,7 @@ mod tests {
 
     #[test]
     fn every_symbol_is_in_the_document() {
-        let document = include_str!("../../../../docs/scene-format.md");
+        let document = include_str!("../../../docs/scene-format.md");
         let (_, rest) = document.split_once("### Symbols").unwrap();
         let (table, _) = rest.split_once("\nPrefixes are").unwrap();
         for Symbol { word, .. } in SYMBOLS {
@@ -245,8 +243,8 @@ mod tests {
         assert_eq!(meant("kelvin").as_deref(), Some("K"));
         assert_eq!(meant("furlong"), None);
         for (word, one) in FOREIGN {
-            let value = super::super::parse_quantity(one).unwrap();
-            let meant = super::super::parse_dimension(&meant(word).unwrap());
+            let value = crate::parse_quantity(one).unwrap();
+            let meant = crate::parse_dimension(&meant(word).unwrap());
             assert_eq!(Some(meant.unwrap()), value.dimension, "{word}");
             assert!(symbol(word).is_none(), "{word}");
         }

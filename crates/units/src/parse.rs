@@ -1,21 +1,11 @@
-//! Quantities with units: `"20 MN/m"`, `"6 kN s/m"`, `"1 g0"`.
-//!
-//! A quantity is a number and a unit. A unit is a product of symbols, separated by spaces, `*` or
-//! `·`; `/` divides by the one symbol, or the parenthesis, that follows it; powers are written
-//! `^2`, `²` or `2`. A number alone is in SI units. Everything is SI once it has been read.
-//!
-//! Degrees Celsius (`"20 degC"`, `"20 °C"`) count from a point of their own. So they are read only
-//! where they are the whole unit, and what is read is a temperature and never a difference.
+//! Reading quantities.
 
-mod format;
-mod symbols;
-
-use dashpot_network::parameters::Dimension;
-pub(crate) use format::{exact_quantity, tidy};
-pub use format::{format_quantity, format_short, si_unit};
-use symbols::Unit;
-pub(crate) use symbols::{foreign, meant_as};
 use thiserror::Error;
+
+use super::{
+    Dimension,
+    symbols::{self, Unit},
+};
 
 /// A quantity is not longer than this, in bytes.
 const LONGEST: usize = 200;
@@ -104,14 +94,13 @@ pub enum UnitError {
 /// # Examples
 ///
 /// ```
-/// use dashpot_network::parameters::Dimension;
-/// use dashpot_scene::units::parse_quantity;
+/// use dashpot_units::{Dimension, parse_quantity};
 ///
 /// let stiffness = parse_quantity("20 MN/m")?;
 /// assert_eq!(stiffness.value, 2e7);
 /// assert_eq!(stiffness.dimension, Some(Dimension::STIFFNESS));
 /// assert_eq!(parse_quantity("0.25")?.dimension, None);
-/// # Ok::<(), dashpot_scene::units::UnitError>(())
+/// # Ok::<(), dashpot_units::UnitError>(())
 /// ```
 ///
 /// # Errors
@@ -345,6 +334,3 @@ fn times(unit: Unit, factor: Unit, power: i8) -> Option<Unit> {
         angle: add(unit.angle, factor.angle)?,
     })
 }
-
-#[cfg(test)]
-mod tests;
