@@ -70,6 +70,10 @@ class Signal:
         return total
 
 
+# Part of the highest value on the grid that a top is climbed from, and how many tops are.
+NEARLY, TOPS = 0.9, 12
+
+
 def hic(signal, cap):
     """max of (t2 - t1) [integral of |a|/g0 / (t2 - t1)]^2.5 with t2 - t1 <= cap."""
     nodes, total = [], 0.0
@@ -106,13 +110,11 @@ def hic(signal, cap):
         return 0.0
     # Where the cap meets an end of the run.
     found = max(best_of(np.array([own]), np.array([own + cap]))[0, 0] for own in (0.0, end - cap))
-    seen = []
-    flat = np.argsort(-value, axis=None)
-    for own in flat[:200]:
-        i, j = np.unravel_index(own, value.shape)
-        if any(abs(grid[i] - a) < 0.05 * end and abs(grid[j] - b) < 0.05 * end for a, b in seen) or len(seen) > 2:
-            continue
-        seen.append((grid[i], grid[j]))
+    # Every top of the grid that is not far below the highest one.
+    edged = np.pad(value, 1)
+    around = [edged[1 + i : 1 + i + len(grid), 1 + j : 1 + j + len(grid)] for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    tops = np.argwhere((value >= np.max(around, axis=0)) & (value > NEARLY * value.max()))
+    for i, j in tops[np.argsort(-value[tuple(tops.T)])][:TOPS]:
         found = max(found, climb(best_of, grid[i], grid[j], 1.5 * end / 239, cap, end))
     return found
 
@@ -168,6 +170,10 @@ def contact(force):
     return None
 
 
+# Part of the most that a padding has borne at which it counts as unloaded.
+UNLOADED = 0.01
+
+
 def impact(force, power, touch):
     """Measures of what touches an impactor, from the start to the end of the impact. Where a face with mass is struck,
     `touch` is its contact: it ends no sooner than that opens."""
@@ -176,6 +182,12 @@ def impact(force, power, touch):
         return {}
     last, part = found
     if touch is not None:
+        # What struck the face has left it for good before, and the padding bears next to nothing any more.
+        closed = [k for k in range(last + 1) if force.steps[k].mode.phases[touch] == "closed"]
+        if closed and closed[-1] < last:
+            top = max(force.at(k, GRID).max() for k in range(closed[-1] + 1))
+            if force.at(closed[-1], np.array([1.0]))[0] <= UNLOADED * top:
+                last, part = closed[-1], 1.0
         while force.steps[last].mode.phases[touch] == "closed":
             last, part = last + 1, 0.0
             if last == len(force.steps):
