@@ -50,8 +50,6 @@ pub(crate) fn first_that_solves(
         let own = Task { method: method.as_ref(), ..*task };
         let error = match own.run(&Run { budget: share, ..run.clone() }, observer) {
             Ok(outcome) => match lost(task.assembly, &outcome.solved) {
-                // The run itself is what has no numbers.
-                Some(error @ RunError::BeyondRange) => return Err(error),
                 Some(error) => error,
                 None => return Ok(Found { method, why, outcome }),
             },

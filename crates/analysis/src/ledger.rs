@@ -94,9 +94,11 @@ impl Ledger {
             - (self.kinetic + self.total_stored() + self.total_dissipated())
     }
 
-    /// The missing energy in parts of the energy turned over; 0 where nothing happens.
+    /// The missing energy in parts of the energy turned over; 0 where nothing happens, not a number where one
+    /// of the energies is none.
     pub fn closure(&self) -> f64 {
-        if self.turned_over > 0.0 { self.missing() / self.turned_over } else { 0.0 }
+        let missing = self.missing();
+        if self.turned_over > 0.0 || missing.is_nan() { missing / self.turned_over } else { 0.0 }
     }
 }
 

@@ -64,6 +64,11 @@ impl Block {
         self.low[(i, j)] = Complex::new(re_rest, im_rest);
     }
 
+    /// Whether any of it moves, of coordinates that are given for all blocks.
+    pub(super) fn moves(&self, coordinates: &[Complex]) -> bool {
+        coordinates[self.range()].iter().any(|own| *own != Complex::default())
+    }
+
     /// The rate of growth: the largest real part on the diagonal.
     pub(super) fn growth_rate(&self) -> f64 {
         (0..self.len()).map(|i| self.matrix[(i, i)].re).fold(f64::NEG_INFINITY, f64::max)
@@ -86,6 +91,9 @@ impl Block {
 
     /// `vector ← e^{D_i t} vector`.
     pub(super) fn advance(&self, t: f64, vector: &mut [Complex]) {
+        if vector.iter().all(|value| *value == Complex::default()) {
+            return;
+        }
         if let [value] = vector {
             *value *= exponential_of(self.matrix[(0, 0)], self.low[(0, 0)], t);
             return;
@@ -168,6 +176,18 @@ mod tests {
     fn block(size: usize, entries: &[f64]) -> Block {
         let matrix = DMatrix::from_row_slice(size, size, entries).map(|x| Complex::new(x, 0.0));
         Block::new(0, matrix)
+    }
+
+    #[test]
+    fn what_is_at_rest_stays_so_however_long() {
+        // Powers of it leave the range of numbers.
+        let coupled = block(3, &[-1e-3, 1e25, 1e30, 0.0, -1e-6, 1e30, 0.0, 0.0, 0.0]);
+        let mut rest = [Complex::default(); 3];
+        coupled.advance(1e10, &mut rest);
+        assert_eq!(rest, [Complex::default(); 3]);
+        for bound in [coupled.largest(1e10, &[0.0; 3]), coupled.integral(1e10, &[0.0; 3], 0.0)] {
+            assert_eq!(bound, [0.0; 3]);
+        }
     }
 
     #[test]

@@ -15,6 +15,10 @@ impl Block {
     /// With `f_k = sup (t/s)^k e^{σ t}` it bounds `|e^{D_i t} v|` entry by entry for `|v| ≤ vector`.
     /// Infinite where the series does not settle.
     fn majorant(&self, s: f64, vector: &[f64], mut factor: impl FnMut(usize) -> f64) -> Vec<f64> {
+        // Of nothing there is nothing, however far the powers of the matrix reach.
+        if vector.iter().all(|v| *v == 0.0) {
+            return vec![0.0; vector.len()];
+        }
         let first = factor(0);
         let mut sum: Vec<f64> = vector.iter().map(|v| v * first).collect();
         if self.len() == 1 {

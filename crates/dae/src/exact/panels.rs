@@ -175,6 +175,9 @@ impl ModalRow {
 
     /// That of a block alone.
     pub(super) fn missed_of(&self, block: &Block, sizes: &[f64], width: f64) -> f64 {
+        if sizes.iter().all(|size| *size == 0.0) {
+            return 0.0;
+        }
         let (size, missed) =
             block.sizes_on_panel(self.sizes_in(block.range()), sizes, width, COUNT);
         at_most(missed, size)

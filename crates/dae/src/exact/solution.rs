@@ -139,7 +139,7 @@ impl Solution {
         let Modal { form, spans } = self.modal();
         let of_block = |block: &Block| {
             let spans = self.system.spans.iter().zip(spans);
-            let moving = spans.filter(|(_, coordinates)| moves(block, coordinates));
+            let moving = spans.filter(|(_, coordinates)| block.moves(&coordinates.start));
             let length = moving.map(|(span, _)| (span.end.min(end) - span.start).max(0.0)).sum();
             radians(block, length, lifetimes)
         };
@@ -149,7 +149,8 @@ impl Solution {
     /// The same if every mode that moves went on until `end`, which may lie beyond that of the run.
     pub(crate) fn radians_beyond(&self, end: f64, lifetimes: f64) -> f64 {
         let Modal { form, spans } = self.modal();
-        let moving = form.modes.blocks.iter().filter(|own| spans.iter().any(|at| moves(own, at)));
+        let moving =
+            form.modes.blocks.iter().filter(|own| spans.iter().any(|at| own.moves(&at.start)));
         moving.map(|block| radians(block, end, lifetimes)).sum()
     }
 
@@ -302,11 +303,6 @@ impl Dense for Solution {
         let spans = self.system.spans.len() * (4 * size + self.system.generators.len());
         size_of::<Self>() + size_of::<f64>() * (matrices + spans)
     }
-}
-
-/// Whether a block of modes moves in a span.
-fn moves(block: &Block, coordinates: &SpanCoordinates) -> bool {
-    coordinates.start[block.range()].iter().any(|c| *c != Complex::default())
 }
 
 /// The radians that the modes of a block pass through in a time, as long as they live.

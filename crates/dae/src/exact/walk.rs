@@ -6,6 +6,7 @@ use dashpot_twofold::two_sum;
 
 use super::{
     Complex,
+    block::Block,
     modes::Modes,
     number,
     panels::{ModalRow, size_of},
@@ -71,7 +72,8 @@ impl<'m> Walk<'m> {
         start: &'m [Complex],
         length: f64,
     ) -> Self {
-        let active = (0..modes.blocks.len()).filter(|&at| row.has_part(&modes.blocks[at]));
+        let is_active = |block: &Block| row.has_part(block) && block.moves(start);
+        let active = (0..modes.blocks.len()).filter(|&at| is_active(&modes.blocks[at]));
         let mut walk = Self {
             row,
             modes,
