@@ -12,14 +12,15 @@
 
 mod axis;
 mod chart;
+mod decimation;
 mod error;
 pub mod figures;
-mod lettering;
+mod frame;
 mod map;
 mod report;
 mod sketch;
+mod text_metrics;
 mod theme;
-mod thinning;
 #[cfg(test)]
 mod well_formed;
 

@@ -9,9 +9,20 @@ use dashpot_network::{
     elements::{Dashpot, Spring},
     part,
 };
-use dashpot_rheology::Tree;
+use dashpot_rheology::{
+    Tree,
+    appendix_a::{Burgers, SpringDashpot},
+};
 
-/// A spring and a dashpot in a row.
+/// A four-parameter padding as the Burgers element of appendix A.
+pub(crate) fn burgers(Padding { k1, c1, k2, c2 }: Padding) -> Burgers {
+    Burgers {
+        maxwell: SpringDashpot { spring: k2, dashpot: c2 },
+        kelvin: SpringDashpot { spring: k1, dashpot: c1 },
+    }
+}
+
+/// A spring and a dashpot in series.
 pub(crate) fn maxwell(stiffness: f64, damping: f64) -> Model {
     Tree::series([part(Spring { stiffness }), part(Dashpot { damping })])
 }

@@ -1,11 +1,10 @@
 //! What the thesis misprints, with the correct form, and what each of the two gives.
 
 use dashpot_plot::Table;
-use dashpot_rheology::appendix_a::{Burgers, SpringDashpot};
 
 use crate::{
     Groups, Impact, Padding, Pulse, STANDARD_GRAVITY, Scales, Study, Support, ThesisError,
-    words::significant,
+    groups::burgers, words::significant,
 };
 
 /// A misprint. The scan of the thesis is poor in places, so some may be the scan's.
@@ -194,12 +193,9 @@ fn area(impact: &Impact, end: f64) -> f64 {
 
 fn appendix_a() -> Result<Vec<Misprint>, ThesisError> {
     // With K₁ = K₂, as in chapter IV, A.9 would not show.
-    let Padding { k1, c1, k2, c2 } = Padding { k1: 10e6, ..Padding::CHAPTER_4 };
-    let burgers = Burgers {
-        maxwell: SpringDashpot { spring: k2, dashpot: c2 },
-        kelvin: SpringDashpot { spring: k1, dashpot: c1 },
-    };
-    let truth = 1e-6 * burgers.to_two_maxwell()?.slow.spring;
+    let padding = Padding { k1: 10e6, ..Padding::CHAPTER_4 };
+    let Padding { k1, c1, k2, c2 } = padding;
+    let truth = 1e-6 * burgers(padding).to_two_maxwell()?.slow.spring;
     let third = |alpha: f64, beta: f64| {
         1e-6 * (k2 * alpha + k2 * beta - k2 * k2 / c1 - k2 * k2 / c2) / (2.0 * beta)
     };
@@ -300,9 +296,5 @@ pub fn misprint_table(all: &[Misprint]) -> Table {
         "correct form",
         "what has to come out",
     ];
-    Table {
-        caption: "Misprints".to_owned(),
-        header: header.map(str::to_owned).to_vec(),
-        rows: all.iter().map(row).collect(),
-    }
+    Table::new("Misprints", &header, all.iter().map(row))
 }

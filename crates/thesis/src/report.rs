@@ -88,11 +88,11 @@ impl Recomputation {
             let says = own.says.to_owned();
             vec![own.place.to_owned(), says, own.verdict.text(), own.finding.clone()]
         };
-        Table {
-            caption: "Claims beside the exact impact".to_owned(),
-            header: ["place", "claim", "verdict", "finding"].map(str::to_owned).to_vec(),
-            rows: self.claims.iter().map(row).collect(),
-        }
+        Table::new(
+            "Claims beside the exact impact",
+            &["place", "claim", "verdict", "finding"],
+            self.claims.iter().map(row),
+        )
     }
 
     fn family_tables(&self) -> Vec<Table> {
@@ -101,11 +101,8 @@ impl Recomputation {
 
     /// The report as a page, with the drawings in the order of the figures.
     pub fn page(&self, drawings: Vec<ReportFigure>) -> Report {
-        let equations = Table {
-            caption: FIGURE_3.to_owned(),
-            header: Vec::new(),
-            rows: EQUATIONS.iter().map(|own| vec![(*own).to_owned()]).collect(),
-        };
+        let equations =
+            Table::new(FIGURE_3, &[], EQUATIONS.iter().map(|own| vec![(*own).to_owned()]));
         let mut tables = self.number_tables().to_vec();
         tables.extend([misprint_table(&self.misprints), self.claim_table(), equations]);
         tables.extend(self.family_tables());

@@ -235,11 +235,11 @@ impl Family {
             "release τ*",
             "thickness",
         ];
-        Table {
-            caption: format!("The family of {symbol}, all else at base"),
-            header: header.map(str::to_owned).to_vec(),
-            rows: self.members.iter().map(|own| own.row(self.varied)).collect(),
-        }
+        Table::new(
+            format!("The family of {symbol}, all else at base"),
+            &header,
+            self.members.iter().map(|own| own.row(self.varied)),
+        )
     }
 }
 

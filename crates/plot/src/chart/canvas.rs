@@ -11,13 +11,15 @@ use plotters::style::text_anchor::Pos;
 use plotters::style::{Color, FontFamily, IntoFont, ShapeStyle, TextStyle};
 
 use super::{Pattern, Stroke};
-use crate::lettering::escape;
+use crate::text_metrics::escape;
 use crate::theme::{self, Colour};
 
 /// Where a layer is drawn.
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-/// What the back-end answers.
+/// What the back-end answers where it refuses a shape.
 pub(super) type Fault = DrawingAreaErrorKind<std::io::Error>;
+/// What drawing answers.
+pub(super) type Drawn = Result<(), Fault>;
 
 pub(super) fn opening(size: (f64, f64), title: &str) -> String {
     let (width, height) = (size.0.ceil(), size.1.ceil());

@@ -3,12 +3,13 @@
 use plotters::element::Circle;
 use plotters::style::Color;
 
+use super::canvas::Drawn;
 use super::canvas::{Area, canvas, path, pen, pixels};
-use super::frame::{Drawn, Frame};
 use super::naming::Place;
 use super::{Chart, Pattern, Stroke};
+use crate::decimation::{Path, stretches, thin};
+use crate::frame::Frame;
 use crate::theme;
-use crate::thinning::{Path, stretches, thin};
 
 /// Part of a marker's radius that a single point and the disc of a stem have.
 const DISC: f64 = 0.6;

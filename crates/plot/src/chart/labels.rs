@@ -1,7 +1,7 @@
 //! Places for texts inside a chart, away from curves, from the border and from each other.
 
-use crate::lettering::text_width;
-use crate::thinning::Path;
+use crate::decimation::Path;
+use crate::text_metrics::text_width;
 
 /// A rectangle \[px\]; y grows downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]

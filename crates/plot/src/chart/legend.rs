@@ -1,7 +1,7 @@
 //! The legend above a chart: samples of lines with their names, in rows.
 
 use super::Stroke;
-use crate::lettering::{clip_width, text_width};
+use crate::text_metrics::{clip_width, text_width};
 use crate::theme;
 
 /// What an entry of the legend shows a sample of.

@@ -2,7 +2,6 @@
 
 mod canvas;
 mod curves;
-mod frame;
 mod labels;
 mod legend;
 mod naming;

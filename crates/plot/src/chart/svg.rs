@@ -4,19 +4,20 @@ use plotters::element::{Circle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontTransform};
 
+use super::canvas::Drawn;
 use super::canvas::{
     Area, Fault, canvas, dashes, layer, line, opening, path, pen, pixels, text_style,
 };
 use super::curves::{draw_curve, draw_stem, places};
-use super::frame::{Drawn, Ends, Frame};
 use super::legend::{Entry, Legend, Sample};
 use super::naming::{same_curves, same_name};
 use super::texts::draw_texts;
 use super::{Chart, Direction, Pattern, ReferenceLine};
 use crate::PlotError;
-use crate::lettering::{clip_width, escape, one_line, text_width};
+use crate::decimation::Path;
+use crate::frame::{Ends, Frame};
+use crate::text_metrics::{clip_width, escape, one_line, text_width};
 use crate::theme;
-use crate::thinning::Path;
 
 impl Chart {
     /// The chart as one SVG element, 760 pixels wide, without any outer resource.

@@ -3,7 +3,7 @@
 use super::naming::{Place, Tag, same_name, tags};
 use super::{Chart, Direction, Pattern};
 use crate::axis::Axis;
-use crate::lettering::{clip_columns, columns, one_line};
+use crate::text_metrics::{clip_columns, columns, one_line};
 
 /// Dots of a braille character at (column, row from the top), as bits above U+2800.
 const DOTS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];

@@ -4,12 +4,12 @@ use plotters::element::Text;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::canvas::{Area, Fault, canvas, text_style};
-use super::frame::{Ends, Frame};
 use super::labels::{self, Leader};
 use super::{Chart, Direction, ReferenceLine};
-use crate::lettering::one_line;
+use crate::decimation::Path;
+use crate::frame::{Ends, Frame};
+use crate::text_metrics::one_line;
 use crate::theme;
-use crate::thinning::Path;
 
 /// A text with its left middle at a place \[px\].
 pub(super) struct PlacedText {

@@ -4,7 +4,7 @@ use super::run_series::Of;
 use super::unit::Unit;
 use super::{Quantity, RunMarker, RunMarkerKind, RunSeries};
 use crate::Marker;
-use crate::lettering::columns;
+use crate::text_metrics::columns;
 
 /// Points nearer than this part of the curves' extent, half of a disc, are one place.
 const NEAR: f64 = 0.004;

@@ -6,11 +6,11 @@ use super::{
     Map, MapLimit,
     contours::contours,
     marks::{draw_path, text},
-    svg::Frame,
 };
 use crate::{
     axis::Axis,
-    lettering::{one_line, text_width},
+    frame::Frame,
+    text_metrics::{one_line, text_width},
     theme,
 };
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::{lettering::escape, theme};
+use crate::{text_metrics::escape, theme};
 
 /// A line through places on the canvas.
 pub(super) fn draw_path(svg: &mut String, line: &[(f64, f64)]) {

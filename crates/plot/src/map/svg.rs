@@ -8,7 +8,8 @@ use super::{
 };
 use crate::{
     axis::Axis,
-    lettering::{clip_width, escape, one_line, text_width},
+    frame::Frame,
+    text_metrics::{clip_width, escape, one_line, text_width},
     theme,
 };
 
@@ -21,25 +22,6 @@ const BAR: f64 = 16.0;
 const GAP: f64 = 18.0;
 /// Steps of the bar of colours.
 const STEPS: usize = 64;
-
-/// Where everything is \[px\].
-pub(super) struct Frame {
-    pub(super) left: f64,
-    pub(super) right: f64,
-    pub(super) top: f64,
-    pub(super) bottom: f64,
-    pub(super) x: Axis,
-    pub(super) y: Axis,
-}
-
-impl Frame {
-    pub(super) fn at(&self, x: f64, y: f64) -> (f64, f64) {
-        (
-            self.left + self.x.fraction(x) * (self.right - self.left),
-            self.bottom - self.y.fraction(y) * (self.bottom - self.top),
-        )
-    }
-}
 
 impl Map {
     /// The map as one SVG element, 760 pixels wide, without any outer resource.

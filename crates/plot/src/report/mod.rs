@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::lettering::escape;
+use crate::text_metrics::escape;
 
 /// The style sheet; colours of the theme are turned for dark pages there.
 const STYLE: &str = include_str!("style.css");

@@ -3,7 +3,7 @@
 use super::SketchTree;
 use super::blocks::Pen;
 use super::order::Extent;
-use crate::lettering::columns_of;
+use crate::text_metrics::columns_of;
 
 const LEFT: usize = 1;
 const RIGHT: usize = 2;

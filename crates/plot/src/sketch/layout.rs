@@ -291,7 +291,7 @@ mod tests {
             }
             assert_apart(&laid_out(&sketch));
             let text = sketch.text(80);
-            assert!(text.lines().all(|line| crate::lettering::columns(line) <= 80), "{text}");
+            assert!(text.lines().all(|line| crate::text_metrics::columns(line) <= 80), "{text}");
             crate::well_formed::assert_well_formed(&sketch.svg());
         }
     }

@@ -2,7 +2,7 @@
 
 use super::symbols::SYMBOLS;
 use super::{Census, Sketch, SketchGravity, SketchKind, SketchNode, SketchTree};
-use crate::lettering::{clip_columns, columns, one_line};
+use crate::text_metrics::{clip_columns, columns, one_line};
 
 /// Rows of one table before the rest is only counted.
 const MOST_ROWS: usize = 14;

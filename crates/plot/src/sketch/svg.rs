@@ -5,7 +5,7 @@ use super::layout::{Metrics, plan};
 use super::order::Extent;
 use super::symbols::{Canvas, GRAVITY, LINE, Weight, gravity_width, leaf_extent, node_extent};
 use super::{Sketch, SketchLink, SketchTree, list};
-use crate::lettering::{escape, text_width};
+use crate::text_metrics::{escape, text_width};
 use crate::theme;
 
 /// Elements or nodes beyond which a drawing helps nobody.

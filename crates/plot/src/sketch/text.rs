@@ -9,7 +9,7 @@ use super::list::{gravity, lines_and_loads};
 use super::order::Extent;
 use super::symbols::symbol_of;
 use super::{Sketch, SketchKind, SketchLink, SketchNode, SketchTree, list};
-use crate::lettering::{self, one_line};
+use crate::text_metrics::{self, one_line};
 
 /// Elements or nodes beyond which a list is clearer.
 const MOST: usize = 30;
@@ -212,7 +212,7 @@ pub(super) fn symbol(leaf: &SketchTree) -> (String, &str) {
 
 /// Terminal columns of a text.
 pub(super) fn columns(text: &str) -> f64 {
-    index_limit(lettering::columns(text))
+    index_limit(text_metrics::columns(text))
 }
 
 #[expect(clippy::cast_precision_loss, reason = "texts are far shorter than 2^52 columns")]
@@ -227,7 +227,7 @@ mod tests {
 
     fn assert_narrow(text: &str, width: usize) {
         for line in text.lines() {
-            assert!(lettering::columns(line) <= width, "{line:?} in\n{text}");
+            assert!(text_metrics::columns(line) <= width, "{line:?} in\n{text}");
         }
     }
 

@@ -9,7 +9,7 @@ use crate::{
     diagnostics::fault::Fault,
     quantities::{
         basis::{Basis, SIZE, is_size},
-        pad::{Size, Surroundings},
+        pad::{EnclosingPad, Size},
         quantity::{Quantities, Values},
     },
     text::{
@@ -38,7 +38,7 @@ pub(crate) struct KindReader<'d> {
     /// Dimension of amplitudes.
     pub(crate) driven: Dimension,
     /// What is said about the size of a pad around it.
-    pub(crate) size: Surroundings,
+    pub(crate) size: EnclosingPad,
     /// Keys of their tables that others read.
     pub(crate) other_keys: &'static [&'static str],
 }
@@ -46,7 +46,7 @@ pub(crate) struct KindReader<'d> {
 impl<'d> KindReader<'d> {
     /// A reader for kinds that drive a force.
     pub(crate) fn new(quantities: Quantities<'d>) -> Self {
-        let size = Surroundings::default();
+        let size = EnclosingPad::default();
         Self { quantities, driven: Dimension::FORCE, size, other_keys: &[] }
     }
 

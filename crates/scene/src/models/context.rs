@@ -11,11 +11,11 @@ use crate::{
     kinds::{Example, parameters::KindReader, registers},
     quantities::{
         basis::{AREA, Basis, Pad, SIZE, is_sized},
-        pad::{Size, Surroundings},
+        pad::{EnclosingPad, Size},
     },
     text::{
         document::{Content, Entry, Item},
-        library::{Library, Shelf},
+        library::{Library, ModelSection},
         source::Place,
         table::wrong_type,
     },
@@ -29,7 +29,7 @@ pub(super) struct Context {
     /// Factor of all times \[1\], from the shifts around the table.
     pub(super) times: f64,
     /// What is known of the size of the pad.
-    pub(super) size: Surroundings,
+    pub(super) size: EnclosingPad,
 }
 
 /// Where a model stands: its table, and what holds for the values in it.
@@ -57,12 +57,12 @@ pub(super) struct Shift {
 
 impl Context {
     /// That of a table of its own.
-    pub(super) fn of(shelf: Shelf) -> Self {
-        let basis = match shelf {
-            Shelf::Models => Basis::Model,
-            Shelf::Materials => Basis::MATERIAL,
+    pub(super) fn of(section: ModelSection) -> Self {
+        let basis = match section {
+            ModelSection::Models => Basis::Model,
+            ModelSection::Materials => Basis::MATERIAL,
         };
-        Self { basis, times: 1.0, size: Surroundings::default() }
+        Self { basis, times: 1.0, size: EnclosingPad::default() }
     }
 }
 
@@ -75,14 +75,14 @@ impl<'d> Site<'d> {
 }
 
 /// Reads what stands beside the law of a model.
-pub(super) struct Besides<'d> {
+pub(super) struct ContextReader<'d> {
     /// The documents.
     pub(super) library: &'d Library,
     /// Where errors go.
     pub(super) faults: &'d Faults,
 }
 
-impl<'d> Besides<'d> {
+impl<'d> ContextReader<'d> {
     /// The context of the law in `site`, and the shift that stands there.
     ///
     /// Where a key is faulty it is left out: the error has been noted, and the rest of the model is
@@ -116,7 +116,7 @@ impl<'d> Besides<'d> {
         context.size.beside = [None; 2];
         context.size.is_faulty = [false; 2];
         let is_element = site.other_keys.contains(&"between");
-        if law.key == Shelf::Materials.word() {
+        if law.key == ModelSection::Materials.word() {
             for (key, (entry, size)) in SIZE.into_iter().zip(given.into_iter().zip(beside)) {
                 match size {
                     Some(size) => around.check(key, size, self.faults),
@@ -154,7 +154,7 @@ impl<'d> Besides<'d> {
     }
 
     /// Notes a size that a material needs.
-    fn missing(&self, site: &Site<'d>, around: Surroundings, key: &'static str) {
+    fn missing(&self, site: &Site<'d>, around: EnclosingPad, key: &'static str) {
         if let Some(fault) = around.missing(key, &site.owner).filter(|_| !self.faults.damaged()) {
             self.faults.error(site.place, fault);
         }

@@ -36,7 +36,7 @@ use crate::{
     },
     text::{
         document::Item,
-        library::{Library, Reference, SHELVES, Shelf},
+        library::{Library, MODEL_SECTIONS, ModelSection, Reference},
         source::Place,
     },
 };
@@ -145,7 +145,7 @@ impl<'d> ModelReader<'d> {
         other_keys: &'static [&'static str],
     ) -> Option<Read> {
         let mut descent = Descent::new(Some(owner.clone()));
-        let (owner, context) = (owner.into(), Context::of(Shelf::Models));
+        let (owner, context) = (owner.into(), Context::of(ModelSection::Models));
         let site = Site { item, owner, place, document: 0, context, other_keys };
         let whole = self.read(&site, &mut descent)?;
         descent.finish(whole)
@@ -156,7 +156,7 @@ impl<'d> ModelReader<'d> {
         self.visited.borrow_mut().insert(reference);
         self.foresee(reference, self.library.entry(reference).key_place)?;
         let mut descent = Descent::new(Some(String::new()));
-        self.enter(reference, Context::of(reference.shelf), &mut descent)?.model
+        self.enter(reference, Context::of(reference.section), &mut descent)?.model
     }
 
     /// The model that stands in `item`: its name, or a table of its own.
@@ -164,7 +164,7 @@ impl<'d> ModelReader<'d> {
         let Some(text) = item.text() else {
             return self.element(item, owner, place, MODEL_KEYS).map(|own| own.model);
         };
-        match self.library.find(0, Shelf::Models, text) {
+        match self.library.find(0, ModelSection::Models, text) {
             Ok(found) => self.named(found?),
             Err(fault) => {
                 if !self.faults.damaged() {
@@ -177,9 +177,11 @@ impl<'d> ModelReader<'d> {
 
     /// Looks for faults in those models and materials of the scene that no element uses.
     pub(crate) fn check_unused(&self) {
-        for reference in SHELVES.into_iter().flat_map(|shelf| self.library.models(0, shelf)) {
+        for reference in
+            MODEL_SECTIONS.into_iter().flat_map(|section| self.library.models(0, section))
+        {
             if self.visited.borrow_mut().insert(reference) {
-                self.enter(reference, Context::of(reference.shelf), &mut Descent::new(None));
+                self.enter(reference, Context::of(reference.section), &mut Descent::new(None));
             }
         }
     }
@@ -191,7 +193,7 @@ impl<'d> ModelReader<'d> {
 
     /// "model `felt`".
     fn called(&self, reference: Reference) -> String {
-        format!("{} `{}`", reference.shelf.word(), self.library.entry(reference).key)
+        format!("{} `{}`", reference.section.word(), self.library.entry(reference).key)
     }
 
     /// The model in a table, one that failed where something in it is wrong; `None` where nothing more
@@ -267,7 +269,8 @@ impl<'d> ModelReader<'d> {
         descent.open.push(reference);
         let mut own = self.read(&site, descent)?;
         descent.open.pop();
-        if let (Shelf::Materials, Basis::Material(pad)) = (reference.shelf, context.basis) {
+        if let (ModelSection::Materials, Basis::Material(pad)) = (reference.section, context.basis)
+        {
             own.extent = Extent::of(pad);
             descent.pads.merge(from, pad);
         }

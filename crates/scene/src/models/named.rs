@@ -12,7 +12,7 @@ use crate::{
     sections::ELEMENT_KEYS,
     text::{
         document::{Content, Entry, Item},
-        library::{Library, SHELVES, Shelf},
+        library::{Library, MODEL_SECTIONS, ModelSection},
         source::Source,
     },
 };
@@ -38,7 +38,7 @@ pub struct NamedModel {
 
 /// Where a name leads.
 enum Found<'d> {
-    OnShelf(crate::text::library::Reference),
+    Model(crate::text::library::Reference),
     Element(&'d Entry),
 }
 
@@ -90,7 +90,7 @@ pub fn read_named_model(
             }
         };
         let (entry, model) = match found {
-            Found::OnShelf(reference) => (library.entry(reference), models.named(reference)?),
+            Found::Model(reference) => (library.entry(reference), models.named(reference)?),
             Found::Element(entry) => {
                 let owner = format!("element `{}`", entry.key);
                 if let Some(layers) = value_of(entry, "layers") {
@@ -104,19 +104,18 @@ pub fn read_named_model(
                 (entry, models.element(&entry.item, owner, entry.key_place, keys)?.model)
             }
         };
-        let is_material =
-            matches!(found, Found::OnShelf(reference) if reference.shelf == Shelf::Materials);
+        let is_material = matches!(found, Found::Model(reference) if reference.section == ModelSection::Materials);
         let (name, mut notes, span) =
             (entry.key.to_string(), models.notes(), lines_of(&source, entry));
         if is_shared {
             let subject = match found {
-                Found::OnShelf(reference) => format!("{} `{name}`", reference.shelf.word()),
+                Found::Model(reference) => format!("{} `{name}`", reference.section.word()),
                 Found::Element(_) => format!("element `{name}`"),
             };
             notes.push(ModelNote { subject, text: shared(&name), until: None });
         }
         let section = match found {
-            Found::OnShelf(reference) => reference.shelf.section(),
+            Found::Model(reference) => reference.section.key(),
             Found::Element(_) => "elements",
         };
         Some(NamedModel { name, model, section, is_material, notes, span })
@@ -126,10 +125,10 @@ pub fn read_named_model(
 /// Where a name leads, and whether it leads elsewhere, too.
 fn find<'d>(library: &'d Library, name: &str) -> Result<(Found<'d>, bool), Fault> {
     let elements = library.section("elements").and_then(|entry| entry.item.table()).unwrap_or(&[]);
-    let shelves = || SHELVES.into_iter().flat_map(|shelf| library.models(0, shelf));
+    let models = || MODEL_SECTIONS.into_iter().flat_map(|section| library.models(0, section));
     if name.is_empty() {
-        let found: Vec<Found<'_>> = if shelves().next().is_some() {
-            shelves().map(Found::OnShelf).collect()
+        let found: Vec<Found<'_>> = if models().next().is_some() {
+            models().map(Found::Model).collect()
         } else {
             elements.iter().map(Found::Element).collect()
         };
@@ -142,12 +141,12 @@ fn find<'d>(library: &'d Library, name: &str) -> Result<(Found<'d>, bool), Fault
     let (section, word) =
         name.split_once('.').map_or((None, name), |(own, word)| (Some(own), word));
     let is_asked = |own: &str| section.is_none_or(|section| section == own);
-    let on_shelf = |shelf: Shelf| {
-        let found = library.own(0, shelf, word).filter(|_| is_asked(shelf.section()));
-        found.map(Found::OnShelf)
+    let in_section = |section: ModelSection| {
+        let found = library.own(0, section, word).filter(|_| is_asked(section.key()));
+        found.map(Found::Model)
     };
     let element = elements.iter().find(|entry| entry.key == word && is_asked("elements"));
-    let all = SHELVES.into_iter().filter_map(on_shelf).chain(element.map(Found::Element));
+    let all = MODEL_SECTIONS.into_iter().filter_map(in_section).chain(element.map(Found::Element));
     let mut all = all.collect::<Vec<_>>().into_iter();
     let first = all.next().ok_or_else(|| {
         let (family, known) = ("model, material or element", known(library, elements));
@@ -166,9 +165,9 @@ fn shared(name: &str) -> String {
 
 /// All names that lead to a model.
 fn known(library: &Library, elements: &[Entry]) -> Vec<String> {
-    let shelves = SHELVES.into_iter().flat_map(|shelf| library.names(0, shelf));
+    let models = MODEL_SECTIONS.into_iter().flat_map(|section| library.names(0, section));
     let mut known: Vec<String> =
-        shelves.chain(elements.iter().map(|entry| entry.key.to_string())).collect();
+        models.chain(elements.iter().map(|entry| entry.key.to_string())).collect();
     known.sort();
     known.dedup();
     known

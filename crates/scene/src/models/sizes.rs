@@ -6,7 +6,7 @@ use dashpot_rheology::MOST_LEVELS;
 
 use crate::text::{
     document::{Content, Item},
-    library::{Library, Reference, SHELVES},
+    library::{Library, MODEL_SECTIONS, Reference},
 };
 
 /// Counts what models by name expand to: a text of a few lines may stand for any number of parts.
@@ -41,11 +41,11 @@ impl<'d> Sizes<'d> {
     fn of_table(&self, item: &Item, document: usize, levels: usize) -> u64 {
         let (mut parts, mut is_named) = (0_u64, false);
         for entry in item.table().unwrap_or(&[]) {
-            let shelf = SHELVES.into_iter().find(|shelf| shelf.word() == entry.key);
-            match (&entry.item.value, shelf) {
-                (Content::Text(name), Some(shelf)) => {
+            let section = MODEL_SECTIONS.into_iter().find(|section| section.word() == entry.key);
+            match (&entry.item.value, section) {
+                (Content::Text(name), Some(section)) => {
                     // What is not there is told where it is read.
-                    if let Ok(Some(found)) = self.library.find(document, shelf, name) {
+                    if let Ok(Some(found)) = self.library.find(document, section, name) {
                         is_named = true;
                         parts = parts.saturating_add(self.within(found, levels));
                     }

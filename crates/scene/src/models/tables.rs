@@ -2,14 +2,14 @@
 
 use super::{
     Descent, ModelReader,
-    context::{Besides, Context, Shift, Site},
+    context::{Context, ContextReader, Shift, Site},
     naming::{Given, ReadBranch},
 };
 use crate::{
     diagnostics::fault::Fault,
     text::{
         document::{Entry, Item},
-        library::{Reference, Shelf},
+        library::{ModelSection, Reference},
         table::{check_name, entries_of, list_of, text_of},
     },
 };
@@ -27,8 +27,8 @@ impl<'d> ModelReader<'d> {
         let entries = entries_of(site.item, &site.owner, self.faults)?;
         let entry = self.law_among(site, entries)?;
         let given = site.other_keys.contains(&"name").then(|| self.given_name(entries)).flatten();
-        let besides = Besides { library: self.library, faults: self.faults };
-        let (context, shift) = besides.read(site, entries, entry);
+        let reader = ContextReader { library: self.library, faults: self.faults };
+        let (context, shift) = reader.read(site, entries, entry);
         if let Some(Shift { word, factor }) = shift {
             let text = format!("`{word}` multiplies its times by {factor:.3e}");
             self.note(descent, given, (text, None));
@@ -53,8 +53,9 @@ impl<'d> ModelReader<'d> {
                 self.faults.error(entry.key_place, Fault::ModelInMaterial);
             }
             word @ ("model" | "material") => {
-                let shelf = if word == "model" { Shelf::Models } else { Shelf::Materials };
-                if let Some(named) = self.reference(site.document, shelf, &entry.item, descent) {
+                let section =
+                    if word == "model" { ModelSection::Models } else { ModelSection::Materials };
+                if let Some(named) = self.reference(site.document, section, &entry.item, descent) {
                     let own = self.refer(named, context, site.place, descent)?;
                     return Some(ReadBranch { word: &self.library.entry(named).key, given, ..own });
                 }
@@ -128,12 +129,12 @@ impl<'d> ModelReader<'d> {
     fn reference(
         &self,
         document: usize,
-        shelf: Shelf,
+        section: ModelSection,
         item: &Item,
         descent: &Descent,
     ) -> Option<Reference> {
-        let text = text_of(item, &format!("`{}`", shelf.word()), self.faults)?;
-        let reference = match self.library.find(document, shelf, text) {
+        let text = text_of(item, &format!("`{}`", section.word()), self.faults)?;
+        let reference = match self.library.find(document, section, text) {
             Ok(found) => found?,
             Err(fault) => {
                 if !self.faults.damaged() {
@@ -147,7 +148,7 @@ impl<'d> ModelReader<'d> {
         };
         let circle = descent.open[from..].iter().chain([&reference]);
         let names = circle.map(|&model| self.library.entry(model).key.to_string()).collect();
-        self.faults.error(item.place, Fault::ModelInItself { family: shelf.word(), names });
+        self.faults.error(item.place, Fault::ModelInItself { family: section.word(), names });
         None
     }
 }

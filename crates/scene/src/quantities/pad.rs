@@ -23,7 +23,7 @@ pub(crate) struct Size {
 
 /// What the tables around a law say about the size of its pad.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Surroundings {
+pub(crate) struct EnclosingPad {
     /// What stands beside the law, by the order of [`SIZE`].
     pub(crate) beside: [Option<Size>; 2],
     /// Whether what stands there is faulty, which has been told.
@@ -34,7 +34,7 @@ pub(crate) struct Surroundings {
     pub(crate) in_row: bool,
 }
 
-impl Surroundings {
+impl EnclosingPad {
     /// What stands beside the law under one of the keys [`SIZE`].
     pub(crate) fn beside(&self, key: &str) -> Option<Size> {
         SIZE.iter().position(|known| *known == key).and_then(|at| self.beside[at])

@@ -8,7 +8,7 @@ use dashpot_network::Support;
 
 use crate::{Checked, Diagnostics, ReadOptions, Scene, read};
 
-/// A mass of 2 kg on a spring of 800 N/m, ω = 20 rad/s, with `node` and `load` besides.
+/// A mass of 2 kg on a spring of 800 N/m, ω = 20 rad/s, with `node` and `load` reader.
 fn text(node: &str, load: &str) -> String {
     format!(
         "[nodes]\nhead = {{ mass = 2 }}\n{node}\n\

@@ -28,7 +28,7 @@ const MAX_FILES: usize = 1000;
 
 /// Which of the two tables of models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Shelf {
+pub(crate) enum ModelSection {
     /// `[models]`, in N/m.
     Models,
     /// `[materials]`, in Pa.
@@ -36,9 +36,10 @@ pub(crate) enum Shelf {
 }
 
 /// Both, in the order in which a name is looked up.
-pub(crate) const SHELVES: [Shelf; 2] = [Shelf::Models, Shelf::Materials];
+pub(crate) const MODEL_SECTIONS: [ModelSection; 2] =
+    [ModelSection::Models, ModelSection::Materials];
 
-impl Shelf {
+impl ModelSection {
     /// What a model of it is called; also the key that refers to one.
     pub(crate) fn word(self) -> &'static str {
         match self {
@@ -55,7 +56,7 @@ impl Shelf {
         }
     }
 
-    pub(crate) fn section(self) -> &'static str {
+    pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Models => "models",
             Self::Materials => "materials",
@@ -63,7 +64,7 @@ impl Shelf {
     }
 
     fn entries(self, root: &Item) -> &[Entry] {
-        section(root, self.section()).and_then(|entry| entry.item.table()).unwrap_or(&[])
+        top_entry(root, self.key()).and_then(|entry| entry.item.table()).unwrap_or(&[])
     }
 }
 
@@ -73,7 +74,7 @@ pub(crate) struct Reference {
     /// Index of the document.
     pub(crate) document: usize,
     /// The table in which it is.
-    pub(crate) shelf: Shelf,
+    pub(crate) section: ModelSection,
     index: usize,
 }
 
@@ -83,7 +84,7 @@ struct Document {
     root: Item,
     values: Values,
     /// Index of each model in its table.
-    models: HashMap<(Shelf, String), usize>,
+    models: HashMap<(ModelSection, String), usize>,
 }
 
 /// A file of numbers that a driving function is read from.
@@ -168,7 +169,7 @@ impl Library {
 
     /// The entry of a key of the scene's own document.
     pub(crate) fn section(&self, key: &str) -> Option<&Entry> {
-        section(&self.documents.first()?.root, key)
+        top_entry(&self.documents.first()?.root, key)
     }
 
     /// All entries at the top of the scene's own document.
@@ -195,36 +196,45 @@ impl Library {
     }
 
     /// The models of a table of a document.
-    pub(crate) fn models(&self, document: usize, shelf: Shelf) -> impl Iterator<Item = Reference> {
-        let count = shelf.entries(&self.documents[document].root).len();
-        (0..count).map(move |index| Reference { document, shelf, index })
+    pub(crate) fn models(
+        &self,
+        document: usize,
+        section: ModelSection,
+    ) -> impl Iterator<Item = Reference> {
+        let count = section.entries(&self.documents[document].root).len();
+        (0..count).map(move |index| Reference { document, section, index })
     }
 
     /// The entry of a model.
     pub(crate) fn entry(&self, reference: Reference) -> &Entry {
-        &reference.shelf.entries(&self.documents[reference.document].root)[reference.index]
+        &reference.section.entries(&self.documents[reference.document].root)[reference.index]
     }
 
     /// The model of this name in a document, with no file before it.
-    pub(crate) fn own(&self, document: usize, shelf: Shelf, name: &str) -> Option<Reference> {
-        let index = *self.documents[document].models.get(&(shelf, name.to_owned()))?;
-        Some(Reference { document, shelf, index })
+    pub(crate) fn own(
+        &self,
+        document: usize,
+        section: ModelSection,
+        name: &str,
+    ) -> Option<Reference> {
+        let index = *self.documents[document].models.get(&(section, name.to_owned()))?;
+        Some(Reference { document, section, index })
     }
 
     /// The names of a table of a document, sorted.
-    pub(crate) fn names(&self, document: usize, shelf: Shelf) -> Vec<String> {
-        let models = self.documents[document].models.keys().filter(|(own, _)| *own == shelf);
+    pub(crate) fn names(&self, document: usize, section: ModelSection) -> Vec<String> {
+        let models = self.documents[document].models.keys().filter(|(own, _)| *own == section);
         let mut names: Vec<String> = models.map(|(_, name)| name.clone()).collect();
         names.sort();
         names
     }
 
-    /// The model of `shelf` that a document means by `text`, a name or `file:name`; `None` where a
+    /// The model of `section` that a document means by `text`, a name or `file:name`; `None` where a
     /// fault has been noted already.
     pub(crate) fn find(
         &self,
         document: usize,
-        shelf: Shelf,
+        section: ModelSection,
         text: &str,
     ) -> Result<Option<Reference>, Fault> {
         let (document, name) = match text.rsplit_once(':') {
@@ -237,17 +247,17 @@ impl Library {
                 }
             }
         };
-        if let Some(found) = self.own(document, shelf, name) {
+        if let Some(found) = self.own(document, section, name) {
             return Ok(Some(found));
         }
-        let (family, known) = (shelf.word(), self.names(document, shelf));
+        let (family, known) = (section.word(), self.names(document, section));
         let fault = Fault::UnknownName { family, name: name.to_owned(), known };
-        Err(match (self.own(document, shelf.other(), name), shelf) {
+        Err(match (self.own(document, section.other(), name), section) {
             (None, _) => fault,
-            (Some(_), Shelf::Materials) => {
+            (Some(_), ModelSection::Materials) => {
                 fault.with_help(format!("`{name}` is a model: write `model = \"{text}\"`"))
             }
-            (Some(_), Shelf::Models) => fault.with_help(format!(
+            (Some(_), ModelSection::Models) => fault.with_help(format!(
                 "`{name}` is a material: write `material = \"{text}\"` with the `thickness` and \
                  the `area` of the pad"
             )),
@@ -255,16 +265,16 @@ impl Library {
     }
 
     fn add(&mut self, path: &str, root: Item, overrides: &Overrides, faults: &Faults) {
-        let own = section(&root, "values").map(|entry| &entry.item);
+        let own = top_entry(&root, "values").map(|entry| &entry.item);
         let values = values::read(own, overrides, faults);
         let mut models = HashMap::new();
-        for shelf in SHELVES {
-            if let Some(entry) = section(&root, shelf.section()) {
-                entries_of(&entry.item, &format!("[{}]", shelf.section()), faults);
+        for section in MODEL_SECTIONS {
+            if let Some(entry) = top_entry(&root, section.key()) {
+                entries_of(&entry.item, &format!("[{}]", section.key()), faults);
             }
-            for (index, entry) in shelf.entries(&root).iter().enumerate() {
+            for (index, entry) in section.entries(&root).iter().enumerate() {
                 check_name(&entry.key, entry.key_place, faults);
-                models.insert((shelf, entry.key.to_string()), index);
+                models.insert((section, entry.key.to_string()), index);
             }
         }
         self.documents.push(Document { path: path.to_owned(), root, values, models });
@@ -333,7 +343,8 @@ impl Library {
                 Content::List(items) => queue.extend(items),
                 Content::Table(entries) => {
                     for entry in entries {
-                        let refers = SHELVES.iter().any(|shelf| shelf.word() == entry.key);
+                        let refers =
+                            MODEL_SECTIONS.iter().any(|section| section.word() == entry.key);
                         let text = entry.item.text().filter(|_| refers);
                         match text.and_then(|text| text.rsplit_once(':')) {
                             Some((path, _)) => {
@@ -369,7 +380,7 @@ pub(crate) fn file_named(item: &Item) -> Option<&Item> {
     named.filter(|item| item.text().is_some())
 }
 
-fn section<'r>(root: &'r Item, key: &str) -> Option<&'r Entry> {
+fn top_entry<'r>(root: &'r Item, key: &str) -> Option<&'r Entry> {
     root.table()?.iter().find(|entry| entry.key == key)
 }
 

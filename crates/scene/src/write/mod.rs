@@ -2,7 +2,6 @@
 
 pub(crate) mod rewrite;
 pub(crate) mod scene;
-pub(crate) mod waveform;
 
 use std::collections::HashMap;
 

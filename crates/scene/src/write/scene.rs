@@ -3,21 +3,20 @@
 use std::{collections::BTreeMap, fmt::Write as _};
 
 use dashpot_analysis::{MeasureWish, Stop, measures::Measure};
-use dashpot_dae::Direction;
+use dashpot_dae::{Direction, Waveform};
 use dashpot_network::{
     Connection, Element, Model, Network, Node, NodeId, Start, Support,
     elements::{Dashpot, Law, Spring},
     layers::{Layers, Resolution},
     parameters::Dimension,
     part,
+    waveforms::Recognized,
 };
 use dashpot_rheology::Tree;
 use thiserror::Error;
 
 use super::{
-    comment_lines, key, law, quoted,
-    waveform::{write_motion, write_waveform},
-    write_effect, write_material_table, write_pairs,
+    comment_lines, key, law, quoted, write_effect, write_kind, write_material_table, write_pairs,
 };
 use crate::{
     quantities::basis::{AREA, Basis, DENSITY},
@@ -259,4 +258,24 @@ fn stop(stop: &Stop) -> String {
 /// A quantity as a text in quotes.
 fn said(value: f64, dimension: Dimension) -> String {
     quoted(&exact_quantity(value, dimension))
+}
+
+/// A driving function of what is measured in `driven`, as `word = …`; `None` where it is of a kind
+/// that does not show in its pieces.
+fn write_waveform(waveform: &Waveform, driven: Dimension) -> Option<String> {
+    Recognized::of(waveform).map(|own| written(&own, driven))
+}
+
+/// The motion of a node as `motion = { … }`, or as the `acceleration` that it was made of.
+fn write_motion(motion: &Waveform) -> Option<String> {
+    let acceleration = || {
+        let own = Recognized::as_acceleration(motion)?;
+        Some(format!("acceleration = {{ {} }}", written(&own, Dimension::ACCELERATION)))
+    };
+    let own = write_waveform(motion, Dimension::LENGTH);
+    own.map(|own| format!("motion = {{ {own} }}")).or_else(acceleration)
+}
+
+fn written(own: &Recognized, driven: Dimension) -> String {
+    write_kind(own.word, own.parameters, &own.values, driven)
 }

@@ -2,7 +2,9 @@
 
 use dashpot_dae::Extremum;
 
-use super::{Claim, Trend, Verdict, row, table};
+use dashpot_plot::Table;
+
+use super::{Claim, Trend, Verdict, row};
 use crate::{
     DURATION, Family, Impact, Study, ThesisError, Varied,
     roots::monotone_root,
@@ -64,7 +66,11 @@ fn crossing(study: &Study) -> Claim {
             "Of each family, the curves of neighbouring values were followed from the start to \
                   the first release."
                 .to_owned(),
-        evidence: vec![table("τ* at which neighbouring force curves first cross", &header, rows)],
+        evidence: vec![Table::new(
+            "τ* at which neighbouring force curves first cross",
+            &header,
+            rows,
+        )],
     }
 }
 
@@ -89,7 +95,7 @@ fn decay(study: &Study) -> Claim {
         says: "the higher the peak force, the faster the force decays",
         verdict: Verdict::of(&cases),
         finding: "Timed from the peak to half of it.".to_owned(),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "φ max: τ* from the peak to half of it, over the values of each family",
             &["parameter", "1st value", "2nd", "3rd", "4th", "5th"],
             rows,
@@ -126,7 +132,7 @@ fn slopes(study: &Study) -> Claim {
             "The slope at the beginning is c: it goes {first} over the family of c, and only there. \
              At ξ = {STRAIN} it changes with every group."
         ),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "Slope dφ/dξ over each family",
             &["group", "at the beginning", "at ξ = 0.2"],
             rows,
@@ -164,7 +170,7 @@ fn trade(study: &Study) -> Claim {
         says: "the peak force is the higher, the smaller the largest deformation is",
         verdict: Verdict::of(&cases),
         finding: "Where both go with a parameter without turning, in opposite ways.".to_owned(),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "φ max at ξ max, over the values of each family",
             &["parameter", "1st value", "2nd", "3rd", "4th", "5th"],
             rows,
@@ -201,7 +207,7 @@ fn separation(study: &Study) -> Claim {
              {} % of its energy.",
             significant(100.0 * most, 2)
         ),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "Release",
             &["impact", "ξ max at τ*", "release at τ*", "impactor's ζ′ then"],
             rows,
@@ -232,7 +238,7 @@ fn tension(study: &Study) -> Claim {
             significant(100.0 * most, 2),
             significant(100.0 * VERY_SMALL, 1)
         ),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "Energy taken up after the release over the impact energy, for the values of each family",
             &["parameter", "1st value", "2nd", "3rd", "4th", "5th"],
             rows,
@@ -281,6 +287,10 @@ fn late_maximum(study: &Study) -> Result<Claim, ThesisError> {
             listed(&early),
             listed(&jump)
         ),
-        evidence: vec![table("Largest deformation", &["impact", "at τ*", "local maxima"], rows)],
+        evidence: vec![Table::new(
+            "Largest deformation",
+            &["impact", "at τ*", "local maxima"],
+            rows,
+        )],
     })
 }

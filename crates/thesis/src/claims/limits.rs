@@ -1,6 +1,8 @@
 //! The thickness as a limit, and the range in which the thesis says that its conclusions hold.
 
-use super::{Claim, Verdict, row, table};
+use dashpot_plot::Table;
+
+use super::{Claim, Verdict, row};
 use crate::{
     Groups, Impact, Padding, Scales, Study, Support, ThesisError, Varied,
     words::{listed, short, significant},
@@ -81,7 +83,7 @@ fn thickness(study: &Study) -> Result<Claim, ThesisError> {
             listed(&words),
             listed(&free)
         ),
-        evidence: vec![table("Limits of each group, all else at base", &header, rows)],
+        evidence: vec![Table::new("Limits of each group, all else at base", &header, rows)],
     })
 }
 
@@ -135,7 +137,7 @@ fn validity() -> Result<Claim, ThesisError> {
             if is_inside { "inside" } else { "outside" },
             cases.len(),
         ),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "Corners of the range, K in MN/m, C in N s/m",
             &["padding", "φ max", "ξ max"],
             rows,

@@ -139,11 +139,6 @@ fn row(cells: impl IntoIterator<Item = String>) -> Vec<String> {
     cells.into_iter().collect()
 }
 
-fn table(caption: impl Into<String>, header: &[&str], rows: Vec<Vec<String>>) -> Table {
-    let header = header.iter().map(|own| (*own).to_owned()).collect();
-    Table { caption: caption.into(), header, rows }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,8 @@
 //! How much each group matters.
 
-use super::{Claim, Mark, Verdict, row, table};
+use dashpot_plot::Table;
+
+use super::{Claim, Mark, Verdict, row};
 use crate::{
     Family, Impact, Scales, Study,
     words::{change, listed, significant},
@@ -29,13 +31,12 @@ fn size(study: &Study) -> Claim {
         });
         row([own.0.to_owned()].into_iter().chain(each))
     });
-    let rows = rows.collect();
     Claim {
         place: "V",
         says: "varying a, b, c and d changes the energy taken up in the first 10 ms by 3 to 7 %",
         verdict: Verdict::of(&cases),
         finding: format!("Over the families it changes by {}.", listed(&words)),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "Change of the energy over each family",
             &["group", "in 1 ms", "in 2 ms", "in 4 ms", "in 10 ms"],
             rows,
@@ -76,7 +77,7 @@ fn order(study: &Study) -> Claim {
         says: "d matters most for the energy, then c, b and a",
         verdict: Verdict::of(&cases),
         finding: format!("The order is {}.", listed(&words)),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "Percent of change per percent of the group, around the base",
             &["quantity", "a", "b", "c", "d", "order"],
             rows,

@@ -1,16 +1,17 @@
 //! What the groups mean for springs and dashpots, the equivalent model, and gravity.
 
 use dashpot_network::Model;
+use dashpot_plot::Table;
 use dashpot_rheology::{
     Branch, Tree,
-    appendix_a::{Burgers, SpringDashpot, TwoMaxwell},
+    appendix_a::{SpringDashpot, TwoMaxwell},
 };
 
-use super::{Claim, Trend, Verdict, row, table};
+use super::{Claim, Trend, Verdict, row};
 use crate::{
     DURATION, Groups, Impact, Member, Padding, STANDARD_GRAVITY, Scales, Study, ThesisError,
     Varied,
-    groups::maxwell,
+    groups::{burgers, maxwell},
     words::{change, listed, significant},
 };
 
@@ -63,7 +64,7 @@ fn meaning(study: &Study) -> Claim {
         finding: "C1 = c m1/(q J) and K1 = d m1/(q J²) both fall when a raises q, and \
                   C2 = d m1/(b J) does not know c."
             .to_owned(),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "Constants of the padding over each family, in MN/m and kN s/m",
             &["constant", "claimed", "found", "values"],
             rows,
@@ -77,7 +78,6 @@ fn conservative(study: &Study) -> Claim {
         let each = family.each(nu).into_iter().map(|own| significant(own, 3));
         row([family.varied.symbol().to_owned()].into_iter().chain(each))
     });
-    let rows = rows.collect();
     let all: Vec<f64> = study.families().flat_map(|family| family.each(nu)).collect();
     let least = all.iter().copied().fold(f64::INFINITY, f64::min);
     let most = all.iter().copied().fold(0.0, f64::max);
@@ -91,7 +91,7 @@ fn conservative(study: &Study) -> Claim {
             significant(least, 3),
             significant(most, 3)
         ),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "ν = d/c over each family",
             &["parameter", "1st value", "2nd", "3rd", "4th", "5th"],
             rows,
@@ -99,24 +99,15 @@ fn conservative(study: &Study) -> Claim {
     }
 }
 
-/// The padding of chapter IV in the words of appendix A.
-fn burgers() -> Burgers {
-    let Padding { k1, c1, k2, c2 } = Padding::CHAPTER_4;
-    Burgers {
-        maxwell: SpringDashpot { spring: k2, dashpot: c2 },
-        kelvin: SpringDashpot { spring: k1, dashpot: c1 },
-    }
-}
-
 fn one_time() -> Result<Claim, ThesisError> {
-    let TwoMaxwell { slow, fast } = burgers().to_two_maxwell()?;
-    let kelvin = burgers().kelvin;
+    let TwoMaxwell { slow, fast } = burgers(Padding::CHAPTER_4).to_two_maxwell()?;
+    let kelvin = burgers(Padding::CHAPTER_4).kelvin;
     let milliseconds = |own: SpringDashpot| 1e3 * own.dashpot / own.spring;
     let times = [milliseconds(slow), milliseconds(fast), milliseconds(kelvin)];
     let is_one = times[..2].iter().all(|own| (own / times[2] - 1.0).abs() < SAME);
     let names = ["relaxation, slow", "relaxation, fast", "retardation, C1/K1"];
     let rows = names.iter().zip(times);
-    let rows = rows.map(|(name, time)| row([(*name).to_owned(), significant(time, 5)])).collect();
+    let rows = rows.map(|(name, time)| row([(*name).to_owned(), significant(time, 5)]));
     Ok(Claim {
         place: "VI",
         says: "the model has one relaxation time, C1/K1",
@@ -128,19 +119,15 @@ fn one_time() -> Result<Claim, ThesisError> {
             significant(times[0], 4),
             significant(times[1], 4)
         ),
-        evidence: vec![table("Times of the padding of chapter IV", &["time", "ms"], rows)],
+        evidence: vec![Table::new("Times of the padding of chapter IV", &["time", "ms"], rows)],
     })
 }
 
 fn equivalent(study: &Study) -> Result<Claim, ThesisError> {
     let own = study.system.groups;
     let none = || ThesisError::NoPadding { q: own.q() };
-    let Padding { k1, c1, k2, c2 } = own.padding(&Scales::UNIT).ok_or_else(none)?;
-    let unit = Burgers {
-        maxwell: SpringDashpot { spring: k2, dashpot: c2 },
-        kelvin: SpringDashpot { spring: k1, dashpot: c1 },
-    };
-    let TwoMaxwell { slow, fast } = unit.to_two_maxwell()?;
+    let unit = own.padding(&Scales::UNIT).ok_or_else(none)?;
+    let TwoMaxwell { slow, fast } = burgers(unit).to_two_maxwell()?;
     let branch =
         |name: &str, own: SpringDashpot| Branch::new(name, maxwell(own.spring, own.dashpot));
     let pad: Model = Tree::Parallel(vec![branch("slow", slow), branch("fast", fast)]);
@@ -152,12 +139,11 @@ fn equivalent(study: &Study) -> Result<Claim, ThesisError> {
         (force / study.system.peak().value).abs().max(deformation.abs())
     });
     let most = differences.fold(0.0, f64::max);
-    let TwoMaxwell { slow, fast } = burgers().to_two_maxwell()?;
+    let TwoMaxwell { slow, fast } = burgers(Padding::CHAPTER_4).to_two_maxwell()?;
     let named = [("K3", slow.spring, 1e6), ("C3", slow.dashpot, 1e3)];
     let named = named.into_iter().chain([("K4", fast.spring, 1e6), ("C4", fast.dashpot, 1e3)]);
     let rows =
         named.map(|(name, value, unit)| row([name.to_owned(), significant(value / unit, 6)]));
-    let rows = rows.collect();
     Ok(Claim {
         place: "A",
         says: "two Maxwell elements side by side describe the padding with equal precision",
@@ -170,7 +156,7 @@ fn equivalent(study: &Study) -> Result<Claim, ThesisError> {
                 format!("{} of their largest values", significant(most, 2))
             }
         ),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "The equivalent model of chapter IV, in MN/m and kN s/m",
             &["constant", "value"],
             rows,
@@ -192,7 +178,7 @@ fn gravity(study: &Study) -> Result<Claim, ThesisError> {
         .iter()
         .map(|own| format!("the {} by {} %", own.0, significant(100.0 * own.1, 2)))
         .collect();
-    let rows = changes.iter().map(|own| row([own.0.to_owned(), change(own.1)])).collect();
+    let rows = changes.iter().map(|own| row([own.0.to_owned(), change(own.1)]));
     Ok(Claim {
         place: "II",
         says: "gravity may be left out where V0² is much larger than g δ m1/(m1 + m2)",
@@ -202,6 +188,6 @@ fn gravity(study: &Study) -> Result<Claim, ThesisError> {
             significant(weight, 3),
             listed(&words)
         ),
-        evidence: vec![table("What gravity changes", &["measure", "change"], rows)],
+        evidence: vec![Table::new("What gravity changes", &["measure", "change"], rows)],
     })
 }

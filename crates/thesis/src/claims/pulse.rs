@@ -1,6 +1,8 @@
 //! What chapter III makes of the pulse that it prescribes.
 
-use super::{Claim, Verdict, row, table};
+use dashpot_plot::Table;
+
+use super::{Claim, Verdict, row};
 use crate::{
     Fit, GraphCase, Parameter, Pulse, Study, ThesisError, Varied, best_pulse, graph_cases,
     intersections, misfit,
@@ -61,7 +63,6 @@ fn energy(study: &Study) -> Claim {
         let values = [closed(*time), study.printed.energy(*time)];
         row([time.to_string()].into_iter().chain(values.map(|own| significant(own, 5))))
     });
-    let rows = rows.collect();
     let checks = Pulse::PRINTED.checks();
     Claim {
         place: "III",
@@ -75,7 +76,7 @@ fn energy(study: &Study) -> Claim {
             0.5,
             significant(checks.impulse, 4)
         ),
-        evidence: vec![table("Energy ω", &["τ*", "by 3.59", "exact"], rows)],
+        evidence: vec![Table::new("Energy ω", &["τ*", "by 3.59", "exact"], rows)],
     }
 }
 
@@ -99,7 +100,7 @@ fn left_out_term() -> Claim {
             significant(time, 4),
             significant((own / printed).abs(), 2)
         ),
-        evidence: vec![table("The term that is left out", &["at", "term"], rows.to_vec())],
+        evidence: vec![Table::new("The term that is left out", &["at", "term"], rows.to_vec())],
     }
 }
 
@@ -131,7 +132,7 @@ fn limit(study: &Study) -> Result<Claim, ThesisError> {
             listed(&words),
             significant(100.0 * same, 2)
         ),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "Value with which the largest deformation is the thickness",
             &["group", "by 3.55", "exact"],
             rows,
@@ -165,7 +166,7 @@ fn turning_time() -> Claim {
             significant(first, 5),
             significant(part * first, 5)
         ),
-        evidence: vec![table("Time of the largest deformation", &["by", "τ*"], rows)],
+        evidence: vec![Table::new("Time of the largest deformation", &["by", "τ*"], rows)],
     }
 }
 
@@ -203,7 +204,7 @@ fn graph() -> Claim {
             significant(nu, 3),
             listed(&before)
         ),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "Roots of e^z = θ z + ψ, and the times among them",
             &["line", "what", "P", "m", "θ", "ψ", "roots", "times τ* > 0"],
             rows,

@@ -2,7 +2,7 @@
 
 use dashpot_plot::Table;
 
-use super::{Claim, Mark, Trend, Verdict, row, table};
+use super::{Claim, Mark, Trend, Verdict, row};
 use crate::{
     Family, Member, Scales, Study, Varied,
     words::{change, listed, significant},
@@ -99,7 +99,7 @@ fn peak(study: &Study, of: [(Varied, Trend); 4], says: &'static str) -> Claim {
         says,
         verdict: Verdict::of(&cases),
         finding: format!("{}.", listed(&words)),
-        evidence: vec![table(
+        evidence: vec![Table::new(
             "Peak force over each family",
             &["parameter", "range", "φ max", "kN in chapter IV", "change"],
             rows,
@@ -147,5 +147,5 @@ fn energies(rows: Vec<Vec<String>>) -> Table {
     let marks = Mark::ALL.map(Mark::text);
     let header: Vec<&str> =
         ["parameter", "range"].into_iter().chain(marks.iter().map(String::as_str)).collect();
-    table("Energy ω in the padding over each family", &header, rows)
+    Table::new("Energy ω in the padding over each family", &header, rows)
 }

@@ -3,13 +3,13 @@
 use dashpot_analysis::rheometer::{LoadHoldUnload, ProtocolKind, RheometerReport, Specimen};
 use dashpot_network::Network;
 use dashpot_plot::{Chart, Series};
-use dashpot_rheology::{
-    Branch, Tree,
-    appendix_a::{Burgers, SpringDashpot},
-};
+use dashpot_rheology::{Branch, Tree, appendix_a::SpringDashpot};
 
 use super::{Column, Drawing, Figure};
-use crate::{Groups, Padding, Scales, Study, Support, ThesisError, groups::maxwell};
+use crate::{
+    Groups, Padding, Scales, Study, Support, ThesisError,
+    groups::{burgers, maxwell},
+};
 
 /// Force \[N\] and times \[s\] of figure 2: held so long, and looked at until.
 const FORCE: f64 = 20e3;
@@ -32,12 +32,7 @@ pub(super) fn impact(study: &Study) -> Result<Figure, ThesisError> {
 }
 
 pub(super) fn equivalent() -> Result<Figure, ThesisError> {
-    let Padding { k1, c1, k2, c2 } = Padding::CHAPTER_4;
-    let burgers = Burgers {
-        maxwell: SpringDashpot { spring: k2, dashpot: c2 },
-        kelvin: SpringDashpot { spring: k1, dashpot: c1 },
-    };
-    let two = burgers.to_two_maxwell()?;
+    let two = burgers(Padding::CHAPTER_4).to_two_maxwell()?;
     let branch =
         |name: &str, own: SpringDashpot| Branch::new(name, maxwell(own.spring, own.dashpot));
     let pad = Tree::Parallel(vec![branch("slow", two.slow), branch("fast", two.fast)]);

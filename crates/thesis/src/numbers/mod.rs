@@ -258,11 +258,11 @@ pub fn number_table(all: &[Number]) -> Table {
         let words = [own.place.to_owned(), own.what.to_owned(), printed];
         words.into_iter().chain([own.recomputed.clone(), own.verdict.text()]).collect()
     };
-    Table {
-        caption: "Numbers of the text".to_owned(),
-        header: ["place", "what", "printed", "recomputed", "verdict"].map(str::to_owned).to_vec(),
-        rows: all.iter().map(row).collect(),
-    }
+    Table::new(
+        "Numbers of the text",
+        &["place", "what", "printed", "recomputed", "verdict"],
+        all.iter().map(row),
+    )
 }
 
 #[cfg(test)]

@@ -38,11 +38,11 @@ pub fn chapter_3_table() -> Table {
     let row = |(place, what, value): (&str, &str, f64)| {
         vec![place.to_owned(), what.to_owned(), significant(value, 6)]
     };
-    Table {
-        caption: "Chapter III with P = 9.9, m = 3.1 and the groups of chapter IV".to_owned(),
-        header: ["equation", "what", "value"].map(str::to_owned).to_vec(),
-        rows: rows.into_iter().map(row).collect(),
-    }
+    Table::new(
+        "Chapter III with P = 9.9, m = 3.1 and the groups of chapter IV",
+        &["equation", "what", "value"],
+        rows.into_iter().map(row),
+    )
 }
 
 /// What the equations 2.20 to 2.26 give exactly.
@@ -62,11 +62,7 @@ pub fn exact_table(study: &Study) -> Table {
         [name.to_owned()].into_iter().chain(values).chain([release]).chain(energies).collect()
     };
     let header = ["impact", "φ max", "at τ*", "ξ max", "at τ*", "release τ*", "ω(5)", "ω(10)"];
-    Table {
-        caption: "The impact of chapter IV, exactly".to_owned(),
-        header: header.map(str::to_owned).to_vec(),
-        rows: cases.into_iter().map(row).collect(),
-    }
+    Table::new("The impact of chapter IV, exactly", &header, cases.into_iter().map(row))
 }
 
 /// The best-fitting pulse beside the one that is printed.
@@ -118,9 +114,5 @@ pub fn fit_table(study: &Study) -> Table {
         "energy",
         "ξ max",
     ];
-    Table {
-        caption: "The pulse P τ e^(−mτ) that stands for the force".to_owned(),
-        header: header.map(str::to_owned).to_vec(),
-        rows: rows.chain(exact).collect(),
-    }
+    Table::new("The pulse P τ e^(−mτ) that stands for the force", &header, rows.chain(exact))
 }

@@ -1,12 +1,9 @@
 //! What the command line changed about a scene, and the text of the scene with it.
 
-use std::{fmt::Write as _, ops::Range};
+use std::fmt::Write as _;
 
 use dashpot_scene::{ReadOptions, Scene, read};
-use toml::{
-    Spanned,
-    de::{DeTable, DeValue},
-};
+use toml_edit::{Array, DocumentMut, Item, Table, Value};
 
 use crate::{
     args::{RunArguments, Switch},
@@ -101,21 +98,34 @@ fn below_directive(text: &str, comment: &str) -> String {
 /// The text with the changes, and those that could not be written. `None` where the text then says
 /// something else than what was run.
 fn written(scene: &Scene, changes: &Changes) -> Option<(String, Changes)> {
-    let table = DeTable::parse(&scene.text).ok()?;
-    let mut edits = Edits { text: &scene.text, table: table.get_ref(), list: Vec::new() };
+    let mut document: DocumentMut = scene.text.parse().ok()?;
     let mut rest = changes.clone();
-    rest.set.retain(|(name, value)| !edits.replace("values", name, &quoted(value)));
-    let methods: Vec<String> = changes.methods.iter().map(|own| quoted(own)).collect();
-    if !methods.is_empty() && edits.put_in_run("methods", &format!("[{}]", methods.join(", "))) {
-        rest.methods.clear();
-    }
-    if changes.rtol.is_some_and(|rtol| edits.put_in_run("rtol", &format!("{rtol:?}"))) {
-        rest.rtol = None;
-    }
-    if edits.append_accuracy(changes.accuracy, changes.neglect) {
+    rest.set
+        .retain(|(name, value)| !replace(&mut document, "values", name, &value.as_str().into()));
+    // One accuracy for all measures goes where the scene says nothing that it would override.
+    let run = document.get("run").and_then(Item::as_table_like);
+    let has_tolerance = run.is_some_and(|run| run.contains_key("rtol"));
+    let has_accuracy = document.contains_key("accuracy");
+    if !(changes.accuracy.is_some() && has_tolerance || has_accuracy) {
+        let wishes = [("default", changes.accuracy), ("neglect-below", changes.neglect)];
+        for (key, wish) in wishes {
+            if let Some(wish) = wish {
+                let accuracy = document.entry("accuracy").or_insert(Item::Table(Table::new()));
+                accuracy[key] = Item::Value(number(wish)?);
+            }
+        }
         (rest.accuracy, rest.neglect) = (None, None);
     }
-    let text = edits.applied();
+    let methods: Array = changes.methods.iter().map(String::as_str).collect();
+    if !methods.is_empty() && put_in_run(&mut document, "methods", methods.into()) {
+        rest.methods.clear();
+    }
+    if let Some(rtol) = changes.rtol
+        && put_in_run(&mut document, "rtol", number(rtol)?)
+    {
+        rest.rtol = None;
+    }
+    let text = document.to_string();
     let options = ReadOptions { file: scene.file.as_deref(), set: &rest.set, loader: Some(&load) };
     let read = read(&text, &options).ok()?.value;
     let methods_agree = changes.methods.is_empty()
@@ -124,74 +134,30 @@ fn written(scene: &Scene, changes: &Changes) -> Option<(String, Changes)> {
     (read.values == scene.values && methods_agree).then_some((text, rest))
 }
 
-fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
+/// A number as it is written on the command line.
+fn number(value: f64) -> Option<Value> {
+    format!("{value:?}").parse().ok()
 }
 
-/// Changes of a text at places that its tables give.
-struct Edits<'t> {
-    text: &'t str,
-    table: &'t DeTable<'t>,
-    list: Vec<(Range<usize>, String)>,
+/// Replaces a value that is there; what stands around it is kept.
+fn replace(document: &mut DocumentMut, section: &str, key: &str, value: &Value) -> bool {
+    let section = document.get_mut(section).and_then(Item::as_table_like_mut);
+    let old = section.and_then(|own| own.get_mut(key)).and_then(Item::as_value_mut);
+    let Some(old) = old else { return false };
+    let decor = old.decor().clone();
+    *old = value.clone();
+    *old.decor_mut() = decor;
+    true
 }
 
-impl Edits<'_> {
-    /// Replaces a value that is there.
-    fn replace(&mut self, section: &str, key: &str, value: &str) -> bool {
-        let Some(DeValue::Table(entries)) = self.table.get(section).map(Spanned::get_ref) else {
-            return false;
-        };
-        let Some(old) = entries.get(key) else { return false };
-        self.list.push((old.span(), value.to_owned()));
-        true
+/// Replaces a value of `[run]`, or adds it there, unless that is an inline table.
+fn put_in_run(document: &mut DocumentMut, key: &str, value: Value) -> bool {
+    if replace(document, "run", key, &value) {
+        return true;
     }
-
-    /// Replaces a value of `[run]`, or adds a line for it before the first one.
-    fn put_in_run(&mut self, key: &str, value: &str) -> bool {
-        if self.replace("run", key, value) {
-            return true;
-        }
-        let Some(DeValue::Table(entries)) = self.table.get("run").map(Spanned::get_ref) else {
-            return false;
-        };
-        let Some(first) = entries.keys().map(|key| key.span().start).min() else { return false };
-        let line = self.text[..first].rfind('\n').map_or(0, |at| at + 1);
-        // Neither in an inline table nor behind a dotted key.
-        let is_free = self.text[line..first].trim().is_empty();
-        if is_free {
-            self.list.push((line..line, format!("{key} = {value}\n")));
-        }
-        is_free
-    }
-
-    /// Adds one accuracy for all measures, and a bound for what may be left out, where the scene
-    /// says nothing that they would override.
-    fn append_accuracy(&mut self, accuracy: Option<f64>, neglect: Option<f64>) -> bool {
-        let has_tolerance = matches!(
-            self.table.get("run").map(Spanned::get_ref),
-            Some(DeValue::Table(entries)) if entries.contains_key("rtol")
-        );
-        if accuracy.is_some() && has_tolerance || self.table.contains_key("accuracy") {
-            return false;
-        }
-        let default = accuracy.map(|own| format!("default = {own:?}\n"));
-        let neglect = neglect.map(|own| format!("neglect-below = {own:?}\n"));
-        let lines: String = default.into_iter().chain(neglect).collect();
-        if !lines.is_empty() {
-            let end = self.text.len();
-            self.list.push((end..end, format!("\n[accuracy]\n{lines}")));
-        }
-        true
-    }
-
-    fn applied(mut self) -> String {
-        let mut text = self.text.to_owned();
-        self.list.sort_by_key(|(place, _)| std::cmp::Reverse(place.start));
-        for (place, value) in self.list {
-            text.replace_range(place, &value);
-        }
-        text
-    }
+    let Some(run) = document.get_mut("run").and_then(Item::as_table_mut) else { return false };
+    run.insert(key, Item::Value(value));
+    true
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::lettering::escape;
+use crate::text_metrics::escape;
 use crate::theme;
 
 /// A place \[px\].

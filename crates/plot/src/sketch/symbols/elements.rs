@@ -1,9 +1,9 @@
 //! The register of symbols of elements.
 
 use super::canvas::{Canvas, Point, Weight, upright};
-use crate::lettering::text_width;
 use crate::sketch::SketchTree;
 use crate::sketch::order::Extent;
+use crate::text_metrics::text_width;
 use crate::theme;
 
 /// Length of most symbols \[px\].
@@ -237,7 +237,7 @@ fn gap_and_spring(canvas: &mut Canvas, (left, y): Point) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lettering::columns;
+    use crate::text_metrics::columns;
     use crate::well_formed::assert_well_formed;
 
     #[test]

@@ -1,9 +1,9 @@
 //! Symbols of nodes, of what acts on them, and of gravity.
 
 use super::canvas::{Canvas, Point, Weight};
-use crate::lettering::text_width;
 use crate::sketch::order::Extent;
 use crate::sketch::{SketchGravity, SketchKind, SketchNode};
+use crate::text_metrics::text_width;
 use crate::theme;
 
 /// Distance of lines of text \[px\].
@@ -50,22 +50,22 @@ impl Canvas {
                 let is_given = node.kind == SketchKind::Prescribed;
                 self.rectangle((x, y - half), (extent.width, 2.0 * half), is_given);
                 let texts = lettering_height(node);
-                self.lettering(node, (centre, y - 0.5 * texts + 0.85 * theme::LABEL_SIZE));
+                self.text_metrics(node, (centre, y - 0.5 * texts + 0.85 * theme::LABEL_SIZE));
             }
             SketchKind::Massless => {
                 self.wires((x, centre), y, extent, wired);
                 self.disc((centre, y), JOINT);
-                self.lettering(node, (centre, y + JOINT + 3.0 + theme::LABEL_SIZE));
+                self.text_metrics(node, (centre, y + JOINT + 3.0 + theme::LABEL_SIZE));
             }
             SketchKind::Face => {
                 self.wires((x, centre), y, extent, wired);
                 self.plate((centre, y), FACE);
-                self.lettering(node, (centre, y + FACE + 4.0 + theme::LABEL_SIZE));
+                self.text_metrics(node, (centre, y + FACE + 4.0 + theme::LABEL_SIZE));
             }
             SketchKind::HeavyFace => {
                 self.wires((x, centre), y, extent, wired);
                 self.rectangle((centre - HEAVY, y - FACE), (2.0 * HEAVY, 2.0 * FACE), false);
-                self.lettering(node, (centre, y + FACE + 4.0 + theme::LABEL_SIZE));
+                self.text_metrics(node, (centre, y + FACE + 4.0 + theme::LABEL_SIZE));
             }
             SketchKind::Fixed => {
                 let (end, side) = if wired.1 { (x + extent.width, -1.0) } else { (x, 1.0) };
@@ -73,7 +73,7 @@ impl Canvas {
                     self.straight((end, y), (centre, y));
                 }
                 self.wall((centre, y), WALL, side);
-                self.lettering(node, (centre, y + WALL + 4.0 + theme::LABEL_SIZE));
+                self.text_metrics(node, (centre, y + WALL + 4.0 + theme::LABEL_SIZE));
             }
         }
     }
@@ -87,7 +87,7 @@ impl Canvas {
         }
     }
 
-    fn lettering(&mut self, node: &SketchNode, (x, y): Point) {
+    fn text_metrics(&mut self, node: &SketchNode, (x, y): Point) {
         self.text((x, y), &node.name, Weight::Bold);
         let mut base = y;
         for line in &node.lines {

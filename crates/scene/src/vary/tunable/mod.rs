@@ -114,14 +114,14 @@ impl Tunables {
         // An element of a model has the numbers of the model.
         for (path, word) in &found.words {
             let [section, element, key] = path.as_slice() else { continue };
-            let shelf = if key == "material" { "materials" } else { "models" };
+            let shared = if key == "material" { "materials" } else { "models" };
             if section != "elements" || !["model", "material"].contains(&key.as_str()) {
                 continue;
             }
             let inner: Vec<(Vec<String>, usize)> = own
                 .paths
                 .iter()
-                .filter(|known| known.0.len() > 2 && known.0[0] == shelf && known.0[1] == *word)
+                .filter(|known| known.0.len() > 2 && known.0[0] == shared && known.0[1] == *word)
                 .map(|known| {
                     let mut path = vec![section.clone(), element.clone()];
                     path.extend_from_slice(&known.0[2..]);
