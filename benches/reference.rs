@@ -217,11 +217,11 @@ fn main() {
     }
     criterion.bench_function("hand-written exponential loop", |b| b.iter(hand_written_exponential));
     criterion.bench_function("network to system", |b| b.iter(|| network.compile(black_box(0.02))));
-    let settings = SolveSettings::lasting(0.02).by("exact");
+    let settings = SolveSettings::lasting(0.02).by_name("exact").expect("a method");
     criterion.bench_function("exact with all measures and the energy ledger", |b| {
         b.iter(|| solve(black_box(&network), &settings, &mut Silent));
     });
-    let settings = SolveSettings::lasting(0.02).by("bdf");
+    let settings = SolveSettings::lasting(0.02).by_name("bdf").expect("a method");
     criterion.bench_function("bdf with all measures, error bars and the energy ledger", |b| {
         b.iter(|| solve(black_box(&network), &settings, &mut Silent));
     });

@@ -33,7 +33,7 @@ fn impact(padding: Model) -> Result<RunReport, Box<dyn Error>> {
     network.connect("padding", head, panel, padding);
     let mount = Tree::parallel([part(Spring { stiffness: 50e6 }), part(Dashpot { damping: 10e3 })]);
     network.connect("mount", panel, network.ground(), mount);
-    Ok(solve(&network, &SolveSettings::lasting(0.02).by("exact"), &mut Silent)?)
+    Ok(solve(&network, &SolveSettings::lasting(0.02).by_name("exact")?, &mut Silent)?)
 }
 
 pub fn main() -> Result<(), Box<dyn Error>> {

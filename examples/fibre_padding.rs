@@ -56,8 +56,8 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let mount = Tree::parallel([part(Spring { stiffness: 50e6 }), part(Dashpot { damping: 10e3 })]);
     network.connect("mount", panel, network.ground(), mount);
     let settings = SolveSettings::lasting(0.02);
-    let exact = solve(&network, &settings.clone().by("exact"), &mut Silent)?;
-    let bdf = solve(&network, &settings.by("bdf"), &mut Silent)?;
+    let exact = solve(&network, &settings.clone().by_name("exact")?, &mut Silent)?;
+    let bdf = solve(&network, &settings.by_name("bdf")?, &mut Silent)?;
     let value = |key: &str| exact.measure(key).and_then(|own| own.value).ok_or(key.to_owned());
     println!("peak force {:.3} kN", 1e-3 * value("padding.peak-force")?);
     println!("deepest    {:.3} mm", 1e3 * value("padding.peak-deformation")?);

@@ -35,7 +35,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     network.add_load("ram", plate, Table::of(points).waveform()?);
 
     for method in ["exact", "bdf", "esdirk34"] {
-        let report = solve(&network, &SolveSettings::lasting(0.05).by(method), &mut Silent)?;
+        let report = solve(&network, &SolveSettings::lasting(0.05).by_name(method)?, &mut Silent)?;
         let value = |key: &str| report.measure(key).and_then(|m| m.value).ok_or(key.to_owned());
         println!(
             "{method:<9} deepest {:.4} mm, work in {:.4} J, {} steps",

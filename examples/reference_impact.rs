@@ -36,8 +36,8 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     network.connect("mount", panel, network.ground(), mount);
 
     let settings = SolveSettings::lasting(0.02);
-    let exact = solve(&network, &settings.clone().by("exact"), &mut Silent)?;
-    let bdf = solve(&network, &settings.by("bdf"), &mut Silent)?;
+    let exact = solve(&network, &settings.clone().by_name("exact")?, &mut Silent)?;
+    let bdf = solve(&network, &settings.by_name("bdf")?, &mut Silent)?;
     for measure in &exact.measures {
         if let Some(value) = measure.value {
             println!("{:<28} {value:>16.9} {}", measure.key, measure.unit);

@@ -35,7 +35,7 @@ duration = "15 ms"
 
 pub fn main() -> Result<(), Box<dyn Error>> {
     let scene = read(SCENE, &ReadOptions::default())?.value;
-    let report = solve(&scene.network, &scene.settings("auto"), &mut Silent)?;
+    let report = solve(&scene.network, &scene.settings("auto")?, &mut Silent)?;
     let deepest = report.measure("mat.peak-deformation").and_then(|m| m.value).ok_or("no peak")?;
     println!("{}: {:.2} mm deep", scene.title.as_deref().unwrap_or("scene"), 1e3 * deepest);
 

@@ -21,7 +21,7 @@ fn run(scene: &Scene, settings: &SolveSettings) -> Result<RunReport, RunError> {
 }
 
 fn by(scene: &Scene, method: &str) -> Result<RunReport, RunError> {
-    run(scene, &scene.settings(method))
+    run(scene, &scene.settings(method).unwrap())
 }
 
 fn measure<'r>(report: &'r RunReport, key: &str) -> &'r MeasureReport {
@@ -100,7 +100,7 @@ fn what_is_nothing_beside_its_kind_asks_for_no_further_solution() {
     let (value, error) = (far.value.unwrap(), far.error.unwrap());
     assert!(value < 1e-9 && error > 1e-3 * value, "the bar stays as it is: {far:?}");
     // Asked for by name, it counts by itself.
-    let mut settings = scene.settings("exact");
+    let mut settings = scene.settings("exact").unwrap();
     settings.accuracy.by_measure.insert("e64.peak-force".to_owned(), 1e-3);
     let asked = run(&scene, &settings).unwrap();
     assert!(measure(&asked, "e64.peak-force").excess > 1.0);
@@ -206,7 +206,7 @@ fn energies_beyond_the_range_of_numbers_end_the_run() {
 fn budget_ends_a_run_with_the_best_answer_so_far() {
     let scene = scene(include_str!("../../scenes/reference.toml"));
     let within = |budget: u64| {
-        let mut settings = SolveSettings { budget, ..scene.settings("bdf") };
+        let mut settings = SolveSettings { budget, ..scene.settings("bdf").unwrap() };
         settings.accuracy.default = 1e-9;
         run(&scene, &settings)
     };

@@ -66,7 +66,7 @@ fn campaign<'a>(path: &str, methods: impl Fn(usize) -> Vec<&'a str>) -> Tally {
                 tally.known += 1;
                 continue;
             }
-            let settings = scene.settings(method);
+            let settings = scene.settings(method).unwrap();
             match solve(&scene.network, &settings, &mut Patience { steps: PATIENCE }) {
                 Ok(report) => tally.add(&name, &entry, &report),
                 Err(RunError::Solve(SolveError::NotApplicable { .. })) if method != "auto" => {}

@@ -346,8 +346,12 @@ impl MeasureVisitor for Measures {
 
 #[test]
 fn measures_read_the_reference_impact() {
-    let report =
-        solve(&reference(1e4), &SolveSettings::lasting(0.02).by("exact"), &mut Silent).unwrap();
+    let report = solve(
+        &reference(1e4),
+        &SolveSettings::lasting(0.02).by_name("exact").unwrap(),
+        &mut Silent,
+    )
+    .unwrap();
     let mut visitor = Measures(report, 0);
     visit_measures(&mut visitor);
     assert!(visitor.1 >= 15);

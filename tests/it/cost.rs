@@ -4,7 +4,7 @@ use std::{fs, sync::Arc};
 
 use dashpot::{
     analysis::{
-        RunError, SolveSettings,
+        Choice, RunError, SolveSettings,
         cost::{CostReport, Ladder, cost_assembly},
         solve_assembly,
     },
@@ -22,13 +22,13 @@ fn scene(path: &str) -> Scene {
 /// What accuracy costs at these tolerances, without regard to time.
 fn cost(scene: &Scene, methods: &[&str], rtols: &[f64]) -> CostReport {
     let ladder = Ladder {
-        methods: methods.iter().map(|own| (*own).to_owned()).collect(),
+        methods: methods.iter().map(|own| Choice::named(own).unwrap()).collect(),
         rtols: rtols.to_vec(),
         repeats: Some(1),
         ..Ladder::default()
     };
     let assembly = Arc::new(scene.assembly.clone());
-    cost_assembly(&assembly, &scene.settings("auto"), &ladder, &mut Silent).unwrap()
+    cost_assembly(&assembly, &scene.settings("auto").unwrap(), &ladder, &mut Silent).unwrap()
 }
 
 #[test]
@@ -36,7 +36,7 @@ fn errors_of_the_reference_impact_fall_and_are_those_of_runs_beside_the_exact_on
     let scene = scene("scenes/reference.toml");
     let assembly = Arc::new(scene.assembly.clone());
     let solved = |method: &str, rtol| {
-        let settings = SolveSettings { rtol, ..scene.settings(method) };
+        let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
         solve_assembly(&assembly, &[], &settings, &mut Silent).unwrap()
     };
     let exact = solved("exact", None);

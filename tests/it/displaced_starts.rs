@@ -35,7 +35,7 @@ impl Beside<'_> {
 
     fn report(&self, method: &str) -> RunReport {
         let scene = read(&self.text(), &ReadOptions::default()).unwrap().value;
-        solve(&scene.network, &scene.settings(method), &mut Silent).unwrap()
+        solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent).unwrap()
     }
 
     /// Checks where the mass ends \[m\] and, where given, the largest force of the element \[N\].

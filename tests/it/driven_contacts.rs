@@ -11,7 +11,7 @@ const GRAVITY: f64 = 9.80665;
 
 fn run_at(text: &str, method: &str, rtol: Option<f64>) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
-    let settings = SolveSettings { rtol, ..scene.settings(method) };
+    let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
     solve(&scene.network, &settings, &mut Silent).unwrap()
 }
 

@@ -1,5 +1,7 @@
 //! The examples run to their end, with the assertions in them.
 
+#[path = "../../examples/custom_method.rs"]
+mod custom_method;
 #[path = "../../examples/custom_padding.rs"]
 mod custom_padding;
 #[path = "../../examples/equivalent_models.rs"]
@@ -18,6 +20,11 @@ mod two_mass_chain;
 #[test]
 fn the_reference_impact_runs() {
     reference_impact::main().unwrap();
+}
+
+#[test]
+fn the_custom_method_runs() {
+    custom_method::main().unwrap();
 }
 
 #[test]

@@ -46,7 +46,7 @@ fn solved(name: &str) -> Solved {
 pub(crate) fn runs(name: &str, change: impl Fn(String) -> String) -> Vec<RunReport> {
     let scene = scene(name, change);
     let by = |method: &String| {
-        let settings = scene.settings(method);
+        let settings = scene.settings(method).unwrap();
         solve(&scene.network, &settings, &mut Silent)
             .unwrap_or_else(|error| panic!("{name} by {method}: {error}"))
     };

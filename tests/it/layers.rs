@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use dashpot::{
-    analysis::{RunReport, Solution, SolveSettings, solve, vibration::Vibration},
+    analysis::{Choice, RunReport, Solution, SolveSettings, solve, vibration::Vibration},
     dae::{Signal, Silent},
     network::{
         Model, Network, Node,
@@ -27,7 +27,7 @@ fn scene(text: &str) -> Scene {
 
 fn run(text: &str, method: &str) -> RunReport {
     let scene = scene(text);
-    let report = solve(&scene.network, &scene.settings(method), &mut Silent);
+    let report = solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent);
     report.unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
@@ -266,7 +266,7 @@ fn pressed(model: Model, in_layers: bool, method: &str) -> Signal {
         network.connect("pad", plate, network.ground(), model);
     }
     let settings = SolveSettings {
-        method: method.to_owned(),
+        method: Choice::named(method).unwrap(),
         rtol: Some(1e-6),
         ..SolveSettings::lasting(PRESS)
     };

@@ -16,7 +16,7 @@ fn scene(text: &str) -> Scene {
 
 fn run(text: &str) -> RunReport {
     let scene = scene(text);
-    solve(&scene.network, &scene.settings("auto"), &mut Silent).unwrap()
+    solve(&scene.network, &scene.settings("auto").unwrap(), &mut Silent).unwrap()
 }
 
 fn value(report: &RunReport, key: &str) -> f64 {
@@ -154,7 +154,7 @@ fn measures_that_can_have_no_value_are_known_before() {
                 ground = [\"hic15\"]\nhead = [\"hic15\"]\npad = [\"peak-stress\", \"peak-strain\"]\n\
                 [run]\nduration = \"0.1 s\"\n";
     let scene = scene(text);
-    let found = hopeless_measures(&scene.assembly, &scene.settings("auto")).unwrap();
+    let found = hopeless_measures(&scene.assembly, &scene.settings("auto").unwrap()).unwrap();
     let mut keys: Vec<&str> = found.iter().map(|own| own.0.as_str()).collect();
     keys.sort_unstable();
     assert_eq!(keys, ["ground.hic15", "pad.peak-strain", "pad.peak-stress"]);

@@ -11,7 +11,7 @@ const END: f64 = 0.3;
 
 fn run(text: &str, method: &str, rtol: Option<f64>) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
-    let settings = SolveSettings { rtol, ..scene.settings(method) };
+    let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
     solve(&scene.network, &settings, &mut Silent)
         .unwrap_or_else(|error| panic!("{method} {rtol:?}: {error}\n{text}"))
 }

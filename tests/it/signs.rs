@@ -10,7 +10,7 @@ use dashpot::{
 use crate::thesis::{dashpot, kelvin, spring};
 
 fn run(network: &Network, method: &str) -> RunReport {
-    solve(network, &SolveSettings::lasting(0.3).by(method), &mut Silent).unwrap()
+    solve(network, &SolveSettings::lasting(0.3).by_name(method).unwrap(), &mut Silent).unwrap()
 }
 
 fn value(report: &RunReport, key: &str) -> f64 {

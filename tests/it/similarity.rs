@@ -96,7 +96,7 @@ duration = "40 ms"
     let real = scene(own, "real.toml");
     let wishes = [Wish { name: "speed".to_owned(), value: 2.5 }];
     let found = Laboratory::design(&real.network, &wishes).unwrap();
-    let (similar, left_out) = similar_settings(&real.settings("auto"), &found.scale);
+    let (similar, left_out) = similar_settings(&real.settings("auto").unwrap(), &found.scale);
     assert_eq!(left_out, ["head.dri"]);
     let run = dashpot::scene::RunSettings { duration: similar.duration, ..real.run.clone() };
     let text = write_scene("lab", &[], &found.network, &run, &similar.measures).unwrap();

@@ -125,7 +125,7 @@ fn struck_velocity(time: f64) -> f64 {
 /// Settings that report the velocity of the struck mass at the end of the run.
 fn until(duration: f64) -> SolveSettings {
     let wish = MeasureWish::new("struck", EndVelocity { window: WindowWish::Run });
-    let own = SolveSettings::lasting(duration).by("bdf");
+    let own = SolveSettings::lasting(duration).by_name("bdf").unwrap();
     SolveSettings { measures: vec![wish], ..own }
 }
 
@@ -145,7 +145,7 @@ fn measures_of_a_large_network_are_those_of_a_solution_kept_as_a_whole() {
     let duration = 4e-3;
     let network = struck_chain(600);
     let assembly = Arc::new(network.compile(duration).unwrap());
-    let settings = SolveSettings::lasting(duration).by("bdf");
+    let settings = SolveSettings::lasting(duration).by_name("bdf").unwrap();
     let report = solve_assembly(&assembly, &[], &settings, &mut Silent).unwrap();
     assert!(report.trajectory.digest().is_some());
     assert!(report.solver.why.contains("only what the measures need is kept"));
@@ -171,7 +171,7 @@ fn energies_of_a_large_network_are_those_of_a_solution_kept_as_a_whole() {
         let settings = SolveSettings {
             rtol: Some(1e-5),
             estimate: false,
-            ..SolveSettings::lasting(duration).by("bdf")
+            ..SolveSettings::lasting(duration).by_name("bdf").unwrap()
         };
         let report = solve_assembly(&assembly, &[], &settings, &mut Silent).unwrap();
         let all = full(&assembly, duration, 1e-5);
@@ -211,7 +211,7 @@ fn tables_of_a_large_network_hold_what_was_kept() {
 }
 
 fn until_of_impact() -> SolveSettings {
-    SolveSettings::lasting(1e-3).by("bdf")
+    SolveSettings::lasting(1e-3).by_name("bdf").unwrap()
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn told(text: &str) -> String {
 fn reports(text: &str) -> impl Iterator<Item = (&'static str, RunReport)> {
     let scene = read_beside(text, RECORD).unwrap().value;
     METHODS.into_iter().map(move |method| {
-        let settings = scene.settings(method);
+        let settings = scene.settings(method).unwrap();
         (method, solve(&scene.network, &settings, &mut Silent).unwrap())
     })
 }
@@ -91,7 +91,7 @@ fn a_table_that_ends_above_zero_holds_is_zero_or_is_refused() {
         }
         let within = pushed(&table).replace("duration = 0.1", "duration = \"20 ms\"");
         let scene = read_beside(&within, RECORD).unwrap().value;
-        let longer = SolveSettings { duration: 0.021, ..scene.settings("auto") };
+        let longer = SolveSettings { duration: 0.021, ..scene.settings("auto").unwrap() };
         let error = solve(&scene.network, &longer, &mut Silent).unwrap_err().to_string();
         assert!(error.contains("the run lasts from 0 s to 0.021 s"), "{error}");
     }
@@ -222,7 +222,7 @@ fn what_is_still_falling_is_told_by_every_method() {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     for method in METHODS.into_iter().chain(["tsit45", "auto"]) {
         for estimate in [true, false] {
-            let settings = SolveSettings { estimate, ..scene.settings(method) };
+            let settings = SolveSettings { estimate, ..scene.settings(method).unwrap() };
             let report = solve(&scene.network, &settings, &mut Silent).unwrap();
             let told =
                 |own: &String| own.starts_with("head is still falling at the end of the run");
@@ -253,7 +253,8 @@ fn what_is_dropped_begins_in_the_air_only_where_it_falls_and_nothing_is_bonded_t
         let fall = f64::sqrt(2.0 * height / g);
         assert!((head.fall - fall).abs() < 1e-15, "{gravity} {separation}: {}", head.fall);
         for (method, allowed) in [("exact", 0.0), ("bdf", 1e-6)] {
-            let report = solve(&scene.network, &scene.settings(method), &mut Silent).unwrap();
+            let report =
+                solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent).unwrap();
             let output = |name: &str| {
                 let at = report.assembly.output(name).unwrap();
                 report.trajectory.signal(&report.assembly.system, at).value(0.0)

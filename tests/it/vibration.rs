@@ -10,7 +10,7 @@ use dashpot::{
         solve,
         vibration::{SweepSettings, Vibration, VibrationError},
     },
-    dae::{Piece, Silent, Waveform},
+    dae::{Piece, Silent, Waveform, methods::Exact},
     network::{
         Network, Node,
         driving_point::{Receptance, Response},
@@ -64,7 +64,7 @@ fn a_run_over_many_periods_ends_in_the_steady_state() {
         let (begin, end) = (3.0, 3.0 + 2.0 / frequency);
         let window = WindowWish::Times(begin, end);
         let settings = SolveSettings {
-            method: "exact".into(),
+            method: Exact.into(),
             measures: vec![
                 MeasureWish::new("case", PeakAcceleration { window }),
                 MeasureWish::new("board", PeakAcceleration { window }),

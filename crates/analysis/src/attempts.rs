@@ -1,5 +1,7 @@
 //! Which methods are tried, in what order, and whose solution is reported.
 
+use std::sync::Arc;
+
 use dashpot_dae::{Budget, Method, Observer, Run, SolveError, methods};
 
 use crate::{
@@ -21,7 +23,7 @@ const ALWAYS: u64 = 20_000_000;
 
 /// The solution to report.
 pub(crate) struct Found {
-    pub(crate) method: Box<dyn Method>,
+    pub(crate) method: Arc<dyn Method>,
     pub(crate) why: String,
     pub(crate) outcome: Outcome,
 }
@@ -38,8 +40,8 @@ pub(crate) struct Found {
 pub(crate) fn first_that_solves(
     task: &Task<'_>,
     run: &Run,
-    ((mut method, mut why), most): ((Box<dyn Method>, String), u64),
-    others: &mut Vec<Box<dyn Method>>,
+    ((mut method, mut why), most): ((Arc<dyn Method>, String), u64),
+    others: &mut Vec<Arc<dyn Method>>,
     observer: &mut dyn Observer,
 ) -> Result<Found, RunError> {
     let (mut first, mut tried): (Option<RunError>, Vec<&str>) = (None, Vec::new());
@@ -95,7 +97,7 @@ pub(crate) fn of_a_part(
     let own = Task { method: &methods::Exact, ..*task };
     let outcome = own.run(&part, observer).ok()?;
     let why = "the scene is linear, and its impact is over before it has oscillated too often";
-    Some((Found { method: Box::new(methods::Exact), why: why.to_owned(), outcome }, part))
+    Some((Found { method: Arc::new(methods::Exact), why: why.to_owned(), outcome }, part))
 }
 
 /// A better solution by one of the `others`, where that which was `found` is not as good as is wanted and
@@ -107,7 +109,7 @@ pub(crate) fn improved(
     task: &Task<'_>,
     run: &Run,
     mut found: Found,
-    others: Vec<Box<dyn Method>>,
+    others: Vec<Arc<dyn Method>>,
     observer: &mut dyn Observer,
 ) -> Found {
     // Of second order, the last resort would take too long for what is asked here.
@@ -140,9 +142,9 @@ pub(crate) fn improved(
 }
 
 /// The methods that `auto` turns to where this one fails, the last one first.
-pub(crate) fn others(first: &dyn Method) -> Vec<Box<dyn Method>> {
-    let all: [Box<dyn Method>; 3] =
-        [Box::new(methods::TrBdf2), Box::new(methods::Esdirk34), Box::new(methods::Bdf)];
+pub(crate) fn others(first: &dyn Method) -> Vec<Arc<dyn Method>> {
+    let all: [Arc<dyn Method>; 3] =
+        [Arc::new(methods::TrBdf2), Arc::new(methods::Esdirk34), Arc::new(methods::Bdf)];
     all.into_iter().filter(|own| own.name() != first.name()).collect()
 }
 

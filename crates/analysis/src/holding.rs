@@ -120,7 +120,8 @@ mod tests {
         network.connect("spring", head, ground, part(Spring { stiffness: 100.0 }));
         network.connect("guard", head, ground, part(Friction { force: 3.0 }));
         let mut report =
-            solve(&network, &SolveSettings::lasting(2.0).by("exact"), &mut Silent).unwrap();
+            solve(&network, &SolveSettings::lasting(2.0).by_name("exact").unwrap(), &mut Silent)
+                .unwrap();
         let energy = ledger(&report.solution(), 2.0);
         assert_eq!(slider_fault(&report.solution(), &energy), None);
         // The same motion, of a slider that can hold half as much.

@@ -162,7 +162,7 @@ mod tests {
     use crate::{RunReport, SolveSettings, solve};
 
     fn solved(network: &Network, method: &str) -> RunReport {
-        solve(network, &SolveSettings::lasting(2.0).by(method), &mut Silent).unwrap()
+        solve(network, &SolveSettings::lasting(2.0).by_name(method).unwrap(), &mut Silent).unwrap()
     }
 
     /// A mass that a force presses onto a stop, beside a spring and a slider.

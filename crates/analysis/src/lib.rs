@@ -11,6 +11,7 @@ mod bearing;
 mod blows;
 mod bodies;
 mod contacts;
+pub mod contribution;
 pub mod cost;
 mod difference;
 mod driven;
@@ -65,6 +66,6 @@ pub use report::{
 pub use sample::{Column, Table, regular_times, table, table_at};
 pub use segmentation::Segmentation;
 pub use selection::MeasureWish;
-pub use settings::{SolveSettings, Stop};
+pub use settings::{Choice, SolveSettings, Stop};
 pub use solution::{Solution, doubt_at, is_impactor};
 pub use solve::{choice, hopeless_measures, reported_measures, solve, solve_assembly};

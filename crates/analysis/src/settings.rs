@@ -1,14 +1,16 @@
 //! What is asked of a run.
 
-use dashpot_dae::Direction;
+use std::sync::Arc;
+
+use dashpot_dae::{Direction, Method, methods};
 
 use crate::{Accuracy, MeasureWish, RunError};
 
 /// What is asked of a run.
 #[derive(Debug, Clone)]
 pub struct SolveSettings {
-    /// Name of the method; `auto` chooses.
-    pub method: String,
+    /// The method.
+    pub method: Choice,
     /// Length of the run \[s\], zero or positive.
     pub duration: f64,
     /// The method's own relative tolerance, that of the finest of four solutions where errors are
@@ -26,6 +28,50 @@ pub struct SolveSettings {
     pub budget: u64,
     /// Measures besides those that every run reports.
     pub measures: Vec<MeasureWish>,
+}
+
+/// How the method of a run is chosen.
+#[derive(Debug, Clone, Default)]
+pub enum Choice {
+    /// By the system: its structure, its size, and how long the run is.
+    #[default]
+    Auto,
+    /// It is given.
+    Method(Arc<dyn Method>),
+}
+
+impl Choice {
+    /// What chooses by itself.
+    const AUTO: &str = "auto";
+
+    /// The choice of this name: `auto`, or a method of the register.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError::UnknownMethod`] for any other name.
+    pub fn named(name: &str) -> Result<Self, RunError> {
+        if name == Self::AUTO {
+            return Ok(Self::Auto);
+        }
+        methods::by_name(name).map(|own| Self::Method(own.into())).ok_or_else(|| {
+            let known = methods::all().iter().map(|method| method.name()).collect();
+            RunError::UnknownMethod { name: name.to_owned(), known }
+        })
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Auto => Self::AUTO,
+            Self::Method(method) => method.name(),
+        }
+    }
+}
+
+impl<M: Method + 'static> From<M> for Choice {
+    fn from(method: M) -> Self {
+        Self::Method(Arc::new(method))
+    }
 }
 
 /// A condition that ends the run: an output crosses a level.
@@ -47,7 +93,7 @@ impl SolveSettings {
     /// A run of `duration` \[s\] by the method that suits, with measures good to 0.1 %.
     pub fn lasting(duration: f64) -> Self {
         Self {
-            method: "auto".to_owned(),
+            method: Choice::Auto,
             duration,
             rtol: None,
             accuracy: Accuracy::default(),
@@ -60,8 +106,17 @@ impl SolveSettings {
 
     /// The same run by another method.
     #[must_use]
-    pub fn by(self, method: impl Into<String>) -> Self {
+    pub fn by(self, method: impl Into<Choice>) -> Self {
         Self { method: method.into(), ..self }
+    }
+
+    /// The same run by the method of this name; `auto` chooses.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError::UnknownMethod`].
+    pub fn by_name(self, method: &str) -> Result<Self, RunError> {
+        Ok(Self { method: Choice::named(method)?, ..self })
     }
 
     pub(crate) fn validate(&self) -> Result<(), RunError> {

@@ -9,11 +9,12 @@ use dashpot_network::{
 };
 
 use crate::{
-    ContactReport, MeasureReport, Reading, RunError, RunReport, Solution, SolveSettings,
+    Choice, ContactReport, MeasureReport, Reading, RunError, RunReport, Solution, SolveSettings,
     SolverReport, SystemReport,
     accuracy::excess,
     attempts::{self, Found},
     contacts::{self, meetings_after},
+    contribution::modes,
     events,
     holding::slider_fault,
     idle::{idle_times, without_idle_forces},
@@ -80,7 +81,7 @@ pub fn solve_assembly(
         keep: keep(assembly, &selected),
         budget: Budget::of(settings.budget),
     };
-    let is_free = settings.method == "auto";
+    let is_free = matches!(settings.method, Choice::Auto);
     let first = choose(&settings.method, assembly, &run);
     let is_exact = first.as_ref().is_ok_and(|own| own.0.is_exact());
     let reach = if is_exact { None } else { reach(&settings.method, assembly, &run) };
@@ -108,8 +109,8 @@ pub fn solve_assembly(
 
 /// How far `exact` follows a run that has more oscillations than are followed \[s\], if it is by a method
 /// that may be `exact`.
-fn reach(method: &str, assembly: &Assembly, run: &Run) -> Option<f64> {
-    let is_asked_for = method == "auto" || method == methods::Exact::KIND;
+fn reach(choice: &Choice, assembly: &Assembly, run: &Run) -> Option<f64> {
+    let is_asked_for = matches!(choice, Choice::Auto) || choice.name() == methods::Exact::KIND;
     (is_asked_for && assembly.switching.is_none())
         .then(|| methods::Exact::reach(&assembly.system, run))
         .flatten()
@@ -164,20 +165,17 @@ fn reason(assembly: &Assembly, method: &dyn Method, why: String) -> String {
 }
 
 fn choose(
-    name: &str,
+    choice: &Choice,
     assembly: &Assembly,
     run: &Run,
-) -> Result<(Box<dyn Method>, String), RunError> {
-    if name == "auto" {
-        let (method, why) = methods::Auto::choose(&assembly.system, run);
-        let why = reason(assembly, method.as_ref(), why);
-        return Ok((method, why));
-    }
-    let Some(method) = methods::by_name(name) else {
-        let known = methods::all().iter().map(|method| method.name()).collect();
-        return Err(RunError::UnknownMethod { name: name.to_owned(), known });
+) -> Result<(Arc<dyn Method>, String), RunError> {
+    let (method, why) = match choice {
+        Choice::Auto => {
+            let (method, why) = methods::Auto::choose(&assembly.system, run);
+            (Arc::from(method), why)
+        }
+        Choice::Method(method) => (Arc::clone(method), method.applies(&assembly.system, run)?),
     };
-    let why = method.applies(&assembly.system, run)?;
     let why = reason(assembly, method.as_ref(), why);
     Ok((method, why))
 }
@@ -359,12 +357,6 @@ fn followed_in_part(end: f64, duration: f64) -> String {
         quantity(end, "s"),
         quantity(duration, "s")
     )
-}
-
-/// How many combinations of phases there are; as many as fit into the number.
-fn modes(assembly: &Assembly) -> usize {
-    let parts = assembly.switching.iter().flat_map(|own| own.parts());
-    parts.map(|part| part.phases.len()).fold(1, usize::saturating_mul)
 }
 
 fn measure_report(

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dashpot_analysis::{Accuracy, MeasureWish, SolveSettings};
+use dashpot_analysis::{Accuracy, Choice, MeasureWish, RunError, SolveSettings};
 use dashpot_network::{Assembly, Network};
 
 pub use crate::sections::RunSettings;
@@ -68,10 +68,14 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// What is to be asked of a run by `method`.
-    pub fn settings(&self, method: &str) -> SolveSettings {
-        SolveSettings {
-            method: method.to_owned(),
+    /// What is to be asked of a run by the method of this name; `auto` chooses.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError::UnknownMethod`].
+    pub fn settings(&self, method: &str) -> Result<SolveSettings, RunError> {
+        Ok(SolveSettings {
+            method: Choice::named(method)?,
             duration: self.run.duration,
             rtol: self.run.rtol,
             accuracy: self.accuracy.clone(),
@@ -79,7 +83,7 @@ impl Scene {
             stops: self.run.stops.clone(),
             budget: SolveSettings::BUDGET,
             measures: self.measures.clone(),
-        }
+        })
     }
 }
 

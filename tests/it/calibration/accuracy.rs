@@ -27,7 +27,7 @@ fn accuracy_is_kept(wish: impl Fn(&mut Accuracy)) {
     for at in 0..SCENES {
         let case = Case::new(SEED + 1, at);
         for method in ["auto", METHODS[at / 2 % 3]] {
-            let mut settings = case.drawn.scene.settings(method);
+            let mut settings = case.drawn.scene.settings(method).unwrap();
             wish(&mut settings.accuracy);
             let accuracy = settings.accuracy.clone();
             let known = case.solve(&settings).map(|report| (case.truth(), report));
@@ -91,13 +91,13 @@ fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
         [run]\n\
         duration = \"0.9251 s\"\n";
     let scene = read(text, &ReadOptions::default()).unwrap().value;
-    let mut settings = scene.settings("auto");
+    let mut settings = scene.settings("auto").unwrap();
     settings.accuracy.default = 1e-6;
     let report = solve(&scene.network, &settings, &mut Silent).unwrap();
     assert!(!admits(&report), "{:?}", report.warnings);
     assert_eq!(report.solver.method, "esdirk34");
     assert!(report.solver.why.contains("`bdf` does not reach"), "{}", report.solver.why);
-    let by_bdf = solve(&scene.network, &settings.by("bdf"), &mut Silent).unwrap();
+    let by_bdf = solve(&scene.network, &settings.by_name("bdf").unwrap(), &mut Silent).unwrap();
     assert!(admits(&by_bdf), "{:?}", by_bdf.solver);
 }
 
@@ -106,7 +106,7 @@ fn a_wish_for_one_measure_is_kept_beside_the_others() {
     let case = (0..).step_by(2).map(|at| Case::new(SEED + 1, at));
     let mut cases = case.filter(|case| case.drawn.kind == "impact");
     for case in cases.by_ref().take(4) {
-        let mut settings = case.drawn.scene.settings("bdf");
+        let mut settings = case.drawn.scene.settings("bdf").unwrap();
         let rough = case.solve(&settings).unwrap();
         settings.accuracy.by_measure.insert("pad.peak-deformation".to_owned(), 1e-6);
         let fine = case.solve(&settings).unwrap();

@@ -80,7 +80,7 @@ impl Case {
         also: impl Fn(SolveSettings) -> SolveSettings,
     ) -> Outcome {
         let begin = Instant::now();
-        let report = match self.solve(&also(self.drawn.scene.settings(method))) {
+        let report = match self.solve(&also(self.drawn.scene.settings(method).unwrap())) {
             Ok(report) => report,
             Err(RunError::Solve(SolveError::NotApplicable { .. })) => return Outcome::Declined,
             Err(RunError::Solve(SolveError::Cancelled { .. })) => return Outcome::TooLong,

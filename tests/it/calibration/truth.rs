@@ -37,7 +37,7 @@ pub(super) type Truth = BTreeMap<String, (Option<f64>, f64)>;
 /// The truth by `exact`, with the bound that it states, or by two methods of different families at a
 /// fine tolerance, with their difference; `None` where neither is to be had.
 pub(super) fn truth(drawn: &Drawn) -> Option<Truth> {
-    let settings = drawn.scene.settings("exact");
+    let settings = drawn.scene.settings("exact").unwrap();
     let run = |settings: &SolveSettings| -> Result<RunReport, RunError> {
         solve(&drawn.scene.network, settings, &mut Patience { steps: PATIENCE })
     };
@@ -49,7 +49,8 @@ pub(super) fn truth(drawn: &Drawn) -> Option<Truth> {
         return Some(exact.measures.iter().map(own).collect());
     }
     let settings = SolveSettings { rtol: Some(FINE), estimate: false, ..settings };
-    let [one, other] = ["bdf", "esdirk34"].map(|method| run(&settings.clone().by(method)).ok());
+    let [one, other] =
+        ["bdf", "esdirk34"].map(|method| run(&settings.clone().by_name(method).unwrap()).ok());
     let (one, other) = one.zip(other)?;
     let both = one.measures.iter().zip(&other.measures);
     let agreed = both.map(|(one, other)| {

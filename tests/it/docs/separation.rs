@@ -17,7 +17,7 @@ const CHAPTER: &str = "docs/separation-and-thickness.md";
 fn solved(text: &str) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap_or_else(|faults| panic!("{faults}"));
     let scene = scene.value;
-    let settings = scene.settings(&scene.run.methods[0]);
+    let settings = scene.settings(&scene.run.methods[0]).unwrap();
     solve(&scene.network, &settings, &mut Silent).unwrap()
 }
 

@@ -28,7 +28,7 @@ fn by(methods: &[&str], [nodes, elements, effects]: [&str; 3], check: impl Fn(&R
     );
     let scene = read(&text, &ReadOptions::default()).unwrap().value;
     for &method in methods {
-        let report = solve(&scene.network, &scene.settings(method), &mut Silent).unwrap();
+        let report = solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent).unwrap();
         let solution = report.solution();
         for node in &report.assembly.nodes {
             let position = solution.signal(node.position);

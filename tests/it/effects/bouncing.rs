@@ -98,7 +98,7 @@ fn what_bounces_to_rest_under_friction_has_a_known_error_by_the_exact_method() {
         ";
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let run = |method: &str, rtol: Option<f64>| -> RunReport {
-        let settings = SolveSettings { rtol, ..scene.settings(method) };
+        let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
         solve(&scene.network, &settings, &mut Silent).unwrap()
     };
     let (exact, stepping) = (run("exact", None), run("bdf", Some(1e-11)));

@@ -10,7 +10,7 @@ const METHODS: [&str; 4] = ["exact", "bdf", "tr-bdf2", "esdirk34"];
 
 fn run(text: &str, method: &str) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
-    solve(&scene.network, &scene.settings(method), &mut Silent)
+    solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent)
         .unwrap_or_else(|error| panic!("{method}: {error}"))
 }
 

@@ -56,7 +56,7 @@ fn difference(one: &RunReport, two: &RunReport) -> f64 {
 /// does not apply within 1000 `rtol` by `bdf`.
 fn same(what: &str, neutral: &str, off: &str) {
     let own = scene(neutral);
-    match solve(&own.network, &own.settings("exact"), &mut Silent) {
+    match solve(&own.network, &own.settings("exact").unwrap(), &mut Silent) {
         Ok(report) => {
             let gap = difference(&run(off, "exact"), &report);
             assert!(gap <= 1e-12, "{what} makes a difference of {gap:e}");
@@ -64,7 +64,7 @@ fn same(what: &str, neutral: &str, off: &str) {
         Err(RunError::Solve(SolveError::NotApplicable { .. })) => {
             let tight = |text: &str| {
                 let read = scene(text);
-                let settings = SolveSettings { rtol: Some(1e-9), ..read.settings("bdf") };
+                let settings = SolveSettings { rtol: Some(1e-9), ..read.settings("bdf").unwrap() };
                 solve(&read.network, &settings, &mut Silent).unwrap()
             };
             let gap = difference(&tight(off), &tight(neutral));

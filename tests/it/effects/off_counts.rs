@@ -263,7 +263,7 @@ fn no_code_of_an_effect_that_is_off_is_reached_in_a_whole_run() {
     let off = network.without(&details);
     let before = all.counts();
     for method in ["exact", "bdf", "esdirk34", "tr-bdf2"] {
-        solve(&off, &settings.clone().by(method), &mut Silent).unwrap();
+        solve(&off, &settings.clone().by_name(method).unwrap(), &mut Silent).unwrap();
     }
     assert_eq!(all.counts(), before);
 }

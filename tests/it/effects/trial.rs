@@ -49,7 +49,7 @@ pub(super) fn scene(text: &str) -> Scene {
 
 pub(super) fn run(text: &str, method: &str) -> RunReport {
     let scene = scene(text);
-    let report = solve(&scene.network, &scene.settings(method), &mut Silent);
+    let report = solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent);
     report.unwrap_or_else(|error| panic!("{method}: {error}\n{text}"))
 }
 

@@ -93,7 +93,7 @@ fn a_billionth_in_a_mode_that_no_impact_sees_makes_another_model() {
     let reference = scene(reference());
     let measured = |tree: &Tree<Primitive>| {
         let network = padded(&reference, model_of(tree));
-        let settings = SolveSettings::lasting(reference.run.duration).by("exact");
+        let settings = SolveSettings::lasting(reference.run.duration).by_name("exact").unwrap();
         solve(&network, &settings, &mut Silent).unwrap().measures
     };
     let before = measured(&first);

@@ -19,7 +19,7 @@ use crate::{independent::has_digits, thesis};
 const SAME: f64 = 1e-10;
 
 fn run(network: &Network, scene: &Scene, method: &str) -> RunReport {
-    let settings = SolveSettings::lasting(scene.run.duration).by(method);
+    let settings = SolveSettings::lasting(scene.run.duration).by_name(method).unwrap();
     solve(network, &settings, &mut Silent).unwrap()
 }
 

@@ -22,7 +22,7 @@ fn with_padding(tables: &str, law: &str) -> Scene {
 }
 
 fn run(scene: &Scene) -> RunReport {
-    let settings = SolveSettings::lasting(scene.run.duration).by("exact");
+    let settings = SolveSettings::lasting(scene.run.duration).by_name("exact").unwrap();
     solve(&scene.network, &settings, &mut Silent).unwrap()
 }
 

@@ -8,7 +8,7 @@ use dashpot::{
 
 fn run(text: &str, method: &str, rtol: Option<f64>) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
-    let settings = SolveSettings { rtol, ..scene.settings(method) };
+    let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
     solve(&scene.network, &settings, &mut Silent)
         .unwrap_or_else(|error| panic!("{method} {rtol:?}: {error}"))
 }

@@ -85,14 +85,14 @@ impl Case {
         match &self.setup {
             Setup::Text(text) => match read(text, &ReadOptions::default()) {
                 Ok(scene) => {
-                    let settings = scene.value.settings(method);
+                    let settings = scene.value.settings(method).unwrap();
                     Ok((scene.value.network, settings))
                 }
                 Err(faults) => Err(faults.to_string()),
             },
             Setup::Built(build) => {
                 let (network, settings) = build();
-                Ok((network, settings.by(method)))
+                Ok((network, settings.by_name(method).unwrap()))
             }
         }
     }

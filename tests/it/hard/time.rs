@@ -245,7 +245,7 @@ fn bits(report: &RunReport) -> Vec<u64> {
 
 fn solved(text: &str, method: &str) -> Vec<u64> {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
-    bits(&solve(&scene.network, &scene.settings(method), &mut Silent).unwrap())
+    bits(&solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent).unwrap())
 }
 
 fn samples() -> Case {

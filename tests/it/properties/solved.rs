@@ -25,12 +25,12 @@ impl Observer for Patience {
 
 /// The report on a scene by what is chosen for it.
 pub(crate) fn by_auto(scene: &Scene) -> Result<RunReport, RunError> {
-    solve(&scene.network, &scene.settings("auto"), &mut Patience(5_000))
+    solve(&scene.network, &scene.settings("auto").unwrap(), &mut Patience(5_000))
 }
 
 /// The report on a scene by a method, at tolerances from 1e-4 to 1e-6.
 pub(super) fn by(scene: &Scene, method: &str) -> Result<RunReport, RunError> {
-    let settings = SolveSettings { rtol: Some(1e-6), ..scene.settings(method) };
+    let settings = SolveSettings { rtol: Some(1e-6), ..scene.settings(method).unwrap() };
     solve(&scene.network, &settings, &mut Patience(1_500))
 }
 

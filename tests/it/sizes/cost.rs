@@ -88,7 +88,7 @@ fn one() {
     let parsed = spent() - begin;
     let peak_of_text = memory("VmHWM:") / masses;
     drop(text);
-    let settings: SolveSettings = scene.settings("bdf");
+    let settings: SolveSettings = scene.settings("bdf").unwrap();
     let assembly = Arc::new(scene.assembly);
     drop(scene.network);
     let begin = spent();
@@ -126,7 +126,7 @@ fn equal() {
     let text = text(count as usize);
     let begin = spent();
     let scene = read(&text, &ReadOptions::default()).unwrap().value;
-    let settings = SolveSettings { rtol: Some(rtol), ..scene.settings("bdf") };
+    let settings = SolveSettings { rtol: Some(rtol), ..scene.settings("bdf").unwrap() };
     let assembly = Arc::new(scene.assembly);
     let report = solve_assembly(&assembly, &[], &settings, &mut Silent).unwrap();
     let whole = spent() - begin;

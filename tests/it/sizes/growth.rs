@@ -56,7 +56,7 @@ fn joined(count: usize, from: impl Fn(usize) -> usize, is_rigid: bool) -> Networ
 /// A run that is hardly one, so that what is not integration counts.
 fn settings() -> SolveSettings {
     let wish = MeasureWish::new("m0", EndVelocity { window: WindowWish::Run });
-    let own = SolveSettings::lasting(1e-9).by("bdf");
+    let own = SolveSettings::lasting(1e-9).by_name("bdf").unwrap();
     SolveSettings { measures: vec![wish], estimate: false, ..own }
 }
 
@@ -105,7 +105,7 @@ fn noisy_loads_take_time_in_proportion_to_their_points() {
         let mass = network.add_node(Node::mass("m0", 5.0));
         network.connect("pad", mass, network.ground(), kelvin(1e6, 100.0));
         network.add_load("push", mass, Waveform::new(pieces.collect()).unwrap());
-        let own = SolveSettings::lasting(segment * count as f64).by(method);
+        let own = SolveSettings::lasting(segment * count as f64).by_name(method).unwrap();
         drop(solve(&network, &SolveSettings { estimate: false, ..own }, &mut Silent).unwrap());
     };
     for method in ["exact", "bdf", "tr-bdf2"] {
@@ -131,7 +131,7 @@ duration = "1 s"
 fn long_runs_that_switch_keep_little_of_each_leg() {
     let scene = read(BOUNCING, &ReadOptions::default()).unwrap().value;
     let taken = |duration: f64| {
-        let settings = SolveSettings { duration, ..scene.settings("exact") };
+        let settings = SolveSettings { duration, ..scene.settings("exact").unwrap() };
         let mut switches = 0;
         let memory = measure(|| {
             let report = solve(&scene.network, &settings, &mut Silent).unwrap();

@@ -8,7 +8,7 @@ use dashpot::{
 
 fn run(text: &str, method: &str) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
-    solve(&scene.network, &scene.settings(method), &mut Silent)
+    solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent)
         .unwrap_or_else(|error| panic!("{method}: {error}\n{text}"))
 }
 

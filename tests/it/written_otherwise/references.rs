@@ -82,7 +82,7 @@ fn scenes(law: &str) -> [String; 4] {
 
 fn run(text: &str, method: &str) -> Result<RunReport, String> {
     let scene = read(text, &ReadOptions::default()).map_err(|own| own.to_string())?.value;
-    let settings = SolveSettings { rtol: Some(1e-6), ..scene.settings(method) };
+    let settings = SolveSettings { rtol: Some(1e-6), ..scene.settings(method).unwrap() };
     solve(&scene.network, &settings, &mut Silent).map_err(|own| own.to_string())
 }
 

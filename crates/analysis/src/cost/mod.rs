@@ -13,15 +13,15 @@
 //! # Examples
 //!
 //! ```
-//! use dashpot_analysis::{SolveSettings, cost, cost::Ladder};
-//! use dashpot_dae::Silent;
+//! use dashpot_analysis::{Choice, SolveSettings, cost, cost::Ladder};
+//! use dashpot_dae::{Silent, methods::Bdf};
 //! use dashpot_network::{Model, Network, Node, elements::{Dashpot, Spring}, part};
 //!
 //! let mut network = Network::new();
 //! let head = network.add_node(Node::mass("head", 5.0).moving(4.0));
 //! let pad = Model::parallel([part(Spring { stiffness: 6e4 }), part(Dashpot { damping: 200.0 })]);
 //! network.connect("pad", head, network.ground(), pad);
-//! let ladder = Ladder { methods: vec!["bdf".into()], repeats: Some(3), ..Ladder::default() };
+//! let ladder = Ladder { methods: vec![Choice::from(Bdf)], repeats: Some(3), ..Ladder::default() };
 //! let report = cost(&network, &SolveSettings::lasting(0.05), &ladder, &mut Silent)?;
 //! assert_eq!(report.truth.method, "exact");
 //! let worst: Vec<f64> = report.points.iter().map(|point| point.worst(&report.asked)).collect();
@@ -53,16 +53,16 @@ pub use self::report::{
 };
 use self::{point::Bench, truth::Judge, watch::Watch};
 use crate::{
-    RunError, SolveSettings,
+    Choice, RunError, SolveSettings,
     selection::{Selected, select},
     solve::{choice, guards},
 };
 
 /// What is tried.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Ladder {
-    /// Names of the methods, `auto` for its choice; none stands for all of the register.
-    pub methods: Vec<String>,
+    /// The methods, that which suits for [`Choice::Auto`]; none stands for all of the register.
+    pub methods: Vec<Choice>,
     /// Relative tolerances, each from 1e-13 to 1e-3, the coarsest first.
     pub rtols: Vec<f64>,
     /// Keys of the measures that are asked for, such as `padding.peak-force`: by them methods are
@@ -152,7 +152,7 @@ pub fn cost_assembly(
     for (place, method) in names.iter().enumerate() {
         watch.begin(truth::PARTS + place * ladder.rtols.len());
         let most_work = watch.share(names.len() - place);
-        bench.climb(method.as_ref(), most_work, &mut report, &mut watch)?;
+        bench.climb(method, most_work, &mut report, &mut watch)?;
     }
     Ok(report)
 }
@@ -183,18 +183,21 @@ fn check(ladder: &Ladder) -> Result<(), RunError> {
 }
 
 /// The methods that are tried, each once; `auto` stands for the one of this name.
-fn chosen(ladder: &Ladder, auto: &'static str) -> Result<Vec<Box<dyn Method>>, RunError> {
+fn chosen(ladder: &Ladder, auto: &str) -> Result<Vec<Arc<dyn Method>>, RunError> {
     if ladder.methods.is_empty() {
         let all = methods::all().into_iter();
-        return Ok(all.filter(|own| own.name() != methods::Auto::KIND).collect());
+        let all = all.filter(|own| own.name() != methods::Auto::KIND);
+        return Ok(all.map(Arc::from).collect());
     }
-    let mut found: Vec<Box<dyn Method>> = Vec::new();
-    for name in &ladder.methods {
-        let name = if name == methods::Auto::KIND { auto } else { name };
-        let method = methods::by_name(name).ok_or_else(|| RunError::UnknownMethod {
-            name: name.to_owned(),
-            known: methods::all().iter().map(|own| own.name()).collect(),
-        })?;
+    let auto = Choice::named(auto)?;
+    let mut found: Vec<Arc<dyn Method>> = Vec::new();
+    for choice in &ladder.methods {
+        let ((Choice::Method(method), _) | (Choice::Auto, Choice::Method(method))) =
+            (choice, &auto)
+        else {
+            continue;
+        };
+        let method = Arc::clone(method);
         if found.iter().all(|own| own.name() != method.name()) {
             found.push(method);
         }

@@ -9,7 +9,7 @@ use super::{
     CostFailure, CostPoint, CostReport, Ladder, declines, slips::slips, timing, truth::Judge,
     watch::Watch,
 };
-use crate::{RunError, RunReport, SolveSettings, selection::Selected, solve_assembly};
+use crate::{Choice, RunError, RunReport, SolveSettings, selection::Selected, solve_assembly};
 
 /// Part of the work that is left, one in so many, which the repeats of one solution may take.
 const OF_THE_REST: usize = 8;
@@ -30,7 +30,7 @@ impl Bench<'_> {
     /// work may come to `most_work`.
     pub(super) fn climb(
         &self,
-        method: &dyn Method,
+        method: &Arc<dyn Method>,
         most_work: usize,
         report: &mut CostReport,
         watch: &mut Watch<'_>,
@@ -73,12 +73,13 @@ impl Bench<'_> {
 
     fn point(
         &self,
-        method: &dyn Method,
+        method: &Arc<dyn Method>,
         rtol: Option<f64>,
         most_work: usize,
         watch: &mut Watch<'_>,
     ) -> Result<CostPoint, RunError> {
-        let settings = SolveSettings { rtol, ..self.settings.clone() }.by(method.name());
+        let choice = Choice::Method(Arc::clone(method));
+        let settings = SolveSettings { rtol, method: choice, ..self.settings.clone() };
         let limited = watch.limited(method.is_exact(), self.ladder.most_steps, most_work);
         let solved = solve_assembly(self.assembly, &[], &settings, limited);
         let solved = solved.map_err(|error| watch.told(method.name(), error))?;
@@ -87,7 +88,7 @@ impl Bench<'_> {
         let left = most_work.saturating_sub(watch.work()) / OF_THE_REST;
         let repeats = self.repeats(&solved).min(left / each).max(1);
         watch.charge(repeats.saturating_mul(each));
-        self.judged(method, rtol, &solved, repeats)
+        self.judged(method.as_ref(), rtol, &solved, repeats)
     }
 
     /// How often a solution is repeated for its time.

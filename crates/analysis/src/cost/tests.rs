@@ -35,7 +35,7 @@ fn settings() -> SolveSettings {
 }
 
 fn ladder(methods: &[&str]) -> Ladder {
-    let methods = methods.iter().map(|own| (*own).to_owned()).collect();
+    let methods = methods.iter().map(|own| Choice::named(own).unwrap()).collect();
     Ladder { methods, repeats: Some(1), ..Ladder::default() }
 }
 
@@ -63,7 +63,7 @@ fn errors_are_the_distances_from_the_exact_solution() {
         for (error, rtol) in errors.iter().zip(&ladder(&[]).rtols) {
             // The peak force of the thesis, to eleven digits.
             let exact = 38_359.411_601;
-            let own = SolveSettings { rtol: Some(*rtol), ..settings() }.by(*method);
+            let own = SolveSettings { rtol: Some(*rtol), ..settings() }.by_name(*method).unwrap();
             let own = solve(&network, &own, &mut Silent).unwrap();
             let value = own.measure("padding.peak-force").unwrap().value.unwrap();
             let direct = (value / exact - 1.0).abs();
@@ -174,7 +174,7 @@ fn the_cheapest_is_the_quickest_that_is_good_enough() {
 fn what_cannot_be_asked_for_is_refused() {
     let network = impact(dashpot(6e3));
     let refused = |ladder: Ladder| cost(&network, &settings(), &ladder, &mut Silent).unwrap_err();
-    assert!(matches!(refused(ladder(&["rk4"])), RunError::UnknownMethod { .. }));
+    assert!(matches!(Choice::named("rk4"), Err(RunError::UnknownMethod { .. })));
     let measures = vec!["padding.beauty".to_owned()];
     let own = Ladder { measures, ..ladder(&["bdf"]) };
     assert!(matches!(refused(own), RunError::UnknownMeasure { .. }));

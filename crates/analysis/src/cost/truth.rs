@@ -77,7 +77,7 @@ impl<'a> Judge<'a> {
         watch: &mut Watch<'_>,
     ) -> Result<Self, RunError> {
         watch.begin(0);
-        let exact = settings.clone().by(methods::Exact::KIND);
+        let exact = settings.clone().by(methods::Exact);
         let most_work = watch.share(OF_ALL);
         let limited = watch.limited(true, usize::MAX, most_work);
         let exact = solve_assembly(assembly, &[], &exact, limited);
@@ -215,7 +215,7 @@ fn reference(
     let mut last = None;
     for (method, family) in FAMILIES.into_iter().filter(|own| Some(own.1) != but) {
         for rtol in TIGHT {
-            let own = SolveSettings { rtol: Some(rtol), ..settings.clone() }.by(method);
+            let own = SolveSettings { rtol: Some(rtol), ..settings.clone() }.by_name(method)?;
             let limited = watch.limited(false, usize::MAX, most_work);
             let solved = solve_assembly(assembly, &[], &own, limited);
             match solved.map_err(|error| watch.told(method, error)) {

@@ -15,7 +15,8 @@ const MASS: f64 = 5.0;
 const STIFFNESS: f64 = 2e5;
 
 fn run(network: &Network, duration: f64) -> RunReport {
-    solve(network, &SolveSettings::lasting(duration).by("exact"), &mut Silent).unwrap()
+    solve(network, &SolveSettings::lasting(duration).by_name("exact").unwrap(), &mut Silent)
+        .unwrap()
 }
 
 /// 5 kg dropped from `height` \[m\] on a spring that it may leave; on a table that moves if `on_table`.
@@ -84,7 +85,7 @@ fn foam_is_left_where_its_contact_opens_and_alone_where_it_goes_slack() {
         let foam = part(HystereticFoam::sample());
         let model = Tree::parallel([foam.clone(), part(Dashpot { damping: beside })]);
         network.set_model(0, if beside > 0.0 { model } else { foam });
-        let settings = SolveSettings::lasting(0.5).by("esdirk34");
+        let settings = SolveSettings::lasting(0.5).by_name("esdirk34").unwrap();
         let report = solve(&network, &settings, &mut Silent).unwrap();
         let spans = touching(&report.solution());
         let (met, _) = contact(0.5);

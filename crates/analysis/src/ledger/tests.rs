@@ -142,7 +142,7 @@ pub(super) fn cases() -> Vec<(&'static str, Network, f64)> {
 }
 
 pub(super) fn run(network: &Network, duration: f64, method: &str) -> RunReport {
-    let settings = SolveSettings::lasting(duration).by(method);
+    let settings = SolveSettings::lasting(duration).by_name(method).unwrap();
     solve(network, &settings, &mut Silent).unwrap()
 }
 

@@ -49,7 +49,7 @@ fn with(mut network: Network, effect: impl Effect + 'static) -> Network {
 
 fn below(bound: Option<f64>) -> SolveSettings {
     let accuracy = Accuracy { neglect_below: bound, ..Accuracy::default() };
-    SolveSettings { accuracy, ..SolveSettings::lasting(0.02).by("exact") }
+    SolveSettings { accuracy, ..SolveSettings::lasting(0.02).by_name("exact").unwrap() }
 }
 
 fn run(network: &Network, bound: Option<f64>) -> RunReport {

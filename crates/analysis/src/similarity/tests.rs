@@ -194,7 +194,8 @@ fn similar_scenes_have_equal_dimensionless_answers() {
         MeasureWish::new("head", Edi::default()),
         MeasureWish::new("mount", PeakForce::default()),
     ];
-    let settings = SolveSettings { measures, ..SolveSettings::lasting(0.02).by("exact") };
+    let settings =
+        SolveSettings { measures, ..SolveSettings::lasting(0.02).by_name("exact").unwrap() };
     for _ in 0..8 {
         let scale = random_scale(&mut next);
         let other = scaled(&network, &scale).unwrap();
@@ -234,7 +235,7 @@ fn near_similar_scenes_differ_as_predicted() {
     assert_eq!(different.len(), 1);
     assert_eq!(different[0].name, "pad.spring");
     close(different[0].apart, 0.21 / 1.21, 1e-12);
-    let settings = SolveSettings::lasting(0.1).by("exact");
+    let settings = SolveSettings::lasting(0.1).by_name("exact").unwrap();
     let pairs = measured(&first, &found.networks[1], &found.scale, &settings).unwrap();
     let ratio = |key: &str| {
         let own = pairs.iter().find(|own| own.key == key).unwrap();

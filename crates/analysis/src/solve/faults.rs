@@ -116,7 +116,7 @@ fn methods_that_damp_or_excite_are_caught_with_time_and_place() {
         let settings = SolveSettings {
             rtol: Some(rtol),
             estimate: false,
-            ..SolveSettings::lasting(5.0).by("bdf")
+            ..SolveSettings::lasting(5.0).by_name("bdf").unwrap()
         };
         let failure = solve(&struck(0.632), &settings, &mut Silent).unwrap_err();
         let RunError::EnergyLost { method: "bdf", closure, leak: Some(leak) } = &failure else {

@@ -77,8 +77,9 @@ fn shares(seed: u64, count: usize, method: &str) -> Vec<f64> {
         let mut settings = SolveSettings::lasting(duration);
         settings.measures.push(MeasureWish::new("head", EndVelocity::default()));
         settings.measures.push(MeasureWish::new("head", Hic::default()));
-        let exact = solve(&network, &settings.clone().by("exact"), &mut Silent).unwrap();
-        let other = solve(&network, &settings.by(method), &mut Silent).unwrap();
+        let exact =
+            solve(&network, &settings.clone().by_name("exact").unwrap(), &mut Silent).unwrap();
+        let other = solve(&network, &settings.by_name(method).unwrap(), &mut Silent).unwrap();
         for measure in &other.measures {
             let judge = exact.measure(&measure.key).unwrap();
             let (found, value) = match (measure.value, judge.value) {

@@ -74,7 +74,7 @@ fn exact_gives_the_thesis_table() {
         ),
     ];
     for (damping, [force, at, deepest, deepest_at, release, speed, work, severity]) in table {
-        let mut settings = SolveSettings::lasting(0.01).by("exact");
+        let mut settings = SolveSettings::lasting(0.01).by_name("exact").unwrap();
         settings.measures.push(MeasureWish::new("head", EndVelocity::default()));
         let report = solve(&reference(damping), &settings, &mut Silent).unwrap();
         same(value(&report, "padding.peak-force"), force, 1e-6);
@@ -108,9 +108,10 @@ fn bdf_is_inside_its_bars() {
         let mut settings = SolveSettings::lasting(0.02);
         settings.measures.push(MeasureWish::new("head", Hic15::default()));
         settings.measures.push(MeasureWish::new("head", EndVelocity::default()));
-        let exact = solve(&network, &settings.clone().by("exact"), &mut Silent).unwrap();
+        let exact =
+            solve(&network, &settings.clone().by_name("exact").unwrap(), &mut Silent).unwrap();
         for rtol in [None, Some(1e-5), Some(1e-7), Some(1e-9)] {
-            let settings = SolveSettings { rtol, ..settings.clone().by("bdf") };
+            let settings = SolveSettings { rtol, ..settings.clone().by_name("bdf").unwrap() };
             let bdf = solve(&network, &settings, &mut Silent).unwrap();
             for measure in &bdf.measures {
                 let error = (measure.value.unwrap() - value(&exact, &measure.key)).abs();
@@ -142,7 +143,7 @@ fn oscillator(stiffness: f64, damping: f64) -> Network {
 fn ledger_of_a_damped_oscillator_closes() {
     for (stiffness, damping) in [(800.0, 8.0), (800.0, 80.0), (800.0, 200.0)] {
         for method in ["exact", "bdf", "tr-bdf2"] {
-            let settings = SolveSettings::lasting(0.5).by(method);
+            let settings = SolveSettings::lasting(0.5).by_name(method).unwrap();
             let report = solve(&oscillator(stiffness, damping), &settings, &mut Silent).unwrap();
             let energy = &report.energy;
             same(energy.start, 9.0, 1e-12);
@@ -202,7 +203,7 @@ fn jump_of_a_motion_does_the_work_that_the_spring_takes_up() {
     let mount = Model::parallel([spring(800.0), Model::series([spring(500.0), dashpot(8.0)])]);
     network.connect("mount", base, body, mount);
     for method in ["exact", "bdf"] {
-        let settings = SolveSettings::lasting(0.6).by(method);
+        let settings = SolveSettings::lasting(0.6).by_name(method).unwrap();
         let report = solve(&network, &settings, &mut Silent).unwrap();
         let closure = report.energy.closure().abs();
         assert!(closure < if method == "exact" { 1e-11 } else { 1e-3 }, "{method}: {closure}");
@@ -245,7 +246,7 @@ fn largest_force_is_looked_for_in_every_element() {
 fn accuracy_that_is_wanted_is_paid_for() {
     let wish = |accuracy: f64| SolveSettings {
         accuracy: crate::Accuracy::of_all(accuracy),
-        ..SolveSettings::lasting(0.02).by("bdf")
+        ..SolveSettings::lasting(0.02).by_name("bdf").unwrap()
     };
     let rough = solve(&reference(10e3), &wish(1e-2), &mut Silent).unwrap();
     let fine = solve(&reference(10e3), &wish(1e-6), &mut Silent).unwrap();
@@ -266,7 +267,7 @@ fn energy_that_is_lost_fails_the_run() {
     let settings = SolveSettings {
         rtol: Some(1e-3),
         estimate: false,
-        ..SolveSettings::lasting(50.0).by("bdf")
+        ..SolveSettings::lasting(50.0).by_name("bdf").unwrap()
     };
     let failure = solve(&oscillator(800.0, 0.0), &settings, &mut Silent).unwrap_err();
     assert!(matches!(failure, RunError::EnergyLost { method: "bdf", .. }), "{failure}");
@@ -307,7 +308,9 @@ fn run_stops_where_it_is_told_to() {
         direction: Direction::Falling,
     });
     for method in ["exact", "bdf"] {
-        let report = solve(&reference(10e3), &settings.clone().by(method), &mut Silent).unwrap();
+        let report =
+            solve(&reference(10e3), &settings.clone().by_name(method).unwrap(), &mut Silent)
+                .unwrap();
         let end = report.trajectory.t_end;
         same(1e3 * end, 7.425_568_132, if method == "exact" { 1e-9 } else { 1e-2 });
         assert!(report.events.iter().any(|event| event.what == "padding.force fell below 0 N"));
@@ -322,7 +325,7 @@ fn weight_does_work() {
     let mut network = reference(10e3);
     network.add_effect(Gravity { acceleration: 9.806_65, start: GravityStart::Equilibrium });
     for method in ["exact", "bdf"] {
-        let settings = SolveSettings::lasting(0.02).by(method);
+        let settings = SolveSettings::lasting(0.02).by_name(method).unwrap();
         let report = solve(&network, &settings, &mut Silent).unwrap();
         assert_eq!(report.energy.work_in.len(), 2);
         assert!(report.energy.total_work_in() > 0.0);
@@ -370,8 +373,8 @@ fn wishes_that_name_nothing_are_refused() {
     let mut settings = SolveSettings::lasting(0.01);
     settings.accuracy.by_measure.insert("padding.peak-forse".to_owned(), 0.1);
     assert!(matches!(solve(&settings), Err(RunError::UnknownMeasure { .. })));
-    let settings = SolveSettings::lasting(0.01).by("magic");
-    assert!(matches!(solve(&settings), Err(RunError::UnknownMethod { .. })));
+    let settings = SolveSettings::lasting(0.01).by_name("magic");
+    assert!(matches!(settings, Err(RunError::UnknownMethod { .. })));
     let settings = SolveSettings::lasting(f64::NAN);
     assert!(matches!(solve(&settings), Err(RunError::InvalidSetting { .. })));
 }
@@ -418,12 +421,15 @@ fn force_that_decays_to_zero_is_never_released() {
     let load = Waveform::new(vec![Piece::default(), push, pull]).unwrap();
     loaded.add_load("ram", head, load);
     for method in ["bdf", "tr-bdf2", "esdirk34", "tsit45"] {
-        let report = solve(&network, &SolveSettings::lasting(1.0).by(method), &mut Silent).unwrap();
+        let report =
+            solve(&network, &SolveSettings::lasting(1.0).by_name(method).unwrap(), &mut Silent)
+                .unwrap();
         assert_eq!(report.contacts[0].impact.contact, Contact::Lasting, "{method}");
         assert_eq!(report.measure("pad.contact-time").unwrap().value, None, "{method}");
         let settings = SolveSettings::lasting(0.3);
-        let exact = solve(&loaded, &settings.clone().by("exact"), &mut Silent).unwrap();
-        let report = solve(&loaded, &settings.by(method), &mut Silent).unwrap();
+        let exact =
+            solve(&loaded, &settings.clone().by_name("exact").unwrap(), &mut Silent).unwrap();
+        let report = solve(&loaded, &settings.by_name(method).unwrap(), &mut Silent).unwrap();
         for measure in &report.measures {
             let gap = (measure.value.unwrap() - value(&exact, &measure.key)).abs();
             let bar = measure.error.unwrap();
@@ -438,9 +444,11 @@ fn slow_and_shallow_pull_is_a_release_or_the_bars_say_that_it_may_be_one() {
     for (stiffness, duration, is_clear) in [(4e4, 0.3, true), (800.0, 8.0, false)] {
         let network = oscillator(stiffness, 2e3);
         let settings = SolveSettings::lasting(duration);
-        let exact = solve(&network, &settings.clone().by("exact"), &mut Silent).unwrap();
+        let exact =
+            solve(&network, &settings.clone().by_name("exact").unwrap(), &mut Silent).unwrap();
         for method in ["bdf", "tr-bdf2", "esdirk34"] {
-            let report = solve(&network, &settings.clone().by(method), &mut Silent).unwrap();
+            let report =
+                solve(&network, &settings.clone().by_name(method).unwrap(), &mut Silent).unwrap();
             for measure in &report.measures {
                 let Some(found) = measure.value else {
                     assert!(!is_clear && measure.error == Some(f64::INFINITY), "{measure:?}");
@@ -473,7 +481,7 @@ fn quiet_corner_of_a_network_does_not_cost_the_exact_method() {
 
 #[test]
 fn bound_of_the_energy_does_not_grow_with_what_happens_after_it() {
-    let settings = SolveSettings::lasting(1e7).by("exact");
+    let settings = SolveSettings::lasting(1e7).by_name("exact").unwrap();
     let report = solve(&oscillator(800.0, 8.0), &settings, &mut Silent).unwrap();
     let energy = report.measure("pad.energy-at-end").unwrap();
     assert!(energy.relative_error().unwrap() < 1e-8, "{energy:?}");
@@ -507,7 +515,7 @@ fn one_step_methods_follow_what_drives_a_law_without_any_state() {
     network.connect("damper", support, network.ground(), part(dashpot));
     let expected = 100.0 * (amplitude * omega).powi(3) * 8.0 / (3.0 * omega);
     for method in ["bdf", "esdirk34", "tr-bdf2"] {
-        let settings = SolveSettings::lasting(0.1).by(method);
+        let settings = SolveSettings::lasting(0.1).by_name(method).unwrap();
         let report = solve(&network, &settings, &mut Silent).unwrap();
         let energy = report.measure("damper.energy").unwrap();
         let error = (energy.value.unwrap() - expected).abs();

@@ -58,7 +58,7 @@ impl<'g> Plan<'g> {
         columns: &[Column],
     ) -> Option<Self> {
         let settings = &first.settings;
-        let is_exact = matches!(settings.method.as_str(), "auto" | "exact");
+        let is_exact = matches!(settings.method.name(), "auto" | "exact");
         if !is_exact || !settings.stops.is_empty() || settings.accuracy.neglect_below.is_some() {
             return None;
         }

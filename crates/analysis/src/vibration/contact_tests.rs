@@ -168,7 +168,7 @@ fn a_run_in_time_parts_above_the_onset_and_not_below() {
         let motion = Waveform::new(vec![wave]).unwrap();
         let mut network = heavy(standing(motion), GravityStart::Equilibrium);
         network.add_effect(separation("device"));
-        let settings = SolveSettings::lasting(duration).by("exact");
+        let settings = SolveSettings::lasting(duration).by_name("exact").unwrap();
         let report = solve(&network, &settings, &mut Silent).unwrap();
         let late = |own: &&dashpot_dae::Switch| own.time > 0.5 * duration;
         let count = report.trajectory.switches.iter().filter(late).count();

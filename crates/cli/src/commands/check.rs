@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use dashpot_analysis::{RunError, hopeless_measures, reported_measures};
-use dashpot_dae::{Run, methods};
+use dashpot_analysis::{Choice, RunError, hopeless_measures, reported_measures};
+use dashpot_dae::Run;
 use dashpot_scene::Scene;
 
 use crate::{
@@ -66,9 +66,9 @@ fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<
 /// Whether what the scene asks of a run can be done by all of its methods.
 fn can_run(scene: &Scene) -> Result<(), CliError> {
     for name in &scene.run.methods {
-        let settings = scene.settings(name);
+        let settings = scene.settings(name)?;
         reported_measures(&scene.assembly, &settings)?;
-        if let Some(method) = methods::by_name(name) {
+        if let Choice::Method(method) = &settings.method {
             let run = Run::to(settings.duration);
             method.applies(&scene.assembly.system, &run).map_err(RunError::from)?;
         }
@@ -79,7 +79,7 @@ fn can_run(scene: &Scene) -> Result<(), CliError> {
 /// What is to be said about measures that can have no value.
 pub(crate) fn hopeless(scene: &Scene) -> Result<Vec<String>, CliError> {
     let Some(method) = scene.run.methods.first() else { return Ok(Vec::new()) };
-    let found = hopeless_measures(&scene.assembly, &scene.settings(method))?;
+    let found = hopeless_measures(&scene.assembly, &scene.settings(method)?)?;
     let text = |(key, why): &(String, &str)| format!("`{key}` can have no value: {why}");
     Ok(found.iter().map(text).collect())
 }

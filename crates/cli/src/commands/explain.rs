@@ -44,7 +44,7 @@ pub(crate) fn explain(
     } else {
         drawing().text(WIDTH - 4)
     };
-    let solving = solving(&scene)?;
+    let (solving, effects) = (solving(&scene)?, effects::found(&scene)?);
     let mut text = Text::written(terminal, |text| {
         text.title(title(&scene));
         text.blank();
@@ -59,7 +59,7 @@ pub(crate) fn explain(
             text.heading("Notes");
             text.paragraphs(remarks);
         }
-        effects::section(text, &scene);
+        effects::section(text, &effects);
         text.heading("Solving");
         solving.iter().for_each(|(label, words)| text.labelled(label, 10, words));
         let unknowns = unknowns(&scene);
@@ -203,7 +203,7 @@ fn solving(scene: &Scene) -> Result<Vec<(&'static str, String)>, CliError> {
     let system = &scene.assembly.system;
     let (method, why) = choice(&scene.assembly, scene.run.duration);
     let first = scene.run.methods.first().map_or("auto", String::as_str);
-    let measures = reported_measures(&scene.assembly, &scene.settings(first))?;
+    let measures = reported_measures(&scene.assembly, &scene.settings(first)?)?;
     let algebraic = match system.algebraic() {
         0 => "no algebraic unknown is left".to_owned(),
         count => format!("{count} algebraic unknowns stay"),

@@ -69,7 +69,7 @@ fn has(shown: &str, parts: &[&str]) {
 /// The output by one method, over the run.
 fn signal(text: &str, csv: &str, method: &str, output: &str) -> (Signal, f64) {
     let scene = scene(text, csv);
-    let settings = SolveSettings { method: method.to_owned(), ..scene.settings(method) };
+    let settings = scene.settings(method).unwrap();
     let report = solve(&scene.network, &settings, &mut Silent).unwrap();
     let at = report.assembly.system.outputs.iter().position(|own| own.name == output).unwrap();
     let signal = report.trajectory.signal(&report.assembly.system, at);
@@ -228,7 +228,8 @@ fn a_chirp_is_solved_by_steps_and_the_methods_agree() {
         }
     }
     let scene = scene(&text, "");
-    let declined = solve(&scene.network, &SolveSettings::lasting(0.5).by("exact"), &mut Silent);
+    let declined =
+        solve(&scene.network, &SolveSettings::lasting(0.5).by_name("exact").unwrap(), &mut Silent);
     assert!(declined.unwrap_err().to_string().contains("chirp"));
 }
 

@@ -19,7 +19,7 @@ fn kelvin(stiffness: f64, damping: f64) -> Model {
 
 /// Solves with all measures of these elements and nodes.
 fn solved(network: &Network, duration: f64, elements: &[&str], nodes: &[&str]) -> RunReport {
-    let mut settings = SolveSettings::lasting(duration).by("exact");
+    let mut settings = SolveSettings::lasting(duration).by_name("exact").unwrap();
     for &element in elements {
         settings.measures.push(MeasureWish::new(element, CoefficientOfRestitution));
         settings.measures.push(MeasureWish::new(element, PeakRate::default()));
@@ -107,7 +107,7 @@ fn ball_that_stays_is_in_contact_until_the_end() {
 
 #[test]
 fn window_without_a_jump_has_finite_measures() {
-    let mut settings = SolveSettings::lasting(1.0).by("exact");
+    let mut settings = SolveSettings::lasting(1.0).by_name("exact").unwrap();
     let window = WindowWish::Times(0.5, 1.0);
     settings.measures.push(MeasureWish::new("floor", PeakForce { window }));
     settings.measures.push(MeasureWish::new("floor", Impulse { window }));
@@ -197,7 +197,7 @@ fn plastic_touch_of_a_face_with_mass_keeps_momentum() {
 #[test]
 fn impulse_is_what_the_head_loses_of_its_momentum() {
     // Through all bounces on the face and through the contact that follows.
-    let mut settings = SolveSettings::lasting(0.03).by("exact");
+    let mut settings = SolveSettings::lasting(0.03).by_name("exact").unwrap();
     settings.measures.push(MeasureWish::new("pad.contact", Impulse { window: RUN }));
     settings.measures.push(MeasureWish::new("head", EndVelocity { window: RUN }));
     let report = solve(&faced(0.5), &settings, &mut Silent).unwrap();
@@ -210,7 +210,7 @@ fn impulse_is_what_the_head_loses_of_its_momentum() {
 
 #[test]
 fn padding_is_pressed_through_all_bounces_of_its_face() {
-    let mut settings = SolveSettings::lasting(0.03).by("exact");
+    let mut settings = SolveSettings::lasting(0.03).by_name("exact").unwrap();
     settings.measures.push(MeasureWish::new("pad", CoefficientOfRestitution));
     settings.measures.push(MeasureWish::new("pad", PeakForce { window: RUN }));
     settings.measures.push(MeasureWish::new("pad.contact", Impulse { window: RUN }));
@@ -257,7 +257,7 @@ fn bodies_that_bounce_on_an_unloaded_padding_have_an_impact_of_each() {
     // Falls that come back: each is far longer than the time for which the padding is pressed.
     let mut network = faced(0.3);
     network.add_effect(Gravity { acceleration: 10.0, start: GravityStart::Equilibrium });
-    let settings = SolveSettings::lasting(3.0).by("exact");
+    let settings = SolveSettings::lasting(3.0).by_name("exact").unwrap();
     let report = solve(&network, &settings, &mut Silent).unwrap();
     let time = measure(&report, "pad.contact-time").value.unwrap();
     assert!((time / pressed_for() - 1.0).abs() < 0.01, "{time}");

@@ -37,7 +37,7 @@ fn face(at: &str, mass: f64, touch: Touch) -> Face {
 }
 
 fn solved(network: &Network, duration: f64, method: &str) -> RunReport {
-    let mut settings = SolveSettings::lasting(duration).by(method);
+    let mut settings = SolveSettings::lasting(duration).by_name(method).unwrap();
     settings.measures.push(MeasureWish::new("pad", TransmittedForce::default()));
     solve(network, &settings, &mut Silent).unwrap()
 }

@@ -62,7 +62,7 @@ fn networks_of_groups_solve_the_equations_of_the_thesis() {
         for network in networks {
             let found = FourParameterImpact::of(&network).unwrap().groups();
             assert!((found.gravity - gravity).abs() < 1e-15 && (found.share - share).abs() < 1e-15);
-            let settings = SolveSettings::lasting(0.006).by("exact");
+            let settings = SolveSettings::lasting(0.006).by_name("exact").unwrap();
             let report = solve(&network, &settings, &mut Silent).unwrap();
             let peak = report.measure("padding.peak-force").unwrap().value.unwrap();
             // The peak lies between steps of 1e-3, so it is seen to some 1e-6.

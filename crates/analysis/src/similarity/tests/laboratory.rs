@@ -12,7 +12,7 @@ fn laboratory_tests_are_similar_and_their_measures_map_back() {
     close(found.scale.length, 0.25, 1e-15);
     close(found.scale.time, 1.25, 1e-15);
     assert!(Similarity::between(&real, &found.network, 1e-14).unwrap().is_similar());
-    let settings = SolveSettings::lasting(0.02).by("exact");
+    let settings = SolveSettings::lasting(0.02).by_name("exact").unwrap();
     let (similar, _) = similar_settings(&settings, &found.scale);
     let one = solve(&real, &settings, &mut Silent).unwrap();
     let other = solve(&found.network, &similar, &mut Silent).unwrap();

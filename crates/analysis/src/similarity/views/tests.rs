@@ -107,7 +107,7 @@ fn the_scene_from_the_other_side_is_the_same() {
     let other = mirrored(&network);
     assert_similar(&network, &other, true);
     // It is the same to solve, too.
-    let settings = SolveSettings::lasting(0.01).by("exact");
+    let settings = SolveSettings::lasting(0.01).by_name("exact").unwrap();
     let [one, two] = [&network, &other].map(|own| solve(own, &settings, &mut Silent).unwrap());
     for key in ["padding.peak-force", "padding.peak-deformation", "head.severity-index"] {
         let [one, two] = [&one, &two].map(|own| own.measure(key).unwrap().value.unwrap());
@@ -140,7 +140,7 @@ fn gravity_of_one_scene_alone_is_a_group_that_differs() {
         let close = |at: usize| (pairs[0].values[at] - values[at]).abs() < 1e-15;
         assert!(close(0) && close(1), "{pairs:?}");
         // What that changes is what both scenes measure.
-        let settings = SolveSettings::lasting(0.02).by("exact");
+        let settings = SolveSettings::lasting(0.02).by_name("exact").unwrap();
         let [one, other] = &found.networks;
         let both = measured(one, other, &found.scale, &settings).unwrap();
         let force = both.iter().find(|own| own.key == "padding.contact-time").unwrap();

@@ -32,7 +32,9 @@ fn at_hand(solution: &Solution<'_>) -> usize {
 #[test]
 fn looks_beyond_the_bound_keep_no_signal_and_tell_the_same() {
     for method in ["exact", "bdf"] {
-        let report = solve(&row(6), &SolveSettings::lasting(0.5).by(method), &mut Silent).unwrap();
+        let report =
+            solve(&row(6), &SolveSettings::lasting(0.5).by_name(method).unwrap(), &mut Silent)
+                .unwrap();
         let roomy = Solution::new(&report.assembly, &report.trajectory);
         let mut narrow = Solution::new(&report.assembly, &report.trajectory);
         narrow.known.signals.most = 0;

@@ -189,7 +189,7 @@ fn same_impact(
         name: element.clone(),
         known: names().collect(),
     })?;
-    let settings = SolveSettings { measures: Vec::new(), ..scene.settings("auto") };
+    let settings = SolveSettings { measures: Vec::new(), ..scene.settings("auto")? };
     let run = |operand: &Operand| -> Result<RunReport, CliError> {
         if operand.is_material() {
             return Err(CliError::MaterialInImpact { word: operand.word.clone() });

@@ -7,7 +7,10 @@ mod words;
 
 use std::sync::Arc;
 
-use dashpot_analysis::cost::{CostReport, Ladder, Subject, cost_assembly};
+use dashpot_analysis::{
+    Choice, RunError,
+    cost::{CostReport, Ladder, Subject, cost_assembly},
+};
 use dashpot_scene::Scene;
 use serde::Serialize;
 
@@ -46,10 +49,10 @@ pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Stat
     let scene = checked.value;
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let assembly = Arc::new(scene.assembly.clone());
-    let mut settings = scene.settings("auto");
+    let mut settings = scene.settings("auto")?;
     settings.budget = arguments.budget.unwrap_or(settings.budget);
     let mut bar = Bar::new("cost", settings.duration, terminal.error.attended);
-    let report = cost_assembly(&assembly, &settings, &ladder(&scene, arguments), &mut bar)?;
+    let report = cost_assembly(&assembly, &settings, &ladder(&scene, arguments)?, &mut bar)?;
     drop(bar);
     let accuracies = accuracies(scene.accuracy.default);
     let costs = Costs { scene, report, accuracies };
@@ -58,18 +61,19 @@ pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Stat
 }
 
 /// What is tried: by default everything, judged by the measures that the scene wants an accuracy of.
-fn ladder(scene: &Scene, arguments: &CostArguments) -> Ladder {
+fn ladder(scene: &Scene, arguments: &CostArguments) -> Result<Ladder, RunError> {
     let measures = if arguments.measure.is_empty() {
         scene.accuracy.by_measure.keys().cloned().collect()
     } else {
         arguments.measure.iter().map(|own| own.trim().to_owned()).collect()
     };
-    Ladder {
-        methods: arguments.method.clone(),
+    let methods = arguments.method.iter().map(|own| Choice::named(own));
+    Ok(Ladder {
+        methods: methods.collect::<Result<_, _>>()?,
         measures,
         repeats: arguments.repeat.map(usize::from),
         ..Ladder::default()
-    }
+    })
 }
 
 impl Study for Costs {

@@ -41,7 +41,7 @@ impl Test {
         };
         let wishes = arguments.lab.iter().map(wish).collect::<Result<Vec<_>, CliError>>()?;
         let design = Laboratory::design(real, &wishes)?;
-        let settings = scene.settings("auto");
+        let settings = scene.settings("auto")?;
         let (similar, left_out) = similar_settings(&settings, &design.scale);
         let mut measures =
             opposed::cleared(measured(real, &design.network, &design.scale, &settings)?);

@@ -68,7 +68,7 @@ pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<
         told.laboratory = Some(Test::of(&scene, arguments)?);
     } else if let Some(path) = &arguments.out {
         let title = format!("{} (groups {})", title(&scene), pairs(&arguments.from));
-        let settings = scene.settings("auto");
+        let settings = scene.settings("auto")?;
         write(path, &title, &network, &settings, (&scene, arguments))?;
         remark(&format!("wrote {}", path.display()));
     }

@@ -47,7 +47,7 @@ impl Pair {
     ) -> Result<Self, CliError> {
         let found = Similarity::between(&first.network, &second.network, arguments.within);
         let found = found.map_err(SimilarityError::from)?;
-        let settings = first.settings("auto");
+        let settings = first.settings("auto")?;
         let (mut measures, mut movers) = (Vec::new(), Vec::new());
         if found.structure.is_empty() || found.differs_in_effects() {
             let [one, other] = &found.networks;

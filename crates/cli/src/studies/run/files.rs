@@ -105,7 +105,8 @@ mod tests {
             separation.pad = {}\ngravity = { value = \"9.81 m/s^2\" }\n[run]\n";
         let times = |run: &str| {
             let scene = read(&format!("{text}{run}"), &ReadOptions::default()).unwrap().value;
-            let report = solve(&scene.network, &scene.settings("exact"), &mut Silent).unwrap();
+            let report =
+                solve(&scene.network, &scene.settings("exact").unwrap(), &mut Silent).unwrap();
             sample_times(&report, &scene.run)
         };
         let met = (2.0_f64 / 9.81).sqrt();

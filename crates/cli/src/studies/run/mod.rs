@@ -20,7 +20,7 @@ use std::{
 };
 
 use dashpot_analysis::{
-    Accuracy, Difference, RunReport, SolveSettings, differences, solve_partial,
+    Accuracy, Difference, RunError, RunReport, SolveSettings, differences, solve_partial,
 };
 use dashpot_plot::figures::{Figure, ForceTime};
 use dashpot_scene::Scene;
@@ -68,7 +68,7 @@ struct Answer {
     /// What each of them took in all: solutions, measures and errors.
     pub(super) elapsed: Vec<Duration>,
     /// The methods that failed, and why.
-    pub(super) failed: Vec<(String, CliError)>,
+    pub(super) failed: Vec<(&'static str, CliError)>,
     /// Whether forces are plotted.
     plot: When,
 }
@@ -132,7 +132,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     if let Ok(texts) = hopeless(&checked.value) {
         texts.iter().for_each(|text| terminal.warn(text));
     }
-    let answer = solve_all(checked.value, arguments, terminal);
+    let answer = solve_all(checked.value, arguments, terminal)?;
     tell_failures(&answer, terminal);
     let status = answer.failed.iter().map(|(_, error)| error.status()).max();
     if arguments.json || !answer.runs.is_empty() {
@@ -155,7 +155,7 @@ fn tell_failures(answer: &Answer, terminal: Terminal) {
             continue;
         }
         let same = answer.failed.iter().filter(|(_, other)| other.to_string() == text);
-        let methods: Vec<&str> = same.map(|(method, _)| method.as_str()).collect();
+        let methods: Vec<&str> = same.map(|own| own.0).collect();
         let is_all = methods.len() == answer.asked.len();
         let prefix = if is_all { String::new() } else { format!("{}: ", methods.join(", ")) };
         terminal.fail(&prefix, error);
@@ -163,19 +163,23 @@ fn tell_failures(answer: &Answer, terminal: Terminal) {
     }
 }
 
-fn solve_all(scene: Scene, arguments: &RunArguments, terminal: Terminal) -> Answer {
+fn solve_all(
+    scene: Scene,
+    arguments: &RunArguments,
+    terminal: Terminal,
+) -> Result<Answer, RunError> {
     let mut asked: Vec<SolveSettings> = Vec::new();
     let methods = if arguments.method.is_empty() { &scene.run.methods } else { &arguments.method };
     for method in methods {
-        if asked.iter().all(|own| own.method != *method) {
-            asked.push(settings(&scene, method, arguments));
+        if asked.iter().all(|own| own.method.name() != method) {
+            asked.push(settings(&scene, method, arguments)?);
         }
     }
     let assembly = Arc::new(scene.assembly.clone());
     let (mut runs, mut failed) = (Vec::<RunReport>::new(), Vec::new());
     let mut elapsed = Vec::new();
     for own in &asked {
-        let mut bar = Bar::new(&own.method, own.duration, terminal.error.attended);
+        let mut bar = Bar::new(own.method.name(), own.duration, terminal.error.attended);
         let started = Instant::now();
         match solve_partial(&scene.network, &assembly, own, &mut bar) {
             // `auto` may choose what is asked for by name as well.
@@ -184,19 +188,23 @@ fn solve_all(scene: Scene, arguments: &RunArguments, terminal: Terminal) -> Answ
                 elapsed.push(started.elapsed());
             }
             Ok(_) => {}
-            Err(error) => failed.push((own.method.clone(), CliError::Run(error))),
+            Err(error) => failed.push((own.method.name(), CliError::Run(error))),
         }
     }
     let (changes, plot) = (Changes::of(arguments), arguments.plot);
-    Answer { scene, changes, asked, runs, elapsed, failed, plot }
+    Ok(Answer { scene, changes, asked, runs, elapsed, failed, plot })
 }
 
 fn is_new(runs: &[RunReport], report: &RunReport) -> bool {
     runs.iter().all(|run| run.solver.method != report.solver.method)
 }
 
-fn settings(scene: &Scene, method: &str, arguments: &RunArguments) -> SolveSettings {
-    let mut settings = scene.settings(method);
+fn settings(
+    scene: &Scene,
+    method: &str,
+    arguments: &RunArguments,
+) -> Result<SolveSettings, RunError> {
+    let mut settings = scene.settings(method)?;
     settings.estimate = arguments.estimate == Switch::On;
     settings.budget = arguments.budget.unwrap_or(settings.budget);
     settings.rtol = arguments.rtol.or(settings.rtol);
@@ -207,7 +215,7 @@ fn settings(scene: &Scene, method: &str, arguments: &RunArguments) -> SolveSetti
         settings.rtol = None;
     }
     settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
-    settings
+    Ok(settings)
 }
 
 impl Study for Answer {

@@ -38,7 +38,7 @@ fn settings(answer: &Answer, asked: &SolveSettings) -> impl Serialize {
     object! {
         duration: asked.duration,
         samples: answer.scene.run.samples,
-        methods: list(answer.asked.iter().map(|own| &own.method)),
+        methods: list(answer.asked.iter().map(|own| own.method.name())),
         rtol: asked.rtol,
         estimate: asked.estimate,
         accuracy: [("default", asked.accuracy.default)].into_iter().chain(single).collect::<Pairs<_, _>>(),

@@ -212,7 +212,7 @@ mod tests {
 
     fn report() -> RunReport {
         let scene = read(DROP, &ReadOptions::default()).unwrap().value;
-        solve(&scene.network, &scene.settings("exact"), &mut Silent).unwrap()
+        solve(&scene.network, &scene.settings("exact").unwrap(), &mut Silent).unwrap()
     }
 
     #[test]
@@ -258,7 +258,7 @@ mod tests {
             [loads.pull]\non = \"head\"\nforce = { constant = \"-1 kN\" }\n\
             [run]\nduration = \"10 ms\"\n";
         let scene = read(pulled, &ReadOptions::default()).unwrap().value;
-        let report = solve(&scene.network, &scene.settings("exact"), &mut Silent).unwrap();
+        let report = solve(&scene.network, &scene.settings("exact").unwrap(), &mut Silent).unwrap();
         let labels: Vec<String> = markers(&report).into_iter().map(|own| own.label).collect();
         assert!(labels.iter().any(|own| own == "peak −2.00 kN"), "{labels:?}");
     }

@@ -12,7 +12,7 @@ use crate::numbers::{constant, share};
 pub(super) fn settings_table(answer: &Answer) -> Table {
     let Some(asked) = answer.asked.first() else { return Table::default() };
     let run = &answer.scene.run;
-    let methods: Vec<&str> = answer.asked.iter().map(|own| own.method.as_str()).collect();
+    let methods: Vec<&str> = answer.asked.iter().map(|own| own.method.name()).collect();
     let mut rows = vec![
         ("duration".to_owned(), constant(asked.duration, "s")),
         ("samples".to_owned(), run.samples.to_string()),

@@ -7,6 +7,7 @@ mod words;
 use std::{num::NonZero, thread::available_parallelism};
 
 use dashpot_analysis::{
+    RunError,
     partial::Cost,
     sweep::{Column, Grid, Pose, Posed, SweepReport, columns, sweep as solve},
 };
@@ -58,13 +59,13 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
             (None, [only]) => only,
             _ => "auto",
         };
-        let mut settings = scene.settings(method);
+        let mut settings = scene.settings(method)?;
         settings.budget = arguments.budget.unwrap_or(settings.budget);
         settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
-        Posed { network: scene.network, settings }
+        Ok::<_, RunError>(Posed { network: scene.network, settings })
     };
     let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
-    let (columns, wishes) = columns(&posed(scene.clone()), &keys)?;
+    let (columns, wishes) = columns(&posed(scene.clone())?, &keys)?;
     let names = files::names(&variations, &columns);
     let folder = Folder::wanted(arguments.out.as_deref(), names)?;
     let pose = |places: &[usize]| {
@@ -73,7 +74,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
             let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
             messages.collect::<Vec<_>>().join("; ")
         })?;
-        let mut posed = posed(checked.value);
+        let mut posed = posed(checked.value).map_err(|error| error.to_string())?;
         posed.settings.measures.clone_from(&wishes);
         Ok(posed)
     };
