@@ -123,6 +123,16 @@ fn the_verdict_names_the_longest_interval_of_a_head_injury_criterion() {
 }
 
 #[test]
+fn the_verdict_leaves_out_of_its_bound_what_is_not_as_good() {
+    let path = "tests/corpus/networks/stop-that-pulls.toml";
+    let output = run(&["run", path, "--method", "esdirk34"]);
+    let words = out(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+    let wrong = &words[words.find("how wrong").unwrap()..];
+    assert!(wrong.contains("`e0.stop.energy` is zero within"), "{wrong}");
+    assert!(wrong.contains("every other figure is good to"), "{wrong}");
+}
+
+#[test]
 fn json_has_one_shape_and_si_values() {
     let answer = json(&["run", "--json"]);
     for key in ["scene", "runs", "difference", "settings", "failed"] {

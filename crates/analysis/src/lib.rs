@@ -44,6 +44,7 @@ pub mod similarity;
 mod solution;
 mod solve;
 pub mod sweep;
+pub mod verdict;
 pub mod vibration;
 mod warnings;
 mod wording;

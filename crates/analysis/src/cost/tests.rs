@@ -63,7 +63,7 @@ fn errors_are_the_distances_from_the_exact_solution() {
         for (error, rtol) in errors.iter().zip(&ladder(&[]).rtols) {
             // The peak force of the thesis, to eleven digits.
             let exact = 38_359.411_601;
-            let own = SolveSettings { rtol: Some(*rtol), ..settings() }.by_name(*method).unwrap();
+            let own = SolveSettings { rtol: Some(*rtol), ..settings() }.by_name(method).unwrap();
             let own = solve(&network, &own, &mut Silent).unwrap();
             let value = own.measure("padding.peak-force").unwrap().value.unwrap();
             let direct = (value / exact - 1.0).abs();
