@@ -1,12 +1,11 @@
 //! What springs, dashpots and all other parts store and dissipate.
 
+use dashpot_dae::Trajectory;
 use dashpot_network::{
-    Element, PhasedNetwork, PrimitiveOutputs,
+    Assembly, Element, PhasedNetwork, PrimitiveOutputs,
     elements::Law,
     phases::{Phase, PhaseLaw},
 };
-
-use crate::Solution;
 
 /// Which entries of an energy ledger a part has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,23 +41,22 @@ impl Accounts {
 /// The energy \[J\] that a part stores at `time` \[s\] at this deformation \[m\], just before what
 /// switches then.
 pub(crate) fn stored(
-    solution: &Solution<'_>,
+    (assembly, trajectory): (&Assembly, &Trajectory),
     primitive: &PrimitiveOutputs,
     time: f64,
     deformation: f64,
 ) -> f64 {
-    let phased = solution.assembly().switching.as_deref();
+    let phased = assembly.switching.as_deref();
     match phased.and_then(|own| Some((own, own.part_named(&primitive.name)?))) {
         Some((own, part)) if primitive.element.law() == Law::Phased => {
-            own.stored(part, phase_at(solution, own, part, time), deformation)
+            own.stored(part, phase_at(trajectory, own, part, time), deformation)
         }
         _ => primitive.element.stored(deformation),
     }
 }
 
 /// The phase of a part just before `time` \[s\].
-fn phase_at(solution: &Solution<'_>, own: &PhasedNetwork, part: usize, time: f64) -> Phase {
-    let trajectory = solution.trajectory();
+fn phase_at(trajectory: &Trajectory, own: &PhasedNetwork, part: usize, time: f64) -> Phase {
     let first = trajectory.first_phases.get(part);
     let first = first.map(|&(index, memory)| Phase { index, memory });
     let mut before = trajectory.switches.iter().filter(|own| own.part == part && own.time < time);
@@ -70,14 +68,14 @@ fn phase_at(solution: &Solution<'_>, own: &PhasedNetwork, part: usize, time: f64
 
 /// The energy \[J\] lost by impacts in a part within the window \[s\].
 pub(crate) fn lost_in_impacts(
-    solution: &Solution<'_>,
+    trajectory: &Trajectory,
     primitive: &PrimitiveOutputs,
     window: (f64, f64),
 ) -> f64 {
     if primitive.element.law() != Law::Phased {
         return 0.0;
     }
-    let switches = solution.trajectory().switches.iter();
+    let switches = trajectory.switches.iter();
     let own = switches.filter(|own| own.impulse > 0.0 && own.name == primitive.name);
     own.filter(|own| window.0 <= own.time && own.time <= window.1).map(|own| own.lost).sum()
 }

@@ -6,8 +6,9 @@ use dashpot_dae::{Budget, Method, Observer, Run, SolveError, methods};
 
 use crate::{
     RunError,
-    refinement::{Outcome, Task, is_same_end},
+    refinement::{Outcome, is_same_end},
     solve::lost,
+    task::Task,
 };
 
 /// Work of a further method in parts of what has been done before it, where there is a solution already

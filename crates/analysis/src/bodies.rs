@@ -2,8 +2,6 @@
 
 use dashpot_network::{Assembly, ConnectionOutputs, NodeOutputs};
 
-use crate::solution::is_impactor;
-
 /// How many numbers of bodies there are.
 pub(crate) fn count(assembly: &Assembly) -> usize {
     assembly.nodes.iter().map(|node| node.body + 1).max().unwrap_or(0)
@@ -88,7 +86,7 @@ impl Lists {
 /// For each body whether an impactor belongs to it.
 pub(crate) fn with_impactor(assembly: &Assembly) -> Vec<bool> {
     let mut found = vec![false; count(assembly)];
-    for node in assembly.nodes.iter().filter(|node| is_impactor(node)) {
+    for node in assembly.nodes.iter().filter(|node| node.is_impactor()) {
         found[node.body] = true;
     }
     found

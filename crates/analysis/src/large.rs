@@ -1,7 +1,7 @@
 //! Large networks, of whose solutions only a part is kept.
 //!
 //! A solution of all unknowns at all steps would grow with the square of a network that takes more
-//! steps the finer it is. Beyond [`LARGE`] unknowns a run keeps the outputs that the measures may ask
+//! steps the finer it is. Beyond [`LARGE`](crate::memory::LARGE) unknowns a run keeps the outputs that the measures may ask
 //! for, and sums up the energies of everything else on the way.
 
 use std::{collections::BTreeSet, sync::Arc};
@@ -9,19 +9,13 @@ use std::{collections::BTreeSet, sync::Arc};
 use dashpot_dae::{Keep, Part};
 use dashpot_network::{Assembly, ConnectionOutputs};
 
-use crate::{accounts::Accounts, bodies, ledger::does_work, measures::Family, selection::Selected};
-
-/// Unknowns beyond which a stepping method keeps a part of the solution only. Below, nothing is left
-/// out.
-pub(crate) const LARGE: usize = 1000;
+use crate::{
+    accounts::Accounts, bodies, ledger::does_work, measures::Family, memory::is_large,
+    selection::Selected,
+};
 
 /// Pads beyond which nobody looks whether one of them is pressed in too far.
 const MOST_PADS: usize = 100;
-
-/// Whether only a part of the solutions of a network is kept. What switches is kept as a whole.
-pub(crate) fn is_large(assembly: &Assembly) -> bool {
-    assembly.switching.is_none() && assembly.system.len() > LARGE
-}
 
 /// What a run keeps whose measures are `selected`: all outputs of their targets and of all impactors,
 /// and of what these touch.

@@ -158,8 +158,8 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
             let deformation = solution.glance(primitive.deformation);
             let last = deformation.left_value(time);
             let first = deformation.value(0.0);
-            let at_start = accounts::stored(solution, primitive, 0.0, first);
-            let at_end = accounts::stored(solution, primitive, time, last);
+            let at_start = accounts::stored(solution.run(), primitive, 0.0, first);
+            let at_end = accounts::stored(solution.run(), primitive, time, last);
             start += at_start;
             gained = at_end - at_start;
             stored.push((primitive.name.clone(), at_end));
@@ -218,7 +218,7 @@ fn dissipation(
 ) -> f64 {
     let force = &solution.glance(primitive.force);
     let rate = &solution.rate(primitive.rate, primitive.deformation);
-    let lost = accounts::lost_in_impacts(solution, primitive, window);
+    let lost = accounts::lost_in_impacts(solution.trajectory(), primitive, window);
     if !does_work(primitive) {
         return lost;
     }

@@ -1,20 +1,24 @@
-//! How much memory a run takes, foreseen before it is solved, and how much its solutions may keep.
+//! How much memory a run takes, foreseen before it is solved.
 
-use dashpot_dae::SolveError;
 use dashpot_network::{
     Assembly,
     memory::{MOST_BYTES, PART_BYTES},
 };
 
-use crate::{RunError, accuracy::SOLUTIONS, refinement::Solved};
+use crate::RunError;
 
 /// What solving takes for each unknown \[B\]: the vectors of a method with steps, a row of the matrix, its
 /// place and its factors within a band.
 const UNKNOWN_BYTES: u64 = 1000;
 
-/// Memory that all solutions of a run together may keep, from whose differences its errors are estimated
-/// \[B\].
-const MOST_KEPT: usize = 4_000_000_000;
+/// Unknowns beyond which a stepping method keeps a part of the solution only. Below, nothing is left
+/// out.
+pub(crate) const LARGE: usize = 1000;
+
+/// Whether only a part of the solutions of a network is kept. What switches is kept as a whole.
+pub(crate) fn is_large(assembly: &Assembly) -> bool {
+    assembly.switching.is_none() && assembly.system.len() > LARGE
+}
 
 /// Refuses a network that takes more memory than a run may, with what is made of its parts and what solving
 /// takes.
@@ -32,16 +36,6 @@ fn refuse_beyond(limit: u64, parts: u64, unknowns: u64) -> Result<(), RunError> 
         return Ok(());
     }
     Err(RunError::TooMuchMemory { parts, unknowns, bytes, limit })
-}
-
-/// That a solution is one too many to be kept beside those before it from which its errors are estimated.
-pub(crate) fn one_too_many(before: &[Solved], next: &Solved) -> Option<SolveError> {
-    let others = before.iter().rev().take(SOLUTIONS - 1).map(|own| &own.trajectory);
-    let trajectory = &next.trajectory;
-    let bytes = others.chain([trajectory]).map(|own| own.dense.bytes()).sum();
-    let (time, steps) = (trajectory.t_end, trajectory.statistics.accepted);
-    let error = SolveError::TooLarge { method: trajectory.method, time, steps, bytes };
-    (bytes > MOST_KEPT).then_some(error)
 }
 
 #[cfg(test)]

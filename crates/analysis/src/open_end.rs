@@ -2,8 +2,8 @@
 
 use crate::{
     accuracy::excess,
-    refinement::{Solved, Task},
     solution::{doubt_at, grazes},
+    task::{Solved, Task},
 };
 
 /// An impact that may end where its force comes within its error of zero and pushes on.

@@ -1,27 +1,21 @@
 //! As many solutions as the errors ask for.
 
-use std::{
-    collections::{BTreeMap, BTreeSet},
-    time::Duration,
-};
+use std::{collections::BTreeMap, time::Duration};
 
-use dashpot_dae::{Method, Observer, Progress, Run, SolveError, Trajectory, switching};
-use dashpot_network::Assembly;
+use dashpot_dae::{Observer, Run, SolveError};
 
 use crate::{
-    Ledger, Reading, Solution, SolveSettings,
+    Reading, Solution,
     accuracy::{
         Evidence, SMALL, SOLUTIONS, excess, is_as_good_as_zero, is_determined, is_lost_in_noise,
         of_energy, rounding,
     },
-    large::keep_also,
-    ledger::ledger,
     magnitude::largest,
-    memory,
     open_end::OpenEnd,
     run_end,
     selection::Selected,
-    solution::{Known, doubt_at},
+    solution::doubt_at,
+    task::{Solved, Task},
 };
 
 /// Part of the energy turned over beyond which a balance that does not close fails the run.
@@ -41,45 +35,9 @@ const SOLUTIONS_FOR_ENDS: usize = 2;
 /// The last tolerance that is tried, 1e-12, in half decades below 1.
 const FINEST: i32 = 24;
 
-/// Work of reading a panel of a signal.
-const READING: u64 = 48;
-
-/// What is to be solved, and how.
-#[derive(Clone, Copy)]
-pub(crate) struct Task<'a> {
-    pub(crate) assembly: &'a Assembly,
-    pub(crate) settings: &'a SolveSettings,
-    pub(crate) selected: &'a [Selected],
-    pub(crate) method: &'a dyn Method,
-}
-
-/// A solution with the measures read off it.
-pub(crate) struct Solved {
-    pub(crate) rtol: f64,
-    /// Part of the largest contact force below which a pull counts as an error of the method.
-    pub(crate) doubt: f64,
-    /// The most that a contact pulls with, in parts of what it pushes with.
-    tension: f64,
-    /// How deep each contact force first pulls.
-    pulls: Vec<Option<f64>>,
-    pub(crate) trajectory: Trajectory,
-    pub(crate) readings: Vec<Reading>,
-    pub(crate) energy: Ledger,
-    /// What the measures have found, where there are no further solutions: signals take much memory.
-    pub(crate) known: Option<Known>,
-}
-
-impl Solved {
-    /// The solution as the measures have been read off it.
-    pub(crate) fn as_read<'a>(&'a self, assembly: &'a Assembly) -> Solution<'a> {
-        Solution::new(assembly, &self.trajectory).doubting(self.doubt)
-    }
-
-    /// What it tells of errors.
-    fn told(&self) -> (f64, &[Reading]) {
-        (self.rtol, &self.readings)
-    }
-}
+/// Memory that all solutions of a run together may keep, from whose differences its errors are estimated
+/// \[B\].
+const MOST_KEPT: usize = 4_000_000_000;
 
 /// The solution to report, and what is known about its errors.
 pub(crate) struct Outcome {
@@ -112,11 +70,6 @@ impl Task<'_> {
         observer: &mut dyn Observer,
     ) -> Result<Outcome, SolveError> {
         if self.is_single() { self.once(run, observer) } else { self.refined(run, observer) }
-    }
-
-    /// Whether there is one solution only.
-    fn is_single(&self) -> bool {
-        self.method.is_exact() || !self.settings.estimate
     }
 
     /// Whether the solution is as accurate as is wanted, as far as is known.
@@ -153,78 +106,6 @@ impl Task<'_> {
             improves |= old > 1.0 && new < old;
         }
         improves
-    }
-
-    /// A solution with its measures. Where only a part of it is kept, and that turns out not to be all
-    /// that is asked for, it is made again.
-    pub(crate) fn solve(
-        &self,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<Solved, SolveError> {
-        let mut run = run.clone();
-        loop {
-            let (solved, missing) = self.attempt(&run, observer)?;
-            if missing.is_empty() {
-                return Ok(solved);
-            }
-            run.keep = keep_also(&run.keep, &missing);
-        }
-    }
-
-    /// A solution, and the outputs that were asked for but not kept.
-    fn attempt(
-        &self,
-        run: &Run,
-        observer: &mut dyn Observer,
-    ) -> Result<(Solved, BTreeSet<usize>), SolveError> {
-        let trajectory = match &self.assembly.switching {
-            None => self.method.integrate(&self.assembly.system, run, observer)?,
-            Some(phased) => switching::integrate(self.method, phased.as_ref(), run, observer)?,
-        };
-        let doubt = doubt_at((!self.method.is_exact()).then_some(run.rtol));
-        let mut solution = Solution::new(self.assembly, &trajectory).doubting(doubt);
-        let readings = self.read_under(&mut solution, observer)?;
-        let pulls = if doubt > 0.0 { solution.first_pulls() } else { Vec::new() };
-        let tension = if doubt > 0.0 { solution.tension() } else { None };
-        let tension = tension.map_or(0.0, |own| own.part);
-        let energy = ledger(&solution, solution.end());
-        run.budget.charge(solution.panels() * READING);
-        if self.method.is_exact() && run.budget.is_spent() {
-            // Its signals are not followed any more.
-            let (method, time, work) = (self.method.name(), trajectory.t_end, run.budget.done());
-            return Err(SolveError::BudgetSpent { method, time, work });
-        }
-        let missing = solution.missing();
-        let known = Some(solution.known()).filter(|_| self.is_single());
-        let rtol = run.rtol;
-        Ok((Solved { rtol, doubt, tension, pulls, trajectory, readings, energy, known }, missing))
-    }
-
-    /// The measures of a solution, whose signals may not be made before. The observer is told of each.
-    fn read_under(
-        &self,
-        solution: &mut Solution<'_>,
-        observer: &mut dyn Observer,
-    ) -> Result<Vec<Reading>, SolveError> {
-        let trajectory = solution.trajectory();
-        let (time, steps) = (trajectory.t_end, trajectory.statistics.accepted);
-        let mut read = |entry: &Selected| {
-            let reading = entry.measure.read(solution, entry.target);
-            solution.make_room();
-            let is_over = observer.progress(Progress { time, steps }).is_break();
-            if is_over { Err(SolveError::Cancelled { time }) } else { Ok(reading) }
-        };
-        self.selected.iter().map(&mut read).collect()
-    }
-
-    pub(crate) fn read(&self, solution: &mut Solution<'_>) -> Vec<Reading> {
-        let mut read = |entry: &Selected| {
-            let reading = entry.measure.read(solution, entry.target);
-            solution.make_room();
-            reading
-        };
-        self.selected.iter().map(&mut read).collect()
     }
 
     /// Reads solutions again with the doubts about their contact forces that all of them together
@@ -274,7 +155,7 @@ impl Task<'_> {
             let own = Run { budget: budget.clone(), ..run.clone() }.with_rtol(rtol);
             match self.solve(&own, observer) {
                 Ok(finer) => {
-                    if let Some(error) = memory::one_too_many(&last, &finer) {
+                    if let Some(error) = one_too_many(&last, &finer) {
                         obstacle = Some(error);
                         break;
                     }
@@ -441,6 +322,16 @@ impl Task<'_> {
             && closure <= strictest.min(MOST_LOST)
             && solved.tension <= strictest
     }
+}
+
+/// That a solution is one too many to be kept beside those before it from which its errors are estimated.
+fn one_too_many(before: &[Solved], next: &Solved) -> Option<SolveError> {
+    let others = before.iter().rev().take(SOLUTIONS - 1).map(|own| &own.trajectory);
+    let trajectory = &next.trajectory;
+    let bytes = others.chain([trajectory]).map(|own| own.dense.bytes()).sum();
+    let (time, steps) = (trajectory.t_end, trajectory.statistics.accepted);
+    let error = SolveError::TooLarge { method: trajectory.method, time, steps, bytes };
+    (bytes > MOST_KEPT).then_some(error)
 }
 
 /// The tolerances to solve at, a factor √10 apart.

@@ -9,9 +9,7 @@ use dashpot_network::{
 };
 use serde::Serialize;
 
-use crate::{
-    Impact, Ledger, Partial, Segmentation, Solution, accuracy::FIRST_DIGIT, solution::is_impactor,
-};
+use crate::{Impact, Ledger, Partial, Segmentation, Solution, accuracy::FIRST_DIGIT};
 
 /// In networks of more elements than this nobody looks for the largest force of all.
 const MOST_ELEMENTS: usize = 200;
@@ -192,7 +190,7 @@ impl RunReport {
     /// Kinetic energy of the impactors at the start \[J\]; 0 without any, and for those that are
     /// dropped from above and have none yet.
     pub fn impact_energy(&self) -> f64 {
-        let impactors = self.assembly.nodes.iter().filter(|node| is_impactor(node));
+        let impactors = self.assembly.nodes.iter().filter(|node| node.is_impactor());
         let energy =
             |node: &NodeOutputs| 0.5 * node.mass * node.start_velocity.unwrap_or(0.0).powi(2);
         impactors.map(energy).sum::<f64>().min(self.energy.start)

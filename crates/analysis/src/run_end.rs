@@ -2,7 +2,7 @@
 
 use dashpot_dae::{Run, Silent};
 
-use crate::refinement::{Solved, Task};
+use crate::task::{Solved, Task};
 
 /// Errors of instants at which something switches, in parts of the tolerance and of the time.
 const OF_INSTANTS: f64 = 1e2;

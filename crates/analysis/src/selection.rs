@@ -9,9 +9,8 @@ use dashpot_network::{
 
 use crate::{
     RunError, bodies,
-    large::is_large,
     measures::{Family, Measure, by_default, of_layers},
-    solution::is_impactor,
+    memory::is_large,
 };
 
 /// A measure wanted of an element or a node.
@@ -50,7 +49,7 @@ pub(crate) fn select(
     wishes: &[MeasureWish],
 ) -> Result<Vec<Selected>, RunError> {
     let mut selected = Vec::new();
-    let has_impactor = assembly.nodes.iter().any(is_impactor);
+    let has_impactor = assembly.has_impactor();
     // In a large network without an impactor nothing stands out.
     let has_defaults = has_impactor || !is_large(assembly);
     let of_elements = by_default(Family::Element, has_impactor);
@@ -154,7 +153,7 @@ fn reported_elements(assembly: &Assembly) -> Vec<usize> {
 fn reported_nodes(assembly: &Assembly) -> Vec<usize> {
     let nodes = || assembly.nodes.iter().enumerate();
     let impactors: Vec<usize> =
-        nodes().filter(|(_, node)| is_impactor(node)).map(|(at, _)| at).collect();
+        nodes().filter(|(_, node)| node.is_impactor()).map(|(at, _)| at).collect();
     if !impactors.is_empty() {
         return impactors;
     }

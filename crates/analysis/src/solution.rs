@@ -7,7 +7,7 @@ use std::{
 };
 
 use dashpot_dae::{Signal, Trajectory};
-use dashpot_network::{Assembly, ConnectionOutputs, NodeId, NodeOutputs};
+use dashpot_network::{Assembly, ConnectionOutputs, NodeId};
 
 use crate::{
     blows::{self, Blow},
@@ -124,6 +124,11 @@ impl<'a> Solution<'a> {
     /// The trajectory.
     pub fn trajectory(&self) -> &'a Trajectory {
         self.trajectory
+    }
+
+    /// Both.
+    pub(crate) fn run(&self) -> (&'a Assembly, &'a Trajectory) {
+        (self.assembly, self.trajectory)
     }
 
     /// End of the run \[s\].
@@ -399,7 +404,7 @@ impl<'a> Solution<'a> {
         *self.known.scene_impact.get_or_init(|| {
             let impactors = self.assembly.nodes.iter().enumerate();
             let of_impactors = impactors
-                .filter(|(_, node)| is_impactor(node))
+                .filter(|(_, node)| node.is_impactor())
                 .map(|(at, _)| self.node_impact(at))
                 .reduce(Impact::joined);
             let Some(of_impactors) = of_impactors else {
@@ -423,9 +428,4 @@ fn first_pushes(force: &Signal, blows: &[Blow]) -> bool {
         Some(blow) => blow.impulse > 0.0,
         None => first_way(force) != Some(false),
     }
-}
-
-/// Whether the node is a free mass that starts with a speed of its own.
-pub fn is_impactor(node: &NodeOutputs) -> bool {
-    node.free && node.mass > 0.0 && node.start_velocity.is_some()
 }

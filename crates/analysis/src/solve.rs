@@ -18,14 +18,14 @@ use crate::{
     events,
     holding::slider_fault,
     idle::{idle_times, without_idle_forces},
-    large::{is_large, keep},
+    large::keep,
     ledger::{leak, ledger},
     magnitude::{is_open, largest},
-    memory,
+    memory::{self, is_large},
     partial::solve_partial,
-    refinement::{MOST_LOST, Outcome, Solved, Task},
+    refinement::{MOST_LOST, Outcome},
     selection::{Selected, select},
-    solution::is_impactor,
+    task::{Solved, Task},
     warnings,
     wording::quantity,
 };
@@ -302,7 +302,7 @@ fn report(
     } else {
         why
     };
-    if is_large(assembly) && !assembly.nodes.iter().any(is_impactor) {
+    if is_large(assembly) && !assembly.has_impactor() {
         warnings.push(UNASKED.to_owned());
     }
     Ok(RunReport {

@@ -10,7 +10,6 @@ use crate::{
         ContactTime, EndVelocity, Energy, MeasureKind, PeakAcceleration, PeakDeformation,
         PeakForce, TransmittedForce,
     },
-    solution::is_impactor,
 };
 
 /// A force elsewhere is larger if it is so by this part.
@@ -309,7 +308,7 @@ impl<'r> Found<'r> {
                 ends.extend(bodies::between(assembly, &assembly.connections[at]));
             }
         }
-        let all = assembly.nodes.iter().enumerate().filter(|(_, node)| is_impactor(node));
+        let all = assembly.nodes.iter().enumerate().filter(|(_, node)| node.is_impactor());
         all.filter(|(_, node)| element.is_none() || ends.contains(&node.body)).collect()
     }
 

@@ -20,7 +20,6 @@ use crate::{
         PeakStrain, Reading, SeverityIndex,
     },
     open_end::OpenEnd,
-    solution::is_impactor,
     wording::{percent, quantity},
 };
 
@@ -125,7 +124,7 @@ fn heads_without_a_pad(findings: &Findings<'_>) -> BTreeSet<NodeId> {
     let assembly = findings.solution.assembly();
     let injuries = findings.measures.iter().filter(|own| INJURIES.contains(&own.kind));
     let targets: BTreeSet<&str> = injuries.map(|own| own.target.as_str()).collect();
-    if targets.is_empty() || assembly.nodes.iter().any(is_impactor) {
+    if targets.is_empty() || assembly.has_impactor() {
         return BTreeSet::new();
     }
     let is_head = |end: &NodeId| targets.contains(assembly.nodes[end.index()].name.as_str());
@@ -202,7 +201,7 @@ fn worst(measures: &[MeasureReport]) -> Option<f64> {
 
 /// What was dropped and has not arrived when the run ends.
 fn still_falling(solution: &Solution<'_>) -> Vec<String> {
-    let impactors = solution.assembly().nodes.iter().filter(|node| is_impactor(node));
+    let impactors = solution.assembly().nodes.iter().filter(|node| node.is_impactor());
     let falling = impactors.filter(|node| node.fall > solution.end()).map(|node| {
         let (end, fall) = (quantity(solution.end(), "s"), quantity(node.fall, "s"));
         format!(
@@ -311,7 +310,7 @@ fn peak_of_run(solution: &Solution<'_>, measure: &MeasureReport) -> Option<Readi
 /// What is shaken or pushed off without a weight that brings it back.
 fn flying_away(findings: &Findings<'_>) -> Option<String> {
     let solution = findings.solution;
-    let is_struck = solution.assembly().nodes.iter().any(is_impactor);
+    let is_struck = solution.assembly().has_impactor();
     if is_struck || findings.effects.contains(&Gravity::KIND) {
         return None;
     }

@@ -56,6 +56,13 @@ pub struct NodeOutputs {
     pub acceleration: Option<usize>,
 }
 
+impl NodeOutputs {
+    /// Whether the node is a free mass that starts with a speed of its own.
+    pub fn is_impactor(&self) -> bool {
+        self.free && self.mass > 0.0 && self.start_velocity.is_some()
+    }
+}
+
 /// Outputs of a connection.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConnectionOutputs {
@@ -195,6 +202,11 @@ pub(crate) fn place<'n>(name: &'n str, kind: &str) -> &'n str {
 }
 
 impl Assembly {
+    /// Whether any of its masses starts with a speed of its own.
+    pub fn has_impactor(&self) -> bool {
+        self.nodes.iter().any(NodeOutputs::is_impactor)
+    }
+
     /// The connection of the given name.
     pub fn connection(&self, name: &str) -> Option<&ConnectionOutputs> {
         self.connections.iter().find(|connection| connection.name == name)

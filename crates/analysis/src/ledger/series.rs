@@ -46,7 +46,8 @@ pub fn energy_series(solution: &Solution<'_>, times: &[f64]) -> EnergySeries {
         let mut gained = vec![0.0; times.len()];
         if own.stores {
             let deformation = solution.signal(primitive.deformation);
-            let energy = |t: f64| accounts::stored(solution, primitive, t, deformation.value(t));
+            let energy =
+                |t: f64| accounts::stored(solution.run(), primitive, t, deformation.value(t));
             add(&mut gained, times, energy);
             for (sum, own) in series.stored.iter_mut().zip(&gained) {
                 *sum += own;
@@ -54,7 +55,7 @@ pub fn energy_series(solution: &Solution<'_>, times: &[f64]) -> EnergySeries {
         }
         if own.dissipates {
             let start = solution.signal(primitive.deformation).value(0.0);
-            let start = accounts::stored(solution, primitive, 0.0, start);
+            let start = accounts::stored(solution.run(), primitive, 0.0, start);
             if does_work(primitive) {
                 accumulate(
                     &mut series.dissipated,
@@ -65,7 +66,8 @@ pub fn energy_series(solution: &Solution<'_>, times: &[f64]) -> EnergySeries {
             }
             for ((sum, own), &time) in series.dissipated.iter_mut().zip(&gained).zip(times) {
                 let gained = if stores { own - start } else { 0.0 };
-                *sum += accounts::lost_in_impacts(solution, primitive, (0.0, time)) - gained;
+                *sum += accounts::lost_in_impacts(solution.trajectory(), primitive, (0.0, time))
+                    - gained;
             }
         }
     }

@@ -255,7 +255,7 @@ fn work_of_parts(
             }
         } else if own.stores {
             let deformation = solution.glance(primitive.deformation);
-            let stored = |time, y| accounts::stored(solution, primitive, time, y);
+            let stored = |time, y| accounts::stored(solution.run(), primitive, time, y);
             let (from, to) = (deformation.value(window.0), deformation.left_value(window.1));
             work += stored(window.1, to) - stored(window.0, from);
             let at = |y: f64, error: f64| {
