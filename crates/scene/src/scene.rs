@@ -23,7 +23,7 @@ use crate::{
         document::{Entry, MAX_BYTES, parse},
         library::{Library, Loader},
         source::Source,
-        table::text_of,
+        table::{text_of, unknown_key},
     },
 };
 
@@ -244,13 +244,8 @@ impl<'d> Parts<'d> {
     fn read(library: &'d Library, faults: &'d Faults) -> Self {
         let is_stranger = |own: &&Entry| !SECTIONS.contains(&own.key.as_str()) && !faults.damaged();
         for entry in library.sections().iter().filter(is_stranger) {
-            let (key, owner) = (entry.key.to_string(), "the scene".to_owned());
-            let fault = Fault::UnknownKey { key, owner, known: SECTIONS.to_vec() };
-            let fault = match home_of(&entry.key) {
-                Some(help) => fault.with_help(help),
-                None => fault,
-            };
-            faults.error(entry.key_place, fault);
+            let fault = unknown_key(entry, "the scene", SECTIONS.to_vec());
+            faults.error(entry.key_place, fault.with_any_help(home_of(&entry.key)));
         }
         let title = library.section("title");
         let title = title.and_then(|entry| text_of(&entry.item, "`title`", faults));

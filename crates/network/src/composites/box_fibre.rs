@@ -1,6 +1,6 @@
 //! Fibre with a box spectrum.
 
-use dashpot_rheology::spectra::Uniform;
+use dashpot_rheology::spectra::PowerLaw;
 
 use super::{
     Composed, CompositeKind,
@@ -13,7 +13,7 @@ use crate::{
 
 /// A fibre or felt with all retardation times between two alike on a logarithmic axis, in the
 /// fewest Kelvin–Voigt elements that keep its creep `R(t)`: see
-/// [`Uniform`] for the law and [`reduce`](dashpot_rheology::spectra::reduce) for the proof.
+/// [`PowerLaw::uniform`] for the law and [`reduce`](dashpot_rheology::spectra::reduce) for the proof.
 ///
 /// | symbol  | field        | unit | range                  |
 /// |---------|--------------|------|------------------------|
@@ -43,8 +43,8 @@ pub struct BoxFibre {
 }
 
 impl BoxFibre {
-    fn spectrum(&self) -> Result<Uniform, InvalidParameter> {
-        Uniform::new(self.compliance, self.shortest, self.longest).map_err(invalid)
+    fn spectrum(&self) -> Result<PowerLaw, InvalidParameter> {
+        PowerLaw::uniform(self.compliance, self.shortest, self.longest).map_err(invalid)
     }
 
     fn kept(&self) -> Kept {

@@ -3,6 +3,7 @@
 use dashpot_rheology::spectra::{
     InvalidSpectrum, MOST_BRANCHES, Reduced, ReductionError, SMALLEST_ERROR, Spectrum, reduce,
 };
+use dashpot_units::format_short;
 
 use super::{
     Composed,
@@ -136,11 +137,7 @@ fn percent(number: f64, round: fn(f64) -> f64) -> String {
 
 /// A time in a handy unit, with up to four significant digits.
 fn time(seconds: f64) -> String {
-    const UNITS: [(f64, &str); 4] = [(1.0, "s"), (1e3, "ms"), (1e6, "µs"), (1e9, "ns")];
-    let unit = UNITS.iter().find(|(scale, _)| seconds * scale >= 0.999_95).or(UNITS.last());
-    let (scale, symbol) = *unit.unwrap_or(&(1.0, "s"));
-    let scaled: f64 = format!("{:.3e}", seconds * scale).parse().unwrap_or(seconds);
-    format!("{scaled} {symbol}")
+    format_short(seconds, Dimension::TIME, 4)
 }
 
 #[cfg(test)]

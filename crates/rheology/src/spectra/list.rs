@@ -1,6 +1,6 @@
 //! A finite list of retardation times.
 
-use super::{InvalidSpectrum, Retardation, Spectrum, approach, invalid::positive};
+use super::{InvalidSpectrum, Retardation, Spectrum, approach, positive};
 
 /// A spectrum of lines: `R(t) = Σ J_i (1 − e^(−t/λ_i))`.
 ///

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{LN_10, PI};
 
-use super::{InvalidSpectrum, Spectrum, approach, invalid::positive};
+use super::{InvalidSpectrum, Spectrum, approach, positive};
 
 /// A bell of retardation times on a logarithmic axis, as in felts of many similar fibres:
 /// `L(λ) = e^(−z²/2) / (σ √(2π))` with `z = ln(λ/λ_m) / σ` and `σ = width · ln 10`.

@@ -8,7 +8,6 @@
 mod equalise;
 mod exchange;
 mod guess;
-mod invalid;
 mod list;
 mod log_normal;
 mod power_law;
@@ -18,16 +17,15 @@ mod sum;
 mod target;
 #[cfg(test)]
 mod tests;
-mod uniform;
 
 use std::fmt::Debug;
 
-pub use invalid::InvalidSpectrum;
+use thiserror::Error;
+
 pub use list::List;
 pub use log_normal::LogNormal;
 pub use power_law::PowerLaw;
 pub use reduction::{MOST_BRANCHES, Reduced, ReductionError, SMALLEST_ERROR, reduce};
-pub use uniform::Uniform;
 
 /// One Kelvin–Voigt element, as seen in creep: `J (1 − e^(−t/λ))`.
 ///
@@ -67,6 +65,27 @@ pub trait Spectrum: Debug {
     /// The elements, of a spectrum that is a finite list of them.
     fn branches(&self) -> Option<&[Retardation]> {
         None
+    }
+}
+
+/// A parameter of a spectrum is out of its range.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error("`{parameter}` must be {range}, but it is {value}")]
+pub struct InvalidSpectrum {
+    /// Name of the parameter.
+    pub parameter: &'static str,
+    /// Its range in words.
+    pub range: &'static str,
+    /// What was given.
+    pub value: f64,
+}
+
+/// Refuses what is not above zero and finite.
+fn positive(parameter: &'static str, value: f64) -> Result<(), InvalidSpectrum> {
+    if value > 0.0 && value.is_finite() {
+        Ok(())
+    } else {
+        Err(InvalidSpectrum { parameter, range: "positive and finite", value })
     }
 }
 

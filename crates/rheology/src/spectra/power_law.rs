@@ -1,8 +1,6 @@
 //! Power-law spectrum.
 
-use super::{
-    InvalidSpectrum, Spectrum, approach, invalid::positive, quadrature::gauss_legendre, whole,
-};
+use super::{InvalidSpectrum, Spectrum, approach, positive, quadrature::gauss_legendre, whole};
 
 /// Nodes of the Gauss–Legendre rule in each panel.
 const NODES: usize = 12;
@@ -89,6 +87,21 @@ impl PowerLaw {
         let area: f64 = nodes.iter().map(|(_, share)| share).sum();
         nodes.iter_mut().for_each(|(_, share)| *share /= area);
         Ok(Self { compliance, exponent, shortest, longest, nodes, peak: area.recip() })
+    }
+
+    /// A box, all retardation times between the two alike on a logarithmic axis: the exponent 0, with
+    /// `L = 1/ln(λ_max/λ_min)`. The creep then grows as the logarithm of time between the two,
+    /// `R(t) = J (1 − (E1(t/λ_max) − E1(t/λ_min))/ln(λ_max/λ_min))` with the exponential integral
+    /// `E1`. As the two times meet, the spectrum becomes a single Kelvin–Voigt element.
+    ///
+    /// The closed form loses digits at short times, where `R` is small against 1; the quadrature does
+    /// not.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new).
+    pub fn uniform(compliance: f64, shortest: f64, longest: f64) -> Result<Self, InvalidSpectrum> {
+        Self::new(compliance, 0.0, shortest, longest)
     }
 
     /// Density `L(λ)` over `ln λ` at the retardation time `time` > 0 \[s\], of unit area.

@@ -164,14 +164,14 @@ fn crossing(start: f64, end: f64, holds: impl Fn(f64) -> bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectra::{LogNormal, Uniform};
+    use crate::spectra::{LogNormal, PowerLaw};
 
     #[test]
     fn quick_values_are_those_of_the_spectrum() {
         let spectra: [&dyn Spectrum; 3] = [
             &LogNormal::new(3.0, 1e-2, 1.0).unwrap(),
             &LogNormal::new(3.0, 1e-2, 1e-3).unwrap(),
-            &Uniform::new(3.0, 1e-3, 1e-1).unwrap(),
+            &PowerLaw::uniform(3.0, 1e-3, 1e-1).unwrap(),
         ];
         for spectrum in spectra {
             let target = Target::new(spectrum, -12.0, 5.0);
@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn the_bound_is_above_the_maximum_by_little() {
-        let spectrum = Uniform::new(1.0, 1e-3, 1e-1).unwrap();
+        let spectrum = PowerLaw::uniform(1.0, 1e-3, 1e-1).unwrap();
         let target = Target::new(&spectrum, -9.0, 1.0);
         let sum = Sum { terms: vec![(-6.0, -0.7), (-3.0, -0.6)] };
         let found = (0..=100_000)
@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn a_sum_that_is_not_a_number_has_no_bound() {
-        let spectrum = Uniform::new(1.0, 1e-3, 1e-1).unwrap();
+        let spectrum = PowerLaw::uniform(1.0, 1e-3, 1e-1).unwrap();
         let sum = Sum { terms: vec![(f64::NAN, 0.0)] };
         assert!(Target::new(&spectrum, -9.0, 1.0).bound(&sum).is_infinite());
     }

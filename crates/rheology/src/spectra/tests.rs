@@ -25,7 +25,7 @@ fn three(decades: i32) -> ([f64; 2], [Box<dyn Spectrum>; 3]) {
     let [start, end] = [1e-6, 1e-6 * 10.0_f64.powi(decades)];
     let spectra: [Box<dyn Spectrum>; 3] = [
         Box::new(LogNormal::new(5e-8, (start * end).sqrt(), 1.0).unwrap()),
-        Box::new(Uniform::new(5e-8, start, end).unwrap()),
+        Box::new(PowerLaw::uniform(5e-8, start, end).unwrap()),
         Box::new(PowerLaw::new(5e-8, 0.3, start, end).unwrap()),
     ];
     ([start, end], spectra)
@@ -109,7 +109,7 @@ fn creep_is_that_of_the_closed_forms_and_of_many_digits() {
         compare(&LogNormal::new(3.0, *median, *width).unwrap(), *time, *expected);
     }
     for ([shortest, longest, time], expected) in BOX {
-        compare(&Uniform::new(3.0, *shortest, *longest).unwrap(), *time, *expected);
+        compare(&PowerLaw::uniform(3.0, *shortest, *longest).unwrap(), *time, *expected);
     }
     for ([exponent, shortest, longest, time], expected) in POWER_LAW {
         compare(&PowerLaw::new(3.0, *exponent, *shortest, *longest).unwrap(), *time, *expected);
@@ -133,7 +133,7 @@ fn densities_have_unit_area() {
     let bell = LogNormal::new(1.0, 0.1, 1.5).unwrap();
     assert!((area(&|time| bell.density(time)) - 1.0).abs() < 1e-12);
     // Sums of steps end within one step of the jumps.
-    let uniform = Uniform::new(1.0, 1e-3, 10.0).unwrap();
+    let uniform = PowerLaw::uniform(1.0, 1e-3, 10.0).unwrap();
     assert!((area(&|time| uniform.density(time)) - 1.0).abs() < 1e-3);
     let law = PowerLaw::new(1.0, -0.7, 1e-3, 10.0).unwrap();
     assert!((area(&|time| law.density(time)) - 1.0).abs() < 1e-3);
@@ -213,7 +213,7 @@ fn units_of_time_and_compliance_do_not_matter() {
 fn a_narrow_spectrum_is_the_single_element_of_the_thesis() {
     let narrow: [Box<dyn Spectrum>; 3] = [
         Box::new(LogNormal::new(5e-8, 2e-4, 1e-6).unwrap()),
-        Box::new(Uniform::new(5e-8, 2e-4, 2e-4 * (1.0 + 1e-6)).unwrap()),
+        Box::new(PowerLaw::uniform(5e-8, 2e-4, 2e-4 * (1.0 + 1e-6)).unwrap()),
         Box::new(PowerLaw::new(5e-8, -2.0, 2e-4, 2e-4 * (1.0 + 1e-6)).unwrap()),
     ];
     for spectrum in narrow {
@@ -273,7 +273,7 @@ fn twelve_decades_are_kept_within_a_millionth() {
 
 #[test]
 fn what_cannot_be_reduced_is_refused() {
-    let uniform = Uniform::new(1.0, 1e-10, 1e10).unwrap();
+    let uniform = PowerLaw::uniform(1.0, 1e-10, 1e10).unwrap();
     for range in [[0.0, 1.0], [1.0, 1.0], [2.0, 1.0], [1.0, f64::INFINITY], [f64::NAN, 1.0]] {
         assert!(matches!(reduce(&uniform, range, 0.1), Err(ReductionError::Range { .. })));
     }
@@ -295,12 +295,14 @@ fn what_cannot_be_reduced_is_refused() {
 fn impossible_spectra_are_refused() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(LogNormal::new(bad, 1.0, 1.0).is_err() && LogNormal::new(1.0, bad, 1.0).is_err());
-        assert!(LogNormal::new(1.0, 1.0, bad).is_err() && Uniform::new(1.0, bad, 2.0).is_err());
+        assert!(
+            LogNormal::new(1.0, 1.0, bad).is_err() && PowerLaw::uniform(1.0, bad, 2.0).is_err()
+        );
         assert!(PowerLaw::new(1.0, 1.0, 0.1, bad).is_err());
         assert!(List::new(vec![element(bad)]).is_err());
     }
     assert!(PowerLaw::new(1.0, f64::NAN, 1.0, 2.0).is_err());
     assert!(List::new(Vec::new()).is_err());
-    let error = Uniform::new(1.0, 2.0, 1.0).unwrap_err().to_string();
+    let error = PowerLaw::uniform(1.0, 2.0, 1.0).unwrap_err().to_string();
     assert_eq!(error, "`longest` must be longer than `shortest`, but it is 1");
 }

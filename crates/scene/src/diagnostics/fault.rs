@@ -348,6 +348,15 @@ impl Fault {
         Self::Explained { fault: Box::new(self), help: Some(help.into()), note: None }
     }
 
+    /// The fault with other help, where there is some.
+    #[must_use]
+    pub(crate) fn with_any_help(self, help: Option<String>) -> Self {
+        match help {
+            Some(help) => self.with_help(help),
+            None => self,
+        }
+    }
+
     /// The fault with a remark.
     #[must_use]
     pub(crate) fn with_note(self, note: impl Into<String>) -> Self {

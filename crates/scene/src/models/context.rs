@@ -17,7 +17,7 @@ use crate::{
         document::{Content, Entry, Item},
         library::{Library, ModelSection},
         source::Place,
-        table::wrong_type,
+        table::{unknown_key, wrong_type},
     },
 };
 
@@ -172,8 +172,7 @@ impl<'d> ContextReader<'d> {
             own.iter().filter(|own| !known().contains(&own.key.as_str())).peekable();
         if strangers.peek().is_some() {
             for stranger in strangers {
-                let (key, owner) = (stranger.key.to_string(), "`shift`".to_owned());
-                let fault = Fault::UnknownKey { key, owner, known: known() };
+                let fault = unknown_key(stranger, "`shift`", known());
                 self.faults.error(stranger.key_place, fault);
             }
             return None;

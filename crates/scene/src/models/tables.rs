@@ -10,7 +10,7 @@ use crate::{
     text::{
         document::{Entry, Item},
         library::{ModelSection, Reference},
-        table::{check_name, entries_of, list_of, text_of},
+        table::{check_name, entries_of, list_of, text_of, unknown_key},
     },
 };
 
@@ -101,8 +101,7 @@ impl<'d> ModelReader<'d> {
         let has_strangers = strangers.peek().is_some();
         for stranger in strangers {
             let known = site.other_keys.iter().chain(&self.words).copied().collect();
-            let (key, owner) = (stranger.key.to_string(), site.owner.to_string());
-            self.faults.error(stranger.key_place, Fault::UnknownKey { key, owner, known });
+            self.faults.error(stranger.key_place, unknown_key(stranger, &site.owner, known));
         }
         let mut laws = entries.iter().filter(is_law);
         let first = laws.next();

@@ -141,9 +141,7 @@ impl<'d> Quantities<'d> {
     /// The quantity `item` as written, in SI units, with an error where it does not have the
     /// dimension that is `expected` in a model, and a warning where it is unusual.
     pub(crate) fn read(self, item: &Item, expected: Dimension) -> Option<f64> {
-        let value = self.read_quietly(item, expected)?;
-        self.warn(item, self.basis.dimension(expected), value);
-        Some(value)
+        self.read_checked(item, expected, |_| Ok::<(), Fault>(()))
     }
 
     fn read_quietly(self, item: &Item, expected: Dimension) -> Option<f64> {
@@ -191,7 +189,7 @@ impl<'d> Quantities<'d> {
     /// temperature.
     pub(crate) fn read_difference(self, item: &Item) -> Option<f64> {
         let value = self.read_quietly(item, Dimension::TEMPERATURE)?;
-        if self.is(item, |quantity| quantity.is_celsius) {
+        if self.meant(item).is_some_and(|quantity| quantity.is_celsius) {
             let fault = Fault::CelsiusDifference { text: self.shown(item) };
             self.faults.error(item.place, self.traced(item, fault));
             return None;
@@ -201,6 +199,16 @@ impl<'d> Quantities<'d> {
 
     /// The quantity `item` as written, in SI units, where it is one of any dimension.
     pub(crate) fn peek(self, item: &Item) -> Option<f64> {
+        self.meant(item).map(|quantity| quantity.value)
+    }
+
+    /// Whether `item` gives a number without a unit.
+    pub(crate) fn is_bare(self, item: &Item) -> bool {
+        self.meant(item).is_some_and(|quantity| quantity.dimension.is_none())
+    }
+
+    /// What `item` stands for, of any dimension.
+    fn meant(self, item: &Item) -> Option<Quantity> {
         match &item.value {
             Content::Number(digits) => parse_quantity(digits).ok(),
             Content::Text(text) => match self.values.get(text.trim()) {
@@ -208,23 +216,6 @@ impl<'d> Quantities<'d> {
                 None => parse_quantity(text).ok(),
             },
             _ => None,
-        }
-        .map(|quantity| quantity.value)
-    }
-
-    /// Whether `item` gives a number without a unit.
-    pub(crate) fn is_bare(self, item: &Item) -> bool {
-        self.is(item, |quantity| quantity.dimension.is_none())
-    }
-
-    fn is(self, item: &Item, fits: impl Fn(Quantity) -> bool) -> bool {
-        match &item.value {
-            Content::Number(digits) => parse_quantity(digits).is_ok_and(fits),
-            Content::Text(text) => match self.values.get(text.trim()) {
-                Some(known) => known.quantity.is_some_and(fits),
-                None => parse_quantity(text).is_ok_and(fits),
-            },
-            _ => false,
         }
     }
 

@@ -62,10 +62,7 @@ impl Overrides {
                 let help = name.contains('.').then(|| path_help(name, &definition.text, &names));
                 let name = name.clone();
                 let fault = Fault::UnknownName { family: "value", name, known: names };
-                let fault = match help {
-                    Some(help) => fault.with_help(help),
-                    None => fault,
-                };
+                let fault = fault.with_any_help(help);
                 faults.error(Place { start: 0, ..definition.place }, fault);
             }
         }

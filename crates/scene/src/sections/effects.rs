@@ -13,7 +13,10 @@ use crate::{
     diagnostics::fault::Fault,
     kinds::{EffectEntry, Example, parameters::KindReader, registers},
     quantities::quantity::{Quantities, Target},
-    text::document::{Content, Entry, Item},
+    text::{
+        document::{Content, Entry, Item},
+        table::unknown_key,
+    },
     units::{parse_quantity, si_unit},
 };
 
@@ -22,8 +25,7 @@ pub(crate) fn read_effects(reading: &Reading<'_>, network: &mut Network) {
     for entry in reading.section("effects") {
         let Some(kind) = registers().effect(&entry.key) else {
             let known = registers().effects.iter().map(|kind| kind.word).collect();
-            let (key, owner) = (entry.key.to_string(), "[effects]".to_owned());
-            reading.faults.error(entry.key_place, Fault::UnknownKey { key, owner, known });
+            reading.faults.error(entry.key_place, unknown_key(entry, "[effects]", known));
             continue;
         };
         if !kind.is_per_element {
@@ -75,11 +77,7 @@ impl Wanted<'_> {
                 let example = entry.item.text().unwrap_or("…");
                 format!("write `{}.{name} = {{ {target} = \"{example}\" }}`", kind.word)
             });
-            let fault = Fault::UnknownName { family, name, known };
-            let fault = match help {
-                Some(help) => fault.with_help(help),
-                None => fault,
-            };
+            let fault = Fault::UnknownName { family, name, known }.with_any_help(help);
             if !reading.faults.damaged() {
                 reading.faults.error(entry.key_place, fault);
             }

@@ -74,11 +74,7 @@ pub(super) fn measure_of(
         None => "a measure",
     };
     let fault = Fault::UnknownWord { family: family.to_owned(), word: word.to_owned(), known };
-    let fault = match other {
-        Some(help) => fault.with_help(help),
-        None => fault,
-    };
-    reading.faults.error(place, fault);
+    reading.faults.error(place, fault.with_any_help(other));
     None
 }
 

@@ -33,7 +33,7 @@ use crate::{
         document::{Entry, Item},
         library::{Library, names_file},
         source::Place,
-        table::{Table, entries_of, text_of, wrong_type},
+        table::{Table, entries_of, text_of, unknown_key, wrong_type},
     },
 };
 
@@ -124,19 +124,14 @@ impl<'d> Reading<'d> {
         for own in entries {
             match kinds.iter().find(|kind| kind.word == own.key) {
                 None => {
-                    let (key, owner) = (own.key.to_string(), what.clone());
-                    let fault = Fault::UnknownKey { key, owner, known: known() };
-                    let fault = match owner_of(&own.key) {
-                        Some(kind) => {
-                            let (word, first) = (kind.word, kind.parameters[0].name);
-                            let help = format!(
-                                "it belongs to `{word}`: write `{word} = {{ {first} = …, {} = … }}`",
-                                own.key
-                            );
-                            fault.with_help(help)
-                        }
-                        None => fault,
-                    };
+                    let help = owner_of(&own.key).map(|kind| {
+                        let (word, first) = (kind.word, kind.parameters[0].name);
+                        format!(
+                            "it belongs to `{word}`: write `{word} = {{ {first} = …, {} = … }}`",
+                            own.key
+                        )
+                    });
+                    let fault = unknown_key(own, &what, known()).with_any_help(help);
                     self.faults.error(own.key_place, fault);
                 }
                 Some(_) if found.is_some() => {

@@ -62,9 +62,7 @@ impl<'d> Table<'d> {
         let asked = self.asked.borrow();
         self.finish_missing();
         for entry in self.strangers() {
-            let (key, owner) = (entry.key.to_string(), self.owner.clone());
-            let fault = Fault::UnknownKey { key, owner, known: asked.clone() };
-            self.faults.error(entry.key_place, fault);
+            self.faults.error(entry.key_place, unknown_key(entry, &self.owner, asked.clone()));
         }
     }
 
@@ -91,6 +89,11 @@ impl<'d> Table<'d> {
         let asked = self.asked.borrow().clone();
         self.entries.iter().filter(move |entry| !asked.contains(&entry.key.as_str()))
     }
+}
+
+/// What is wrong with an entry of `owner` whose key is none of those that are `known`.
+pub(crate) fn unknown_key(entry: &Entry, owner: &str, known: Vec<&'static str>) -> Fault {
+    Fault::UnknownKey { key: entry.key.to_string(), owner: owner.to_owned(), known }
 }
 
 /// The entries of `item`, which is `owner`; an error where it is not a table.

@@ -133,16 +133,6 @@ fn write_kind_in(
     (word, parameters, values): (&str, &[Parameter], &[Value]),
     driven: Dimension,
 ) -> String {
-    let write_value = |kind: ParameterKind, value: &Value| {
-        let (beside, dimension) = match kind {
-            ParameterKind::Quantity(dimension) => (Dimension::TIME, dimension),
-            ParameterKind::TemperatureDifference => (Dimension::TIME, Dimension::TEMPERATURE),
-            ParameterKind::Curve(first, second) => (first, second),
-            _ => (Dimension::TIME, driven),
-        };
-        write_value(value, basis.dimension(dimension), basis.dimension(beside))
-    };
-    let pairs = parameters.iter().zip(values);
     let mut required = parameters.iter().zip(values).filter(|own| own.0.default.is_none());
     let others = parameters.iter().zip(values).filter(|own| own.0.default.is_some());
     let is_alone = others.clone().all(|own| *own.1 == Value::LeftOut);
@@ -151,34 +141,37 @@ fn write_kind_in(
         && is_alone
         && (parameters.len() == 1 || !matches!(value, Value::Model(_)))
     {
-        return format!("{word} = {}", write_value(parameter.kind, value));
+        return format!("{word} = {}", write_parameter(basis, parameter, value, driven));
     }
-    let is_given = |parameter: &Parameter, value: &Value| {
-        *value != Value::LeftOut && !(basis.is_material() && is_size(parameter))
-    };
-    let given = pairs.filter(|(parameter, value)| is_given(parameter, value));
-    let written = given.map(|(parameter, value)| {
-        format!("{} = {}", parameter.name, write_value(parameter.kind, value))
-    });
-    format!("{word} = {{ {} }}", written.collect::<Vec<_>>().join(", "))
+    format!("{word} = {{ {} }}", write_pairs(basis, parameters, values, driven).join(", "))
 }
 
 /// The values of parameters as `name = …`, each; those that follow from the rest of a scene are left
 /// out.
 pub(crate) fn write_pairs(
+    basis: Basis,
     parameters: &[Parameter],
     values: &[Value],
     driven: Dimension,
 ) -> Vec<String> {
-    let pairs = parameters.iter().zip(values).filter(|pair| *pair.1 != Value::LeftOut);
-    let written = pairs.map(|(own, value)| {
-        let dimension = match own.kind {
-            ParameterKind::Quantity(dimension) => dimension,
-            _ => driven,
-        };
-        format!("{} = {}", own.name, write_value(value, dimension, Dimension::TIME))
+    let is_given = |(parameter, value): &(&Parameter, &Value)| {
+        **value != Value::LeftOut && !(basis.is_material() && is_size(parameter))
+    };
+    let given = parameters.iter().zip(values).filter(is_given);
+    let written = given.map(|(own, value)| {
+        format!("{} = {}", own.name, write_parameter(basis, own, value, driven))
     });
     written.collect()
+}
+
+fn write_parameter(basis: Basis, own: &Parameter, value: &Value, driven: Dimension) -> String {
+    let (beside, dimension) = match own.kind {
+        ParameterKind::Quantity(dimension) => (Dimension::TIME, dimension),
+        ParameterKind::TemperatureDifference => (Dimension::TIME, Dimension::TEMPERATURE),
+        ParameterKind::Curve(first, second) => (first, second),
+        _ => (Dimension::TIME, driven),
+    };
+    write_value(value, basis.dimension(dimension), basis.dimension(beside))
 }
 
 /// An effect as it stands under `[effects]`.

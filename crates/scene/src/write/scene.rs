@@ -226,7 +226,8 @@ fn wishes(measures: &[MeasureWish]) -> String {
 }
 
 fn measure(measure: &dyn Measure) -> String {
-    let pairs = write_pairs(measure.parameters(), &measure.values(), Dimension::FORCE);
+    let pairs =
+        write_pairs(Basis::Model, measure.parameters(), &measure.values(), Dimension::FORCE);
     let kind = format!("kind = {}", quoted(measure.kind()));
     let all: Vec<String> = std::iter::once(kind).chain(pairs).collect();
     format!("{{ {} }}", all.join(", "))
