@@ -8,14 +8,10 @@ use std::{
 };
 
 use dashpot::{
-    analysis::measures::{MeasureKind, MeasureVisitor, visit_measures},
-    dae::methods,
-    network::{
-        effects::{EffectKind, EffectVisitor, visit_effects},
-        elements::{ElementKind, ElementVisitor, visit_elements},
-        waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
-    },
-    rheology::{Form, FormVisitor, visit_forms},
+    analysis::measures::MEASURES,
+    dae::methods::METHODS,
+    network::{effects::EFFECTS, elements::ELEMENTS, waveforms::WAVEFORMS},
+    rheology::FORMS,
     scene::templates,
 };
 use serde_json::Value;
@@ -422,42 +418,15 @@ fn explain_draws_and_names_all_that_was_built() {
 
 #[test]
 fn list_has_every_registered_kind() {
-    struct Words(Vec<&'static str>);
-    impl ElementVisitor for Words {
-        fn visit<E: ElementKind>(&mut self) {
-            self.0.push(E::KIND);
-        }
-    }
-    impl FormVisitor for Words {
-        fn visit<F: Form>(&mut self) {
-            self.0.push(F::KIND);
-        }
-    }
-    impl WaveformVisitor for Words {
-        fn visit<W: WaveformKind>(&mut self) {
-            self.0.push(W::KIND);
-        }
-    }
-    impl EffectVisitor for Words {
-        fn visit<E: EffectKind>(&mut self) {
-            self.0.push(E::KIND);
-        }
-    }
-    impl MeasureVisitor for Words {
-        fn visit<M: MeasureKind>(&mut self) {
-            self.0.push(M::KIND);
-        }
-    }
-    let mut words = Words(Vec::new());
-    visit_elements(&mut words);
-    visit_forms(&mut words);
-    visit_waveforms(&mut words);
-    visit_effects(&mut words);
-    visit_measures(&mut words);
-    words.0.extend(methods::all().iter().map(|method| method.name()));
-    words.0.extend(templates().iter().map(|shipped| shipped.name));
+    let mut words: Vec<&str> = ELEMENTS.iter().map(|own| own.word).collect();
+    words.extend(FORMS.iter().map(|own| own.word));
+    words.extend(WAVEFORMS.iter().map(|own| own.word));
+    words.extend(EFFECTS.iter().map(|own| own.word));
+    words.extend(MEASURES.iter().map(|own| own.word));
+    words.extend(METHODS.iter().map(|own| own.name));
+    words.extend(templates().iter().map(|shipped| shipped.name));
     let list = out(&run(&["list"]));
-    for word in words.0 {
+    for word in words {
         let begins = |line: &str| {
             let first = line.strip_prefix("  ").and_then(|line| line.split(' ').next());
             first.is_some_and(|first| first.trim_end_matches('*') == word)

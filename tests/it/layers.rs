@@ -10,8 +10,9 @@ use dashpot::{
     network::{
         Model, Network, Node,
         driving_point::{Agreement, Response},
-        elements::{CubicSpring, Dashpot, ElementKind, HystereticFoam, StiffeningSpring},
+        elements::{CubicSpring, Dashpot, HystereticFoam, StiffeningSpring},
         layers::{Layer, Layers, Resolution},
+        parameters::Kind as _,
         part,
     },
     rheology::Tree,

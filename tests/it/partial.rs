@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use dashpot::network::effects::{EffectKind, EffectVisitor, visit_effects};
+use dashpot::network::effects::EFFECTS;
 use tempfile::TempDir;
 
 use crate::cli::{code, err, json, out, run};
@@ -84,23 +84,15 @@ fn the_text_and_the_page_say_what_was_left_out() {
 
 #[test]
 fn explain_has_a_row_for_each_effect_on_or_off() {
-    struct Words(Vec<&'static str>);
-    impl EffectVisitor for Words {
-        fn visit<E: EffectKind>(&mut self) {
-            self.0.push(E::KIND);
-        }
-    }
-    let mut words = Words(Vec::new());
-    visit_effects(&mut words);
     for scene in ["scenes/reference.toml", GRAVITY] {
         let text = out(&run(&["explain", scene]));
         assert_eq!(wide(&text), None, "{text}");
         let section = section(&text, "Effects");
-        for word in &words.0 {
+        for word in EFFECTS.iter().map(|own| own.word) {
             let row = section.lines().find(|line| line.trim_start().starts_with(word));
             let row = row.unwrap_or_else(|| panic!("{word} in {section}"));
             let state = row.split_whitespace().nth(1).unwrap();
-            let is_on = *word == "gravity" && scene == GRAVITY;
+            let is_on = word == "gravity" && scene == GRAVITY;
             assert_eq!(state, if is_on { "on" } else { "off" }, "{row}");
         }
         assert!(section.contains("g δ/V0² = 0.0020"), "{section}");

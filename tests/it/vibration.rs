@@ -14,9 +14,9 @@ use dashpot::{
     network::{
         Network, Node,
         driving_point::{Receptance, Response},
-        elements::{CubicSpring, ElementKind},
+        elements::CubicSpring,
         layers::{Layer, Layers, Resolution},
-        parameters::WindowWish,
+        parameters::{Kind as _, WindowWish},
         part,
     },
     rheology::Tree,

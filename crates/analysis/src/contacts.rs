@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use dashpot_dae::{Switch, Trajectory};
 use dashpot_network::{
     Assembly, ConnectionOutputs, NodeId, PrimitiveOutputs,
-    elements::{Contact, ElementKind, Law},
+    elements::{Contact, Law},
+    parameters::Kind as _,
     phases::{Phase, PhaseLaw},
 };
 

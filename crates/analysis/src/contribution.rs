@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dashpot_dae::{Observer, System, switching::Switching};
 use dashpot_network::{
     Assembly, Detail, Effect, Influence, Network, Situation,
-    effects::{EffectKind, EffectVisitor, visit_effects},
+    effects::{EFFECTS, EffectEntry},
 };
 
 use crate::{Partial, SolveSettings, solve_partial};
@@ -121,12 +121,12 @@ pub fn contributions(
         }
     };
     let mut all = Vec::new();
-    for kind in kinds(&situation) {
+    for kind in EFFECTS {
         let is_own = |detail: &Detail| matches!(detail, Detail::Effect(at) if network.effects()[*at].kind() == kind.word);
         let before = all.len();
         all.extend(details.iter().filter(|own| is_own(&own.0)).take(most).map(on));
         if all.len() == before {
-            all.extend(off(&kind, network, &situation, (full, most)));
+            all.extend(off(kind, network, &situation, (full, most)));
         }
     }
     let others = details
@@ -142,7 +142,7 @@ fn compiled(network: &Network, duration: f64) -> Option<SystemSize> {
 
 /// An effect that is off, with what it would add, or alone where it has no defaults.
 fn off(
-    kind: &Kind,
+    kind: &EffectEntry,
     network: &Network,
     situation: &Situation<'_>,
     (full, most): (SystemSize, usize),
@@ -155,10 +155,11 @@ fn off(
         influence: None,
         contributor,
     };
-    if kind.would_be.is_empty() {
+    let would_be = (kind.about.would_be)(situation);
+    if would_be.is_empty() {
         return vec![alone];
     }
-    let would_be = kind.would_be.iter().take(most).map(|effect| {
+    let would_be = would_be.iter().take(most).map(|effect| {
         let mut with = network.clone();
         with.add_shared_effect(Arc::clone(effect));
         let target = effect.target().map(|own| format!(".{own}")).unwrap_or_default();
@@ -181,25 +182,4 @@ fn state(name: &str, partial: Option<&Partial>) -> EffectState {
     } else {
         EffectState::On
     }
-}
-
-/// A kind of effects.
-struct Kind {
-    word: &'static str,
-    summary: &'static str,
-    would_be: Vec<Arc<dyn Effect>>,
-}
-
-fn kinds(situation: &Situation<'_>) -> Vec<Kind> {
-    struct Collect<'s, 'n>(&'s Situation<'n>, Vec<Kind>);
-    impl EffectVisitor for Collect<'_, '_> {
-        fn visit<E: EffectKind>(&mut self) {
-            let all = E::would_be(self.0).into_iter();
-            let would_be = all.map(|own| Arc::new(own) as Arc<dyn Effect>).collect();
-            self.1.push(Kind { word: E::KIND, summary: E::SUMMARY, would_be });
-        }
-    }
-    let mut collect = Collect(situation, Vec::new());
-    visit_effects(&mut collect);
-    collect.1
 }

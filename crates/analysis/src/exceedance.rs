@@ -1,31 +1,17 @@
 //! For how long a signal exceeds a level.
 
 use dashpot_dae::{Panel, Signal, chebyshev};
+use dashpot_network::choices;
 
-/// Which times count as those of a level.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Counted {
-    /// All times, added up.
-    Together,
-    /// The times of one stretch, in which the level is never left.
-    AtOnce,
-}
-
-impl Counted {
-    /// The words for them.
-    pub(crate) const WORDS: &'static [&'static str] = &["together", "at-once"];
-
-    /// Its word.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Together => "together",
-            Self::AtOnce => "at-once",
-        }
-    }
-
-    /// That of this word.
-    pub(crate) fn named(word: &str) -> Option<Self> {
-        [Self::Together, Self::AtOnce].into_iter().find(|own| own.word() == word)
+choices! {
+    /// Which times count as those of a level.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Counted {
+        /// All times, added up.
+        #[default]
+        Together = "together",
+        /// The times of one stretch, in which the level is never left.
+        AtOnce = "at-once",
     }
 }
 

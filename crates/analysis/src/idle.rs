@@ -2,13 +2,14 @@
 
 use std::fmt;
 
+use dashpot_network::parameters::Kind as _;
 use dashpot_network::{
     ConnectionOutputs, IdleSlider, PrimitiveOutputs, parameters::WindowWish, phases::Phase,
 };
 
 use crate::{
     MeasureReport, Solution,
-    measures::{Impulse, MeasureKind, PeakForce},
+    measures::{Impulse, PeakForce},
     wording::quantity,
 };
 

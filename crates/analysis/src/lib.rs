@@ -60,7 +60,7 @@ pub use holding::SliderFault;
 pub use idle::Idle;
 pub use impact::{Contact, Impact, Span};
 pub use ledger::{EnergySeries, Leak, Ledger, Place};
-pub use measures::{Family, Measure, MeasureKind, MeasureVisitor, Reading, visit_measures};
+pub use measures::{Family, MEASURES, Measure, MeasureKind, Reading};
 pub use partial::{Partial, solve_partial};
 pub use report::{
     ContactReport, EventReport, MeasureReport, RunReport, SolverReport, SystemReport,

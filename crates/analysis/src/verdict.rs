@@ -1,7 +1,10 @@
 //! What is to be known first of a run, in numbers.
 
 use dashpot_dae::Extremum;
-use dashpot_network::{ConnectionOutputs, NodeOutputs, parameters::WindowWish};
+use dashpot_network::{
+    ConnectionOutputs, NodeOutputs,
+    parameters::{Kind as _, WindowWish},
+};
 
 use crate::{
     Contact, ContactReport, MeasureReport, RunReport, bodies,

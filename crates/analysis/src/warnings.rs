@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use dashpot_dae::{Direction, Guard, SolveError};
 use dashpot_network::{
     HeldTable, NodeId,
-    effects::{EffectKind, Gravity},
+    effects::Gravity,
+    parameters::Kind as _,
     parameters::{Dimension, WindowWish},
 };
 
@@ -16,7 +17,7 @@ use crate::{
     impact::{Contact, Impact},
     ledger::leak,
     measures::{
-        CRUSHED, Clip, Clip3ms, Hic, Hic15, Hic36, MeasureKind, PeakAcceleration, PeakForce,
+        CRUSHED, Clip, Clip3ms, Hic, Hic15, Hic36, MeasureKind as _, PeakAcceleration, PeakForce,
         PeakStrain, Reading, SeverityIndex,
     },
     open_end::OpenEnd,

@@ -1,17 +1,19 @@
 //! The registers as entries of a list.
 
-use dashpot_analysis::measures::{self, MeasureKind, MeasureVisitor, visit_measures};
-use dashpot_analysis::rheometer::{FROM_THE_MODEL, ProtocolKind, ProtocolVisitor, visit_protocols};
+use dashpot_analysis::{
+    measures::{self, MEASURES, MeasureEntry},
+    rheometer::{FROM_THE_MODEL, PROTOCOLS},
+};
 use dashpot_dae::methods;
 use dashpot_network::{
-    composites::{CompositeKind, CompositeVisitor, visit_composites},
-    effects::{EffectKind, EffectVisitor, visit_effects},
-    elements::{ElementKind, ElementVisitor, visit_elements},
-    parameters::{Dimension, Parameter, ParameterKind},
-    shifts::{ShiftKind, ShiftVisitor, visit_shifts},
-    waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
+    composites::COMPOSITES,
+    effects::{EFFECTS, EffectEntry},
+    elements::ELEMENTS,
+    parameters::{Dimension, Parameter, ParameterKind, Registered},
+    shifts::SHIFTS,
+    waveforms::WAVEFORMS,
 };
-use dashpot_rheology::{Form, FormVisitor, Part, Role, visit_forms};
+use dashpot_rheology::{FORMS, Form, Part, Role};
 use dashpot_scene::{write_effect, write_kind};
 
 use crate::args::Family;
@@ -41,102 +43,65 @@ impl Entry {
 
 /// The entries of a register; none for families that are no register.
 pub(crate) fn entries(family: Family) -> Vec<Entry> {
-    let mut collect = Collect(Vec::new());
     match family {
-        Family::Elements => visit_elements(&mut collect),
-        Family::Forms => visit_forms(&mut collect),
-        Family::Composites => visit_composites(&mut collect),
-        Family::Shifts => visit_shifts(&mut collect),
-        Family::Waveforms => visit_waveforms(&mut collect),
-        Family::Effects => visit_effects(&mut collect),
-        Family::Measures => visit_measures(&mut collect),
-        Family::Methods => collect.0.extend(
-            methods::all().iter().map(|method| Entry::plain(method.name(), method.summary())),
-        ),
-        Family::Tests => visit_protocols(&mut collect),
-        Family::Templates | Family::Scenes => {}
-    }
-    collect.0
-}
-
-struct Collect(Vec<Entry>);
-
-impl Collect {
-    /// A kind that is written as `example`.
-    fn add_kind(&mut self, word: &str, summary: &str, parameters: &[Parameter], example: String) {
-        let details = parameters.iter().map(described).collect();
-        self.0.push(Entry { example: Some(example), details, ..Entry::plain(word, summary) });
+        Family::Elements => ELEMENTS.iter().map(|own| written(own, Dimension::FORCE)).collect(),
+        Family::Forms => FORMS.iter().map(form).collect(),
+        Family::Composites => COMPOSITES.iter().map(|own| written(own, own.about)).collect(),
+        Family::Shifts => SHIFTS.iter().map(shift).collect(),
+        Family::Waveforms => WAVEFORMS.iter().map(|own| written(own, Dimension::FORCE)).collect(),
+        Family::Effects => EFFECTS.iter().map(effect).collect(),
+        Family::Measures => MEASURES.iter().map(measure).collect(),
+        Family::Methods => {
+            let all = methods::all();
+            all.iter().map(|method| Entry::plain(method.name(), method.summary())).collect()
+        }
+        Family::Tests => PROTOCOLS.iter().map(of_kind).collect(),
+        Family::Templates | Family::Scenes => Vec::new(),
     }
 }
 
-impl ElementVisitor for Collect {
-    fn visit<E: ElementKind>(&mut self) {
-        let sample = E::sample().values();
-        let example = write_kind(E::KIND, E::PARAMETERS, &sample, Dimension::FORCE);
-        self.add_kind(E::KIND, E::SUMMARY, E::PARAMETERS, example);
-    }
+/// A kind with its parameters.
+fn of_kind<T, A>(kind: &Registered<T, A>) -> Entry {
+    let details = kind.parameters.iter().map(described).collect();
+    Entry { details, ..Entry::plain(kind.word, kind.summary) }
 }
 
-impl CompositeVisitor for Collect {
-    fn visit<C: CompositeKind>(&mut self) {
-        let example = write_kind(C::KIND, C::PARAMETERS, &C::sample().values(), C::AMPLITUDE);
-        self.add_kind(C::KIND, C::SUMMARY, C::PARAMETERS, example);
-    }
+/// A kind with its sample, whose amplitudes are of this dimension.
+fn written<T, A>(kind: &Registered<T, A>, driven: Dimension) -> Entry {
+    let example = write_kind(kind.word, kind.parameters, &(kind.sample)(), driven);
+    Entry { example: Some(example), ..of_kind(kind) }
 }
 
-impl ShiftVisitor for Collect {
-    fn visit<S: ShiftKind>(&mut self) {
-        let sample = S::sample().values();
-        let example = write_kind(S::KIND, S::PARAMETERS, &sample, Dimension::NUMBER);
-        self.add_kind(S::KIND, S::SUMMARY, S::PARAMETERS, format!("shift = {{ {example} }}"));
-    }
+fn shift(kind: &Registered<f64>) -> Entry {
+    let own = written(kind, Dimension::NUMBER);
+    Entry { example: own.example.map(|own| format!("shift = {{ {own} }}")), ..own }
 }
 
-impl ProtocolVisitor for Collect {
-    fn visit<P: ProtocolKind>(&mut self) {
-        let details = P::PARAMETERS.iter().map(described).collect();
-        self.0.push(Entry { details, ..Entry::plain(P::KIND, P::SUMMARY) });
-    }
+fn effect(kind: &EffectEntry) -> Entry {
+    let example = kind.example().ok().map(|own| write_effect(own.as_ref()));
+    Entry { example, ..of_kind(kind) }
 }
 
-impl WaveformVisitor for Collect {
-    fn visit<W: WaveformKind>(&mut self) {
-        let sample = W::sample().values();
-        let example = write_kind(W::KIND, W::PARAMETERS, &sample, Dimension::FORCE);
-        self.add_kind(W::KIND, W::SUMMARY, W::PARAMETERS, example);
-    }
+fn form(form: &Form) -> Entry {
+    let example = Some(format!("{} = {}", form.word, parts(form.parts)));
+    let also = format!("also called {}", form.aliases.join(", "));
+    let details = if form.aliases.is_empty() { Vec::new() } else { vec![also] };
+    Entry { example, details, aliases: form.aliases, ..Entry::plain(form.word, form.summary) }
 }
 
-impl EffectVisitor for Collect {
-    fn visit<E: EffectKind>(&mut self) {
-        self.add_kind(E::KIND, E::SUMMARY, E::PARAMETERS, write_effect(&E::sample()));
-    }
-}
-
-impl FormVisitor for Collect {
-    fn visit<F: Form>(&mut self) {
-        let example = Some(format!("{} = {}", F::KIND, parts(F::PARTS)));
-        let also = format!("also called {}", F::ALIASES.join(", "));
-        let details = if F::ALIASES.is_empty() { Vec::new() } else { vec![also] };
-        let aliases = F::ALIASES;
-        self.0.push(Entry { example, details, aliases, ..Entry::plain(F::KIND, F::SUMMARY) });
-    }
-}
-
-impl MeasureVisitor for Collect {
-    fn visit<M: MeasureKind>(&mut self) {
-        let name = if M::BY_DEFAULT { format!("{}*", M::KIND) } else { M::KIND.to_owned() };
-        let of = match M::APPLIES_TO {
-            measures::Family::Element => "of an element",
-            measures::Family::Node => "of a node",
-        };
-        let is_window = |own: &&Parameter| own.kind == ParameterKind::Window;
-        let window = if M::PARAMETERS.iter().any(|own| is_window(&own)) { "; window" } else { "" };
-        let summary = format!("{of}: {}{window}", M::SUMMARY);
-        let others = M::PARAMETERS.iter().filter(|own| !is_window(own));
-        let details = others.map(described).collect();
-        self.0.push(Entry { details, ..Entry::plain(&name, &summary) });
-    }
+fn measure(kind: &MeasureEntry) -> Entry {
+    let mark = if kind.about.by_default { "*" } else { "" };
+    let of = match kind.about.family {
+        measures::Family::Element => "of an element",
+        measures::Family::Node => "of a node",
+    };
+    let is_window = |own: &&Parameter| own.kind == ParameterKind::Window;
+    let window = if kind.parameters.iter().any(|own| is_window(&own)) { "; window" } else { "" };
+    let others = kind.parameters.iter().filter(|own| !is_window(own));
+    let details = others.map(described).collect();
+    let (name, summary) =
+        (format!("{}{mark}", kind.word), format!("{of}: {}{window}", kind.summary));
+    Entry { details, ..Entry::plain(&name, &summary) }
 }
 
 /// A parameter with what it is, its default and its help.

@@ -5,9 +5,9 @@ use std::{collections::HashMap, f64::consts::TAU, sync::Arc};
 use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{
     Effect, Element, Network, Node, NodeId, Start, Support,
-    effects::{EffectKind, EffectVisitor, Separation, Stop, visit_effects},
-    elements::{Contact, ElementKind, ElementVisitor, Friction, Law, visit_elements},
-    parameters::Value,
+    effects::{EFFECTS, Separation, Stop},
+    elements::{Contact, Friction, Law},
+    parameters::Kind as _,
 };
 use dashpot_plot::{Sketch, SketchGravity, SketchKind, SketchLink, SketchNode, SketchTree};
 use dashpot_rheology::Tree;
@@ -60,16 +60,8 @@ struct Built {
 
 impl Built {
     fn of(network: &Network) -> Self {
-        struct Order(Vec<&'static str>);
-        impl EffectVisitor for Order {
-            fn visit<E: EffectKind>(&mut self) {
-                self.0.push(E::KIND);
-            }
-        }
-        let mut order = Order(Vec::new());
-        visit_effects(&mut order);
         let mut effects: Vec<&Arc<dyn Effect>> = network.effects().iter().collect();
-        effects.sort_by_key(|effect| order.0.iter().position(|kind| *kind == effect.kind()));
+        effects.sort_by_key(|effect| EFFECTS.iter().position(|own| own.word == effect.kind()));
         let own = (network.nodes().count(), network.connections().len());
         let mut built = Self { network: network.clone(), stages: Vec::new(), own };
         for effect in effects {
@@ -183,7 +175,8 @@ pub(crate) fn element(element: &dyn Element) -> String {
 /// What stands above the symbol of an element: its constant, or its word where the symbol does not
 /// say which law it is, and what a contact needs to be known.
 fn label(own: &dyn Element, kind: &str) -> String {
-    let number = |name: &str| number(own, name).filter(|value| *value > 0.0);
+    let value = |name: &str| own.value(name).and_then(|own| own.number());
+    let number = |name: &str| value(name).filter(|value| *value > 0.0);
     let mut words: Vec<String> = match own.law() {
         Law::Spring(_) | Law::Dashpot(_) => return element(own),
         Law::Rigid => return String::new(),
@@ -199,25 +192,6 @@ fn label(own: &dyn Element, kind: &str) -> String {
     words.extend(gap.map(|gap| format!("{word} {gap}")));
     words.extend(number("restitution").map(|part| format!("e = {}", constant(part, "1"))));
     words.join(", ")
-}
-
-/// The value of an element's parameter of this name.
-fn number(element: &dyn Element, name: &str) -> Option<f64> {
-    struct Find<'a> {
-        kind: &'a str,
-        name: &'a str,
-        at: Option<usize>,
-    }
-    impl ElementVisitor for Find<'_> {
-        fn visit<E: ElementKind>(&mut self) {
-            if E::KIND == self.kind {
-                self.at = E::PARAMETERS.iter().position(|own| own.name == self.name);
-            }
-        }
-    }
-    let mut find = Find { kind: element.kind(), name, at: None };
-    visit_elements(&mut find);
-    element.values().get(find.at?).and_then(Value::number)
 }
 
 /// The drawing of a model; contacts are drawn as what the effect makes of them that has put it
@@ -242,7 +216,10 @@ fn tree(model: &Tree<Arc<dyn Element>>, effect: Option<&'static str>) -> SketchT
 
 #[cfg(test)]
 mod tests {
-    use dashpot_network::{elements::Spring, part};
+    use dashpot_network::{
+        elements::{ELEMENTS, Spring},
+        part,
+    };
 
     use super::*;
 
@@ -255,33 +232,22 @@ mod tests {
 
     #[test]
     fn every_registered_element_is_drawn_with_a_symbol_of_its_own_kind() {
-        struct Draw(usize);
-        impl ElementVisitor for Draw {
-            fn visit<E: ElementKind>(&mut self) {
-                let drawing = sketch(&on(part(E::sample())), 1.0);
-                let svg = drawing.svg();
-                assert!(svg.contains(&format!("<g class=\"{}\">", E::KIND)), "{}", E::KIND);
-                assert!(!drawing.text(80).contains(&format!("[{}]", E::KIND)), "{}", E::KIND);
-                self.0 += 1;
-            }
+        for kind in ELEMENTS {
+            let drawing = sketch(&on(Tree::Part(kind.example().unwrap())), 1.0);
+            let svg = drawing.svg();
+            assert!(svg.contains(&format!("<g class=\"{}\">", kind.word)), "{}", kind.word);
+            assert!(!drawing.text(80).contains(&format!("[{}]", kind.word)), "{}", kind.word);
         }
-        let mut draw = Draw(0);
-        visit_elements(&mut draw);
-        assert!(draw.0 > 0);
     }
 
     #[test]
     fn every_registered_effect_is_seen_in_the_drawing() {
-        struct Draw;
-        impl EffectVisitor for Draw {
-            fn visit<E: EffectKind>(&mut self) {
-                let mut network = on(part(Spring { stiffness: 1e5 }));
-                network.add_effect(E::sample());
-                let svg = sketch(&network, 1.0).svg();
-                assert!(svg.contains(&format!("<g class=\"{}\">", E::KIND)), "{}", E::KIND);
-            }
+        for kind in EFFECTS {
+            let mut network = on(part(Spring { stiffness: 1e5 }));
+            network.add_shared_effect(kind.example().unwrap());
+            let svg = sketch(&network, 1.0).svg();
+            assert!(svg.contains(&format!("<g class=\"{}\">", kind.word)), "{}", kind.word);
         }
-        visit_effects(&mut Draw);
     }
 
     #[test]

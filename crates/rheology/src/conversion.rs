@@ -2,9 +2,7 @@
 
 use std::fmt;
 
-use crate::{
-    Canonical, Form, FormVisitor, LinearModel, Part, Primitive, Role, Tree, forms, visit_forms,
-};
+use crate::{Canonical, FORMS, LinearModel, Part, Primitive, Role, Tree, forms};
 
 /// A form that models can be brought into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,18 +99,7 @@ impl std::error::Error for Unfit {}
 impl Target {
     /// All forms: the canonical ones first.
     pub fn all() -> Vec<Self> {
-        struct Collect(Vec<Target>);
-        impl FormVisitor for Collect {
-            fn visit<F: Form>(&mut self) {
-                self.0.push(Target {
-                    word: F::KIND,
-                    aliases: F::ALIASES,
-                    summary: F::SUMMARY,
-                    arrangement: Arrangement::Named { parts: F::PARTS, in_series: F::IN_SERIES },
-                });
-            }
-        }
-        let mut collect = Collect(vec![
+        let canonical = [
             Self {
                 word: "generalized-maxwell",
                 aliases: &["prony"],
@@ -125,9 +112,14 @@ impl Target {
                 summary: "a spring, a dashpot and Kelvin-Voigt elements in a row",
                 arrangement: Arrangement::Canonical(Canonical::Kelvin),
             },
-        ]);
-        visit_forms(&mut collect);
-        collect.0
+        ];
+        let named = FORMS.iter().map(|own| Self {
+            word: own.word,
+            aliases: own.aliases,
+            summary: own.summary,
+            arrangement: Arrangement::Named { parts: own.parts, in_series: own.in_series },
+        });
+        canonical.into_iter().chain(named).collect()
     }
 
     /// The form of this word or alias.

@@ -11,6 +11,6 @@ pub mod sensitivity;
 pub mod spectra;
 mod tree;
 
-pub use forms::{Form, FormVisitor, Part, Role, visit_forms};
+pub use forms::{FORMS, Form, Part, Role};
 pub use linear::{Canonical, KelvinForm, LinearModel, MaxwellForm, Primitive, Twofold};
 pub use tree::{Branch, MOST_LEVELS, Tree};

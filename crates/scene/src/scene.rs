@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use dashpot_analysis::{Accuracy, Choice, MeasureWish, RunError, SolveSettings};
-use dashpot_network::{Assembly, Network};
+use dashpot_network::{Assembly, Network, effects::EFFECTS, parameters::registered};
 
 pub use crate::sections::RunSettings;
 use crate::{
@@ -12,7 +12,7 @@ use crate::{
         review::{outlasted, review, upward, weightless},
     },
     diagnostics::{Checked, Diagnostics, Faults, fault::Fault},
-    kinds::{Example, registers},
+    kinds::{Example, model_words},
     models::{ModelReader, notes::ModelNote},
     quantities::values::{NamedValue, Overrides},
     sections::{
@@ -211,13 +211,13 @@ pub(crate) fn load(
 
 /// Where a key belongs that stands at the top of a scene.
 fn home_of(key: &str) -> Option<String> {
-    let registers = registers();
-    if let Some(entry) = registers.effect(key) {
-        let path = if entry.is_per_element { format!("{key}.ELEMENT") } else { key.to_owned() };
+    if let Some(entry) = registered(EFFECTS, key) {
+        let path =
+            if entry.about.is_per_element { format!("{key}.ELEMENT") } else { key.to_owned() };
         let value = Example::PLAIN.value(entry.parameters);
         return Some(format!("write it under [effects]: `{path} = {value}`"));
     }
-    if registers.model_words().contains(&key) {
+    if model_words().contains(&key) {
         return Some(format!("write [elements.name] with `between` and `{key}`"));
     }
     match key {

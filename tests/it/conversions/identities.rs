@@ -2,11 +2,10 @@
 //! spectra, and poles and zeros that interlace.
 
 use dashpot::rheology::{
-    Form, FormVisitor, LinearModel,
+    FORMS, LinearModel,
     Primitive::{self, Dashpot, Spring},
     Tree,
     forms::{Role, build},
-    visit_forms,
 };
 
 use super::model;
@@ -14,28 +13,16 @@ use crate::random_networks::Dice;
 
 /// Models of each registered form and of random trees, with constants over some decades.
 fn models() -> Vec<(String, LinearModel)> {
-    struct Forms(Dice, Vec<(String, LinearModel)>);
-
-    impl FormVisitor for Forms {
-        fn visit<F: Form>(&mut self) {
-            for round in 0..20 {
-                let dice = &mut self.0;
-                let tree = build(F::PARTS, F::IN_SERIES, &mut |_, role| {
-                    let constant = dice.decades(12.0);
-                    Ok::<_, ()>(if role == Role::Spring {
-                        Spring(constant)
-                    } else {
-                        Dashpot(constant)
-                    })
-                });
-                self.1.push((format!("{} {round}", F::KIND), model(&tree.unwrap())));
-            }
+    let (mut dice, mut all) = (Dice(3), Vec::new());
+    for form in FORMS {
+        for round in 0..20 {
+            let tree = build(form.parts, form.in_series, &mut |_, role| {
+                let constant = dice.decades(12.0);
+                Ok::<_, ()>(if role == Role::Spring { Spring(constant) } else { Dashpot(constant) })
+            });
+            all.push((format!("{} {round}", form.word), model(&tree.unwrap())));
         }
     }
-
-    let mut forms = Forms(Dice(3), Vec::new());
-    visit_forms(&mut forms);
-    let Forms(mut dice, mut all) = forms;
     let random = (0..200).map(|round| {
         let tree = grown(&mut dice, 4);
         (format!("tree {round}"), model(&tree))

@@ -3,35 +3,39 @@
 use std::fmt::Write as _;
 
 use dashpot::{
-    analysis::measures::{Family, MeasureKind, MeasureVisitor, visit_measures},
+    analysis::measures::{Family, MEASURES, MeasureEntry},
     dae::methods,
     network::{
-        composites::{CompositeKind, CompositeVisitor, visit_composites},
-        effects::{EffectKind, EffectVisitor, visit_effects},
-        elements::{ElementKind, ElementVisitor, visit_elements},
-        parameters::{Dimension, Parameter, ParameterKind},
-        shifts::{ShiftKind, ShiftVisitor, visit_shifts},
-        waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
+        composites::COMPOSITES,
+        effects::EFFECTS,
+        elements::ELEMENTS,
+        parameters::{Dimension, Parameter, ParameterKind, Registered},
+        shifts::SHIFTS,
+        waveforms::WAVEFORMS,
     },
-    rheology::{Form, FormVisitor, Part, Role, visit_forms},
+    rheology::{FORMS, Part, Role},
 };
 
 /// Name and text of every generated section.
 pub(super) fn sections() -> Vec<(&'static str, String)> {
     let mut kinds = Kinds::default();
-    visit_elements(&mut kinds);
+    ELEMENTS.iter().for_each(|own| kinds.kind(own, None));
     let elements = kinds.take("word | law");
-    visit_composites(&mut kinds);
+    COMPOSITES.iter().for_each(|own| kinds.kind(own, Some(own.about)));
     let composites = kinds.take("word | model");
-    visit_shifts(&mut kinds);
+    SHIFTS.iter().for_each(|own| kinds.kind(own, None));
     let shifts = kinds.take("word | law");
-    visit_waveforms(&mut kinds);
+    WAVEFORMS.iter().for_each(|own| kinds.kind(own, None));
     let waveforms = kinds.take("word | function");
-    visit_effects(&mut kinds);
+    EFFECTS.iter().for_each(|own| kinds.kind(own, None));
     let effects = kinds.take("word | what it does");
-    visit_measures(&mut kinds);
+    MEASURES.iter().for_each(|own| kinds.measure(own));
     let measures = kinds.take("word | of | unit | in every run | what it is");
-    visit_forms(&mut kinds);
+    for own in FORMS {
+        let aliases: Vec<String> = own.aliases.iter().map(code).collect();
+        let cells = [aliases.join(", "), own.summary.to_owned(), code(parts(own.parts))];
+        kinds.row(&[[code(own.word)].as_slice(), &cells].concat());
+    }
     let forms = kinds.take("word | other words | made of | parts, in order");
     for method in methods::all() {
         kinds.row(&[code(method.name()), method.summary().to_owned()]);
@@ -57,6 +61,22 @@ struct Kinds {
 }
 
 impl Kinds {
+    fn kind<T, A>(&mut self, own: &Registered<T, A>, amplitude: Option<Dimension>) {
+        self.row(&[code(own.word), own.summary.to_owned()]);
+        self.parameters(own.word, own.parameters, amplitude);
+    }
+
+    fn measure(&mut self, own: &MeasureEntry) {
+        let family = match own.about.family {
+            Family::Element => "an element",
+            Family::Node => "a node",
+        };
+        let always = if own.about.by_default { "yes" } else { "" };
+        let cells = [family, own.about.unit, always, own.summary].map(str::to_owned);
+        self.row(&[[code(own.word)].as_slice(), &cells].concat());
+        self.parameters(own.word, own.parameters, None);
+    }
+
     fn row(&mut self, cells: &[String]) {
         self.rows += &row(cells);
     }
@@ -160,71 +180,6 @@ fn value(kind: ParameterKind, amplitude: Option<Dimension>) -> String {
         ParameterKind::Window => "`\"impact\"`, `\"run\"` or `[from, to]`".to_owned(),
         ParameterKind::Node => "name of a node".to_owned(),
         ParameterKind::Model => "a model: its name, or a table".to_owned(),
-    }
-}
-
-impl ElementVisitor for Kinds {
-    fn visit<E: ElementKind>(&mut self) {
-        self.row(&[code(E::KIND), E::SUMMARY.to_owned()]);
-        self.parameters(E::KIND, E::PARAMETERS, None);
-    }
-}
-
-impl CompositeVisitor for Kinds {
-    fn visit<C: CompositeKind>(&mut self) {
-        self.row(&[code(C::KIND), C::SUMMARY.to_owned()]);
-        self.parameters(C::KIND, C::PARAMETERS, Some(C::AMPLITUDE));
-    }
-}
-
-impl ShiftVisitor for Kinds {
-    fn visit<S: ShiftKind>(&mut self) {
-        self.row(&[code(S::KIND), S::SUMMARY.to_owned()]);
-        self.parameters(S::KIND, S::PARAMETERS, None);
-    }
-}
-
-impl WaveformVisitor for Kinds {
-    fn visit<W: WaveformKind>(&mut self) {
-        self.row(&[code(W::KIND), W::SUMMARY.to_owned()]);
-        self.parameters(W::KIND, W::PARAMETERS, None);
-    }
-}
-
-impl EffectVisitor for Kinds {
-    fn visit<E: EffectKind>(&mut self) {
-        self.row(&[code(E::KIND), E::SUMMARY.to_owned()]);
-        self.parameters(E::KIND, E::PARAMETERS, None);
-    }
-}
-
-impl MeasureVisitor for Kinds {
-    fn visit<M: MeasureKind>(&mut self) {
-        let family = match M::APPLIES_TO {
-            Family::Element => "an element",
-            Family::Node => "a node",
-        };
-        let always = if M::BY_DEFAULT { "yes" } else { "" };
-        self.row(&[
-            code(M::KIND),
-            family.to_owned(),
-            M::UNIT.to_owned(),
-            always.to_owned(),
-            M::SUMMARY.to_owned(),
-        ]);
-        self.parameters(M::KIND, M::PARAMETERS, None);
-    }
-}
-
-impl FormVisitor for Kinds {
-    fn visit<F: Form>(&mut self) {
-        let aliases: Vec<String> = F::ALIASES.iter().map(code).collect();
-        self.row(&[
-            code(F::KIND),
-            aliases.join(", "),
-            F::SUMMARY.to_owned(),
-            code(parts(F::PARTS)),
-        ]);
     }
 }
 

@@ -4,11 +4,11 @@ use dashpot::{
     analysis::{RunError, RunReport, SolveSettings, solve},
     dae::{Silent, SolveError},
     network::{
-        effects::{EffectKind, EffectVisitor, visit_effects},
-        elements::{ElementKind, ElementVisitor, visit_elements},
+        effects::EFFECTS,
+        elements::ELEMENTS,
         parameters::{Dimension, ParameterKind, Value},
-        shifts::{ShiftKind, ShiftVisitor, visit_shifts},
-        waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
+        shifts::SHIFTS,
+        waveforms::WAVEFORMS,
     },
     scene::write_kind,
 };
@@ -90,23 +90,17 @@ fn neutral_effect(kind: &str) -> &'static [&'static str] {
     }
 }
 
-struct Effects(usize);
-
-impl EffectVisitor for Effects {
-    fn visit<E: EffectKind>(&mut self) {
-        for lines in neutral_effect(E::KIND) {
-            let neutral = text(&format!("[effects]\n{lines}"), "", "");
-            same(lines, &neutral, &text("", "", ""));
-            self.0 += 1;
-        }
-    }
-}
-
 #[test]
 fn every_effect_at_its_neutral_value_gives_the_result_of_the_effect_off() {
-    let mut effects = Effects(0);
-    visit_effects(&mut effects);
-    assert!(effects.0 > 4);
+    let mut count = 0;
+    for kind in EFFECTS {
+        for lines in neutral_effect(kind.word) {
+            let neutral = text(&format!("[effects]\n{lines}"), "", "");
+            same(lines, &neutral, &text("", "", ""));
+            count += 1;
+        }
+    }
+    assert!(count > 4);
 }
 
 /// Elements that are nothing, or a spring of 1e4 N/m or a dashpot of 100 N s/m: their law, and that of
@@ -153,12 +147,12 @@ fn neutral_element(kind: &str) -> (&'static str, &'static str) {
     }
 }
 
-struct Elements(usize);
-
-impl ElementVisitor for Elements {
-    fn visit<E: ElementKind>(&mut self) {
-        let (law, linear) = neutral_element(E::KIND);
-        let ends = match E::KIND {
+#[test]
+fn every_element_at_its_neutral_value_is_nothing_or_its_linear_relative() {
+    assert!(ELEMENTS.len() > 10);
+    for kind in ELEMENTS {
+        let (law, linear) = neutral_element(kind.word);
+        let ends = match kind.word {
             "rigid" => "\"head\", \"tip\"",
             "hysteretic-foam" | "hysteretic-table" => "\"ground\", \"head\"",
             _ => "\"head\", \"ground\"",
@@ -167,17 +161,9 @@ impl ElementVisitor for Elements {
             let line = format!("extra = {{ between = [{ends}], {law} }}");
             if law.is_empty() { String::new() } else { line }
         };
-        let nodes = if E::KIND == "rigid" { "tip = {}" } else { "" };
-        same(E::KIND, &text("", &element(law), nodes), &text("", &element(linear), ""));
-        self.0 += 1;
+        let nodes = if kind.word == "rigid" { "tip = {}" } else { "" };
+        same(kind.word, &text("", &element(law), nodes), &text("", &element(linear), ""));
     }
-}
-
-#[test]
-fn every_element_at_its_neutral_value_is_nothing_or_its_linear_relative() {
-    let mut elements = Elements(0);
-    visit_elements(&mut elements);
-    assert!(elements.0 > 10);
 }
 
 /// The lines of a shift at which no time is multiplied.
@@ -191,33 +177,27 @@ fn neutral_shift(kind: &str) -> &'static [&'static str] {
     }
 }
 
-struct Shifts(usize);
-
-impl ShiftVisitor for Shifts {
-    fn visit<S: ShiftKind>(&mut self) {
+#[test]
+fn every_shift_at_its_reference_is_none() {
+    let mut count = 0;
+    for kind in SHIFTS {
         let off = text("", "", "");
-        for line in neutral_shift(S::KIND) {
+        for line in neutral_shift(kind.word) {
             let law = "{ dashpot = 600 }] }";
             let shifted =
                 off.replace(law, &format!("{{ dashpot = 600 }}], shift = {{ {line} }} }}"));
             assert_ne!(shifted, off);
             same(line, &shifted, &off);
-            self.0 += 1;
+            count += 1;
         }
     }
+    assert!(count > 1);
 }
 
 #[test]
-fn every_shift_at_its_reference_is_none() {
-    let mut shifts = Shifts(0);
-    visit_shifts(&mut shifts);
-    assert!(shifts.0 > 1);
-}
-
-struct Waveforms(usize);
-
-impl WaveformVisitor for Waveforms {
-    fn visit<W: WaveformKind>(&mut self) {
+fn a_load_of_zero_and_a_motion_of_zero_are_none() {
+    assert!(WAVEFORMS.len() > 5);
+    for kind in WAVEFORMS {
         let none = |(value, kind): (Value, ParameterKind)| match (value, kind) {
             (Value::Number(_), ParameterKind::Amplitude) => Value::Number(0.0),
             (Value::Table(points), ParameterKind::TimeTable) => {
@@ -225,27 +205,19 @@ impl WaveformVisitor for Waveforms {
             }
             (value, _) => value,
         };
-        let kinds = W::PARAMETERS.iter().map(|own| own.kind);
-        let values: Vec<Value> = W::sample().values().into_iter().zip(kinds).map(none).collect();
-        assert_ne!(values, W::sample().values(), "{} has no size", W::KIND);
-        let line = |driven| write_kind(W::KIND, W::PARAMETERS, &values, driven);
+        let kinds = kind.parameters.iter().map(|own| own.kind);
+        let values: Vec<Value> = (kind.sample)().into_iter().zip(kinds).map(none).collect();
+        assert_ne!(values, (kind.sample)(), "{} has no size", kind.word);
+        let line = |driven| write_kind(kind.word, kind.parameters, &values, driven);
         let off = text("", "", "");
         let push = format!(
             "[loads]\npush = {{ on = \"head\", force = {{ {} }} }}",
             line(Dimension::FORCE)
         );
-        same(W::KIND, &text(&push, "", ""), &off);
+        same(kind.word, &text(&push, "", ""), &off);
         let motion =
             format!("floor = {{ motion = {{ {} }} }}\n[elements]", line(Dimension::LENGTH));
         let moved = off.replace("\"ground\"", "\"floor\"").replace("[elements]", &motion);
-        same(W::KIND, &moved, &off);
-        self.0 += 1;
+        same(kind.word, &moved, &off);
     }
-}
-
-#[test]
-fn a_load_of_zero_and_a_motion_of_zero_are_none() {
-    let mut waveforms = Waveforms(0);
-    visit_waveforms(&mut waveforms);
-    assert!(waveforms.0 > 5);
 }

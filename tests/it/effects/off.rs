@@ -11,7 +11,7 @@ use dashpot::{
         Network, NetworkError, Node,
         effects::Effect,
         elements::{Element, Law, Tangent},
-        parameters::{InvalidParameter, Value},
+        parameters::Described,
         part,
     },
 };
@@ -72,11 +72,13 @@ struct Calls {
 #[derive(Debug)]
 struct Counted(Arc<Calls>);
 
-impl Element for Counted {
+impl Described for Counted {
     fn kind(&self) -> &'static str {
         "counted"
     }
+}
 
+impl Element for Counted {
     fn force(&self, deformation: f64, _rate: f64) -> f64 {
         self.0.force.fetch_add(1, Relaxed);
         2e5 * deformation
@@ -95,36 +97,22 @@ impl Element for Counted {
         self.0.law.fetch_add(1, Relaxed);
         Law::Spring(2e5)
     }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        Ok(())
-    }
-
-    fn values(&self) -> Vec<Value> {
-        Vec::new()
-    }
 }
 
 /// An effect that does nothing to a network, and counts whether it is asked to.
 #[derive(Debug)]
 struct Idle(Arc<Calls>);
 
-impl Effect for Idle {
+impl Described for Idle {
     fn kind(&self) -> &'static str {
         "idle"
     }
+}
 
+impl Effect for Idle {
     fn rewrite(&self, _network: &mut Network) -> Result<(), NetworkError> {
         self.0.rewritten.fetch_add(1, Relaxed);
         Ok(())
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        Ok(())
-    }
-
-    fn values(&self) -> Vec<Value> {
-        Vec::new()
     }
 }
 

@@ -11,8 +11,8 @@ use dashpot::{
     dae::{Silent, Waveform},
     network::{
         Detail, Influence, Network, NetworkError, Node, NodeId, Situation,
-        effects::{Effect, EffectKind, EffectVisitor, visit_effects},
-        parameters::{InvalidParameter, Value},
+        effects::{EFFECTS, Effect},
+        parameters::{Described, InvalidParameter, Parameter, Value},
     },
 };
 
@@ -153,11 +153,25 @@ impl Watched {
     }
 }
 
-impl Effect for Watched {
+impl Described for Watched {
     fn kind(&self) -> &'static str {
         self.asked().kind()
     }
 
+    fn parameters(&self) -> &'static [Parameter] {
+        self.asked().parameters()
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.asked().values()
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.asked().validate()
+    }
+}
+
+impl Effect for Watched {
     fn body_forces(&self, network: &Network) -> Vec<(NodeId, Waveform)> {
         self.asked().body_forces(network)
     }
@@ -189,34 +203,21 @@ impl Effect for Watched {
     fn leave(&self, network: &mut Network) {
         self.asked().leave(network);
     }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.asked().validate()
-    }
-
-    fn values(&self) -> Vec<Value> {
-        self.asked().values()
-    }
 }
 
 /// An example of each effect, on the head and its padding.
-#[derive(Default)]
 struct All {
     effects: Vec<(&'static str, Arc<dyn Effect>, Arc<AtomicUsize>)>,
 }
 
-impl EffectVisitor for All {
-    fn visit<E: EffectKind>(&mut self) {
-        let calls = Arc::<AtomicUsize>::default();
-        let watched = Watched { own: Arc::new(E::sample()), calls: Arc::clone(&calls) };
-        self.effects.push((E::KIND, Arc::new(watched), calls));
-    }
-}
-
 impl All {
     fn registered() -> Self {
-        let mut all = Self::default();
-        visit_effects(&mut all);
+        let watched = EFFECTS.iter().map(|kind| {
+            let calls = Arc::<AtomicUsize>::default();
+            let watched = Watched { own: kind.example().unwrap(), calls: Arc::clone(&calls) };
+            (kind.word, Arc::new(watched) as Arc<dyn Effect>, calls)
+        });
+        let all = Self { effects: watched.collect() };
         assert!(all.effects.len() > 3);
         all
     }

@@ -3,16 +3,16 @@
 use std::{collections::BTreeMap, convert::Infallible};
 
 use dashpot::{
-    analysis::measures::{Family, MeasureKind, MeasureVisitor, visit_measures},
+    analysis::measures::{Family, MEASURES, MeasureEntry},
     network::{
-        composites::{CompositeKind, CompositeVisitor, visit_composites},
-        effects::{EffectKind, EffectVisitor, visit_effects},
-        elements::{ElementKind, ElementVisitor, visit_elements},
-        parameters::{Dimension, Parameter, ParameterKind, Value},
-        shifts::{ShiftKind, ShiftVisitor, visit_shifts},
-        waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
+        composites::COMPOSITES,
+        effects::{EFFECTS, EffectEntry},
+        elements::ELEMENTS,
+        parameters::{Dimension, Parameter, ParameterKind, Registered, Value},
+        shifts::SHIFTS,
+        waveforms::WAVEFORMS,
     },
-    rheology::{Form, FormVisitor, Role, forms::build, visit_forms},
+    rheology::{FORMS, Form, Role, forms::build},
     scene::write_kind,
 };
 use proptest::{prelude::*, sample::Index};
@@ -30,7 +30,7 @@ struct Kind {
 }
 
 /// What the registers hold.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Words {
     elements: Vec<Kind>,
     composites: Vec<Kind>,
@@ -41,73 +41,46 @@ struct Words {
     forms: Vec<String>,
 }
 
-fn kind(word: &'static str, parameters: &'static [Parameter], values: Vec<Value>) -> Kind {
+fn kind<T, A>(own: &Registered<T, A>) -> Kind {
+    let (word, parameters, values) = (own.word, own.parameters, (own.sample)());
     Kind { word, parameters, values, is_per_element: false, driven: Dimension::FORCE }
 }
 
-impl ElementVisitor for Words {
-    fn visit<E: ElementKind>(&mut self) {
-        self.elements.push(kind(E::KIND, E::PARAMETERS, E::sample().values()));
-    }
+fn form(own: &Form) -> String {
+    let mut leaves = Vec::new();
+    let mut leaf = |path: &[&'static str], role: Role| {
+        let value = if matches!(role, Role::Spring) { "2 kN/m" } else { "3 N s/m" };
+        leaves.push(format!("{}.{} = \"{value}\"", own.word, path.join(".")));
+        Ok::<_, Infallible>(())
+    };
+    assert!(build(own.parts, own.in_series, &mut leaf).is_ok());
+    leaves.join(", ")
 }
 
-impl CompositeVisitor for Words {
-    fn visit<C: CompositeKind>(&mut self) {
-        let own = kind(C::KIND, C::PARAMETERS, C::sample().values());
-        self.composites.push(Kind { driven: C::AMPLITUDE, ..own });
-    }
-}
-
-impl ShiftVisitor for Words {
-    fn visit<S: ShiftKind>(&mut self) {
-        self.shifts.push(kind(S::KIND, S::PARAMETERS, S::sample().values()));
-    }
-}
-
-impl WaveformVisitor for Words {
-    fn visit<W: WaveformKind>(&mut self) {
-        self.waveforms.push(kind(W::KIND, W::PARAMETERS, W::sample().values()));
-    }
-}
-
-impl EffectVisitor for Words {
-    fn visit<E: EffectKind>(&mut self) {
-        let own = kind(E::KIND, E::PARAMETERS, E::sample().values());
-        self.effects.push(Kind { is_per_element: E::PER_ELEMENT, ..own });
-    }
-}
-
-impl MeasureVisitor for Words {
-    fn visit<M: MeasureKind>(&mut self) {
-        let own = kind(M::KIND, M::PARAMETERS, MeasureKind::values(&M::sample()));
-        let is_per_element = matches!(M::APPLIES_TO, Family::Element);
-        self.measures.push(Kind { is_per_element, ..own });
-    }
-}
-
-impl FormVisitor for Words {
-    fn visit<F: Form>(&mut self) {
-        let mut leaves = Vec::new();
-        let mut leaf = |path: &[&'static str], role: Role| {
-            let value = if matches!(role, Role::Spring) { "2 kN/m" } else { "3 N s/m" };
-            leaves.push(format!("{}.{} = \"{value}\"", F::KIND, path.join(".")));
-            Ok::<_, Infallible>(())
+impl Words {
+    fn all() -> Self {
+        let effect =
+            |own: &EffectEntry| Kind { is_per_element: own.about.is_per_element, ..kind(own) };
+        let measure = |own: &MeasureEntry| {
+            let is_per_element = matches!(own.about.family, Family::Element);
+            Kind { is_per_element, ..kind(own) }
         };
-        assert!(build(F::PARTS, F::IN_SERIES, &mut leaf).is_ok());
-        self.forms.push(leaves.join(", "));
+        let composite = COMPOSITES.iter().map(|own| Kind { driven: own.about, ..kind(own) });
+        Self {
+            elements: ELEMENTS.iter().map(kind).collect(),
+            composites: composite.collect(),
+            shifts: SHIFTS.iter().map(kind).collect(),
+            waveforms: WAVEFORMS.iter().map(kind).collect(),
+            effects: EFFECTS.iter().map(effect).collect(),
+            measures: MEASURES.iter().map(measure).collect(),
+            forms: FORMS.iter().map(form).collect(),
+        }
     }
 }
 
 /// A text that is meant to be a scene.
 pub(super) fn scene() -> impl Strategy<Value = String> {
-    let mut words = Words::default();
-    visit_elements(&mut words);
-    visit_composites(&mut words);
-    visit_shifts(&mut words);
-    visit_waveforms(&mut words);
-    visit_effects(&mut words);
-    visit_measures(&mut words);
-    visit_forms(&mut words);
+    let words = Words::all();
     let nodes = prop::collection::vec(node(&words), 1..4);
     let models = model(&words, false);
     let elements = (model(&words, true), any::<[Index; 2]>(), beside());

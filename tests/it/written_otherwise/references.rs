@@ -3,7 +3,7 @@
 use dashpot::{
     analysis::{RunReport, SolveSettings, solve},
     dae::Silent,
-    network::elements::{ElementKind, ElementVisitor, visit_elements},
+    network::elements::ELEMENTS,
     scene::{ReadOptions, read},
 };
 
@@ -37,27 +37,23 @@ impl Referred {
 /// Every kind of the register that has a reference, with exponents by which forces at references that are
 /// powers of two apart are numbers without rounding.
 fn referred() -> Vec<Referred> {
-    struct Kinds(Vec<Referred>);
-    impl ElementVisitor for Kinds {
-        fn visit<E: ElementKind>(&mut self) {
-            let names = E::PARAMETERS.iter().map(|own| own.name);
-            if !names.clone().any(|name| name == "at") {
-                return;
-            }
-            let values = E::sample().values();
-            let numbers = values.iter().map(|own| own.number().unwrap());
-            let own = Referred { kind: E::KIND, values: names.zip(numbers).collect() };
-            let exponents: &[f64] =
-                if E::KIND == "power-dashpot" { &[0.5, 3.0] } else { &[1.5, 2.0] };
-            self.0.extend(exponents.iter().map(|&exponent| own.with("exponent", exponent)));
+    let mut kinds = Vec::new();
+    for kind in ELEMENTS {
+        let names = kind.parameters.iter().map(|own| own.name);
+        if !names.clone().any(|name| name == "at") {
+            continue;
         }
+        let values = (kind.sample)();
+        let numbers = values.iter().map(|own| own.number().unwrap());
+        let own = Referred { kind: kind.word, values: names.zip(numbers).collect() };
+        let exponents: &[f64] =
+            if kind.word == "power-dashpot" { &[0.5, 3.0] } else { &[1.5, 2.0] };
+        kinds.extend(exponents.iter().map(|&exponent| own.with("exponent", exponent)));
     }
-    let mut kinds = Kinds(Vec::new());
-    visit_elements(&mut kinds);
-    let mut names: Vec<&str> = kinds.0.iter().map(|own| own.kind).collect();
+    let mut names: Vec<&str> = kinds.iter().map(|own| own.kind).collect();
     names.dedup();
     assert_eq!(names, ["power-spring", "rate-spring", "power-dashpot", "hunt-crossley", "bumper"]);
-    kinds.0
+    kinds
 }
 
 /// The law alone under a head that strikes it, and before and behind others.

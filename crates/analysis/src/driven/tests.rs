@@ -2,7 +2,8 @@ use std::f64::consts::PI;
 
 use dashpot_dae::chebyshev::Interpolation;
 use dashpot_network::{
-    elements::{CubicSpring, Dashpot, ElementKind, Rigid, Spring},
+    elements::{CubicSpring, Dashpot, Rigid, Spring},
+    parameters::Kind as _,
     part,
 };
 use dashpot_rheology::Tree;

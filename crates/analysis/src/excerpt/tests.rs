@@ -78,7 +78,8 @@ fn what_goes_on_after_the_contact_stays_in_sight() {
 
 #[test]
 fn foam_is_left_where_its_contact_opens_and_alone_where_it_goes_slack() {
-    use dashpot_network::elements::{ElementKind, HystereticFoam};
+    use dashpot_network::elements::HystereticFoam;
+    use dashpot_network::parameters::Kind as _;
     for beside in [0.0, 10.0] {
         // Foam never pulls, alone or with a dashpot beside it that its separation holds back.
         let mut network = drop(0.5, false);

@@ -1,42 +1,29 @@
 //! Average deceleration.
 
-use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MASSLESS, MeasureKind, Needs, Reading,
+    Family, MASSLESS, MeasureKind, Needs, Reading, WINDOW,
     reading::{infinite, integral, with_blows},
-    window,
 };
 use crate::{Solution, blows};
 
-/// The magnitude of the mean of what an accelerometer on a body reads, `|∫ a dt| / T` \[m/s²\]:
-/// without gravity the change of velocity over the time `T` that it takes, jumps included.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AverageDeceleration {
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for AverageDeceleration {
-    fn default() -> Self {
-        Self { window: WindowWish::Impact }
+parameters! {
+    /// The magnitude of the mean of what an accelerometer on a body reads, `|∫ a dt| / T` \[m/s²\]:
+    /// without gravity the change of velocity over the time `T` that it takes, jumps included.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct AverageDeceleration: "average-deceleration",
+        "mean of what an accelerometer reads [m/s^2]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
 }
 
 impl MeasureKind for AverageDeceleration {
-    const KIND: &'static str = "average-deceleration";
-    const SUMMARY: &'static str = "mean of what an accelerometer reads [m/s^2]";
     const UNIT: &'static str = "m/s^2";
     const APPLIES_TO: Family = Family::Node;
     const NEEDS: Needs = Needs::Acceleration;
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        window(values, 0).map(|window| Self { window })
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Window(self.window)]
-    }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let Some(acceleration) = solution.assembly().nodes[target].acceleration else {

@@ -2,10 +2,7 @@
 
 use std::borrow::Cow;
 
-use dashpot_network::{
-    NodeId,
-    parameters::{InvalidParameter, Parameter, Value, WindowWish},
-};
+use dashpot_network::{NodeId, parameters, parameters::WindowWish};
 
 use super::{Family, MeasureKind, Reading, reading::end_value};
 use crate::{
@@ -13,32 +10,25 @@ use crate::{
     impact::{Contact, STILL_IN_CONTACT},
 };
 
-/// The speed at which an element's ends part at release over that at which they met,
-/// `e = −ẏ(release)/ẏ(contact)` \[1\], for elements that touch an impactor.
-///
-/// Of an element that is struck through a face with mass they are the speeds of what strikes the face
-/// and of the other end, before the first touch and at the end of the impact.
-///
-/// A massless face has the speed of what strikes it, from the touch until it is let go. Where masses
-/// meet, the speeds are those before and after the impulse; an impact of masses that stay together
-/// has ended when they part, without speed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct CoefficientOfRestitution;
+parameters! {
+    /// The speed at which an element's ends part at release over that at which they met,
+    /// `e = −ẏ(release)/ẏ(contact)` \[1\], for elements that touch an impactor.
+    ///
+    /// Of an element that is struck through a face with mass they are the speeds of what strikes the face
+    /// and of the other end, before the first touch and at the end of the impact.
+    ///
+    /// A massless face has the speed of what strikes it, from the touch until it is let go. Where masses
+    /// meet, the speeds are those before and after the impulse; an impact of masses that stay together
+    /// has ended when they part, without speed.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub struct CoefficientOfRestitution: "coefficient-of-restitution",
+        "speed of parting over speed of meeting [1]"
+    {}
+}
 
 impl MeasureKind for CoefficientOfRestitution {
-    const KIND: &'static str = "coefficient-of-restitution";
-    const SUMMARY: &'static str = "speed of parting over speed of meeting [1]";
     const UNIT: &'static str = "1";
-    const PARAMETERS: &'static [Parameter] = &[];
     const APPLIES_TO: Family = Family::Element;
-
-    fn from_values(_values: &[Value]) -> Result<Self, InvalidParameter> {
-        Ok(Self)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        Vec::new()
-    }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connection = &solution.assembly().connections[target];

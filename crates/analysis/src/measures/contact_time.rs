@@ -1,6 +1,6 @@
 //! Contact time.
 
-use dashpot_network::parameters::{InvalidParameter, Parameter, Value};
+use dashpot_network::parameters;
 
 use super::{Family, MeasureKind, Reading};
 use crate::{
@@ -11,33 +11,26 @@ use crate::{
 /// Part of a time within which the end of a run is at that time.
 const AT_ONCE: f64 = 1e-9;
 
-/// The time from first contact to the first zero of an element's force \[s\], for elements that
-/// touch an impactor.
-///
-/// Of an element that an impactor strikes through a face with mass it is the time from the first touch
-/// of the face until the impactor has left it and the element is unloaded.
-///
-/// It is 0 where the element pulls from the start or masses meet and part at once, and undefined where it still pushes at the end
-/// of the run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct ContactTime;
+parameters! {
+    /// The time from first contact to the first zero of an element's force \[s\], for elements that
+    /// touch an impactor.
+    ///
+    /// Of an element that an impactor strikes through a face with mass it is the time from the first touch
+    /// of the face until the impactor has left it and the element is unloaded.
+    ///
+    /// It is 0 where the element pulls from the start or masses meet and part at once, and undefined where it still pushes at the end
+    /// of the run.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub struct ContactTime: "contact-time",
+        "time from first contact to the first zero of the force [s]"
+    {}
+}
 
 impl MeasureKind for ContactTime {
-    const KIND: &'static str = "contact-time";
-    const SUMMARY: &'static str = "time from first contact to the first zero of the force [s]";
     const UNIT: &'static str = "s";
-    const PARAMETERS: &'static [Parameter] = &[];
     const APPLIES_TO: Family = Family::Element;
     const BY_DEFAULT: bool = true;
     const WITHOUT_IMPACTOR: bool = false;
-
-    fn from_values(_values: &[Value]) -> Result<Self, InvalidParameter> {
-        Ok(Self)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        Vec::new()
-    }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let touches = solution.touches_impactor(&solution.assembly().connections[target]);

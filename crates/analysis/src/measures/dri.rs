@@ -1,8 +1,8 @@
 //! Dynamic response index.
 
-use dashpot_network::parameters::{InvalidParameter, Parameter, Value, WindowWish};
+use dashpot_network::{parameters, parameters::WindowWish};
 
-use super::{Family, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WHOLE_RUN, window};
+use super::{Family, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WHOLE_RUN};
 use crate::{
     Solution,
     driven::{Oscillator, largest_deformation},
@@ -14,49 +14,35 @@ const OMEGA: f64 = 52.9;
 /// Its damping ratio.
 const DAMPING_RATIO: f64 = 0.224;
 
-/// The dynamic response index, `DRI = ω² δ_max/g0`: how far a mass on a spring and a dashpot, which
-/// stand for the spine, is pressed by what an accelerometer on the body reads.
-///
-/// | symbol | value | unit |
-/// |--------|-------|------|
-/// | `ω`    | 52.9  | rad/s |
-/// | `ζ`    | 0.224 | 1     |
-/// | `g0`   | [`STANDARD_GRAVITY`] | m/s² |
-///
-/// `y″ + 2 ζ ω y′ + ω² y = a(t)`, from rest at the start of the window; `δ_max` is the largest `|y|`.
-/// Jumps of the speed act as impulses. A long steady acceleration of `A g0` that sets in at once has
-/// `DRI = A (1 + exp(−π ζ/√(1 − ζ²)))`, one that sets in slowly `A`.
-///
-/// # References
-///
-/// The constants are those of `stech1969` in `docs/references.bib`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dri {
-    /// The part of the run that drives it, and in which its largest value is sought.
-    pub window: WindowWish,
-}
-
-impl Default for Dri {
-    fn default() -> Self {
-        Self { window: WindowWish::Run }
+parameters! {
+    /// The dynamic response index, `DRI = ω² δ_max/g0`: how far a mass on a spring and a dashpot, which
+    /// stand for the spine, is pressed by what an accelerometer on the body reads.
+    ///
+    /// | symbol | value | unit |
+    /// |--------|-------|------|
+    /// | `ω`    | 52.9  | rad/s |
+    /// | `ζ`    | 0.224 | 1     |
+    /// | `g0`   | [`STANDARD_GRAVITY`] | m/s² |
+    ///
+    /// `y″ + 2 ζ ω y′ + ω² y = a(t)`, from rest at the start of the window; `δ_max` is the largest `|y|`.
+    /// Jumps of the speed act as impulses. A long steady acceleration of `A g0` that sets in at once has
+    /// `DRI = A (1 + exp(−π ζ/√(1 − ζ²)))`, one that sets in slowly `A`.
+    ///
+    /// # References
+    ///
+    /// The constants are those of `stech1969` in `docs/references.bib`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Dri: "dri", "dynamic response index of the spine [1]" {
+        /// The part of the run that drives it, and in which its largest value is sought.
+        pub window: WindowWish => WHOLE_RUN;
     }
+    default { window: WindowWish::Run }
 }
 
 impl MeasureKind for Dri {
-    const KIND: &'static str = "dri";
-    const SUMMARY: &'static str = "dynamic response index of the spine [1]";
     const UNIT: &'static str = "1";
-    const PARAMETERS: &'static [Parameter] = &[WHOLE_RUN];
     const APPLIES_TO: Family = Family::Node;
     const NEEDS: Needs = Needs::Acceleration;
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        window(values, 0).map(|window| Self { window })
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Window(self.window)]
-    }
 
     fn gravities(&self) -> f64 {
         1.0

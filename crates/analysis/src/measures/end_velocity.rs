@@ -1,39 +1,26 @@
 //! Velocity at the end.
 
-use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+use dashpot_network::{parameters, parameters::WindowWish};
 
-use super::{Family, MeasureKind, NO_VELOCITY, Reading, reading::end_value, window};
+use super::{Family, MeasureKind, NO_VELOCITY, Reading, WINDOW, reading::end_value};
 use crate::{Solution, blows};
 
-/// A node's velocity at the end of the window, `v(t_end)` \[m/s\], positive towards the support:
-/// at the end of its impact an impactor's rebound speed, negative. Where the speed jumps at the end,
-/// it is that after the jump.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EndVelocity {
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for EndVelocity {
-    fn default() -> Self {
-        Self { window: WindowWish::Impact }
+parameters! {
+    /// A node's velocity at the end of the window, `v(t_end)` \[m/s\], positive towards the support:
+    /// at the end of its impact an impactor's rebound speed, negative. Where the speed jumps at the end,
+    /// it is that after the jump.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct EndVelocity: "end-velocity",
+        "velocity at the end of the window: the rebound speed of an impactor [m/s]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
 }
 
 impl MeasureKind for EndVelocity {
-    const KIND: &'static str = "end-velocity";
-    const SUMMARY: &'static str =
-        "velocity at the end of the window: the rebound speed of an impactor [m/s]";
     const UNIT: &'static str = "m/s";
     const APPLIES_TO: Family = Family::Node;
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        window(values, 0).map(|window| Self { window })
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Window(self.window)]
-    }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let Some(velocity) = solution.assembly().nodes[target].velocity else {

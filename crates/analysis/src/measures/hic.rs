@@ -1,71 +1,42 @@
-//! Head injury criterion.
+//! Head injury criterion, over intervals up to a cap, and of at most 15 and 36 ms.
 
-use dashpot_network::parameters::{
-    Dimension, InvalidParameter, Parameter, ParameterKind, Value, WindowWish,
-};
+use std::sync::Arc;
+
+use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MASSLESS, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW, reading::infinite,
-    window,
+    Family, MASSLESS, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
+    reading::infinite,
 };
-use crate::{Solution, hic_search::optimum};
+use crate::{Solution, hic_search::optimum, similarity::Scale};
 
-/// The head injury criterion of what an accelerometer on a body reads,
-/// `HIC = max (t2 − t1) [∫ |a|/g0 dt / (t2 − t1)]^2.5` \[s\] over all intervals `[t1, t2]` no
-/// longer than a cap. The window reported is the interval found. Where the speed jumps, it is
-/// infinite.
-///
-/// | symbol | field | unit | range    |
-/// |--------|-------|------|----------|
-/// |        | `cap` | s    | positive |
-/// | `g0`   | [`STANDARD_GRAVITY`] | m/s² | |
-///
-/// A half-sine of height `A g0` and length `T` has `HIC = 0.41464565 A^2.5 T` without a cap, over
-/// an interval of `0.6702297 T`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hic {
-    /// The longest interval \[s\].
-    pub cap: f64,
-    /// The part of the run in which the interval lies.
-    pub window: WindowWish,
-}
-
-impl Default for Hic {
-    fn default() -> Self {
-        Self { cap: 1e6, window: WindowWish::Impact }
+parameters! {
+    /// The head injury criterion of what an accelerometer on a body reads,
+    /// `HIC = max (t2 − t1) [∫ |a|/g0 dt / (t2 − t1)]^2.5` \[s\] over all intervals `[t1, t2]` no
+    /// longer than a cap. The window reported is the interval found. Where the speed jumps, it is
+    /// infinite.
+    ///
+    /// | symbol | field | unit | range    |
+    /// |--------|-------|------|----------|
+    /// |        | `cap` | s    | positive |
+    /// | `g0`   | [`STANDARD_GRAVITY`] | m/s² | |
+    ///
+    /// A half-sine of height `A g0` and length `T` has `HIC = 0.41464565 A^2.5 T` without a cap, over
+    /// an interval of `0.6702297 T`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Hic: "hic", "head injury criterion over intervals up to a cap [s]" {
+        /// longest interval [s], positive; the default is as good as none
+        pub cap: f64 = Quantity(Dimension::TIME), default "1e6 s", range Positive;
+        /// The part of the run in which the interval lies.
+        pub window: WindowWish => WINDOW;
     }
+    default { cap: 1e6, window: WindowWish::Impact }
 }
 
 impl MeasureKind for Hic {
-    const KIND: &'static str = "hic";
-    const SUMMARY: &'static str = "head injury criterion over intervals up to a cap [s]";
     const UNIT: &'static str = "s";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::optional(
-            "cap",
-            ParameterKind::Quantity(Dimension::TIME),
-            "1e6 s",
-            "longest interval [s], positive; the default is as good as none",
-        ),
-        WINDOW,
-    ];
     const APPLIES_TO: Family = Family::Node;
     const NEEDS: Needs = Needs::Acceleration;
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let range = "positive and finite";
-        match values.first().and_then(Value::number) {
-            Some(cap) if cap > 0.0 && cap.is_finite() => {
-                Ok(Self { cap, window: window(values, 1)? })
-            }
-            Some(cap) => Err(InvalidParameter::new("cap", range, cap)),
-            None => Err(InvalidParameter::new("cap", range, "missing")),
-        }
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Number(self.cap), Value::Window(self.window)]
-    }
 
     fn gravities(&self) -> f64 {
         2.5
@@ -96,3 +67,45 @@ impl MeasureKind for Hic {
         Reading { window: Some(found.interval), ..reading }
     }
 }
+
+/// Declares the criterion over intervals of at most so many seconds.
+macro_rules! within {
+    ($name:ident: $kind:literal, $summary:literal, $cap:literal) => {
+        parameters! {
+            #[doc = concat!("The ", $summary, "; otherwise as [`Hic`].")]
+            #[allow(rustdoc::broken_intra_doc_links, reason = "units stand in brackets")]
+            #[derive(Debug, Clone, Copy, PartialEq, Default)]
+            pub struct $name: $kind, $summary {
+                /// The part of the run in which the interval lies.
+                pub window: WindowWish => WINDOW;
+            }
+        }
+
+        impl $name {
+            fn hic(self) -> Hic {
+                Hic { cap: $cap, window: self.window }
+            }
+        }
+
+        impl MeasureKind for $name {
+            const UNIT: &'static str = "s";
+            const APPLIES_TO: Family = Family::Node;
+            const NEEDS: Needs = Needs::Acceleration;
+
+            fn gravities(&self) -> f64 {
+                2.5
+            }
+
+            fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>> {
+                MeasureKind::of_similar(&self.hic(), scale)
+            }
+
+            fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+                MeasureKind::read(&self.hic(), solution, target)
+            }
+        }
+    };
+}
+
+within!(Hic15: "hic15", "head injury criterion over intervals up to 15 ms [s]", 0.015);
+within!(Hic36: "hic36", "head injury criterion over intervals up to 36 ms [s]", 0.036);

@@ -1,42 +1,27 @@
 //! Impulse.
 
-use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MeasureKind, Reading, UNDETERMINED_FORCE,
+    Family, MeasureKind, Reading, UNDETERMINED_FORCE, WINDOW,
     reading::{integral, with_blows},
-    window,
 };
 use crate::{Solution, blows};
 
-/// The integral of an element's force over time, `∫ F dt` \[N s\], positive in compression, and the
-/// impulses with which masses meet in it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Impulse {
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for Impulse {
-    fn default() -> Self {
-        Self { window: WindowWish::Impact }
+parameters! {
+    /// The integral of an element's force over time, `∫ F dt` \[N s\], positive in compression, and the
+    /// impulses with which masses meet in it.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct Impulse: "impulse", "integral of the force over time [N s]" {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
 }
 
 impl MeasureKind for Impulse {
-    const KIND: &'static str = "impulse";
-    const SUMMARY: &'static str = "integral of the force over time [N s]";
     const UNIT: &'static str = "N s";
     const APPLIES_TO: Family = Family::Element;
     const BY_DEFAULT: bool = true;
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        window(values, 0).map(|window| Self { window })
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Window(self.window)]
-    }
-
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connection = &solution.assembly().connections[target];
         let Some(force) = connection.force else {

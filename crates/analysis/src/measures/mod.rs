@@ -2,7 +2,6 @@
 
 mod average_deceleration;
 mod clip;
-mod clip_3ms;
 mod coefficient_of_restitution;
 mod contact_time;
 mod dri;
@@ -13,7 +12,6 @@ mod end_velocity;
 mod energy;
 mod energy_at_end;
 mod hic;
-mod hic_within;
 mod impulse;
 mod needs;
 mod of_segments;
@@ -29,13 +27,12 @@ mod severity_index;
 mod transmissibility;
 mod transmitted_force;
 
-use std::{fmt::Debug, sync::Arc};
+use std::sync::Arc;
 
-use dashpot_network::parameters::{InvalidParameter, Parameter, ParameterKind, Value, WindowWish};
+use dashpot_network::parameters::{Described, Kind, Parameter, ParameterKind, Registered};
 
 pub use average_deceleration::AverageDeceleration;
-pub use clip::Clip;
-pub use clip_3ms::Clip3ms;
+pub use clip::{Clip, Clip3ms};
 pub use coefficient_of_restitution::CoefficientOfRestitution;
 pub use contact_time::ContactTime;
 pub use dri::Dri;
@@ -45,8 +42,7 @@ pub use end_position::EndPosition;
 pub use end_velocity::EndVelocity;
 pub use energy::Energy;
 pub use energy_at_end::EnergyAtEnd;
-pub use hic::Hic;
-pub use hic_within::{Hic15, Hic36, HicWithin};
+pub use hic::{Hic, Hic15, Hic36};
 pub use impulse::Impulse;
 pub(crate) use needs::MASSLESS;
 pub use needs::Needs;
@@ -82,21 +78,12 @@ pub enum Family {
 /// A scalar that can be read off a solution.
 ///
 /// Implemented for every [`MeasureKind`]; this is the form in which measures are stored.
-pub trait Measure: Debug + Send + Sync {
-    /// Word for the measure, for instance `peak-force`.
-    fn kind(&self) -> &'static str;
-
+pub trait Measure: Described {
     /// SI unit of the value.
     fn unit(&self) -> &'static str;
 
     /// What it is a measure of.
     fn applies_to(&self) -> Family;
-
-    /// The parameters that it has.
-    fn parameters(&self) -> &'static [Parameter];
-
-    /// The parameters' values in the order of [`parameters`](Self::parameters).
-    fn values(&self) -> Vec<Value>;
 
     /// What its target must have.
     fn needs(&self) -> Needs;
@@ -116,16 +103,10 @@ pub trait Measure: Debug + Send + Sync {
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading;
 }
 
-/// What a measure kind says about itself.
-pub trait MeasureKind: Debug + Default + Send + Sync + Sized + 'static {
-    /// Word for the measure in scenes.
-    const KIND: &'static str;
-    /// One line for a list: what it is, and its unit.
-    const SUMMARY: &'static str;
+/// What a measure kind says about itself. All its parameters are optional.
+pub trait MeasureKind: Kind + Default {
     /// SI unit of the value.
     const UNIT: &'static str;
-    /// Its parameters, all optional.
-    const PARAMETERS: &'static [Parameter] = WINDOW_ONLY;
     /// What it is a measure of.
     const APPLIES_TO: Family;
     /// What its target must have for it to have a value.
@@ -138,16 +119,6 @@ pub trait MeasureKind: Debug + Default + Send + Sync + Sized + 'static {
     /// Whether every run reports it for the elements that are made of layers.
     const OF_LAYERS: bool = false;
 
-    /// The measure with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
-    ///
-    /// # Errors
-    ///
-    /// [`InvalidParameter`] when a value is out of range.
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter>;
-
-    /// The parameters' values in the order of [`PARAMETERS`](Self::PARAMETERS).
-    fn values(&self) -> Vec<Value>;
-
     /// The power of standard gravity over which its values are given: 2.5 for `∫ (|a|/g0)^2.5 dt`. Its
     /// values times this power of it have the dimension that their unit and the power make up.
     fn gravities(&self) -> f64 {
@@ -158,38 +129,21 @@ pub trait MeasureKind: Debug + Default + Send + Sync + Sized + 'static {
     /// the factors of their dimensions. A measure with a time of its own has another kind for its
     /// counterpart, or none.
     fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>> {
-        let values = scaled_values(Self::PARAMETERS, &MeasureKind::values(self), scale)?;
+        let values = scaled_values(Self::PARAMETERS, &self.values(), scale)?;
         Self::from_values(&values).ok().map(|own| Arc::new(own) as Arc<dyn Measure>)
     }
 
     /// Reads the measure off `solution` for the element or node number `target`.
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading;
-
-    /// A valid example.
-    fn sample() -> Self {
-        Self::default()
-    }
 }
 
 impl<M: MeasureKind> Measure for M {
-    fn kind(&self) -> &'static str {
-        M::KIND
-    }
-
     fn unit(&self) -> &'static str {
         M::UNIT
     }
 
     fn applies_to(&self) -> Family {
         M::APPLIES_TO
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        M::PARAMETERS
-    }
-
-    fn values(&self) -> Vec<Value> {
-        MeasureKind::values(self)
     }
 
     fn needs(&self) -> Needs {
@@ -209,82 +163,82 @@ impl<M: MeasureKind> Measure for M {
     }
 }
 
-/// Sees every measure kind.
-pub trait MeasureVisitor {
-    /// Called once for each kind.
-    fn visit<M: MeasureKind>(&mut self);
+/// What the register says of a measure besides how it is made; the last three as in
+/// [`MeasureKind`].
+#[derive(Debug, Clone, Copy)]
+pub struct MeasureTraits {
+    /// SI unit of the value.
+    pub unit: &'static str,
+    /// What it is a measure of.
+    pub family: Family,
+    /// The measure with all parameters as they are by default.
+    pub default: fn() -> Arc<dyn Measure>,
+    /// Whether every run with an impactor reports it.
+    pub by_default: bool,
+    /// Whether every run without one does.
+    pub without_impactor: bool,
+    /// Whether every run reports it for the elements that are made of layers.
+    pub of_layers: bool,
 }
 
-/// Shows every measure kind to `visitor`. **A new kind is registered here.**
-pub fn visit_measures(visitor: &mut impl MeasureVisitor) {
-    visitor.visit::<PeakForce>();
-    visitor.visit::<PeakDeformation>();
-    visitor.visit::<ContactTime>();
-    visitor.visit::<Impulse>();
-    visitor.visit::<Energy>();
-    visitor.visit::<EnergyAtEnd>();
-    visitor.visit::<PeakRate>();
-    visitor.visit::<EndDeformation>();
-    visitor.visit::<CoefficientOfRestitution>();
-    visitor.visit::<PeakAcceleration>();
-    visitor.visit::<SeverityIndex>();
-    visitor.visit::<Hic15>();
-    visitor.visit::<Hic36>();
-    visitor.visit::<Hic>();
-    visitor.visit::<Clip3ms>();
-    visitor.visit::<Clip>();
-    visitor.visit::<Edi>();
-    visitor.visit::<Dri>();
-    visitor.visit::<Transmissibility>();
-    visitor.visit::<AverageDeceleration>();
-    visitor.visit::<EndVelocity>();
-    visitor.visit::<EndPosition>();
-    visitor.visit::<PeakDisplacement>();
-    visitor.visit::<PeakStress>();
-    visitor.visit::<PeakStrain>();
-    visitor.visit::<TransmittedForce>();
+/// A measure in the register.
+pub type MeasureEntry = Registered<Arc<dyn Measure>, MeasureTraits>;
+
+const fn measure<M: MeasureKind>() -> MeasureEntry {
+    let about = MeasureTraits {
+        unit: M::UNIT,
+        family: M::APPLIES_TO,
+        default: || Arc::new(M::default()),
+        by_default: M::BY_DEFAULT,
+        without_impactor: M::WITHOUT_IMPACTOR,
+        of_layers: M::OF_LAYERS,
+    };
+    Registered::new::<M>(|values| Ok(Arc::new(M::from_values(values)?)), about)
 }
+
+/// Every measure kind. **A new kind is registered here.**
+pub static MEASURES: &[MeasureEntry] = &[
+    measure::<PeakForce>(),
+    measure::<PeakDeformation>(),
+    measure::<ContactTime>(),
+    measure::<Impulse>(),
+    measure::<Energy>(),
+    measure::<EnergyAtEnd>(),
+    measure::<PeakRate>(),
+    measure::<EndDeformation>(),
+    measure::<CoefficientOfRestitution>(),
+    measure::<PeakAcceleration>(),
+    measure::<SeverityIndex>(),
+    measure::<Hic15>(),
+    measure::<Hic36>(),
+    measure::<Hic>(),
+    measure::<Clip3ms>(),
+    measure::<Clip>(),
+    measure::<Edi>(),
+    measure::<Dri>(),
+    measure::<Transmissibility>(),
+    measure::<AverageDeceleration>(),
+    measure::<EndVelocity>(),
+    measure::<EndPosition>(),
+    measure::<PeakDisplacement>(),
+    measure::<PeakStress>(),
+    measure::<PeakStrain>(),
+    measure::<TransmittedForce>(),
+];
 
 /// The measures of a family that every run reports, with or without an impactor, in the order of
 /// the register.
 pub fn by_default(family: Family, has_impactor: bool) -> Vec<Arc<dyn Measure>> {
-    let mut collect =
-        Collect { wanted: Wanted::Always { family, has_impactor }, found: Vec::new() };
-    visit_measures(&mut collect);
-    collect.found
+    let is_reported =
+        |own: &MeasureTraits| if has_impactor { own.by_default } else { own.without_impactor };
+    let all = MEASURES.iter().map(|own| own.about);
+    all.filter(|own| own.family == family && is_reported(own)).map(|own| (own.default)()).collect()
 }
 
 /// The measures that every run reports for elements made of layers, besides those of all elements.
 pub fn of_layers() -> Vec<Arc<dyn Measure>> {
-    let mut collect = Collect { wanted: Wanted::OfLayers, found: Vec::new() };
-    visit_measures(&mut collect);
-    collect.found
-}
-
-/// Which measures are collected.
-enum Wanted {
-    Always { family: Family, has_impactor: bool },
-    OfLayers,
-}
-
-struct Collect {
-    wanted: Wanted,
-    found: Vec<Arc<dyn Measure>>,
-}
-
-impl MeasureVisitor for Collect {
-    fn visit<M: MeasureKind>(&mut self) {
-        let is_wanted = match self.wanted {
-            Wanted::Always { family, has_impactor } => {
-                let reported = if has_impactor { M::BY_DEFAULT } else { M::WITHOUT_IMPACTOR };
-                reported && M::APPLIES_TO == family
-            }
-            Wanted::OfLayers => M::OF_LAYERS,
-        };
-        if is_wanted {
-            self.found.push(Arc::new(M::default()));
-        }
-    }
+    let all = MEASURES.iter().filter(|own| own.about.of_layers);
+    all.map(|own| (own.about.default)()).collect()
 }
 
 /// Note on a measure of the force of a rigid link in a loop of rigid links.
@@ -293,38 +247,12 @@ const UNDETERMINED_FORCE: &str = "the force is undetermined in a loop of rigid l
 const NO_VELOCITY: &str = "the velocity of this massless node jumps with the loads' rates";
 
 /// The `window` parameter of a measure of the impact.
-const WINDOW: Parameter = Parameter::optional(
-    "window",
-    ParameterKind::Window,
-    "impact",
-    "`impact`, `run`, or a pair of times [s]",
-);
+const WINDOW: Parameter =
+    Parameter::new("window", ParameterKind::Window, "`impact`, `run`, or a pair of times [s]")
+        .default("impact");
 
 /// The same of a measure whose largest value may come after the impact.
-const WHOLE_RUN: Parameter =
-    Parameter::optional("window", ParameterKind::Window, "run", WINDOW.help);
-
-/// The parameters of a measure that has no other.
-const WINDOW_ONLY: &[Parameter] = &[WINDOW];
-
-/// The window at `at`, for [`MeasureKind::from_values`].
-fn window(values: &[Value], at: usize) -> Result<WindowWish, InvalidParameter> {
-    let invalid =
-        |found: &str| InvalidParameter::new("window", "`impact`, `run` or a pair of times", found);
-    let Some(Value::Window(window)) = values.get(at) else {
-        return Err(invalid("missing"));
-    };
-    match *window {
-        WindowWish::Times(from, to) if !(from.is_finite() && to.is_finite() && from < to) => {
-            Err(InvalidParameter::new(
-                "window",
-                "a pair of times, the earlier one first",
-                format!("{from} s to {to} s"),
-            ))
-        }
-        window => Ok(window),
-    }
-}
+const WHOLE_RUN: Parameter = WINDOW.default("run");
 
 #[cfg(test)]
 mod tests;

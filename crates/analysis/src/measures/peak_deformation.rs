@@ -1,44 +1,30 @@
 //! Peak deformation.
 
-use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MeasureKind, Reading,
+    Family, MeasureKind, Reading, WINDOW,
     reading::{peak, peaks_below_zero, positive_peak},
-    window,
 };
 use crate::Solution;
 
-/// The largest magnitude of an element's deformation, `max |y(t)|` \[m\], with its time; a peak in
-/// elongation is noted. Of what never pulls it is the deepest compression, `max y(t) ≥ 0`: what it is
-/// apart by is a gap.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PeakDeformation {
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for PeakDeformation {
-    fn default() -> Self {
-        Self { window: WindowWish::Impact }
+parameters! {
+    /// The largest magnitude of an element's deformation, `max |y(t)|` \[m\], with its time; a peak in
+    /// elongation is noted. Of what never pulls it is the deepest compression, `max y(t) ≥ 0`: what it is
+    /// apart by is a gap.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakDeformation: "peak-deformation",
+        "largest magnitude of the deformation, positive in compression [m]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
 }
 
 impl MeasureKind for PeakDeformation {
-    const KIND: &'static str = "peak-deformation";
-    const SUMMARY: &'static str =
-        "largest magnitude of the deformation, positive in compression [m]";
     const UNIT: &'static str = "m";
     const APPLIES_TO: Family = Family::Element;
     const BY_DEFAULT: bool = true;
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        window(values, 0).map(|window| Self { window })
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Window(self.window)]
-    }
-
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let span = match solution.element_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,

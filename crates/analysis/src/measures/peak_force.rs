@@ -1,49 +1,36 @@
 //! Peak force.
 
-use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MeasureKind, Reading, UNDETERMINED_FORCE,
+    Family, MeasureKind, Reading, UNDETERMINED_FORCE, WINDOW,
     reading::{infinite, peak, peaks_below_zero},
-    window,
 };
 use crate::Solution;
 
-/// The largest magnitude of an element's force, `max |F(t)|` \[N\], with its time.
-///
-/// It is the force of the element alone. Of a padding whose face has mass it is `F2`, behind the face;
-/// what strikes the face feels `F1 = F2 + m2 x1″`, the peak force of `<element>.contact`. A stop beside
-/// the element has a force of its own, `<element>.stop`;
-/// [`TransmittedForce`](super::TransmittedForce) is what comes through both.
-///
-/// In an impact the force pushes throughout; in other windows a peak in tension is noted. Where masses
-/// meet in the element and speeds jump, it is infinite.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PeakForce {
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for PeakForce {
-    fn default() -> Self {
-        Self { window: WindowWish::Impact }
+parameters! {
+    /// The largest magnitude of an element's force, `max |F(t)|` \[N\], with its time.
+    ///
+    /// It is the force of the element alone. Of a padding whose face has mass it is `F2`, behind the face;
+    /// what strikes the face feels `F1 = F2 + m2 x1″`, the peak force of `<element>.contact`. A stop beside
+    /// the element has a force of its own, `<element>.stop`;
+    /// [`TransmittedForce`](super::TransmittedForce) is what comes through both.
+    ///
+    /// In an impact the force pushes throughout; in other windows a peak in tension is noted. Where masses
+    /// meet in the element and speeds jump, it is infinite.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakForce: "peak-force",
+        "largest magnitude of the force, positive in compression [N]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
 }
 
 impl MeasureKind for PeakForce {
-    const KIND: &'static str = "peak-force";
-    const SUMMARY: &'static str = "largest magnitude of the force, positive in compression [N]";
     const UNIT: &'static str = "N";
     const APPLIES_TO: Family = Family::Element;
     const BY_DEFAULT: bool = true;
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        window(values, 0).map(|window| Self { window })
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Window(self.window)]
-    }
-
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connection = &solution.assembly().connections[target];
         let Some(force) = connection.force else {

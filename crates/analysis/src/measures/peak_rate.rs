@@ -1,36 +1,22 @@
 //! Peak deformation rate.
 
-use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+use dashpot_network::{parameters, parameters::WindowWish};
 
-use super::{Family, MeasureKind, Reading, reading::peak, window};
+use super::{Family, MeasureKind, Reading, WINDOW, reading::peak};
 use crate::{Solution, blows};
 
-/// The largest magnitude of an element's deformation rate, `max |ẏ(t)|` \[m/s\], with its time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PeakRate {
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for PeakRate {
-    fn default() -> Self {
-        Self { window: WindowWish::Impact }
+parameters! {
+    /// The largest magnitude of an element's deformation rate, `max |ẏ(t)|` \[m/s\], with its time.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakRate: "peak-rate", "largest magnitude of the deformation rate [m/s]" {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
 }
 
 impl MeasureKind for PeakRate {
-    const KIND: &'static str = "peak-rate";
-    const SUMMARY: &'static str = "largest magnitude of the deformation rate [m/s]";
     const UNIT: &'static str = "m/s";
     const APPLIES_TO: Family = Family::Element;
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        window(values, 0).map(|window| Self { window })
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Window(self.window)]
-    }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let span = match solution.element_impact(target).span(self.window, solution.end()) {

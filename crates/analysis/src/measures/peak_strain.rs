@@ -1,9 +1,9 @@
 //! Peak strain.
 
-use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MeasureKind, Needs, Reading, needs::NO_THICKNESS, of_segments::largest, window,
+    Family, MeasureKind, Needs, Reading, WINDOW, needs::NO_THICKNESS, of_segments::largest,
 };
 use crate::Solution;
 
@@ -13,40 +13,27 @@ const STRETCHED: &str = "in elongation";
 /// Note on a segment that would have to be thinner than nothing.
 pub(crate) const CRUSHED: &str = "pressed in by more than its thickness";
 
-/// The largest magnitude of the strain in any segment of a pad, `max |y(t)|/h` \[1\], with its time and
-/// its layer; a peak in elongation is noted.
-///
-/// `y` is the deformation of the segment and `h` its thickness at rest. Pads of layers have segments;
-/// another element with a `thickness` is a single one, and so is each branch of its model with a
-/// thickness of its own.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PeakStrain {
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for PeakStrain {
-    fn default() -> Self {
-        Self { window: WindowWish::Impact }
+parameters! {
+    /// The largest magnitude of the strain in any segment of a pad, `max |y(t)|/h` \[1\], with its time and
+    /// its layer; a peak in elongation is noted.
+    ///
+    /// `y` is the deformation of the segment and `h` its thickness at rest. Pads of layers have segments;
+    /// another element with a `thickness` is a single one, and so is each branch of its model with a
+    /// thickness of its own.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakStrain: "peak-strain",
+        "largest strain in any segment of a pad, deformation over thickness [1]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
 }
 
 impl MeasureKind for PeakStrain {
-    const KIND: &'static str = "peak-strain";
-    const SUMMARY: &'static str =
-        "largest strain in any segment of a pad, deformation over thickness [1]";
     const UNIT: &'static str = "1";
     const APPLIES_TO: Family = Family::Element;
     const NEEDS: Needs = Needs::Thickness;
     const OF_LAYERS: bool = true;
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        window(values, 0).map(|window| Self { window })
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Window(self.window)]
-    }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connection = &solution.assembly().connections[target];

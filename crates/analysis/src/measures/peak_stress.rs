@@ -1,47 +1,35 @@
 //! Peak stress.
 
-use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MeasureKind, Needs, Reading, UNDETERMINED_FORCE, needs::NO_AREA, of_segments::largest,
-    reading::infinite, window,
+    Family, MeasureKind, Needs, Reading, UNDETERMINED_FORCE, WINDOW, needs::NO_AREA,
+    of_segments::largest, reading::infinite,
 };
 use crate::Solution;
 
-/// The largest magnitude of the stress in any segment of a pad, `max |F(t)|/A` \[Pa\], with its time
-/// and its layer; a peak in tension is noted.
-///
-/// `F` is the force in the segment and `A` the area of its layer: the stress is that on the undeformed
-/// area. Pads of layers have segments; another element with a `thickness` and an `area` is a single
-/// one, and so is each branch of its model with a size of its own. Without an area there is no stress, and where masses meet in the element and speeds jump, it
-/// is infinite.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PeakStress {
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for PeakStress {
-    fn default() -> Self {
-        Self { window: WindowWish::Impact }
+parameters! {
+    /// The largest magnitude of the stress in any segment of a pad, `max |F(t)|/A` \[Pa\], with its time
+    /// and its layer; a peak in tension is noted.
+    ///
+    /// `F` is the force in the segment and `A` the area of its layer: the stress is that on the undeformed
+    /// area. Pads of layers have segments; another element with a `thickness` and an `area` is a single
+    /// one, and so is each branch of its model with a size of its own. Without an area there is no stress, and where masses meet in the element and speeds jump, it
+    /// is infinite.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakStress: "peak-stress",
+        "largest stress in any segment of a pad, force over area [Pa]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
 }
 
 impl MeasureKind for PeakStress {
-    const KIND: &'static str = "peak-stress";
-    const SUMMARY: &'static str = "largest stress in any segment of a pad, force over area [Pa]";
     const UNIT: &'static str = "Pa";
     const APPLIES_TO: Family = Family::Element;
     const NEEDS: Needs = Needs::Area;
     const OF_LAYERS: bool = true;
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        window(values, 0).map(|window| Self { window })
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Window(self.window)]
-    }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connection = &solution.assembly().connections[target];

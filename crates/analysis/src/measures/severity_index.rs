@@ -1,71 +1,39 @@
 //! Severity index.
 
-use dashpot_network::parameters::{
-    Dimension, InvalidParameter, Parameter, ParameterKind, Value, WindowWish,
-};
+use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
     Family, MASSLESS, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
     reading::{infinite, with_blows},
-    window,
 };
 use crate::{Solution, blows};
 
-/// Gadd's severity index, `SI = ∫ (|a|/g0)^n dt` \[s\], of what an accelerometer on a body reads.
-///
-/// | symbol | field      | unit | range            |
-/// |--------|------------|------|------------------|
-/// | `n`    | `exponent` | 1    | positive         |
-/// | `g0`   | [`STANDARD_GRAVITY`] | m/s² |        |
-///
-/// Where the speed jumps by `Δv`, it is infinite for `n > 1`, and `Δv/g0` is added for `n = 1`.
-/// A half-sine of height `A g0` and length `T` has `SI = 0.45765586 A^2.5 T` at `n = 2.5`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SeverityIndex {
-    /// Exponent `n`.
-    pub exponent: f64,
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for SeverityIndex {
-    fn default() -> Self {
-        Self { exponent: 2.5, window: WindowWish::Impact }
+parameters! {
+    /// Gadd's severity index, `SI = ∫ (|a|/g0)^n dt` \[s\], of what an accelerometer on a body reads.
+    ///
+    /// | symbol | field      | unit | range            |
+    /// |--------|------------|------|------------------|
+    /// | `n`    | `exponent` | 1    | positive         |
+    /// | `g0`   | [`STANDARD_GRAVITY`] | m/s² |        |
+    ///
+    /// Where the speed jumps by `Δv`, it is infinite for `n > 1`, and `Δv/g0` is added for `n = 1`.
+    /// A half-sine of height `A g0` and length `T` has `SI = 0.45765586 A^2.5 T` at `n = 2.5`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct SeverityIndex: "severity-index", "integral of (|a|/g0)^exponent over time [s]" {
+        /// exponent n, positive
+        pub exponent: f64 = Quantity(Dimension::NUMBER), default "2.5", range Positive;
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
+    default { exponent: 2.5, window: WindowWish::Impact }
 }
 
 impl MeasureKind for SeverityIndex {
-    const KIND: &'static str = "severity-index";
-    const SUMMARY: &'static str = "integral of (|a|/g0)^exponent over time [s]";
     const UNIT: &'static str = "s";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::optional(
-            "exponent",
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "2.5",
-            "exponent n, positive",
-        ),
-        WINDOW,
-    ];
     const APPLIES_TO: Family = Family::Node;
     const NEEDS: Needs = Needs::Acceleration;
     const BY_DEFAULT: bool = true;
     const WITHOUT_IMPACTOR: bool = false;
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let range = "positive and finite";
-        match values.first().and_then(Value::number) {
-            Some(exponent) if exponent > 0.0 && exponent.is_finite() => {
-                Ok(Self { exponent, window: window(values, 1)? })
-            }
-            Some(exponent) => Err(InvalidParameter::new("exponent", range, exponent)),
-            None => Err(InvalidParameter::new("exponent", range, "missing")),
-        }
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Number(self.exponent), Value::Window(self.window)]
-    }
 
     fn gravities(&self) -> f64 {
         self.exponent

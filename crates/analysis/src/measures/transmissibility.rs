@@ -3,58 +3,36 @@
 use std::borrow::Cow;
 
 use dashpot_dae::Signal;
-use dashpot_network::{
-    NodeOutputs,
-    parameters::{InvalidParameter, Parameter, ParameterKind, Value, WindowWish},
-};
+use dashpot_network::{NodeOutputs, parameters, parameters::WindowWish};
 
 use super::{
     Family, MASSLESS, MeasureKind, Needs, Reading, WINDOW,
     reading::{infinite, peak},
-    window,
 };
 use crate::Solution;
 
-/// The largest acceleration of a node over that of another, `max |a|/max |a_from|`: what of a shock
-/// arrives, in time. Both are what accelerometers read; that of a node without mass whose motion is
-/// given is the second derivative of this.
-///
-/// The answer to a sine of one frequency is that of `dashpot vibrate`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Transmissibility {
-    /// Name of the other node.
-    pub from: String,
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for Transmissibility {
-    fn default() -> Self {
-        Self { from: "head".to_owned(), window: WindowWish::Impact }
+parameters! {
+    /// The largest acceleration of a node over that of another, `max |a|/max |a_from|`: what of a shock
+    /// arrives, in time. Both are what accelerometers read; that of a node without mass whose motion is
+    /// given is the second derivative of this.
+    ///
+    /// The answer to a sine of one frequency is that of `dashpot vibrate`.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct Transmissibility: "transmissibility",
+        "largest acceleration over that of another node [1]"
+    {
+        /// the other node, that of the shock
+        pub from: String = Node;
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
+    default { from: "head".to_owned(), window: WindowWish::Impact }
 }
 
 impl MeasureKind for Transmissibility {
-    const KIND: &'static str = "transmissibility";
-    const SUMMARY: &'static str = "largest acceleration over that of another node [1]";
     const UNIT: &'static str = "1";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required("from", ParameterKind::Node, "the other node, that of the shock"),
-        WINDOW,
-    ];
     const APPLIES_TO: Family = Family::Node;
     const NEEDS: Needs = Needs::Acceleration;
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        match values.first() {
-            Some(Value::Word(from)) => Ok(Self { from: from.clone(), window: window(values, 1)? }),
-            _ => Err(InvalidParameter::new("from", "the name of a node", "something else")),
-        }
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Word(self.from.clone()), Value::Window(self.window)]
-    }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let nodes = &solution.assembly().nodes;

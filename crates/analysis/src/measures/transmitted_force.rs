@@ -1,50 +1,36 @@
 //! Transmitted force.
 
 use dashpot_dae::Signal;
-use dashpot_network::parameters::{InvalidParameter, Value, WindowWish};
+use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MeasureKind, Reading, UNDETERMINED_FORCE,
+    Family, MeasureKind, Reading, UNDETERMINED_FORCE, WINDOW,
     reading::{infinite, peak, peaks_below_zero},
-    window,
 };
 use crate::{Solution, bearing::on_support};
 
-/// The largest magnitude of the force of a padding on what lies behind it, `max |F(t)|` \[N\], with
-/// its time; a peak in tension is noted.
-///
-/// It is the force on the second of the nodes in `between`, through everything of the padding: the
-/// element, its stop, and a face at that end with its mass. A stop adds to it and not to
-/// [`PeakForce`](super::PeakForce), which is that of the element alone. In pads of layers with mass,
-/// through which the force travels, it comes later and has another size. Where masses meet in any of
-/// these and speeds jump, it is infinite.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TransmittedForce {
-    /// The part of the run that it looks at.
-    pub window: WindowWish,
-}
-
-impl Default for TransmittedForce {
-    fn default() -> Self {
-        Self { window: WindowWish::Impact }
+parameters! {
+    /// The largest magnitude of the force of a padding on what lies behind it, `max |F(t)|` \[N\], with
+    /// its time; a peak in tension is noted.
+    ///
+    /// It is the force on the second of the nodes in `between`, through everything of the padding: the
+    /// element, its stop, and a face at that end with its mass. A stop adds to it and not to
+    /// [`PeakForce`](super::PeakForce), which is that of the element alone. In pads of layers with mass,
+    /// through which the force travels, it comes later and has another size. Where masses meet in any of
+    /// these and speeds jump, it is infinite.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct TransmittedForce: "transmitted-force",
+        "largest magnitude of the force on what lies behind it, its stop included [N]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
     }
 }
 
 impl MeasureKind for TransmittedForce {
-    const KIND: &'static str = "transmitted-force";
-    const SUMMARY: &'static str =
-        "largest magnitude of the force on what lies behind it, its stop included [N]";
     const UNIT: &'static str = "N";
     const APPLIES_TO: Family = Family::Element;
     const OF_LAYERS: bool = true;
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        window(values, 0).map(|window| Self { window })
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Window(self.window)]
-    }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connections = &solution.assembly().connections;

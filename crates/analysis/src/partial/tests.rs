@@ -11,7 +11,7 @@ use dashpot_network::{
     effects::{Face, Gravity, GravityStart, Stop, Touch},
     elements::{Dashpot, Spring},
     layers::{Layer, Layers, Resolution},
-    parameters::{InvalidParameter, Value},
+    parameters::Described,
     part,
 };
 use dashpot_rheology::Tree;
@@ -92,11 +92,13 @@ impl Push {
     }
 }
 
-impl Effect for Push {
+impl Described for Push {
     fn kind(&self) -> &'static str {
         "push"
     }
+}
 
+impl Effect for Push {
     fn body_forces(&self, network: &Network) -> Vec<(NodeId, Waveform)> {
         self.compiled.fetch_add(1, Ordering::Relaxed);
         let head = network.node_named("head").unwrap();
@@ -106,14 +108,6 @@ impl Effect for Push {
     fn influences(&self, _situation: &Situation<'_>) -> Vec<Influence> {
         self.estimated.fetch_add(1, Ordering::Relaxed);
         vec![Influence::new("as told", self.number)]
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        Ok(())
-    }
-
-    fn values(&self) -> Vec<Value> {
-        Vec::new()
     }
 }
 

@@ -37,9 +37,7 @@ mod trial;
 #[cfg(test)]
 mod tests;
 
-use std::fmt::Debug;
-
-use dashpot_network::parameters::{InvalidParameter, Parameter, Value};
+use dashpot_network::parameters::{Described, Kind, Registered, Value, registered};
 
 pub use error::RheometerError;
 pub use protocols::{ConstantRate, Creep, CreepRecovery, LoadHoldUnload, Relaxation, Sweep};
@@ -52,10 +50,7 @@ pub const DEFAULT_METHODS: &[&str] = &["exact"];
 /// A test of a model with all its settings.
 ///
 /// Implemented for every [`ProtocolKind`]; this is the form in which tests are passed around.
-pub trait Protocol: Debug {
-    /// Word for the test, for instance `creep`.
-    fn kind(&self) -> &'static str;
-
+pub trait Protocol: Described {
     /// Makes the test in closed form, and by each of the methods named in `methods`. A frequency
     /// sweep solves the equations of the network at each frequency instead, if any is named.
     ///
@@ -66,24 +61,9 @@ pub trait Protocol: Debug {
     -> Result<RheometerReport, RheometerError>;
 }
 
-/// What a protocol says about itself.
-pub trait ProtocolKind: Debug + Default + Sized + 'static {
-    /// Word for the test on the command line.
-    const KIND: &'static str;
-    /// One line for a list: what is done, and what is looked at.
-    const SUMMARY: &'static str;
-    /// Its parameters, all optional; where the default is [`FROM_THE_MODEL`] it follows from the
-    /// model's times.
-    const PARAMETERS: &'static [Parameter];
-
-    /// The test with these values, one for each of [`PARAMETERS`](Self::PARAMETERS); what is left
-    /// out has its default.
-    ///
-    /// # Errors
-    ///
-    /// [`InvalidParameter`] when a value is out of range.
-    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter>;
-
+/// What a protocol says about itself. All its parameters are optional; where the default is
+/// [`FROM_THE_MODEL`] it follows from the model's times.
+pub trait ProtocolKind: Kind + Default {
     /// Makes the test; see [`Protocol::run`].
     ///
     /// # Errors
@@ -100,10 +80,6 @@ pub trait ProtocolKind: Debug + Default + Sized + 'static {
 pub const FROM_THE_MODEL: &str = "from the model";
 
 impl<P: ProtocolKind> Protocol for P {
-    fn kind(&self) -> &'static str {
-        P::KIND
-    }
-
     fn run(
         &self,
         specimen: &Specimen,
@@ -113,21 +89,22 @@ impl<P: ProtocolKind> Protocol for P {
     }
 }
 
-/// Sees every protocol.
-pub trait ProtocolVisitor {
-    /// Called once for each kind.
-    fn visit<P: ProtocolKind>(&mut self);
+/// A protocol in the register, stored as a test.
+pub type ProtocolEntry = Registered<Box<dyn Protocol>>;
+
+const fn entry<P: ProtocolKind>() -> ProtocolEntry {
+    Registered::new::<P>(|values| Ok(Box::new(P::from_values(values)?)), ())
 }
 
-/// Shows every protocol to `visitor`. **A new protocol is registered here.**
-pub fn visit_protocols(visitor: &mut impl ProtocolVisitor) {
-    visitor.visit::<Creep>();
-    visitor.visit::<CreepRecovery>();
-    visitor.visit::<LoadHoldUnload>();
-    visitor.visit::<Relaxation>();
-    visitor.visit::<ConstantRate>();
-    visitor.visit::<Sweep>();
-}
+/// Every protocol. **A new protocol is registered here.**
+pub static PROTOCOLS: &[ProtocolEntry] = &[
+    entry::<Creep>(),
+    entry::<CreepRecovery>(),
+    entry::<LoadHoldUnload>(),
+    entry::<Relaxation>(),
+    entry::<ConstantRate>(),
+    entry::<Sweep>(),
+];
 
 /// The test of the given word with these parameters, in SI units; what is left out has its default.
 ///
@@ -135,39 +112,20 @@ pub fn visit_protocols(visitor: &mut impl ProtocolVisitor) {
 ///
 /// [`RheometerError`] for a word or a name that is not known, and for a value out of its range.
 pub fn protocol(kind: &str, given: &[(&str, f64)]) -> Result<Box<dyn Protocol>, RheometerError> {
-    struct Find<'a> {
-        kind: &'a str,
-        given: &'a [(&'a str, f64)],
-        known: Vec<&'static str>,
-        found: Option<Result<Box<dyn Protocol>, RheometerError>>,
+    let Some(own) = registered(PROTOCOLS, kind) else {
+        let known = PROTOCOLS.iter().map(|own| own.word).collect();
+        return Err(RheometerError::UnknownProtocol { name: kind.to_owned(), known });
+    };
+    let mut values = (own.sample)();
+    for &(name, value) in given {
+        let Some(at) = own.parameters.iter().position(|known| known.name == name) else {
+            return Err(RheometerError::UnknownParameter {
+                protocol: own.word,
+                name: name.to_owned(),
+                known: own.parameters.iter().map(|known| known.name).collect(),
+            });
+        };
+        values[at] = Value::Number(value);
     }
-    impl Find<'_> {
-        fn make<P: ProtocolKind>(&self) -> Result<Box<dyn Protocol>, RheometerError> {
-            let mut values = vec![None; P::PARAMETERS.len()];
-            for &(name, value) in self.given {
-                let Some(at) = P::PARAMETERS.iter().position(|known| known.name == name) else {
-                    return Err(RheometerError::UnknownParameter {
-                        protocol: P::KIND,
-                        name: name.to_owned(),
-                        known: P::PARAMETERS.iter().map(|known| known.name).collect(),
-                    });
-                };
-                values[at] = Some(Value::Number(value));
-            }
-            Ok(Box::new(P::from_values(&values)?))
-        }
-    }
-    impl ProtocolVisitor for Find<'_> {
-        fn visit<P: ProtocolKind>(&mut self) {
-            self.known.push(P::KIND);
-            if P::KIND == self.kind {
-                self.found = Some(self.make::<P>());
-            }
-        }
-    }
-    let mut find = Find { kind, given, known: Vec::new(), found: None };
-    visit_protocols(&mut find);
-    let Find { known, found, .. } = find;
-    let unknown = || RheometerError::UnknownProtocol { name: kind.to_owned(), known };
-    found.unwrap_or_else(|| Err(unknown()))
+    Ok((own.make)(&values)?)
 }

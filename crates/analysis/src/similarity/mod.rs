@@ -6,6 +6,7 @@
 //! such groups, and these alone say what the network does: two networks of one structure whose
 //! groups are equal are similar, and their answers differ by a [`Scale`] only.
 
+mod again;
 mod basis;
 mod comparison;
 mod error;
@@ -15,7 +16,6 @@ mod inventory;
 mod laboratory;
 mod measured;
 mod names;
-mod registers;
 mod scale;
 mod views;
 mod walk;

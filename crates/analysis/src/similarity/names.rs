@@ -8,7 +8,7 @@ use dashpot_network::{
 };
 use dashpot_rheology::{Branch, Tree};
 
-use super::registers;
+use super::again::again;
 
 /// The network with the names that nodes, elements, branches and loads at the same places have in
 /// another; `None` where it has not as many of each.
@@ -97,12 +97,11 @@ pub(super) fn retargeted(
     effect: &Arc<dyn Effect>,
     names: &HashMap<&str, &str>,
 ) -> Result<Arc<dyn Effect>, InvalidParameter> {
-    let Some(maker) = registers::effect(effect.kind()) else { return Ok(Arc::clone(effect)) };
     let new = |name: &str| names.get(name).copied().unwrap_or(name).to_owned();
-    let values = maker.parameters.iter().zip(effect.values()).map(|(own, value)| match value {
+    let values = effect.parameters().iter().zip(effect.values()).map(|(own, value)| match value {
         Value::Word(word) if own.kind == ParameterKind::Node => Value::Word(new(&word)),
         value => value,
     });
     let values: Vec<Value> = values.collect();
-    (maker.make)(&effect.target().map(new).unwrap_or_default(), &values)
+    again(effect, effect.target().map(new).as_deref(), &values)
 }

@@ -7,9 +7,11 @@ use std::sync::Arc;
 
 use dashpot_network::{
     Connection, Effect, Element, Model, Network, Node, NodeId, Start, Support,
+    elements::ELEMENTS,
     layers::{Layer, Layers, Resolution},
     parameters::{
         Dimension, InvalidParameter, ModelValue, Parameter, ParameterKind, Value, WindowWish,
+        registered,
     },
 };
 use dashpot_rheology::{Branch, Tree};
@@ -18,7 +20,7 @@ use self::{
     sizes::{Pad, Stresses},
     waveforms::{walk_motion, walk_waveform},
 };
-use super::registers;
+use super::again::again;
 use crate::measures::STANDARD_GRAVITY;
 
 /// Area \[m²\].
@@ -241,7 +243,7 @@ fn walk_element(
     let kind = element.kind();
     let place = if path.is_empty() { name.to_owned() } else { format!("{name}.{path}") };
     visit.word(&format!("{place}.law"), kind);
-    let Some(maker) = registers::element(kind) else { return Ok(Arc::clone(element)) };
+    let Some(maker) = registered(ELEMENTS, kind) else { return Ok(Arc::clone(element)) };
     let is_said = path.rsplit('.').next() == Some(kind);
     let prefix = match maker.parameters {
         [_] if is_said => place,
@@ -273,18 +275,14 @@ fn walk_effect(
         None => kind.to_owned(),
     };
     visit.word(&prefix, "on");
-    let Some(maker) = registers::effect(kind) else { return Ok(Arc::clone(effect)) };
     let before = effect.values();
     let mut after = Vec::with_capacity(before.len());
-    for (parameter, value) in maker.parameters.iter().zip(&before) {
+    for (parameter, value) in effect.parameters().iter().zip(&before) {
         // An effect has other things by name, so a single parameter keeps its own.
         let name = format!("{prefix}.{}", parameter.name);
         after.push(walk_value(&name, parameter, value, visit)?);
     }
-    if after == before {
-        return Ok(Arc::clone(effect));
-    }
-    (maker.make)(effect.target().unwrap_or_default(), &after)
+    if after == before { Ok(Arc::clone(effect)) } else { again(effect, effect.target(), &after) }
 }
 
 /// The values of parameters; a single one goes by the `prefix` alone.

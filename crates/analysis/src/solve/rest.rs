@@ -7,9 +7,10 @@ use dashpot_network::{
     Element, Model, Network, Node,
     effects::{Gravity, GravityStart, Separation},
     elements::{
-        CubicSpring, ElementKind, Foam, HuntCrossley, HystereticFoam, PowerDashpot, PowerSpring,
-        Spring, StiffeningSpring, TableSpring,
+        CubicSpring, Foam, HuntCrossley, HystereticFoam, PowerDashpot, PowerSpring, Spring,
+        StiffeningSpring, TableSpring,
     },
+    parameters::Kind as _,
     part,
 };
 use dashpot_rheology::Tree;

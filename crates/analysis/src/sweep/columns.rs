@@ -2,26 +2,18 @@
 
 use std::sync::Arc;
 
+use dashpot_network::parameters::{Kind as _, registered};
+
 use super::{Column, Posed, SweepError};
 use crate::{
     MeasureWish, RunError,
-    measures::{Family, Measure, MeasureKind, MeasureVisitor, PeakDeformation, visit_measures},
+    measures::{Family, MEASURES, Measure, PeakDeformation},
     selection::{Selected, select},
 };
 
 /// The measure of this word with its parameters as they are by default.
 pub fn measure_named(word: &str) -> Option<Arc<dyn Measure>> {
-    struct Find<'w>(&'w str, Option<Arc<dyn Measure>>);
-    impl MeasureVisitor for Find<'_> {
-        fn visit<M: MeasureKind>(&mut self) {
-            if M::KIND == self.0 {
-                self.1 = Some(Arc::new(M::default()));
-            }
-        }
-    }
-    let mut find = Find(word, None);
-    visit_measures(&mut find);
-    find.1
+    registered(MEASURES, word).map(|own| (own.about.default)())
 }
 
 /// The columns of these measures in a scene, and what the scene is to be asked for: all that it reports

@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use dashpot_analysis::rheometer::{ProtocolKind, ProtocolVisitor, visit_protocols};
+use dashpot_analysis::rheometer::{PROTOCOLS, ProtocolEntry};
 use dashpot_dae::methods;
 use dashpot_rheology::conversion::Target;
 use dashpot_scene::templates;
@@ -50,13 +50,6 @@ pub(super) fn forms() -> PossibleValuesParser {
 }
 
 pub(super) fn test_names() -> PossibleValuesParser {
-    struct Collect(Vec<PossibleValue>);
-    impl ProtocolVisitor for Collect {
-        fn visit<P: ProtocolKind>(&mut self) {
-            self.0.push(PossibleValue::new(P::KIND).help(P::SUMMARY));
-        }
-    }
-    let mut collect = Collect(Vec::new());
-    visit_protocols(&mut collect);
-    PossibleValuesParser::new(collect.0)
+    let value = |own: &ProtocolEntry| PossibleValue::new(own.word).help(own.summary);
+    PossibleValuesParser::new(PROTOCOLS.iter().map(value))
 }

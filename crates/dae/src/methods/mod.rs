@@ -73,33 +73,34 @@ pub trait MethodKind: Method + Default + 'static {
     const ORDER: Option<u8> = None;
 }
 
-/// Looks at every kind of method.
-pub trait MethodVisitor {
-    /// Called once for each kind, in the order of the register.
-    fn visit<M: MethodKind>(&mut self);
+/// A method in the register.
+#[derive(Debug)]
+pub struct MethodEntry {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// As in [`MethodKind`].
+    pub order: Option<u8>,
+    /// The method.
+    pub make: fn() -> Box<dyn Method>,
 }
 
-/// Shows every method to `visitor`. **A new method is registered here.**
-pub fn visit_methods(visitor: &mut impl MethodVisitor) {
-    visitor.visit::<Auto>();
-    visitor.visit::<Bdf>();
-    visitor.visit::<TrBdf2>();
-    visitor.visit::<Esdirk34>();
-    visitor.visit::<Tsit45>();
-    visitor.visit::<Exact>();
+const fn method<M: MethodKind>() -> MethodEntry {
+    MethodEntry { name: M::KIND, order: M::ORDER, make: || Box::new(M::default()) }
 }
+
+/// Every method. **A new method is registered here.**
+pub static METHODS: &[MethodEntry] = &[
+    method::<Auto>(),
+    method::<Bdf>(),
+    method::<TrBdf2>(),
+    method::<Esdirk34>(),
+    method::<Tsit45>(),
+    method::<Exact>(),
+];
 
 /// Every method of the register, in its order.
 pub fn all() -> Vec<Box<dyn Method>> {
-    struct Collect(Vec<Box<dyn Method>>);
-    impl MethodVisitor for Collect {
-        fn visit<M: MethodKind>(&mut self) {
-            self.0.push(Box::new(M::default()));
-        }
-    }
-    let mut collect = Collect(Vec::new());
-    visit_methods(&mut collect);
-    collect.0
+    METHODS.iter().map(|own| (own.make)()).collect()
 }
 
 /// The method of this name on the command line.

@@ -7,7 +7,7 @@ use dashpot_rheology::MOST_LEVELS;
 use super::{bodies::node_subject, expand::Expansion};
 use crate::{
     Network, NetworkError, Start, Subject, Support,
-    parameters::{InvalidParameter, finite, non_negative, positive},
+    parameters::{InvalidParameter, Range},
 };
 
 /// All faults of names and numbers.
@@ -58,10 +58,11 @@ fn nodes(network: &Network, expansion: &Expansion, errors: &mut Vec<NetworkError
         let subject = || node_subject(network, at);
         let start = match node.start {
             Start::Rest => Ok(()),
-            Start::Velocity(velocity) => finite("velocity", velocity),
-            Start::Drop(height) => non_negative("drop", height),
+            Start::Velocity(velocity) => Range::Finite.check("velocity", velocity),
+            Start::Drop(height) => Range::NonNegative.check("drop", height),
         };
-        for invalid in [non_negative("mass", node.mass), start].into_iter().filter_map(Result::err)
+        for invalid in
+            [Range::NonNegative.check("mass", node.mass), start].into_iter().filter_map(Result::err)
         {
             errors.push(NetworkError::Invalid { subject: subject(), invalid });
         }
@@ -81,7 +82,7 @@ fn connections(network: &Network, expansion: &Expansion, errors: &mut Vec<Networ
             errors.push(NetworkError::BothEndsAtOneNode { element, node });
         }
         if let Some(Err(invalid)) =
-            connection.thickness.map(|thickness| positive("thickness", thickness))
+            connection.thickness.map(|thickness| Range::Positive.check("thickness", thickness))
         {
             errors.push(NetworkError::Invalid { subject: subject(), invalid });
         }

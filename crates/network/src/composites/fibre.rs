@@ -9,45 +9,7 @@ use super::{
     Composed,
     spectrum::{Term, kelvin_chain},
 };
-use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, positive};
-
-/// Total compliance of a fibre.
-pub(super) const COMPLIANCE: Parameter = Parameter::required(
-    "compliance",
-    ParameterKind::Quantity(Dimension::COMPLIANCE),
-    "total compliance J, the creep after all time [m/N], positive",
-);
-/// Shortest retardation time of a spectrum with ends.
-pub(super) const SHORTEST: Parameter = Parameter::required(
-    "shortest",
-    ParameterKind::Quantity(Dimension::TIME),
-    "shortest retardation time [s], positive",
-);
-/// Longest retardation time of a spectrum with ends.
-pub(super) const LONGEST: Parameter = Parameter::required(
-    "longest",
-    ParameterKind::Quantity(Dimension::TIME),
-    "longest retardation time [s], longer than `shortest`",
-);
-/// Start of the range of time.
-pub(super) const FROM: Parameter = Parameter::required(
-    "from",
-    ParameterKind::Quantity(Dimension::TIME),
-    "time from which on the creep is kept [s], positive",
-);
-/// End of the range of time.
-pub(super) const TO: Parameter = Parameter::required(
-    "to",
-    ParameterKind::Quantity(Dimension::TIME),
-    "time up to which the creep is kept [s], later than `from`",
-);
-/// Greatest deviation of the creep.
-pub(super) const ERROR: Parameter = Parameter::optional(
-    "error",
-    ParameterKind::Quantity(Dimension::NUMBER),
-    "0.1 %",
-    "greatest relative error of the creep in that range, from 1e-6 % to below 100 %",
-);
+use crate::parameters::{Dimension, InvalidParameter};
 
 /// What of a fibre's creep is to be kept: the range of time \[s\] and the greatest relative error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,8 +22,6 @@ pub(super) struct Kept {
 impl Kept {
     /// Accepts what a reduction can work with.
     pub(super) fn validate(&self) -> Result<(), InvalidParameter> {
-        positive("from", self.from)?;
-        positive("to", self.to)?;
         if self.to <= self.from {
             return Err(InvalidParameter::new("to", "later than `from`", time(self.to)));
         }
@@ -143,6 +103,7 @@ fn time(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameters::{Described as _, Kind as _};
 
     use dashpot_rheology::spectra::{List, Retardation};
 

@@ -4,37 +4,47 @@ use dashpot_rheology::spectra::{List, Retardation};
 
 use super::{
     Composed, CompositeKind,
-    fibre::{ERROR, FROM, Kept, TO},
-    spectrum::{Term, sorted, terms},
+    fibre::Kept,
+    spectrum::{Term, sorted},
 };
 use crate::{
-    elements::number,
-    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value},
+    parameters,
+    parameters::{Described, Dimension, InvalidParameter},
 };
 
-/// A fibre or felt with the listed retardation times `λ` and compliances `J`, in the fewest
-/// Kelvin–Voigt elements that keep its creep `R(t) = Σ J (1 − e^(−t/λ))`: see
-/// [`reduce`](dashpot_rheology::spectra::reduce). `kelvin-chain` keeps them all.
-///
-/// | symbol  | field        | unit | range                  |
-/// |---------|--------------|------|------------------------|
-/// | `λ`     | first column | s    | > 0, all different     |
-/// | `J`     | second       | m/N  | > 0                    |
-/// |         | `from`, `to` | s    | > 0, `to` after `from` |
-/// |         | `error`      | 1    | 1e-8 … 1               |
-///
-/// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of
-/// `spring` beside `dashpot`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ListFibre {
-    /// Retardation times \[s\] and compliances \[m/N\].
-    pub terms: Vec<Term>,
-    /// Start of the range of time in which the creep is kept \[s\].
-    pub from: f64,
-    /// Its end \[s\].
-    pub to: f64,
-    /// Greatest relative error of the creep in that range.
-    pub error: f64,
+parameters! {
+    /// A fibre or felt with the listed retardation times `λ` and compliances `J`, in the fewest
+    /// Kelvin–Voigt elements that keep its creep `R(t) = Σ J (1 − e^(−t/λ))`: see
+    /// [`reduce`](dashpot_rheology::spectra::reduce). `kelvin-chain` keeps them all.
+    ///
+    /// | symbol  | field        | unit | range                  |
+    /// |---------|--------------|------|------------------------|
+    /// | `λ`     | first column | s    | > 0, all different     |
+    /// | `J`     | second       | m/N  | > 0                    |
+    /// |         | `from`, `to` | s    | > 0, `to` after `from` |
+    /// |         | `error`      | 1    | 1e-8 … 1               |
+    ///
+    /// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of
+    /// `spring` beside `dashpot`.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct ListFibre: "list-fibre",
+        "fibre with a list of retardation times, in the fewest Kelvin-Voigt elements"
+    {
+        /// pairs of retardation time [s] and compliance [m/N], both positive
+        pub terms: Vec<Term> = TimeTable;
+        /// time from which on the creep is kept [s], positive
+        pub from: f64 = Quantity(Dimension::TIME), range Positive;
+        /// time up to which the creep is kept [s], later than `from`
+        pub to: f64 = Quantity(Dimension::TIME), range Positive;
+        /// greatest relative error of the creep in that range, from 1e-6 % to below 100 %
+        pub error: f64 = Quantity(Dimension::NUMBER), default "0.1 %";
+    }
+    sample {
+        terms: vec![(1e-4, 1e-8), (1.2e-4, 1e-8), (1e-3, 2e-8), (1e-2, 1e-8)],
+        from: 1e-5,
+        to: 0.1,
+        error: 1e-2,
+    }
 }
 
 impl ListFibre {
@@ -44,49 +54,15 @@ impl ListFibre {
 }
 
 impl CompositeKind for ListFibre {
-    const KIND: &'static str = "list-fibre";
-    const SUMMARY: &'static str =
-        "fibre with a list of retardation times, in the fewest Kelvin-Voigt elements";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required(
-            "terms",
-            ParameterKind::TimeTable,
-            "pairs of retardation time [s] and compliance [m/N], both positive",
-        ),
-        FROM,
-        TO,
-        ERROR,
-    ];
     const AMPLITUDE: Dimension = Dimension::COMPLIANCE;
 
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let fibre = Self {
-            terms: terms(values, 0, "terms")?,
-            from: number(values, 1, "from")?,
-            to: number(values, 2, "to")?,
-            error: number(values, 3, "error")?,
-        };
-        sorted("terms", &fibre.terms)?;
-        fibre.kept().validate()?;
-        Ok(fibre)
-    }
-
     fn compose(&self) -> Result<Composed, InvalidParameter> {
+        self.validate()?;
         let lines = sorted("terms", &self.terms)?.into_iter();
         let lines = lines.map(|(time, compliance)| Retardation { time, compliance });
         let list = List::new(lines.collect())
             .map_err(|own| InvalidParameter::new("terms", own.range, own.value))?;
         self.kept().composed(&list)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        let kept = [self.from, self.to, self.error].map(Value::Number);
-        [Value::Table(self.terms.clone())].into_iter().chain(kept).collect()
-    }
-
-    fn sample() -> Self {
-        let terms = vec![(1e-4, 1e-8), (1.2e-4, 1e-8), (1e-3, 2e-8), (1e-2, 1e-8)];
-        Self { terms, from: 1e-5, to: 0.1, error: 1e-2 }
     }
 }
 

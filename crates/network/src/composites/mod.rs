@@ -9,8 +9,6 @@ mod power_law_fibre;
 mod prony;
 mod spectrum;
 
-use std::fmt::Debug;
-
 pub use box_fibre::BoxFibre;
 pub use kelvin_chain::KelvinChain;
 pub use list_fibre::ListFibre;
@@ -20,7 +18,7 @@ pub use prony::Prony;
 
 use crate::{
     Model,
-    parameters::{Dimension, InvalidParameter, Parameter, Value},
+    parameters::{Dimension, InvalidParameter, Kind, Registered},
 };
 
 /// A model made from a description, with what is to be said about it.
@@ -40,23 +38,10 @@ pub struct Composed {
 /// A composite may compute as much as it likes, but the same values always give the same model,
 /// its names included. It consists of springs, dashpots and rigid links with valid constants.
 /// Where it only comes near to what is described, its note says how near and in which range.
-pub trait CompositeKind: Debug + Sized + 'static {
-    /// Word for the kind in scenes.
-    const KIND: &'static str;
-    /// One line for a list: structure and use.
-    const SUMMARY: &'static str;
-    /// Its parameters; a kind with one required parameter takes the value alone.
-    const PARAMETERS: &'static [Parameter];
+pub trait CompositeKind: Kind {
     /// Dimension of amplitudes: what stands beside the times in
     /// [`TimeTable`](crate::parameters::ParameterKind::TimeTable)s.
     const AMPLITUDE: Dimension;
-
-    /// The description with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
-    ///
-    /// # Errors
-    ///
-    /// [`InvalidParameter`] when a value is out of range.
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter>;
 
     /// The model that is described.
     ///
@@ -65,29 +50,21 @@ pub trait CompositeKind: Debug + Sized + 'static {
     /// [`InvalidParameter`] when a field is out of range, or when a constant of the model does not
     /// fit into double precision.
     fn compose(&self) -> Result<Composed, InvalidParameter>;
-
-    /// The parameters' values in the order of [`PARAMETERS`](Self::PARAMETERS).
-    fn values(&self) -> Vec<Value>;
-
-    /// A valid example.
-    fn sample() -> Self;
 }
 
-/// Sees every kind of composite.
-pub trait CompositeVisitor {
-    /// Called once for each kind.
-    fn visit<C: CompositeKind>(&mut self);
+const fn composite<C: CompositeKind>() -> Registered<Composed, Dimension> {
+    Registered::new::<C>(|values| C::from_values(values)?.compose(), C::AMPLITUDE)
 }
 
-/// Shows every kind of composite to `visitor`. **A new kind is registered here.**
-pub fn visit_composites(visitor: &mut impl CompositeVisitor) {
-    visitor.visit::<Prony>();
-    visitor.visit::<KelvinChain>();
-    visitor.visit::<ListFibre>();
-    visitor.visit::<LogNormalFibre>();
-    visitor.visit::<BoxFibre>();
-    visitor.visit::<PowerLawFibre>();
-}
+/// Every composite, with the dimension beside its times. **A new kind is registered here.**
+pub static COMPOSITES: &[Registered<Composed, Dimension>] = &[
+    composite::<Prony>(),
+    composite::<KelvinChain>(),
+    composite::<ListFibre>(),
+    composite::<LogNormalFibre>(),
+    composite::<BoxFibre>(),
+    composite::<PowerLawFibre>(),
+];
 
 #[cfg(test)]
 mod tests;

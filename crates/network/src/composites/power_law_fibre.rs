@@ -4,45 +4,58 @@ use dashpot_rheology::spectra::PowerLaw;
 
 use super::{
     Composed, CompositeKind,
-    fibre::{COMPLIANCE, ERROR, FROM, Kept, LONGEST, SHORTEST, TO, invalid},
+    fibre::{Kept, invalid},
 };
 use crate::{
-    elements::number,
-    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value},
+    parameters,
+    parameters::{Described, Dimension, InvalidParameter},
 };
 
-/// A fibre or felt with a power law of retardation times between two, in the fewest Kelvin–Voigt
-/// elements that keep its creep `R(t)`: see [`PowerLaw`] for the law and
-/// [`reduce`](dashpot_rheology::spectra::reduce) for the proof.
-///
-/// | symbol  | field        | unit | range                  |
-/// |---------|--------------|------|------------------------|
-/// | `J`     | `compliance` | m/N  | > 0                    |
-/// |         | `exponent`   | 1    | finite; 0 is a box     |
-/// | `λ_min` | `shortest`   | s    | > 0                    |
-/// | `λ_max` | `longest`    | s    | > `shortest`           |
-/// |         | `from`, `to` | s    | > 0, `to` after `from` |
-/// |         | `error`      | 1    | 1e-8 … 1               |
-///
-/// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of
-/// `spring` beside `dashpot`. With two times that all but meet it is the single Kelvin element of
-/// the thesis.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PowerLawFibre {
-    /// Total compliance `J` \[m/N\].
-    pub compliance: f64,
-    /// Exponent of the density of `ln λ`.
-    pub exponent: f64,
-    /// Shortest retardation time \[s\].
-    pub shortest: f64,
-    /// Longest retardation time \[s\].
-    pub longest: f64,
-    /// Start of the range of time in which the creep is kept \[s\].
-    pub from: f64,
-    /// Its end \[s\].
-    pub to: f64,
-    /// Greatest relative error of the creep in that range.
-    pub error: f64,
+parameters! {
+    /// A fibre or felt with a power law of retardation times between two, in the fewest Kelvin–Voigt
+    /// elements that keep its creep `R(t)`: see [`PowerLaw`] for the law and
+    /// [`reduce`](dashpot_rheology::spectra::reduce) for the proof.
+    ///
+    /// | symbol  | field        | unit | range                  |
+    /// |---------|--------------|------|------------------------|
+    /// | `J`     | `compliance` | m/N  | > 0                    |
+    /// |         | `exponent`   | 1    | finite; 0 is a box     |
+    /// | `λ_min` | `shortest`   | s    | > 0                    |
+    /// | `λ_max` | `longest`    | s    | > `shortest`           |
+    /// |         | `from`, `to` | s    | > 0, `to` after `from` |
+    /// |         | `error`      | 1    | 1e-8 … 1               |
+    ///
+    /// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of
+    /// `spring` beside `dashpot`. With two times that all but meet it is the single Kelvin element of
+    /// the thesis.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct PowerLawFibre: "power-law-fibre",
+        "fibre with a power law of retardation times, in the fewest Kelvin-Voigt elements"
+    {
+        /// total compliance J, the creep after all time [m/N], positive
+        pub compliance: f64 = Quantity(Dimension::COMPLIANCE), range Positive;
+        /// exponent m of the density over ln λ, as λ^m; any finite number, 0 is a box
+        pub exponent: f64 = Quantity(Dimension::NUMBER);
+        /// shortest retardation time [s], positive
+        pub shortest: f64 = Quantity(Dimension::TIME), range Positive;
+        /// longest retardation time [s], longer than `shortest`
+        pub longest: f64 = Quantity(Dimension::TIME), range Positive;
+        /// time from which on the creep is kept [s], positive
+        pub from: f64 = Quantity(Dimension::TIME), range Positive;
+        /// time up to which the creep is kept [s], later than `from`
+        pub to: f64 = Quantity(Dimension::TIME), range Positive;
+        /// greatest relative error of the creep in that range, from 1e-6 % to below 100 %
+        pub error: f64 = Quantity(Dimension::NUMBER), default "0.1 %";
+    }
+    sample {
+        compliance: 5e-8,
+        exponent: 0.3,
+        shortest: 1e-5,
+        longest: 0.1,
+        from: 1e-5,
+        to: 0.1,
+        error: 1e-3,
+    }
 }
 
 impl PowerLawFibre {
@@ -56,57 +69,10 @@ impl PowerLawFibre {
 }
 
 impl CompositeKind for PowerLawFibre {
-    const KIND: &'static str = "power-law-fibre";
-    const SUMMARY: &'static str =
-        "fibre with a power law of retardation times, in the fewest Kelvin-Voigt elements";
-    const PARAMETERS: &'static [Parameter] = &[
-        COMPLIANCE,
-        Parameter::required(
-            "exponent",
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "exponent m of the density over ln λ, as λ^m; any finite number, 0 is a box",
-        ),
-        SHORTEST,
-        LONGEST,
-        FROM,
-        TO,
-        ERROR,
-    ];
     const AMPLITUDE: Dimension = Dimension::COMPLIANCE;
 
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let fibre = Self {
-            compliance: number(values, 0, "compliance")?,
-            exponent: number(values, 1, "exponent")?,
-            shortest: number(values, 2, "shortest")?,
-            longest: number(values, 3, "longest")?,
-            from: number(values, 4, "from")?,
-            to: number(values, 5, "to")?,
-            error: number(values, 6, "error")?,
-        };
-        fibre.spectrum()?;
-        fibre.kept().validate()?;
-        Ok(fibre)
-    }
-
     fn compose(&self) -> Result<Composed, InvalidParameter> {
+        self.validate()?;
         self.kept().composed(&self.spectrum()?)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        let Self { compliance, exponent, shortest, longest, from, to, error } = *self;
-        [compliance, exponent, shortest, longest, from, to, error].map(Value::Number).to_vec()
-    }
-
-    fn sample() -> Self {
-        Self {
-            compliance: 5e-8,
-            exponent: 0.3,
-            shortest: 1e-5,
-            longest: 0.1,
-            from: 1e-5,
-            to: 0.1,
-            error: 1e-3,
-        }
     }
 }

@@ -6,23 +6,11 @@ use crate::{
     Model,
     elements::{Dashpot, Spring},
     network::part,
-    parameters::{InvalidParameter, Value},
+    parameters::InvalidParameter,
 };
 
 /// A time \[s\] and the strength that belongs to it, a stiffness \[N/m\] or a compliance \[m/N\].
 pub(super) type Term = (f64, f64);
-
-/// The list at `at`, for [`CompositeKind::from_values`](super::CompositeKind::from_values).
-pub(super) fn terms(
-    values: &[Value],
-    at: usize,
-    parameter: &'static str,
-) -> Result<Vec<Term>, InvalidParameter> {
-    match values.get(at) {
-        Some(Value::Table(terms)) => Ok(terms.clone()),
-        _ => Err(InvalidParameter::new(parameter, "a list of terms", "missing")),
-    }
-}
 
 /// The terms in rising order of time.
 ///

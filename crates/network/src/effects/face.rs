@@ -1,66 +1,65 @@
 //! Mass of an element's face.
 
+use std::sync::Arc;
+
 use super::{
     Effect, EffectKind,
-    site::{AT, Site, at_of, at_value, connection_of, face_of},
+    site::{Site, connection_of, face_of},
 };
 use crate::{
-    Influence, Network, NetworkError, Node, NodeId, Situation, Start, Support,
-    elements::{Rigid, number},
-    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative},
-    part,
+    Influence, Network, NetworkError, Node, NodeId, Situation, Start, Support, choices,
+    elements::Rigid, parameters, parameters::Kind as _, part,
 };
 
-/// Mass of a padding, lumped on its face.
-///
-/// | symbol | field  | unit | range |
-/// |--------|--------|------|-------|
-/// | `m2`   | `mass` | kg   | ≥ 0; 0 is no mass at all |
-///
-/// The face is the node `<element>.face`. The force `F2` of the element acts on it, and the node
-/// that was the end of the element feels the force `F1 = F2 + m2 x1″` of `<element>.contact`.
-///
-/// With [`Separation`](super::Separation) the contact is one that pushes and never pulls: it parts
-/// where `F1` falls to zero, and a touch is an impact on the mass of the face. Without it the face
-/// is rigidly linked to its node and moves with it from the start.
-///
-/// # Limits
-///
-/// The mass of the padding stands in one place: no wave runs through it. A padding in which waves
-/// matter is made of [layers](crate::layers::Layers). Where the face is struck at rest its speed
-/// jumps, and the peak of `F1` is infinite.
-///
-/// # References
-///
-/// The mass `m2` and the group `B = m1/(m1 + m2)` are those of `thesis` in `docs/references.bib`,
-/// whose equations have the face move with the impactor from the start.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Face {
-    /// Name of the element.
-    pub element: String,
-    /// Mass `m2` \[kg\].
-    pub mass: f64,
-    /// Name of the node on whose side it is; where there is none, the end that separates, or that
-    /// on the impactor's side.
-    pub at: Option<String>,
-    /// How the face begins where it can separate.
-    pub touch: Touch,
+parameters! {
+    /// Mass of a padding, lumped on its face.
+    ///
+    /// | symbol | field  | unit | range |
+    /// |--------|--------|------|-------|
+    /// | `m2`   | `mass` | kg   | ≥ 0; 0 is no mass at all |
+    ///
+    /// The face is the node `<element>.face`. The force `F2` of the element acts on it, and the node
+    /// that was the end of the element feels the force `F1 = F2 + m2 x1″` of `<element>.contact`.
+    ///
+    /// With [`Separation`](super::Separation) the contact is one that pushes and never pulls: it parts
+    /// where `F1` falls to zero, and a touch is an impact on the mass of the face. Without it the face
+    /// is rigidly linked to its node and moves with it from the start.
+    ///
+    /// # Limits
+    ///
+    /// The mass of the padding stands in one place: no wave runs through it. A padding in which waves
+    /// matter is made of [layers](crate::layers::Layers). Where the face is struck at rest its speed
+    /// jumps, and the peak of `F1` is infinite.
+    ///
+    /// # References
+    ///
+    /// The mass `m2` and the group `B = m1/(m1 + m2)` are those of `thesis` in `docs/references.bib`,
+    /// whose equations have the face move with the impactor from the start.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct Face on element: "face", "the face of the element has mass" {
+        /// mass m2 on the face [kg], zero or positive
+        pub mass: f64 = Quantity(Dimension::MASS), range NonNegative;
+        /// which of the two nodes of the element
+        pub at: Option<String> = Node, follows "where it separates, or the first of `between`";
+        /// whether a face that can separate is struck at rest or begins with the speed of its node
+        pub touch: Touch = Choice(Touch::WORDS), default "impact";
+    }
+    sample {
+        element: "padding".to_owned(),
+        mass: 0.2,
+        at: Some("head".to_owned()),
+        touch: Touch::Impact,
+    }
 }
 
-/// How a face with mass begins that can separate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Touch {
-    /// At rest: the first touch is an impact, plastic or with the restitution of the separation.
-    Impact,
-    /// With the start speed of the node that it touches.
-    Moving,
-}
-
-impl Touch {
-    const WORDS: [(Self, &'static str); 2] = [(Self::Impact, "impact"), (Self::Moving, "moving")];
-
-    fn word(self) -> &'static str {
-        Self::WORDS.iter().find(|entry| entry.0 == self).map_or("", |entry| entry.1)
+choices! {
+    /// How a face with mass begins that can separate.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Touch {
+        /// At rest: the first touch is an impact, plastic or with the restitution of the separation.
+        Impact = "impact",
+        /// With the start speed of the node that it touches.
+        Moving = "moving",
     }
 }
 
@@ -90,12 +89,12 @@ impl Face {
 }
 
 impl Effect for Face {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn target(&self) -> Option<&str> {
         Some(&self.element)
+    }
+
+    fn on(&self, element: &str) -> Option<Arc<dyn Effect>> {
+        Some(Arc::new(Self { element: element.to_owned(), ..self.clone() }))
     }
 
     fn rewrite(&self, network: &mut Network) -> Result<(), NetworkError> {
@@ -122,58 +121,8 @@ impl Effect for Face {
         let found = (mass > 0.0).then(|| Influence::new("m2/m1", self.mass / mass));
         found.into_iter().collect()
     }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        non_negative("mass", self.mass)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        let touch = Value::Word(self.touch.word().to_owned());
-        vec![Value::Number(self.mass), at_value(self.at.as_ref()), touch]
-    }
 }
 
 impl EffectKind for Face {
-    const KIND: &'static str = "face";
-    const SUMMARY: &'static str = "the face of the element has mass";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required(
-            "mass",
-            ParameterKind::Quantity(Dimension::MASS),
-            "mass m2 on the face [kg], zero or positive",
-        ),
-        Parameter::following(
-            "at",
-            ParameterKind::Node,
-            "where it separates, or the first of `between`",
-            AT.help,
-        ),
-        Parameter::optional(
-            "touch",
-            ParameterKind::Choice(&["impact", "moving"]),
-            "impact",
-            "whether a face that can separate is struck at rest or begins with the speed of its node",
-        ),
-    ];
     const PER_ELEMENT: bool = true;
-
-    fn from_values(target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {
-        let touch = match values.get(2) {
-            Some(Value::Word(word)) => {
-                Touch::WORDS.iter().find(|entry| entry.1 == word).map(|entry| entry.0)
-            }
-            _ => None,
-        };
-        let touch = touch.ok_or_else(|| {
-            InvalidParameter::new("touch", "`impact` or `moving`", "something else")
-        })?;
-        let mass = number(values, 0, "mass")?;
-        let face = Self { element: target.to_owned(), mass, at: at_of(values.get(1))?, touch };
-        face.validate().map(|()| face)
-    }
-
-    fn sample() -> Self {
-        let (element, at) = ("padding".to_owned(), Some("head".to_owned()));
-        Self { element, mass: 0.2, at, touch: Touch::Impact }
-    }
 }

@@ -4,60 +4,51 @@ use dashpot_dae::Waveform;
 
 use super::{Effect, EffectKind};
 use crate::{
-    Influence, Network, NodeId, Situation, Start,
+    Influence, Network, NodeId, Situation, Start, choices,
     compile::bodies::{STANDARD_GRAVITY, start_velocity},
-    elements::number,
-    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite},
+    parameters,
 };
 
-/// Uniform gravity along the axis, positive towards the support: every mass feels `m g`.
-///
-/// | symbol | field          | unit | range |
-/// |--------|----------------|------|-------|
-/// | `g`    | `acceleration` | m/s² | finite; negative pulls away from the support |
-///
-/// # Limits
-///
-/// It is the same everywhere and at all times, and it acts along the axis only. Deformations are
-/// counted from unloaded. A weight that no spring carries to a fixed or moved node has no balance,
-/// and is refused with the start in equilibrium. Elements have no weight; the mass of
-/// [layers](crate::layers::Layers) has.
-///
-/// # References
-///
-/// `cgpm1901` in `docs/references.bib` for the standard value 9.80665 m/s²; group A of `thesis` for
-/// when it matters.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gravity {
-    /// Gravitational acceleration `g` \[m/s²\].
-    pub acceleration: f64,
-    /// How the parts without start speed begin.
-    pub start: GravityStart,
+parameters! {
+    /// Uniform gravity along the axis, positive towards the support: every mass feels `m g`.
+    ///
+    /// | symbol | field          | unit | range |
+    /// |--------|----------------|------|-------|
+    /// | `g`    | `acceleration` | m/s² | finite; negative pulls away from the support |
+    ///
+    /// # Limits
+    ///
+    /// It is the same everywhere and at all times, and it acts along the axis only. Deformations are
+    /// counted from unloaded. A weight that no spring carries to a fixed or moved node has no balance,
+    /// and is refused with the start in equilibrium. Elements have no weight; the mass of
+    /// [layers](crate::layers::Layers) has.
+    ///
+    /// # References
+    ///
+    /// `cgpm1901` in `docs/references.bib` for the standard value 9.80665 m/s²; group A of `thesis` for
+    /// when it matters.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Gravity: "gravity", "every mass feels m g, positive towards the support" {
+        /// gravitational acceleration g [m/s^2]
+        pub acceleration as "value": f64 = Quantity(Dimension::ACCELERATION), default "1 g0";
+        /// whether parts without start speed begin in balance or unloaded
+        pub start: GravityStart = Choice(GravityStart::WORDS), default "equilibrium";
+    }
+    sample { acceleration: STANDARD_GRAVITY, start: GravityStart::Equilibrium }
 }
 
-/// How parts without start speed begin under gravity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GravityStart {
-    /// In balance under their weight; deformations are counted from unloaded.
-    Equilibrium,
-    /// Unloaded: they begin to sag at t = 0.
-    Unloaded,
-}
-
-impl GravityStart {
-    const WORDS: [(Self, &'static str); 2] =
-        [(Self::Equilibrium, "equilibrium"), (Self::Unloaded, "unloaded")];
-
-    fn word(self) -> &'static str {
-        Self::WORDS.iter().find(|entry| entry.0 == self).map_or("", |entry| entry.1)
+choices! {
+    /// How parts without start speed begin under gravity.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum GravityStart {
+        /// In balance under their weight; deformations are counted from unloaded.
+        Equilibrium = "equilibrium",
+        /// Unloaded: they begin to sag at t = 0.
+        Unloaded = "unloaded",
     }
 }
 
 impl Effect for Gravity {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn body_forces(&self, network: &Network) -> Vec<(NodeId, Waveform)> {
         network
             .nodes()
@@ -104,53 +95,10 @@ impl Effect for Gravity {
             }
         }
     }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        finite("value", self.acceleration)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Number(self.acceleration), Value::Word(self.start.word().to_owned())]
-    }
 }
 
 impl EffectKind for Gravity {
-    const KIND: &'static str = "gravity";
-    const SUMMARY: &'static str = "every mass feels m g, positive towards the support";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::optional(
-            "value",
-            ParameterKind::Quantity(Dimension::ACCELERATION),
-            "1 g0",
-            "gravitational acceleration g [m/s^2]",
-        ),
-        Parameter::optional(
-            "start",
-            ParameterKind::Choice(&["equilibrium", "unloaded"]),
-            "equilibrium",
-            "whether parts without start speed begin in balance or unloaded",
-        ),
-    ];
-
     fn would_be(_situation: &Situation<'_>) -> Vec<Self> {
         vec![Self { acceleration: STANDARD_GRAVITY, start: GravityStart::Equilibrium }]
-    }
-
-    fn from_values(_target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {
-        let start = match values.get(1) {
-            Some(Value::Word(word)) => {
-                GravityStart::WORDS.iter().find(|entry| entry.1 == word).map(|entry| entry.0)
-            }
-            _ => None,
-        };
-        let start = start.ok_or_else(|| {
-            InvalidParameter::new("start", "`equilibrium` or `unloaded`", "something else")
-        })?;
-        let gravity = Self { acceleration: number(values, 0, "value")?, start };
-        gravity.validate().map(|()| gravity)
-    }
-
-    fn sample() -> Self {
-        Self { acceleration: STANDARD_GRAVITY, start: GravityStart::Equilibrium }
     }
 }

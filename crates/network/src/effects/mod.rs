@@ -9,7 +9,7 @@ mod stop;
 #[cfg(test)]
 mod tests;
 
-use std::{any::Any, fmt::Debug, sync::Arc};
+use std::{any::Any, sync::Arc};
 
 use dashpot_dae::Waveform;
 pub use face::{Face, Touch};
@@ -19,16 +19,13 @@ pub use stop::Stop;
 
 use crate::{
     Influence, Network, NetworkError, NodeId, Situation, layers,
-    parameters::{InvalidParameter, Parameter, Value},
+    parameters::{Described, Kind, Registered},
 };
 
 /// Something that acts on a network without being a two-terminal law.
 ///
 /// An effect states only what it does; the defaults do nothing and cost nothing.
-pub trait Effect: Any + Debug + Send + Sync {
-    /// Word for the effect, for instance `gravity`.
-    fn kind(&self) -> &'static str;
-
+pub trait Effect: Any + Described {
     /// Body forces on nodes \[N\] as functions of time \[s\], positive towards the support. An
     /// accelerometer on the node does not feel them.
     fn body_forces(&self, _network: &Network) -> Vec<(NodeId, Waveform)> {
@@ -47,6 +44,11 @@ pub trait Effect: Any + Debug + Send + Sync {
 
     /// Name of the element that it acts on, where it acts on one.
     fn target(&self) -> Option<&str> {
+        None
+    }
+
+    /// The same on the element of this name; `None` for what acts on no element.
+    fn on(&self, _element: &str) -> Option<Arc<dyn Effect>> {
         None
     }
 
@@ -72,16 +74,6 @@ pub trait Effect: Any + Debug + Send + Sync {
 
     /// Keeps what else of the network rests on the effect, which is about to be left out of it.
     fn leave(&self, _network: &mut Network) {}
-
-    /// Checks the parameters.
-    ///
-    /// # Errors
-    ///
-    /// [`InvalidParameter`] for the first one out of its range.
-    fn validate(&self) -> Result<(), InvalidParameter>;
-
-    /// The parameters' values in the order of [`EffectKind::PARAMETERS`].
-    fn values(&self) -> Vec<Value>;
 }
 
 impl dyn Effect {
@@ -92,13 +84,7 @@ impl dyn Effect {
 }
 
 /// What an effect kind says about itself.
-pub trait EffectKind: Effect + Sized + 'static {
-    /// Word for the effect in scenes.
-    const KIND: &'static str;
-    /// One line for a list.
-    const SUMMARY: &'static str;
-    /// Its parameters.
-    const PARAMETERS: &'static [Parameter];
+pub trait EffectKind: Effect + Kind {
     /// Whether it acts on one element, `effects.<kind>.<element>` in scenes; else on the network.
     const PER_ELEMENT: bool = false;
 
@@ -107,33 +93,32 @@ pub trait EffectKind: Effect + Sized + 'static {
     fn would_be(_situation: &Situation<'_>) -> Vec<Self> {
         Vec::new()
     }
-
-    /// The effect on `target`, the element's name where it acts on one, with these values, one for
-    /// each of [`PARAMETERS`](Self::PARAMETERS).
-    ///
-    /// # Errors
-    ///
-    /// [`InvalidParameter`] when a value is out of range.
-    fn from_values(target: &str, values: &[Value]) -> Result<Self, InvalidParameter>;
-
-    /// A valid example.
-    fn sample() -> Self;
 }
 
-/// Sees every effect kind.
-pub trait EffectVisitor {
-    /// Called once for each kind.
-    fn visit<E: EffectKind>(&mut self);
+/// What the register says of an effect besides how it is made.
+#[derive(Debug, Clone, Copy)]
+pub struct EffectTraits {
+    /// [`EffectKind::PER_ELEMENT`].
+    pub is_per_element: bool,
+    /// [`EffectKind::would_be`].
+    pub would_be: fn(&Situation<'_>) -> Vec<Arc<dyn Effect>>,
 }
 
-/// Shows every effect kind to `visitor`. **A new kind is registered here**, behind those whose
-/// rewriting it builds on.
-pub fn visit_effects(visitor: &mut impl EffectVisitor) {
-    visitor.visit::<Gravity>();
-    visitor.visit::<Separation>();
-    visitor.visit::<Face>();
-    visitor.visit::<Stop>();
+/// An effect in the register. What acts on an element is made on that of its example, and then put
+/// [`on`](Effect::on) its own.
+pub type EffectEntry = Registered<Arc<dyn Effect>, EffectTraits>;
+
+const fn effect<E: EffectKind>() -> EffectEntry {
+    let would_be = |own: &Situation<'_>| {
+        E::would_be(own).into_iter().map(|own| Arc::new(own) as Arc<dyn Effect>).collect()
+    };
+    let about = EffectTraits { is_per_element: E::PER_ELEMENT, would_be };
+    Registered::new::<E>(|values| Ok(Arc::new(E::from_values(values)?)), about)
 }
+
+/// Every effect kind. **A new kind is registered here**, behind those whose rewriting it builds on.
+pub static EFFECTS: &[EffectEntry] =
+    &[effect::<Gravity>(), effect::<Separation>(), effect::<Face>(), effect::<Stop>()];
 
 /// Whether [`rewrite`] puts anything into a network.
 pub(crate) fn rewrites(network: &Network) -> bool {
@@ -149,17 +134,9 @@ pub(crate) fn rewrites(network: &Network) -> bool {
 /// [`NetworkError`] of the first layers that cannot be resolved, or of the first effect that has no
 /// place in the network.
 pub(crate) fn rewrite(network: &mut Network) -> Result<(), NetworkError> {
-    struct Order(Vec<&'static str>);
-    impl EffectVisitor for Order {
-        fn visit<E: EffectKind>(&mut self) {
-            self.0.push(E::KIND);
-        }
-    }
-    let mut order = Order(Vec::new());
-    visit_effects(&mut order);
     let mut effects: Vec<Arc<dyn Effect>> =
         network.effects.iter().filter(|effect| effect.rewrites()).map(Arc::clone).collect();
-    effects.sort_by_key(|effect| order.0.iter().position(|kind| *kind == effect.kind()));
+    effects.sort_by_key(|effect| EFFECTS.iter().position(|own| own.word == effect.kind()));
     layers::resolve(network)?;
     for effect in effects {
         effect.rewrite(network)?;

@@ -4,54 +4,55 @@ use std::{f64::consts::PI, sync::Arc};
 
 use super::{
     Effect, EffectKind, Face,
-    site::{AT, Site, at_of, at_value, connection_of, face_of},
+    site::{Site, connection_of, face_of},
 };
 use crate::{
-    Influence, Network, NetworkError, Node, Situation,
-    elements::{Contact, number},
-    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value},
-    part,
+    Influence, Network, NetworkError, Node, Situation, elements::Contact, parameters,
+    parameters::Kind as _, part,
 };
 
-/// An element that pushes at one of its ends and never pulls there.
-///
-/// | symbol | field         | unit | range |
-/// |--------|---------------|------|-------|
-/// | `e`    | `restitution` | 1    | 0 … 1 |
-///
-/// The end gets a face of its own, the node `<element>.face`, and between the node that was there
-/// and the face stands a [`Contact`], `<element>.contact`, whose force is that on the node. It lets
-/// go where this force falls to zero. After that the face, which has no mass unless
-/// [`Face`](super::Face) gives it one, moves by itself, and contact comes back where the node meets
-/// it again.
-///
-/// An element that by its law never pulls at this end, as a
-/// [`HystereticFoam`](crate::elements::HystereticFoam) or a
-/// [`HuntCrossley`](crate::elements::HuntCrossley) contact, alone or in series with others, is its own
-/// contact: the network stays as it is, without a face. Where [`Face`](super::Face) gives it a face
-/// with mass, that can part from the node as any other.
-///
-/// A restitution acts between masses, so it needs a face with mass. A massless face takes the speed
-/// of what strikes it.
-///
-/// # Limits
-///
-/// A face without mass takes no energy and no time: it is at rest at once where only a spring
-/// stands behind it, and creeps back where a dashpot does. There is no adhesion. A massless face
-/// that meets a body again does so without an impact, whatever the speed.
-///
-/// # References
-///
-/// The contact is that of `signorini1959` in `docs/references.bib`. The model of `thesis` has none:
-/// its padding stays glued to both its sides.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Separation {
-    /// Name of the element.
-    pub element: String,
-    /// Name of the node at which it opens; the end on the impactor's side where there is none.
-    pub at: Option<String>,
-    /// Coefficient of restitution `e` of the touch.
-    pub restitution: f64,
+parameters! {
+    /// An element that pushes at one of its ends and never pulls there.
+    ///
+    /// | symbol | field         | unit | range |
+    /// |--------|---------------|------|-------|
+    /// | `e`    | `restitution` | 1    | 0 … 1 |
+    ///
+    /// The end gets a face of its own, the node `<element>.face`, and between the node that was there
+    /// and the face stands a [`Contact`], `<element>.contact`, whose force is that on the node. It lets
+    /// go where this force falls to zero. After that the face, which has no mass unless
+    /// [`Face`](super::Face) gives it one, moves by itself, and contact comes back where the node meets
+    /// it again.
+    ///
+    /// An element that by its law never pulls at this end, as a
+    /// [`HystereticFoam`](crate::elements::HystereticFoam) or a
+    /// [`HuntCrossley`](crate::elements::HuntCrossley) contact, alone or in series with others, is its own
+    /// contact: the network stays as it is, without a face. Where [`Face`](super::Face) gives it a face
+    /// with mass, that can part from the node as any other.
+    ///
+    /// A restitution acts between masses, so it needs a face with mass. A massless face takes the speed
+    /// of what strikes it.
+    ///
+    /// # Limits
+    ///
+    /// A face without mass takes no energy and no time: it is at rest at once where only a spring
+    /// stands behind it, and creeps back where a dashpot does. There is no adhesion. A massless face
+    /// that meets a body again does so without an impact, whatever the speed.
+    ///
+    /// # References
+    ///
+    /// The contact is that of `signorini1959` in `docs/references.bib`. The model of `thesis` has none:
+    /// its padding stays glued to both its sides.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct Separation on element: "separation",
+        "the element pushes and never pulls: one of its ends opens"
+    {
+        /// which of the two nodes of the element
+        pub at: Option<String> = Node, follows "the first of `between`";
+        /// restitution e of the touch [1], 0 to 1; acts where the face has mass
+        pub restitution: f64 = Quantity(Dimension::NUMBER), default "0", range Part;
+    }
+    sample { element: "padding".to_owned(), at: Some("head".to_owned()), restitution: 0.0 }
 }
 
 impl Separation {
@@ -67,12 +68,12 @@ impl Separation {
 }
 
 impl Effect for Separation {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn target(&self) -> Option<&str> {
         Some(&self.element)
+    }
+
+    fn on(&self, element: &str) -> Option<Arc<dyn Effect>> {
+        Some(Arc::new(Self { element: element.to_owned(), ..self.clone() }))
     }
 
     fn rewrite(&self, network: &mut Network) -> Result<(), NetworkError> {
@@ -107,45 +108,13 @@ impl Effect for Separation {
         let formula = "max(0, 1 − π √(m1/K)/T)";
         vec![Influence::beyond(formula, situation.duration, contact)]
     }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        crate::Element::validate(&self.contact())
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![at_value(self.at.as_ref()), Value::Number(self.restitution)]
-    }
 }
 
 impl EffectKind for Separation {
-    const KIND: &'static str = "separation";
-    const SUMMARY: &'static str = "the element pushes and never pulls: one of its ends opens";
-    const PARAMETERS: &'static [Parameter] = &[
-        AT,
-        Parameter::optional(
-            "restitution",
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "0",
-            "restitution e of the touch [1], 0 to 1; acts where the face has mass",
-        ),
-    ];
     const PER_ELEMENT: bool = true;
 
     fn would_be(situation: &Situation<'_>) -> Vec<Self> {
         let on = |element: &str| Self { element: element.to_owned(), at: None, restitution: 0.0 };
         situation.struck().filter(|own| !own.never_pulls(0)).map(|own| on(&own.name)).collect()
-    }
-
-    fn from_values(target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {
-        let separation = Self {
-            element: target.to_owned(),
-            at: at_of(values.first())?,
-            restitution: number(values, 1, "restitution")?,
-        };
-        separation.validate().map(|()| separation)
-    }
-
-    fn sample() -> Self {
-        Self { element: "padding".to_owned(), at: Some("head".to_owned()), restitution: 0.0 }
     }
 }

@@ -1,9 +1,6 @@
 //! The end of an element at which an effect acts.
 
-use crate::{
-    Model, Network, NetworkError, Node, NodeId,
-    parameters::{InvalidParameter, Parameter, ParameterKind, Value},
-};
+use crate::{Model, Network, NetworkError, Node, NodeId};
 
 /// One end of one connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,28 +9,6 @@ pub(super) struct Site {
     connection: usize,
     /// 0 on the impactor's side, 1 on the support's.
     end: usize,
-}
-
-/// The parameter `at` of an effect.
-pub(super) const AT: Parameter = Parameter::following(
-    "at",
-    ParameterKind::Node,
-    "the first of `between`",
-    "which of the two nodes of the element",
-);
-
-/// The value of [`AT`].
-pub(super) fn at_value(at: Option<&String>) -> Value {
-    at.map_or(Value::LeftOut, |node| Value::Word(node.clone()))
-}
-
-/// The node in the value of [`AT`].
-pub(super) fn at_of(value: Option<&Value>) -> Result<Option<String>, InvalidParameter> {
-    match value {
-        Some(Value::Word(node)) => Ok(Some(node.clone())),
-        Some(Value::LeftOut) => Ok(None),
-        _ => Err(InvalidParameter::new("at", "the name of a node", "something else")),
-    }
 }
 
 /// Name of the node that takes the place of a node as an end of `element`.

@@ -1,51 +1,65 @@
 //! Stop at a given deformation of an element.
 
+use std::sync::Arc;
+
 use dashpot_rheology::{Branch, Tree};
 
 use super::{Effect, EffectKind, site::connection_of};
 use crate::{
-    Element, Influence, Model, Network, NetworkError, Situation,
-    elements::{Contact, Dashpot, ElementKind, Spring, number},
-    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative},
+    Influence, Model, Network, NetworkError, Situation,
+    elements::{Contact, Dashpot, Spring},
+    parameters,
+    parameters::{InvalidParameter, Kind as _},
     part,
 };
 
-/// Bottoming out: beyond the deformation `at` a stop beside the element pushes and never pulls.
-///
-/// | symbol | field         | unit  | range |
-/// |--------|---------------|-------|-------|
-/// | `d`    | `at`          | m     | ≥ 0   |
-/// | `e`    | `restitution` | 1     | 0 … 1, of a rigid stop |
-/// | `k`    | `stiffness`   | N/m   | ≥ 0; a rigid stop where there is none |
-/// | `c`    | `damping`     | N s/m | ≥ 0, of a stop with stiffness |
-///
-/// The stop is the connection `<element>.stop` between the ends of the element. A rigid one is a
-/// [`Contact`] with the gap `d`, `y ≤ d`: masses that meet on it have an impact. One with stiffness
-/// has the force `max(0, k (y − d) + c ẏ)` in contact: the contact in series with a spring and a
-/// dashpot side by side, which lets go where the force falls to zero and then returns by itself.
-///
-/// # Limits
-///
-/// The element goes on to bear its own force beside the stop, by its law beyond `d`. A rigid stop
-/// makes the speeds jump where masses meet on it, so peaks of force and acceleration are infinite
-/// there. A stop with damping begins with the force `c ẏ` at once.
-///
-/// # References
-///
-/// `signorini1959` in `docs/references.bib` for the rigid stop; `mindlin1945`, "bi-linear
-/// elasticity", for cushions that bottom abruptly.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Stop {
-    /// Name of the element.
-    pub element: String,
-    /// Deformation `d` at which it is met \[m\]; the element's thickness where there is none.
-    pub at: Option<f64>,
-    /// Coefficient of restitution `e` of a rigid stop.
-    pub restitution: f64,
-    /// Stiffness `k` \[N/m\]; rigid where there is none.
-    pub stiffness: Option<f64>,
-    /// Damping `c` \[N s/m\].
-    pub damping: f64,
+parameters! {
+    /// Bottoming out: beyond the deformation `at` a stop beside the element pushes and never pulls.
+    ///
+    /// | symbol | field         | unit  | range |
+    /// |--------|---------------|-------|-------|
+    /// | `d`    | `at`          | m     | ≥ 0   |
+    /// | `e`    | `restitution` | 1     | 0 … 1, of a rigid stop |
+    /// | `k`    | `stiffness`   | N/m   | ≥ 0; a rigid stop where there is none |
+    /// | `c`    | `damping`     | N s/m | ≥ 0, of a stop with stiffness |
+    ///
+    /// The stop is the connection `<element>.stop` between the ends of the element. A rigid one is a
+    /// [`Contact`] with the gap `d`, `y ≤ d`: masses that meet on it have an impact. One with stiffness
+    /// has the force `max(0, k (y − d) + c ẏ)` in contact: the contact in series with a spring and a
+    /// dashpot side by side, which lets go where the force falls to zero and then returns by itself.
+    ///
+    /// # Limits
+    ///
+    /// The element goes on to bear its own force beside the stop, by its law beyond `d`. A rigid stop
+    /// makes the speeds jump where masses meet on it, so peaks of force and acceleration are infinite
+    /// there. A stop with damping begins with the force `c ẏ` at once.
+    ///
+    /// # References
+    ///
+    /// `signorini1959` in `docs/references.bib` for the rigid stop; `mindlin1945`, "bi-linear
+    /// elasticity", for cushions that bottom abruptly.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct Stop on element: "stop",
+        "the element bottoms out at a deformation; the stop never pulls", checked by Self::suits
+    {
+        /// deformation at which the stop is met [m], zero or positive
+        pub at: Option<f64> = Quantity(Dimension::LENGTH),
+            follows "the thickness of the element", range NonNegative;
+        /// restitution e of masses that meet on a rigid stop [1], 0 to 1
+        pub restitution: f64 = Quantity(Dimension::NUMBER), default "0", range Part;
+        /// stiffness k of the stop [N/m], zero or positive
+        pub stiffness: Option<f64> = Quantity(Dimension::STIFFNESS),
+            follows "rigid", range NonNegative;
+        /// damping c of a stop with stiffness [N s/m], zero or positive
+        pub damping: f64 = Quantity(Dimension::DAMPING), default "0 N s/m", range NonNegative;
+    }
+    sample {
+        element: "padding".to_owned(),
+        at: Some(0.015),
+        restitution: 0.0,
+        stiffness: Some(2e8),
+        damping: 1e4,
+    }
 }
 
 /// Says that `parameter` has no place beside what else was given.
@@ -78,13 +92,29 @@ impl Stop {
     }
 }
 
-impl Effect for Stop {
-    fn kind(&self) -> &'static str {
-        Self::KIND
+impl Stop {
+    /// What belongs to a rigid stop or to one with stiffness alone.
+    fn suits(&self) -> Result<(), InvalidParameter> {
+        match self.stiffness {
+            None if self.damping > 0.0 => {
+                Err(needless("damping", "zero without `stiffness`: a rigid stop", self.damping))
+            }
+            Some(_) if self.restitution > 0.0 => {
+                let range = "zero beside `stiffness`: only masses on a rigid stop are reflected";
+                Err(needless("restitution", range, self.restitution))
+            }
+            _ => Ok(()),
+        }
     }
+}
 
+impl Effect for Stop {
     fn target(&self) -> Option<&str> {
         Some(&self.element)
+    }
+
+    fn on(&self, element: &str) -> Option<Arc<dyn Effect>> {
+        Some(Arc::new(Self { element: element.to_owned(), ..self.clone() }))
     }
 
     fn rewrite(&self, network: &mut Network) -> Result<(), NetworkError> {
@@ -113,64 +143,9 @@ impl Effect for Stop {
         let formula = "max(0, 1 − d/y)";
         vec![Influence::beyond(formula, depth, limit)]
     }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.at.map_or(Ok(()), |at| non_negative("at", at))?;
-        self.contact(0.0).validate()?;
-        non_negative("damping", self.damping)?;
-        match self.stiffness {
-            None if self.damping > 0.0 => {
-                Err(needless("damping", "zero without `stiffness`: a rigid stop", self.damping))
-            }
-            None => Ok(()),
-            Some(_) if self.restitution > 0.0 => {
-                let range = "zero beside `stiffness`: only masses on a rigid stop are reflected";
-                Err(needless("restitution", range, self.restitution))
-            }
-            Some(stiffness) => non_negative("stiffness", stiffness),
-        }
-    }
-
-    fn values(&self) -> Vec<Value> {
-        let maybe = |value: Option<f64>| value.map_or(Value::LeftOut, Value::Number);
-        vec![
-            maybe(self.at),
-            Value::Number(self.restitution),
-            maybe(self.stiffness),
-            Value::Number(self.damping),
-        ]
-    }
 }
 
 impl EffectKind for Stop {
-    const KIND: &'static str = "stop";
-    const SUMMARY: &'static str = "the element bottoms out at a deformation; the stop never pulls";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::following(
-            "at",
-            ParameterKind::Quantity(Dimension::LENGTH),
-            "the thickness of the element",
-            "deformation at which the stop is met [m], zero or positive",
-        ),
-        Parameter::optional(
-            "restitution",
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "0",
-            "restitution e of masses that meet on a rigid stop [1], 0 to 1",
-        ),
-        Parameter::following(
-            "stiffness",
-            ParameterKind::Quantity(Dimension::STIFFNESS),
-            "rigid",
-            "stiffness k of the stop [N/m], zero or positive",
-        ),
-        Parameter::optional(
-            "damping",
-            ParameterKind::Quantity(Dimension::DAMPING),
-            "0 N s/m",
-            "damping c of a stop with stiffness [N s/m], zero or positive",
-        ),
-    ];
     const PER_ELEMENT: bool = true;
 
     fn would_be(situation: &Situation<'_>) -> Vec<Self> {
@@ -183,25 +158,5 @@ impl EffectKind for Stop {
         };
         let pads = situation.struck().filter(|own| own.thickness.is_some());
         pads.map(|own| on(&own.name)).collect()
-    }
-
-    fn from_values(target: &str, values: &[Value]) -> Result<Self, InvalidParameter> {
-        let maybe = |at: usize, parameter: &'static str| match values.get(at) {
-            Some(Value::LeftOut) => Ok(None),
-            _ => number(values, at, parameter).map(Some),
-        };
-        let stop = Self {
-            element: target.to_owned(),
-            at: maybe(0, "at")?,
-            restitution: number(values, 1, "restitution")?,
-            stiffness: maybe(2, "stiffness")?,
-            damping: number(values, 3, "damping")?,
-        };
-        stop.validate().map(|()| stop)
-    }
-
-    fn sample() -> Self {
-        let (element, at, stiffness) = ("padding".to_owned(), Some(0.015), Some(2e8));
-        Self { element, at, restitution: 0.0, stiffness, damping: 1e4 }
     }
 }

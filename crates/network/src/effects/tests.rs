@@ -5,8 +5,8 @@ use dashpot_rheology::Tree;
 use super::{Effect, EffectKind, Face, Gravity, GravityStart, Separation, Stop, Touch, rewrite};
 use crate::{
     Network, NetworkError, Node, Start,
-    elements::{Dashpot, ElementKind, HuntCrossley, HystereticFoam, Rigid, Spring},
-    parameters::Value,
+    elements::{Dashpot, HuntCrossley, HystereticFoam, Rigid, Spring},
+    parameters::{Described as _, Kind as _, Value},
     part,
 };
 
@@ -226,7 +226,7 @@ fn values_that_contradict_each_other_are_out_of_range() {
 #[test]
 fn values_left_out_come_back() {
     fn same<E: EffectKind>(effect: &E) {
-        let again = E::from_values(effect.target().unwrap(), &effect.values()).unwrap();
+        let again = E::from_values(&effect.values()).unwrap().on(effect.target().unwrap()).unwrap();
         assert_eq!(format!("{again:?}"), format!("{effect:?}"));
     }
     same(&separation());

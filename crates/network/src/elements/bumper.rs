@@ -1,13 +1,13 @@
 //! Contact with a wanted restitution.
 
 use super::{
-    Element, ElementKind, Law, Tangent,
+    Element, Law, Tangent,
     impact_law::{Impact, ImpactLaw},
-    number,
-    power::{AT_PARAMETER, EXPONENT, FORCE_PARAMETER, PowerLaw},
+    power::PowerLaw,
 };
 use crate::{
-    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, positive},
+    parameters,
+    parameters::{Described, InvalidParameter, Kind, Parameter, Value},
     phases::Phases,
 };
 
@@ -70,21 +70,24 @@ pub struct Bumper {
     dissipation: f64,
 }
 
-/// What a [`Bumper`] is made of.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BumperSettings {
-    /// Force `F_r` at the reference depth, at rest \[N\].
-    pub force: f64,
-    /// Reference depth `y_r` \[m\].
-    pub at: f64,
-    /// Part `e` of the speed that is given back.
-    pub restitution: f64,
-    /// Speed `v` of approach for which that holds \[m/s\].
-    pub speed: f64,
-    /// Exponent `n` of the depth.
-    pub exponent: f64,
-    /// Deformation at which it engages \[m\].
-    pub gap: f64,
+parameters! {
+    /// What a [`Bumper`] is made of.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct BumperSettings: "bumper", "contact that gives back the part e of the speed v" {
+        /// force F_r at the deformation `at` [N], positive
+        pub force: f64 = Quantity(Dimension::FORCE), range Positive;
+        /// reference deformation y_r [m], positive
+        pub at: f64 = Quantity(Dimension::LENGTH), range Positive;
+        /// part e of the speed that is given back [1], above 0, 1 at most
+        pub restitution: f64 = Quantity(Dimension::NUMBER), range PositivePart;
+        /// speed of approach v for which that holds [m/s], positive
+        pub speed: f64 = Quantity(Dimension::VELOCITY), range Positive;
+        /// exponent n of the depth [1], 1 or more
+        pub exponent: f64 = Quantity(Dimension::NUMBER), default "1.5", range AtLeastOne;
+        /// deformation at which it engages [m]
+        pub gap: f64 = Quantity(Dimension::LENGTH), default "0 m";
+    }
+    sample { force: 1000.0, at: 0.001, restitution: 0.5, speed: 2.0, exponent: 1.5, gap: 0.0 }
 }
 
 impl Bumper {
@@ -94,17 +97,10 @@ impl Bumper {
     ///
     /// [`InvalidParameter`] for the first setting out of its range.
     pub fn new(settings: BumperSettings) -> Result<Self, InvalidParameter> {
+        settings.validate()?;
         let BumperSettings { restitution, speed, .. } = settings;
-        if !(restitution > 0.0 && restitution <= 1.0) {
-            return Err(InvalidParameter::new(
-                "restitution",
-                "above 0, and 1 at most",
-                restitution,
-            ));
-        }
-        positive("speed", speed)?;
         let bumper = Self { settings, dissipation: number_of_damping(restitution) / speed };
-        bumper.impact().validate().map_err(|invalid| {
+        bumper.impact().fits().map_err(|invalid| {
             // The dissipation is nobody's setting; it is out of range where the speed is.
             let parameter =
                 if invalid.parameter == "dissipation" { "speed" } else { invalid.parameter };
@@ -174,10 +170,6 @@ impl Impact for Bumper {
 }
 
 impl Element for Bumper {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn force(&self, deformation: f64, rate: f64) -> f64 {
         self.impact().force(deformation, rate)
     }
@@ -201,69 +193,37 @@ impl Element for Bumper {
     fn never_pulls(&self) -> bool {
         true
     }
+}
+
+impl Described for Bumper {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        Self::PARAMETERS
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.settings.values()
+    }
 
     fn validate(&self) -> Result<(), InvalidParameter> {
         Self::new(self.settings).map(|_| ())
     }
-
-    fn values(&self) -> Vec<Value> {
-        let own = &self.settings;
-        [own.force, own.at, own.restitution, own.speed, own.exponent, own.gap]
-            .map(Value::Number)
-            .to_vec()
-    }
 }
 
-impl ElementKind for Bumper {
-    const KIND: &'static str = "bumper";
-    const SUMMARY: &'static str = "contact that gives back the part e of the speed v";
-    const PARAMETERS: &'static [Parameter] = &[
-        FORCE_PARAMETER,
-        AT_PARAMETER,
-        Parameter::required(
-            "restitution",
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "part e of the speed that is given back [1], above 0, 1 at most",
-        ),
-        Parameter::required(
-            "speed",
-            ParameterKind::Quantity(Dimension::VELOCITY),
-            "speed of approach v for which that holds [m/s], positive",
-        ),
-        Parameter::optional(
-            EXPONENT,
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "1.5",
-            "exponent n of the depth [1], 1 or more",
-        ),
-        Parameter::optional(
-            "gap",
-            ParameterKind::Quantity(Dimension::LENGTH),
-            "0 m",
-            "deformation at which it engages [m]",
-        ),
-    ];
+impl Kind for Bumper {
+    const KIND: &'static str = BumperSettings::KIND;
+    const SUMMARY: &'static str = BumperSettings::SUMMARY;
+    const PARAMETERS: &'static [Parameter] = BumperSettings::PARAMETERS;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        Self::new(BumperSettings {
-            force: number(values, 0, "force")?,
-            at: number(values, 1, "at")?,
-            restitution: number(values, 2, "restitution")?,
-            speed: number(values, 3, "speed")?,
-            exponent: number(values, 4, EXPONENT)?,
-            gap: number(values, 5, "gap")?,
-        })
+        Self::new(BumperSettings::from_values(values)?)
     }
 
     fn sample() -> Self {
-        let settings = BumperSettings {
-            force: 1000.0,
-            at: 0.001,
-            restitution: 0.5,
-            speed: 2.0,
-            exponent: 1.5,
-            gap: 0.0,
-        };
+        let settings = BumperSettings::sample();
         Self { settings, dissipation: number_of_damping(settings.restitution) / settings.speed }
     }
 }

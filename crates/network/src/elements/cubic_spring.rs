@@ -1,56 +1,55 @@
 //! Spring with a linear and a cubic part.
 
-use super::{Element, ElementKind, Law, Tangent, number};
-use crate::parameters::{
-    Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative,
-};
+use super::{Element, Law, Tangent};
+use crate::parameters;
 
-/// A spring with a linear and a cubic part, `F = k y + k₃ y³`.
-///
-/// | symbol | field       | unit | range |
-/// |--------|-------------|------|-------|
-/// | `k`    | `stiffness` | N/m  | ≥ 0   |
-/// | `k₃`   | `cubic`     | N/m³ | ≥ 0   |
-///
-/// Mindlin's "cubic elasticity" of cushions, Duffing's spring. Tension mirrors compression. The
-/// spring stores `½ k y² + ¼ k₃ y⁴` and dissipates none. At the deformation `√(k/k₃)` the force is
-/// twice that of the linear part. `k₃ < 0` is refused: such a law falls beyond `√(−k/(3 k₃))` and
-/// pulls beyond `√(−k/k₃)`. A spring that softens is a [`TableSpring`](super::TableSpring).
-///
-/// # Limits
-///
-/// The law has no stroke at which it would bottom: it goes on to any deformation. A cushion that
-/// bottoms is a [`StiffeningSpring`](super::StiffeningSpring) or has a
-/// [`Stop`](crate::effects::Stop).
-///
-/// # Examples
-///
-/// ```
-/// use dashpot_network::{Element, elements::CubicSpring};
-///
-/// let spring = CubicSpring { stiffness: 2e4, cubic: 2e8 };
-/// assert!((spring.force(0.01, 0.0) - 400.0).abs() < 1e-12);
-/// ```
-///
-/// # References
-///
-/// `mindlin1945` in `docs/references.bib`, "Class B".
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CubicSpring {
-    /// Slope at rest `k` \[N/m\].
-    pub stiffness: f64,
-    /// Coefficient of the cube `k₃` \[N/m³\].
-    pub cubic: f64,
+parameters! {
+    /// A spring with a linear and a cubic part, `F = k y + k₃ y³`.
+    ///
+    /// | symbol | field       | unit | range |
+    /// |--------|-------------|------|-------|
+    /// | `k`    | `stiffness` | N/m  | ≥ 0   |
+    /// | `k₃`   | `cubic`     | N/m³ | ≥ 0   |
+    ///
+    /// Mindlin's "cubic elasticity" of cushions, Duffing's spring. Tension mirrors compression. The
+    /// spring stores `½ k y² + ¼ k₃ y⁴` and dissipates none. At the deformation `√(k/k₃)` the force is
+    /// twice that of the linear part. `k₃ < 0` is refused: such a law falls beyond `√(−k/(3 k₃))` and
+    /// pulls beyond `√(−k/k₃)`. A spring that softens is a [`TableSpring`](super::TableSpring).
+    ///
+    /// # Limits
+    ///
+    /// The law has no stroke at which it would bottom: it goes on to any deformation. A cushion that
+    /// bottoms is a [`StiffeningSpring`](super::StiffeningSpring) or has a
+    /// [`Stop`](crate::effects::Stop).
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use dashpot_network::{Element, elements::CubicSpring};
+    ///
+    /// let spring = CubicSpring { stiffness: 2e4, cubic: 2e8 };
+    /// assert!((spring.force(0.01, 0.0) - 400.0).abs() < 1e-12);
+    /// ```
+    ///
+    /// # References
+    ///
+    /// `mindlin1945` in `docs/references.bib`, "Class B".
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct CubicSpring: "cubic-spring",
+        "spring with a linear and a cubic part, F = k y + k3 y^3"
+    {
+        /// slope at rest k [N/m], zero or positive
+        pub stiffness: f64 = Quantity(Dimension::STIFFNESS), range NonNegative;
+        /// coefficient of the cube k3 [N/m^3], zero or positive
+        pub cubic: f64 = Quantity(Dimension::new(1, -2, -2)), range NonNegative;
+    }
+    sample { stiffness: 2e4, cubic: 2e8 }
 }
 
 /// Deformation \[m\] at which the slope of a purely cubic spring counts as typical.
 const TYPICAL: f64 = 0.01;
 
 impl Element for CubicSpring {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn force(&self, deformation: f64, _rate: f64) -> f64 {
         (self.stiffness + self.cubic * deformation * deformation) * deformation
     }
@@ -71,41 +70,5 @@ impl Element for CubicSpring {
         }
         let stiffness = self.stiffness.max(self.cubic * TYPICAL * TYPICAL);
         Law::Nonlinear { stiffness, damping: 0.0 }
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        non_negative("stiffness", self.stiffness)?;
-        non_negative("cubic", self.cubic)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Number(self.stiffness), Value::Number(self.cubic)]
-    }
-}
-
-impl ElementKind for CubicSpring {
-    const KIND: &'static str = "cubic-spring";
-    const SUMMARY: &'static str = "spring with a linear and a cubic part, F = k y + k3 y^3";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required(
-            "stiffness",
-            ParameterKind::Quantity(Dimension::STIFFNESS),
-            "slope at rest k [N/m], zero or positive",
-        ),
-        Parameter::required(
-            "cubic",
-            ParameterKind::Quantity(Dimension::new(1, -2, -2)),
-            "coefficient of the cube k3 [N/m^3], zero or positive",
-        ),
-    ];
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let spring =
-            Self { stiffness: number(values, 0, "stiffness")?, cubic: number(values, 1, "cubic")? };
-        spring.validate().map(|()| spring)
-    }
-
-    fn sample() -> Self {
-        Self { stiffness: 2e4, cubic: 2e8 }
     }
 }

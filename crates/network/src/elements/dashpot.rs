@@ -1,46 +1,43 @@
 //! Linear dashpot.
 
-use super::{Element, ElementKind, Law, Tangent, number};
-use crate::parameters::{
-    Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative,
-};
+use super::{Element, Law, Tangent};
+use crate::parameters;
 
-/// A linear (Newtonian) dashpot, `F = c ẏ`.
-///
-/// | symbol | field     | unit    | range |
-/// |--------|-----------|---------|-------|
-/// | `c`    | `damping` | N·s/m   | ≥ 0   |
-///
-/// The dashpot stores nothing and dissipates the power `c ẏ²`. `c = 0` is no dashpot at all.
-///
-/// # Limits
-///
-/// Where the rate jumps, so does the force. Alone it carries no weight at rest.
-///
-/// # Examples
-///
-/// ```
-/// use dashpot_network::{Element, elements::Dashpot};
-///
-/// let dashpot = Dashpot { damping: 6000.0 };
-/// assert_eq!(dashpot.force(0.01, 2.0), 12_000.0);
-/// ```
-///
-/// # References
-///
-/// `newton1687` in `docs/references.bib`, book II, section IX: resistance in proportion to the
-/// speed with which parts of a liquid are separated.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dashpot {
-    /// Dashpot constant `c` \[N·s/m\].
-    pub damping: f64,
+parameters! {
+    /// A linear (Newtonian) dashpot, `F = c ẏ`.
+    ///
+    /// | symbol | field     | unit    | range |
+    /// |--------|-----------|---------|-------|
+    /// | `c`    | `damping` | N·s/m   | ≥ 0   |
+    ///
+    /// The dashpot stores nothing and dissipates the power `c ẏ²`. `c = 0` is no dashpot at all.
+    ///
+    /// # Limits
+    ///
+    /// Where the rate jumps, so does the force. Alone it carries no weight at rest.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use dashpot_network::{Element, elements::Dashpot};
+    ///
+    /// let dashpot = Dashpot { damping: 6000.0 };
+    /// assert_eq!(dashpot.force(0.01, 2.0), 12_000.0);
+    /// ```
+    ///
+    /// # References
+    ///
+    /// `newton1687` in `docs/references.bib`, book II, section IX: resistance in proportion to the
+    /// speed with which parts of a liquid are separated.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Dashpot: "dashpot", "linear dashpot, F = c y'" {
+        /// dashpot constant c [N s/m], zero or positive
+        pub damping as "dashpot": f64 = Quantity(Dimension::DAMPING), range NonNegative;
+    }
+    sample { damping: 50.0 }
 }
 
 impl Element for Dashpot {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn force(&self, _deformation: f64, rate: f64) -> f64 {
         self.damping * rate
     }
@@ -55,32 +52,5 @@ impl Element for Dashpot {
 
     fn law(&self) -> Law {
         Law::Dashpot(self.damping)
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        non_negative("dashpot", self.damping)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Number(self.damping)]
-    }
-}
-
-impl ElementKind for Dashpot {
-    const KIND: &'static str = "dashpot";
-    const SUMMARY: &'static str = "linear dashpot, F = c y'";
-    const PARAMETERS: &'static [Parameter] = &[Parameter::required(
-        "dashpot",
-        ParameterKind::Quantity(Dimension::DAMPING),
-        "dashpot constant c [N s/m], zero or positive",
-    )];
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let dashpot = Self { damping: number(values, 0, "dashpot")? };
-        dashpot.validate().map(|()| dashpot)
-    }
-
-    fn sample() -> Self {
-        Self { damping: 50.0 }
     }
 }

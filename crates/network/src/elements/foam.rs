@@ -1,74 +1,81 @@
 //! Foam with a plateau and densification.
 
-use super::{
-    Element, ElementKind, Law, Tangent, number,
-    power::{at_least_one, in_range},
-    quadrature::integral,
-};
-use crate::parameters::{
-    Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative, positive,
-};
+use super::{Element, Law, Tangent, power::in_range, quadrature::integral};
+use crate::{parameters, parameters::InvalidParameter};
 
-/// A block of foam with a plateau and densification: `F = A σ(ε)` with `ε = y/h` and
-/// `σ = σ_p (1 − e^(−E ε/σ_p)) + B (ε/(1 − ε))^n` in compression.
-///
-/// | symbol | field           | unit | range |
-/// |--------|-----------------|------|-------|
-/// | `E`    | `modulus`       | Pa   | > 0   |
-/// | `σ_p`  | `plateau`       | Pa   | > 0   |
-/// | `B`    | `densification` | Pa   | ≥ 0   |
-/// | `n`    | `exponent`      | 1    | ≥ 1   |
-/// | `h`    | `thickness`     | m    | > 0   |
-/// | `A`    | `area`          | m²   | > 0   |
-///
-/// `σ_p` is the stress of the plateau, and `B` is what densification adds to it at half the
-/// thickness. The law is that of Avalle, Belingardi and Ibba with their exponent `m = 0`: so it
-/// rises everywhere, while for `m > 0` it may fall at the end of the plateau. In tension the foam
-/// is linear, with the slope that it has at rest. Strain and stress are those of the undeformed
-/// block.
-///
-/// The foam stores `h A ∫ σ dε` and dissipates none; foam that does is
-/// [`HystereticFoam`](super::HystereticFoam).
-///
-/// # Limits
-///
-/// Beyond the strain 0.99 the law goes on as a straight line with the slope that it has there, so
-/// that it has a value everywhere.
-///
-/// # Examples
-///
-/// ```
-/// use dashpot_network::{Element, elements::Foam};
-///
-/// let foam = Foam {
-///     modulus: 2e6,
-///     plateau: 1e5,
-///     densification: 2e4,
-///     exponent: 3.0,
-///     thickness: 0.02,
-///     area: 0.01,
-/// };
-/// // At half the thickness: the plateau, and what densification adds.
-/// assert!((foam.force(0.01, 0.0) - 1200.0).abs() < 0.1);
-/// ```
-///
-/// # References
-///
-/// `avalle2007` in `docs/references.bib`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Foam {
-    /// Modulus `E` of the plateau's part at rest \[Pa\].
-    pub modulus: f64,
-    /// Stress of the plateau `σ_p` \[Pa\].
-    pub plateau: f64,
-    /// Stress `B` that densification adds at half the thickness \[Pa\].
-    pub densification: f64,
-    /// Exponent `n` of densification.
-    pub exponent: f64,
-    /// Thickness `h` \[m\].
-    pub thickness: f64,
-    /// Area `A` \[m²\].
-    pub area: f64,
+parameters! {
+    /// A block of foam with a plateau and densification: `F = A σ(ε)` with `ε = y/h` and
+    /// `σ = σ_p (1 − e^(−E ε/σ_p)) + B (ε/(1 − ε))^n` in compression.
+    ///
+    /// | symbol | field           | unit | range |
+    /// |--------|-----------------|------|-------|
+    /// | `E`    | `modulus`       | Pa   | > 0   |
+    /// | `σ_p`  | `plateau`       | Pa   | > 0   |
+    /// | `B`    | `densification` | Pa   | ≥ 0   |
+    /// | `n`    | `exponent`      | 1    | ≥ 1   |
+    /// | `h`    | `thickness`     | m    | > 0   |
+    /// | `A`    | `area`          | m²   | > 0   |
+    ///
+    /// `σ_p` is the stress of the plateau, and `B` is what densification adds to it at half the
+    /// thickness. The law is that of Avalle, Belingardi and Ibba with their exponent `m = 0`: so it
+    /// rises everywhere, while for `m > 0` it may fall at the end of the plateau. In tension the foam
+    /// is linear, with the slope that it has at rest. Strain and stress are those of the undeformed
+    /// block.
+    ///
+    /// The foam stores `h A ∫ σ dε` and dissipates none; foam that does is
+    /// [`HystereticFoam`](super::HystereticFoam).
+    ///
+    /// # Limits
+    ///
+    /// Beyond the strain 0.99 the law goes on as a straight line with the slope that it has there, so
+    /// that it has a value everywhere.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use dashpot_network::{Element, elements::Foam};
+    ///
+    /// let foam = Foam {
+    ///     modulus: 2e6,
+    ///     plateau: 1e5,
+    ///     densification: 2e4,
+    ///     exponent: 3.0,
+    ///     thickness: 0.02,
+    ///     area: 0.01,
+    /// };
+    /// // At half the thickness: the plateau, and what densification adds.
+    /// assert!((foam.force(0.01, 0.0) - 1200.0).abs() < 0.1);
+    /// ```
+    ///
+    /// # References
+    ///
+    /// `avalle2007` in `docs/references.bib`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Foam: "foam",
+        "block of foam with plateau and densification, elastic", checked by Self::fits
+    {
+        /// modulus E at rest [Pa], positive
+        pub modulus: f64 = Quantity(Dimension::PRESSURE), range Positive;
+        /// stress of the plateau sigma_p [Pa], positive
+        pub plateau: f64 = Quantity(Dimension::PRESSURE), range Positive;
+        /// stress B that densification adds at half the thickness [Pa], zero or positive
+        pub densification: f64 = Quantity(Dimension::PRESSURE), range NonNegative;
+        /// exponent n of densification [1], 1 or more
+        pub exponent: f64 = Quantity(Dimension::NUMBER), range AtLeastOne;
+        /// thickness h [m], positive; here or beside the law, none in a material
+        pub thickness: f64 = Quantity(Dimension::LENGTH), follows "that of the pad", range Positive;
+        /// area A [m^2], positive; here or beside the law, none in a material
+        pub area: f64 = Quantity(Dimension::new(0, 2, 0)),
+            follows "that of the pad", range Positive;
+    }
+    sample {
+        modulus: 2e6,
+        plateau: 1e5,
+        densification: 2e4,
+        exponent: 3.0,
+        thickness: 0.02,
+        area: 0.01,
+    }
 }
 
 /// Strain up to which the law holds; a straight line follows.
@@ -126,16 +133,15 @@ impl Foam {
         self.curve(0.0).1 * self.area / self.thickness
     }
 
-    /// The foam of the first six of an element's values.
-    pub(super) fn of(values: &[Value]) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            modulus: number(values, 0, MODULUS.name)?,
-            plateau: number(values, 1, PLATEAU.name)?,
-            densification: number(values, 2, DENSIFICATION.name)?,
-            exponent: number(values, 3, DENSIFICATION_EXPONENT.name)?,
-            thickness: number(values, 4, THICKNESS.name)?,
-            area: number(values, 5, AREA.name)?,
-        })
+    /// Whether its slopes and energies are numbers.
+    fn fits(&self) -> Result<(), InvalidParameter> {
+        in_range("modulus", self.modulus, self.stiffness())?;
+        in_range("plateau", self.plateau, self.plateau * self.plateau / self.modulus)?;
+        let scale = self.area / self.thickness;
+        let steepest =
+            self.densification * self.exponent * (LAST / (1.0 - LAST)).powf(self.exponent);
+        let slope = steepest * scale / (1.0 - LAST);
+        if slope.is_finite() { Ok(()) } else { in_range("exponent", self.exponent, slope) }
     }
 }
 
@@ -157,10 +163,6 @@ fn above_tangent(x: f64) -> f64 {
 }
 
 impl Element for Foam {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn force(&self, deformation: f64, _rate: f64) -> f64 {
         self.area * self.stress(deformation / self.thickness).0
     }
@@ -177,92 +179,12 @@ impl Element for Foam {
     fn law(&self) -> Law {
         Law::Nonlinear { stiffness: self.stiffness(), damping: 0.0 }
     }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        positive(MODULUS.name, self.modulus)?;
-        positive(PLATEAU.name, self.plateau)?;
-        non_negative(DENSIFICATION.name, self.densification)?;
-        at_least_one(DENSIFICATION_EXPONENT.name, self.exponent)?;
-        positive(THICKNESS.name, self.thickness)?;
-        positive(AREA.name, self.area)?;
-        in_range(MODULUS.name, self.modulus, self.stiffness())?;
-        in_range(PLATEAU.name, self.plateau, self.plateau * self.plateau / self.modulus)?;
-        let scale = self.area / self.thickness;
-        let steepest =
-            self.densification * self.exponent * (LAST / (1.0 - LAST)).powf(self.exponent);
-        if (steepest * scale / (1.0 - LAST)).is_finite() {
-            Ok(())
-        } else {
-            in_range(DENSIFICATION_EXPONENT.name, self.exponent, steepest * scale / (1.0 - LAST))
-        }
-    }
-
-    fn values(&self) -> Vec<Value> {
-        [self.modulus, self.plateau, self.densification, self.exponent, self.thickness, self.area]
-            .map(Value::Number)
-            .to_vec()
-    }
-}
-
-pub(super) const MODULUS: Parameter = Parameter::required(
-    "modulus",
-    ParameterKind::Quantity(Dimension::PRESSURE),
-    "modulus E at rest [Pa], positive",
-);
-pub(super) const PLATEAU: Parameter = Parameter::required(
-    "plateau",
-    ParameterKind::Quantity(Dimension::PRESSURE),
-    "stress of the plateau sigma_p [Pa], positive",
-);
-pub(super) const DENSIFICATION: Parameter = Parameter::required(
-    "densification",
-    ParameterKind::Quantity(Dimension::PRESSURE),
-    "stress B that densification adds at half the thickness [Pa], zero or positive",
-);
-pub(super) const DENSIFICATION_EXPONENT: Parameter = Parameter::required(
-    "exponent",
-    ParameterKind::Quantity(Dimension::NUMBER),
-    "exponent n of densification [1], 1 or more",
-);
-pub(super) const THICKNESS: Parameter = Parameter::following(
-    "thickness",
-    ParameterKind::Quantity(Dimension::LENGTH),
-    "that of the pad",
-    "thickness h [m], positive; here or beside the law, none in a material",
-);
-pub(super) const AREA: Parameter = Parameter::following(
-    "area",
-    ParameterKind::Quantity(Dimension::new(0, 2, 0)),
-    "that of the pad",
-    "area A [m^2], positive; here or beside the law, none in a material",
-);
-
-impl ElementKind for Foam {
-    const KIND: &'static str = "foam";
-    const SUMMARY: &'static str = "block of foam with plateau and densification, elastic";
-    const PARAMETERS: &'static [Parameter] =
-        &[MODULUS, PLATEAU, DENSIFICATION, DENSIFICATION_EXPONENT, THICKNESS, AREA];
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let foam = Self::of(values)?;
-        foam.validate().map(|()| foam)
-    }
-
-    fn sample() -> Self {
-        Self {
-            modulus: 2e6,
-            plateau: 1e5,
-            densification: 2e4,
-            exponent: 3.0,
-            thickness: 0.02,
-            area: 0.01,
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameters::{Described as _, Kind as _};
 
     #[test]
     fn energies_are_the_closed_forms_of_whole_exponents() {

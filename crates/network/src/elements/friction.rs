@@ -1,39 +1,42 @@
 //! Coulomb friction.
 
-use super::{Element, ElementKind, Law, Tangent, number};
+use super::{Element, Law, Tangent};
 use crate::{
-    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative},
+    parameters,
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
-/// A slider with dry friction, `F = F_c sgn ẏ` while it slides and `|F| ≤ F_c` while it sticks
-/// (Coulomb).
-///
-/// | symbol | field   | unit | range |
-/// |--------|---------|------|-------|
-/// | `F_c`  | `force` | N    | ≥ 0   |
-///
-/// It sticks where its rate comes to zero, and slides again where the force that holds it would
-/// exceed `F_c`: sticking is exact, not a creep. It stores no energy and dissipates `F_c |ẏ|`. Static
-/// and kinetic friction are the same. `F_c = 0` is no slider at all. A mass that it holds to a given motion
-/// slides where that has a kink.
-///
-/// # Limits
-///
-/// `F_c` does not depend on a normal force, on the speed or on the time of rest. Between two given
-/// motions it cannot stick: it slides the way they go, and while they pause it keeps the force that
-/// it had, and so it does while something else holds its ends, though its force follows from nothing
-/// then. Sliders side by side between the same two places slide together, and each reports its part
-/// of their force in proportion to its `F_c`, also while they stick: how they would share it then
-/// depends on how each of them came to rest, which this law does not know.
-///
-/// # References
-///
-/// `coulomb1785` in `docs/references.bib`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Friction {
-    /// Force at which it slides `F_c` \[N\].
-    pub force: f64,
+parameters! {
+    /// A slider with dry friction, `F = F_c sgn ẏ` while it slides and `|F| ≤ F_c` while it sticks
+    /// (Coulomb).
+    ///
+    /// | symbol | field   | unit | range |
+    /// |--------|---------|------|-------|
+    /// | `F_c`  | `force` | N    | ≥ 0   |
+    ///
+    /// It sticks where its rate comes to zero, and slides again where the force that holds it would
+    /// exceed `F_c`: sticking is exact, not a creep. It stores no energy and dissipates `F_c |ẏ|`. Static
+    /// and kinetic friction are the same. `F_c = 0` is no slider at all. A mass that it holds to a given motion
+    /// slides where that has a kink.
+    ///
+    /// # Limits
+    ///
+    /// `F_c` does not depend on a normal force, on the speed or on the time of rest. Between two given
+    /// motions it cannot stick: it slides the way they go, and while they pause it keeps the force that
+    /// it had, and so it does while something else holds its ends, though its force follows from nothing
+    /// then. Sliders side by side between the same two places slide together, and each reports its part
+    /// of their force in proportion to its `F_c`, also while they stick: how they would share it then
+    /// depends on how each of them came to rest, which this law does not know.
+    ///
+    /// # References
+    ///
+    /// `coulomb1785` in `docs/references.bib`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Friction: "friction", "dry friction, F = F_c sgn ẏ, with true stick" {
+        /// force F_c at which it slides [N], zero or positive
+        pub force as "friction": f64 = Quantity(Dimension::FORCE), range NonNegative;
+    }
+    sample { force: 50.0 }
 }
 
 const STUCK: usize = 0;
@@ -85,10 +88,6 @@ impl Phases for Friction {
 }
 
 impl Element for Friction {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn force(&self, _deformation: f64, rate: f64) -> f64 {
         if rate == 0.0 { 0.0 } else { self.force.copysign(rate) }
     }
@@ -107,32 +106,5 @@ impl Element for Friction {
 
     fn phases(&self) -> Option<&dyn Phases> {
         (self.force > 0.0).then_some(self as &dyn Phases)
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        non_negative("friction", self.force)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Number(self.force)]
-    }
-}
-
-impl ElementKind for Friction {
-    const KIND: &'static str = "friction";
-    const SUMMARY: &'static str = "dry friction, F = F_c sgn ẏ, with true stick";
-    const PARAMETERS: &'static [Parameter] = &[Parameter::required(
-        "friction",
-        ParameterKind::Quantity(Dimension::FORCE),
-        "force F_c at which it slides [N], zero or positive",
-    )];
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let friction = Self { force: number(values, 0, "friction")? };
-        friction.validate().map(|()| friction)
-    }
-
-    fn sample() -> Self {
-        Self { force: 50.0 }
     }
 }

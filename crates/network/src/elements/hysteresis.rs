@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Element, Law, Tangent};
 use crate::{
-    parameters::{InvalidParameter, Value},
+    parameters::{Described, InvalidParameter, Parameter, Value},
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
@@ -15,10 +15,7 @@ use crate::{
 /// `φ` rises with `y` from 0 or more to 1 at `y_m`, and never rises with `y_m`. So the second curve
 /// never lies above the first, and what it gives back grows by no more than the work that goes
 /// deeper: no history creates energy.
-pub(super) trait Hysteresis: Phases + Clone + 'static {
-    /// Word for the element.
-    fn word(&self) -> &'static str;
-
+pub(super) trait Hysteresis: Phases + Described + Clone + 'static {
     /// The first curve `f`, for deformations ≥ 0.
     fn loading(&self) -> &dyn Element;
 
@@ -31,12 +28,6 @@ pub(super) trait Hysteresis: Phases + Clone + 'static {
     /// Energy \[J\] that unloading from `deepest` gives back from `deformation` on: the integral of
     /// `f φ` from the set.
     fn recoverable(&self, deformation: f64, deepest: f64) -> f64;
-
-    /// Checks the parameters.
-    fn check(&self) -> Result<(), InvalidParameter>;
-
-    /// The values of the parameters.
-    fn numbers(&self) -> Vec<Value>;
 }
 
 pub(super) const SLACK: usize = 0;
@@ -98,11 +89,25 @@ impl<H: Hysteresis> Curve<H> {
     }
 }
 
-impl<H: Hysteresis> Element for Curve<H> {
+impl<H: Hysteresis> Described for Curve<H> {
     fn kind(&self) -> &'static str {
-        self.law.word()
+        self.law.kind()
     }
 
+    fn parameters(&self) -> &'static [Parameter] {
+        self.law.parameters()
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.law.values()
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.law.validate()
+    }
+}
+
+impl<H: Hysteresis> Element for Curve<H> {
     fn force(&self, deformation: f64, rate: f64) -> f64 {
         if deformation <= 0.0 {
             return 0.0;
@@ -128,21 +133,9 @@ impl<H: Hysteresis> Element for Curve<H> {
     fn law(&self) -> Law {
         self.law.loading().law()
     }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.law.check()
-    }
-
-    fn values(&self) -> Vec<Value> {
-        self.law.numbers()
-    }
 }
 
 impl<H: Hysteresis> Element for H {
-    fn kind(&self) -> &'static str {
-        self.word()
-    }
-
     fn force(&self, deformation: f64, rate: f64) -> f64 {
         if deformation > 0.0 { self.loading().force(deformation, rate) } else { 0.0 }
     }
@@ -173,14 +166,6 @@ impl<H: Hysteresis> Element for H {
 
     fn measured(&self) -> Option<(f64, f64)> {
         self.loading().measured()
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.check()
-    }
-
-    fn values(&self) -> Vec<Value> {
-        self.numbers()
     }
 }
 

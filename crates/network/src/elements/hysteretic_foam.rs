@@ -1,15 +1,15 @@
 //! Foam that unloads on another curve.
 
 use super::{
-    Element, ElementKind, Foam,
-    foam::{AREA, DENSIFICATION, DENSIFICATION_EXPONENT, MODULUS, PLATEAU, THICKNESS},
+    Element, Foam,
     hysteresis::{self, Hysteresis},
-    number,
-    power::at_least_one,
     quadrature::integral,
 };
 use crate::{
-    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value},
+    parameters::{
+        Described, Dimension, Field, Given, InvalidParameter, Kind, Parameter, ParameterKind,
+        Range, Value,
+    },
     phases::{Exit, Phase, PhaseLaw, Phases},
 };
 
@@ -75,9 +75,6 @@ pub struct HystereticFoam {
     pub unloading_exponent: f64,
 }
 
-const SET: &str = "set";
-const UNLOADING_EXPONENT: &str = "unloading-exponent";
-
 impl Phases for HystereticFoam {
     fn names(&self) -> &'static [&'static str] {
         hysteresis::NAMES
@@ -97,10 +94,6 @@ impl Phases for HystereticFoam {
 }
 
 impl Hysteresis for HystereticFoam {
-    fn word(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn loading(&self) -> &dyn Element {
         &self.foam
     }
@@ -131,52 +124,52 @@ impl Hysteresis for HystereticFoam {
         };
         length * integral(force, 0.0, (deformation - from) / length)
     }
+}
 
-    fn check(&self) -> Result<(), InvalidParameter> {
-        self.foam.validate()?;
-        if !(0.0..1.0).contains(&self.set) {
-            let range = "zero or positive, and below 1";
-            return Err(InvalidParameter::new(SET, range, self.set));
-        }
-        at_least_one(UNLOADING_EXPONENT, self.unloading_exponent)
+impl Described for HystereticFoam {
+    fn kind(&self) -> &'static str {
+        Self::KIND
     }
 
-    fn numbers(&self) -> Vec<Value> {
+    fn parameters(&self) -> &'static [Parameter] {
+        Self::PARAMETERS
+    }
+
+    fn values(&self) -> Vec<Value> {
         let mut values = self.foam.values();
-        values.extend([self.set, self.unloading_exponent].map(Value::Number));
+        values.extend([self.set.value(), self.unloading_exponent.value()]);
         values
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.foam.validate()?;
+        let own = Self::PARAMETERS.iter().zip(self.values()).skip(Foam::PARAMETERS.len());
+        own.into_iter().try_for_each(|(own, value)| own.check(&value))
     }
 }
 
-impl ElementKind for HystereticFoam {
+/// The parameters of the foam, and those of unloading.
+const PARAMETERS: [Parameter; 8] = {
+    let number = ParameterKind::Quantity(Dimension::NUMBER);
+    let set = "part r of the greatest deformation that remains [1], from 0, below 1";
+    let set = Parameter::new("set", number, set).range(Range::PartBelowOne);
+    let exponent = "exponent q of the curve of unloading [1], 1 or more";
+    let exponent = Parameter::new("unloading-exponent", number, exponent).range(Range::AtLeastOne);
+    let mut all = [set, set, set, set, set, set, set, exponent];
+    all.split_at_mut(Foam::PARAMETERS.len()).0.copy_from_slice(Foam::PARAMETERS);
+    all
+};
+
+impl Kind for HystereticFoam {
     const KIND: &'static str = "hysteretic-foam";
     const SUMMARY: &'static str = "foam that unloads on a lower curve and keeps a set; never pulls";
-    const PARAMETERS: &'static [Parameter] = &[
-        MODULUS,
-        PLATEAU,
-        DENSIFICATION,
-        DENSIFICATION_EXPONENT,
-        THICKNESS,
-        AREA,
-        Parameter::required(
-            SET,
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "part r of the greatest deformation that remains [1], from 0, below 1",
-        ),
-        Parameter::required(
-            UNLOADING_EXPONENT,
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "exponent q of the curve of unloading [1], 1 or more",
-        ),
-    ];
+    const PARAMETERS: &'static [Parameter] = &PARAMETERS;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let foam = Self {
-            foam: Foam::of(values)?,
-            set: number(values, 6, SET)?,
-            unloading_exponent: number(values, 7, UNLOADING_EXPONENT)?,
-        };
-        foam.validate().map(|()| foam)
+        let foam = Foam::from_values(values)?;
+        let own = values.get(Foam::PARAMETERS.len()..).unwrap_or_default();
+        let mut given = Given::new(Self::PARAMETERS.split_at(Foam::PARAMETERS.len()).1, own);
+        Ok(Self { foam, set: given.take()?, unloading_exponent: given.take()? })
     }
 
     fn sample() -> Self {
@@ -285,8 +278,8 @@ mod tests {
     #[test]
     fn a_set_of_the_whole_depth_is_refused() {
         let foam = HystereticFoam { set: 1.0, ..HystereticFoam::sample() };
-        assert_eq!(foam.validate().unwrap_err().parameter, SET);
+        assert_eq!(foam.validate().unwrap_err().parameter, "set");
         let foam = HystereticFoam { unloading_exponent: 0.5, ..HystereticFoam::sample() };
-        assert_eq!(foam.validate().unwrap_err().parameter, UNLOADING_EXPONENT);
+        assert_eq!(foam.validate().unwrap_err().parameter, "unloading-exponent");
     }
 }

@@ -3,14 +3,16 @@
 use std::sync::Arc;
 
 use super::{
-    Element, ElementKind, TableSpring,
+    Element, TableSpring,
     hysteresis::{self, Hysteresis},
     monotone::MonotoneCurve,
     quadrature::polynomial_integral,
     table_spring::check,
 };
 use crate::{
-    parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value},
+    parameters::{
+        Described, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
+    },
     phases::{Exit, Phase, PhaseLaw, Phases},
 };
 
@@ -213,10 +215,6 @@ impl Phases for HystereticTable {
 }
 
 impl Hysteresis for HystereticTable {
-    fn word(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn loading(&self) -> &dyn Element {
         &self.0.loading
     }
@@ -247,32 +245,42 @@ impl Hysteresis for HystereticTable {
         let force = |at: f64| self.0.loading.force(at, 0.0) * self.0.factor.value(at / deepest);
         bends.windows(2).map(|pair| polynomial_integral(force, pair[0], pair[1])).sum()
     }
+}
 
-    fn check(&self) -> Result<(), InvalidParameter> {
-        Self::new(self.loading_points().to_vec(), self.unloading_points().to_vec()).map(|_| ())
+impl Described for HystereticTable {
+    fn kind(&self) -> &'static str {
+        Self::KIND
     }
 
-    fn numbers(&self) -> Vec<Value> {
+    fn parameters(&self) -> &'static [Parameter] {
+        Self::PARAMETERS
+    }
+
+    fn values(&self) -> Vec<Value> {
         [self.loading_points(), self.unloading_points()]
             .map(|points| Value::Table(points.to_vec()))
             .into()
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        Self::from_values(&self.values()).map(|_| ())
     }
 }
 
 const CURVE: ParameterKind = ParameterKind::Curve(Dimension::LENGTH, Dimension::FORCE);
 
-impl ElementKind for HystereticTable {
+impl Kind for HystereticTable {
     const KIND: &'static str = "hysteretic-table";
     const SUMMARY: &'static str =
         "padding with measured curves of loading and unloading; keeps a set, never pulls";
     const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required(
+        Parameter::new(
             LOADING,
             CURVE,
             "points of deformation [m] and force [N], rising from [0, 0]; straight on beyond them, \
              which a run warns of",
         ),
-        Parameter::required(
+        Parameter::new(
             UNLOADING,
             CURVE,
             "points of deformation [m] and force [N], rising from the set, where the force is zero, \
@@ -281,11 +289,8 @@ impl ElementKind for HystereticTable {
     ];
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let points = |at: usize, name: &'static str| match values.get(at) {
-            Some(Value::Table(points)) => Ok(points.clone()),
-            _ => Err(InvalidParameter::new(name, "a list of points", "missing")),
-        };
-        Self::new(points(0, LOADING)?, points(1, UNLOADING)?)
+        let mut given = Given::new(Self::PARAMETERS, values);
+        Self::new(given.take()?, given.take()?)
     }
 
     fn sample() -> Self {

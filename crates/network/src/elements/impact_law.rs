@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Element, Law, Tangent, power::PowerLaw};
 use crate::{
-    parameters::{InvalidParameter, Value, finite, non_negative},
+    parameters::{Described, InvalidParameter, Parameter, Value},
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
@@ -29,7 +29,8 @@ impl<T: Impact> Phases for T {
             return PhaseLaw::Open;
         }
         let (impact, kind) = (self.impact(), self.kind());
-        PhaseLaw::Element(Arc::new(Engaged { impact, kind, values: self.values() }))
+        let (parameters, values) = (self.parameters(), self.values());
+        PhaseLaw::Element(Arc::new(Engaged { impact, kind, parameters, values }))
     }
 
     fn exits(&self, phase: Phase) -> Vec<Exit> {
@@ -102,10 +103,9 @@ impl ImpactLaw {
         self.power.integral(self.depth(deformation))
     }
 
-    pub(super) fn validate(&self) -> Result<(), InvalidParameter> {
-        self.power.validate()?;
-        non_negative("dissipation", self.dissipation)?;
-        finite("gap", self.gap)?;
+    /// Whether its slopes at the references are numbers.
+    pub(super) fn fits(&self) -> Result<(), InvalidParameter> {
+        self.power.fits()?;
         if self.dissipation > 0.0 && !self.damping().is_normal() {
             let range = "such that the slope of the law fits into double precision";
             return Err(InvalidParameter::new("dissipation", range, self.dissipation));
@@ -120,15 +120,31 @@ struct Engaged {
     impact: ImpactLaw,
     /// Word of the element.
     kind: &'static str,
-    /// Values of the element.
+    /// Parameters of the element.
+    parameters: &'static [Parameter],
+    /// Their values.
     values: Vec<Value>,
 }
 
-impl Element for Engaged {
+impl Described for Engaged {
     fn kind(&self) -> &'static str {
         self.kind
     }
 
+    fn parameters(&self) -> &'static [Parameter] {
+        self.parameters
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.values.clone()
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.impact.fits()
+    }
+}
+
+impl Element for Engaged {
     fn force(&self, deformation: f64, rate: f64) -> f64 {
         self.impact.engaged_force(deformation, rate)
     }
@@ -147,13 +163,5 @@ impl Element for Engaged {
 
     fn grows_from(&self) -> Option<f64> {
         Some(self.impact.gap)
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.impact.validate()
-    }
-
-    fn values(&self) -> Vec<Value> {
-        self.values.clone()
     }
 }

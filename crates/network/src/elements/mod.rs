@@ -25,7 +25,7 @@ mod table_spring;
 #[cfg(test)]
 mod tests;
 
-use std::fmt::Debug;
+use std::sync::Arc;
 
 pub use bumper::{Bumper, BumperSettings};
 pub use contact::Contact;
@@ -44,7 +44,7 @@ pub use spring::Spring;
 pub use stiffening_spring::StiffeningSpring;
 pub use table_spring::TableSpring;
 
-use crate::parameters::{InvalidParameter, Parameter, Value};
+use crate::parameters::{Described, Kind, Registered};
 use crate::phases::Phases;
 
 /// A massless two-terminal element: a law giving the force in the element from its deformation
@@ -55,10 +55,7 @@ use crate::phases::Phases;
 /// With terminals *a* → *b*, the deformation is `y = x_a − x_b` \[m\], positive in compression,
 /// and the force `F` \[N\] is positive when it pushes the terminals apart: node *a* feels `−F`,
 /// node *b* feels `+F`.
-pub trait Element: Debug + Send + Sync {
-    /// Word for the element, for instance `spring`.
-    fn kind(&self) -> &'static str;
-
+pub trait Element: Described {
     /// Force `F(y, ẏ)` \[N\] at deformation `y` \[m\] and deformation rate `rate` \[m/s\].
     fn force(&self, deformation: f64, rate: f64) -> f64;
 
@@ -106,16 +103,6 @@ pub trait Element: Debug + Send + Sync {
     fn measured(&self) -> Option<(f64, f64)> {
         None
     }
-
-    /// Checks the parameters.
-    ///
-    /// # Errors
-    ///
-    /// [`InvalidParameter`] for the first one out of its range.
-    fn validate(&self) -> Result<(), InvalidParameter>;
-
-    /// The parameters' values in the order of [`ElementKind::PARAMETERS`].
-    fn values(&self) -> Vec<Value>;
 }
 
 /// Slopes of a law.
@@ -149,60 +136,26 @@ pub enum Law {
     Phased,
 }
 
-/// What an element kind says about itself.
-pub trait ElementKind: Element + Sized + 'static {
-    /// Word for the element in scenes.
-    const KIND: &'static str;
-    /// One line for a list: law and unit.
-    const SUMMARY: &'static str;
-    /// Its parameters; a kind with one takes the value alone (`{ spring = "20 MN/m" }`).
-    const PARAMETERS: &'static [Parameter];
-
-    /// The element with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
-    ///
-    /// # Errors
-    ///
-    /// [`InvalidParameter`] when a value is out of range.
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter>;
-
-    /// A valid example.
-    fn sample() -> Self;
+const fn element<E: Element + Kind>() -> Registered<Arc<dyn Element>> {
+    Registered::new::<E>(|values| Ok(Arc::new(E::from_values(values)?)), ())
 }
 
-/// Sees every element kind.
-pub trait ElementVisitor {
-    /// Called once for each kind.
-    fn visit<E: ElementKind>(&mut self);
-}
-
-/// Shows every element kind to `visitor`. **A new kind is registered here.**
-pub fn visit_elements(visitor: &mut impl ElementVisitor) {
-    visitor.visit::<Spring>();
-    visitor.visit::<Dashpot>();
-    visitor.visit::<Rigid>();
-    visitor.visit::<Contact>();
-    visitor.visit::<Friction>();
-    visitor.visit::<PowerSpring>();
-    visitor.visit::<CubicSpring>();
-    visitor.visit::<StiffeningSpring>();
-    visitor.visit::<TableSpring>();
-    visitor.visit::<Foam>();
-    visitor.visit::<HystereticFoam>();
-    visitor.visit::<HystereticTable>();
-    visitor.visit::<RateSpring>();
-    visitor.visit::<PowerDashpot>();
-    visitor.visit::<HuntCrossley>();
-    visitor.visit::<Bumper>();
-}
-
-/// The number at `at`, for [`ElementKind::from_values`].
-pub(crate) fn number(
-    values: &[Value],
-    at: usize,
-    parameter: &'static str,
-) -> Result<f64, InvalidParameter> {
-    values
-        .get(at)
-        .and_then(Value::number)
-        .ok_or_else(|| InvalidParameter::new(parameter, "a number", "missing"))
-}
+/// Every element kind. **A new kind is registered here.**
+pub static ELEMENTS: &[Registered<Arc<dyn Element>>] = &[
+    element::<Spring>(),
+    element::<Dashpot>(),
+    element::<Rigid>(),
+    element::<Contact>(),
+    element::<Friction>(),
+    element::<PowerSpring>(),
+    element::<CubicSpring>(),
+    element::<StiffeningSpring>(),
+    element::<TableSpring>(),
+    element::<Foam>(),
+    element::<HystereticFoam>(),
+    element::<HystereticTable>(),
+    element::<RateSpring>(),
+    element::<PowerDashpot>(),
+    element::<HuntCrossley>(),
+    element::<Bumper>(),
+];

@@ -2,28 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::number;
-use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, positive};
-
-/// Key of the force at the reference deformation.
-pub(super) const FORCE: &str = "force";
-/// Key of the reference deformation.
-pub(super) const AT: &str = "at";
-/// Key of the exponent.
-pub(super) const EXPONENT: &str = "exponent";
-
-/// The parameter [`FORCE`] of a law over the deformation.
-pub(super) const FORCE_PARAMETER: Parameter = Parameter::required(
-    FORCE,
-    ParameterKind::Quantity(Dimension::FORCE),
-    "force F_r at the deformation `at` [N], positive",
-);
-/// The parameter [`AT`] of a law over the deformation.
-pub(super) const AT_PARAMETER: Parameter = Parameter::required(
-    AT,
-    ParameterKind::Quantity(Dimension::LENGTH),
-    "reference deformation y_r [m], positive",
-);
+use crate::parameters::InvalidParameter;
 
 /// `F_r (y/y_r)^n` for `y ≥ 0`, with `n ≥ 1`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,19 +16,6 @@ pub(super) struct PowerLaw {
 }
 
 impl PowerLaw {
-    /// The law of the first three of an element's values.
-    pub(super) fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            force: number(values, 0, FORCE)?,
-            at: number(values, 1, AT)?,
-            exponent: number(values, 2, EXPONENT)?,
-        })
-    }
-
-    pub(super) fn values(&self) -> Vec<Value> {
-        [self.force, self.at, self.exponent].map(Value::Number).to_vec()
-    }
-
     pub(super) fn value(&self, deformation: f64) -> f64 {
         times_power(self.force, deformation / self.at, self.exponent)
     }
@@ -68,11 +34,9 @@ impl PowerLaw {
         self.force / self.at
     }
 
-    pub(super) fn validate(&self) -> Result<(), InvalidParameter> {
-        positive(FORCE, self.force)?;
-        positive(AT, self.at)?;
-        at_least_one(EXPONENT, self.exponent)?;
-        in_range(AT, self.at, self.secant() * self.exponent)
+    /// Whether its slope at the reference is a number.
+    pub(super) fn fits(&self) -> Result<(), InvalidParameter> {
+        in_range("at", self.at, self.secant() * self.exponent)
     }
 }
 
@@ -111,15 +75,6 @@ fn split(number: f64) -> (f64, f64) {
 /// `2^exponent` of a whole exponent, or the nearest to it that is a normal number.
 fn power_of_two(exponent: f64) -> f64 {
     exponent.clamp(-1022.0, 1023.0).exp2()
-}
-
-/// Accepts finite numbers ≥ 1.
-pub(super) fn at_least_one(parameter: &'static str, value: f64) -> Result<(), InvalidParameter> {
-    if value.is_finite() && value >= 1.0 {
-        Ok(())
-    } else {
-        Err(InvalidParameter::new(parameter, "1 or more, and finite", value))
-    }
 }
 
 /// Accepts `value` where the `slope` that it leads to is a normal number.

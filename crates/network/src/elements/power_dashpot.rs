@@ -1,53 +1,65 @@
 //! Dashpot whose force is a power of its rate.
 
 use super::{
-    Element, ElementKind, Law, Tangent, number,
-    power::{AT, EXPONENT, FORCE, in_range, times_power},
+    Element, Law, Tangent,
+    power::{in_range, times_power},
 };
-use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, positive};
+use crate::{parameters, parameters::InvalidParameter};
 
-/// A dashpot whose force is a power of its rate, `F = F_r (|ẏ|/v_r)^p sgn ẏ`.
-///
-/// | symbol | field      | unit | range |
-/// |--------|------------|------|-------|
-/// | `F_r`  | `force`    | N    | > 0   |
-/// | `v_r`  | `at`       | m/s  | > 0   |
-/// | `p`    | `exponent` | 1    | > 0   |
-///
-/// The force is `F_r` at the rate `v_r`. `p = 1` is the linear dashpot, `p = 2` an orifice in
-/// turbulent flow, `p < 1` a fluid that thins by shear. The dashpot stores nothing and dissipates
-/// the power `F ẏ ≥ 0`. True dry friction is [`Friction`](super::Friction), not a small `p`.
-///
-/// # Limits
-///
-/// Any reference `v_r` with the force that the law has there is the same law, and gives the same results.
-///
-/// The power has an infinite slope at rest for `p < 1`, and none for `p > 1`. In a network it is a straight
-/// line through zero below 10⁻⁸ of the speeds of the run for `p < 1`, and at a massless node that nothing else
-/// damps also where its slope would be less than 10⁻⁸ times that at these speeds; beyond, the law is the power
-/// to the last digit.
-///
-/// # Examples
-///
-/// ```
-/// use dashpot_network::{Element, elements::PowerDashpot};
-///
-/// let thinning = PowerDashpot { force: 200.0, at: 1.0, exponent: 0.5 };
-/// assert_eq!(thinning.force(0.0, 1.0), 200.0);
-/// assert_eq!(thinning.force(0.0, -4.0), -400.0);
-/// ```
-///
-/// # References
-///
-/// `ostwald1925` in `docs/references.bib` for `p < 1`; `merritt1967` for the orifice.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PowerDashpot {
-    /// Force `F_r` at the reference rate \[N\].
-    pub force: f64,
-    /// Reference rate `v_r` \[m/s\].
-    pub at: f64,
-    /// Exponent `p`.
-    pub exponent: f64,
+parameters! {
+    /// A dashpot whose force is a power of its rate, `F = F_r (|ẏ|/v_r)^p sgn ẏ`.
+    ///
+    /// | symbol | field      | unit | range |
+    /// |--------|------------|------|-------|
+    /// | `F_r`  | `force`    | N    | > 0   |
+    /// | `v_r`  | `at`       | m/s  | > 0   |
+    /// | `p`    | `exponent` | 1    | > 0   |
+    ///
+    /// The force is `F_r` at the rate `v_r`. `p = 1` is the linear dashpot, `p = 2` an orifice in
+    /// turbulent flow, `p < 1` a fluid that thins by shear. The dashpot stores nothing and dissipates
+    /// the power `F ẏ ≥ 0`. True dry friction is [`Friction`](super::Friction), not a small `p`.
+    ///
+    /// # Limits
+    ///
+    /// Any reference `v_r` with the force that the law has there is the same law, and gives the same results.
+    ///
+    /// The power has an infinite slope at rest for `p < 1`, and none for `p > 1`. In a network it is a straight
+    /// line through zero below 10⁻⁸ of the speeds of the run for `p < 1`, and at a massless node that nothing else
+    /// damps also where its slope would be less than 10⁻⁸ times that at these speeds; beyond, the law is the power
+    /// to the last digit.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use dashpot_network::{Element, elements::PowerDashpot};
+    ///
+    /// let thinning = PowerDashpot { force: 200.0, at: 1.0, exponent: 0.5 };
+    /// assert_eq!(thinning.force(0.0, 1.0), 200.0);
+    /// assert_eq!(thinning.force(0.0, -4.0), -400.0);
+    /// ```
+    ///
+    /// # References
+    ///
+    /// `ostwald1925` in `docs/references.bib` for `p < 1`; `merritt1967` for the orifice.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct PowerDashpot: "power-dashpot",
+        "dashpot of a power law, F = F_r (|y'|/v_r)^p sgn y'", checked by Self::fits
+    {
+        /// force F_r at the rate `at` [N], positive
+        pub force: f64 = Quantity(Dimension::FORCE), range Positive;
+        /// reference rate v_r [m/s], positive
+        pub at: f64 = Quantity(Dimension::VELOCITY), range Positive;
+        /// exponent p [1], positive
+        pub exponent: f64 = Quantity(Dimension::NUMBER), range Positive;
+    }
+    sample { force: 200.0, at: 1.0, exponent: 0.5 }
+}
+
+impl PowerDashpot {
+    /// Whether its slope at the references is a number.
+    fn fits(&self) -> Result<(), InvalidParameter> {
+        in_range("at", self.at, self.force / self.at * self.exponent)
+    }
 }
 
 /// Newton steps; five are the usual number.
@@ -72,10 +84,6 @@ fn root(power: f64, factor: f64) -> f64 {
 }
 
 impl Element for PowerDashpot {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn force(&self, _deformation: f64, rate: f64) -> f64 {
         times_power(self.force, rate.abs() / self.at, self.exponent).copysign(rate)
     }
@@ -120,52 +128,6 @@ impl Element for PowerDashpot {
         };
         let slope = p * (1.0 - part);
         Some([sum * (1.0 - 2.0 * part), (slope - part) / (slope + part)])
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        positive(FORCE, self.force)?;
-        positive(AT, self.at)?;
-        positive(EXPONENT, self.exponent)?;
-        in_range(AT, self.at, self.force / self.at * self.exponent)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        [self.force, self.at, self.exponent].map(Value::Number).to_vec()
-    }
-}
-
-impl ElementKind for PowerDashpot {
-    const KIND: &'static str = "power-dashpot";
-    const SUMMARY: &'static str = "dashpot of a power law, F = F_r (|y'|/v_r)^p sgn y'";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required(
-            FORCE,
-            ParameterKind::Quantity(Dimension::FORCE),
-            "force F_r at the rate `at` [N], positive",
-        ),
-        Parameter::required(
-            AT,
-            ParameterKind::Quantity(Dimension::VELOCITY),
-            "reference rate v_r [m/s], positive",
-        ),
-        Parameter::required(
-            EXPONENT,
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "exponent p [1], positive",
-        ),
-    ];
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let dashpot = Self {
-            force: number(values, 0, FORCE)?,
-            at: number(values, 1, AT)?,
-            exponent: number(values, 2, EXPONENT)?,
-        };
-        dashpot.validate().map(|()| dashpot)
-    }
-
-    fn sample() -> Self {
-        Self { force: 200.0, at: 1.0, exponent: 0.5 }
     }
 }
 

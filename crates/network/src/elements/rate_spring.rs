@@ -1,67 +1,70 @@
 //! Spring that is stiffer the faster it is loaded.
 
 use super::{
-    Element, ElementKind, Law, Tangent, number,
-    power::{AT_PARAMETER, EXPONENT, FORCE_PARAMETER, PowerLaw, in_range},
+    Element, Law, Tangent,
+    power::{PowerLaw, in_range},
 };
-use crate::parameters::{
-    Dimension, InvalidParameter, Parameter, ParameterKind, Value, non_negative, positive,
-};
+use crate::{parameters, parameters::InvalidParameter};
 
-/// A spring that is stiffer the faster it is loaded: a modulus that depends on strain and on rate,
-/// `F = F_s(y)·(1 + φ(ẏ))` with `F_s = F_r (|y|/y_r)^n sgn y`, and `φ = a ln(1 + |ẏ|/v_r)` while it
-/// is loaded, `y ẏ > 0`, else 0.
-///
-/// | symbol | field            | unit | range |
-/// |--------|------------------|------|-------|
-/// | `F_r`  | `force`          | N    | > 0   |
-/// | `y_r`  | `at`             | m    | > 0   |
-/// | `n`    | `exponent`       | 1    | ≥ 1, 1 where left out |
-/// | `a`    | `gain`           | 1    | ≥ 0   |
-/// | `v_r`  | `reference-rate` | m/s  | > 0   |
-///
-/// Well above the rate `v_r`, ten times the rate raises the force of loading by `2.3 a F_s`.
-///
-/// # Energy
-///
-/// The spring stores `W(y) = ∫ F_s dy`. A product `E1(rate)·E2(strain)` that works in unloading, too,
-/// creates energy: what is loaded slowly and unloaded fast returns more than it took up. Here
-/// `F ẏ = F_s ẏ + F_s ẏ φ` while `F_s ẏ > 0`, and `F ẏ = F_s ẏ` else. So `F ẏ − dW/dt ≥ 0` at every
-/// instant, and no closed cycle creates energy. Because `φ = 0` at rest, the force is continuous
-/// where loading ends; its slope over the rate is not.
-///
-/// # Limits
-///
-/// In unloading the force does not depend on the rate at all, so a massless node that nothing else damps
-/// does not find its rate there. It gets a dashpot beside the spring, of 10⁻⁸ of the slope over the rate
-/// that the spring has in the motion at hand.
-///
-/// # Examples
-///
-/// ```
-/// use dashpot_network::{Element, elements::RateSpring};
-///
-/// let spring =
-///     RateSpring { force: 1000.0, at: 0.01, exponent: 1.0, gain: 0.1, reference_rate: 0.01 };
-/// assert!((spring.force(0.01, 0.99) - 1000.0 * (1.0 + 0.1 * 100_f64.ln())).abs() < 1e-10);
-/// assert!((spring.force(0.01, -0.99) - 1000.0).abs() < 1e-10);
-/// ```
-///
-/// # References
-///
-/// `johnson1983` in `docs/references.bib` for the logarithm of the rate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RateSpring {
-    /// Force `F_r` at the reference deformation, at rest \[N\].
-    pub force: f64,
-    /// Reference deformation `y_r` \[m\].
-    pub at: f64,
-    /// Exponent `n` of the deformation.
-    pub exponent: f64,
-    /// Gain `a` of the force with the logarithm of the rate.
-    pub gain: f64,
-    /// Rate `v_r` above which the rate matters \[m/s\].
-    pub reference_rate: f64,
+parameters! {
+    /// A spring that is stiffer the faster it is loaded: a modulus that depends on strain and on rate,
+    /// `F = F_s(y)·(1 + φ(ẏ))` with `F_s = F_r (|y|/y_r)^n sgn y`, and `φ = a ln(1 + |ẏ|/v_r)` while it
+    /// is loaded, `y ẏ > 0`, else 0.
+    ///
+    /// | symbol | field            | unit | range |
+    /// |--------|------------------|------|-------|
+    /// | `F_r`  | `force`          | N    | > 0   |
+    /// | `y_r`  | `at`             | m    | > 0   |
+    /// | `n`    | `exponent`       | 1    | ≥ 1, 1 where left out |
+    /// | `a`    | `gain`           | 1    | ≥ 0   |
+    /// | `v_r`  | `reference-rate` | m/s  | > 0   |
+    ///
+    /// Well above the rate `v_r`, ten times the rate raises the force of loading by `2.3 a F_s`.
+    ///
+    /// # Energy
+    ///
+    /// The spring stores `W(y) = ∫ F_s dy`. A product `E1(rate)·E2(strain)` that works in unloading, too,
+    /// creates energy: what is loaded slowly and unloaded fast returns more than it took up. Here
+    /// `F ẏ = F_s ẏ + F_s ẏ φ` while `F_s ẏ > 0`, and `F ẏ = F_s ẏ` else. So `F ẏ − dW/dt ≥ 0` at every
+    /// instant, and no closed cycle creates energy. Because `φ = 0` at rest, the force is continuous
+    /// where loading ends; its slope over the rate is not.
+    ///
+    /// # Limits
+    ///
+    /// In unloading the force does not depend on the rate at all, so a massless node that nothing else damps
+    /// does not find its rate there. It gets a dashpot beside the spring, of 10⁻⁸ of the slope over the rate
+    /// that the spring has in the motion at hand.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use dashpot_network::{Element, elements::RateSpring};
+    ///
+    /// let spring =
+    ///     RateSpring { force: 1000.0, at: 0.01, exponent: 1.0, gain: 0.1, reference_rate: 0.01 };
+    /// assert!((spring.force(0.01, 0.99) - 1000.0 * (1.0 + 0.1 * 100_f64.ln())).abs() < 1e-10);
+    /// assert!((spring.force(0.01, -0.99) - 1000.0).abs() < 1e-10);
+    /// ```
+    ///
+    /// # References
+    ///
+    /// `johnson1983` in `docs/references.bib` for the logarithm of the rate.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct RateSpring: "rate-spring",
+        "spring stiffer under fast loading, F = F_s(y) (1 + a ln(1 + |y'|/v_r))", checked by Self::fits
+    {
+        /// force F_r at the deformation `at` [N], positive
+        pub force: f64 = Quantity(Dimension::FORCE), range Positive;
+        /// reference deformation y_r [m], positive
+        pub at: f64 = Quantity(Dimension::LENGTH), range Positive;
+        /// gain a of the force with the logarithm of the rate [1], zero or positive
+        pub gain: f64 = Quantity(Dimension::NUMBER), range NonNegative;
+        /// rate v_r above which the rate matters [m/s], positive
+        pub reference_rate as "reference-rate": f64 = Quantity(Dimension::VELOCITY), range Positive;
+        /// exponent n of the deformation [1], 1 or more
+        pub exponent: f64 = Quantity(Dimension::NUMBER), default "1", range AtLeastOne;
+    }
+    sample { force: 1000.0, at: 0.01, exponent: 1.5, gain: 0.1, reference_rate: 0.01 }
 }
 
 impl RateSpring {
@@ -82,13 +85,18 @@ impl RateSpring {
     fn damping(&self) -> f64 {
         0.5 * self.gain * self.force / self.reference_rate
     }
+
+    /// Whether its slopes at the references are numbers.
+    fn fits(&self) -> Result<(), InvalidParameter> {
+        self.power().fits()?;
+        if self.gain > 0.0 {
+            in_range("reference-rate", self.reference_rate, self.damping())?;
+        }
+        Ok(())
+    }
 }
 
 impl Element for RateSpring {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn force(&self, deformation: f64, rate: f64) -> f64 {
         let (gain, _) = self.gained(rate);
         let steady = self.power().value(deformation.abs()).copysign(deformation);
@@ -123,68 +131,12 @@ impl Element for RateSpring {
     fn grows_from(&self) -> Option<f64> {
         Some(0.0)
     }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.power().validate()?;
-        non_negative("gain", self.gain)?;
-        positive("reference-rate", self.reference_rate)?;
-        if self.gain > 0.0 {
-            in_range("reference-rate", self.reference_rate, self.damping())?;
-        }
-        Ok(())
-    }
-
-    fn values(&self) -> Vec<Value> {
-        [self.force, self.at, self.gain, self.reference_rate, self.exponent]
-            .map(Value::Number)
-            .to_vec()
-    }
-}
-
-impl ElementKind for RateSpring {
-    const KIND: &'static str = "rate-spring";
-    const SUMMARY: &'static str =
-        "spring stiffer under fast loading, F = F_s(y) (1 + a ln(1 + |y'|/v_r))";
-    const PARAMETERS: &'static [Parameter] = &[
-        FORCE_PARAMETER,
-        AT_PARAMETER,
-        Parameter::required(
-            "gain",
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "gain a of the force with the logarithm of the rate [1], zero or positive",
-        ),
-        Parameter::required(
-            "reference-rate",
-            ParameterKind::Quantity(Dimension::VELOCITY),
-            "rate v_r above which the rate matters [m/s], positive",
-        ),
-        Parameter::optional(
-            EXPONENT,
-            ParameterKind::Quantity(Dimension::NUMBER),
-            "1",
-            "exponent n of the deformation [1], 1 or more",
-        ),
-    ];
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let spring = Self {
-            force: number(values, 0, "force")?,
-            at: number(values, 1, "at")?,
-            gain: number(values, 2, "gain")?,
-            reference_rate: number(values, 3, "reference-rate")?,
-            exponent: number(values, 4, EXPONENT)?,
-        };
-        spring.validate().map(|()| spring)
-    }
-
-    fn sample() -> Self {
-        Self { force: 1000.0, at: 0.01, exponent: 1.5, gain: 0.1, reference_rate: 0.01 }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameters::Kind as _;
 
     #[test]
     fn no_closed_cycle_creates_energy() {

@@ -1,7 +1,7 @@
 //! Rigid link.
 
-use super::{Element, ElementKind, Law, Tangent};
-use crate::parameters::{InvalidParameter, Parameter, ParameterKind, Value};
+use super::{Element, Law, Tangent};
+use crate::parameters::{Described, InvalidParameter, Kind, Parameter, ParameterKind, Value};
 
 /// A rigid link, `y = 0`: its ends move as one.
 ///
@@ -20,10 +20,6 @@ use crate::parameters::{InvalidParameter, Parameter, ParameterKind, Value};
 pub struct Rigid;
 
 impl Element for Rigid {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     /// Zero: a rigid link has no law for its force, which is a reaction.
     fn force(&self, _deformation: f64, _rate: f64) -> f64 {
         0.0
@@ -40,9 +36,15 @@ impl Element for Rigid {
     fn law(&self) -> Law {
         Law::Rigid
     }
+}
 
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        Ok(())
+impl Described for Rigid {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        Self::PARAMETERS
     }
 
     fn values(&self) -> Vec<Value> {
@@ -50,11 +52,11 @@ impl Element for Rigid {
     }
 }
 
-impl ElementKind for Rigid {
+impl Kind for Rigid {
     const KIND: &'static str = "rigid";
     const SUMMARY: &'static str = "rigid link, y = 0; merges its ends";
     const PARAMETERS: &'static [Parameter] =
-        &[Parameter::required("rigid", ParameterKind::Flag, "write `rigid = true`")];
+        &[Parameter::new("rigid", ParameterKind::Flag, "write `rigid = true`")];
 
     fn from_values(_values: &[Value]) -> Result<Self, InvalidParameter> {
         Ok(Self)

@@ -2,44 +2,49 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Element, ElementKind, Law, Tangent, number, power::in_range};
-use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value, positive};
+use super::{Element, Law, Tangent, power::in_range};
+use crate::{parameters, parameters::InvalidParameter};
 
-/// A spring that stiffens without bound towards a limit of its deformation,
-/// `F = (2 k L/π) tan(π y/(2 L))`.
-///
-/// | symbol | field       | unit | range |
-/// |--------|-------------|------|-------|
-/// | `k`    | `stiffness` | N/m  | > 0   |
-/// | `L`    | `limit`     | m    | > 0   |
-///
-/// Mindlin's "tangent elasticity" of cushions that bottom: near rest it is the linear spring `k`, at
-/// half the limit it has 1.27 times the force of that spring and twice its slope. Tension mirrors
-/// compression. The spring stores `−(2 k L/π)·(2 L/π) ln cos(π y/(2 L))` and dissipates none.
-///
-/// # Limits
-///
-/// Beyond 0.999 `L` the law goes on as a straight line with the slope that it has there, 4.05·10⁵ k,
-/// so that it has a value everywhere. A force of more than 811 k L would press it over its limit.
-///
-/// # Examples
-///
-/// ```
-/// use dashpot_network::{Element, elements::StiffeningSpring};
-///
-/// let spring = StiffeningSpring { stiffness: 2e4, limit: 0.02 };
-/// assert!((spring.force(0.01, 0.0) - 800.0 / std::f64::consts::PI).abs() < 1e-9);
-/// ```
-///
-/// # References
-///
-/// `mindlin1945` in `docs/references.bib`, "Class C".
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StiffeningSpring {
-    /// Slope at rest `k` \[N/m\].
-    pub stiffness: f64,
-    /// Deformation `L` at which the force would be infinite \[m\].
-    pub limit: f64,
+parameters! {
+    /// A spring that stiffens without bound towards a limit of its deformation,
+    /// `F = (2 k L/π) tan(π y/(2 L))`.
+    ///
+    /// | symbol | field       | unit | range |
+    /// |--------|-------------|------|-------|
+    /// | `k`    | `stiffness` | N/m  | > 0   |
+    /// | `L`    | `limit`     | m    | > 0   |
+    ///
+    /// Mindlin's "tangent elasticity" of cushions that bottom: near rest it is the linear spring `k`, at
+    /// half the limit it has 1.27 times the force of that spring and twice its slope. Tension mirrors
+    /// compression. The spring stores `−(2 k L/π)·(2 L/π) ln cos(π y/(2 L))` and dissipates none.
+    ///
+    /// # Limits
+    ///
+    /// Beyond 0.999 `L` the law goes on as a straight line with the slope that it has there, 4.05·10⁵ k,
+    /// so that it has a value everywhere. A force of more than 811 k L would press it over its limit.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use dashpot_network::{Element, elements::StiffeningSpring};
+    ///
+    /// let spring = StiffeningSpring { stiffness: 2e4, limit: 0.02 };
+    /// assert!((spring.force(0.01, 0.0) - 800.0 / std::f64::consts::PI).abs() < 1e-9);
+    /// ```
+    ///
+    /// # References
+    ///
+    /// `mindlin1945` in `docs/references.bib`, "Class C".
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct StiffeningSpring: "stiffening-spring",
+        "spring that bottoms at L, F = (2 k L/pi) tan(pi y/(2 L))", checked by Self::fits
+    {
+        /// slope at rest k [N/m], positive
+        pub stiffness: f64 = Quantity(Dimension::STIFFNESS), range Positive;
+        /// deformation L that it cannot reach [m], positive
+        pub limit: f64 = Quantity(Dimension::LENGTH), range Positive;
+    }
+    sample { stiffness: 2e4, limit: 0.02 }
 }
 
 /// Part of the limit up to which the law holds; a straight line follows.
@@ -64,13 +69,14 @@ impl StiffeningSpring {
     fn value(&self, part: f64) -> f64 {
         self.stiffness * self.length() * (FRAC_PI_2 * part).tan()
     }
+
+    /// Whether its steepest slope is a number.
+    fn fits(&self) -> Result<(), InvalidParameter> {
+        in_range("stiffness", self.stiffness, self.slope(LAST))
+    }
 }
 
 impl Element for StiffeningSpring {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn force(&self, deformation: f64, _rate: f64) -> f64 {
         let (part, beyond) = self.place(deformation);
         (self.value(part) + self.slope(part) * beyond).copysign(deformation)
@@ -90,43 +96,6 @@ impl Element for StiffeningSpring {
 
     fn law(&self) -> Law {
         Law::Nonlinear { stiffness: self.stiffness, damping: 0.0 }
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        positive("stiffness", self.stiffness)?;
-        positive("limit", self.limit)?;
-        in_range("stiffness", self.stiffness, self.slope(LAST))
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Number(self.stiffness), Value::Number(self.limit)]
-    }
-}
-
-impl ElementKind for StiffeningSpring {
-    const KIND: &'static str = "stiffening-spring";
-    const SUMMARY: &'static str = "spring that bottoms at L, F = (2 k L/pi) tan(pi y/(2 L))";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required(
-            "stiffness",
-            ParameterKind::Quantity(Dimension::STIFFNESS),
-            "slope at rest k [N/m], positive",
-        ),
-        Parameter::required(
-            "limit",
-            ParameterKind::Quantity(Dimension::LENGTH),
-            "deformation L that it cannot reach [m], positive",
-        ),
-    ];
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let spring =
-            Self { stiffness: number(values, 0, "stiffness")?, limit: number(values, 1, "limit")? };
-        spring.validate().map(|()| spring)
-    }
-
-    fn sample() -> Self {
-        Self { stiffness: 2e4, limit: 0.02 }
     }
 }
 

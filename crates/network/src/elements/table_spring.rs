@@ -1,7 +1,9 @@
 //! Spring with a measured curve.
 
-use super::{Element, ElementKind, Law, Tangent, monotone::MonotoneCurve};
-use crate::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
+use super::{Element, Law, Tangent, monotone::MonotoneCurve};
+use crate::parameters::{
+    Described, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
+};
 
 /// A spring whose force is interpolated between points `(y_i, F_i)` of a measured curve.
 ///
@@ -110,10 +112,6 @@ pub(super) fn check(name: &'static str, points: &[(f64, f64)]) -> Result<(), Inv
 }
 
 impl Element for TableSpring {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
     fn force(&self, deformation: f64, _rate: f64) -> f64 {
         self.curve.value(deformation)
     }
@@ -134,21 +132,31 @@ impl Element for TableSpring {
     fn measured(&self) -> Option<(f64, f64)> {
         Some(self.curve.ends().map(|own| own.0).into())
     }
+}
 
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        check(POINTS, self.points())
+impl Described for TableSpring {
+    fn kind(&self) -> &'static str {
+        Self::KIND
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        Self::PARAMETERS
     }
 
     fn values(&self) -> Vec<Value> {
         vec![Value::Table(self.points().to_vec())]
     }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        check(POINTS, self.points())
+    }
 }
 
-impl ElementKind for TableSpring {
+impl Kind for TableSpring {
     const KIND: &'static str = "table-spring";
     const SUMMARY: &'static str =
         "spring through points of a measured curve, smooth and never falling";
-    const PARAMETERS: &'static [Parameter] = &[Parameter::required(
+    const PARAMETERS: &'static [Parameter] = &[Parameter::new(
         POINTS,
         ParameterKind::Curve(Dimension::LENGTH, Dimension::FORCE),
         "points of deformation [m] and force [N], rising, one of them [0, 0]; straight on beyond \
@@ -156,10 +164,7 @@ impl ElementKind for TableSpring {
     )];
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        match values.first() {
-            Some(Value::Table(points)) => Self::new(points.clone()),
-            _ => Err(InvalidParameter::new(POINTS, "a list of points", "missing")),
-        }
+        Self::new(Given::new(Self::PARAMETERS, values).take()?)
     }
 
     fn sample() -> Self {

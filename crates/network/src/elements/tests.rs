@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::phases::{Phase, PhaseLaw};
+use crate::{
+    parameters::Value,
+    phases::{Phase, PhaseLaw},
+};
 
 /// Deformations \[m\] at which laws are looked at, none of them at a kink of a sample.
 const DEFORMATIONS: [f64; 12] = [
@@ -29,18 +32,10 @@ fn laws(element: &Arc<dyn Element>) -> Vec<Arc<dyn Element>> {
     laws
 }
 
-struct Each<F>(F);
-
-impl<F: FnMut(Arc<dyn Element>)> ElementVisitor for Each<F> {
-    fn visit<E: ElementKind>(&mut self) {
-        (self.0)(Arc::new(E::sample()));
-    }
-}
-
 fn for_each_law(mut look: impl FnMut(&dyn Element)) {
-    visit_elements(&mut Each(|element: Arc<dyn Element>| {
-        laws(&element).iter().for_each(|law| look(law.as_ref()));
-    }));
+    for kind in ELEMENTS {
+        laws(&kind.example().unwrap()).iter().for_each(|law| look(law.as_ref()));
+    }
 }
 
 /// The law of the first loading, of one that unloads on another curve.
@@ -142,25 +137,19 @@ fn what_stands_for_a_law_has_slopes_of_its_size() {
 
 #[test]
 fn samples_are_valid_and_come_back_from_their_values() {
-    struct Again;
-    impl ElementVisitor for Again {
-        fn visit<E: ElementKind>(&mut self) {
-            let sample = E::sample();
-            assert!(sample.validate().is_ok(), "{}", E::KIND);
-            assert_eq!(sample.values().len(), E::PARAMETERS.len(), "{}", E::KIND);
-            let again = E::from_values(&sample.values()).unwrap();
-            assert_eq!(again.values(), sample.values());
-            assert_eq!(format!("{again:?}"), format!("{sample:?}"));
-            for at in 0..E::PARAMETERS.len() {
-                let mut values = sample.values();
-                values[at] = Value::Number(f64::NAN);
-                if E::PARAMETERS[at].kind != crate::parameters::ParameterKind::Flag {
-                    assert!(E::from_values(&values).is_err(), "{}.{at}", E::KIND);
-                }
+    for kind in ELEMENTS {
+        let values = (kind.sample)();
+        let sample = kind.example().unwrap();
+        assert_eq!((sample.kind(), sample.values()), (kind.word, values.clone()));
+        assert_eq!(values.len(), kind.parameters.len(), "{}", kind.word);
+        for (at, parameter) in kind.parameters.iter().enumerate() {
+            assert_eq!(sample.value(parameter.name).as_ref(), Some(&values[at]));
+            let wrong = sample.values_with(parameter.name, &Value::Number(f64::NAN));
+            if parameter.kind != crate::parameters::ParameterKind::Flag {
+                assert!((kind.make)(&wrong).is_err(), "{}.{at}", kind.word);
             }
         }
     }
-    visit_elements(&mut Again);
 }
 
 #[test]

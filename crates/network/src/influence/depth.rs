@@ -60,7 +60,8 @@ fn side_by_side(model: &Model) -> Option<Vec<&dyn Element>> {
 mod tests {
     use super::*;
     use crate::{
-        elements::{CubicSpring, Dashpot, ElementKind, Foam, HystereticFoam, PowerSpring, Spring},
+        elements::{CubicSpring, Dashpot, Foam, HystereticFoam, PowerSpring, Spring},
+        parameters::Kind as _,
         part,
     };
 

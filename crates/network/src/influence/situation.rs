@@ -9,8 +9,9 @@ use crate::{
     Connection, Model, Network, NodeId, Start, Support,
     compile::bodies::start_velocity,
     effects,
-    elements::{Contact, ElementKind, Law},
+    elements::{Contact, Law},
     layers::stiffness::Stiffness,
+    parameters::Kind as _,
 };
 
 /// Rounds after which a frequency is settled: each at least halves the distance in decades.

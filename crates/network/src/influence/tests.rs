@@ -5,7 +5,7 @@ use dashpot_rheology::Tree;
 use super::{Detail, Situation};
 use crate::{
     Network, Node, Start,
-    effects::{EffectKind, Face, Gravity, GravityStart, Separation, Stop, Touch},
+    effects::{EffectKind as _, Face, Gravity, GravityStart, Separation, Stop, Touch},
     elements::{Dashpot, Spring},
     layers::{Layer, Layers, Resolution},
     part,

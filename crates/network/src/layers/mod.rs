@@ -38,7 +38,7 @@ use crate::{
     Connection, Model, Network,
     elements::Law,
     memory::{MOST_BYTES, PART_BYTES},
-    parameters::{InvalidParameter, non_negative, positive},
+    parameters::{InvalidParameter, Range},
 };
 
 /// One layer of a pad.
@@ -139,9 +139,9 @@ impl Layer {
     }
 
     fn validate(&self) -> Result<(), InvalidParameter> {
-        positive("thickness", self.thickness)?;
-        positive("area", self.area)?;
-        non_negative("density", self.density)
+        Range::Positive.check("thickness", self.thickness)?;
+        Range::Positive.check("area", self.area)?;
+        Range::NonNegative.check("density", self.density)
     }
 }
 

@@ -7,7 +7,7 @@ use dashpot_rheology::{Branch, Tree};
 use crate::{
     Element, Model,
     elements::{Dashpot, Law, Spring, Tangent},
-    parameters::{InvalidParameter, Value},
+    parameters::{Described, InvalidParameter, Parameter, Value},
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
@@ -41,11 +41,25 @@ struct Slice {
     count: f64,
 }
 
-impl Element for Slice {
+impl Described for Slice {
     fn kind(&self) -> &'static str {
         self.of.kind()
     }
 
+    fn parameters(&self) -> &'static [Parameter] {
+        self.of.parameters()
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.of.values()
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        self.of.validate()
+    }
+}
+
+impl Element for Slice {
     fn force(&self, deformation: f64, rate: f64) -> f64 {
         self.of.force(self.count * deformation, self.count * rate)
     }
@@ -83,14 +97,6 @@ impl Element for Slice {
 
     fn measured(&self) -> Option<(f64, f64)> {
         self.of.measured().map(|(first, last)| (first / self.count, last / self.count))
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.of.validate()
-    }
-
-    fn values(&self) -> Vec<Value> {
-        self.of.values()
     }
 }
 

@@ -11,8 +11,10 @@ use super::{
 };
 use crate::{
     Model, Network, NetworkError, Node,
-    elements::{Dashpot, ElementKind, Foam, Spring},
-    linear_model, part,
+    elements::{Dashpot, Foam, Spring},
+    linear_model,
+    parameters::Kind as _,
+    part,
 };
 
 const EPSILON: f64 = 8.0 * f64::EPSILON;

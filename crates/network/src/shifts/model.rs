@@ -8,7 +8,7 @@ use crate::{
     Element, Model,
     elements::{Dashpot, Law},
     network::part,
-    parameters::{InvalidParameter, positive},
+    parameters::{InvalidParameter, Range},
     phases::{Phase, PhaseLaw},
 };
 
@@ -35,7 +35,7 @@ use crate::{
 /// does not fit into double precision, or for an element whose force depends on the rate, but not
 /// in proportion to it.
 pub fn shifted(model: &Model, factor: f64) -> Result<Model, InvalidParameter> {
-    positive("factor", factor)?;
+    Range::Positive.check("factor", factor)?;
     model.try_map(|element| shifted_element(element, factor))
 }
 
@@ -83,38 +83,31 @@ fn shifted_element(element: &Arc<dyn Element>, factor: f64) -> Result<Model, Inv
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elements::{ElementKind, ElementVisitor, visit_elements};
+    use crate::elements::ELEMENTS;
 
-    /// Shifts every kind; whatever the rate acts on is refused, but for the dashpot.
-    struct Shift(Vec<&'static str>);
-
-    impl ElementVisitor for Shift {
-        fn visit<E: ElementKind>(&mut self) {
-            let sample = E::sample();
+    #[test]
+    fn laws_without_a_time_are_kept_and_nonlinear_laws_of_the_rate_refused() {
+        let mut refused = Vec::new();
+        for kind in ELEMENTS {
+            let sample = kind.example().unwrap();
             // At a deformation and a rate at which every sample bears a force.
             let is_rated = [0.003, 0.3].map(|rate| sample.force(0.02, rate));
             let is_rated = is_rated[0].to_bits() != is_rated[1].to_bits();
             let is_linear = matches!(sample.law(), Law::Dashpot(_));
-            match shifted(&part(sample), 3.0) {
+            match shifted(&Tree::Part(sample), 3.0) {
                 Ok(Tree::Part(own)) => {
-                    assert!(is_linear || !is_rated, "{}", E::KIND);
-                    assert_eq!(own.kind(), E::KIND);
+                    assert!(is_linear || !is_rated, "{}", kind.word);
+                    assert_eq!(own.kind(), kind.word);
                 }
                 Ok(tree) => panic!("{tree:?}"),
                 Err(invalid) => {
-                    assert!(is_rated && !is_linear, "{}", E::KIND);
-                    assert_eq!(invalid.parameter, E::KIND);
-                    self.0.push(E::KIND);
+                    assert!(is_rated && !is_linear, "{}", kind.word);
+                    assert_eq!(invalid.parameter, kind.word);
+                    refused.push(kind.word);
                 }
             }
         }
-    }
-
-    #[test]
-    fn laws_without_a_time_are_kept_and_nonlinear_laws_of_the_rate_refused() {
-        let mut shift = Shift(Vec::new());
-        visit_elements(&mut shift);
-        assert!(shift.0.contains(&"power-dashpot") && shift.0.contains(&"bumper"));
-        assert!(!shift.0.contains(&"foam") && !shift.0.contains(&"hysteretic-foam"));
+        assert!(refused.contains(&"power-dashpot") && refused.contains(&"bumper"));
+        assert!(!refused.contains(&"foam") && !refused.contains(&"hysteretic-foam"));
     }
 }

@@ -203,20 +203,12 @@ fn models_are_shifted_as_deep_as_they_may_be() {
     assert_eq!(laws[0].1, Law::Dashpot(6.0));
 }
 
-struct Conforms;
-
-impl ShiftVisitor for Conforms {
-    fn visit<S: ShiftKind>(&mut self) {
-        let values = S::sample().values();
-        assert_eq!(values.len(), S::PARAMETERS.len(), "{}", S::KIND);
-        let again = S::from_values(&values).unwrap();
-        assert_eq!(again.values(), values, "{}", S::KIND);
-        assert_eq!(again.factor(), S::sample().factor(), "{}", S::KIND);
-        assert!(S::from_values(&[]).is_err(), "{}", S::KIND);
-    }
-}
-
 #[test]
 fn every_kind_comes_back_from_its_values() {
-    visit_shifts(&mut Conforms);
+    for kind in SHIFTS {
+        let values = (kind.sample)();
+        assert_eq!(values.len(), kind.parameters.len(), "{}", kind.word);
+        assert_eq!((kind.again)(&values).unwrap(), values, "{}", kind.word);
+        assert!(kind.example().is_ok() && (kind.make)(&[]).is_err(), "{}", kind.word);
+    }
 }

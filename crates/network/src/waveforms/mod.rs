@@ -11,8 +11,6 @@ mod sine;
 mod table;
 mod trapezoid;
 
-use std::fmt::Debug;
-
 pub use chirp::Chirp;
 pub use constant::Constant;
 use dashpot_dae::Waveform;
@@ -24,55 +22,33 @@ pub use sine::Sine;
 pub use table::{Outside, Table};
 pub use trapezoid::Trapezoid;
 
-use crate::parameters::{InvalidParameter, Parameter, Value};
+use crate::parameters::{InvalidParameter, Kind, Registered};
 
 /// A kind of driving function.
-pub trait WaveformKind: Debug + Sized + 'static {
-    /// Word for the kind in scenes.
-    const KIND: &'static str;
-    /// One line for a list: law and unit.
-    const SUMMARY: &'static str;
-    /// Its parameters; a kind with one required parameter takes the value alone.
-    const PARAMETERS: &'static [Parameter];
-
-    /// The function with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
-    ///
-    /// # Errors
-    ///
-    /// [`InvalidParameter`] when a value is out of range.
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter>;
-
-    /// The parameters' values in the order of [`PARAMETERS`](Self::PARAMETERS).
-    fn values(&self) -> Vec<Value>;
-
+pub trait WaveformKind: Kind {
     /// The function as pieces, in SI units.
     ///
     /// # Errors
     ///
     /// [`InvalidParameter`] when a field is out of range.
     fn waveform(&self) -> Result<Waveform, InvalidParameter>;
-
-    /// A valid example.
-    fn sample() -> Self;
 }
 
-/// Sees every kind of driving function.
-pub trait WaveformVisitor {
-    /// Called once for each kind.
-    fn visit<W: WaveformKind>(&mut self);
+const fn function<W: WaveformKind>() -> Registered<Waveform> {
+    Registered::new::<W>(|values| W::from_values(values)?.waveform(), ())
 }
 
-/// Shows every kind of driving function to `visitor`. **A new kind is registered here.**
-pub fn visit_waveforms(visitor: &mut impl WaveformVisitor) {
-    visitor.visit::<Constant>();
-    visitor.visit::<Ramp>();
-    visitor.visit::<Sine>();
-    visitor.visit::<HalfSine>();
-    visitor.visit::<Haversine>();
-    visitor.visit::<Trapezoid>();
-    visitor.visit::<Chirp>();
-    visitor.visit::<Table>();
-}
+/// Every driving function. **A new kind is registered here.**
+pub static WAVEFORMS: &[Registered<Waveform>] = &[
+    function::<Constant>(),
+    function::<Ramp>(),
+    function::<Sine>(),
+    function::<HalfSine>(),
+    function::<Haversine>(),
+    function::<Trapezoid>(),
+    function::<Chirp>(),
+    function::<Table>(),
+];
 
 /// A time before `start` and before 0, for the piece that holds until then.
 fn before(start: f64) -> f64 {

@@ -204,6 +204,7 @@ fn is_same(one: &Waveform, other: &Waveform) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameters::Kind as _;
 
     fn numbers(own: &Recognized) -> Vec<f64> {
         let number = |value: &Value| match value {

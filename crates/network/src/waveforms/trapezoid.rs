@@ -4,54 +4,57 @@ use dashpot_dae::{Piece, Waveform};
 
 use super::{WaveformKind, before, pieces};
 use crate::{
-    elements::number,
-    parameters::{
-        Dimension, InvalidParameter, Parameter, ParameterKind, Value, finite, non_negative,
-    },
+    parameters,
+    parameters::{Described, InvalidParameter},
 };
 
-/// A pulse with a flat top: from 0 at `start` in a straight line to `peak` within `rise`, `peak` for
-/// `hold`, and in a straight line back to 0 within `fall`.
-///
-/// | symbol | field   | unit         | range                        |
-/// |--------|---------|--------------|------------------------------|
-/// | `u₀`   | `peak`  | N, m or m/s² | finite                       |
-/// |        | `rise`  | s            | ≥ 0                          |
-/// |        | `hold`  | s            | ≥ 0                          |
-/// |        | `fall`  | s            | ≥ 0; the three are not all 0 |
-/// | `t₀`   | `start` | s            | finite, 0 where left out     |
-///
-/// A rise or fall of zero is a jump: a rectangular pulse has both, a sawtooth one of them and no
-/// `hold`.
-///
-/// # Limits
-///
-/// It has kinks where its straight lines meet, and jumps where a rise or fall is zero. A motion
-/// must have neither at a node with mass.
-///
-/// # References
-///
-/// `iec60068-2-27` in `docs/references.bib`: the trapezoidal pulse, and the saw-tooth with its peak
-/// at the end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Trapezoid {
-    /// The flat top \[N, m or m/s²\].
-    pub peak: f64,
-    /// How long it rises \[s\], zero or positive.
-    pub rise: f64,
-    /// How long it stays at the top \[s\], zero or positive.
-    pub hold: f64,
-    /// How long it falls \[s\], zero or positive; the three are not all zero.
-    pub fall: f64,
-    /// When it begins \[s\].
-    pub start: f64,
+parameters! {
+    /// A pulse with a flat top: from 0 at `start` in a straight line to `peak` within `rise`, `peak` for
+    /// `hold`, and in a straight line back to 0 within `fall`.
+    ///
+    /// | symbol | field   | unit         | range                        |
+    /// |--------|---------|--------------|------------------------------|
+    /// | `u₀`   | `peak`  | N, m or m/s² | finite                       |
+    /// |        | `rise`  | s            | ≥ 0                          |
+    /// |        | `hold`  | s            | ≥ 0                          |
+    /// |        | `fall`  | s            | ≥ 0; the three are not all 0 |
+    /// | `t₀`   | `start` | s            | finite, 0 where left out     |
+    ///
+    /// A rise or fall of zero is a jump: a rectangular pulse has both, a sawtooth one of them and no
+    /// `hold`.
+    ///
+    /// # Limits
+    ///
+    /// It has kinks where its straight lines meet, and jumps where a rise or fall is zero. A motion
+    /// must have neither at a node with mass.
+    ///
+    /// # References
+    ///
+    /// `iec60068-2-27` in `docs/references.bib`: the trapezoidal pulse, and the saw-tooth with its peak
+    /// at the end.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Trapezoid: "trapezoid",
+        "linear from 0 to `peak` within `rise`, constant for `hold`, back to 0 within `fall`",
+        checked by Self::check
+    {
+        /// flat top [N, m or m/s^2]
+        pub peak: f64 = Amplitude;
+        /// rise time [s]; zero is a jump
+        pub rise: f64 = Quantity(Dimension::TIME), range NonNegative;
+        /// time at the top [s], zero or positive
+        pub hold: f64 = Quantity(Dimension::TIME), range NonNegative;
+        /// fall time [s]; zero is a jump
+        pub fall: f64 = Quantity(Dimension::TIME), range NonNegative;
+        /// when the pulse begins [s]
+        pub start: f64 = Quantity(Dimension::TIME), default "0 s";
+    }
+    sample { peak: 2.0, rise: 0.125, hold: 0.25, fall: 0.375, start: 0.25 }
 }
 
 impl Trapezoid {
+    /// Whether it has any length.
     fn check(&self) -> Result<(), InvalidParameter> {
-        let parts = [("rise", self.rise), ("hold", self.hold), ("fall", self.fall)];
-        parts.into_iter().try_for_each(|(name, length)| non_negative(name, length))?;
-        if parts.iter().all(|part| part.1 == 0.0) {
+        if [self.rise, self.hold, self.fall].iter().all(|length| *length == 0.0) {
             return Err(InvalidParameter::new("hold", "positive where `rise` and `fall` are 0", 0));
         }
         Ok(())
@@ -59,53 +62,8 @@ impl Trapezoid {
 }
 
 impl WaveformKind for Trapezoid {
-    const KIND: &'static str = "trapezoid";
-    const SUMMARY: &'static str =
-        "linear from 0 to `peak` within `rise`, constant for `hold`, back to 0 within `fall`";
-    const PARAMETERS: &'static [Parameter] = &[
-        Parameter::required("peak", ParameterKind::Amplitude, "flat top [N, m or m/s^2]"),
-        Parameter::required(
-            "rise",
-            ParameterKind::Quantity(Dimension::TIME),
-            "rise time [s]; zero is a jump",
-        ),
-        Parameter::required(
-            "hold",
-            ParameterKind::Quantity(Dimension::TIME),
-            "time at the top [s], zero or positive",
-        ),
-        Parameter::required(
-            "fall",
-            ParameterKind::Quantity(Dimension::TIME),
-            "fall time [s]; zero is a jump",
-        ),
-        Parameter::optional(
-            "start",
-            ParameterKind::Quantity(Dimension::TIME),
-            "0 s",
-            "when the pulse begins [s]",
-        ),
-    ];
-
-    fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
-        let pulse = Self {
-            peak: number(values, 0, "peak")?,
-            rise: number(values, 1, "rise")?,
-            hold: number(values, 2, "hold")?,
-            fall: number(values, 3, "fall")?,
-            start: number(values, 4, "start")?,
-        };
-        pulse.check().map(|()| pulse)
-    }
-
-    fn values(&self) -> Vec<Value> {
-        [self.peak, self.rise, self.hold, self.fall, self.start].map(Value::Number).into()
-    }
-
     fn waveform(&self) -> Result<Waveform, InvalidParameter> {
-        finite("peak", self.peak)?;
-        finite("start", self.start)?;
-        self.check()?;
+        self.validate()?;
         let mut parts = vec![Piece { start: before(self.start), ..Piece::default() }];
         let mut start = self.start;
         // The lengths are those that the rounded times have, so that the lines meet.
@@ -128,9 +86,5 @@ impl WaveformKind for Trapezoid {
             lengths.into_iter().filter(|own| own.1 > 0.0).min_by(|a, b| a.1.total_cmp(&b.1));
         let (name, length) = shortest.unwrap_or(("hold", self.hold));
         pieces(name, length, parts)
-    }
-
-    fn sample() -> Self {
-        Self { peak: 2.0, rise: 0.125, hold: 0.25, fall: 0.375, start: 0.25 }
     }
 }

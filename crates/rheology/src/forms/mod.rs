@@ -9,11 +9,11 @@ mod kelvin_voigt;
 mod maxwell;
 mod zener;
 
-pub use burgers::Burgers;
-pub use jeffreys::Jeffreys;
-pub use kelvin_voigt::KelvinVoigt;
-pub use maxwell::Maxwell;
-pub use zener::Zener;
+pub use burgers::BURGERS;
+pub use jeffreys::JEFFREYS;
+pub use kelvin_voigt::KELVIN_VOIGT;
+pub use maxwell::MAXWELL;
+pub use zener::ZENER;
 
 use crate::{Branch, Tree};
 
@@ -43,33 +43,29 @@ pub enum Role {
 }
 
 /// A named form: a fixed arrangement of named parts.
-pub trait Form {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Form {
     /// Word for the form, for instance `burgers`.
-    const KIND: &'static str;
+    pub word: &'static str,
     /// Other words for the same form.
-    const ALIASES: &'static [&'static str];
+    pub aliases: &'static [&'static str],
     /// One line for a list: law and use.
-    const SUMMARY: &'static str;
+    pub summary: &'static str,
     /// The parts in order from the impactor's side.
-    const PARTS: &'static [Part];
+    pub parts: &'static [Part],
     /// Whether the parts stand in series (else in parallel).
-    const IN_SERIES: bool;
+    pub in_series: bool,
 }
 
-/// Sees every form.
-pub trait FormVisitor {
-    /// Called once for each form.
-    fn visit<F: Form>(&mut self);
+impl Form {
+    /// The form as a part of another one.
+    const fn role(&self) -> Role {
+        Role::Form { parts: self.parts, in_series: self.in_series }
+    }
 }
 
-/// Shows every form to `visitor`. **A new form is registered here.**
-pub fn visit_forms(visitor: &mut impl FormVisitor) {
-    visitor.visit::<KelvinVoigt>();
-    visitor.visit::<Maxwell>();
-    visitor.visit::<Zener>();
-    visitor.visit::<Jeffreys>();
-    visitor.visit::<Burgers>();
-}
+/// Every form. **A new form is registered here.**
+pub const FORMS: &[Form] = &[KELVIN_VOIGT, MAXWELL, ZENER, JEFFREYS, BURGERS];
 
 /// The tree of a form; `leaf` makes the primitive for the part at a path such as
 /// `["maxwell", "spring"]`.
@@ -77,9 +73,9 @@ pub fn visit_forms(visitor: &mut impl FormVisitor) {
 /// # Examples
 ///
 /// ```
-/// use dashpot_rheology::{Form, forms::{Burgers, build}};
+/// use dashpot_rheology::forms::{BURGERS, build};
 ///
-/// let tree = build(Burgers::PARTS, Burgers::IN_SERIES, &mut |path, _| Ok::<_, ()>(path.join(".")))?;
+/// let tree = build(BURGERS.parts, BURGERS.in_series, &mut |path, _| Ok::<_, ()>(path.join(".")))?;
 /// let maxwell = &tree.branches()[0];
 /// assert_eq!(maxwell.name, "maxwell");
 /// assert_eq!(maxwell.tree.branches()[1].tree, dashpot_rheology::Tree::Part("maxwell.dashpot".to_owned()));

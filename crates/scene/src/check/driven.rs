@@ -1,11 +1,13 @@
 //! What motions leave behind: supports that drift away.
 
 use dashpot_dae::Waveform;
-use dashpot_network::parameters::{Dimension, ParameterKind};
+use dashpot_network::{
+    parameters::{Dimension, ParameterKind, registered},
+    waveforms::WAVEFORMS,
+};
 
 use crate::{
     diagnostics::fault::Fault,
-    kinds::registers,
     sections::Reading,
     text::document::{Entry, Item},
     units::format_short,
@@ -91,11 +93,11 @@ enum Kind {
 }
 
 fn is_waveform(word: &str) -> bool {
-    registers().waveforms.iter().any(|kind| kind.word == word)
+    registered(WAVEFORMS, word).is_some()
 }
 
 fn kind_of(own: &Entry) -> Kind {
-    let kind = registers().waveforms.iter().find(|kind| kind.word == own.key);
+    let kind = registered(WAVEFORMS, &own.key);
     let has = |wanted: ParameterKind| {
         kind.is_some_and(|kind| kind.parameters.iter().any(|own| own.kind == wanted))
     };

@@ -3,16 +3,17 @@
 use std::collections::HashMap;
 
 use dashpot_dae::Waveform;
+use dashpot_network::parameters::Kind as _;
 use dashpot_network::{
     Network, Node, Start, Support,
-    effects::{EffectKind, Stop},
-    parameters::{Dimension, ParameterKind},
+    effects::Stop,
+    parameters::{Dimension, ParameterKind, registered},
+    waveforms::WAVEFORMS,
 };
 
 use super::{driven::Driven, network_faults::value_of};
 use crate::{
     diagnostics::fault::Fault,
-    kinds::registers,
     models::notes::ModelNote,
     sections::Reading,
     text::{
@@ -225,9 +226,8 @@ fn late_points(
 
 /// Warns of points of a table of time that have no influence.
 fn time_table(reading: &Reading<'_>, driven: &Item, duration: f64) {
-    let kinds = &registers().waveforms;
     for own in driven.table().unwrap_or(&[]) {
-        let kind = kinds.iter().find(|kind| kind.word == own.key);
+        let kind = registered(WAVEFORMS, &own.key);
         let parameter = kind.and_then(|kind| {
             kind.parameters.iter().find(|own| own.kind == ParameterKind::TimeTable)
         });

@@ -1,10 +1,10 @@
 //! Values of a kind's parameters, read as the kind declares them.
 
 use dashpot_network::parameters::{
-    Dimension, InvalidParameter, Parameter, ParameterKind, Value, WindowWish,
+    Dimension, InvalidParameter, Parameter, ParameterKind, Registered, Value, WindowWish,
 };
 
-use super::{Example, Kind};
+use super::Example;
 use crate::{
     diagnostics::fault::Fault,
     quantities::{
@@ -57,7 +57,12 @@ impl<'d> KindReader<'d> {
     /// Reads the thing of `kind` that `item` describes; its word stands at `place`.
     ///
     /// A kind with one required parameter takes the value alone; all others take a table.
-    pub(crate) fn read<T>(self, kind: &Kind<T>, item: &Item, place: Place) -> Option<T> {
+    pub(crate) fn read<T, A>(
+        self,
+        kind: &Registered<T, A>,
+        item: &Item,
+        place: Place,
+    ) -> Option<T> {
         self.read_as((kind.word, kind.parameters), &kind.make, item, place)
     }
 
@@ -165,7 +170,7 @@ impl<'d> KindReader<'d> {
     }
 
     /// The thing of `kind` with all keys left out.
-    pub(crate) fn defaults<T>(self, kind: &Kind<T>, place: Place) -> Option<T> {
+    pub(crate) fn defaults<T, A>(self, kind: &Registered<T, A>, place: Place) -> Option<T> {
         self.read(kind, &Item { value: Content::Table(Box::default()), place }, place)
     }
 

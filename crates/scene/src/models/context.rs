@@ -2,13 +2,17 @@
 
 use std::borrow::Cow;
 
-use dashpot_network::parameters::{Dimension, positive};
+use dashpot_network::{
+    elements::ELEMENTS,
+    parameters::{Dimension, Range, registered},
+    shifts::SHIFTS,
+};
 
 use super::BRANCH_KEYS;
 
 use crate::{
     diagnostics::{Faults, fault::Fault},
-    kinds::{Example, parameters::KindReader, registers},
+    kinds::{Example, parameters::KindReader},
     quantities::{
         basis::{AREA, Basis, Pad, SIZE, is_sized},
         pad::{EnclosingPad, Size},
@@ -126,7 +130,7 @@ impl<'d> ContextReader<'d> {
             }
             let [thickness, area] = beside.map(|size| size.map_or(1.0, |size| size.value));
             context.basis = Basis::Material(Pad { thickness, area });
-        } else if registers().element(&law.key).is_some_and(|kind| is_sized(kind.parameters)) {
+        } else if registered(ELEMENTS, &law.key).is_some_and(|kind| is_sized(kind.parameters)) {
             // The reader of the law checks them with those in its own table.
             context.size.beside = beside;
             context.size.is_faulty =
@@ -148,7 +152,7 @@ impl<'d> ContextReader<'d> {
     fn size(&self, site: &Site<'d>, key: &'static str, entry: &Entry) -> Option<Size> {
         let quantities = self.library.quantities(site.document, self.faults);
         let dimension = if key == SIZE[0] { Dimension::LENGTH } else { AREA };
-        let check = |size| positive(key, size);
+        let check = |size| Range::Positive.check(key, size);
         let size = quantities.of(key).read_checked(&entry.item, dimension, check);
         size.map(|value| Size { value, place: entry.item.place })
     }
@@ -162,7 +166,7 @@ impl<'d> ContextReader<'d> {
 
     /// The shift in a table such as `{ wlf = { … } }`.
     fn shift(&self, site: &Site<'d>, entry: &Entry) -> Option<Shift> {
-        let shifts = &registers().shifts;
+        let shifts = SHIFTS;
         let known = || shifts.iter().map(|kind| kind.word).collect::<Vec<_>>();
         let Content::Table(own) = &entry.item.value else {
             wrong_type(&entry.item, "`shift`", &expected(), self.faults);
@@ -196,7 +200,7 @@ impl<'d> ContextReader<'d> {
 
 /// What a shift is.
 fn expected() -> String {
-    let example = registers().shifts.first().map_or_else(String::new, |kind| {
+    let example = SHIFTS.first().map_or_else(String::new, |kind| {
         format!("{{ {} = {} }}", kind.word, Example::PLAIN.value(kind.parameters))
     });
     format!("a table with one kind of shift, for example `{example}`")

@@ -2,12 +2,13 @@
 
 use dashpot_network::{
     Model,
-    elements::{Dashpot, ElementKind, Spring},
+    elements::{Dashpot, ELEMENTS, Spring},
+    parameters::{Kind as _, registered},
 };
 use dashpot_rheology::{Branch, Part, Role, Tree};
 
 use crate::{
-    kinds::{Example, parameters::KindReader, registers},
+    kinds::{Example, parameters::KindReader},
     quantities::quantity::Quantities,
     text::{
         document::Entry,
@@ -59,7 +60,7 @@ impl FormReader<'_> {
             Role::Dashpot => Dashpot::KIND,
             Role::Form { parts, in_series } => return self.read(parts, in_series, entry),
         };
-        let kind = registers().element(word)?;
+        let kind = registered(ELEMENTS, word)?;
         let reader = KindReader::new(self.quantities);
         reader.read(kind, &entry.item, entry.key_place).map(Tree::Part)
     }

@@ -3,14 +3,18 @@
 use std::{cell::RefCell, collections::HashMap};
 
 use dashpot_network::{
-    Element, Model, composites::Composed, parameters::Parameter, shifts::shifted,
+    Element, Model,
+    composites::{COMPOSITES, Composed},
+    elements::ELEMENTS,
+    parameters::{Dimension, Registered, registered},
+    shifts::shifted,
 };
 use dashpot_rheology::Tree;
 
 use super::{context::Context, forms::FormReader};
 use crate::{
     diagnostics::{Faults, fault::Fault},
-    kinds::{CompositeEntry, parameters::KindReader, registers},
+    kinds::{form, parameters::KindReader},
     quantities::{
         basis::{Basis, Pad, SIZE, fits_material, is_size},
         pad::Extent,
@@ -50,10 +54,9 @@ impl<'d> LawReader<'d> {
     pub(super) fn read(&self, document: usize, law: &Entry, context: Context) -> Made {
         let quantities = self.library.quantities(document, self.faults);
         let quantities = Quantities { basis: context.basis, ..quantities };
-        let registers = registers();
         let word = law.key.as_str();
         let mut made = Made { model: None, note: None, extent: Extent::UNKNOWN };
-        if let Some(kind) = registers.element(word) {
+        if let Some(kind) = registered(ELEMENTS, word) {
             if context.basis.is_material() && !fits_material(kind.parameters) {
                 self.faults.error(law.key_place, Fault::ElementInMaterial { word: kind.word });
                 return made;
@@ -61,12 +64,12 @@ impl<'d> LawReader<'d> {
             let reader = KindReader { size: context.size, ..KindReader::new(quantities) };
             let element = reader.read(kind, &law.item, law.key_place);
             if let Some(element) = &element {
-                made.extent = extent_of(element.as_ref(), kind.parameters);
+                made.extent = extent_of(element.as_ref());
             }
             made.model = element.map(Tree::Part);
-        } else if let Some(form) = registers.form(word) {
+        } else if let Some(form) = form(word) {
             made.model = FormReader { quantities }.read(form.parts, form.in_series, law);
-        } else if let Some(composite) = registers.composite(word)
+        } else if let Some(composite) = registered(COMPOSITES, word)
             && let Some(Composed { model, note, until }) =
                 self.composite(quantities, composite, law)
         {
@@ -83,7 +86,7 @@ impl<'d> LawReader<'d> {
     fn composite(
         &self,
         quantities: Quantities<'_>,
-        composite: &CompositeEntry,
+        composite: &Registered<Composed, Dimension>,
         law: &Entry,
     ) -> Option<Composed> {
         let pad = match quantities.basis {
@@ -94,8 +97,8 @@ impl<'d> LawReader<'d> {
         if let Some(known) = self.composed.borrow().get(&key) {
             return known.clone();
         }
-        let reader = KindReader { driven: composite.amplitude, ..KindReader::new(quantities) };
-        let composed = reader.read(&composite.kind, &law.item, law.key_place);
+        let reader = KindReader { driven: composite.about, ..KindReader::new(quantities) };
+        let composed = reader.read(composite, &law.item, law.key_place);
         self.composed.borrow_mut().insert(key, composed.clone());
         composed
     }
@@ -112,11 +115,10 @@ impl<'d> LawReader<'d> {
 }
 
 /// The size of an element that has one.
-fn extent_of(element: &dyn Element, parameters: &[Parameter]) -> Extent {
-    let values = element.values();
+fn extent_of(element: &dyn Element) -> Extent {
     let [thickness, area] = SIZE.map(|key| {
-        let at = parameters.iter().position(|own| is_size(own) && own.name == key)?;
-        values.get(at)?.number()
+        element.parameters().iter().find(|own| is_size(own) && own.name == key)?;
+        element.value(key)?.number()
     });
     Extent { thickness, area, least: thickness.unwrap_or(0.0) }
 }

@@ -29,7 +29,7 @@ use self::{
 };
 use crate::{
     diagnostics::{Faults, fault::Fault},
-    kinds::registers,
+    kinds::model_words,
     quantities::{
         basis::{Basis, Pad},
         pad::Extent,
@@ -127,7 +127,7 @@ impl<'d> ModelReader<'d> {
         Self {
             library,
             faults,
-            words: registers().model_words(),
+            words: model_words(),
             laws: LawReader::new(library, faults),
             notes: Notes::default(),
             visited: RefCell::default(),

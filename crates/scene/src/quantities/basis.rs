@@ -175,7 +175,7 @@ mod tests {
     #[test]
     fn a_pad_has_stress_times_area_at_strain_times_thickness() {
         let pad = Basis::Material(Pad { thickness: 0.5, area: 0.25 });
-        let number = |dimension| Parameter::required("a", ParameterKind::Quantity(dimension), "");
+        let number = |dimension| Parameter::new("a", ParameterKind::Quantity(dimension), "");
         let parameters = [
             number(Dimension::STIFFNESS),
             number(Dimension::new(-1, 0, 2)),

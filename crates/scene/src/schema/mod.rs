@@ -4,9 +4,18 @@ mod values;
 
 use std::collections::BTreeMap;
 
-use dashpot_analysis::Family;
-use dashpot_network::{layers::MOST_SEGMENTS, parameters::Dimension};
-use dashpot_rheology::{Part, Role};
+use dashpot_analysis::{Family, MEASURES};
+use dashpot_dae::methods::METHODS;
+use dashpot_network::{
+    composites::COMPOSITES,
+    effects::{EFFECTS, EffectEntry},
+    elements::ELEMENTS,
+    layers::MOST_SEGMENTS,
+    parameters::{Dimension, Registered},
+    shifts::SHIFTS,
+    waveforms::WAVEFORMS,
+};
+use dashpot_rheology::{FORMS, Part, Role};
 use serde_json::{Map, Value, json};
 
 use self::values::{
@@ -14,7 +23,7 @@ use self::values::{
     table_or_file,
 };
 use crate::{
-    kinds::{CompositeEntry, EffectEntry, Kind, registers},
+    kinds::is_table,
     quantities::basis::{AREA, Basis, DENSITY, fits_material},
 };
 
@@ -54,7 +63,7 @@ pub fn schema() -> Value {
             },
             "effects": closed(
                 "what acts besides the elements, and only if named",
-                registers().effects.iter().map(|entry| (entry.word, effect(entry))),
+                EFFECTS.iter().map(|entry| (entry.word, effect(entry))),
             ),
             "loads": {
                 "description": "forces on nodes",
@@ -144,17 +153,16 @@ fn node() -> Value {
 }
 
 fn measure() -> Value {
-    let measures = &registers().measures;
-    let words = measures.iter().map(|measure| measure.kind.word).collect::<Vec<_>>();
-    let tables = measures.iter().map(|measure| {
-        let of = match measure.family {
+    let words = MEASURES.iter().map(|measure| measure.word).collect::<Vec<_>>();
+    let tables = MEASURES.iter().map(|measure| {
+        let of = match measure.about.family {
             Family::Element => "of an element",
             Family::Node => "of a node",
         };
-        let mut properties = Values::driving(Dimension::NUMBER).parameters(measure.kind.parameters);
-        properties.insert("kind".to_owned(), json!({ "const": measure.kind.word }));
+        let mut properties = Values::driving(Dimension::NUMBER).parameters(measure.parameters);
+        properties.insert("kind".to_owned(), json!({ "const": measure.word }));
         json!({
-            "description": format!("{} ({of})", measure.kind.summary),
+            "description": format!("{} ({of})", measure.summary),
             "type": "object",
             "properties": properties,
             "required": ["kind"],
@@ -182,7 +190,7 @@ fn accuracy() -> Value {
 }
 
 fn run() -> Value {
-    let method = json!({ "enum": registers().methods });
+    let method = json!({ "enum": METHODS.iter().map(|method| method.name).collect::<Vec<_>>() });
     let condition = json!({
         "type": "object",
         "properties": {
@@ -224,18 +232,18 @@ fn composed<'k>(
 ) -> Value {
     let is_material = basis.is_material();
     let mut laws = BTreeMap::new();
-    let fits = |kind: &&Kind<_>| !is_material || fits_material(kind.parameters);
-    for kind in registers().elements.iter().filter(fits) {
+    let fits = |kind: &&Registered<_>| !is_material || fits_material(kind.parameters);
+    for kind in ELEMENTS.iter().filter(fits) {
         let values = Values { driven: Dimension::FORCE, basis };
         laws.insert(kind.word, described_as(values.of_kind(kind.parameters), kind.summary));
     }
-    for form in &registers().forms {
+    for form in FORMS {
         for word in [&[form.word], form.aliases].concat() {
             laws.insert(word, described_as(parts(form.parts, basis), form.summary));
         }
     }
-    for CompositeEntry { kind, amplitude } in &registers().composites {
-        let values = Values { driven: *amplitude, basis };
+    for kind in COMPOSITES {
+        let values = Values { driven: kind.about, basis };
         laws.insert(kind.word, described_as(values.of_kind(kind.parameters), kind.summary));
     }
     let branch = reference(if is_material { "material-branch" } else { "branch" });
@@ -311,9 +319,9 @@ fn thickness() -> Value {
 
 /// A table with one shift.
 fn shift() -> Value {
-    let kinds = registers().shifts.iter();
+    let kinds = SHIFTS.iter();
     let values = Values::driving(Dimension::NUMBER);
-    let schema = |kind: &Kind<_>| described_as(values.of_kind(kind.parameters), kind.summary);
+    let schema = |kind: &Registered<_>| described_as(values.of_kind(kind.parameters), kind.summary);
     let description = "what multiplies all times of the model";
     let mut table = closed(description, kinds.map(|kind| (kind.word, schema(kind))));
     (table["minProperties"], table["maxProperties"]) = (json!(1), json!(1));
@@ -334,10 +342,10 @@ fn parts(parts_of_form: &[Part], basis: Basis) -> Value {
 
 /// A table with one function of time.
 fn function(driven: Dimension) -> Value {
-    let kinds = registers().waveforms.iter();
-    let schema = |kind: &Kind<_>| {
+    let kinds = WAVEFORMS.iter();
+    let schema = |kind: &Registered<_>| {
         let values = Values::driving(driven).of_kind(kind.parameters);
-        let values = if kind.is_table() { table_or_file(&values) } else { values };
+        let values = if is_table(kind.parameters) { table_or_file(&values) } else { values };
         described_as(values, kind.summary)
     };
     let mut table = closed("a function of time", kinds.map(|kind| (kind.word, schema(kind))));
@@ -349,7 +357,7 @@ fn effect(entry: &EffectEntry) -> Value {
     let table = Values::driving(Dimension::FORCE).of_kind(entry.parameters);
     let plain = entry.parameters.iter().all(|parameter| parameter.default.is_some());
     let schema = if plain { json!({ "anyOf": [{ "const": true }, table] }) } else { table };
-    if entry.is_per_element {
+    if entry.about.is_per_element {
         let by_element = json!({ "type": "object", "additionalProperties": schema });
         return described_as(by_element, &format!("by elements: {}", entry.summary));
     }

@@ -4,14 +4,15 @@ use std::sync::Arc;
 
 use dashpot_network::{
     Effect, Network, NetworkError,
-    parameters::{Parameter, ParameterKind},
+    effects::{EFFECTS, EffectEntry},
+    parameters::{Parameter, ParameterKind, registered},
 };
 
 use super::Reading;
 use crate::{
     check::network_faults::value_of,
     diagnostics::fault::Fault,
-    kinds::{EffectEntry, Example, parameters::KindReader, registers},
+    kinds::{Example, parameters::KindReader},
     quantities::quantity::{Quantities, Target},
     text::{
         document::{Content, Entry, Item},
@@ -23,12 +24,12 @@ use crate::{
 /// Reads the effects into `network`.
 pub(crate) fn read_effects(reading: &Reading<'_>, network: &mut Network) {
     for entry in reading.section("effects") {
-        let Some(kind) = registers().effect(&entry.key) else {
-            let known = registers().effects.iter().map(|kind| kind.word).collect();
+        let Some(kind) = registered(EFFECTS, &entry.key) else {
+            let known = EFFECTS.iter().map(|kind| kind.word).collect();
             reading.faults.error(entry.key_place, unknown_key(entry, "[effects]", known));
             continue;
         };
-        if !kind.is_per_element {
+        if !kind.about.is_per_element {
             let effect = Wanted { reading, kind, target: "", path: &entry.key, entry }.read();
             add(network, effect);
             continue;
@@ -133,7 +134,7 @@ impl Wanted<'_> {
         let quantities = Quantities { element: self.element(), ..reading.quantities() };
         KindReader::new(quantities).read_as(
             (path, kind.parameters),
-            &|values| (kind.make)(target, values),
+            &|values| (kind.make)(values).map(|own| own.on(target).unwrap_or(own)),
             item,
             entry.key_place,
         )

@@ -2,7 +2,7 @@
 
 use dashpot_network::{
     Network, NodeId,
-    parameters::{Dimension, positive},
+    parameters::{Dimension, Range},
 };
 
 use super::{Reading, layers::read_layers};
@@ -56,7 +56,7 @@ fn read_element<'d>(
     }
     let size = |key: &'static str, dimension| {
         let own = table.take(key)?;
-        let check = |size| positive(key, size);
+        let check = |size| Range::Positive.check(key, size);
         let value = reading.quantities().of(key).read_checked(&own.item, dimension, check)?;
         Some(Size { value, place: own.item.place })
     };

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use dashpot_dae::Waveform;
-use dashpot_network::parameters::{Dimension, Value};
+use dashpot_network::parameters::{Dimension, Registered, Value};
 
 use super::Reading;
 use crate::{
     diagnostics::fault::Fault,
-    kinds::{Kind, parameters::KindReader},
+    kinds::parameters::KindReader,
     quantities::quantity::Quantities,
     text::{
         csv::{Csv, CsvFault, Field},
@@ -33,7 +33,7 @@ impl<'d> Reading<'d> {
     /// of its word. `key` is what it drives, in `driven`.
     pub(super) fn read_file(
         &self,
-        kind: &Kind<Waveform>,
+        kind: &Registered<Waveform>,
         item: &'d Item,
         place: Place,
         (key, driven): (&str, Dimension),

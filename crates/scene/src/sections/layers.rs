@@ -2,7 +2,7 @@
 
 use dashpot_network::{
     layers::{Layer, Layers, MOST_SEGMENTS, Resolution},
-    parameters::{Dimension, InvalidParameter, non_negative, positive},
+    parameters::{Dimension, InvalidParameter, Range},
 };
 
 use super::Reading;
@@ -59,13 +59,13 @@ fn read_layer<'d>(
     // The model reader looks at the size, too; what is wrong with it is told once.
     let size = |key: &'static str, dimension| {
         let entry = table.take(key)?;
-        let check = |size| positive(key, size);
+        let check = |size| Range::Positive.check(key, size);
         quantities.unwatched().read_checked(&entry.item, dimension, check)
     };
     let material = table.require("material", "material = \"eva\"");
     let density = table.require("density", "density = \"120 kg/m^3\"");
     let density = density.and_then(|own| {
-        let check = |density| non_negative("density", density);
+        let check = |density| Range::NonNegative.check("density", density);
         quantities.of("density").read_checked(&own.item, DENSITY, check)
     });
     let thickness = size("thickness", Dimension::LENGTH);

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use dashpot_analysis::{Family, Measure, MeasureWish};
-use dashpot_network::parameters::{ModelValue, Parameter, ParameterKind, Value};
+use dashpot_analysis::{Family, MEASURES, Measure, MeasureWish, measures::MeasureEntry};
+use dashpot_network::parameters::{ModelValue, Parameter, ParameterKind, Value, registered};
 
 use super::{Reading, Targets};
 use crate::{
     diagnostics::fault::Fault,
-    kinds::{Kind, MeasureEntry, parameters::KindReader, registers},
+    kinds::parameters::KindReader,
     models::ModelReader,
     text::{
         document::{Content, Entry, Item},
@@ -60,14 +60,13 @@ pub(super) fn measure_of(
     family: Option<Family>,
     place: Place,
 ) -> Option<&'static MeasureEntry> {
-    let measures = &registers().measures;
-    let fits = |measure: &&MeasureEntry| family.is_none_or(|family| measure.family == family);
-    let found = measures.iter().find(|measure| measure.kind.word == word);
+    let fits = |own: &&MeasureEntry| family.is_none_or(|family| own.about.family == family);
+    let found = registered(MEASURES, word);
     if let Some(found) = found.filter(fits) {
         return Some(found);
     }
-    let known = measures.iter().filter(fits).map(|measure| measure.kind.word).collect();
-    let other = found.map(|found| other_family(reading, word, found.family));
+    let known = MEASURES.iter().filter(fits).map(|own| own.word).collect();
+    let other = found.map(|found| other_family(reading, word, found.about.family));
     let family = match family {
         Some(Family::Element) => "a measure of an element",
         Some(Family::Node) => "a measure of a node",
@@ -99,7 +98,7 @@ fn read_wish<'d>(
     let measure = match &item.value {
         Content::Text(word) => {
             let measure = measure_of(reading, word, family, item.place)?;
-            reader.defaults(&measure.kind, item.place)?
+            reader.defaults(measure, item.place)?
         }
         Content::Table(entries) => {
             let Some(kind) = entries.iter().find(|own| own.key == "kind") else {
@@ -110,7 +109,7 @@ fn read_wish<'d>(
             };
             let word = text_of(&kind.item, "`kind`", reading.faults)?;
             let measure = measure_of(reading, word, family, kind.item.place)?;
-            read_table(reading, (targets, models), (target, item), &measure.kind, kind.item.place)?
+            read_table(reading, (targets, models), (target, item), measure, kind.item.place)?
         }
         _ => {
             let expected = "a word, or a table such as { kind = \"severity-index\" }";
@@ -130,7 +129,7 @@ fn read_table<'d>(
     reading: &Reading<'d>,
     (targets, models): (&Targets<'_, 'd>, &ModelReader<'d>),
     (owner, item): (&str, &'d Item),
-    kind: &Kind<Arc<dyn Measure>>,
+    kind: &MeasureEntry,
     place: Place,
 ) -> Option<Arc<dyn Measure>> {
     let entries = item.table().unwrap_or(&[]);

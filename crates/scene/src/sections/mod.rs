@@ -23,11 +23,15 @@ pub(crate) use targets::Targets;
 
 use std::collections::HashMap;
 
-use dashpot_network::{NodeId, parameters::Dimension};
+use dashpot_network::{
+    NodeId,
+    parameters::{Dimension, Registered},
+    waveforms::WAVEFORMS,
+};
 
 use crate::{
     diagnostics::{Faults, fault::Fault},
-    kinds::{Example, Kind, parameters::KindReader, registers},
+    kinds::{Example, is_table, parameters::KindReader},
     quantities::quantity::Quantities,
     text::{
         document::{Entry, Item},
@@ -106,7 +110,7 @@ impl<'d> Reading<'d> {
         entry: &'d Entry,
         driven: Dimension,
     ) -> Option<dashpot_dae::Waveform> {
-        let kinds = &registers().waveforms;
+        let kinds = WAVEFORMS;
         let what = format!("`{}`", entry.key);
         let Some(entries) = entry.item.table() else {
             let example = kinds.first().map_or_else(String::new, example_kind);
@@ -146,7 +150,7 @@ impl<'d> Reading<'d> {
             self.faults.error(entry.item.place, fault);
         }
         let (kind, own) = found?;
-        if kind.is_table() && names_file(&own.item) {
+        if is_table(kind.parameters) && names_file(&own.item) {
             return self.read_file(kind, &own.item, own.key_place, (&entry.key, driven));
         }
         KindReader { driven, ..KindReader::new(self.quantities()) }.read(
@@ -158,6 +162,6 @@ impl<'d> Reading<'d> {
 }
 
 /// A kind with its word: `constant = "…"`.
-fn example_kind<T>(kind: &Kind<T>) -> String {
+fn example_kind<T>(kind: &Registered<T>) -> String {
     format!("{} = {}", kind.word, Example::PLAIN.value(kind.parameters))
 }

@@ -3,7 +3,7 @@
 use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{
     Network, Node, Start, Support,
-    parameters::{Dimension, InvalidParameter, non_negative},
+    parameters::{Dimension, InvalidParameter, Range},
 };
 
 use super::Reading;
@@ -36,7 +36,7 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
     let table = reading.table(entry, "node")?;
     let quantities = reading.quantities();
     let mass = table.take("mass").map(|own| {
-        let check = |mass| non_negative("mass", mass);
+        let check = |mass| Range::NonNegative.check("mass", mass);
         quantities.of("mass").read_checked(&own.item, Dimension::MASS, check)
     });
     let velocity = table.take("velocity");
@@ -48,7 +48,7 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
     let velocity =
         velocity.map(|own| quantities.read(&own.item, Dimension::VELOCITY).map(Start::Velocity));
     let drop = drop.map(|own| {
-        let check = |height| non_negative("drop", height);
+        let check = |height| Range::NonNegative.check("drop", height);
         let height = quantities.of("drop").read_checked(&own.item, Dimension::LENGTH, check);
         height.map(Start::Drop)
     });

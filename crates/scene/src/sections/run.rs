@@ -2,15 +2,15 @@
 
 use dashpot_analysis::Stop;
 use dashpot_dae::Direction;
+use dashpot_dae::methods::METHODS;
 use dashpot_network::{
     Assembly,
-    parameters::{Dimension, InvalidParameter, non_negative},
+    parameters::{Dimension, InvalidParameter, Range},
 };
 
 use super::Reading;
 use crate::{
     diagnostics::fault::Fault,
-    kinds::registers,
     text::{
         document::{Content, Entry, Item},
         source::Place,
@@ -74,7 +74,7 @@ pub(crate) fn read_run(reading: &Reading<'_>) -> (RunSettings, Vec<StopText>) {
     };
     let quantities = reading.quantities();
     let duration = table.require("duration", "duration = \"20 ms\"").and_then(|own| {
-        let check = |time| non_negative("duration", time);
+        let check = |time| Range::NonNegative.check("duration", time);
         quantities.of("run.duration").read_checked(&own.item, Dimension::TIME, check)
     });
     let samples = table.take("samples").and_then(|own| samples(reading, own));
@@ -110,7 +110,7 @@ fn samples(reading: &Reading<'_>, entry: &Entry) -> Option<usize> {
 }
 
 fn methods_of(reading: &Reading<'_>, entry: &Entry) -> Option<Vec<String>> {
-    let known = &registers().methods;
+    let known: Vec<&str> = METHODS.iter().map(|own| own.name).collect();
     let items = one_or_many(&entry.item);
     if items.is_empty() {
         let fault = Fault::EmptyList { key: entry.key.to_string() };

@@ -1,11 +1,6 @@
 //! Materials become pads by thickness and area.
 
-use dashpot_network::{
-    Model,
-    composites::{CompositeKind, CompositeVisitor, visit_composites},
-    elements::Law,
-    parameters::Value,
-};
+use dashpot_network::{Model, composites::COMPOSITES, elements::Law, parameters::Value};
 use dashpot_rheology::Tree;
 
 use super::{on_model, read_text, scene, shape};
@@ -119,7 +114,10 @@ fn composites_of_materials_scale_with_the_pad() {
 
 #[test]
 fn composites_are_the_models_that_they_describe() {
-    use dashpot_network::composites::{KelvinChain, Prony};
+    use dashpot_network::{
+        composites::{CompositeKind as _, KelvinChain, Prony},
+        parameters::{Described as _, Kind as _},
+    };
     let prony = Prony { equilibrium: 1e6, terms: vec![(1e-3, 2e6), (0.1, 5e5)] };
     let read = super::model(
         "prony = { equilibrium = \"1 MN/m\", terms = [[\"1 ms\", \"2 MN/m\"], [\"0.1 s\", \"0.5 MN/m\"]] }",
@@ -210,19 +208,19 @@ fn a_material_that_contains_itself_is_refused() {
     assert_eq!(shown.matches("contains itself").count(), 1, "{shown}");
 }
 
-struct Pads(usize);
-
-impl CompositeVisitor for Pads {
-    fn visit<C: CompositeKind>(&mut self) {
-        let sample = C::sample();
-        let keys = C::PARAMETERS.iter().zip(sample.values()).map(|(parameter, value)| {
+#[test]
+fn every_composite_of_a_material_is_in_proportion_to_the_area() {
+    assert!(COMPOSITES.len() >= 2);
+    for kind in COMPOSITES {
+        let sample = (kind.sample)();
+        let keys = kind.parameters.iter().zip(sample).map(|(parameter, value)| {
             let bare = match value {
                 Value::Number(number) => format!("{number:?}"),
                 Value::Table(points) => {
                     let pairs = points.iter().map(|(at, value)| format!("[{at:?}, {value:?}]"));
                     format!("[{}]", pairs.collect::<Vec<_>>().join(", "))
                 }
-                other => panic!("{}: {other:?}", C::KIND),
+                other => panic!("{}: {other:?}", kind.word),
             };
             (parameter.name, bare)
         });
@@ -234,19 +232,11 @@ impl CompositeVisitor for Pads {
                 format!("{{ {} }}", pairs.collect::<Vec<_>>().join(", "))
             }
         };
-        let tables = format!("[materials.own]\n{} = {law}\n", C::KIND);
+        let tables = format!("[materials.own]\n{} = {law}\n", kind.word);
         let pad = pad(&tables, "material = \"own\", thickness = 0.25, area = 0.5");
-        let alone = constants(&sample.compose().unwrap().model);
+        let alone = constants(&kind.example().unwrap().model);
         // A factor of two is exact in every step of a composite.
         let doubled: Vec<f64> = alone.iter().map(|own| 2.0 * own).collect();
-        assert_eq!(constants(&pad), doubled, "{}", C::KIND);
-        self.0 += 1;
+        assert_eq!(constants(&pad), doubled, "{}", kind.word);
     }
-}
-
-#[test]
-fn every_composite_of_a_material_is_in_proportion_to_the_area() {
-    let mut pads = Pads(0);
-    visit_composites(&mut pads);
-    assert!(pads.0 >= 2);
 }

@@ -1,7 +1,7 @@
 //! The words of the main errors, in full.
 
 use super::{messages, on_model, read_text};
-use crate::{kinds::registers, text::nearest::list};
+use crate::{kinds::model_words, text::nearest::list};
 
 const FAULTS_OF_THE_TEXT: &str = r#"titel = "Head on a pad"
 
@@ -213,7 +213,7 @@ error: `exat` is not a method
 #[test]
 fn faults_of_the_text_come_all_at_once() {
     // The registers grow.
-    let laws = [&["name", "shift", "thickness", "area"], &*registers().model_words()].concat();
+    let laws = [&["name", "shift", "thickness", "area"], &*model_words()].concat();
     let shown = FAULTS_OF_THE_TEXT_SHOWN.replace("LAWS", &list(&laws));
     assert_eq!(messages(FAULTS_OF_THE_TEXT), shown.trim_matches('\n'));
 }

@@ -1,22 +1,21 @@
 //! What is written is read back equal, for every kind of every register.
 
-use dashpot_analysis::{MeasureKind, MeasureVisitor, visit_measures};
+use dashpot_analysis::MEASURES;
 use dashpot_network::{
     Model,
-    composites::{CompositeKind, CompositeVisitor, visit_composites},
-    effects::{EffectKind, EffectVisitor, visit_effects},
-    elements::{ElementKind, ElementVisitor, visit_elements},
+    composites::COMPOSITES,
+    effects::EFFECTS,
+    elements::ELEMENTS,
     parameters::Dimension,
     part,
-    shifts::{ShiftKind, ShiftVisitor, shifted, visit_shifts},
-    waveforms::{WaveformKind, WaveformVisitor, visit_waveforms},
+    shifts::{SHIFTS, shifted},
+    waveforms::WAVEFORMS,
 };
-use dashpot_rheology::{Branch, Form, FormVisitor, Role, Tree, forms::build, visit_forms};
+use dashpot_rheology::{Branch, FORMS, Role, Tree, forms::build};
 
 use super::{on_model, scene, shape};
 use crate::{
     NamedModel, ReadOptions,
-    kinds::registers,
     quantities::basis::{self, fits_material},
     read_named_model, read_network, write_effect, write_kind, write_material_table, write_model,
     write_model_table,
@@ -45,18 +44,12 @@ fn read_back(model: &Model) -> Model {
 
 /// Whether an element of a model has a size, which it leaves behind in a material.
 fn is_sized(model: &Model) -> bool {
-    model.parts().iter().any(|(_, element)| {
-        let kind = registers().element(element.kind());
-        kind.is_some_and(|kind| basis::is_sized(kind.parameters))
-    })
+    model.parts().iter().any(|(_, element)| basis::is_sized(element.parameters()))
 }
 
 /// Whether all elements of a model may stand in a material.
 fn fits(model: &Model) -> bool {
-    model.parts().iter().all(|(_, element)| {
-        let kind = registers().element(element.kind());
-        kind.is_some_and(|kind| fits_material(kind.parameters))
-    })
+    model.parts().iter().all(|(_, element)| fits_material(element.parameters()))
 }
 
 fn read_table(text: &str) -> NamedModel {
@@ -96,23 +89,23 @@ fn a_table_of_one_part_and_of_an_odd_name() {
     assert_eq!(shape(&read.model), shape(&model));
 }
 
-struct Kinds(usize);
-
-impl ElementVisitor for Kinds {
-    fn visit<E: ElementKind>(&mut self) {
-        let sample = part(E::sample());
-        assert_eq!(shape(&read_back(&sample)), shape(&sample), "{}", E::KIND);
+#[test]
+fn every_element_is_read_back_equal() {
+    for kind in ELEMENTS {
+        let own = || Tree::Part(kind.example().unwrap());
+        let sample = own();
+        assert_eq!(shape(&read_back(&sample)), shape(&sample), "{}", kind.word);
         let named = Tree::Series(vec![
-            Branch::new("odd \"name\"", part(E::sample())),
-            Branch::new("ä", Tree::parallel([part(E::sample()), part(E::sample())])),
+            Branch::new("odd \"name\"", own()),
+            Branch::new("ä", Tree::parallel([own(), own()])),
         ]);
-        assert_eq!(shape(&read_back(&named)), shape(&named), "{}", E::KIND);
-        self.0 += 1;
+        assert_eq!(shape(&read_back(&named)), shape(&named), "{}", kind.word);
     }
 }
 
-impl FormVisitor for Kinds {
-    fn visit<F: Form>(&mut self) {
+#[test]
+fn every_form_is_read_back_equal() {
+    for kind in FORMS {
         let mut value = 1.0 / 3.0;
         let mut leaf = |_: &[&'static str], role: Role| {
             value *= 1.7;
@@ -125,41 +118,39 @@ impl FormVisitor for Kinds {
                 std::sync::Arc::new(dashpot)
             })
         };
-        let form = build(F::PARTS, F::IN_SERIES, &mut leaf).unwrap();
-        assert_eq!(shape(&read_back(&form)), shape(&form), "{}", F::KIND);
-        self.0 += 1;
+        let form = build(kind.parts, kind.in_series, &mut leaf).unwrap();
+        assert_eq!(shape(&read_back(&form)), shape(&form), "{}", kind.word);
     }
 }
 
-impl CompositeVisitor for Kinds {
-    fn visit<C: CompositeKind>(&mut self) {
-        let sample = C::sample();
-        let written = write_kind(C::KIND, C::PARAMETERS, &sample.values(), C::AMPLITUDE);
-        let composed = sample.compose().unwrap().model;
+#[test]
+fn every_composite_is_read_back_equal() {
+    for kind in COMPOSITES {
+        let written = write_kind(kind.word, kind.parameters, &(kind.sample)(), kind.about);
+        let composed = kind.example().unwrap().model;
         let read = super::model(&written);
         assert_eq!(shape(&read), shape(&composed), "{written}");
         assert_eq!(shape(&read_back(&read)), shape(&composed), "{written}");
-        self.0 += 1;
     }
 }
 
-impl ShiftVisitor for Kinds {
-    fn visit<S: ShiftKind>(&mut self) {
-        let sample = S::sample();
-        let written = write_kind(S::KIND, S::PARAMETERS, &sample.values(), Dimension::NUMBER);
+#[test]
+fn every_shift_is_read_back_equal() {
+    for kind in SHIFTS {
+        let written = write_kind(kind.word, kind.parameters, &(kind.sample)(), Dimension::NUMBER);
         let law = "kelvin-voigt = { spring = 3, dashpot = 5 }";
         let read = super::model(&format!("{law}, shift = {{ {written} }}"));
-        let expected = shifted(&super::model(law), sample.factor().unwrap()).unwrap();
+        let expected = shifted(&super::model(law), kind.example().unwrap()).unwrap();
         assert_eq!(shape(&read), shape(&expected), "{written}");
-        self.0 += 1;
     }
 }
 
-impl WaveformVisitor for Kinds {
-    fn visit<W: WaveformKind>(&mut self) {
-        let sample = W::sample();
-        let force = write_kind(W::KIND, W::PARAMETERS, &sample.values(), Dimension::FORCE);
-        let motion = write_kind(W::KIND, W::PARAMETERS, &sample.values(), Dimension::LENGTH);
+#[test]
+fn every_function_is_read_back_equal() {
+    for kind in WAVEFORMS {
+        let sample = (kind.sample)();
+        let force = write_kind(kind.word, kind.parameters, &sample, Dimension::FORCE);
+        let motion = write_kind(kind.word, kind.parameters, &sample, Dimension::LENGTH);
         let text = format!(
             "{}[loads.push]\non = \"head\"\nforce = {{ {force} }}\n",
             on_model("spring = 1").replace(
@@ -171,61 +162,47 @@ impl WaveformVisitor for Kinds {
             )
         );
         let read = scene(&text);
-        let expected = sample.waveform().unwrap();
-        assert_eq!(read.network.loads()[0].force, expected, "{}", W::KIND);
+        let expected = kind.example().unwrap();
+        assert_eq!(read.network.loads()[0].force, expected, "{}", kind.word);
         let base = read.network.node_named("base").unwrap();
         let support = &read.network.node(base).support;
-        assert_eq!(*support, dashpot_network::Support::Prescribed(expected), "{}", W::KIND);
-        self.0 += 1;
+        assert_eq!(*support, dashpot_network::Support::Prescribed(expected), "{}", kind.word);
     }
 }
 
-impl EffectVisitor for Kinds {
-    fn visit<E: EffectKind>(&mut self) {
-        let sample = E::sample();
+#[test]
+fn every_effect_is_read_back_equal() {
+    for kind in EFFECTS {
+        let sample = kind.example().unwrap().on("padding");
+        let sample = sample.unwrap_or_else(|| kind.example().unwrap());
         let network = on_model("spring = 1").replace("pad =", "padding =");
-        let text = format!("{network}[effects]\n{}\n", write_effect(&sample));
+        let text = format!("{network}[effects]\n{}\n", write_effect(sample.as_ref()));
         let read = read_network(&text, &ReadOptions::default());
         let read = read.unwrap_or_else(|faults| panic!("{text}\n{faults}")).value;
         let effect = &read.effects()[0];
-        assert_eq!((effect.kind(), effect.target()), (E::KIND, sample.target()));
+        assert_eq!((effect.kind(), effect.target()), (kind.word, sample.target()));
         assert_eq!(effect.values(), sample.values());
-        self.0 += 1;
     }
 }
 
-impl MeasureVisitor for Kinds {
-    fn visit<M: MeasureKind>(&mut self) {
-        let sample = M::sample();
-        let target = match M::APPLIES_TO {
+#[test]
+fn every_measure_is_read_back_equal() {
+    for kind in MEASURES {
+        let target = match kind.about.family {
             dashpot_analysis::Family::Element => "pad",
             dashpot_analysis::Family::Node => "head",
         };
-        let values = MeasureKind::values(&sample);
-        let written = write_kind(M::KIND, M::PARAMETERS, &values, Dimension::NUMBER);
+        let values = (kind.sample)();
+        let written = write_kind(kind.word, kind.parameters, &values, Dimension::NUMBER);
         let options = written.split_once(" = ").unwrap().1.trim_matches(['{', '}', ' ']);
         let comma = if options.is_empty() { "" } else { "," };
         let text = format!(
             "{}[measures]\n{target} = {{ kind = \"{}\"{comma} {options} }}\n",
             on_model("spring = 1"),
-            M::KIND
+            kind.word
         );
         let read = scene(&text);
         let measure = &read.measures[0].measure;
-        assert_eq!((measure.kind(), measure.values()), (M::KIND, values), "{text}");
-        self.0 += 1;
+        assert_eq!((measure.kind(), measure.values()), (kind.word, values), "{text}");
     }
-}
-
-#[test]
-fn every_kind_is_read_back_equal() {
-    let mut kinds = Kinds(0);
-    visit_elements(&mut kinds);
-    visit_forms(&mut kinds);
-    visit_composites(&mut kinds);
-    visit_shifts(&mut kinds);
-    visit_waveforms(&mut kinds);
-    visit_effects(&mut kinds);
-    visit_measures(&mut kinds);
-    assert!(kinds.0 > 20);
 }

@@ -12,13 +12,14 @@ use super::{
 };
 use crate::{
     diagnostics::{Faults, fault::Fault},
-    kinds::registers,
+    kinds,
     quantities::{
         basis::Basis,
         quantity::{Quantities, Subject, Values},
         values::{self, Overrides},
     },
 };
+use dashpot_network::{parameters::registered, waveforms::WAVEFORMS};
 
 /// Gives the text of another file by its path.
 pub type Loader<'l> = &'l dyn Fn(&str) -> Result<String, String>;
@@ -363,7 +364,7 @@ impl Library {
 
 /// Whether `word` is that of a driving function that is a table.
 pub(crate) fn is_table(word: &str) -> bool {
-    registers().waveforms.iter().any(|kind| kind.word == word && kind.is_table())
+    registered(WAVEFORMS, word).is_some_and(|kind| kinds::is_table(kind.parameters))
 }
 
 /// Whether a table is given by `item` as a file, and not as its `points`.

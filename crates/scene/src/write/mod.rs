@@ -12,7 +12,6 @@ use dashpot_network::{
 use dashpot_rheology::{Branch, Tree};
 
 use crate::{
-    kinds::registers,
     quantities::basis::{Basis, is_size},
     units::{exact_quantity, tidy},
 };
@@ -189,17 +188,16 @@ fn write_parameter(basis: Basis, own: &Parameter, value: &Value, driven: Dimensi
 /// ```
 pub fn write_effect(effect: &dyn Effect) -> String {
     let word = effect.kind();
-    let parameters = registers().effect(word).map_or(&[][..], |entry| entry.parameters);
     let word = match effect.target() {
         Some(element) => format!("{word}.{}", key(element)),
         None => word.to_owned(),
     };
-    write_kind(&word, parameters, &effect.values(), Dimension::FORCE)
+    write_kind(&word, effect.parameters(), &effect.values(), Dimension::FORCE)
 }
 
 fn write_element(element: &dyn Element, basis: Basis) -> String {
-    let parameters = registers().element(element.kind()).map_or(&[][..], |kind| kind.parameters);
-    write_kind_in(basis, (element.kind(), parameters, &element.values()), Dimension::FORCE)
+    let own = (element.kind(), element.parameters(), &*element.values());
+    write_kind_in(basis, own, Dimension::FORCE)
 }
 
 /// A value; numbers, and the second ones of pairs, are of this dimension, the first ones of pairs of

@@ -21,7 +21,7 @@ fn kelvin(stiffness: f64, damping: f64) -> Model {
 fn solved(network: &Network, duration: f64, elements: &[&str], nodes: &[&str]) -> RunReport {
     let mut settings = SolveSettings::lasting(duration).by_name("exact").unwrap();
     for &element in elements {
-        settings.measures.push(MeasureWish::new(element, CoefficientOfRestitution));
+        settings.measures.push(MeasureWish::new(element, CoefficientOfRestitution {}));
         settings.measures.push(MeasureWish::new(element, PeakRate::default()));
     }
     for &node in nodes {
@@ -211,7 +211,7 @@ fn impulse_is_what_the_head_loses_of_its_momentum() {
 #[test]
 fn padding_is_pressed_through_all_bounces_of_its_face() {
     let mut settings = SolveSettings::lasting(0.03).by_name("exact").unwrap();
-    settings.measures.push(MeasureWish::new("pad", CoefficientOfRestitution));
+    settings.measures.push(MeasureWish::new("pad", CoefficientOfRestitution {}));
     settings.measures.push(MeasureWish::new("pad", PeakForce { window: RUN }));
     settings.measures.push(MeasureWish::new("pad.contact", Impulse { window: RUN }));
     settings.measures.push(MeasureWish::new("head", EndVelocity::default()));

@@ -1,6 +1,6 @@
 //! Deformation at constant rate.
 
-use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
+use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{LONG, deforms};
 use crate::rheometer::{
@@ -11,43 +11,24 @@ use crate::rheometer::{
     trial::Trial,
 };
 
-/// A deformation that grows at a constant rate from the time 0 on: `F(t) = v (C + ∫ G dt)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ConstantRate {
-    /// The rate `v` \[m/s\], not zero; `None` for 1 mm in the whole test.
-    pub rate: Option<f64>,
-    /// End of the test \[s\], positive; `None` for 10 times the slowest time of the model.
-    pub end: Option<f64>,
-    /// About how many instants are looked at, 2 or more.
-    pub points: usize,
-}
-
-impl Default for ConstantRate {
-    fn default() -> Self {
-        Self { rate: None, end: None, points: given::USUAL_POINTS }
+parameters! {
+    /// A deformation that grows at a constant rate from the time 0 on: `F(t) = v (C + ∫ G dt)`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct ConstantRate: "constant-rate",
+        "a deformation that grows at a constant rate; force over time"
+    {
+        /// deformation rate [m/s], positive in compression, not zero; else 1 mm in the whole test
+        pub rate: Option<f64> = Quantity(Dimension::VELOCITY),
+            default FROM_THE_MODEL, range NotZero;
+        /// End of the test \[s\], positive; `None` for 10 times the slowest time of the model.
+        pub end: Option<f64> => given::END;
+        /// About how many instants are looked at, 2 or more.
+        pub points: usize => given::POINTS;
     }
+    default { rate: None, end: None, points: given::USUAL_POINTS }
 }
-
-const RATE: Parameter = Parameter::optional(
-    "rate",
-    ParameterKind::Quantity(Dimension::VELOCITY),
-    FROM_THE_MODEL,
-    "deformation rate [m/s], positive in compression, not zero; else 1 mm in the whole test",
-);
 
 impl ProtocolKind for ConstantRate {
-    const KIND: &'static str = "constant-rate";
-    const SUMMARY: &'static str = "a deformation that grows at a constant rate; force over time";
-    const PARAMETERS: &'static [Parameter] = &[RATE, given::END, given::POINTS];
-
-    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            rate: given::amplitude(values, 0, "rate")?,
-            end: given::positive(values, 1, "end")?,
-            points: given::points(values, 2)?,
-        })
-    }
-
     fn test(
         &self,
         specimen: &Specimen,

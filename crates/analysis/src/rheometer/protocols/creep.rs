@@ -1,6 +1,6 @@
 //! Creep.
 
-use dashpot_network::parameters::{InvalidParameter, Parameter, Value};
+use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{LONG, bears_force, notes_under_force};
 use crate::rheometer::{
@@ -11,36 +11,21 @@ use crate::rheometer::{
     trial::Trial,
 };
 
-/// A force step that is held: `y(t) = F J(t)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Creep {
-    /// The force \[N\], not zero.
-    pub force: Option<f64>,
-    /// End of the test \[s\], positive; `None` for 10 times the slowest time of the model.
-    pub end: Option<f64>,
-    /// About how many instants are looked at, 2 or more.
-    pub points: usize,
-}
-
-impl Default for Creep {
-    fn default() -> Self {
-        Self { force: None, end: None, points: given::USUAL_POINTS }
+parameters! {
+    /// A force step that is held: `y(t) = F J(t)`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Creep: "creep", "a force step that is held; deformation over time" {
+        /// The force \[N\], not zero.
+        pub force: Option<f64> => given::FORCE;
+        /// End of the test \[s\], positive; `None` for 10 times the slowest time of the model.
+        pub end: Option<f64> => given::END;
+        /// About how many instants are looked at, 2 or more.
+        pub points: usize => given::POINTS;
     }
+    default { force: None, end: None, points: given::USUAL_POINTS }
 }
 
 impl ProtocolKind for Creep {
-    const KIND: &'static str = "creep";
-    const SUMMARY: &'static str = "a force step that is held; deformation over time";
-    const PARAMETERS: &'static [Parameter] = &[given::FORCE, given::END, given::POINTS];
-
-    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            force: given::amplitude(values, 0, "force")?,
-            end: given::positive(values, 1, "end")?,
-            points: given::points(values, 2)?,
-        })
-    }
-
     fn test(
         &self,
         specimen: &Specimen,

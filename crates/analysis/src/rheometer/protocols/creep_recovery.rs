@@ -1,6 +1,6 @@
 //! Creep and recovery.
 
-use dashpot_network::parameters::{InvalidParameter, Parameter, Value};
+use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{HELD, LONG, bears_force, notes_under_force};
 use crate::rheometer::{
@@ -11,42 +11,26 @@ use crate::rheometer::{
     trial::Trial,
 };
 
-/// A force step that is held for a time and then taken away: `y(t) = F (J(t) − J(t − t_hold))`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CreepRecovery {
-    /// The force \[N\], not zero.
-    pub force: Option<f64>,
-    /// How long it is held \[s\], positive; `None` for 5 times the slowest retardation time.
-    pub hold: Option<f64>,
-    /// End of the test \[s\], after the hold; `None` for 10 times the slowest time of the model
-    /// after it.
-    pub end: Option<f64>,
-    /// About how many instants are looked at, 2 or more.
-    pub points: usize,
-}
-
-impl Default for CreepRecovery {
-    fn default() -> Self {
-        Self { force: None, hold: None, end: None, points: given::USUAL_POINTS }
+parameters! {
+    /// A force step that is held for a time and then taken away: `y(t) = F (J(t) − J(t − t_hold))`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct CreepRecovery: "creep-recovery",
+        "a force step that is held, then taken away; deformation over time"
+    {
+        /// The force \[N\], not zero.
+        pub force: Option<f64> => given::FORCE;
+        /// How long it is held \[s\], positive; `None` for 5 times the slowest retardation time.
+        pub hold: Option<f64> => given::HOLD;
+        /// End of the test \[s\], after the hold; `None` for 10 times the slowest time of the model
+        /// after it.
+        pub end: Option<f64> => given::END;
+        /// About how many instants are looked at, 2 or more.
+        pub points: usize => given::POINTS;
     }
+    default { force: None, hold: None, end: None, points: given::USUAL_POINTS }
 }
 
 impl ProtocolKind for CreepRecovery {
-    const KIND: &'static str = "creep-recovery";
-    const SUMMARY: &'static str =
-        "a force step that is held, then taken away; deformation over time";
-    const PARAMETERS: &'static [Parameter] =
-        &[given::FORCE, given::HOLD, given::END, given::POINTS];
-
-    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            force: given::amplitude(values, 0, "force")?,
-            hold: given::positive(values, 1, "hold")?,
-            end: given::positive(values, 2, "end")?,
-            points: given::points(values, 3)?,
-        })
-    }
-
     fn test(
         &self,
         specimen: &Specimen,

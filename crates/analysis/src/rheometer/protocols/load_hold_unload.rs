@@ -1,6 +1,6 @@
 //! Load, hold, unload: figure 2 of the thesis.
 
-use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
+use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{HELD, LONG, bears_force, notes_under_force};
 use crate::rheometer::{
@@ -11,64 +11,40 @@ use crate::rheometer::{
     trial::Trial,
 };
 
-/// A force that is put on, held and taken away, with the parts of the deformation apart (figure 2
-/// of the thesis).
-///
-/// The parts are those of the model's Kelvin form, whatever form it was given in:
-///
-/// | part            | thesis | law                              | after unloading     |
-/// |-----------------|--------|----------------------------------|---------------------|
-/// | `instantaneous` | `ε₂`   | `J_g F`                          | comes back at once  |
-/// | `delayed`       | `ε₁`   | `ε̇ + z ε = φ F` for each element | comes back late     |
-/// | `viscous`       | `ε₃`   | `ε̇ = φ₀ F`                       | stays               |
-///
-/// The deformation is simulated with the model as it was given, the parts with its Kelvin form.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LoadHoldUnload {
-    /// The force \[N\], not zero.
-    pub force: Option<f64>,
-    /// How long putting it on and taking it away take \[s\], ≥ 0.
-    pub rise: f64,
-    /// How long it is held in between \[s\], positive; `None` for 5 times the slowest retardation
-    /// time.
-    pub hold: Option<f64>,
-    /// End of the test \[s\], after unloading; `None` for 10 times the slowest time of the model
-    /// after it.
-    pub end: Option<f64>,
-    /// About how many instants are looked at, 2 or more.
-    pub points: usize,
-}
-
-impl Default for LoadHoldUnload {
-    fn default() -> Self {
-        Self { force: None, rise: 0.0, hold: None, end: None, points: given::USUAL_POINTS }
+parameters! {
+    /// A force that is put on, held and taken away, with the parts of the deformation apart (figure 2
+    /// of the thesis).
+    ///
+    /// The parts are those of the model's Kelvin form, whatever form it was given in:
+    ///
+    /// | part            | thesis | law                              | after unloading     |
+    /// |-----------------|--------|----------------------------------|---------------------|
+    /// | `instantaneous` | `ε₂`   | `J_g F`                          | comes back at once  |
+    /// | `delayed`       | `ε₁`   | `ε̇ + z ε = φ F` for each element | comes back late     |
+    /// | `viscous`       | `ε₃`   | `ε̇ = φ₀ F`                       | stays               |
+    ///
+    /// The deformation is simulated with the model as it was given, the parts with its Kelvin form.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct LoadHoldUnload: "load-hold-unload",
+        "a force put on, held and taken away; what of the deformation comes back at once, late, and not at all"
+    {
+        /// The force \[N\], not zero.
+        pub force: Option<f64> => given::FORCE;
+        /// how long loading and unloading take [s], zero or positive
+        pub rise: f64 = Quantity(Dimension::TIME), default "0 s", range NonNegative;
+        /// How long it is held in between \[s\], positive; `None` for 5 times the slowest retardation
+        /// time.
+        pub hold: Option<f64> => given::HOLD;
+        /// End of the test \[s\], after unloading; `None` for 10 times the slowest time of the model
+        /// after it.
+        pub end: Option<f64> => given::END;
+        /// About how many instants are looked at, 2 or more.
+        pub points: usize => given::POINTS;
     }
+    default { force: None, rise: 0.0, hold: None, end: None, points: given::USUAL_POINTS }
 }
-
-const RISE: Parameter = Parameter::optional(
-    "rise",
-    ParameterKind::Quantity(Dimension::TIME),
-    "0 s",
-    "how long loading and unloading take [s], zero or positive",
-);
 
 impl ProtocolKind for LoadHoldUnload {
-    const KIND: &'static str = "load-hold-unload";
-    const SUMMARY: &'static str = "a force put on, held and taken away; what of the deformation \
-                                   comes back at once, late, and not at all";
-    const PARAMETERS: &'static [Parameter] =
-        &[given::FORCE, RISE, given::HOLD, given::END, given::POINTS];
-
-    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            force: given::amplitude(values, 0, "force")?,
-            rise: given::non_negative(values, 1, "rise")?.unwrap_or(0.0),
-            hold: given::positive(values, 2, "hold")?,
-            end: given::positive(values, 3, "end")?,
-            points: given::points(values, 4)?,
-        })
-    }
-
     fn test(
         &self,
         specimen: &Specimen,

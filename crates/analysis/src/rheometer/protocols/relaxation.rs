@@ -1,6 +1,6 @@
 //! Stress relaxation.
 
-use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
+use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{LONG, deforms};
 use crate::rheometer::{
@@ -15,58 +15,29 @@ use crate::wording::quantity;
 /// Part of the model's fastest time that a step takes where it cannot be sudden.
 const QUICK: f64 = 0.01;
 
-/// A deformation step that is held: `F(t) = y G(t)`.
-///
-/// A dashpot beside all else would answer a sudden step with an infinite force; the deformation of
-/// such a model rises within a stated time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Relaxation {
-    /// The deformation \[m\], not zero.
-    pub deformation: Option<f64>,
-    /// How long reaching it takes \[s\], ≥ 0; `None` for no time, or, where that is impossible, a
-    /// hundredth of the model's fastest time.
-    pub rise: Option<f64>,
-    /// End of the test \[s\], after the rise; `None` for 10 times the slowest time of the model
-    /// after it.
-    pub end: Option<f64>,
-    /// About how many instants are looked at, 2 or more.
-    pub points: usize,
-}
-
-impl Default for Relaxation {
-    fn default() -> Self {
-        Self { deformation: None, rise: None, end: None, points: given::USUAL_POINTS }
+parameters! {
+    /// A deformation step that is held: `F(t) = y G(t)`.
+    ///
+    /// A dashpot beside all else would answer a sudden step with an infinite force; the deformation of
+    /// such a model rises within a stated time.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Relaxation: "relaxation", "a deformation step that is held; force over time" {
+        /// height of the deformation step [m], positive in compression, not zero
+        pub deformation: Option<f64> = Quantity(Dimension::LENGTH), default "1 mm", range NotZero;
+        /// how long the step takes [s], zero or positive; else 0 s, or 1/100 of the fastest time of
+        /// a model that a dashpot keeps from deforming at once
+        pub rise: Option<f64> = Quantity(Dimension::TIME),
+            default FROM_THE_MODEL, range NonNegative;
+        /// End of the test \[s\], after the rise; `None` for 10 times the slowest time of the model
+        /// after it.
+        pub end: Option<f64> => given::END;
+        /// About how many instants are looked at, 2 or more.
+        pub points: usize => given::POINTS;
     }
+    default { deformation: None, rise: None, end: None, points: given::USUAL_POINTS }
 }
-
-const DEFORMATION: Parameter = Parameter::optional(
-    "deformation",
-    ParameterKind::Quantity(Dimension::LENGTH),
-    "1 mm",
-    "height of the deformation step [m], positive in compression, not zero",
-);
-const RISE: Parameter = Parameter::optional(
-    "rise",
-    ParameterKind::Quantity(Dimension::TIME),
-    FROM_THE_MODEL,
-    "how long the step takes [s], zero or positive; else 0 s, or 1/100 of the fastest time of a \
-     model that a dashpot keeps from deforming at once",
-);
 
 impl ProtocolKind for Relaxation {
-    const KIND: &'static str = "relaxation";
-    const SUMMARY: &'static str = "a deformation step that is held; force over time";
-    const PARAMETERS: &'static [Parameter] = &[DEFORMATION, RISE, given::END, given::POINTS];
-
-    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            deformation: given::amplitude(values, 0, "deformation")?,
-            rise: given::non_negative(values, 1, "rise")?,
-            end: given::positive(values, 2, "end")?,
-            points: given::points(values, 3)?,
-        })
-    }
-
     fn test(
         &self,
         specimen: &Specimen,

@@ -2,7 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
+use dashpot_network::{
+    parameters,
+    parameters::{InvalidParameter, Kind as _},
+};
 use nalgebra::Complex;
 
 use super::deforms;
@@ -24,52 +27,26 @@ const METHOD: &str = "network at s = iω";
 /// How far beyond the frequencies of its slowest and fastest time a model is looked at.
 const BEYOND: f64 = 100.0;
 
-/// Steady oscillation over frequency: storage `k′`, loss `k″` and `tan δ = k″/k′` with
-/// `Q(iω) = k′ + i k″` and `ω = 2π f`.
-///
-/// The independent computation solves the equations of the network at `s = iω`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sweep {
-    /// The lowest frequency \[Hz\], positive; `None` for a hundredth of that of the slowest time.
-    pub from: Option<f64>,
-    /// The highest frequency \[Hz\], above the lowest; `None` for 100 times that of the fastest.
-    pub to: Option<f64>,
-    /// How many frequencies are looked at, 2 or more.
-    pub points: usize,
-}
-
-impl Default for Sweep {
-    fn default() -> Self {
-        Self { from: None, to: None, points: given::USUAL_POINTS }
+parameters! {
+    /// Steady oscillation over frequency: storage `k′`, loss `k″` and `tan δ = k″/k′` with
+    /// `Q(iω) = k′ + i k″` and `ω = 2π f`.
+    ///
+    /// The independent computation solves the equations of the network at `s = iω`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Sweep: "sweep", "steady oscillation; storage, loss and tan δ over frequency" {
+        /// lowest frequency [Hz], positive; else 1/100 of 1/(2π × the slowest time)
+        pub from: Option<f64> = Quantity(Dimension::FREQUENCY),
+            default FROM_THE_MODEL, range Positive;
+        /// highest frequency [Hz], above the lowest; else 100 times 1/(2π × the fastest time)
+        pub to: Option<f64> = Quantity(Dimension::FREQUENCY),
+            default FROM_THE_MODEL, range Positive;
+        /// How many frequencies are looked at, 2 or more.
+        pub points: usize => given::POINTS;
     }
+    default { from: None, to: None, points: given::USUAL_POINTS }
 }
-
-const FROM: Parameter = Parameter::optional(
-    "from",
-    ParameterKind::Quantity(Dimension::FREQUENCY),
-    FROM_THE_MODEL,
-    "lowest frequency [Hz], positive; else 1/100 of 1/(2π × the slowest time)",
-);
-const TO: Parameter = Parameter::optional(
-    "to",
-    ParameterKind::Quantity(Dimension::FREQUENCY),
-    FROM_THE_MODEL,
-    "highest frequency [Hz], above the lowest; else 100 times 1/(2π × the fastest time)",
-);
 
 impl ProtocolKind for Sweep {
-    const KIND: &'static str = "sweep";
-    const SUMMARY: &'static str = "steady oscillation; storage, loss and tan δ over frequency";
-    const PARAMETERS: &'static [Parameter] = &[FROM, TO, given::POINTS];
-
-    fn from_values(values: &[Option<Value>]) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            from: given::positive(values, 0, "from")?,
-            to: given::positive(values, 1, "to")?,
-            points: given::points(values, 2)?,
-        })
-    }
-
     fn test(
         &self,
         specimen: &Specimen,

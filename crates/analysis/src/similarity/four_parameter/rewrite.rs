@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use dashpot_network::{
     Model, Network, Start,
-    effects::{EffectKind, Face, Gravity},
+    effects::{Face, Gravity},
     elements::{Dashpot, Law, Spring},
-    first_nonlinear, linear_model, part,
+    first_nonlinear, linear_model,
+    parameters::Kind as _,
+    part,
 };
 use dashpot_rheology::{Branch, Tree};
 

@@ -1,7 +1,7 @@
 //! What is asked of the tests.
 
-use dashpot_analysis::rheometer::{ProtocolKind, ProtocolVisitor, visit_protocols};
-use dashpot_network::parameters::{Dimension, ParameterKind};
+use dashpot_analysis::rheometer::PROTOCOLS;
+use dashpot_network::parameters::{Dimension, Parameter, ParameterKind, registered};
 
 use super::Units;
 use crate::{args::RheometerArguments, error::CliError, input::setting};
@@ -9,44 +9,28 @@ use crate::{args::RheometerArguments, error::CliError, input::setting};
 /// The words of the tests that are asked for, all of them by default.
 pub(super) fn tests(arguments: &RheometerArguments) -> Vec<String> {
     if arguments.test.is_empty() {
-        protocols().into_iter().map(|own| own.word.to_owned()).collect()
+        PROTOCOLS.iter().map(|own| own.word.to_owned()).collect()
     } else {
         arguments.test.clone()
     }
 }
 
-/// A test: its word, what it is, and its parameters with their dimensions.
-struct Protocol {
-    word: &'static str,
-    summary: &'static str,
-    parameters: Vec<(&'static str, Dimension)>,
-}
-
-fn protocols() -> Vec<Protocol> {
-    struct Collect(Vec<Protocol>);
-    impl ProtocolVisitor for Collect {
-        fn visit<P: ProtocolKind>(&mut self) {
-            let parameters = P::PARAMETERS.iter().map(|own| match own.kind {
-                ParameterKind::Quantity(dimension) => (own.name, dimension),
-                _ => (own.name, Dimension::NUMBER),
-            });
-            let parameters = parameters.collect();
-            self.0.push(Protocol { word: P::KIND, summary: P::SUMMARY, parameters });
-        }
+/// What is to be given for a parameter.
+fn dimension(parameter: &Parameter) -> Dimension {
+    match parameter.kind {
+        ParameterKind::Quantity(dimension) => dimension,
+        _ => Dimension::NUMBER,
     }
-    let mut collect = Collect(Vec::new());
-    visit_protocols(&mut collect);
-    collect.0
 }
 
 /// What a test is.
 pub(super) fn summary(test: &str) -> &'static str {
-    protocols().iter().find(|own| own.word == test).map_or("", |own| own.summary)
+    registered(PROTOCOLS, test).map_or("", |own| own.summary)
 }
 
 /// Whether a test has a parameter.
 pub(super) fn has_parameter(test: &str, name: &str) -> bool {
-    protocols().iter().any(|own| own.word == test && own.parameters.iter().any(|own| own.0 == name))
+    registered(PROTOCOLS, test).is_some_and(|own| own.parameters.iter().any(|own| own.name == name))
 }
 
 /// The parameters of `--with` in SI units; each must belong to one of the tests.
@@ -55,19 +39,20 @@ pub(super) fn given<'a>(
     units: Units,
 ) -> Result<Vec<(&'a str, f64)>, CliError> {
     let tests = tests(arguments);
-    let asked: Vec<(&'static str, Dimension)> = protocols()
-        .into_iter()
+    let asked: Vec<&Parameter> = PROTOCOLS
+        .iter()
         .filter(|own| tests.iter().any(|test| test == own.word))
         .flat_map(|own| own.parameters)
         .collect();
     let read = |(name, text): &'a (String, String)| {
-        let Some((_, dimension)) = asked.iter().find(|own| own.0 == *name) else {
-            let mut known: Vec<&'static str> = asked.iter().map(|own| own.0).collect();
+        let Some(parameter) = asked.iter().find(|own| own.name == name) else {
+            let mut known: Vec<&'static str> = asked.iter().map(|own| own.name).collect();
             known.sort_unstable();
             known.dedup();
             return Err(CliError::UnknownSetting { name: name.clone(), known });
         };
-        let expected = if units.is_material { per_material(*dimension) } else { *dimension };
+        let expected = dimension(parameter);
+        let expected = if units.is_material { per_material(expected) } else { expected };
         Ok((name.as_str(), setting(name, text, expected)?))
     };
     arguments.with.iter().map(read).collect()

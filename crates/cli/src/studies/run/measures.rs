@@ -3,9 +3,10 @@
 use std::collections::{HashMap, HashSet};
 
 use dashpot_analysis::{
-    Difference, MeasureKind, MeasureReport, RunReport,
+    Difference, MeasureReport, RunReport,
     measures::{PeakStrain, STANDARD_GRAVITY},
 };
+use dashpot_network::parameters::Kind as _;
 use dashpot_network::parameters::{Value, WindowWish};
 use dashpot_plot::Table;
 

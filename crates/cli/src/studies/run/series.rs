@@ -1,12 +1,13 @@
 //! Runs as the plain numbers that figures are drawn from.
 
 use dashpot_analysis::{
-    MeasureKind, RunReport, excerpt,
+    RunReport, excerpt,
     ledger::energy_series,
     measures::{PeakDeformation, PeakForce},
     resolving_times, table_at, touching,
 };
-use dashpot_network::elements::{Contact, ElementKind};
+use dashpot_network::elements::Contact;
+use dashpot_network::parameters::Kind as _;
 use dashpot_plot::{ElementSeries, EnergySeries, RunMarker, RunMarkerKind, RunSeries};
 
 use crate::numbers::{digits, quantity};

@@ -1,10 +1,11 @@
 //! The answer in a few lines.
 
 use dashpot_analysis::{
-    Contact, ContactReport, MeasureKind, MeasureReport, RunReport,
+    Contact, ContactReport, MeasureReport, RunReport,
     measures::{Hic, Hic15, Hic36, STANDARD_GRAVITY, SeverityIndex},
     verdict::{Absorbed, Ending, Opened, Peak, Reached, Verdict, WholeForce},
 };
+use dashpot_network::parameters::Kind as _;
 
 use super::{
     Answer,

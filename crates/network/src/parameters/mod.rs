@@ -1,11 +1,18 @@
 //! What a kind says about its parameters, so that parser, help, schema and tests need no second
 //! list.
 
+mod declaration;
+mod range;
+
 use std::{borrow::Cow, fmt};
 
 use dashpot_rheology::Tree;
 pub use dashpot_units::Dimension;
 use thiserror::Error;
+
+pub use declaration::{Described, Field, Given, Kind, Registered, registered, words};
+pub use range::Range;
+pub(crate) use range::kelvins;
 
 use crate::Model;
 
@@ -48,34 +55,54 @@ pub struct Parameter {
     /// Whether it follows from the rest of the scene where the key is left out: the default then
     /// says in words from what, and the value is [`Value::LeftOut`].
     pub follows: bool,
+    /// The range of its number.
+    pub range: Range,
     /// One line of help with symbol, unit and range.
     pub help: &'static str,
 }
 
 impl Parameter {
-    /// A required parameter.
-    pub const fn required(name: &'static str, kind: ParameterKind, help: &'static str) -> Self {
-        Self { name, kind, default: None, follows: false, help }
+    /// A parameter that is required, of any finite numbers.
+    pub const fn new(name: &'static str, kind: ParameterKind, help: &'static str) -> Self {
+        Self { name, kind, default: None, follows: false, range: Range::Finite, help }
     }
 
-    /// A parameter that may be left out.
-    pub const fn optional(
-        name: &'static str,
-        kind: ParameterKind,
-        default: &'static str,
-        help: &'static str,
-    ) -> Self {
-        Self { name, kind, default: Some(default), follows: false, help }
+    /// The same where it may be left out and is then `text`.
+    #[must_use]
+    pub const fn default(self, text: &'static str) -> Self {
+        Self { default: Some(text), ..self }
     }
 
-    /// A parameter that follows from the rest of the scene where it is left out; `from` says how.
-    pub const fn following(
-        name: &'static str,
-        kind: ParameterKind,
-        from: &'static str,
-        help: &'static str,
-    ) -> Self {
-        Self { name, kind, default: Some(from), follows: true, help }
+    /// The same where it may be left out and then follows from the rest of the scene; `from` says
+    /// how.
+    #[must_use]
+    pub const fn follows(self, from: &'static str) -> Self {
+        Self { default: Some(from), follows: true, ..self }
+    }
+
+    /// The same with numbers of this range alone.
+    #[must_use]
+    pub const fn range(self, range: Range) -> Self {
+        Self { range, ..self }
+    }
+
+    /// Checks a value.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] for a number out of range, and for times of a window that are not in
+    /// order.
+    pub fn check(&self, value: &Value) -> Result<(), InvalidParameter> {
+        match *value {
+            Value::Number(number) => self.range.check(self.name, number),
+            Value::Window(WindowWish::Times(from, to))
+                if !(from.is_finite() && to.is_finite() && from < to) =>
+            {
+                let range = "a pair of times, the earlier one first";
+                Err(InvalidParameter::new(self.name, range, format!("{from} s to {to} s")))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -121,9 +148,10 @@ fn is_same(one: &Model, other: &Model) -> bool {
 }
 
 /// The part of a run that a measure looks at.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum WindowWish {
     /// From first contact to the first zero of the contact force.
+    #[default]
     Impact,
     /// The whole run.
     Run,
@@ -159,58 +187,4 @@ impl InvalidParameter {
     ) -> Self {
         Self { parameter, range: range.into(), found: found.to_string() }
     }
-}
-
-/// Accepts finite numbers ≥ 0.
-///
-/// # Errors
-///
-/// [`InvalidParameter`] for all others, NaN included.
-pub fn non_negative(parameter: &'static str, value: f64) -> Result<(), InvalidParameter> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(())
-    } else {
-        Err(InvalidParameter::new(parameter, "zero or positive, and finite", value))
-    }
-}
-
-/// Accepts finite numbers > 0.
-///
-/// # Errors
-///
-/// [`InvalidParameter`] for all others, NaN included.
-pub fn positive(parameter: &'static str, value: f64) -> Result<(), InvalidParameter> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(InvalidParameter::new(parameter, "positive and finite", value))
-    }
-}
-
-/// Accepts finite numbers.
-///
-/// # Errors
-///
-/// [`InvalidParameter`] for infinities and NaN.
-pub fn finite(parameter: &'static str, value: f64) -> Result<(), InvalidParameter> {
-    if value.is_finite() { Ok(()) } else { Err(InvalidParameter::new(parameter, "finite", value)) }
-}
-
-/// Accepts temperatures above absolute zero \[K\].
-///
-/// # Errors
-///
-/// [`InvalidParameter`] for all others, NaN included.
-pub fn above_absolute_zero(parameter: &'static str, value: f64) -> Result<(), InvalidParameter> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(InvalidParameter::new(parameter, "above absolute zero, and finite", kelvins(value)))
-    }
-}
-
-/// A temperature \[K\] as text for a message, without the digits that come from rounding.
-pub(crate) fn kelvins(value: f64) -> String {
-    let rounded = (value * 1e6).round() / 1e6;
-    format!("{} K", if rounded == 0.0 || !rounded.is_finite() { value } else { rounded })
 }

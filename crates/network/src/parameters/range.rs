@@ -1,0 +1,84 @@
+//! Ranges of numbers.
+
+use super::InvalidParameter;
+
+/// The numbers that a parameter may have; all of them are finite.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Range {
+    /// Any.
+    Finite,
+    /// All but 0.
+    NotZero,
+    /// ≥ 0.
+    NonNegative,
+    /// > 0.
+    Positive,
+    /// ≥ 1.
+    AtLeastOne,
+    /// From 0 to 1.
+    Part,
+    /// Above 0 and ≤ 1.
+    PositivePart,
+    /// ≥ 0 and below 1.
+    PartBelowOne,
+    /// A whole number from 2 to 100 000.
+    Count,
+    /// A temperature > 0 \[K\].
+    AboveAbsoluteZero,
+}
+
+impl Range {
+    /// The range in words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Finite => "finite",
+            Self::NotZero => "finite and not zero",
+            Self::NonNegative => "zero or positive, and finite",
+            Self::Positive => "positive and finite",
+            Self::AtLeastOne => "1 or more, and finite",
+            Self::Part => "from 0 to 1",
+            Self::PositivePart => "above 0, and 1 at most",
+            Self::PartBelowOne => "zero or positive, and below 1",
+            Self::Count => "a whole number from 2 to 100000",
+            Self::AboveAbsoluteZero => "above absolute zero, and finite",
+        }
+    }
+
+    /// Whether a number is in it.
+    pub fn contains(self, number: f64) -> bool {
+        number.is_finite()
+            && match self {
+                Self::Finite => true,
+                Self::NotZero => number != 0.0,
+                Self::NonNegative => number >= 0.0,
+                Self::Positive | Self::AboveAbsoluteZero => number > 0.0,
+                Self::AtLeastOne => number >= 1.0,
+                Self::Part => (0.0..=1.0).contains(&number),
+                Self::PositivePart => number > 0.0 && number <= 1.0,
+                Self::Count => number.fract() == 0.0 && (2.0..=1e5).contains(&number),
+                Self::PartBelowOne => (0.0..1.0).contains(&number),
+            }
+    }
+
+    /// Accepts the numbers in it.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] for all others, NaN included.
+    pub fn check(self, parameter: &'static str, number: f64) -> Result<(), InvalidParameter> {
+        if self.contains(number) {
+            return Ok(());
+        }
+        let found = match self {
+            Self::AboveAbsoluteZero => kelvins(number),
+            _ => number.to_string(),
+        };
+        Err(InvalidParameter::new(parameter, self.words(), found))
+    }
+}
+
+/// A temperature \[K\] as text for a message, without the digits that come from rounding.
+pub(crate) fn kelvins(value: f64) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    format!("{} K", if rounded == 0.0 || !rounded.is_finite() { value } else { rounded })
+}
