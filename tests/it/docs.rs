@@ -24,6 +24,7 @@ mod readme;
 mod registers;
 mod separation;
 mod shown;
+mod third_party;
 
 /// Said of what the program has left behind.
 const OUTDATED: &str = "out of date; run UPDATE_DOCS=1 cargo test docs, and look at the changes";

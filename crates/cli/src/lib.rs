@@ -56,6 +56,7 @@ pub fn main() -> ExitCode {
         Command::List(arguments) => commands::list(&arguments, terminal),
         Command::New(arguments) => commands::new(&arguments),
         Command::Schema => commands::schema(),
+        Command::Man { out } => commands::man(out.as_deref()),
         Command::Completions { shell } => commands::completions(shell),
     };
     let status = result.unwrap_or_else(|error| {

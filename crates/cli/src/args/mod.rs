@@ -79,6 +79,12 @@ pub(crate) enum Command {
     New(NewArguments),
     /// Prints the JSON schema of scenes, for completion and checks in editors.
     Schema,
+    /// Writes the manual pages of all verbs to a folder, or prints that of the command.
+    Man {
+        /// Folder to write to, made if it is not there.
+        #[arg(long, value_name = "DIR", value_hint = clap::ValueHint::DirPath)]
+        out: Option<PathBuf>,
+    },
     /// Prints the completions for a shell.
     Completions {
         /// The shell.

@@ -1,0 +1,40 @@
+//! `dashpot man`.
+
+use std::{fs, path::Path};
+
+use clap::CommandFactory;
+use clap_mangen::Man;
+
+use crate::{
+    args::Arguments,
+    error::{CliError, Status, unwritable},
+    part::write_text,
+    terminal::{print, print_data},
+};
+
+/// Prints the manual page of the command, or writes those of all verbs to a folder.
+pub(crate) fn man(out: Option<&Path>) -> Result<Status, CliError> {
+    let mut command = Arguments::command().disable_help_subcommand(true);
+    command.build();
+    let Some(folder) = out else {
+        print_data(&page(Man::new(command))?)?;
+        return Ok(Status::Done);
+    };
+    fs::create_dir_all(folder).map_err(unwritable(folder))?;
+    for verb in command.get_subcommands() {
+        let name = format!("dashpot-{}", verb.get_name());
+        let path = folder.join(format!("{name}.1"));
+        let verb = verb.clone().name(name).version(env!("CARGO_PKG_VERSION"));
+        write_text(&path, &page(Man::new(verb))?, true)?;
+    }
+    let count = command.get_subcommands().count() + 1;
+    write_text(&folder.join("dashpot.1"), &page(Man::new(command))?, true)?;
+    print(&format!("wrote {count} manual pages to {}\n", folder.display()))?;
+    Ok(Status::Done)
+}
+
+fn page(man: Man) -> Result<String, CliError> {
+    let mut text = Vec::new();
+    man.render(&mut text).map_err(CliError::Output)?;
+    Ok(String::from_utf8_lossy(&text).into_owned())
+}
