@@ -22,10 +22,8 @@ pub(crate) fn man(out: Option<&Path>) -> Result<Status, CliError> {
     };
     fs::create_dir_all(folder).map_err(unwritable(folder))?;
     for verb in command.get_subcommands() {
-        let name = format!("dashpot-{}", verb.get_name());
-        let path = folder.join(format!("{name}.1"));
-        let verb = verb.clone().name(name).version(env!("CARGO_PKG_VERSION"));
-        write_text(&path, &page(Man::new(verb))?, true)?;
+        let path = folder.join(format!("dashpot-{}.1", verb.get_name()));
+        write_text(&path, &page(Man::new(verb.clone()))?, true)?;
     }
     let count = command.get_subcommands().count() + 1;
     write_text(&folder.join("dashpot.1"), &page(Man::new(command))?, true)?;
