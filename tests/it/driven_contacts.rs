@@ -137,14 +137,20 @@ fn no_contact_that_pulls_is_taken_for_accurate() {
         let report = run(STOPPED, method);
         let (found, error) = value(&report, "cushion.energy");
         assert!((found - energy).abs() <= error + 1e-7, "{method}: {found} {energy} by {error:e}");
-        assert!(report.warnings.iter().all(|own| !own.contains("pulls")), "{:?}", report.warnings);
+        assert!(
+            report.warnings.iter().all(|own| !own.to_string().contains("pulls")),
+            "{:?}",
+            report.warnings
+        );
     }
 }
 
 #[test]
 fn contact_that_pulls_at_a_given_tolerance_is_warned_of() {
     let report = run_at(STOPPED, "esdirk34", Some(1e-6));
-    let told = |own: &&String| own.contains("cushion.contact pulls with 82");
+    let told = |own: &&dashpot::analysis::Warning| {
+        own.to_string().contains("cushion.contact pulls with 82")
+    };
     assert_eq!(report.warnings.iter().filter(told).count(), 1, "{:?}", report.warnings);
 }
 

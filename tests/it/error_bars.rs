@@ -205,7 +205,9 @@ fn where_it_is_open_whether_an_impact_ends_the_bars_cover_both_ends() {
         let found = report.measure("pad.impulse").unwrap();
         let gap = (found.value.unwrap() - truth.value.unwrap()).abs();
         assert!(gap > 1e-5 && found.error.unwrap() < 3.0 * gap, "{method}: {gap:e} {found:?}");
-        let told = |warning: &&String| warning.contains("whether the impact ends there is open");
+        let told = |warning: &&dashpot::analysis::Warning| {
+            warning.to_string().contains("whether the impact ends there is open")
+        };
         assert_eq!(report.warnings.iter().filter(told).count(), 1, "{:?}", report.warnings);
     }
 }

@@ -61,7 +61,9 @@ fn changed(name: &str, change: impl Fn(String) -> String) -> Solved {
     for run in &runs {
         let method = run.solver.method;
         // Segments that are too few, by which the errors are widened, are told of.
-        let told = |own: &String| !own.contains("segments of layers instead of");
+        let told = |own: &dashpot::analysis::Warning| {
+            !own.to_string().contains("segments of layers instead of")
+        };
         assert!(!run.warnings.iter().any(told), "{name} by {method}: {:?}", run.warnings);
         // As good as the numbers are said to be, among them energies; and rounding.
         let allowed = run.worst_relative_error().unwrap().max(1e-12);

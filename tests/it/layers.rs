@@ -101,8 +101,10 @@ fn a_bar_is_the_chain_of_its_segments() {
             assert!(error <= ROUNDING * size, "{quantity} at {time} s: {error:e}");
         }
     }
-    let warned =
-        report.warnings.iter().any(|own| own.contains("`push` jumps at the face of `bar`"));
+    let warned = report
+        .warnings
+        .iter()
+        .any(|own| own.to_string().contains("`push` jumps at the face of `bar`"));
     assert!(warned, "{:?}", report.warnings);
 }
 
@@ -149,7 +151,7 @@ fn a_pulse_arrives_at_a_rigid_ground_with_twice_the_force() {
         let strain = value(&report, "bar.peak-strain") * 2e9 * 1e-3;
         assert!((stress / strain - 1.0).abs() < 1e-9, "{stress} {strain}");
         assert!((stress / found.value.unwrap() - 1.0).abs() < 1e-9, "{stress}");
-        let note = report.measure("bar.peak-stress").unwrap().note.as_deref().unwrap();
+        let note = report.measure("bar.peak-stress").unwrap().note().unwrap();
         let place = format!("{:.2} m below the first face", 2.0 - 0.5 / segments as f64);
         assert!(note.contains("in the layer glass, ") && note.contains(&place), "{note}");
         let step = PASSAGE / segments as f64;
@@ -218,7 +220,10 @@ fn a_body_that_strikes_a_bar_makes_the_stress_of_its_speed() {
         // The first ripple is what the warning says.
         let excess = value(&report, "bar.peak-force") / (IMPEDANCE * speed);
         assert!(excess > 1.2 && excess < 1.4704, "{excess}");
-        let warned = report.warnings.iter().any(|own| own.contains("`hammer` strikes the layer"));
+        let warned = report
+            .warnings
+            .iter()
+            .any(|own| own.to_string().contains("`hammer` strikes the layer"));
         assert!(warned, "{:?}", report.warnings);
     }
 }
@@ -322,7 +327,7 @@ fn a_pad_of_one_material_has_a_stress_and_a_strain() {
     let report = run(&spring, "exact");
     for (measure, note) in [("pad.peak-stress", "area"), ("pad.peak-strain", "thickness")] {
         let found = report.measure(measure).unwrap();
-        assert!(found.value.is_none() && found.note.as_ref().unwrap().contains(note), "{found:?}");
+        assert!(found.value.is_none() && found.note().unwrap().contains(note), "{found:?}");
     }
 }
 
@@ -395,7 +400,10 @@ fn a_restitution_against_a_face_without_mass_is_warned_of() {
     };
     let said = |face: &str| {
         let assembly = scene(&text(face)).assembly;
-        assembly.warnings.iter().any(|own| own.contains("restitution 0.5 of `pad.contact`"))
+        assembly
+            .warnings
+            .iter()
+            .any(|own| own.to_string().contains("restitution 0.5 of `pad.contact`"))
     };
     assert!(said(""));
     assert!(!said("face.pad = { mass = 0.1 }"));

@@ -24,7 +24,7 @@ fn value(report: &RunReport, key: &str) -> f64 {
 }
 
 fn warned(report: &RunReport, part: &str) -> bool {
-    report.warnings.iter().any(|own| own.contains(part))
+    report.warnings.iter().any(|own| own.to_string().contains(part))
 }
 
 const MATERIALS: &str = r#"
@@ -80,7 +80,7 @@ fn pads_side_by_side_are_told_once() {
          parallel = [{{ {BOTTOM} }}, {{ dashpot = 10 }}] }}\n[measures]\n\
          cushion = [\"peak-stress\"]\n{RUN}"
     ));
-    let told = report.warnings.iter().filter(|own| own.contains("is pressed in by"));
+    let told = report.warnings.iter().filter(|own| own.to_string().contains("is pressed in by"));
     assert_eq!(told.count(), 1, "{:?}", report.warnings);
     assert!(value(&report, "cushion.peak-stress") > 0.0);
 }

@@ -138,9 +138,12 @@ fn sides(assembly: &Assembly, contact: usize) -> Option<(&str, &str)> {
     Some((&assembly.nodes[node].name, &assembly.connections[pad.element].name))
 }
 
-/// Free masses that nothing but one contact touches, where it is open at the end of a run: name of the
-/// node and what it has left, with the time \[s\].
-pub(crate) fn left_for_good(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, String)> {
+/// Free masses that nothing but one contact touches, where it is open at the end of a run: the
+/// node and the element that it has left, with the time \[s\].
+pub(crate) fn left_for_good<'a>(
+    assembly: &'a Assembly,
+    trajectory: &Trajectory,
+) -> Vec<(f64, [&'a str; 2])> {
     let last: HashMap<&str, &Switch> =
         trajectory.switches.iter().map(|switch| (switch.name.as_str(), switch)).collect();
     if last.is_empty() {
@@ -163,8 +166,7 @@ pub(crate) fn left_for_good(assembly: &Assembly, trajectory: &Trajectory) -> Vec
         let opened = switched.next_back().filter(|switch| switch.phase == 0)?;
         let pad = assembly.pad_behind(at);
         let element = pad.map_or(connection, |pad| &assembly.connections[pad.element]);
-        let text = format!("{} leaves the {}", assembly.nodes[node].name, element.name);
-        Some((opened.time, text))
+        Some((opened.time, [assembly.nodes[node].name.as_str(), &element.name]))
     });
     left.collect()
 }

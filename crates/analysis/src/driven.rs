@@ -3,10 +3,7 @@
 use dashpot_dae::{Panel, Signal, chebyshev};
 use dashpot_network::{Model, first_nonlinear, linear_model, parameters::WindowWish};
 
-use crate::{
-    Reading, Solution, blows,
-    measures::{MASSLESS, reading::peak},
-};
+use crate::{Note, Reading, Solution, blows, measures::reading::peak};
 
 /// Rounds of the iteration on one stretch. The error of round `n` is at most `(λ h)ⁿ/n!` of the
 /// solution, with the rate `λ` of the equations and the length `h ≤ 1/λ` of the stretch.
@@ -155,7 +152,7 @@ pub(crate) fn largest_deformation(
     window: WindowWish,
 ) -> Reading {
     let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
-        return Reading::undefined(MASSLESS);
+        return Reading::undefined(Note::Massless);
     };
     let span = match solution.node_impact(target).span(window, solution.end()) {
         Ok(span) => span,
@@ -167,11 +164,11 @@ pub(crate) fn largest_deformation(
     let kicks: Vec<(f64, f64)> = kicks.map(|own| (own.time, own.impulse / mass)).collect();
     let signal = solution.signal(acceleration);
     let Some(deformation) = oscillator.deformation(signal, &kicks, span.window()) else {
-        return Reading::undefined("its model is too stiff for so long a run");
+        return Reading::undefined(Note::TooStiff);
     };
     let reading = peak(&deformation.scaled(factor), &span);
     let is_rising = reading.value.is_some_and(|own| own > 0.0) && reading.time >= Some(span.to);
-    if is_rising { reading.noting("still rising at the end of its window") } else { reading }
+    if is_rising { reading.noting(Note::StillRising) } else { reading }
 }
 
 #[cfg(test)]

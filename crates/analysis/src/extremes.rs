@@ -3,18 +3,10 @@
 
 use dashpot_network::{ConnectionOutputs, PrimitiveOutputs, SegmentOutputs, SegmentPlace};
 
-use crate::{Solution, warnings::ROUNDING, wording::quantity};
+use crate::{Beyond, Solution, Through, Warning, warnings::ROUNDING};
 
 /// Two thicknesses that differ by less, in parts of themselves, are one.
 const SAME: f64 = 1e-9;
-
-/// What is pressed in by more than its thickness \[m\], how far \[m\] and when \[s\].
-pub(crate) struct Through {
-    pub(crate) name: String,
-    pub(crate) deepest: f64,
-    pub(crate) time: f64,
-    pub(crate) thickness: f64,
-}
 
 impl Through {
     fn of(solution: &Solution<'_>, name: &str, output: usize, thickness: f64) -> Option<Self> {
@@ -35,21 +27,10 @@ impl Through {
     fn strain(&self) -> f64 {
         self.deepest / self.thickness
     }
-
-    pub(crate) fn text(&self) -> String {
-        format!(
-            "the {} is pressed in by {} at {}: {} more than its thickness of {}",
-            self.name,
-            quantity(self.deepest, "m"),
-            quantity(self.time, "s"),
-            quantity(self.deepest - self.thickness, "m"),
-            quantity(self.thickness, "m"),
-        )
-    }
 }
 
 /// Pads that are pressed in by more than their thickness, and of those within a pad the worst one.
-pub(crate) fn pressed_through(solution: &Solution<'_>) -> Vec<String> {
+pub(crate) fn pressed_through(solution: &Solution<'_>) -> Vec<Warning> {
     let of_connection = |own: &ConnectionOutputs| {
         let whole = own
             .thickness
@@ -66,43 +47,30 @@ pub(crate) fn pressed_through(solution: &Solution<'_>) -> Vec<String> {
                 SegmentPlace::Whole | SegmentPlace::Layer { .. } => None,
             })
             .collect();
-        let more = match parts.len() {
-            0 | 1 => String::new(),
-            2 => "; so is another part of it".to_owned(),
-            count => format!("; so are {} other parts of it", count - 1),
-        };
+        let others = parts.len().saturating_sub(1);
         let worst = parts.into_iter().max_by(|one, other| one.strain().total_cmp(&other.strain()));
-        let worst = worst.map(|own| own.text() + &more);
-        whole.map(|own| own.text()).into_iter().chain(worst)
+        let worst = worst.map(|through| Warning::PressedThrough { through, others });
+        whole.map(|through| Warning::PressedThrough { through, others: 0 }).into_iter().chain(worst)
     };
     solution.assembly().connections.iter().flat_map(of_connection).collect()
 }
 
 /// Measured laws that are followed beyond their points: of each element the one that is followed
 /// furthest on either side.
-pub(crate) fn beyond_measured(solution: &Solution<'_>) -> Vec<String> {
+pub(crate) fn beyond_measured(solution: &Solution<'_>) -> Vec<Warning> {
     let assembly = solution.assembly();
     let of_connection = |own: &ConnectionOutputs| {
         let parts = assembly.primitives.get(own.primitives.clone()).unwrap_or(&[]);
         let beyond: Vec<Beyond> =
             parts.iter().flat_map(|part| Beyond::of(solution, part)).collect();
-        let furthest = |how: &str| {
-            let of_side = beyond.iter().filter(|own| own.how == how);
-            of_side.max_by(|one, other| one.excess.total_cmp(&other.excess)).map(Beyond::text)
+        let furthest = |is_pressed: bool| {
+            let of_side = beyond.iter().filter(|own| own.is_pressed == is_pressed);
+            let found = of_side.max_by(|one, other| one.excess.total_cmp(&other.excess));
+            found.cloned().map(Warning::BeyondMeasured)
         };
-        ["pressed", "stretched"].map(furthest).into_iter().flatten()
+        [true, false].map(furthest).into_iter().flatten()
     };
     assembly.connections.iter().flat_map(of_connection).collect()
-}
-
-/// A measured law that is followed beyond its points.
-struct Beyond {
-    name: String,
-    how: &'static str,
-    excess: f64,
-    time: f64,
-    which: &'static str,
-    point: f64,
 }
 
 impl Beyond {
@@ -116,35 +84,20 @@ impl Beyond {
         let name = || part.name.clone();
         let pressed = (deepest.value > last + noise).then(|| Self {
             name: name(),
-            how: "pressed",
+            is_pressed: true,
             excess: deepest.value - last,
             time: deepest.time,
-            which: "last",
             point: last,
         });
         // A law that begins flat is meant to have no more force before.
         let [before, there] = [longest.value, first].map(|at| part.element.force(at, 0.0));
         let stretched = (longest.value < first - noise && before < there).then(|| Self {
             name: name(),
-            how: "stretched",
+            is_pressed: false,
             excess: first - longest.value,
             time: longest.time,
-            which: "first",
             point: first,
         });
         pressed.into_iter().chain(stretched).collect()
-    }
-
-    fn text(&self) -> String {
-        let excess = quantity(self.excess, "m");
-        let point = if self.point.abs() > 0.0 { quantity(self.point, "m") } else { "0".to_owned() };
-        format!(
-            "{} is {} {excess} beyond its {} point of {point} at {}: its force there is \
-             extrapolated",
-            self.name,
-            self.how,
-            self.which,
-            quantity(self.time, "s"),
-        )
     }
 }

@@ -8,7 +8,7 @@ use dashpot_network::{
 };
 
 use crate::{
-    MeasureReport, Solution,
+    MeasureReport, Note, Solution,
     measures::{Impulse, PeakForce},
     wording::quantity,
 };
@@ -101,8 +101,7 @@ pub(crate) fn without_idle_forces(
         span.0 < span.1 && own.changes(&report, solution, &connections[at], span)
     });
     let Some(idle) = hangs else { return report };
-    let (from, to) = (quantity(idle.from, "s"), quantity(idle.to, "s"));
-    report.undetermined(&format!("the force of a slider is so from {from} to {to}"))
+    report.undetermined(Note::IdleSlider(idle.from, idle.to))
 }
 
 impl Idle {
@@ -160,7 +159,7 @@ mod tests {
     };
 
     use super::*;
-    use crate::{RunReport, SolveSettings, solve};
+    use crate::{RunReport, SolveSettings, Warning, solve};
 
     fn solved(network: &Network, method: &str) -> RunReport {
         solve(network, &SolveSettings::lasting(2.0).by_name(method).unwrap(), &mut Silent).unwrap()
@@ -193,7 +192,11 @@ mod tests {
             assert!((own.from - arrives).abs() < 1e-4, "{own}, not {arrives}");
             assert!((own.to - 2.0).abs() < 1e-12, "{own:?}");
             assert!(own.slider.held_by[0].starts_with("stop"), "{own}");
-            assert!(report.warnings.contains(&own.to_string()), "{:?}", report.warnings);
+            assert!(
+                report.warnings.contains(&Warning::IdleSlider(own.clone())),
+                "{:?}",
+                report.warnings
+            );
             assert!(report.measure("pad.impulse").unwrap().is_undetermined);
             assert!(report.measure("stop.impulse").unwrap().is_undetermined);
             assert!(report.measure("pad.peak-deformation").unwrap().value.is_some());

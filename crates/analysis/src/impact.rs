@@ -3,7 +3,7 @@
 use dashpot_dae::{Crossing, Panel, Signal};
 use dashpot_network::parameters::WindowWish;
 
-use crate::blows::Blow;
+use crate::{Note, blows::Blow};
 
 /// How the contact of an impact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -172,15 +172,15 @@ impl Impact {
 
     /// The part of a run of `run_end` \[s\] that a measure with the given wish looks at; `Err` says
     /// why there is none.
-    pub(crate) fn span(self, wish: WindowWish, run_end: f64) -> Result<Span, &'static str> {
+    pub(crate) fn span(self, wish: WindowWish, run_end: f64) -> Result<Span, Note> {
         let fixed = |from, to, note| Ok(Span { from, to, to_error: Some(0.0), note });
         match wish {
             WindowWish::Run => fixed(0.0, run_end, None),
             WindowWish::Times(from, to) => {
                 if from > run_end || to < 0.0 {
-                    return Err("the window lies outside the run");
+                    return Err(Note::OutsideTheRun);
                 }
-                let note = (to > run_end).then_some("the run ends before the window does");
+                let note = (to > run_end).then_some(Note::RunEndsBefore);
                 fixed(from.max(0.0), to.min(run_end), note)
             }
             WindowWish::Impact => match self.contact {
@@ -190,10 +190,10 @@ impl Impact {
                     to_error: self.end_error,
                     note: None,
                 }),
-                Contact::Lasting => fixed(self.start, self.end, Some(STILL_IN_CONTACT)),
+                Contact::Lasting => fixed(self.start, self.end, Some(Note::StillInContact)),
                 Contact::NoImpactor => fixed(0.0, run_end, None),
-                Contact::Pulling => Err(PULLS_FROM_THE_START),
-                Contact::Unloaded => Err(NEVER_LOADED),
+                Contact::Pulling => Err(Note::PullsFromTheStart),
+                Contact::Unloaded => Err(Note::NeverLoaded),
             },
         }
     }
@@ -357,15 +357,8 @@ fn ends_at_zero(force: &Signal, run_end: f64, doubt: f64) -> bool {
     falls && force.left_value(run_end).abs() <= SOON * run_end * slope.abs()
 }
 
-/// Note on a measure whose impact has no end within the run.
-pub(crate) const STILL_IN_CONTACT: &str = "still in contact at the end of the run";
-/// Note on a measure of an impact that does not take place.
-pub(crate) const PULLS_FROM_THE_START: &str = "the contact force pulls from the start";
-/// Note on a measure of an impact without any force.
-pub(crate) const NEVER_LOADED: &str = "there is never a contact force";
-
 /// The part of a run that a measure looks at.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Span {
     /// Its begin \[s\].
     pub from: f64,
@@ -374,7 +367,7 @@ pub struct Span {
     /// Bound of the error of the end \[s\], where the method states one.
     pub to_error: Option<f64>,
     /// What is to be said about it.
-    pub note: Option<&'static str>,
+    pub note: Option<Note>,
 }
 
 impl Span {

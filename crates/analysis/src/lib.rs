@@ -29,6 +29,7 @@ pub mod ledger;
 mod magnitude;
 pub mod measures;
 mod memory;
+mod note;
 mod open_end;
 mod padding;
 pub mod partial;
@@ -47,6 +48,7 @@ pub mod sweep;
 mod task;
 pub mod verdict;
 pub mod vibration;
+mod warning;
 mod warnings;
 mod wording;
 
@@ -61,6 +63,7 @@ pub use idle::Idle;
 pub use impact::{Contact, Impact, Span};
 pub use ledger::{EnergySeries, Leak, Ledger, Place};
 pub use measures::{Family, MEASURES, Measure, MeasureKind, Reading};
+pub use note::Note;
 pub use partial::{Partial, solve_partial};
 pub use report::{
     ContactReport, EventReport, MeasureReport, RunReport, SolverReport, SystemReport,
@@ -71,3 +74,4 @@ pub use selection::MeasureWish;
 pub use settings::{Choice, SolveSettings, Stop};
 pub use solution::{Solution, doubt_at};
 pub use solve::{choice, hopeless_measures, reported_measures, solve, solve_assembly};
+pub use warning::{Beyond, Harder, Missed, Through, Warning};

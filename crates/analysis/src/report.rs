@@ -9,7 +9,9 @@ use dashpot_network::{
 };
 use serde::Serialize;
 
-use crate::{Impact, Ledger, Partial, Segmentation, Solution, accuracy::FIRST_DIGIT};
+use crate::{
+    Impact, Ledger, Note, Partial, Segmentation, Solution, Warning, accuracy::FIRST_DIGIT,
+};
 
 /// In networks of more elements than this nobody looks for the largest force of all.
 const MOST_ELEMENTS: usize = 200;
@@ -37,7 +39,7 @@ pub struct RunReport {
     /// not estimated.
     pub segmentation: Option<Segmentation>,
     /// What the reader must know, the most important first.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
     /// The equations.
     pub assembly: Arc<Assembly>,
     /// The solution that is reported, the finest one.
@@ -90,7 +92,7 @@ pub struct MeasureReport {
     pub kind: &'static str,
     /// SI unit of the value.
     pub unit: &'static str,
-    /// The value; `None` where it is infinite, undefined or not determined, and the note says why.
+    /// The value; `None` where it is infinite, undefined or not determined, and a note says why.
     pub value: Option<f64>,
     /// When it occurs \[s\].
     pub time: Option<f64>,
@@ -100,7 +102,7 @@ pub struct MeasureReport {
     /// with the tolerance, `None` where it was not estimated.
     pub error: Option<f64>,
     /// What is to be said about it.
-    pub note: Option<String>,
+    pub notes: Vec<Note>,
     /// The part of the run that it was asked for; `None` for a measure without that parameter.
     pub window_wish: Option<WindowWish>,
     /// Its parameters but the window, by name.
@@ -115,6 +117,11 @@ pub struct MeasureReport {
 }
 
 impl MeasureReport {
+    /// What is to be said about it, in words.
+    pub fn note(&self) -> Option<String> {
+        (!self.notes.is_empty()).then(|| Note::joined(&self.notes))
+    }
+
     /// The error relative to the value, where both are known; of what is next to nothing beside its
     /// size, relative to that.
     pub fn relative_error(&self) -> Option<f64> {
@@ -124,18 +131,9 @@ impl MeasureReport {
     }
 
     /// The same without its value, which the solution does not tell, and why.
-    pub(crate) fn undetermined(self, why: &str) -> Self {
-        let note = format!("not determined: {why}");
-        let note = self.note.map_or(note.clone(), |before| format!("{before}; {note}"));
-        Self {
-            value: None,
-            time: None,
-            error: None,
-            excess: 0.0,
-            note: Some(note),
-            is_undetermined: true,
-            ..self
-        }
+    pub(crate) fn undetermined(mut self, why: Note) -> Self {
+        self.notes.push(why);
+        Self { value: None, time: None, error: None, excess: 0.0, is_undetermined: true, ..self }
     }
 
     /// Whether not even the first digit of the value is known, while the error is small beside the

@@ -15,7 +15,7 @@ use dashpot_network::{
 };
 use serde::Serialize;
 
-use crate::{RunError, RunReport, SolveSettings, partial::words, solve_assembly, wording::percent};
+use crate::{RunError, RunReport, SolveSettings, Warning, partial::words, solve_assembly};
 
 /// What the error is taken as, in parts of the difference.
 const SAFETY: f64 = 4.0;
@@ -72,11 +72,8 @@ pub(crate) fn charged(
         }
     }
     if let Some((part, key)) = worst.filter(|(part, _)| *part > stated) {
-        let (part, stated) = (percent(part), percent(stated));
-        report.warnings.push(format!(
-            "`{key}` differs by {part} with {others} segments of layers instead of {segments}, more \
-             than the {stated} that is expected of them: cut them finer, by `segments` or `accuracy`"
-        ));
+        let (parts, counts) = ([part, stated], [segments, others]);
+        report.warnings.push(Warning::Segments { measure: key.to_owned(), parts, counts });
     }
     report.solver.solves_for_error += 1;
     report.solver.wall_for_error += started.elapsed();

@@ -9,8 +9,8 @@ use dashpot_network::{
 };
 
 use crate::{
-    Choice, ContactReport, MeasureReport, Reading, RunError, RunReport, Solution, SolveSettings,
-    SolverReport, SystemReport,
+    Choice, ContactReport, MeasureReport, Note, Reading, RunError, RunReport, Solution,
+    SolveSettings, SolverReport, SystemReport, Warning,
     accuracy::excess,
     attempts::{self, Found},
     contacts::{self, meetings_after},
@@ -32,10 +32,6 @@ use crate::{
 
 /// Tolerance of a single solution whose error is not estimated, when none is given.
 const SINGLE: f64 = 1e-6;
-
-/// What is to be said of a large network in which nothing stands out.
-const UNASKED: &str = "the network is large and has no impactor: only measures that are asked for are \
-                       reported";
 
 /// Compiles a network, integrates it, and reports.
 ///
@@ -141,7 +137,7 @@ pub fn reported_measures(
 pub fn hopeless_measures(
     assembly: &Assembly,
     settings: &SolveSettings,
-) -> Result<Vec<(String, &'static str)>, RunError> {
+) -> Result<Vec<(String, Note)>, RunError> {
     let selected = select(assembly, &settings.measures)?;
     let hopeless = selected.into_iter().filter_map(|own| {
         own.measure.needs().lacking(assembly, own.target).map(|why| (own.key, why))
@@ -244,28 +240,15 @@ fn report(
         solution = solution.knowing(known);
     }
     let idle = idle_times(&solution);
-    let measures: Vec<MeasureReport> = task
-        .selected
-        .iter()
-        .zip(readings)
-        .zip(errors)
+    let read = task.selected.iter().zip(readings).zip(errors);
+    let measures: Vec<MeasureReport> = read
         .map(|((entry, reading), error)| {
             let wish = task.settings.accuracy.of(&entry.key);
             let kind = || largest(&solution, &energy, entry.measure.unit());
             let is_open = is_open(&reading, error, wish, kind);
             let report = measure_report(entry, reading, error, wish);
             let report = without_idle_forces(report, &solution, &idle);
-            match (report.window.map(|own| own.1).or(report.time), cut) {
-                // What reaches to the end of a part of the run hangs on the rest of it.
-                (until, Some(end)) if until.is_none_or(|until| until >= end) => {
-                    report.undetermined("it hangs on what is not followed")
-                }
-                _ if is_open => {
-                    let error = quantity(error.unwrap_or(f64::INFINITY), entry.measure.unit());
-                    report.undetermined(&format!("its error would be {error}"))
-                }
-                _ => report,
-            }
+            as_far_as_known(report, is_open.then(|| error.unwrap_or(f64::INFINITY)), cut)
         })
         .collect();
     let contacts = contact_reports(&solution);
@@ -288,7 +271,8 @@ fn report(
         idle: &idle,
     });
     if let Some(end) = cut {
-        warnings.insert(0, followed_in_part(end, task.settings.duration));
+        let duration = task.settings.duration;
+        warnings.insert(0, Warning::FollowedInPart { until: end, duration });
     }
     let missing = solution.missing();
     if !missing.is_empty() {
@@ -303,7 +287,7 @@ fn report(
         why
     };
     if is_large(assembly) && !assembly.has_impactor() {
-        warnings.push(UNASKED.to_owned());
+        warnings.push(Warning::Unasked);
     }
     Ok(RunReport {
         solver: SolverReport {
@@ -350,15 +334,6 @@ pub(crate) fn lost(assembly: &Assembly, solved: &Solved) -> Option<RunError> {
     slider_fault(&solution, energy).map(|fault| RunError::Slider { method, fault })
 }
 
-/// That the run is followed to a time \[s\] before its end.
-fn followed_in_part(end: f64, duration: f64) -> String {
-    format!(
-        "the run is followed to {} of {} only: it has more oscillations than are followed",
-        quantity(end, "s"),
-        quantity(duration, "s")
-    )
-}
-
 fn measure_report(
     entry: &Selected,
     reading: Reading,
@@ -369,11 +344,7 @@ fn measure_report(
     let parameters = parameters.filter(|(parameter, _)| parameter.kind != ParameterKind::Window);
     let excess = excess(&reading, error, wish);
     let comes_and_goes = error.is_some_and(f64::is_infinite);
-    let reading = if comes_and_goes {
-        reading.noting("it has a value at some tolerances only")
-    } else {
-        reading
-    };
+    let reading = if comes_and_goes { reading.noting(Note::ComesAndGoes) } else { reading };
     MeasureReport {
         key: entry.key.clone(),
         target: entry.name.clone(),
@@ -383,12 +354,29 @@ fn measure_report(
         time: reading.time,
         window: reading.window,
         error,
-        note: reading.note,
+        notes: reading.notes,
         window_wish: window_wish(entry),
         parameters: parameters.map(|(parameter, value)| (parameter.name, value)).collect(),
         is_undetermined: false,
         size: reading.size,
         excess,
+    }
+}
+
+/// The report without its value, where that hangs on what is not followed beyond the time `cut` \[s\], or
+/// the error of what is `open` says so.
+fn as_far_as_known(report: MeasureReport, open: Option<f64>, cut: Option<f64>) -> MeasureReport {
+    let until = report.window.map(|own| own.1).or(report.time);
+    match (cut, open) {
+        // What reaches to the end of a part of the run hangs on the rest of it.
+        (Some(end), _) if until.is_none_or(|until| until >= end) => {
+            report.undetermined(Note::NotFollowed)
+        }
+        (_, Some(error)) => {
+            let unit = report.unit;
+            report.undetermined(Note::LargeError(error, unit))
+        }
+        _ => report,
     }
 }
 

@@ -3,25 +3,20 @@
 use std::collections::BTreeSet;
 
 use dashpot_dae::{Direction, Guard, SolveError};
-use dashpot_network::{
-    HeldTable, NodeId,
-    effects::Gravity,
-    parameters::Kind as _,
-    parameters::{Dimension, WindowWish},
-};
+use dashpot_network::{NodeId, effects::Gravity, parameters::Kind as _, parameters::WindowWish};
 
 use crate::{
-    Accuracy, ContactReport, Ledger, MeasureReport, Solution, contacts,
+    Accuracy, ContactReport, Harder, Ledger, MeasureReport, Missed, Note, Solution, Warning,
+    contacts,
     extremes::{beyond_measured, pressed_through},
     idle::Idle,
     impact::{Contact, Impact},
     ledger::leak,
     measures::{
-        CRUSHED, Clip, Clip3ms, Hic, Hic15, Hic36, MeasureKind as _, PeakAcceleration, PeakForce,
+        Clip, Clip3ms, Hic, Hic15, Hic36, MeasureKind as _, PeakAcceleration, PeakForce,
         PeakStrain, Reading, SeverityIndex,
     },
     open_end::OpenEnd,
-    wording::{percent, quantity},
 };
 
 /// What warnings are made of.
@@ -47,17 +42,15 @@ const HARDER: f64 = 0.05;
 /// Measures of what a blow does to a body.
 const INJURIES: [&str; 6] =
     [SeverityIndex::KIND, Hic15::KIND, Hic36::KIND, Hic::KIND, Clip3ms::KIND, Clip::KIND];
-/// How many measures one warning names.
-const NAMED: usize = 4;
 
 /// All warnings, the most important first.
-pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
+pub(crate) fn collect(findings: &Findings<'_>) -> Vec<Warning> {
     let mut warnings = pulling(findings);
     warnings.extend(pressed_through(findings.solution));
     warnings.extend(beyond_measured(findings.solution));
     warnings.extend(crushed_layers(findings));
     warnings.extend(energy(findings));
-    warnings.extend(findings.idle.iter().map(Idle::to_string));
+    warnings.extend(findings.idle.iter().cloned().map(Warning::IdleSlider));
     warnings.extend(stops_that_hold(findings));
     warnings.extend(still_falling(findings.solution));
     warnings.extend(still_in_contact(findings));
@@ -67,18 +60,12 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<String> {
     warnings.extend(flying_away(findings));
     warnings.extend(accuracy(findings));
     let assembly = findings.solution.assembly();
-    warnings.extend(assembly.held.iter().map(held));
-    warnings.extend(assembly.warnings.iter().cloned());
+    warnings.extend(assembly.held.iter().cloned().map(Warning::HeldTable));
+    warnings.extend(assembly.warnings.iter().cloned().map(Warning::Network));
     warnings
 }
 
-/// That a table of time holds a value.
-fn held(table: &HeldTable) -> String {
-    let unit = |dimension: Dimension| dimension.named().map_or("", |own| own.1);
-    table.told(|value, dimension| quantity(value, unit(dimension))).join("; ")
-}
-
-fn pulling(findings: &Findings<'_>) -> Vec<String> {
+fn pulling(findings: &Findings<'_>) -> Vec<Warning> {
     let end = findings.solution.end();
     let since = |impact: &Impact| match impact.contact {
         Contact::Released if impact.end < end => Some(Some(impact.end)),
@@ -90,16 +77,11 @@ fn pulling(findings: &Findings<'_>) -> Vec<String> {
         assembly.position(element).is_some_and(|at| contacts::is_glued(assembly, at))
     };
     let contacts = findings.contacts.iter().map(|own| (own.element.as_str(), own.impact));
-    let warning =
-        |(element, impact): (&str, Impact)| since(&impact).map(|since| pulls(element, since));
+    let warning = |(element, impact): (&str, Impact)| {
+        since(&impact).map(|since| Warning::Pulls { element: element.to_owned(), since })
+    };
     let all = contacts.chain(pads(findings));
     all.filter(|(element, _)| is_glued(element)).filter_map(warning).collect()
-}
-
-/// Of an element that pulls since a time \[s\], or since the start.
-pub(crate) fn pulls(element: &str, since: Option<f64>) -> String {
-    let since = since.map_or("the start".to_owned(), |since| quantity(since, "s"));
-    format!("from {since} the {element} pulls: separation is off")
 }
 
 /// How the pads between parts that are no impactors are pressed: what has a thickness lies between
@@ -141,42 +123,31 @@ fn heads_without_a_pad(findings: &Findings<'_>) -> BTreeSet<NodeId> {
 }
 
 /// Layers that are pressed in by more than their thickness, while the pad as a whole is not.
-fn crushed_layers(findings: &Findings<'_>) -> Vec<String> {
+fn crushed_layers(findings: &Findings<'_>) -> Vec<Warning> {
     let solution = findings.solution;
     let strains = findings.measures.iter().filter(|own| own.kind == PeakStrain::KIND);
     let crushed = strains.filter_map(|own| {
         let connection = solution.assembly().connection(&own.target)?;
         let (strain, time) = own.value.zip(own.time)?;
-        let is_layered = connection.has_layers;
-        let note = own.note.as_ref().filter(|note| is_layered && note.contains(CRUSHED))?;
-        let (strain, time) = (percent(strain), quantity(time, "s"));
-        Some(format!(
-            "a part of the {} is pressed in by {strain} of its own thickness at {time} ({note})",
-            own.target
-        ))
+        let is_crushed = connection.has_layers && own.notes.contains(&Note::Crushed);
+        let (element, notes) = (own.target.clone(), own.notes.clone());
+        is_crushed.then_some(Warning::CrushedPart { element, strain, time, notes })
     });
     crushed.collect()
 }
 
-fn energy(findings: &Findings<'_>) -> Option<String> {
+fn energy(findings: &Findings<'_>) -> Option<Warning> {
     let closure = findings.energy.closure();
     let bound = match findings.energy.error {
         Some(error) if findings.energy.turned_over > 0.0 => error / findings.energy.turned_over,
         _ => worst(findings.measures).unwrap_or(findings.accuracy.default),
     };
-    (closure.abs() > bound.max(ROUNDING)).then(|| {
-        let way = if closure > 0.0 { "is missing" } else { "is too much" };
-        let leak = leak(findings.solution).map_or(String::new(), |leak| format!(", {leak}"));
-        format!(
-            "the energy does not close: {} of the energy turned over {way}{leak}; that is more than \
-             the errors reported",
-            percent(closure.abs()),
-        )
-    })
+    (closure.abs() > bound.max(ROUNDING))
+        .then(|| Warning::EnergyNotClosed { closure, leak: leak(findings.solution) })
 }
 
 /// A condition that holds from the start is not met then: only a passage of its level is.
-fn stops_that_hold(findings: &Findings<'_>) -> Vec<String> {
+fn stops_that_hold(findings: &Findings<'_>) -> Vec<Warning> {
     let holds = |guard: &&Guard| {
         let signal = findings.solution.signal(guard.output);
         let above = signal.value(0.0) - guard.level;
@@ -187,13 +158,7 @@ fn stops_that_hold(findings: &Findings<'_>) -> Vec<String> {
         }
     };
     let held = findings.guards.iter().filter(|guard| guard.stops).filter(holds);
-    held.map(|guard| {
-        format!(
-            "`stop` when {} holds already at the start: it fires at the next crossing only",
-            guard.name
-        )
-    })
-    .collect()
+    held.map(|guard| Warning::StopHolds { condition: guard.name.clone() }).collect()
 }
 
 fn worst(measures: &[MeasureReport]) -> Option<f64> {
@@ -201,70 +166,49 @@ fn worst(measures: &[MeasureReport]) -> Option<f64> {
 }
 
 /// What was dropped and has not arrived when the run ends.
-fn still_falling(solution: &Solution<'_>) -> Vec<String> {
+fn still_falling(solution: &Solution<'_>) -> Vec<Warning> {
     let impactors = solution.assembly().nodes.iter().filter(|node| node.is_impactor());
-    let falling = impactors.filter(|node| node.fall > solution.end()).map(|node| {
-        let (end, fall) = (quantity(solution.end(), "s"), quantity(node.fall, "s"));
-        format!(
-            "{} is still falling at the end of the run at {end}: its fall takes {fall}; make `duration` \
-             longer",
-            node.name
-        )
-    });
-    falling.collect()
+    let end = solution.end();
+    let falling = impactors.filter(|node| node.fall > end);
+    falling
+        .map(|own| Warning::StillFalling { node: own.name.clone(), end, fall: own.fall })
+        .collect()
 }
 
-fn still_in_contact(findings: &Findings<'_>) -> Vec<String> {
+fn still_in_contact(findings: &Findings<'_>) -> Vec<Warning> {
     // Whether it is may be open.
     let is_known = findings.open_end.is_none_or(|own| own.undecided.is_empty());
     let contacts = findings.contacts.iter().filter(|_| is_known);
     let lasting = contacts.filter(|contact| contact.impact.contact == Contact::Lasting);
     lasting
-        .map(|contact| {
-            let end = quantity(contact.impact.end, "s");
-            format!("the {} is still in contact at the end of the run at {end}", contact.element)
-        })
+        .map(|own| Warning::StillInContact { element: own.element.clone(), end: own.impact.end })
         .collect()
 }
 
 /// A contact whose release has not been seen.
-fn contacts_that_pull(findings: &Findings<'_>) -> Option<String> {
+fn contacts_that_pull(findings: &Findings<'_>) -> Option<Warning> {
     let solution = findings.solution;
     let tension = solution.tension().filter(|own| own.part > findings.accuracy.strictest())?;
-    let name = &solution.assembly().connections[tension.connection].name;
-    let (pull, time) = (quantity(tension.pull, "N"), quantity(tension.time, "s"));
-    Some(format!(
-        "{name} pulls with {pull} at {time}, {} of what it pushes with at most, which no contact does: its \
-         release has been missed, and what follows is wrong; use a smaller `rtol` or another method",
-        percent(tension.part)
-    ))
+    let element = solution.assembly().connections[tension.connection].name.clone();
+    Some(Warning::ReleaseMissed { element, pull: [tension.pull, tension.part], time: tension.time })
 }
 
 /// An impact of which it cannot be told whether it ends.
-fn open_end(findings: &Findings<'_>) -> Option<String> {
+fn open_end(findings: &Findings<'_>) -> Option<Warning> {
     let OpenEnd { time, measures, .. } = findings.open_end?;
-    let names = measures.iter().map(|&at| format!("`{}`", findings.measures[at].key));
-    let (time, names) = (quantity(*time, "s"), listed(&names.collect::<Vec<_>>()));
-    let covered = if names.is_empty() {
-        String::new()
-    } else {
-        format!(", and the errors cover both ends: {names}")
-    };
-    Some(format!(
-        "the contact force comes within its error of zero at {time} and pushes on, as far as can be told: \
-         whether the impact ends there is open{covered}"
-    ))
+    let measures = measures.iter().map(|&at| findings.measures[at].key.clone()).collect();
+    Some(Warning::OpenEnd { time: *time, measures })
 }
 
 /// Peaks of forces and accelerations that lie outside the impact, and above those within.
-fn harder_outside(findings: &Findings<'_>) -> Option<String> {
+fn harder_outside(findings: &Findings<'_>) -> Option<Warning> {
     let solution = findings.solution;
     let has_ended = |own: &&MeasureReport| {
         let is_of_impact = own.window_wish == Some(WindowWish::Impact);
         is_of_impact && own.window.is_some_and(|(from, to)| from > 0.0 || to < solution.end())
     };
     let of_impact = findings.measures.iter().filter(has_ended);
-    let harder: Vec<String> = of_impact
+    let harder: Vec<Harder> = of_impact
         .filter_map(|measure| {
             let most = measure.value?;
             let peak = peak_of_run(solution, measure)?;
@@ -272,22 +216,16 @@ fn harder_outside(findings: &Findings<'_>) -> Option<String> {
             let margin = measure.error.unwrap_or(0.0).max(HARDER * most);
             // What is but rounding in the impact has no peak there to be exceeded.
             let is_harder = value > most + margin && value > peak.noise;
-            is_harder.then(|| {
-                let (key, unit) = (&measure.key, measure.unit);
-                let value =
-                    if value.is_finite() { quantity(value, unit) } else { "infinite".to_owned() };
-                let (most, time) = (quantity(most, unit), quantity(time, "s"));
-                format!("`{key}` is {most}, but {value} at {time}")
+            is_harder.then(|| Harder {
+                measure: measure.key.clone(),
+                unit: measure.unit,
+                within: most,
+                outside: value,
+                time,
             })
         })
         .collect();
-    (!harder.is_empty()).then(|| {
-        let peaks = listed(&harder);
-        format!(
-            "there is a harder blow outside the impact: {peaks}; measures with `window = \"run\"` \
-             see it"
-        )
-    })
+    (!harder.is_empty()).then_some(Warning::HarderOutside(harder))
 }
 
 /// The peak over the whole run of what a measure tells that of the impact of; `None` for other measures.
@@ -309,90 +247,54 @@ fn peak_of_run(solution: &Solution<'_>, measure: &MeasureReport) -> Option<Readi
 }
 
 /// What is shaken or pushed off without a weight that brings it back.
-fn flying_away(findings: &Findings<'_>) -> Option<String> {
+fn flying_away(findings: &Findings<'_>) -> Option<Warning> {
     let solution = findings.solution;
     let is_struck = solution.assembly().has_impactor();
     if is_struck || findings.effects.contains(&Gravity::KIND) {
         return None;
     }
     let left = contacts::left_for_good(solution.assembly(), solution.trajectory());
-    let (time, first) = left.first()?;
-    let when = quantity(*time, "s");
-    Some(format!("{first} at {when} and never comes back: gravity is off"))
+    let (time, names) = left.into_iter().next()?;
+    Some(Warning::NeverComesBack { names: names.map(str::to_owned), time })
 }
 
-fn accuracy(findings: &Findings<'_>) -> Vec<String> {
+fn accuracy(findings: &Findings<'_>) -> Vec<Warning> {
     let mut warnings = Vec::new();
     warnings.extend(unknown_errors(findings));
-    let undecided: Vec<String> = findings
-        .measures
-        .iter()
-        .filter(|measure| measure.error.is_some_and(f64::is_infinite))
-        .map(|measure| format!("`{}`", measure.key))
-        .collect();
-    if !undecided.is_empty() {
-        let names = listed(&undecided);
-        warnings.push(format!("whether there is a value depends on the tolerance: {names}"));
-    }
-    let open = findings.measures.iter().filter(|measure| measure.is_undetermined);
-    let open: Vec<String> = open.map(|own| format!("`{}`", own.key)).collect();
-    if !open.is_empty() {
-        warnings.push(format!("not determined: {}", listed(&open)));
-    }
-    let missed: Vec<String> = findings
-        .measures
-        .iter()
-        .filter_map(|measure| {
-            let reached = measure.relative_error().filter(|error| error.is_finite())?;
-            let wish = findings.accuracy.of(&measure.key);
-            (measure.excess > 1.0).then(|| {
-                let key = &measure.key;
-                // A part of what may be zero says nothing.
-                if let Some(error) = might_be_zero(measure) {
-                    return format!("`{key}` is zero within {}", quantity(error, measure.unit));
-                }
-                format!("`{key}` is good to {}, not {}", percent(reached), percent(wish))
-            })
+    let keys = |is_meant: fn(&MeasureReport) -> bool| {
+        let meant = findings.measures.iter().filter(|own| is_meant(own));
+        let keys: Vec<String> = meant.map(|own| own.key.clone()).collect();
+        (!keys.is_empty()).then_some(keys)
+    };
+    let undecided = keys(|own| own.error.is_some_and(f64::is_infinite));
+    warnings.extend(undecided.map(Warning::Undecided));
+    warnings.extend(keys(|own| own.is_undetermined).map(Warning::Undetermined));
+    let missed = findings.measures.iter().filter_map(|measure| {
+        let reached = measure.relative_error().filter(|error| error.is_finite())?;
+        let wish = findings.accuracy.of(&measure.key);
+        (measure.excess > 1.0).then(|| Missed {
+            measure: measure.key.clone(),
+            accuracy: [reached, wish],
+            zero_within: might_be_zero(measure).map(|error| (error, measure.unit)),
         })
-        .collect();
+    });
+    let (missed, obstacle): (Vec<Missed>, _) = (missed.collect(), findings.obstacle.cloned());
     if !missed.is_empty() {
-        let why = findings.obstacle.map_or(String::new(), |error| format!(" ({error})"));
-        warnings.push(format!("the accuracy wanted is not reached: {}{why}", listed(&missed)));
+        warnings.push(Warning::NotReached { missed, obstacle });
     }
     warnings
 }
 
 /// That nothing is known of any error.
-fn unknown_errors(findings: &Findings<'_>) -> Option<String> {
+fn unknown_errors(findings: &Findings<'_>) -> Option<Warning> {
     let mut valued = findings.measures.iter().filter(|own| own.value.is_some()).peekable();
     valued.peek().filter(|_| findings.estimate)?;
-    if valued.any(|own| own.error.is_some()) {
-        return None;
-    }
-    Some(match findings.obstacle {
-        Some(error) => {
-            format!(
-                "the errors are not known: further solutions, which would tell them, fail ({error})"
-            )
-        }
-        None => {
-            "the errors are not known: with the last digits of its state shaken, the run switches \
-                 otherwise"
-                .to_owned()
-        }
-    })
+    let is_none = valued.all(|own| own.error.is_none());
+    is_none.then(|| Warning::ErrorsUnknown { obstacle: findings.obstacle.cloned() })
 }
 
 /// The error of a value that cannot be told from zero.
 fn might_be_zero(measure: &MeasureReport) -> Option<f64> {
     let (value, error) = measure.value.zip(measure.error)?;
     (value.abs() <= error).then_some(error)
-}
-
-fn listed(entries: &[String]) -> String {
-    let shown = entries.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
-    match entries.len().checked_sub(NAMED) {
-        None | Some(0) => shown,
-        Some(more) => format!("{shown} and {more} more"),
-    }
 }

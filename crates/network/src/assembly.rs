@@ -4,7 +4,7 @@ use std::{ops::Range, sync::Arc};
 
 use dashpot_dae::System;
 
-use crate::{HeldTable, NodeId, PhasedNetwork, elements::Element};
+use crate::{HeldTable, NetworkWarning, NodeId, PhasedNetwork, elements::Element};
 
 /// A network compiled to a [`System`], with an index of its outputs.
 ///
@@ -24,7 +24,7 @@ pub struct Assembly {
     /// What effects have put at elements, one entry for each element that has anything.
     pub pads: Vec<PadOutputs>,
     /// What is odd but not wrong.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<NetworkWarning>,
     /// Tables of time that hold a value within the run although nobody says so.
     pub held: Vec<HeldTable>,
     /// The phases of what switches, where anything does; [`system`](Self::system) is then that of

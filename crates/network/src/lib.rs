@@ -21,6 +21,7 @@ mod network;
 pub mod parameters;
 pub mod phases;
 pub mod shifts;
+mod warning;
 pub mod waveforms;
 
 pub use assembly::{
@@ -38,3 +39,4 @@ pub use error::{NetworkError, NetworkErrors, Subject};
 pub use influence::{Detail, Influence, Situation};
 pub use linear_model::{first_nonlinear, is_linear, linear_model, model_of, primitive};
 pub use network::{Connection, InnerPad, Load, Model, Network, Node, NodeId, Start, Support, part};
+pub use warning::{Front, NetworkWarning};

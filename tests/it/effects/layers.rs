@@ -32,7 +32,9 @@ fn errors_of_a_struck_bar_include_its_segments() {
         let off = (force.value.unwrap() - right).abs();
         assert!(off <= force.error.unwrap(), "{segments}: off by {off}: {force:?}");
         assert!(force.excess > 1.0, "{force:?}");
-        let is_told = |own: &String| own.contains("segments of layers instead of");
+        let is_told = |own: &dashpot::analysis::Warning| {
+            own.to_string().contains("segments of layers instead of")
+        };
         assert!(report.warnings.iter().any(is_told), "{:?}", report.warnings);
         let compared = report.segmentation.as_ref().unwrap();
         assert_eq!((compared.segments, compared.others), (segments, segments / 2));
@@ -87,6 +89,8 @@ fn a_layer_that_is_thinner_than_nothing_is_told() {
         duration = "30 ms"
         "#;
     let report = run(text, "exact");
-    let is_told = |own: &String| own.contains("a part of the pad") && own.contains("layer soft");
+    let is_told = |own: &dashpot::analysis::Warning| {
+        own.to_string().contains("a part of the pad") && own.to_string().contains("layer soft")
+    };
     assert!(report.warnings.iter().any(is_told), "{:?}", report.warnings);
 }

@@ -118,7 +118,7 @@ fn the_size_of_a_foam_may_stand_in_it_beside_it_or_with_a_material() {
 
 fn value(report: &RunReport, measure: &str) -> (f64, f64) {
     let found = report.measure(measure).unwrap_or_else(|| panic!("no measure {measure}"));
-    (found.value.unwrap_or_else(|| panic!("{:?}", found.note)), found.error.unwrap())
+    (found.value.unwrap_or_else(|| panic!("{:?}", found.notes)), found.error.unwrap())
 }
 
 #[test]
@@ -264,7 +264,9 @@ fn a_struck_layer_keeps_its_energy_whatever_its_segments() {
                 "{segments} segments: {closure:e} at {time} s"
             );
         }
-        let warned = |own: &String| own.contains("is not linear") && own.contains("other numbers");
+        let warned = |own: &dashpot::analysis::Warning| {
+            own.to_string().contains("is not linear") && own.to_string().contains("other numbers")
+        };
         assert!(report.warnings.iter().any(warned), "{:?}", report.warnings);
     }
 }

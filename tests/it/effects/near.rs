@@ -173,7 +173,10 @@ fn separation_without_which_a_padding_would_pull_is_not_left_out() {
     let found = run(text, "exact");
     let partial = found.partial.as_ref().unwrap();
     assert!(partial.left_out.iter().all(|own| own.effect != "separation.pad"), "{partial:?}");
-    assert!(found.warnings.iter().all(|own| !own.contains("separation is off")), "{found:?}");
+    assert!(
+        found.warnings.iter().all(|own| !own.to_string().contains("separation is off")),
+        "{found:?}"
+    );
 }
 
 #[test]
@@ -193,6 +196,8 @@ fn stops_that_share_a_blow_are_warned_of() {
         duration = "20 ms"
         "#;
     let found = run(text, "exact");
-    let is_told = |own: &String| own.contains("`p1.stop`") && own.contains("`p2.stop`");
+    let is_told = |own: &dashpot::analysis::Warning| {
+        own.to_string().contains("`p1.stop`") && own.to_string().contains("`p2.stop`")
+    };
     assert!(found.warnings.iter().any(is_told), "{:?}", found.warnings);
 }

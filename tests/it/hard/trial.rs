@@ -77,23 +77,20 @@ impl<'a> Trial<'a> {
             panic!("no {key} in {known:?}")
         };
         let scale = own.size.abs().max(truth.abs());
-        let names_it = |warning: &String| {
+        let names_it = |warning: String| {
             warning.contains(&format!("`{}`", own.key)) || warning.contains("energy does not close")
         };
         let is_warned = own.excess > 1.0
             || own.error.is_some_and(f64::is_infinite)
             || own.is_undetermined
-            || self.report.warnings.iter().any(names_it);
+            || self.report.warnings.iter().map(ToString::to_string).any(names_it);
         let error = own.value.map_or(f64::INFINITY, |value| (value - truth).abs());
         // Not a number stays none.
         let error = if error <= doubt { 0.0 } else { error - doubt };
         let wanted = if self.is_exact() { 0.0 } else { self.wish * scale };
         let allowed = own.error.unwrap_or(0.0).max(wanted) + ROUNDINGS * scale;
-        let what = format!(
-            "{key} = {:?}, not {truth:e}; {}",
-            own.value,
-            own.note.as_deref().unwrap_or("")
-        );
+        let what =
+            format!("{key} = {:?}, not {truth:e}; {}", own.value, own.note().unwrap_or_default());
         self.add(Check { what, scale, error, open: doubt, bar: own.error, allowed, is_warned });
     }
 

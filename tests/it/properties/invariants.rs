@@ -29,7 +29,8 @@ fn doubt(report: &RunReport) -> f64 {
 fn energy(report: &RunReport) -> Option<String> {
     let closure = report.energy.closure().abs();
     let allowed = if report.solver.rtol.is_some() { 1e-3 } else { 1e-9 };
-    let is_said = report.warnings.iter().any(|warning| warning.contains("does not close"));
+    let is_said =
+        report.warnings.iter().any(|warning| warning.to_string().contains("does not close"));
     (closure > allowed && !is_said).then(|| format!("closure of {closure:e} that is not said"))
 }
 

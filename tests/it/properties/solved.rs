@@ -57,8 +57,8 @@ pub(super) fn disagreement(one: &RunReport, other: &RunReport, bars: f64) -> Opt
                 second.value,
                 second.error,
                 other.solver.method,
-                first.note,
-                second.note,
+                first.notes,
+                second.notes,
             )
         })
     })

@@ -20,7 +20,7 @@ fn force_that_starts_at_zero_and_pushes_is_a_contact() {
     let impact = Impact::of_force(&line(0.0, 1.0), 2.0, 0.0);
     assert_eq!((impact.contact, impact.end), (Contact::Lasting, 2.0));
     let span = impact.span(WindowWish::Impact, 2.0).unwrap();
-    assert_eq!(span.note, Some(STILL_IN_CONTACT));
+    assert_eq!(span.note, Some(Note::StillInContact));
 }
 
 #[test]

@@ -3,10 +3,10 @@
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MASSLESS, MeasureKind, Needs, Reading, WINDOW,
+    Family, MeasureKind, Needs, Reading, WINDOW,
     reading::{infinite, integral, with_blows},
 };
-use crate::{Solution, blows};
+use crate::{Note, Solution, blows};
 
 parameters! {
     /// The magnitude of the mean of what an accelerometer on a body reads, `|∫ a dt| / T` \[m/s²\]:
@@ -27,7 +27,7 @@ impl MeasureKind for AverageDeceleration {
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
-            return Reading::undefined(MASSLESS);
+            return Reading::undefined(Note::Massless);
         };
         let span = match solution.node_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,
@@ -36,7 +36,7 @@ impl MeasureKind for AverageDeceleration {
         let length = span.length();
         let blows = solution.node_blows(target);
         if length <= 0.0 {
-            let none = || Reading::undefined("the window has no length");
+            let none = || Reading::undefined(Note::NoLength);
             return infinite(&span, &blows).unwrap_or_else(none);
         }
         let blows = blows::within(&blows, span.window());

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use dashpot_network::{parameters, parameters::WindowWish};
 
-use super::{Family, MASSLESS, Measure, MeasureKind, Needs, Reading, WINDOW};
+use super::{Family, Measure, MeasureKind, Needs, Reading, WINDOW};
 use crate::{
-    Solution,
+    Note, Solution,
     exceedance::{Counted, Exceedance},
     similarity::Scale,
 };
@@ -45,7 +45,7 @@ impl MeasureKind for Clip {
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
-            return Reading::undefined(MASSLESS);
+            return Reading::undefined(Note::Massless);
         };
         let span = match solution.node_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,
@@ -62,7 +62,7 @@ impl MeasureKind for Clip {
         let reading = Reading::over(&span, found.value, error).of_size(found.value);
         let reading = reading.above(signal.noise).changing(end_rate);
         if span.length() < self.duration {
-            return reading.noting("the window is shorter than the time that counts");
+            return reading.noting(Note::WindowTooShort);
         }
         reading
     }

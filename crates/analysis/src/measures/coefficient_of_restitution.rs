@@ -5,10 +5,7 @@ use std::borrow::Cow;
 use dashpot_network::{NodeId, parameters, parameters::WindowWish};
 
 use super::{Family, MeasureKind, Reading, reading::end_value};
-use crate::{
-    Solution, blows,
-    impact::{Contact, STILL_IN_CONTACT},
-};
+use crate::{Note, Solution, blows, impact::Contact};
 
 parameters! {
     /// The speed at which an element's ends part at release over that at which they met,
@@ -34,11 +31,11 @@ impl MeasureKind for CoefficientOfRestitution {
         let connection = &solution.assembly().connections[target];
         let face = solution.struck_face(target);
         if !solution.touches_impactor(connection) && face.is_none() {
-            return Reading::undefined("it touches no impactor");
+            return Reading::undefined(Note::NoImpactor);
         }
         let impact = solution.element_impact(target);
         if impact.contact == Contact::Lasting {
-            return Reading::undefined(STILL_IN_CONTACT);
+            return Reading::undefined(Note::StillInContact);
         }
         let span = match impact.span(WindowWish::Impact, solution.end()) {
             Ok(span) => span,
@@ -61,7 +58,7 @@ impl MeasureKind for CoefficientOfRestitution {
             rate.value(span.from)
         };
         if meeting.abs() <= rate.noise {
-            return Reading::undefined("the ends meet without speed");
+            return Reading::undefined(Note::NoApproach);
         }
         let parting = end_value(&rate, &span);
         // What jumps at the end has jumped.

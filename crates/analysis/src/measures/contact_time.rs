@@ -3,10 +3,7 @@
 use dashpot_network::parameters;
 
 use super::{Family, MeasureKind, Reading};
-use crate::{
-    Solution,
-    impact::{Contact, NEVER_LOADED, PULLS_FROM_THE_START, STILL_IN_CONTACT},
-};
+use crate::{Note, Solution, impact::Contact};
 
 /// Part of a time within which the end of a run is at that time.
 const AT_ONCE: f64 = 1e-9;
@@ -35,7 +32,7 @@ impl MeasureKind for ContactTime {
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let touches = solution.touches_impactor(&solution.assembly().connections[target]);
         if !touches && solution.struck_face(target).is_none() {
-            return Reading::undefined("it touches no impactor");
+            return Reading::undefined(Note::NoImpactor);
         }
         let impact = solution.element_impact(target);
         match impact.contact {
@@ -54,16 +51,16 @@ impl MeasureKind for ContactTime {
                     room,
                     ..Reading::default()
                 };
-                if length > 0.0 { reading } else { reading.noting("masses meet and part at once") }
+                if length > 0.0 { reading } else { reading.noting(Note::PartsAtOnce) }
             }
             Contact::Pulling => Reading {
                 value: Some(0.0),
                 time: Some(impact.start),
                 error: Some(0.0),
-                ..Reading::undefined(PULLS_FROM_THE_START)
+                ..Reading::undefined(Note::PullsFromTheStart)
             },
-            Contact::Lasting => Reading::undefined(STILL_IN_CONTACT),
-            Contact::Unloaded | Contact::NoImpactor => Reading::undefined(NEVER_LOADED),
+            Contact::Lasting => Reading::undefined(Note::StillInContact),
+            Contact::Unloaded | Contact::NoImpactor => Reading::undefined(Note::NeverLoaded),
         }
     }
 }

@@ -11,7 +11,7 @@ use dashpot_rheology::Tree;
 
 use super::{Family, MeasureKind, Needs, Reading, WHOLE_RUN};
 use crate::{
-    Solution,
+    Note, Solution,
     driven::{Oscillator, largest_deformation},
 };
 
@@ -78,7 +78,7 @@ impl MeasureKind for Edi {
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         match self.oscillator() {
             Some(own) => largest_deformation(solution, target, (&own, 1.0), self.window),
-            None => Reading::undefined("its model is not linear, or cannot deform"),
+            None => Reading::undefined(Note::NotLinear),
         }
     }
 }

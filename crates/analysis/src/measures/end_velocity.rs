@@ -2,8 +2,8 @@
 
 use dashpot_network::{parameters, parameters::WindowWish};
 
-use super::{Family, MeasureKind, NO_VELOCITY, Reading, WINDOW, reading::end_value};
-use crate::{Solution, blows};
+use super::{Family, MeasureKind, Reading, WINDOW, reading::end_value};
+use crate::{Note, Solution, blows};
 
 parameters! {
     /// A node's velocity at the end of the window, `v(t_end)` \[m/s\], positive towards the support:
@@ -24,7 +24,7 @@ impl MeasureKind for EndVelocity {
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let Some(velocity) = solution.assembly().nodes[target].velocity else {
-            return Reading::undefined(NO_VELOCITY);
+            return Reading::undefined(Note::NoVelocity);
         };
         let span = match solution.node_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,

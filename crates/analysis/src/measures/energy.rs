@@ -2,8 +2,8 @@
 
 use dashpot_network::{parameters, parameters::WindowWish};
 
-use super::{Family, MeasureKind, Reading, UNDETERMINED_FORCE, WINDOW, reading::work};
-use crate::Solution;
+use super::{Family, MeasureKind, Reading, WINDOW, reading::work};
+use crate::{Note, Solution};
 
 parameters! {
     /// The energy that an element takes up, `∫ F ẏ dt` \[J\]: at the end of an impact what it has not
@@ -26,7 +26,7 @@ impl MeasureKind for Energy {
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connection = &solution.assembly().connections[target];
         if connection.force.is_none() {
-            return Reading::undefined(UNDETERMINED_FORCE);
+            return Reading::undefined(Note::NoForce);
         }
         let span = match solution.element_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,

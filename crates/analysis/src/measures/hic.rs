@@ -5,10 +5,9 @@ use std::sync::Arc;
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MASSLESS, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
-    reading::infinite,
+    Family, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW, reading::infinite,
 };
-use crate::{Solution, hic_search::optimum, similarity::Scale};
+use crate::{Note, Solution, hic_search::optimum, similarity::Scale};
 
 parameters! {
     /// The head injury criterion of what an accelerometer on a body reads,
@@ -44,7 +43,7 @@ impl MeasureKind for Hic {
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
-            return Reading::undefined(MASSLESS);
+            return Reading::undefined(Note::Massless);
         };
         let span = match solution.node_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,

@@ -3,10 +3,10 @@
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MeasureKind, Reading, UNDETERMINED_FORCE, WINDOW,
+    Family, MeasureKind, Reading, WINDOW,
     reading::{integral, with_blows},
 };
-use crate::{Solution, blows};
+use crate::{Note, Solution, blows};
 
 parameters! {
     /// The integral of an element's force over time, `∫ F dt` \[N s\], positive in compression, and the
@@ -25,7 +25,7 @@ impl MeasureKind for Impulse {
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connection = &solution.assembly().connections[target];
         let Some(force) = connection.force else {
-            return Reading::undefined(UNDETERMINED_FORCE);
+            return Reading::undefined(Note::NoForce);
         };
         let force = solution.signal(force);
         let span = match solution.element_impact(target).span(self.window, solution.end()) {

@@ -44,14 +44,12 @@ pub use energy::Energy;
 pub use energy_at_end::EnergyAtEnd;
 pub use hic::{Hic, Hic15, Hic36};
 pub use impulse::Impulse;
-pub(crate) use needs::MASSLESS;
 pub use needs::Needs;
 pub use peak_acceleration::PeakAcceleration;
 pub use peak_deformation::PeakDeformation;
 pub use peak_displacement::PeakDisplacement;
 pub use peak_force::PeakForce;
 pub use peak_rate::PeakRate;
-pub(crate) use peak_strain::CRUSHED;
 pub use peak_strain::PeakStrain;
 pub use peak_stress::PeakStress;
 pub use reading::Reading;
@@ -240,11 +238,6 @@ pub fn of_layers() -> Vec<Arc<dyn Measure>> {
     let all = MEASURES.iter().filter(|own| own.about.of_layers);
     all.map(|own| (own.about.default)()).collect()
 }
-
-/// Note on a measure of the force of a rigid link in a loop of rigid links.
-const UNDETERMINED_FORCE: &str = "the force is undetermined in a loop of rigid links";
-/// Note on a measure of a velocity that is not a function of time.
-const NO_VELOCITY: &str = "the velocity of this massless node jumps with the loads' rates";
 
 /// The `window` parameter of a measure of the impact.
 const WINDOW: Parameter =

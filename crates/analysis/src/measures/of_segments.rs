@@ -6,7 +6,7 @@ use super::{
     Reading,
     reading::{peak, peaks_below_zero},
 };
-use crate::{Solution, impact::Span, wording::quantity};
+use crate::{Note, Solution, impact::Span};
 
 /// The largest magnitude over `segments` of an output over a size, with the layer where it occurs.
 /// A peak of a negative value is noted with the word for it. `None` without segments.
@@ -14,7 +14,7 @@ pub(super) fn largest<'s>(
     solution: &Solution<'_>,
     span: &Span,
     segments: impl Iterator<Item = (&'s SegmentOutputs, usize, f64)>,
-    negative: &str,
+    negative: Note,
 ) -> Option<Reading> {
     // There may be thousands of segments, so signals are not kept.
     let system = &solution.assembly().system;
@@ -39,10 +39,9 @@ pub(super) fn largest<'s>(
     match &segment.place {
         SegmentPlace::Whole => {}
         SegmentPlace::Layer { name, depth } => {
-            let depth = quantity(*depth, "m");
-            reading = reading.noting(&format!("in the layer {name}, {depth} below the first face"));
+            reading = reading.noting(Note::InLayer(name.clone(), *depth));
         }
-        SegmentPlace::Branch { path } => reading = reading.noting(&format!("in {path}")),
+        SegmentPlace::Branch { path } => reading = reading.noting(Note::InBranch(path.clone())),
     }
     if peaks_below_zero(&signal(output), span) {
         reading = reading.noting(negative);

@@ -3,10 +3,10 @@
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MASSLESS, MeasureKind, Needs, Reading, WINDOW,
+    Family, MeasureKind, Needs, Reading, WINDOW,
     reading::{infinite, peak},
 };
-use crate::Solution;
+use crate::{Note, Solution};
 
 parameters! {
     /// The largest magnitude of what an accelerometer on a body reads, `max |Σ F_contact|/m` \[m/s²\],
@@ -27,7 +27,7 @@ impl MeasureKind for PeakAcceleration {
     const BY_DEFAULT: bool = true;
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
-            return Reading::undefined(MASSLESS);
+            return Reading::undefined(Note::Massless);
         };
         let span = match solution.node_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,

@@ -6,7 +6,7 @@ use super::{
     Family, MeasureKind, Reading, WINDOW,
     reading::{peak, peaks_below_zero, positive_peak},
 };
-use crate::Solution;
+use crate::{Note, Solution};
 
 parameters! {
     /// The largest magnitude of an element's deformation, `max |y(t)|` \[m\], with its time; a peak in
@@ -40,6 +40,10 @@ impl MeasureKind for PeakDeformation {
             // At a contact it is the remainder of the way that its ends have come to meet.
             reading = reading.of_size(deformation.bound());
         }
-        if peaks_below_zero(deformation, &span) { reading.noting("in elongation") } else { reading }
+        if peaks_below_zero(deformation, &span) {
+            reading.noting(Note::InElongation)
+        } else {
+            reading
+        }
     }
 }

@@ -3,10 +3,10 @@
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MeasureKind, Reading, UNDETERMINED_FORCE, WINDOW,
+    Family, MeasureKind, Reading, WINDOW,
     reading::{infinite, peak, peaks_below_zero},
 };
-use crate::Solution;
+use crate::{Note, Solution};
 
 parameters! {
     /// The largest magnitude of an element's force, `max |F(t)|` \[N\], with its time.
@@ -34,7 +34,7 @@ impl MeasureKind for PeakForce {
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connection = &solution.assembly().connections[target];
         let Some(force) = connection.force else {
-            return Reading::undefined(UNDETERMINED_FORCE);
+            return Reading::undefined(Note::NoForce);
         };
         let force = solution.signal(force);
         let span = match solution.element_impact(target).span(self.window, solution.end()) {
@@ -45,6 +45,6 @@ impl MeasureKind for PeakForce {
             return reading;
         }
         let reading = peak(force, &span);
-        if peaks_below_zero(force, &span) { reading.noting("in tension") } else { reading }
+        if peaks_below_zero(force, &span) { reading.noting(Note::InTension) } else { reading }
     }
 }

@@ -2,16 +2,8 @@
 
 use dashpot_network::{parameters, parameters::WindowWish};
 
-use super::{
-    Family, MeasureKind, Needs, Reading, WINDOW, needs::NO_THICKNESS, of_segments::largest,
-};
-use crate::Solution;
-
-/// Note on a strain that is one in elongation.
-const STRETCHED: &str = "in elongation";
-
-/// Note on a segment that would have to be thinner than nothing.
-pub(crate) const CRUSHED: &str = "pressed in by more than its thickness";
+use super::{Family, MeasureKind, Needs, Reading, WINDOW, of_segments::largest};
+use crate::{Note, Solution};
 
 parameters! {
     /// The largest magnitude of the strain in any segment of a pad, `max |y(t)|/h` \[1\], with its time and
@@ -38,7 +30,7 @@ impl MeasureKind for PeakStrain {
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let connection = &solution.assembly().connections[target];
         if connection.segments.is_empty() {
-            return Reading::undefined(NO_THICKNESS);
+            return Reading::undefined(Note::NoThickness);
         }
         let span = match solution.element_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,
@@ -46,13 +38,13 @@ impl MeasureKind for PeakStrain {
         };
         let segments = connection.segments.iter();
         let deformations = segments.map(|own| (own, own.deformation, own.thickness));
-        let Some(reading) = largest(solution, &span, deformations, STRETCHED) else {
-            return Reading::undefined(NO_THICKNESS);
+        let Some(reading) = largest(solution, &span, deformations, Note::InElongation) else {
+            return Reading::undefined(Note::NoThickness);
         };
         // The note is on the largest strain, unless that is one in elongation.
         let is_crushed = reading.value.is_some_and(|value| value > 1.0);
-        if is_crushed && !reading.note.as_ref().is_some_and(|note| note.contains(STRETCHED)) {
-            return reading.noting(CRUSHED);
+        if is_crushed && !reading.notes.contains(&Note::InElongation) {
+            return reading.noting(Note::Crushed);
         }
         reading
     }

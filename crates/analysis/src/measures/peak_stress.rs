@@ -2,11 +2,8 @@
 
 use dashpot_network::{parameters, parameters::WindowWish};
 
-use super::{
-    Family, MeasureKind, Needs, Reading, UNDETERMINED_FORCE, WINDOW, needs::NO_AREA,
-    of_segments::largest, reading::infinite,
-};
-use crate::Solution;
+use super::{Family, MeasureKind, Needs, Reading, WINDOW, of_segments::largest, reading::infinite};
+use crate::{Note, Solution};
 
 parameters! {
     /// The largest magnitude of the stress in any segment of a pad, `max |F(t)|/A` \[Pa\], with its time
@@ -36,7 +33,7 @@ impl MeasureKind for PeakStress {
         let segments = connection.segments.iter();
         let with_area = segments.filter_map(|own| Some((own, own.area?)));
         if with_area.clone().next().is_none() {
-            return Reading::undefined(NO_AREA);
+            return Reading::undefined(Note::NoArea);
         }
         let span = match solution.element_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,
@@ -46,7 +43,7 @@ impl MeasureKind for PeakStress {
             return reading;
         }
         let forces = with_area.filter_map(|(own, area)| Some((own, own.force?, area)));
-        largest(solution, &span, forces, "in tension")
-            .unwrap_or_else(|| Reading::undefined(UNDETERMINED_FORCE))
+        largest(solution, &span, forces, Note::InTension)
+            .unwrap_or_else(|| Reading::undefined(Note::NoForce))
     }
 }

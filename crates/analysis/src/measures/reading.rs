@@ -4,18 +4,17 @@ use dashpot_dae::{Extremum, Signal};
 use dashpot_network::{ConnectionOutputs, PrimitiveOutputs};
 
 use crate::{
-    Solution,
+    Note, Solution,
     accounts::{self, Accounts},
     blows::{self, Blow},
     impact::Span,
     ledger,
-    wording::quantity,
 };
 
 /// A number read off a solution.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reading {
-    /// The value in the measure's unit; `None` where it is infinite or undefined, and the note
+    /// The value in the measure's unit; `None` where it is infinite or undefined, and a note
     /// says why.
     pub value: Option<f64>,
     /// The size to which a relative accuracy refers: the value's own, or where the value is a
@@ -28,7 +27,7 @@ pub struct Reading {
     /// Bound of its absolute error, where the method bounds that of its signals.
     pub error: Option<f64>,
     /// What is to be said about it.
-    pub note: Option<String>,
+    pub notes: Vec<Note>,
     /// Values below this cannot be told from zero.
     pub noise: f64,
     /// How fast the value changes at most with the end of its window \[unit/s\].
@@ -40,8 +39,8 @@ pub struct Reading {
 
 impl Reading {
     /// No value, and why.
-    pub fn undefined(note: impl Into<String>) -> Self {
-        Self { note: Some(note.into()), ..Self::default() }
+    pub fn undefined(note: Note) -> Self {
+        Self { notes: vec![note], ..Self::default() }
     }
 
     /// A value over a span, of its own size. A value that is not finite becomes `None` with a note.
@@ -52,7 +51,7 @@ impl Reading {
             time: None,
             window: Some(span.window()),
             error,
-            note: span.note.map(str::to_owned),
+            notes: span.note.clone().into_iter().collect(),
             noise: 0.0,
             end_rate: 0.0,
             room: None,
@@ -60,8 +59,7 @@ impl Reading {
         if value.is_finite() {
             reading
         } else {
-            Self { value: None, size: 0.0, ..reading }
-                .noting("beyond the range of double precision")
+            Self { value: None, size: 0.0, ..reading }.noting(Note::BeyondRange)
         }
     }
 
@@ -91,12 +89,9 @@ impl Reading {
 
     /// The same reading with a further note.
     #[must_use]
-    pub(crate) fn noting(self, note: &str) -> Self {
-        let note = match self.note {
-            Some(before) => format!("{before}; {note}"),
-            None => note.to_owned(),
-        };
-        Self { note: Some(note), ..self }
+    pub(crate) fn noting(mut self, note: Note) -> Self {
+        self.notes.push(note);
+        self
     }
 }
 
@@ -104,8 +99,7 @@ impl Reading {
 pub(crate) fn infinite(span: &Span, blows: &[Blow]) -> Option<Reading> {
     let first = blows::within(blows, span.window()).first()?;
     let reading = Reading { value: None, size: 0.0, ..Reading::over(span, 0.0, None) };
-    let note = format!("infinite (speed jumps at {})", quantity(first.time, "s"));
-    Some(reading.at(first.time).noting(&note))
+    Some(reading.at(first.time).noting(Note::Infinite(first.time)))
 }
 
 /// The largest magnitude of a signal over a span.
@@ -179,7 +173,7 @@ pub(crate) fn with_blows(reading: Reading, amount: f64, size: f64, error: Option
 pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Reading {
     let connection = &solution.assembly().connections[target];
     let Some(force) = connection.force.map(|force| solution.signal(force)) else {
-        return Reading::undefined("the force is undetermined");
+        return Reading::undefined(Note::NoForce);
     };
     let rate = solution.rate_of(connection);
     let window = span.window();

@@ -3,10 +3,10 @@
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MASSLESS, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
+    Family, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
     reading::{infinite, with_blows},
 };
-use crate::{Solution, blows};
+use crate::{Note, Solution, blows};
 
 parameters! {
     /// Gadd's severity index, `SI = ∫ (|a|/g0)^n dt` \[s\], of what an accelerometer on a body reads.
@@ -41,7 +41,7 @@ impl MeasureKind for SeverityIndex {
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
-            return Reading::undefined(MASSLESS);
+            return Reading::undefined(Note::Massless);
         };
         let span = match solution.node_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,

@@ -15,7 +15,7 @@ use dashpot_network::{
 };
 
 use super::*;
-use crate::Counted;
+use crate::{Counted, Note};
 
 /// A solution written down as functions of time.
 struct Written {
@@ -180,7 +180,7 @@ fn overflow_is_no_value() {
     let huge = |_: &str, _: f64| 1e200;
     for reading in [read(SeverityIndex::default(), 1.0, huge), read(Hic::default(), 1.0, huge)] {
         assert_eq!(reading.value, None);
-        assert!(reading.note.unwrap().contains("range of double precision"));
+        assert!(reading.notes == [Note::BeyondRange]);
     }
 }
 
@@ -189,10 +189,10 @@ fn peak_in_tension_is_noted() {
     let signal = |_: &str, t: f64| 1.0 - 3.0 * t;
     let peak = read(PeakForce { window: WindowWish::Run }, 1.0, signal);
     close(peak.value, 2.0, 1e-12);
-    assert_eq!(peak.note.as_deref(), Some("in tension"));
+    assert_eq!(peak.notes, [Note::InTension]);
     let impact = read(PeakForce::default(), 1.0, signal);
     close(impact.value, 1.0, 1e-12);
-    assert_eq!(impact.note, None);
+    assert_eq!(impact.notes, []);
 }
 
 #[test]

@@ -6,10 +6,10 @@ use dashpot_dae::Signal;
 use dashpot_network::{NodeOutputs, parameters, parameters::WindowWish};
 
 use super::{
-    Family, MASSLESS, MeasureKind, Needs, Reading, WINDOW,
+    Family, MeasureKind, Needs, Reading, WINDOW,
     reading::{infinite, peak},
 };
-use crate::Solution;
+use crate::{Note, Solution};
 
 parameters! {
     /// The largest acceleration of a node over that of another, `max |a|/max |a_from|`: what of a shock
@@ -37,7 +37,7 @@ impl MeasureKind for Transmissibility {
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
         let nodes = &solution.assembly().nodes;
         let Some(from) = nodes.iter().position(|node| node.name == self.from) else {
-            return Reading::undefined(format!("there is no node `{}`", self.from));
+            return Reading::undefined(Note::NoNode(self.from.clone()));
         };
         let span = match solution.node_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,
@@ -48,7 +48,7 @@ impl MeasureKind for Transmissibility {
         let mut answer = Reading::default();
         for (largest, node) in peaks.iter_mut().zip([from, target]) {
             let Some(signal) = acceleration(solution, &nodes[node]) else {
-                return Reading::undefined(MASSLESS);
+                return Reading::undefined(Note::Massless);
             };
             if let Some(reading) = infinite(&span, &solution.node_blows(node)) {
                 return reading;
@@ -59,7 +59,7 @@ impl MeasureKind for Transmissibility {
         }
         let [of_shock, own] = peaks;
         if of_shock <= 0.0 {
-            return Reading::undefined(format!("`{}` is not accelerated", self.from));
+            return Reading::undefined(Note::NotAccelerated(self.from.clone()));
         }
         let value = own / of_shock;
         let error = relative.map(|relative| if own > 0.0 { value * relative } else { 0.0 });

@@ -4,10 +4,10 @@ use dashpot_dae::Signal;
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, MeasureKind, Reading, UNDETERMINED_FORCE, WINDOW,
+    Family, MeasureKind, Reading, WINDOW,
     reading::{infinite, peak, peaks_below_zero},
 };
-use crate::{Solution, bearing::on_support};
+use crate::{Note, Solution, bearing::on_support};
 
 parameters! {
     /// The largest magnitude of the force of a padding on what lies behind it, `max |F(t)|` \[N\], with
@@ -40,11 +40,11 @@ impl MeasureKind for TransmittedForce {
             let connection = &connections[part];
             let force = if part == target { connection.transmitted } else { connection.force };
             let Some(force) = force.map(|own| solution.signal(own)) else {
-                return Reading::undefined(UNDETERMINED_FORCE);
+                return Reading::undefined(Note::NoForce);
             };
             sum = Some(sum.map_or_else(|| force.scaled(sign), |sum| sum.plus(force, sign)));
         }
-        let Some(force) = sum else { return Reading::undefined(UNDETERMINED_FORCE) };
+        let Some(force) = sum else { return Reading::undefined(Note::NoForce) };
         let span = match solution.element_impact(target).span(self.window, solution.end()) {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
@@ -54,6 +54,6 @@ impl MeasureKind for TransmittedForce {
             return reading;
         }
         let reading = peak(&force, &span);
-        if peaks_below_zero(&force, &span) { reading.noting("in tension") } else { reading }
+        if peaks_below_zero(&force, &span) { reading.noting(Note::InTension) } else { reading }
     }
 }

@@ -129,7 +129,7 @@ mod tests {
             time: None,
             window: None,
             error: Some(0.0),
-            note: None,
+            notes: Vec::new(),
             window_wish: None,
             parameters: Vec::new(),
             is_undetermined: false,

@@ -8,8 +8,8 @@ use dashpot_network::{
 };
 
 use super::*;
-use crate::Place;
 use crate::attempts::none_gets_through;
+use crate::{Place, Warning};
 
 /// The exact method, but for one output.
 #[derive(Debug)]
@@ -90,10 +90,10 @@ fn by_faulty(factor: f64) -> Result<RunReport, RunError> {
 
 #[test]
 fn small_fault_is_a_warning_that_names_time_and_element() {
-    assert!(by_faulty(1.0).unwrap().warnings.iter().all(|own| !own.contains("does not close")));
+    assert!(by_faulty(1.0).unwrap().warnings.iter().all(|own| own.code() != "energy-not-closed"));
     let report = by_faulty(1.005).unwrap();
-    let closes = |own: &&String| own.contains("does not close");
-    let warning = report.warnings.iter().find(closes).unwrap();
+    let closes = |own: &String| own.contains("does not close");
+    let warning = report.warnings.iter().map(Warning::to_string).find(closes).unwrap();
     assert!(warning.contains("is too much, half of it from"), "{warning}");
     assert!(warning.contains("in the element `pad`"), "{warning}");
 }

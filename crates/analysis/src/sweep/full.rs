@@ -3,7 +3,7 @@
 use dashpot_dae::Silent;
 
 use super::{Column, Gap, Grid, Pose};
-use crate::solve;
+use crate::{Warning, solve};
 
 /// How points are solved in full.
 #[derive(Clone, Copy)]
@@ -22,7 +22,7 @@ impl Full<'_> {
         values: &mut [f64],
         errors: &mut [f64],
         gaps: &mut Vec<Gap>,
-    ) -> Vec<String> {
+    ) -> Vec<Warning> {
         values.fill(f64::NAN);
         errors.fill(f64::NAN);
         let solved = (self.pose)(&self.grid.places(point)).and_then(|posed| {
@@ -49,7 +49,7 @@ impl Full<'_> {
                     values[at] = value / unit;
                     errors[at] = measure.error.map_or(f64::NAN, |error| error / unit);
                 }
-                None => gaps.push(gap(measure.note.clone().unwrap_or_default())),
+                None => gaps.push(gap(measure.note().unwrap_or_default())),
             }
         }
         report.warnings

@@ -47,7 +47,7 @@ use self::{
     verify::check,
     warned::Notice,
 };
-use crate::SolveSettings;
+use crate::{SolveSettings, Warning};
 
 /// A scene at a point.
 #[derive(Debug, Clone)]
@@ -68,7 +68,7 @@ struct Row<'r> {
     errors: &'r mut [f64],
     gaps: Vec<Gap>,
     /// What a full run is warned of.
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
     /// What is to be said of a point that was stamped.
     notice: Option<Notice>,
 }

@@ -11,7 +11,7 @@ use dashpot_network::{
 };
 use dashpot_rheology::Tree;
 
-use super::{warned::form, *};
+use super::*;
 use crate::solve;
 
 /// Numbers of a generator of its own, so that a failure can be repeated.
@@ -87,7 +87,11 @@ fn swept(networks: &[Network], keys: &[&str], threads: usize) -> SweepReport {
 /// What a sweep is warned of at a point, but for numbers.
 fn warned_at(found: &SweepReport, point: usize) -> Vec<String> {
     let here = found.warnings.iter().filter(|own| own.points.contains(&point));
-    sorted(here.map(|own| form(&own.text)))
+    sorted(here.map(|own| kind(&own.warning)))
+}
+
+fn kind(warning: &Warning) -> String {
+    format!("{} of {}", warning.code(), warning.names().join(", "))
 }
 
 fn sorted(all: impl Iterator<Item = String>) -> Vec<String> {
@@ -111,7 +115,7 @@ fn stamped_values_are_those_of_full_runs_within_their_errors() {
         let width = found.columns.len();
         for (at, network) in networks.iter().enumerate() {
             let full = solve(network, &SolveSettings::lasting(0.04), &mut Silent).unwrap();
-            assert_eq!(warned_at(&found, at), sorted(full.warnings.iter().map(|own| form(own))));
+            assert_eq!(warned_at(&found, at), sorted(full.warnings.iter().map(kind)));
             for (place, column) in found.columns.iter().enumerate() {
                 let measure = full.measure(&column.key).unwrap();
                 let unit = if column.is_share { 0.02 } else { 1.0 };
@@ -184,11 +188,13 @@ fn stamped_points_are_warned_of_what_full_ones_are() {
     let found = swept(&networks, &["padding.peak-force"], 1);
     for (at, network) in networks.iter().enumerate() {
         let full = solve(network, &SolveSettings::lasting(0.04), &mut Silent).unwrap();
-        assert_eq!(warned_at(&found, at), sorted(full.warnings.iter().map(|own| form(own))));
+        assert_eq!(warned_at(&found, at), sorted(full.warnings.iter().map(kind)));
     }
-    let harder = found.warnings.iter().find(|own| own.text.contains("harder blow")).unwrap();
+    let harder =
+        found.warnings.iter().find(|own| own.warning.to_string().contains("harder blow")).unwrap();
     assert_eq!(harder.points, [0, 1]);
-    let pulls = found.warnings.iter().find(|own| own.text.contains("pulls")).unwrap();
+    let pulls =
+        found.warnings.iter().find(|own| own.warning.to_string().contains("pulls")).unwrap();
     assert_eq!(pulls.points, [0, 1, 2, 3]);
     assert_eq!(found.stamped, 2, "{:?}", found.warnings);
 }
@@ -207,9 +213,13 @@ fn a_run_that_ends_in_contact_is_warned_of() {
     };
     let grid = Grid::new(vec![4]).unwrap();
     let found = sweep(&grid, &pose, &columns, 1, &mut |_, _| ControlFlow::Continue(())).unwrap();
-    let lasting = found.warnings.iter().find(|own| own.text.contains("still in contact")).unwrap();
+    let lasting = found
+        .warnings
+        .iter()
+        .find(|own| own.warning.to_string().contains("still in contact"))
+        .unwrap();
     assert_eq!(lasting.points, [0, 1]);
-    assert!(lasting.text.contains("at 1.00 ms"), "{}", lasting.text);
+    assert!(lasting.warning.to_string().contains("at 1.00 ms"), "{}", lasting.warning);
 }
 
 #[test]
@@ -226,8 +236,9 @@ fn another_padding_is_watched_too() {
         networks.push(network);
     }
     let found = swept(&networks, &["padding.peak-force"], 1);
-    let pressed = found.warnings.iter().find(|own| own.text.contains("pressed in")).unwrap();
-    assert!(pressed.text.contains("below"));
+    let pressed =
+        found.warnings.iter().find(|own| own.warning.to_string().contains("pressed in")).unwrap();
+    assert!(pressed.warning.to_string().contains("below"));
     assert_eq!(pressed.points, [0]);
 }
 

@@ -6,7 +6,6 @@ use super::{
     crew::share,
     full::Full,
     stamped::{Plan, Stamper},
-    warned::form,
 };
 use crate::partial::spread;
 
@@ -44,10 +43,9 @@ pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<
         };
         let (mut right, mut bars) = (vec![f64::NAN; count], vec![f64::NAN; count]);
         let warned = full.write(row.point, &mut right, &mut bars, &mut Vec::new());
-        if !warned
-            .iter()
-            .map(|own| form(own))
-            .eq(notice.warnings(plan.element()).map(|own| form(&own)))
+        let noticed = notice.warnings(plan.element());
+        if !(warned.len() == noticed.len()
+            && warned.iter().zip(&noticed).all(|own| own.0.is_like(own.1)))
         {
             return;
         }

@@ -1,15 +1,13 @@
 //! What the runs of a sweep are warned of, told once for all points.
 
-use serde::Serialize;
-
 use super::Row;
-use crate::{extremes::Through, warnings::pulls};
+use crate::{Through, Warning};
 
 /// A warning of the runs at some points.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SweepWarning {
     /// What the run at the first of the points is warned of. At the others the numbers differ.
-    pub text: String,
+    pub warning: Warning,
     /// The points, rising.
     pub points: Vec<usize>,
 }
@@ -25,19 +23,15 @@ pub(super) struct Notice {
 
 impl Notice {
     /// The warnings that a full run brings of the same.
-    pub(super) fn warnings(&self, element: &str) -> impl Iterator<Item = String> {
-        self.texts(element).into_iter().flatten()
-    }
-
-    fn texts(&self, element: &str) -> [Option<String>; 2] {
-        let pressed = |[deepest, time, thickness]: [f64; 3]| {
-            Through { name: element.to_owned(), deepest, time, thickness }.text()
-        };
-        [self.pulls.map(|time| pulls(element, Some(time))), self.pressed.map(pressed)]
-    }
-
-    fn is_raised(&self) -> [bool; 2] {
-        [self.pulls.is_some(), self.pressed.is_some()]
+    pub(super) fn warnings(&self, element: &str) -> Vec<Warning> {
+        let element = element.to_owned();
+        let pulls =
+            self.pulls.map(|time| Warning::Pulls { element: element.clone(), since: Some(time) });
+        let pressed = self.pressed.map(|[deepest, time, thickness]| {
+            let through = Through { name: element, deepest, time, thickness };
+            Warning::PressedThrough { through, others: 0 }
+        });
+        pulls.into_iter().chain(pressed).collect()
     }
 }
 
@@ -45,68 +39,45 @@ impl Notice {
 /// one that notices are about.
 pub(super) fn collect(rows: &[Row<'_>], element: &str) -> Vec<SweepWarning> {
     let mut all = Kinds::default();
-    // The words of notices are the same at all points, so they are formed once.
+    // Notices are of the same kinds at all points, so each is looked for once.
     let mut known: [Option<usize>; 2] = [None; 2];
     for row in rows {
-        for text in &row.warnings {
-            let at = all.of(text);
+        for warning in &row.warnings {
+            let at = all.of(warning);
             all.add(at, row.point);
         }
         let Some(notice) = &row.notice else { continue };
-        for (at, raised) in notice.is_raised().into_iter().enumerate() {
-            if !raised {
-                continue;
-            }
-            if known[at].is_none() {
-                known[at] = notice.texts(element)[at].as_deref().map(|text| all.of(text));
-            }
-            if let Some(kind) = known[at] {
+        let alone = [Notice { pressed: None, ..*notice }, Notice { pulls: None, ..*notice }];
+        for (known, own) in known.iter_mut().zip(alone).filter(|own| own.1 != Notice::default()) {
+            let found = || own.warnings(element).first().map(|warning| all.of(warning));
+            if let Some(kind) = known.or_else(found) {
+                *known = Some(kind);
                 all.add(kind, row.point);
             }
         }
     }
-    all.found
+    all.0
 }
 
 /// Warnings by what they say besides numbers.
 #[derive(Default)]
-struct Kinds {
-    forms: Vec<String>,
-    found: Vec<SweepWarning>,
-}
+struct Kinds(Vec<SweepWarning>);
 
 impl Kinds {
     /// Position of the kind of a warning.
-    fn of(&mut self, text: &str) -> usize {
-        let form = form(text);
-        self.forms.iter().position(|own| *own == form).unwrap_or_else(|| {
-            self.forms.push(form);
-            self.found.push(SweepWarning { text: text.to_owned(), points: Vec::new() });
-            self.forms.len() - 1
+    fn of(&mut self, warning: &Warning) -> usize {
+        self.0.iter().position(|own| own.warning.is_like(warning)).unwrap_or_else(|| {
+            self.0.push(SweepWarning { warning: warning.clone(), points: Vec::new() });
+            self.0.len() - 1
         })
     }
 
     fn add(&mut self, kind: usize, point: usize) {
-        let points = &mut self.found[kind].points;
+        let points = &mut self.0[kind].points;
         if points.last() != Some(&point) {
             points.push(point);
         }
     }
-}
-
-/// A warning without its numbers and the words behind those, which are mostly their units.
-pub(super) fn form(text: &str) -> String {
-    let mut form = String::with_capacity(text.len());
-    let mut words = text.split_whitespace();
-    while let Some(word) = words.next() {
-        let is_number = word.trim_start_matches('-').starts_with(|own: char| own.is_ascii_digit());
-        form.push_str(if is_number { "0" } else { word });
-        form.push(' ');
-        if is_number {
-            words.next();
-        }
-    }
-    form
 }
 
 #[cfg(test)]
@@ -115,9 +86,12 @@ mod tests {
 
     #[test]
     fn warnings_that_differ_in_numbers_alone_are_of_one_kind() {
-        let at = |time: &str| format!("from {time} the padding pulls: separation is off");
-        assert_eq!(form(&at("7.43 ms")), form(&at("1.02 s")));
-        assert_ne!(form(&at("7.43 ms")), form(&at("the start")));
-        assert_ne!(form(&at("7.43 ms")), form(&at("7.43 ms").replace("padding", "mount")));
+        let at = |since: Option<f64>, element: &str| Warning::Pulls {
+            element: element.to_owned(),
+            since,
+        };
+        assert!(at(Some(7.43e-3), "padding").is_like(&at(Some(1.02), "padding")));
+        assert!(!at(Some(7.43e-3), "padding").is_like(&at(None, "padding")));
+        assert!(!at(Some(7.43e-3), "padding").is_like(&at(Some(7.43e-3), "mount")));
     }
 }

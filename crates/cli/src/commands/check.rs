@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dashpot_analysis::{Choice, RunError, hopeless_measures, reported_measures};
+use dashpot_analysis::{Choice, Note, RunError, hopeless_measures, reported_measures};
 use dashpot_dae::Run;
 use dashpot_scene::Scene;
 
@@ -80,7 +80,7 @@ fn can_run(scene: &Scene) -> Result<(), CliError> {
 pub(crate) fn hopeless(scene: &Scene) -> Result<Vec<String>, CliError> {
     let Some(method) = scene.run.methods.first() else { return Ok(Vec::new()) };
     let found = hopeless_measures(&scene.assembly, &scene.settings(method)?)?;
-    let text = |(key, why): &(String, &str)| format!("`{key}` can have no value: {why}");
+    let text = |(key, why): &(String, Note)| format!("`{key}` can have no value: {why}");
     Ok(found.iter().map(text).collect())
 }
 

@@ -8,14 +8,14 @@ use super::{
     expand::{Primitive, Shape},
 };
 use crate::{
-    Network, Support,
+    Network, NetworkWarning, Support,
     assembly::place,
     elements::Law,
     phases::{Phase, PhaseLaw, Phases},
 };
 
-/// All oddities, one sentence each.
-pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
+/// All oddities.
+pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<NetworkWarning> {
     let distance = distances(network, parts);
     let direction = direction(parts);
     let ahead = direction.map(|forward| ahead(network, parts, &distance, forward));
@@ -29,19 +29,14 @@ pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
             if !is_rigid(parts, at)
                 && is_linked(parts, linked.get_or_insert_with(|| links(parts)), ends)
             {
-                warnings.push(format!(
-                    "rigid links join both ends of `{name}`: it never deforms and carries no force"
-                ));
+                warnings.push(NetworkWarning::RigidlyLinked { element: name.clone() });
             }
         } else if let (Some(from), Some(to)) = (distance[a], distance[b])
             && let (Some(forward), Some(ahead)) = (direction, &ahead)
             && is_against(forward, [from, to])
             && !ahead[if from < to { a } else { b }]
         {
-            warnings.push(format!(
-                "`{name}` looks reversed: `between` runs along the impactor's way, so that \
-                 compression counts positive, but here it counts negative"
-            ));
+            warnings.push(NetworkWarning::Reversed { element: name.clone() });
         }
     }
     warnings.extend(idle_restitutions(network, parts));
@@ -51,7 +46,7 @@ pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<String> {
 
 /// Contacts between the same bodies that close at one deformation: what each of them carries is not
 /// determined, their sum is.
-fn shared_contacts(parts: &Parts<'_>) -> Vec<String> {
+fn shared_contacts(parts: &Parts<'_>) -> Vec<NetworkWarning> {
     let mut last: HashMap<([usize; 2], u64), &Primitive> = HashMap::new();
     let mut warnings = Vec::new();
     for own in &parts.expansion.primitives {
@@ -61,12 +56,8 @@ fn shared_contacts(parts: &Parts<'_>) -> Vec<String> {
             continue;
         }
         if let Some(one) = last.insert((ends, level.to_bits()), own) {
-            warnings.push(format!(
-                "`{}` and `{}` close at once between the same masses: how they share force and \
-                 impulse is not determined, only the sum is; a stiffness in one of them settles it",
-                place(&one.name, one.origin.kind()),
-                place(&own.name, own.origin.kind())
-            ));
+            let elements = [one, own].map(|own| place(&own.name, own.origin.kind()).to_owned());
+            warnings.push(NetworkWarning::SharedContacts { elements });
         }
     }
     warnings
@@ -109,7 +100,7 @@ fn ahead(
 
 /// Restitutions that do nothing: they act between masses, and a part without mass takes the speed of
 /// what it meets.
-fn idle_restitutions(network: &Network, parts: &Parts<'_>) -> Vec<String> {
+fn idle_restitutions(network: &Network, parts: &Parts<'_>) -> Vec<NetworkWarning> {
     let mut groups = Groups::new(parts.expansion.joints);
     // What is between two contacts moves with what it touches, and is struck with it.
     let passes = |own: &&Primitive| {
@@ -130,15 +121,9 @@ fn idle_restitutions(network: &Network, parts: &Parts<'_>) -> Vec<String> {
             let restitution = primitive.origin.phases().map_or(0.0, Phases::restitution);
             let light = primitive.ends.into_iter().find(|&end| !has_inertia[groups.of(end)]);
             let Some(light) = light.filter(|_| restitution > 0.0) else { continue };
-            let owner = &connection.name;
-            let what = match network.nodes.get(light) {
-                Some(node) => format!("`{}` has no mass", node.name),
-                None => "what it meets has no mass".to_owned(),
-            };
-            warnings.push(format!(
-                "the restitution {restitution} of `{owner}` does nothing: it acts between masses, \
-                 and {what}"
-            ));
+            let node = network.nodes.get(light).map(|node| node.name.clone());
+            let element = connection.name.clone();
+            warnings.push(NetworkWarning::IdleRestitution { element, restitution, node });
         }
     }
     warnings

@@ -219,7 +219,7 @@ fn a_reversed_element_is_warned_of() {
     let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
     network.connect("padding", network.ground(), head, burgers());
     let assembly = network.compile(0.02).unwrap();
-    assert!(assembly.warnings[0].contains("looks reversed"));
+    assert!(assembly.warnings[0].to_string().contains("looks reversed"));
 }
 
 #[test]

@@ -7,7 +7,10 @@
 //! without limit.
 
 use super::{Layer, Layers, MOST_SEGMENTS, Recut, Resolution, stiffness::Stiffness};
-use crate::{Connection, Network, NodeId, compile::bodies::start_velocity, effects::Face};
+use crate::{
+    Connection, Front, Network, NetworkWarning, NodeId, compile::bodies::start_velocity,
+    effects::Face,
+};
 
 /// Largest excess of the force on a face over that of a step, `∫₀^2.405 J₀ − 1`.
 const EXCESS: f64 = 0.470_3;
@@ -17,7 +20,7 @@ const COMPARABLE: f64 = 0.5;
 const LOSSY: f64 = 1.5;
 
 /// What of the forces in layers depends on their segments, however many there are.
-pub(crate) fn warnings(network: &Network, duration: f64) -> Vec<String> {
+pub(crate) fn warnings(network: &Network, duration: f64) -> Vec<NetworkWarning> {
     let mut warnings = Vec::new();
     for connection in &network.connections {
         let Some(layers) = &connection.layers else { continue };
@@ -37,7 +40,7 @@ fn blow(
     connection: &Connection,
     layers: &Layers,
     (at, face): (usize, &Layer),
-) -> Option<String> {
+) -> Option<NetworkWarning> {
     let ends = connection.between.map(|id| network.node(id));
     let body = ends[at];
     let speed = start_velocity(network, body.start) - start_velocity(network, ends[1 - at].start);
@@ -57,24 +60,18 @@ fn blow(
     let impact = (Stiffness::in_series(&stiffnesses).size() * body.mass).sqrt();
     let highest = omega * MOST_SEGMENTS as f64 * MOST_SEGMENTS as f64;
     let stiffness = Stiffness::of(&face.model, highest);
-    let (node, element, layer) = (&body.name, &connection.name, &face.name);
+    let front = Front {
+        node: body.name.clone(),
+        element: connection.name.clone(),
+        layer: face.name.clone(),
+    };
     if stiffness.angle() > LOSSY {
         let touch = 2.0 * count * stiffness.size() / highest;
-        return (touch > COMPARABLE * impact).then(|| {
-            format!(
-                "`{node}` strikes the layer {layer} of `{element}`, in which a dashpot leads from \
-                 face to face: the force at the first touch grows with the number of segments, \
-                 without limit; a spring or a mass between the two bounds it"
-            )
-        });
+        return (touch > COMPARABLE * impact).then_some(NetworkWarning::DampedFront(front));
     }
     if !face.is_linear() {
         // The slopes of the law where it is pressed are not known, and neither is the excess.
-        return Some(format!(
-            "`{node}` strikes the layer {layer} of `{element}`, which is not linear: the front of \
-             the wave is as steep as its segments, and forces depend on their number; compare with \
-             other numbers"
-        ));
+        return Some(NetworkWarning::NonlinearFront(front));
     }
     let step = (face.mass() * stiffness.size()).sqrt();
     let excess = EXCESS * step / (step + impact);
@@ -82,15 +79,7 @@ fn blow(
         Resolution::Accuracy(accuracy) => accuracy,
         Resolution::Segments(_) => Recut::EXPECTED,
     };
-    (excess > wanted).then(|| {
-        format!(
-            "`{node}` strikes the layer {layer} of `{element}`, and the front of the wave is as \
-             steep as its segments: with few of them its forces are too low, with many up to \
-             {:.0} % too high, whatever their stated errors; a spring between the two blunts the \
-             front",
-            (100.0 * excess).ceil()
-        )
-    })
+    (excess > wanted).then_some(NetworkWarning::SteepFront { front, excess })
 }
 
 /// A load that jumps at a face.
@@ -99,7 +88,7 @@ fn step(
     connection: &Connection,
     face: &Layer,
     (node, duration): (NodeId, f64),
-) -> Option<String> {
+) -> Option<NetworkWarning> {
     let layers = connection.layers.as_ref()?;
     let omega = layers.frequency(super::struck_mass(network, connection))?;
     let highest = omega * MOST_SEGMENTS as f64;
@@ -110,11 +99,8 @@ fn step(
         load.node == node && (load.force.value(0.0) != 0.0 || load.force.breakpoints().any(jumps))
     });
     let load = load.filter(|_| is_light && !is_damped)?;
-    Some(format!(
-        "`{}` jumps at the face of `{}`, and the front of the wave is as steep as its segments: \
-         forces in it may be too high by half of the jump, however many segments there are",
-        load.name, connection.name
-    ))
+    let (load, element) = (load.name.clone(), connection.name.clone());
+    Some(NetworkWarning::LoadJumps { load, element })
 }
 
 #[cfg(test)]
@@ -146,7 +132,7 @@ mod tests {
         let said =
             |ratio: f64| warnings(&struck(0.02 * ratio, spring(), Resolution::Segments(10)), 0.01);
         // 0.47/(1 + √ratio) is 15 % and 0.99 %.
-        assert!(said(5.0)[0].contains("up to 15 %"), "{:?}", said(5.0));
+        assert!(said(5.0)[0].to_string().contains("up to 15 %"), "{:?}", said(5.0));
         assert!(said(2200.0).is_empty(), "{:?}", said(2200.0));
     }
 
@@ -156,7 +142,7 @@ mod tests {
             || Tree::parallel([part(Spring { stiffness: 5e5 }), part(Dashpot { damping: 50.0 })]);
         // 2 n c = 700 N s/m beside √(K M) = 100 and 7071 N s/m.
         let said = |mass: f64| warnings(&struck(mass, kelvin(), Resolution::Segments(7)), 0.01);
-        assert!(said(0.02)[0].contains("without limit"), "{:?}", said(0.02));
+        assert!(said(0.02)[0].to_string().contains("without limit"), "{:?}", said(0.02));
         assert!(said(100.0).is_empty(), "{:?}", said(100.0));
     }
 
@@ -168,7 +154,9 @@ mod tests {
             network.add_load("push", head, Waveform::new(vec![piece]).unwrap());
             warnings(&network, 0.01)
         };
-        assert!(said(Piece { value: 1.0, ..Piece::default() })[0].contains("`push` jumps"));
+        assert!(
+            said(Piece { value: 1.0, ..Piece::default() })[0].to_string().contains("`push` jumps")
+        );
         assert!(said(Piece { slope: 1.0, ..Piece::default() }).is_empty());
     }
 }

@@ -299,7 +299,7 @@ fn a_layer_that_is_not_linear_wants_its_number_of_segments() {
     let all = super::resolved(&network, &network.connections()[0]).unwrap();
     assert!(all[0].wave.is_some() && all[1].wave.is_none());
     let warnings = super::warnings(&struck(&foam), 0.01);
-    assert!(warnings[0].contains("which is not linear"), "{warnings:?}");
+    assert!(warnings[0].to_string().contains("which is not linear"), "{warnings:?}");
 }
 
 /// A network in which a body of 5 kg strikes this layer.

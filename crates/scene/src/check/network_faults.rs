@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use dashpot_network::{HeldTable, NetworkError, NetworkErrors, Subject, parameters::Dimension};
+use dashpot_network::{
+    HeldTable, NetworkError, NetworkErrors, NetworkWarning, Subject, parameters::Dimension,
+};
 
 use crate::{
     diagnostics::fault::Fault,
@@ -40,14 +42,14 @@ pub(crate) fn note_errors(reading: &Reading<'_>, errors: &NetworkErrors) {
     }
 }
 
-/// Notes what is odd about a network, at the first element or node that each sentence names.
-pub(crate) fn note_warnings(reading: &Reading<'_>, warnings: &[String]) {
+/// Notes what is odd about a network, at the first element or node that each is about.
+pub(crate) fn note_warnings(reading: &Reading<'_>, warnings: &[NetworkWarning]) {
     let entries = Entries::of(reading);
-    for message in warnings {
-        let entry = message.split('`').skip(1).step_by(2).find_map(|name| entries.named(name));
+    for own in warnings {
+        let entry = own.names().into_iter().find_map(|name| entries.named(name));
         let between = entry.and_then(|entry| value_of(entry, "between"));
         let (mut place, mut help) = (entry.map(|entry| entry.key_place), None);
-        if let Some(between) = between.filter(|_| message.contains("looks reversed")) {
+        if let Some(between) = between.filter(|_| matches!(own, NetworkWarning::Reversed { .. })) {
             place = Some(between.place);
             if let Content::List(ends) = &between.value
                 && let [Some(from), Some(to)] = [0, 1].map(|at| ends.get(at).and_then(Item::text))
@@ -55,7 +57,7 @@ pub(crate) fn note_warnings(reading: &Reading<'_>, warnings: &[String]) {
                 help = Some(format!("write [\"{to}\", \"{from}\"]"));
             }
         }
-        reading.faults.warning(place, Fault::Odd { message: message.clone(), help });
+        reading.faults.warning(place, Fault::Odd { message: own.to_string(), help });
     }
 }
 

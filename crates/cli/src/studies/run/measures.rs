@@ -227,11 +227,11 @@ fn error(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
 pub(super) fn notes(answer: &Answer) -> Vec<String> {
     let mut notes: Vec<(String, Vec<&str>)> = Vec::new();
     for measure in answer.runs.iter().flat_map(|run| &run.measures) {
-        let Some(note) = &measure.note else { continue };
-        match notes.iter_mut().find(|(known, _)| known == note) {
+        let Some(note) = measure.note() else { continue };
+        match notes.iter_mut().find(|(known, _)| *known == note) {
             Some((_, keys)) if keys.contains(&measure.key.as_str()) => {}
             Some((_, keys)) => keys.push(&measure.key),
-            None => notes.push((note.clone(), vec![&measure.key])),
+            None => notes.push((note, vec![&measure.key])),
         }
     }
     notes.into_iter().map(|(note, keys)| format!("{}: {note}", keys.join(", "))).collect()

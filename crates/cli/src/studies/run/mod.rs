@@ -20,7 +20,7 @@ use std::{
 };
 
 use dashpot_analysis::{
-    Accuracy, Difference, RunError, RunReport, SolveSettings, differences, solve_partial,
+    Accuracy, Difference, RunError, RunReport, SolveSettings, Warning, differences, solve_partial,
 };
 use dashpot_plot::figures::{Figure, ForceTime};
 use dashpot_scene::Scene;
@@ -82,20 +82,24 @@ impl Answer {
 
     /// All warnings, the most important first; those that not every run gives name their methods.
     pub(super) fn warnings(&self) -> Vec<String> {
-        let mut said: Vec<(&str, Vec<&str>)> = Vec::new();
-        let mut places = HashMap::new();
+        self.told(|_| true)
+    }
+
+    fn told(&self, is_meant: impl Fn(&Warning) -> bool) -> Vec<String> {
+        let mut said: Vec<(String, Vec<&str>)> = Vec::new();
+        let mut places: HashMap<String, usize> = HashMap::new();
         for run in &self.runs {
-            for warning in &run.warnings {
-                let place = *places.entry(warning.as_str()).or_insert_with(|| {
-                    said.push((warning.as_str(), Vec::new()));
+            for warning in run.warnings.iter().filter(|own| is_meant(own)).map(Warning::to_string) {
+                let place = *places.entry(warning).or_insert_with_key(|warning| {
+                    said.push((warning.clone(), Vec::new()));
                     said.len() - 1
                 });
                 said[place].1.push(run.solver.method);
             }
         }
-        let text = |(warning, methods): (&str, Vec<&str>)| {
+        let text = |(warning, methods): (String, Vec<&str>)| {
             if methods.len() == self.runs.len() {
-                warning.to_owned()
+                warning
             } else {
                 format!("{}: {warning}", methods.join(", "))
             }
@@ -119,7 +123,7 @@ impl Answer {
     /// The warnings but those that the scene's own text has brought already.
     fn new_warnings(&self) -> Vec<String> {
         let known = &self.scene.assembly.warnings;
-        self.warnings().into_iter().filter(|warning| !known.contains(warning)).collect()
+        self.told(|warning| !matches!(warning, Warning::Network(own) if known.contains(own)))
     }
 }
 

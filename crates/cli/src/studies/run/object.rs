@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use dashpot_analysis::{
-    Ledger, MeasureReport, Partial, RunReport, SolveSettings,
+    Ledger, MeasureReport, Note, Partial, RunReport, SolveSettings, Warning,
     partial::{PutBack, Why},
 };
 use dashpot_network::parameters::{Dimension, ModelValue, Value};
@@ -63,7 +63,8 @@ fn run(report: &RunReport, elapsed: Duration) -> impl Serialize {
         events: &report.events,
         partial: report.partial.as_ref().map(partial),
         segmentation: &report.segmentation,
-        warnings: &report.warnings,
+        warnings: list(report.warnings.iter().map(Warning::to_string)),
+        warning_codes: list(report.warnings.iter().map(Warning::code)),
     }
 }
 
@@ -170,8 +171,9 @@ impl Serialize for Measure<'_> {
         map.serialize_entry("time", &measure.time)?;
         map.serialize_entry("window", &measure.window.map(|(from, to)| [from, to]))?;
         map.serialize_entry("error", &measure.error)?;
-        if let Some(note) = &measure.note {
-            map.serialize_entry("note", note)?;
+        if let Some(note) = measure.note() {
+            map.serialize_entry("note", &note)?;
+            map.serialize_entry("note_codes", &list(measure.notes.iter().map(Note::code)))?;
         }
         for (name, value) in &measure.parameters {
             match value {

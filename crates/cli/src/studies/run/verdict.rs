@@ -1,7 +1,7 @@
 //! The answer in a few lines.
 
 use dashpot_analysis::{
-    Contact, ContactReport, MeasureReport, RunReport,
+    Contact, ContactReport, MeasureReport, Note, RunReport,
     measures::{Hic, Hic15, Hic36, STANDARD_GRAVITY, SeverityIndex},
     verdict::{Absorbed, Ending, Opened, Peak, Reached, Verdict, WholeForce},
 };
@@ -103,9 +103,10 @@ impl Words<'_> {
         let time = measure.time.filter(|_| !self.zeros.has(measure));
         let time = time.map(|time| format!(" at {}", quantity(time, "s", TIME_DIGITS)));
         // Which way it points, as in `in tension`; other notes stand below the table.
-        let note = measure.note.as_ref().filter(|note| note.starts_with("in "));
-        let note = note.map(|note| format!(" ({note})"));
-        let (time, note) = (time.unwrap_or_default(), note.unwrap_or_default());
+        let notes: Vec<Note> = measure.notes.iter().filter(|own| own.is_place()).cloned().collect();
+        let note =
+            if notes.is_empty() { String::new() } else { format!(" ({})", Note::joined(&notes)) };
+        let time = time.unwrap_or_default();
         let so_far = if is_so_far { SO_FAR } else { "" };
         format!("{word}{}{time}{so_far}{note}", measure.target)
     }

@@ -186,7 +186,9 @@ impl Study for Swept {
                 measure: own.column.map(|at| &report.columns[at].key),
                 reason: &own.reason,
             })),
-            warnings: &report.warnings,
+            warnings: list(report.warnings.iter().map(|own| object! {
+                text: own.warning.to_string(), code: own.warning.code(), points: &own.points,
+            })),
             left_out: report.partial.as_ref().map(|own| object! {
                 bound: own.bound,
                 effects: list(own.left_out.iter().map(|own| &own.effect)),

@@ -1,6 +1,9 @@
 //! How a sweep was solved, and what is to be said of its points.
 
-use dashpot_analysis::sweep::{PartialOfSweep, SweepReport, SweepWarning};
+use dashpot_analysis::{
+    Warning,
+    sweep::{PartialOfSweep, SweepReport, SweepWarning},
+};
 
 use super::{Swept, words::name};
 use crate::numbers::{apart, bound, duration, estimate};
@@ -53,9 +56,11 @@ fn warnings(swept: &Swept, report: &SweepReport, points: usize) -> Vec<String> {
         } else {
             format!("at {} of {points} points", own.points.len())
         };
-        format!("warning {}, {of}, first at {first}: {}", at + 1, own.text)
+        format!("warning {}, {of}, first at {first}: {}", at + 1, own.warning)
     };
-    let new = report.warnings.iter().enumerate().filter(|own| !known.contains(&own.1.text));
+    let is_known =
+        |own: &SweepWarning| matches!(&own.warning, Warning::Network(own) if known.contains(own));
+    let new = report.warnings.iter().enumerate().filter(|own| !is_known(own.1));
     let mut all: Vec<String> = new.map(told).collect();
     let more = all.len().saturating_sub(MOST_WARNED);
     all.truncate(MOST_WARNED);
