@@ -4,9 +4,8 @@ use std::{fs, sync::Arc};
 
 use dashpot::{
     analysis::{
-        Choice, RunError, SolveSettings,
-        cost::{CostReport, Ladder, cost_assembly},
-        solve_assembly,
+        Choice, RunError, SolveSettings, solve_assembly,
+        work_precision::{CostReport, Ladder, work_precision_assembly},
     },
     dae::{Silent, SolveError},
     scene::{ReadOptions, Scene, read},
@@ -28,7 +27,8 @@ fn cost(scene: &Scene, methods: &[&str], rtols: &[f64]) -> CostReport {
         ..Ladder::default()
     };
     let assembly = Arc::new(scene.assembly.clone());
-    cost_assembly(&assembly, &scene.settings("auto").unwrap(), &ladder, &mut Silent).unwrap()
+    work_precision_assembly(&assembly, &scene.settings("auto").unwrap(), &ladder, &mut Silent)
+        .unwrap()
 }
 
 #[test]

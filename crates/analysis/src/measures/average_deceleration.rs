@@ -6,7 +6,7 @@ use super::{
     Family, MeasureKind, Needs, Reading, WINDOW,
     reading::{infinite, integral, with_blows},
 };
-use crate::{Note, Solution, blows};
+use crate::{Note, Solution, impact::impulses};
 
 parameters! {
     /// The magnitude of the mean of what an accelerometer on a body reads, `|∫ a dt| / T` \[m/s²\]:
@@ -39,7 +39,7 @@ impl MeasureKind for AverageDeceleration {
             let none = || Reading::undefined(Note::NoLength);
             return infinite(&span, &blows).unwrap_or_else(none);
         }
-        let blows = blows::within(&blows, span.window());
+        let blows = impulses::within(&blows, span.window());
         let mass = solution.body_mass(target);
         let jump: f64 = blows.iter().map(|own| own.impulse / mass).sum();
         let jumps: f64 = blows.iter().map(|own| own.impulse.abs() / mass).sum();

@@ -7,7 +7,7 @@ use dashpot_network::{parameters, parameters::WindowWish};
 use super::{Family, Measure, MeasureKind, Needs, Reading, WINDOW};
 use crate::{
     Note, Solution,
-    exceedance::{Counted, Exceedance},
+    measures::exceedance::{Counted, Exceedance},
     similarity::Scale,
 };
 

@@ -5,7 +5,10 @@ use std::borrow::Cow;
 use dashpot_network::{NodeId, parameters, parameters::WindowWish};
 
 use super::{Family, MeasureKind, Reading, reading::end_value};
-use crate::{Note, Solution, blows, impact::Contact};
+use crate::{
+    Note, Solution,
+    impact::{impulses, interval::Contact},
+};
 
 parameters! {
     /// The speed at which an element's ends part at release over that at which they met,
@@ -48,7 +51,7 @@ impl MeasureKind for CoefficientOfRestitution {
         };
         let touch = face.map_or(target, |face| face.connection);
         let blows = solution.element_blows(touch);
-        let is_struck = |time: f64| !blows::within(blows, (time, time)).is_empty();
+        let is_struck = |time: f64| !impulses::within(blows, (time, time)).is_empty();
         let ends = face.map_or(connection.between.map(NodeId::index), |face| face.ends);
         let meeting = if is_struck(span.from) && span.from <= 0.0 {
             solution.start_approach(ends)

@@ -3,7 +3,7 @@
 use dashpot_network::parameters;
 
 use super::{Family, MeasureKind, Reading};
-use crate::{Note, Solution, impact::Contact};
+use crate::{Note, Solution, impact::interval::Contact};
 
 /// Part of a time within which the end of a run is at that time.
 const AT_ONCE: f64 = 1e-9;

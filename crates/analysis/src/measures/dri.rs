@@ -5,7 +5,7 @@ use dashpot_network::{parameters, parameters::WindowWish};
 use super::{Family, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WHOLE_RUN};
 use crate::{
     Solution,
-    driven::{Oscillator, largest_deformation},
+    impact::driven::{Oscillator, largest_deformation},
     similarity::Scale,
 };
 

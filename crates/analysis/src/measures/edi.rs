@@ -12,7 +12,7 @@ use dashpot_rheology::Tree;
 use super::{Family, MeasureKind, Needs, Reading, WHOLE_RUN};
 use crate::{
     Note, Solution,
-    driven::{Oscillator, largest_deformation},
+    impact::driven::{Oscillator, largest_deformation},
 };
 
 parameters! {

@@ -3,7 +3,7 @@
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{Family, MeasureKind, Reading, WINDOW, reading::end_value};
-use crate::{Note, Solution, blows};
+use crate::{Note, Solution, impact::impulses};
 
 parameters! {
     /// A node's velocity at the end of the window, `v(t_end)` \[m/s\], positive towards the support:
@@ -33,7 +33,7 @@ impl MeasureKind for EndVelocity {
         let velocity = solution.signal(velocity);
         let reading = end_value(velocity, &span);
         // What jumps at the end has jumped.
-        let reading = match blows::within(&solution.node_blows(target), (span.to, span.to)) {
+        let reading = match impulses::within(&solution.node_blows(target), (span.to, span.to)) {
             [] => reading,
             _ => Reading { value: Some(velocity.value(span.to)), ..reading },
         };

@@ -7,7 +7,7 @@ use dashpot_network::{parameters, parameters::WindowWish};
 use super::{
     Family, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW, reading::infinite,
 };
-use crate::{Note, Solution, hic_search::optimum, similarity::Scale};
+use crate::{Note, Solution, measures::hic_search::optimum, similarity::Scale};
 
 parameters! {
     /// The head injury criterion of what an accelerometer on a body reads,

@@ -6,7 +6,7 @@ use super::{
     Family, MeasureKind, Reading, WINDOW,
     reading::{integral, with_blows},
 };
-use crate::{Note, Solution, blows};
+use crate::{Note, Solution, impact::impulses};
 
 parameters! {
     /// The integral of an element's force over time, `∫ F dt` \[N s\], positive in compression, and the
@@ -32,7 +32,7 @@ impl MeasureKind for Impulse {
             Ok(span) => span,
             Err(note) => return Reading::undefined(note),
         };
-        let blows = blows::within(solution.element_blows(target), span.window());
+        let blows = impulses::within(solution.element_blows(target), span.window());
         let sum: f64 = blows.iter().map(|own| own.impulse).sum();
         // An impulse is the lighter side's mass times no more than twice the speed of approach.
         let mass = connection.between.map(|end| {

@@ -1,5 +1,9 @@
 //! The register of measures: scalars read off a continuous solution, never off samples.
 
+pub(crate) mod exceedance;
+pub(crate) mod hic_search;
+pub(crate) mod selection;
+
 mod average_deceleration;
 mod clip;
 mod coefficient_of_restitution;

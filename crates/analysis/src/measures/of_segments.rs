@@ -6,7 +6,7 @@ use super::{
     Reading,
     reading::{peak, peaks_below_zero},
 };
-use crate::{Note, Solution, impact::Span};
+use crate::{Note, Solution, impact::interval::Span};
 
 /// The largest magnitude over `segments` of an output over a size, with the layer where it occurs.
 /// A peak of a negative value is noted with the word for it. `None` without segments.

@@ -3,7 +3,7 @@
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{Family, MeasureKind, Reading, WINDOW, reading::peak};
-use crate::{Solution, blows};
+use crate::{Solution, impact::impulses};
 
 parameters! {
     /// The largest magnitude of an element's deformation rate, `max |ẏ(t)|` \[m/s\], with its time.
@@ -26,7 +26,7 @@ impl MeasureKind for PeakRate {
         let connection = &solution.assembly().connections[target];
         let reading = peak(&solution.rate_of(connection), &span);
         // At a jump the rates on both sides count, also that before the span.
-        let blows = blows::within(solution.element_blows(target), (span.from, span.from));
+        let blows = impulses::within(solution.element_blows(target), (span.from, span.from));
         let before =
             blows.first().map_or(0.0, |own| solution.approach_before(connection, own.time).abs());
         if reading.value.is_none_or(|value| value >= before) {

@@ -5,10 +5,14 @@ use dashpot_network::{ConnectionOutputs, PrimitiveOutputs};
 
 use crate::{
     Note, Solution,
-    accounts::{self, Accounts},
-    blows::{self, Blow},
-    impact::Span,
-    ledger,
+    energy::{
+        ledger,
+        roles::{self, Accounts},
+    },
+    impact::{
+        impulses::{self, Blow},
+        interval::Span,
+    },
 };
 
 /// A number read off a solution.
@@ -97,7 +101,7 @@ impl Reading {
 
 /// No value, where masses meet within the span so that what is measured is infinite there.
 pub(crate) fn infinite(span: &Span, blows: &[Blow]) -> Option<Reading> {
-    let first = blows::within(blows, span.window()).first()?;
+    let first = impulses::within(blows, span.window()).first()?;
     let reading = Reading { value: None, size: 0.0, ..Reading::over(span, 0.0, None) };
     Some(reading.at(first.time).noting(Note::Infinite(first.time)))
 }
@@ -202,7 +206,7 @@ pub(crate) fn work(solution: &Solution<'_>, target: usize, span: &Span) -> Readi
     };
     let area = |signal: &Signal| signal.area_bound(window);
     let noise = force.noise * area(&rate) + rate.noise * area(force);
-    let blows = blows::within(solution.element_blows(target), window);
+    let blows = impulses::within(solution.element_blows(target), window);
     let lost: f64 = blows.iter().map(|own| own.lost).sum();
     let push: f64 = blows.iter().map(|own| own.impulse).sum();
     // What is lost changes with the speeds by no more than the impulse.
@@ -249,7 +253,7 @@ fn work_of_parts(
             }
         } else if own.stores {
             let deformation = solution.glance(primitive.deformation);
-            let stored = |time, y| accounts::stored(solution.run(), primitive, time, y);
+            let stored = |time, y| roles::stored(solution.run(), primitive, time, y);
             let (from, to) = (deformation.value(window.0), deformation.left_value(window.1));
             work += stored(window.1, to) - stored(window.0, from);
             let at = |y: f64, error: f64| {

@@ -6,7 +6,7 @@ use super::{
     Family, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
     reading::{infinite, with_blows},
 };
-use crate::{Note, Solution, blows};
+use crate::{Note, Solution, impact::impulses};
 
 parameters! {
     /// Gadd's severity index, `SI = ∫ (|a|/g0)^n dt` \[s\], of what an accelerometer on a body reads.
@@ -75,7 +75,7 @@ impl MeasureKind for SeverityIndex {
             return reading;
         }
         let unit = solution.body_mass(target) * STANDARD_GRAVITY;
-        let blows = blows::within(&blows, span.window());
+        let blows = impulses::within(&blows, span.window());
         let jumps = blows.iter().map(|own| own.impulse.abs() / unit).sum();
         let error = solution.velocity_error(target).map(|error| 2.0 * error / STANDARD_GRAVITY);
         let error = error.map(|each| blows.iter().map(|_| each).sum());

@@ -7,7 +7,7 @@ use super::{
     Family, MeasureKind, Reading, WINDOW,
     reading::{infinite, peak, peaks_below_zero},
 };
-use crate::{Note, Solution, bearing::on_support};
+use crate::{Note, Solution, impact::support::on_support};
 
 parameters! {
     /// The largest magnitude of the force of a padding on what lies behind it, `max |F(t)|` \[N\], with

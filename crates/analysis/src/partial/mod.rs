@@ -11,6 +11,9 @@
 //! A single run becomes no cheaper by this: it takes two solutions or more in place of one. A
 //! [`sweep`] is checked at some of its points only.
 
+pub mod contribution;
+pub(crate) mod segmentation;
+
 mod candidates;
 mod cost;
 mod sweep;
@@ -34,7 +37,7 @@ pub use self::{
     cost::Cost,
     sweep::{PartialSweep, Saving, sweep},
 };
-use crate::{RunError, RunReport, SolveSettings, segmentation, solve_assembly};
+use crate::{RunError, RunReport, SolveSettings, solve_assembly};
 
 /// What was left out of a run, and what it cost.
 #[derive(Debug, Clone, PartialEq)]

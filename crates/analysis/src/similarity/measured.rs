@@ -5,8 +5,8 @@ use dashpot_network::{Network, parameters::Dimension};
 
 use super::{Scale, Similarity, inventory::with_value};
 use crate::{
-    MeasureReport, MeasureWish, RunError, RunReport, SolveSettings, Stop, difference::over,
-    selection::select, solve,
+    MeasureReport, MeasureWish, RunError, RunReport, SolveSettings, Stop,
+    measures::selection::select, report::difference::over, solve,
 };
 
 /// Differences below this part of a measure's size are those of rounding.

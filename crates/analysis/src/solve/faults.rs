@@ -8,7 +8,7 @@ use dashpot_network::{
 };
 
 use super::*;
-use crate::attempts::none_gets_through;
+use crate::solve::attempts::none_gets_through;
 use crate::{Place, Warning};
 
 /// The exact method, but for one output.

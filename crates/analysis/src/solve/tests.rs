@@ -348,7 +348,7 @@ fn series_ends_with_the_ledger() {
     let report = solve(&reference(10e3), &SolveSettings::lasting(0.02), &mut Silent).unwrap();
     let solution = report.solution();
     let times = crate::regular_times(solution.end(), 41);
-    let series = crate::ledger::energy_series(&solution, &times);
+    let series = crate::energy::ledger::energy_series(&solution, &times);
     let (kinetic, stored, dissipated) =
         (series.kinetic[40], series.stored[40], series.dissipated[40]);
     same(kinetic, report.energy.kinetic, 1e-9);

@@ -7,8 +7,10 @@ use dashpot_network::parameters::{Kind as _, registered};
 use super::{Column, Posed, SweepError};
 use crate::{
     MeasureWish, RunError,
-    measures::{Family, MEASURES, Measure, PeakDeformation},
-    selection::{Selected, select},
+    measures::{
+        Family, MEASURES, Measure, PeakDeformation,
+        selection::{Selected, select},
+    },
 };
 
 /// The measure of this word with its parameters as they are by default.

@@ -12,9 +12,11 @@ use super::{
     warned::Notice,
 };
 use crate::{
-    measures::STANDARD_GRAVITY,
-    selection::{Selected, select},
-    warnings::ROUNDING,
+    measures::{
+        STANDARD_GRAVITY,
+        selection::{Selected, select},
+    },
+    report::warnings::ROUNDING,
 };
 
 /// A value that is less certain than this part of itself is left to the full solution.

@@ -7,7 +7,7 @@ use dashpot_network::{
     part,
 };
 
-use crate::{Solution, SolveSettings, ledger::ledger, solve};
+use crate::{Solution, SolveSettings, energy::ledger::ledger, solve};
 
 /// Masses in a row, the last of which moves.
 fn row(count: usize) -> Network {

@@ -1,6 +1,6 @@
 //! What `cost` draws, and what it writes into a folder.
 
-use dashpot_analysis::cost::{CostPoint, CostReport, Deviation};
+use dashpot_analysis::work_precision::{CostPoint, CostReport, Deviation};
 use dashpot_plot::{PrecisionCurve, PrecisionSeries, Report, ReportFigure, Table};
 
 use super::{

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use dashpot_analysis::{
     Choice, RunError,
-    cost::{CostReport, Ladder, Subject, cost_assembly},
+    work_precision::{CostReport, Ladder, Subject, work_precision_assembly},
 };
 use dashpot_scene::Scene;
 use serde::Serialize;
@@ -52,7 +52,8 @@ pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Stat
     let mut settings = scene.settings("auto")?;
     settings.budget = arguments.budget.unwrap_or(settings.budget);
     let mut bar = Bar::new("cost", settings.duration, terminal.error.attended);
-    let report = cost_assembly(&assembly, &settings, &ladder(&scene, arguments)?, &mut bar)?;
+    let report =
+        work_precision_assembly(&assembly, &settings, &ladder(&scene, arguments)?, &mut bar)?;
     drop(bar);
     let accuracies = accuracies(scene.accuracy.default);
     let costs = Costs { scene, report, accuracies };

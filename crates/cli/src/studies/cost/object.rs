@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use dashpot_analysis::cost::{CostPoint, CostReport, Subject};
+use dashpot_analysis::work_precision::{CostPoint, CostReport, Subject};
 use serde::Serialize;
 
 use super::{Costs, subject};

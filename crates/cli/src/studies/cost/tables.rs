@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use dashpot_analysis::cost::{
+use dashpot_analysis::work_precision::{
     CostPoint, CostReport, Deviation, Spread, Subject, Timing, TrueMeasure,
 };
 use dashpot_plot::Table;

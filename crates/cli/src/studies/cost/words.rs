@@ -1,6 +1,6 @@
 //! What is to be said in sentences.
 
-use dashpot_analysis::cost::{CostFailure, CostReport, Slip, Subject};
+use dashpot_analysis::work_precision::{CostFailure, CostReport, Slip, Subject};
 
 use super::{
     subject,

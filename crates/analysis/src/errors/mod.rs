@@ -1,0 +1,8 @@
+//! How wrong a number is, and as many solutions as it takes to know.
+
+pub(crate) mod accuracy;
+pub(crate) mod magnitude;
+pub(crate) mod refinement;
+pub(crate) mod run_end;
+pub(crate) mod solved;
+pub(crate) mod undecided_release;

@@ -1,0 +1,133 @@
+//! One solution of a run, with its measures.
+
+use std::collections::BTreeSet;
+
+use dashpot_dae::{Method, Observer, Progress, Run, SolveError, Trajectory, switching};
+use dashpot_network::Assembly;
+
+use crate::{
+    Ledger, Reading, Solution, SolveSettings,
+    energy::ledger::ledger,
+    measures::selection::Selected,
+    solution::{Known, doubt_at},
+    solve::large::keep_also,
+};
+
+/// Work of reading a panel of a signal.
+const READING: u64 = 48;
+
+/// What is to be solved, and how.
+#[derive(Clone, Copy)]
+pub(crate) struct Task<'a> {
+    pub(crate) assembly: &'a Assembly,
+    pub(crate) settings: &'a SolveSettings,
+    pub(crate) selected: &'a [Selected],
+    pub(crate) method: &'a dyn Method,
+}
+
+/// A solution with the measures read off it.
+pub(crate) struct Solved {
+    pub(crate) rtol: f64,
+    /// Part of the largest contact force below which a pull counts as an error of the method.
+    pub(crate) doubt: f64,
+    /// The most that a contact pulls with, in parts of what it pushes with.
+    pub(crate) tension: f64,
+    /// How deep each contact force first pulls.
+    pub(crate) pulls: Vec<Option<f64>>,
+    pub(crate) trajectory: Trajectory,
+    pub(crate) readings: Vec<Reading>,
+    pub(crate) energy: Ledger,
+    /// What the measures have found, where there are no further solutions: signals take much memory.
+    pub(crate) known: Option<Known>,
+}
+
+impl Solved {
+    /// The solution as the measures have been read off it.
+    pub(crate) fn as_read<'a>(&'a self, assembly: &'a Assembly) -> Solution<'a> {
+        Solution::new(assembly, &self.trajectory).doubting(self.doubt)
+    }
+
+    /// What it tells of errors.
+    pub(crate) fn told(&self) -> (f64, &[Reading]) {
+        (self.rtol, &self.readings)
+    }
+}
+
+impl Task<'_> {
+    /// Whether there is one solution only.
+    pub(crate) fn is_single(&self) -> bool {
+        self.method.is_exact() || !self.settings.estimate
+    }
+
+    /// A solution with its measures. Where only a part of it is kept, and that turns out not to be all
+    /// that is asked for, it is made again.
+    pub(crate) fn solve(
+        &self,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<Solved, SolveError> {
+        let mut run = run.clone();
+        loop {
+            let (solved, missing) = self.attempt(&run, observer)?;
+            if missing.is_empty() {
+                return Ok(solved);
+            }
+            run.keep = keep_also(&run.keep, &missing);
+        }
+    }
+
+    /// A solution, and the outputs that were asked for but not kept.
+    fn attempt(
+        &self,
+        run: &Run,
+        observer: &mut dyn Observer,
+    ) -> Result<(Solved, BTreeSet<usize>), SolveError> {
+        let trajectory = match &self.assembly.switching {
+            None => self.method.integrate(&self.assembly.system, run, observer)?,
+            Some(phased) => switching::integrate(self.method, phased.as_ref(), run, observer)?,
+        };
+        let doubt = doubt_at((!self.method.is_exact()).then_some(run.rtol));
+        let mut solution = Solution::new(self.assembly, &trajectory).doubting(doubt);
+        let readings = self.read_under(&mut solution, observer)?;
+        let pulls = if doubt > 0.0 { solution.first_pulls() } else { Vec::new() };
+        let tension = if doubt > 0.0 { solution.tension() } else { None };
+        let tension = tension.map_or(0.0, |own| own.part);
+        let energy = ledger(&solution, solution.end());
+        run.budget.charge(solution.panels() * READING);
+        if self.method.is_exact() && run.budget.is_spent() {
+            // Its signals are not followed any more.
+            let (method, time, work) = (self.method.name(), trajectory.t_end, run.budget.done());
+            return Err(SolveError::BudgetSpent { method, time, work });
+        }
+        let missing = solution.missing();
+        let known = Some(solution.known()).filter(|_| self.is_single());
+        let rtol = run.rtol;
+        Ok((Solved { rtol, doubt, tension, pulls, trajectory, readings, energy, known }, missing))
+    }
+
+    /// The measures of a solution, whose signals may not be made before. The observer is told of each.
+    fn read_under(
+        &self,
+        solution: &mut Solution<'_>,
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<Reading>, SolveError> {
+        let trajectory = solution.trajectory();
+        let (time, steps) = (trajectory.t_end, trajectory.statistics.accepted);
+        let mut read = |entry: &Selected| {
+            let reading = entry.measure.read(solution, entry.target);
+            solution.make_room();
+            let is_over = observer.progress(Progress { time, steps }).is_break();
+            if is_over { Err(SolveError::Cancelled { time }) } else { Ok(reading) }
+        };
+        self.selected.iter().map(&mut read).collect()
+    }
+
+    pub(crate) fn read(&self, solution: &mut Solution<'_>) -> Vec<Reading> {
+        let mut read = |entry: &Selected| {
+            let reading = entry.measure.read(solution, entry.target);
+            solution.make_room();
+            reading
+        };
+        self.selected.iter().map(&mut read).collect()
+    }
+}

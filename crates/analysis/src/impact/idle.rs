@@ -1,0 +1,228 @@
+//! Times over which the force of a slider follows from nothing.
+
+use std::fmt;
+
+use dashpot_network::parameters::Kind as _;
+use dashpot_network::{
+    ConnectionOutputs, IdleSlider, PrimitiveOutputs, parameters::WindowWish, phases::Phase,
+};
+
+use crate::{
+    MeasureReport, Note, Solution,
+    measures::{Impulse, PeakForce},
+    report::wording::quantity,
+};
+
+/// A time over which a slider is held by others while it slides neither way. Its force may be anything
+/// that it can hold, and what holds it bears the rest; the motion does not depend on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Idle {
+    /// When it begins \[s\].
+    pub from: f64,
+    /// When it ends \[s\].
+    pub to: f64,
+    /// The slider, and what holds it.
+    pub slider: IdleSlider,
+}
+
+impl fmt::Display for Idle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "from {} to {} the force of the slider `{}` is not determined: `{}` holds its ends, and it \
+             slides neither way; it is taken to keep the force that it had",
+            quantity(self.from, "s"),
+            quantity(self.to, "s"),
+            self.slider.sliders.first().map_or("", String::as_str),
+            self.slider.held_by.join("`, `"),
+        )
+    }
+}
+
+/// All such times, slider by slider in order of time.
+pub(crate) fn idle_times(solution: &Solution<'_>) -> Vec<Idle> {
+    let (assembly, trajectory) = (solution.assembly(), solution.trajectory());
+    let has_sliders = || {
+        assembly
+            .primitives
+            .iter()
+            .any(|own| own.element.phases().is_some_and(|own| own.capacity().is_some()))
+    };
+    let Some(network) = assembly.switching.as_ref().filter(|_| has_sliders()) else {
+        return Vec::new();
+    };
+    let first = trajectory.first_phases.iter();
+    let mut phases: Vec<Phase> = first.map(|&(index, memory)| Phase { index, memory }).collect();
+    let (mut found, mut from): (Vec<Idle>, f64) = (Vec::new(), 0.0);
+    let mut add = |phases: &[Phase], from: f64, to: f64| {
+        if to <= from {
+            return;
+        }
+        for slider in network.idle_sliders(phases) {
+            match found.iter_mut().find(|own| own.to >= from && own.slider == slider) {
+                Some(own) => own.to = to,
+                None => found.push(Idle { from, to, slider }),
+            }
+        }
+    };
+    for switch in &trajectory.switches {
+        add(&phases, from, switch.time);
+        from = switch.time;
+        if let Some(phase) = phases.get_mut(switch.part) {
+            *phase = Phase { index: switch.phase, memory: switch.memory };
+        }
+    }
+    add(&phases, from, solution.end());
+    found
+}
+
+/// The report on a measure of a force, which is not determined where it hangs on that of an idle slider.
+pub(crate) fn without_idle_forces(
+    report: MeasureReport,
+    solution: &Solution<'_>,
+    times: &[Idle],
+) -> MeasureReport {
+    let is_of_force = [PeakForce::KIND, Impulse::KIND].contains(&report.kind);
+    if times.is_empty() || !is_of_force || report.value.is_none() {
+        return report;
+    }
+    let connections = &solution.assembly().connections;
+    let Some(at) = connections.iter().position(|own| own.name == report.target) else {
+        return report;
+    };
+    let impact = solution.element_impact(at);
+    let window = report.window.unwrap_or(match report.window_wish {
+        Some(WindowWish::Impact) => (impact.start, impact.end),
+        Some(WindowWish::Times(from, to)) => (from, to),
+        _ => (0.0, solution.end()),
+    });
+    let hangs = times.iter().find(|own| {
+        let span = (own.from.max(window.0), own.to.min(window.1));
+        span.0 < span.1 && own.changes(&report, solution, &connections[at], span)
+    });
+    let Some(idle) = hangs else { return report };
+    report.undetermined(Note::IdleSlider(idle.from, idle.to))
+}
+
+impl Idle {
+    /// Whether another force of the slider within a span of time \[s\] would change what is measured in
+    /// an element.
+    fn changes(
+        &self,
+        report: &MeasureReport,
+        solution: &Solution<'_>,
+        element: &ConnectionOutputs,
+        span: (f64, f64),
+    ) -> bool {
+        let Some(force) = element.force else { return false };
+        let own = &solution.assembly().primitives[element.primitives.clone()];
+        let has = |paths: &[String]| own.iter().any(|own| paths.contains(&own.name));
+        let holds = has(&self.slider.held_by);
+        if !holds && !has(&self.slider.sliders) {
+            return false;
+        }
+        let Some(peak) = report.value.filter(|_| report.kind == PeakForce::KIND) else {
+            return true;
+        };
+        if !solution.keeps(force) {
+            return true;
+        }
+        let force = solution.signal(force);
+        let (least, most) = (force.minimum(span).value, force.maximum(span).value);
+        let bound = if holds {
+            let other = self.taken(solution, &solution.assembly().primitives).abs();
+            least.abs().max(most.abs()) + 2.0 * other
+        } else {
+            let slides = self.taken(solution, own);
+            let turned = |own: f64| (own - 2.0 * slides).abs();
+            least.abs().max(most.abs()).max(turned(least)).max(turned(most))
+        };
+        let is_within = report.time.is_some_and(|time| span.0 < time && time < span.1);
+        is_within || bound > peak.abs()
+    }
+
+    /// The force \[N\] that those of these parts which are idle are taken to have.
+    fn taken(&self, solution: &Solution<'_>, parts: &[PrimitiveOutputs]) -> f64 {
+        let idle = parts.iter().filter(|own| self.slider.sliders.contains(&own.name));
+        let idle = idle.filter(|own| solution.keeps(own.force));
+        idle.map(|own| solution.signal(own.force).value(0.5 * (self.from + self.to))).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dashpot_dae::{Silent, Waveform};
+    use dashpot_network::{
+        Model, Network, Node,
+        elements::{Contact, Friction, Spring},
+        part,
+    };
+
+    use super::*;
+    use crate::{RunReport, SolveSettings, Warning, solve};
+
+    fn solved(network: &Network, method: &str) -> RunReport {
+        solve(network, &SolveSettings::lasting(2.0).by_name(method).unwrap(), &mut Silent).unwrap()
+    }
+
+    /// A mass that a force presses onto a stop, beside a spring and a slider.
+    fn pressed(stops: bool) -> Network {
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", 1.0).moving(2.0));
+        let ground = network.ground();
+        let own =
+            Model::parallel([part(Spring { stiffness: 100.0 }), part(Friction { force: 3.0 })]);
+        network.connect("pad", head, ground, own);
+        if stops {
+            network.connect("stop", head, ground, part(Contact { gap: 0.1, restitution: 0.0 }));
+        }
+        network.add_load("press", head, Waveform::constant(50.0));
+        network
+    }
+
+    #[test]
+    fn the_force_of_a_slider_beside_a_closed_stop_is_not_determined() {
+        for method in ["exact", "bdf"] {
+            let report = solved(&pressed(true), method);
+            let times = idle_times(&report.solution());
+            let [own] = &times[..] else { panic!("{times:?}") };
+            // x = 0.47 - 0.47 cos 10 t + 0.2 sin 10 t, up to 0.1.
+            let size = 0.47_f64.hypot(0.2);
+            let arrives = 0.1 * ((0.37 / size).acos() - 0.2_f64.atan2(0.47));
+            assert!((own.from - arrives).abs() < 1e-4, "{own}, not {arrives}");
+            assert!((own.to - 2.0).abs() < 1e-12, "{own:?}");
+            assert!(own.slider.held_by[0].starts_with("stop"), "{own}");
+            assert!(
+                report.warnings.contains(&Warning::IdleSlider(own.clone())),
+                "{:?}",
+                report.warnings
+            );
+            assert!(report.measure("pad.impulse").unwrap().is_undetermined);
+            assert!(report.measure("stop.impulse").unwrap().is_undetermined);
+            assert!(report.measure("pad.peak-deformation").unwrap().value.is_some());
+        }
+        let free = solved(&pressed(false), "exact");
+        assert_eq!(idle_times(&free.solution()), []);
+        assert!(free.measure("pad.impulse").unwrap().value.is_some());
+    }
+
+    #[test]
+    fn three_sliders_between_three_bodies_brake_and_then_hold() {
+        for method in ["exact", "bdf"] {
+            let mut network = Network::new();
+            let head = network.add_node(Node::mass("head", 1.0).moving(3.0));
+            let panel = network.add_node(Node::mass("panel", 2.0));
+            let ground = network.ground();
+            network.connect("pad", head, panel, part(Friction { force: 1.0 }));
+            network.connect("mount", panel, ground, part(Friction { force: 5.0 }));
+            network.connect("guide", head, ground, part(Friction { force: 2.0 }));
+            let report = solved(&network, method);
+            // 3 N brake 1 kg from 3 m/s in 1 s, and leave the panel where it is.
+            let solution = report.solution();
+            let place = solution.signal(solution.assembly().node("head").unwrap().position);
+            assert!((place.value(2.0) - 1.5).abs() < 1e-3, "{}", place.value(2.0));
+            let times = idle_times(&solution);
+            assert!(times.iter().any(|own| (own.from - 1.0).abs() < 1e-3 && own.to > 1.999));
+        }
+    }
+}

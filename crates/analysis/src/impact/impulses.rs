@@ -1,0 +1,93 @@
+//! Impulses where masses meet: speeds jump there, and forces are infinite for no time.
+
+use std::collections::HashMap;
+
+use dashpot_dae::Trajectory;
+use dashpot_network::Assembly;
+
+use crate::impact::bodies;
+
+/// An impulse at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Blow {
+    /// When \[s\].
+    pub(crate) time: f64,
+    /// Of an element the impulse that pushes its ends apart, on a body that towards the
+    /// support \[N s\].
+    pub(crate) impulse: f64,
+    /// Kinetic energy lost \[J\].
+    pub(crate) lost: f64,
+}
+
+/// Part of the impulses on a body below which their sum is none: what is passed on.
+const PASSED_ON: f64 = 1e-9;
+
+/// The blows of each connection, in order of time; nothing where there are none in all of the run.
+pub(crate) fn by_connection(assembly: &Assembly, trajectory: &Trajectory) -> Vec<Vec<Blow>> {
+    let mut impacts = trajectory.switches.iter().filter(|own| own.impulse > 0.0).peekable();
+    if impacts.peek().is_none() {
+        return Vec::new();
+    }
+    let mut found = vec![Vec::new(); assembly.connections.len()];
+    let mut owner: HashMap<&str, usize> = HashMap::new();
+    for (at, connection) in assembly.connections.iter().enumerate() {
+        for primitive in assembly.primitives.get(connection.primitives.clone()).unwrap_or(&[]) {
+            owner.insert(&primitive.name, at);
+        }
+    }
+    for own in impacts {
+        if let Some(&at) = owner.get(own.name.as_str()) {
+            found[at].push(Blow { time: own.time, impulse: own.impulse, lost: own.lost });
+        }
+    }
+    found
+}
+
+/// The blows on a body that change its speed, in order of time, those of one instant added up.
+pub(crate) fn on_body(assembly: &Assembly, all: &[Vec<Blow>], body: usize) -> Vec<Blow> {
+    let mut signed = Vec::new();
+    for (connection, blows) in assembly.connections.iter().zip(all) {
+        if blows.is_empty() || connection.is_rigid {
+            continue;
+        }
+        let [a, b] = bodies::between(assembly, connection);
+        let sign = match (a == body, b == body) {
+            (true, false) => -1.0,
+            (false, true) => 1.0,
+            _ => continue,
+        };
+        signed.extend(blows.iter().map(|own| Blow { impulse: sign * own.impulse, ..*own }));
+    }
+    signed.sort_by(|one, other| one.time.total_cmp(&other.time));
+    let same = |one: &Blow, other: &Blow| one.time.total_cmp(&other.time).is_eq();
+    let sums = signed.chunk_by(same).filter_map(|blows| {
+        let first = blows.first()?;
+        let impulse: f64 = blows.iter().map(|own| own.impulse).sum();
+        let size: f64 = blows.iter().map(|own| own.impulse.abs()).sum();
+        let lost = blows.iter().map(|own| own.lost).sum();
+        (impulse.abs() > PASSED_ON * size).then_some(Blow { time: first.time, impulse, lost })
+    });
+    sums.collect()
+}
+
+/// Those within a window, both ends included.
+pub(crate) fn within(blows: &[Blow], window: (f64, f64)) -> &[Blow] {
+    let from = blows.partition_point(|own| own.time < window.0);
+    let to = blows.partition_point(|own| own.time <= window.1);
+    blows.get(from..to).unwrap_or(&[])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_include_both_ends() {
+        let blow = |time: f64| Blow { time, impulse: 1.0, lost: 0.0 };
+        let blows = [blow(0.0), blow(1.0), blow(2.0)];
+        assert_eq!(within(&blows, (0.0, 1.0)).len(), 2);
+        assert_eq!(within(&blows, (1.0, 1.0)).len(), 1);
+        assert_eq!(within(&blows, (1.5, 1.0)).len(), 0);
+        assert_eq!(within(&blows, (3.0, 4.0)).len(), 0);
+    }
+}

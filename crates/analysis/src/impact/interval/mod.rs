@@ -1,0 +1,386 @@
+//! The time span of an impact.
+
+use dashpot_dae::{Crossing, Panel, Signal};
+use dashpot_network::parameters::WindowWish;
+
+use crate::{Note, impact::impulses::Blow};
+
+/// How the contact of an impact ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Contact {
+    /// The contact force falls to zero and would turn to tension.
+    Released,
+    /// The contact opens: its force falls to zero and stays there, or the impulse with which masses
+    /// meet parts them again at once.
+    Parted,
+    /// The contact force pushes until the run ends.
+    Lasting,
+    /// The contact force pulls from the start, so there is no impact.
+    Pulling,
+    /// There is never a contact force.
+    Unloaded,
+    /// The scene has no impactor.
+    NoImpactor,
+}
+
+/// The time from first contact to the first zero of the contact force.
+///
+/// Masses that meet and part at once have an impact of no length. A force that is zero at the start and then pushes (a Maxwell element's) has its first zero
+/// later; a force that decays towards zero from above has none. A touch that stays below a thousandth
+/// of the largest force of the run, and after which the force rests on zero again, is none.
+///
+/// A padding whose face has mass and can part is struck through its face: its impact begins with the
+/// first impulse or push on the face, and ends when what struck it has left it for good or the padding
+/// is unloaded. Bounces of the face on what strikes it belong to it as long as the padding stays
+/// pressed between them: its force does not fall to what it bore before, or to a hundredth of the most
+/// that it has borne since.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// When it begins \[s\].
+    pub start: f64,
+    /// When it ends \[s\]: at release, or with the run.
+    pub end: f64,
+    /// Bound of the error of `end` \[s\], where the method states one.
+    pub end_error: Option<f64>,
+    /// How it ends.
+    pub contact: Contact,
+}
+
+impl Impact {
+    /// The impact of a contact force that exists from the start of a run of `run_end` \[s\].
+    ///
+    /// The force pulls where it goes below zero by more than its noise and the part `doubt` of its
+    /// largest magnitude; the release is where it passes zero on the way there. With a doubt of
+    /// [`NO_PULL`] it never does.
+    pub(crate) fn of_force(force: &Signal, run_end: f64, doubt: f64) -> Self {
+        let run =
+            Self { start: 0.0, end: run_end, end_error: Some(0.0), contact: Contact::Lasting };
+        match begins(force, doubt) {
+            None => Self { contact: Contact::Unloaded, ..run },
+            Some(false) => Self { end: 0.0, contact: Contact::Pulling, ..run },
+            Some(true) => {
+                Self::of_push(force, Self { start: first_load(force).unwrap_or(0.0), ..run }, doubt)
+            }
+        }
+    }
+
+    /// The impact of a contact force with the impulses that act beside it.
+    pub(crate) fn of_contact(force: &Signal, blows: &[Blow], run_end: f64, doubt: f64) -> Self {
+        let Some(first) = first_felt(blows, force).filter(|blow| Self::begins_with(blow, force))
+        else {
+            return Self::of_force(force, run_end, doubt);
+        };
+        let run = Self {
+            start: first.time,
+            end: run_end,
+            end_error: Some(0.0),
+            contact: Contact::Lasting,
+        };
+        let stays = pushes(force).iter().any(|push| push.holds(first.time));
+        if stays && force.departure(0.0, first.time) == Some(true) {
+            return Self::of_push(force, run, doubt);
+        }
+        let end_error = force.error.map(|_| 4.0 * f64::EPSILON * first.time);
+        Self { end: first.time, end_error, contact: Contact::Parted, ..run }
+    }
+
+    /// Whether nothing acts before the blow.
+    pub(crate) fn begins_with(blow: &Blow, force: &Signal) -> bool {
+        first_load(force).is_none_or(|loaded| blow.time <= loaded)
+    }
+
+    /// The impact of a force that pushes first.
+    pub(crate) fn of_push(force: &Signal, run: Self, doubt: f64) -> Self {
+        let run_end = run.end;
+        let parted = rest_after(force, run.start);
+        let released = release(force, run_end, doubt)
+            .filter(|release| parted.is_none_or(|parted| release.time < parted));
+        match (parted, released) {
+            (Some(parted), None) => {
+                let slope = force.panels[..force.panels.partition_point(|own| own.end <= parted)]
+                    .last()
+                    .map_or(0.0, |panel| panel.slope(parted).abs());
+                // A force that ends with a jump is ended by something else, found to rounding.
+                let jumps = force.left_value(parted).abs() > 1e-6 * force.bound();
+                let rate = if jumps { f64::INFINITY } else { slope };
+                let shift = |error: f64| if slope > 0.0 { error / rate } else { 0.0 };
+                let rounding = 4.0 * f64::EPSILON * parted;
+                let end_error = force.error.map(|error| shift(error).min(run_end) + rounding);
+                Self { end: parted, end_error, contact: Contact::Parted, ..run }
+            }
+            (_, released) => match released {
+                None if ends_at_zero(force, run_end, doubt) => {
+                    Self { end_error: force.error.map(|_| 0.0), contact: Contact::Released, ..run }
+                }
+                None => run,
+                Some(release) => {
+                    let rounding = 4.0 * f64::EPSILON * release.time;
+                    let (before, after) =
+                        (force.left_value(release.time), force.value(release.time));
+                    // Where the force jumps, a switch rules the time, which is found to rounding.
+                    let jumps = (after - before).abs() > force.noise.max(0.5 * before.abs());
+                    let rate = if jumps { f64::INFINITY } else { release.slope.abs() };
+                    let shift = |error: f64| (error / rate).min(run_end) + rounding;
+                    let end_error = force.error.map(shift);
+                    Self { end: release.time, end_error, contact: Contact::Released, ..run }
+                }
+            },
+        }
+    }
+
+    /// Whether it takes place and ends before the run does, or with it.
+    pub fn has_ended(self) -> bool {
+        matches!(self.contact, Contact::Released | Contact::Parted)
+    }
+
+    /// The span over which its force pushes \[s\]; `None` where it has no length.
+    pub(crate) fn pushing(self) -> Option<(f64, f64)> {
+        (self.takes_place() && self.end > self.start).then_some((self.start, self.end))
+    }
+
+    /// The same impact if it ends by release at `time` \[s\].
+    pub(crate) fn ending(self, time: f64) -> Self {
+        Self { end: time, end_error: None, contact: Contact::Released, ..self }
+    }
+
+    /// The impact of a node that nothing touches.
+    pub(crate) fn unloaded(run_end: f64) -> Self {
+        Self { start: 0.0, end: run_end, end_error: Some(0.0), contact: Contact::Unloaded }
+    }
+
+    /// The run of a scene without an impactor.
+    pub(crate) fn without_impactor(run_end: f64) -> Self {
+        Self { contact: Contact::NoImpactor, ..Self::unloaded(run_end) }
+    }
+
+    /// The span from the first contact of either to the last end of either; an impact that does
+    /// not take place adds nothing.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        if !self.takes_place() {
+            return other;
+        }
+        if !other.takes_place() {
+            return self;
+        }
+        let later = if other.end > self.end { other } else { self };
+        Self { start: self.start.min(other.start), ..later }
+    }
+
+    fn takes_place(self) -> bool {
+        self.has_ended() || self.contact == Contact::Lasting
+    }
+
+    /// The part of a run of `run_end` \[s\] that a measure with the given wish looks at; `Err` says
+    /// why there is none.
+    pub(crate) fn span(self, wish: WindowWish, run_end: f64) -> Result<Span, Note> {
+        let fixed = |from, to, note| Ok(Span { from, to, to_error: Some(0.0), note });
+        match wish {
+            WindowWish::Run => fixed(0.0, run_end, None),
+            WindowWish::Times(from, to) => {
+                if from > run_end || to < 0.0 {
+                    return Err(Note::OutsideTheRun);
+                }
+                let note = (to > run_end).then_some(Note::RunEndsBefore);
+                fixed(from.max(0.0), to.min(run_end), note)
+            }
+            WindowWish::Impact => match self.contact {
+                Contact::Released | Contact::Parted => Ok(Span {
+                    from: self.start,
+                    to: self.end,
+                    to_error: self.end_error,
+                    note: None,
+                }),
+                Contact::Lasting => fixed(self.start, self.end, Some(Note::StillInContact)),
+                Contact::NoImpactor => fixed(0.0, run_end, None),
+                Contact::Pulling => Err(Note::PullsFromTheStart),
+                Contact::Unloaded => Err(Note::NeverLoaded),
+            },
+        }
+    }
+}
+
+/// Part of its largest push that a force may pull with before, as a pad does that was left unloaded
+/// between parts that sag.
+pub(crate) const SLIGHT: f64 = 1e-2;
+
+/// A push that stays below this part of the largest is none, where the force rests before and after.
+const NEXT_TO_NOTHING: f64 = 1e-3;
+
+/// Part of the largest impulse below which an impulse is rounding.
+const SMALLEST_BLOW: f64 = 1e-9;
+
+/// The doubt of a force that by its law never pulls: no fall below zero counts.
+pub(crate) const NO_PULL: f64 = 1.0;
+
+/// The sign, `true` for positive, with which a force first reaches a share of its largest magnitude that
+/// is not slight.
+pub(crate) fn first_way(force: &Signal) -> Option<bool> {
+    let floor = (SLIGHT * force.bound()).max(force.noise);
+    let first = force.value(0.0);
+    if first.abs() > floor {
+        return Some(first > 0.0);
+    }
+    let window = (0.0, force.end());
+    let up = force.first_crossing(floor, window, Some(true)).map(|own| own.time);
+    let down = force.first_crossing(-floor, window, Some(false)).map(|own| own.time);
+    match (up, down) {
+        (Some(up), Some(down)) => Some(up < down),
+        (Some(_), None) => Some(true),
+        (None, Some(_)) => Some(false),
+        (None, None) => force.departure(0.0, 0.0),
+    }
+}
+
+/// Which way a contact force first goes, `true` if it pushes; a pull that is slight beside the push that
+/// follows does not count.
+fn begins(force: &Signal, doubt: f64) -> Option<bool> {
+    let most = force.maximum((0.0, force.end())).value;
+    if doubt >= NO_PULL {
+        return (most > force.noise).then_some(true);
+    }
+    let floor = (SLIGHT.max(doubt) * most).max(force.noise);
+    if most <= force.noise {
+        return force.departure(0.0, 0.0);
+    }
+    let first = force.value(0.0);
+    if first.abs() > floor {
+        return Some(first > 0.0);
+    }
+    let window = (0.0, force.end());
+    let push = force.first_crossing(floor, window, Some(true)).map(|own| own.time);
+    let pull = force.first_crossing(-floor, window, Some(false)).map(|own| own.time);
+    match (push, pull) {
+        (Some(push), Some(pull)) => Some(push < pull),
+        (Some(_), None) => Some(true),
+        (None, Some(_)) => Some(false),
+        (None, None) => force.departure(0.0, 0.0),
+    }
+}
+
+/// A time over which a force acts without rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Push {
+    /// When it begins \[s\].
+    pub(crate) start: f64,
+    /// When the force comes to rest on zero \[s\], as it does where a contact opens; `None` if it acts
+    /// until the run ends.
+    pub(crate) end: Option<f64>,
+}
+
+impl Push {
+    /// Whether it has begun at `time` and not ended yet.
+    pub(crate) fn holds(&self, time: f64) -> bool {
+        self.start <= time && self.end.is_none_or(|end| time < end)
+    }
+}
+
+/// The pushes of a force in order of time, without those that are next to nothing beside its largest
+/// magnitude: a touch that rounding makes is none.
+pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
+    let floor = (NEXT_TO_NOTHING * force.bound()).max(force.noise);
+    let mut found = Vec::new();
+    let mut open: Option<(f64, f64)> = None;
+    for panel in &force.panels {
+        if !rests(panel) {
+            let size: f64 = panel.coefficients.iter().map(|own| own.abs()).sum();
+            let (start, most) = open.unwrap_or((panel.start, 0.0));
+            open = Some((start, most.max(size)));
+        } else if panel.length() > 0.0
+            && let Some((start, most)) = open.take()
+            && most > floor
+        {
+            found.push(Push { start, end: Some(panel.start) });
+        }
+    }
+    if let Some((start, _)) = open.filter(|own| own.1 > floor) {
+        found.push(Push { start, end: None });
+    }
+    found
+}
+
+/// The first impulse of those that act beside a force which is not next to nothing.
+pub(crate) fn first_felt<'b>(blows: &'b [Blow], force: &Signal) -> Option<&'b Blow> {
+    let most = blows.iter().map(|blow| blow.impulse.abs()).reduce(f64::max)?;
+    let size = most.max(force.integral((0.0, force.end())).abs());
+    blows.iter().find(|blow| blow.impulse.abs() > SMALLEST_BLOW * size)
+}
+
+/// When a force that is zero at first begins to act \[s\].
+fn first_load(force: &Signal) -> Option<f64> {
+    pushes(force).first().map(|push| push.start)
+}
+
+/// When the force comes to rest on zero after `start` \[s\], as it does where a contact opens.
+fn rest_after(force: &Signal, start: f64) -> Option<f64> {
+    pushes(force).iter().find(|push| push.end.is_none_or(|end| end > start))?.end
+}
+
+/// Whether the force is zero all over a panel, as it is by structure where a contact is open; a force
+/// that decays is not.
+fn rests(panel: &Panel) -> bool {
+    panel.coefficients.iter().all(|own| *own == 0.0)
+}
+
+/// The last passage of zero before the force pulls for the first time.
+fn release(force: &Signal, run_end: f64, doubt: f64) -> Option<Crossing> {
+    let window = (0.0, run_end);
+    let floor = if doubt > 0.0 { doubt * force.bound() } else { 0.0 };
+    if floor <= force.noise {
+        return force.first_crossing(0.0, window, Some(false));
+    }
+    let pull = force.first_crossing(-floor, window, Some(false))?;
+    let latest = pull.time * (1.0 + 4.0 * f64::EPSILON);
+    let passages = force.crossings(0.0, window).into_iter();
+    let falls = passages.take_while(|passage| passage.time <= latest);
+    Some(falls.filter(|passage| passage.rising == Some(false)).last().unwrap_or(pull))
+}
+
+/// How deep a force that pushes at first goes below zero before it comes back, in parts of its
+/// largest magnitude; `None` if it does not.
+pub(crate) fn first_pull(force: &Signal, run_end: f64) -> Option<f64> {
+    if force.departure(0.0, 0.0) != Some(true) {
+        return None;
+    }
+    let fall = force.first_crossing(0.0, (0.0, run_end), Some(false))?.time;
+    let rise = force.first_crossing(0.0, (fall, run_end), Some(true));
+    let until = rise.map_or(run_end, |rise| rise.time);
+    let deepest = -force.minimum((fall, until)).value;
+    (deepest > 0.0).then(|| deepest / force.bound())
+}
+
+/// Whether the force is about to pass zero where the run ends, as it is when the run stops there; a
+/// force that decays towards zero would take longer.
+fn ends_at_zero(force: &Signal, run_end: f64, doubt: f64) -> bool {
+    const SOON: f64 = 1e-9;
+    let slope = force.slope(run_end);
+    let falls = slope < 0.0 && -slope * run_end > doubt.min(SLIGHT) * force.bound();
+    falls && force.left_value(run_end).abs() <= SOON * run_end * slope.abs()
+}
+
+/// The part of a run that a measure looks at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Span {
+    /// Its begin \[s\].
+    pub from: f64,
+    /// Its end \[s\].
+    pub to: f64,
+    /// Bound of the error of the end \[s\], where the method states one.
+    pub to_error: Option<f64>,
+    /// What is to be said about it.
+    pub note: Option<Note>,
+}
+
+impl Span {
+    /// Both ends.
+    pub fn window(&self) -> (f64, f64) {
+        (self.from, self.to)
+    }
+
+    /// How long it is \[s\].
+    pub fn length(&self) -> f64 {
+        self.to - self.from
+    }
+}
+
+#[cfg(test)]
+mod tests;

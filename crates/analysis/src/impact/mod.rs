@@ -1,0 +1,11 @@
+//! The span of an impact: who strikes what, the impulses, and when it ends.
+
+pub(crate) mod bodies;
+pub(crate) mod contacts;
+pub(crate) mod driven;
+pub(crate) mod face;
+pub(crate) mod holding;
+pub(crate) mod idle;
+pub(crate) mod impulses;
+pub(crate) mod interval;
+pub(crate) mod support;

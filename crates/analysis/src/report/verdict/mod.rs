@@ -1,0 +1,441 @@
+//! What is to be known first of a run, in numbers.
+
+use dashpot_dae::Extremum;
+use dashpot_network::{
+    ConnectionOutputs, NodeOutputs,
+    parameters::{Kind as _, WindowWish},
+};
+
+use crate::{
+    Contact, ContactReport, MeasureReport, RunReport,
+    energy::ledger::{Ledger, ledger},
+    impact::bodies,
+    measures::{
+        ContactTime, EndVelocity, Energy, MeasureKind, PeakAcceleration, PeakDeformation,
+        PeakForce, TransmittedForce,
+    },
+};
+
+/// A force elsewhere is larger if it is so by this part.
+const MARGIN: f64 = 1e-3;
+/// A peak within this part of the run from its end is where the run ends.
+const LAST: f64 = 1e-9;
+/// An error below this part of the size of a value is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// What is to be known first of a run.
+#[derive(Debug, Clone)]
+pub struct Verdict<'r> {
+    /// The largest force of an element that is reported.
+    pub peak_force: Option<Peak<'r>>,
+    /// The force of a padding and its stop together, where it is more than that of each.
+    pub whole_force: Option<WholeForce<'r>>,
+    /// A larger force of another element; none beside [`whole_force`](Self::whole_force).
+    pub elsewhere: Option<Elsewhere<'r>>,
+    /// The largest acceleration.
+    pub peak_acceleration: Option<Peak<'r>>,
+    /// The pad with the least left of its thickness, or else the largest deformation.
+    pub depth: Option<Depth<'r>>,
+    /// The largest energy that an element takes up.
+    pub energy: Option<Absorbed<'r>>,
+    /// How the impact ends.
+    pub ending: Option<Ending<'r>>,
+    /// What is known of the errors.
+    pub reached: Reached<'r>,
+    /// Whether the run ends while something is still pressed.
+    pub is_cut: bool,
+}
+
+/// A largest value.
+#[derive(Debug, Clone, Copy)]
+pub enum Peak<'r> {
+    /// It is infinite, where speeds jump.
+    Infinite {
+        /// The measure, which has no value.
+        measure: &'r MeasureReport,
+        /// When \[s\].
+        time: f64,
+    },
+    /// It has a value.
+    Finite {
+        /// The measure.
+        measure: &'r MeasureReport,
+        /// Its value.
+        value: f64,
+        /// Whether the run ends in contact before it falls.
+        is_so_far: bool,
+    },
+}
+
+/// A force that several elements bear together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WholeForce<'r> {
+    /// The contact of a padding whose force it is, or the padding on whose support it acts.
+    pub element: &'r str,
+    /// Whether it acts on what lies behind the padding.
+    pub is_behind: bool,
+    /// How much \[N\], and when \[s\].
+    pub peak: Extremum,
+}
+
+/// A force of an element that is not reported.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elsewhere<'r> {
+    /// The element.
+    pub element: &'r str,
+    /// How much \[N\], infinite where masses meet in it, and when \[s\].
+    pub peak: Extremum,
+    /// The window of the largest force that is reported \[s\].
+    pub window: Option<(f64, f64)>,
+}
+
+/// How far a pad is pressed.
+#[derive(Debug, Clone, Copy)]
+pub struct Depth<'r> {
+    /// Its largest deformation.
+    pub peak: Peak<'r>,
+    /// What is left of its thickness \[m\], below zero where it is pressed further, and the thickness.
+    pub left: Option<[f64; 2]>,
+}
+
+/// What an element takes up, and of what.
+#[derive(Debug, Clone)]
+pub struct Absorbed<'r> {
+    /// The measure.
+    pub measure: &'r MeasureReport,
+    /// Its value \[J\].
+    pub value: f64,
+    /// Where that comes from; `None` without impactors, and where it is not known.
+    pub supply: Option<Supply<'r>>,
+}
+
+/// The energy that an element is given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Supply<'r> {
+    /// The impactors that strike the element, where there are others as well; else none.
+    pub impactors: Vec<&'r str>,
+    /// Their kinetic energy at the start \[J\].
+    pub kinetic: f64,
+    /// The work done on them, or without others on all, from outside \[J\].
+    pub work: f64,
+}
+
+/// How an impact ends.
+#[derive(Debug, Clone)]
+pub enum Ending<'r> {
+    /// There is no impactor; perhaps something opens.
+    NoImpactor(Option<Opened<'r>>),
+    /// An element still pushes at the end of the run.
+    Lasting {
+        /// Its contact.
+        contact: &'r ContactReport,
+        /// Whether that is open, by the errors.
+        is_open: bool,
+    },
+    /// No element is pressed, this one for instance.
+    Never(&'r ContactReport),
+    /// All contacts have ended.
+    Ended {
+        /// The longest contact.
+        measure: &'r MeasureReport,
+        /// How long it takes \[s\].
+        value: f64,
+        /// The contact of the element.
+        contact: Option<&'r ContactReport>,
+        /// Whether the element pulls from then on.
+        pulls: bool,
+        /// The fastest impactor of those that strike the element.
+        leaving: Option<Leaving<'r>>,
+    },
+}
+
+/// What opens in a run without impactors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Opened<'r> {
+    /// The element, or its path.
+    pub name: &'r str,
+    /// When for the first time \[s\].
+    pub time: f64,
+    /// How often.
+    pub times: usize,
+}
+
+/// An impactor at the end of the impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leaving<'r> {
+    /// Its name.
+    pub impactor: &'r str,
+    /// Its speed \[m/s\].
+    pub speed: f64,
+    /// Whether it has turned.
+    pub returns: bool,
+}
+
+/// What is known of the errors of the values.
+#[derive(Debug, Clone, Default)]
+pub struct Reached<'r> {
+    /// The largest relative error, of values that are next to nothing relative to their kind;
+    /// infinite where some come and go with the tolerance.
+    pub worst: Option<f64>,
+    /// Values of which not even the first digit is known, for more than rounding, though the error is
+    /// small beside others of their kind.
+    pub small: Vec<&'r MeasureReport>,
+    /// Values without an error, where others have one.
+    pub unknown: Vec<&'r MeasureReport>,
+    /// Whether there are values other than zero, and no error of any.
+    pub is_unknown: bool,
+}
+
+impl<'r> Verdict<'r> {
+    /// Reads it off a report.
+    pub fn of(run: &'r RunReport) -> Self {
+        let found = Found(run);
+        let whole_force = found.whole_force();
+        Self {
+            peak_force: found.peak(PeakForce::KIND),
+            elsewhere: if whole_force.is_some() { None } else { found.elsewhere() },
+            whole_force,
+            peak_acceleration: found.peak(PeakAcceleration::KIND),
+            depth: found.depth(),
+            energy: found.energy(),
+            ending: found.ending(),
+            reached: found.reached(),
+            is_cut: found.is_cut(),
+        }
+    }
+}
+
+/// What is found in a run.
+#[derive(Clone, Copy)]
+struct Found<'r>(&'r RunReport);
+
+impl<'r> Found<'r> {
+    fn of_kind(self, kind: &str) -> impl Iterator<Item = &'r MeasureReport> {
+        self.0.measures.iter().filter(move |measure| measure.kind == kind)
+    }
+
+    /// The measure of this kind with the largest value.
+    fn largest(self, kind: &str) -> Option<(&'r MeasureReport, f64)> {
+        let valued = self.of_kind(kind).filter_map(|own| own.value.map(|value| (own, value)));
+        valued.max_by(|one, other| one.1.total_cmp(&other.1))
+    }
+
+    /// The first measure of this kind that is infinite, or the one with the largest value.
+    fn peak(self, kind: &str) -> Option<Peak<'r>> {
+        // What is infinite has a time, and no value there.
+        let mut none = self.of_kind(kind).filter(|measure| measure.value.is_none());
+        let infinite = none.find_map(|measure| Some((measure, measure.time?)));
+        if let Some((measure, time)) = infinite {
+            return Some(Peak::Infinite { measure, time });
+        }
+        self.largest(kind).map(|(measure, value)| self.finite(measure, value))
+    }
+
+    fn finite(self, measure: &'r MeasureReport, value: f64) -> Peak<'r> {
+        let end = self.0.trajectory.t_end;
+        let is_last = measure.time.is_some_and(|time| time >= (1.0 - LAST) * end);
+        Peak::Finite { measure, value, is_so_far: is_last && self.is_cut() }
+    }
+
+    fn is_cut(self) -> bool {
+        self.0.contacts.iter().any(|own| own.impact.contact == Contact::Lasting)
+    }
+
+    fn connections(self) -> &'r [ConnectionOutputs] {
+        &self.0.assembly.connections
+    }
+
+    /// In the window of the largest force: at the contact of the padding, or where it has none on what
+    /// lies behind.
+    fn whole_force(self) -> Option<WholeForce<'r>> {
+        let (headline, most) = self.largest(PeakForce::KIND)?;
+        let (from, to) = headline.window?;
+        let window = WindowWish::Times(from, to);
+        let element = self.0.assembly.position(&headline.target)?;
+        let pad = self.0.assembly.pads.iter();
+        let pad = pad.clone().find(|own| own.element == element || own.stop == Some(element))?;
+        let solution = self.0.solution();
+        let (element, is_behind, reading) = match (pad.contact, pad.stop) {
+            (Some(contact), _) => {
+                let reading = PeakForce { window }.read(&solution, contact);
+                // Where masses meet in it, it has a time and no value.
+                let value = Some(reading.value.unwrap_or(f64::INFINITY));
+                (contact, false, (value, reading.time))
+            }
+            (None, Some(_)) => {
+                let reading = TransmittedForce { window }.read(&solution, pad.element);
+                (pad.element, true, (reading.value, reading.time))
+            }
+            (None, None) => return None,
+        };
+        let (value, time) = reading.0.zip(reading.1)?;
+        let is_more = value.is_finite() && value > most * (1.0 + MARGIN);
+        let element = &self.connections()[element].name;
+        is_more.then_some(WholeForce { element, is_behind, peak: Extremum { time, value } })
+    }
+
+    fn elsewhere(self) -> Option<Elsewhere<'r>> {
+        let Some(Peak::Finite { measure, value, .. }) = self.peak(PeakForce::KIND) else {
+            return None;
+        };
+        let (element, peak) = self.0.largest_force()?;
+        let window = measure.window;
+        let margin = measure.error.filter(|error| error.is_finite()).unwrap_or(0.0);
+        let is_larger = peak.value > value + margin.max(MARGIN * value);
+        let is_other = element != measure.target && is_larger;
+        (peak.value.is_infinite() || is_other).then_some(Elsewhere { element, peak, window })
+    }
+
+    fn depth(self) -> Option<Depth<'r>> {
+        let pads = self.of_kind(PeakDeformation::KIND).filter_map(|measure| {
+            let connection = self.0.assembly.connection(&measure.target)?;
+            let (thickness, window) = connection.thickness.zip(measure.window)?;
+            let pressed = self.0.solution().signal(connection.deformation).maximum(window).value;
+            Some((measure, [thickness - pressed, thickness]))
+        });
+        let share = |[left, thickness]: [f64; 2]| left / thickness;
+        let tightest = pads.min_by(|one, other| share(one.1).total_cmp(&share(other.1)));
+        if let Some((measure, left)) = tightest {
+            return Some(Depth { peak: self.finite(measure, measure.value?), left: Some(left) });
+        }
+        let (measure, value) = self.largest(PeakDeformation::KIND)?;
+        Some(Depth { peak: self.finite(measure, value), left: None })
+    }
+
+    /// The impactors, or those that strike an element.
+    fn impactors(self, element: Option<&str>) -> Vec<(usize, &'r NodeOutputs)> {
+        let assembly = &*self.0.assembly;
+        let mut ends = Vec::new();
+        if let Some(at) = element.and_then(|name| assembly.position(name)) {
+            let contact = assembly.pad(at).and_then(|pad| pad.contact);
+            for at in [at].into_iter().chain(contact) {
+                ends.extend(bodies::between(assembly, &assembly.connections[at]));
+            }
+        }
+        let all = assembly.nodes.iter().enumerate().filter(|(_, node)| node.is_impactor());
+        all.filter(|(_, node)| element.is_none() || ends.contains(&node.body)).collect()
+    }
+
+    fn energy(self) -> Option<Absorbed<'r>> {
+        let (measure, value) = self.largest(Energy::KIND)?;
+        let supply = self.supply(measure);
+        Some(Absorbed { measure, value, supply })
+    }
+
+    fn supply(self, measure: &MeasureReport) -> Option<Supply<'r>> {
+        let run = self.0;
+        let all = self.impactors(None);
+        let own = self.impactors(Some(&measure.target));
+        if all.is_empty() {
+            return None;
+        }
+        let until = measure.window.map_or(run.energy.time, |(_, end)| end);
+        let is_whole = own.is_empty() || own.len() == all.len();
+        let work = self.work_in(until, (!is_whole).then_some(&own))?;
+        if is_whole {
+            return Some(Supply { impactors: Vec::new(), kinetic: run.impact_energy(), work });
+        }
+        let kinetic = own.iter().map(|(_, node)| kinetic(node)).sum::<f64>().min(run.energy.start);
+        let impactors = own.into_iter().map(|(_, node)| node.name.as_str()).collect();
+        Some(Supply { impactors, kinetic, work })
+    }
+
+    /// The work done from outside \[J\] from the start until a time \[s\], on all or on some nodes; unknown
+    /// within the run of a large network.
+    fn work_in(self, until: f64, on: Option<&Vec<(usize, &NodeOutputs)>>) -> Option<f64> {
+        let run = self.0;
+        if run.energy.work_in.is_empty() {
+            return Some(0.0);
+        }
+        let sum = |own: &Ledger| match on {
+            None => own.total_work_in(),
+            Some(nodes) => {
+                let bodies: Vec<usize> = nodes.iter().map(|(_, node)| node.body).collect();
+                let drives = run.assembly.drives.iter();
+                let ours = drives.filter(|own| bodies.contains(&run.assembly.nodes[own.node].body));
+                let names: Vec<&str> = ours.map(|own| own.name.as_str()).collect();
+                let works = own.work_in.iter().filter(|own| names.contains(&own.0.as_str()));
+                works.map(|own| own.1).sum()
+            }
+        };
+        let ledgers = run.energy_after_impact.iter().chain([&run.energy]);
+        let known = ledgers.into_iter().find(|own| (own.time - until).abs() <= 1e-9 * own.time);
+        let work = known.map_or_else(|| sum(&ledger(&run.solution(), until)), sum);
+        (!work.is_nan()).then_some(work)
+    }
+
+    fn ending(self) -> Option<Ending<'r>> {
+        let run = self.0;
+        if self.impactors(None).is_empty() {
+            return Some(Ending::NoImpactor(self.opened()));
+        }
+        let of = |contact: Contact| run.contacts.iter().find(|own| own.impact.contact == contact);
+        if let Some(contact) = of(Contact::Lasting) {
+            let time = run.measure(&format!("{}.{}", contact.element, ContactTime::KIND));
+            let is_open = time.and_then(|own| own.error).is_some_and(f64::is_infinite);
+            return Some(Ending::Lasting { contact, is_open });
+        }
+        if !run.contacts.iter().any(|own| own.impact.has_ended()) {
+            return of(Contact::Pulling).or_else(|| of(Contact::Unloaded)).map(Ending::Never);
+        }
+        let (measure, value) = self.largest(ContactTime::KIND)?;
+        let contact = run.contacts.iter().find(|own| own.element == measure.target);
+        let pulls = contact.is_some_and(|own| {
+            own.is_glued
+                && own.impact.contact == Contact::Released
+                && own.impact.end < run.trajectory.t_end
+        });
+        let leaving = self.leaving(&measure.target);
+        Some(Ending::Ended { measure, value, contact, pulls, leaving })
+    }
+
+    fn opened(self) -> Option<Opened<'r>> {
+        let assembly = &*self.0.assembly;
+        let mut opened = self.0.trajectory.switches.iter().filter(|own| own.what == "open");
+        let first = opened.next()?;
+        let times = 1 + opened.filter(|own| own.name == first.name).count();
+        let at = assembly.primitives.iter().position(|own| own.name == first.name)?;
+        let behind = assembly.owner(at).and_then(|own| assembly.pad_behind(own));
+        let name = behind
+            .map_or(assembly.primitives[at].place(), |pad| &assembly.connections[pad.element].name);
+        Some(Opened { name, time: first.time, times })
+    }
+
+    fn leaving(self, element: &str) -> Option<Leaving<'r>> {
+        let solution = self.0.solution();
+        let speeds = self.impactors(Some(element)).into_iter().filter_map(|(at, node)| {
+            let reading = MeasureKind::read(&EndVelocity::default(), &solution, at);
+            Some((node, reading.value?))
+        });
+        let (node, speed) = speeds.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
+        let returns = speed * node.start_velocity.unwrap_or(0.0) < 0.0;
+        Some(Leaving { impactor: &node.name, speed: speed.abs(), returns })
+    }
+
+    fn reached(self) -> Reached<'r> {
+        let valued = self.0.measures.iter().filter(|own| own.value.is_some());
+        let (known, unknown): (Vec<&MeasureReport>, Vec<_>) =
+            valued.partition(|own| own.error.is_some());
+        let is_small = |own: &&MeasureReport| {
+            let is_rounding = own.error.is_some_and(|error| error <= ROUNDING * own.size);
+            own.is_next_to_nothing() && !is_rounding
+        };
+        let is_nothing = |own: &MeasureReport| own.value == Some(0.0);
+        Reached {
+            worst: self.0.worst_relative_error(),
+            small: known.iter().copied().filter(is_small).collect(),
+            is_unknown: {
+                let mut others = unknown.iter().filter(|own| !is_nothing(own)).peekable();
+                others.peek().is_some() && known.iter().all(|own| is_nothing(own))
+            },
+            unknown: if known.is_empty() { Vec::new() } else { unknown },
+        }
+    }
+}
+
+fn kinetic(node: &NodeOutputs) -> f64 {
+    0.5 * node.mass * node.start_velocity.unwrap_or(0.0).powi(2)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,149 @@
+//! Contact forces that come within their error of zero and push on.
+
+use std::{borrow::Cow, cell::OnceCell};
+
+use dashpot_dae::Signal;
+
+use super::Solution;
+use crate::impact::interval::{Impact, NO_PULL, first_pull};
+
+/// How much larger one force may be than another that is the same.
+const SAME: f64 = 1.5;
+/// How many times as long as it would take to reach zero at its pace a force may take that is about to.
+const SLOW: f64 = 3.0;
+
+/// Where a force comes near zero without going on to pull: it turns back, or lingers.
+struct Lull {
+    /// When it has come near \[s\].
+    start: f64,
+    /// When it is lowest or, while it falls, has taken too long \[s\].
+    low: f64,
+}
+
+impl Lull {
+    /// The first below the given level \[N\] in the window; `None` where the force passes zero at the end
+    /// of the window.
+    fn first(force: &Signal, window: (f64, f64), level: f64) -> Option<Self> {
+        let fall = force.first_crossing(level, window, Some(false))?;
+        let latest = fall.time + SLOW * level / fall.slope.abs();
+        let turns = force.extrema((fall.time, latest.min(window.1)));
+        // The first is where it falls below the level, the last where the window ends.
+        let low = turns.get(1).filter(|_| turns.len() > 2).map_or(latest, |own| own.time);
+        (low < window.1).then_some(Self { start: fall.time, low })
+    }
+}
+
+/// When a contact may end whose force comes so near to zero, before it pushes on, that it cannot be told
+/// whether it would pull \[s\]; `None` if it does not. The last of the forces is that of the finest
+/// solution, which is in doubt below `level` \[N\], and less so where all agree that it pushes.
+fn earliest_end(forces: &[&Signal], window: (f64, f64), level: f64) -> Option<f64> {
+    let (finest, others) = forces.split_last()?;
+    let (mut window, mut level) = (window, level);
+    while level > finest.noise {
+        let lull = Lull::first(finest, window, level)?;
+        let low = finest.value(lull.low);
+        let agrees =
+            |other: f64| low > 0.0 && low.max(other) <= SAME * low.min(other) && low < level;
+        if !others.iter().all(|other| agrees(other.value(lull.low))) {
+            let passage = finest.first_crossing(0.0, (lull.start, lull.low), Some(false));
+            return Some(passage.map_or(lull.start, |own| own.time));
+        }
+        (window.0, level) = (lull.start, 0.5 * low);
+    }
+    None
+}
+
+/// Whose contact force it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Feels {
+    /// The element of this number, which touches an impactor.
+    Element(usize),
+    /// The body of this number, to which an impactor belongs: the sum of all that acts on it.
+    Body(usize),
+}
+
+/// Impacts that may end at the time given \[s\], before they seem to.
+pub(crate) type Grazes = Vec<(Feels, f64)>;
+
+/// What a solution leaves open that `others`, which are coarser, do not agree on with it, where pulls below
+/// the part `doubt` of the largest force may be errors of it.
+pub(crate) fn grazes<'a>(
+    finest: &Solution<'a>,
+    make_others: &dyn Fn() -> Vec<Solution<'a>>,
+    doubt: f64,
+) -> Grazes {
+    let others = OnceCell::new();
+    let in_doubt = |feels: Feels| {
+        let force = finest.contact_force(feels)?;
+        let window = finest.impact_felt(feels).pushing()?;
+        let level = doubt * force.bound();
+        // Most forces go straight through zero, and nothing need be asked of the others.
+        Lull::first(&force, window, level)?;
+        let others: Vec<Cow<'_, Signal>> = others
+            .get_or_init(make_others)
+            .iter()
+            .map(|own| own.contact_force(feels))
+            .collect::<Option<_>>()?;
+        let mut forces: Vec<&Signal> = others.iter().map(AsRef::as_ref).collect();
+        forces.push(&force);
+        Some((feels, earliest_end(&forces, window, level)?))
+    };
+    finest.contacts_felt().filter_map(in_doubt).collect()
+}
+
+impl Solution<'_> {
+    /// The same solution, whose impacts end at the given times.
+    #[must_use]
+    pub(crate) fn ending(self, ends: Grazes) -> Self {
+        Self { ends, ..self }
+    }
+
+    /// An impact with the end that it has been given.
+    pub(super) fn ended(&self, impact: Impact, feels: Feels) -> Impact {
+        let given = self.ends.iter().find(|(own, _)| *own == feels);
+        given.map_or(impact, |&(_, time)| impact.ending(time))
+    }
+
+    /// How deep each contact force first pulls, in parts of its largest magnitude: those of the
+    /// elements that touch an impactor and of the bodies with one. `None` where it never does.
+    pub(crate) fn first_pulls(&self) -> Vec<Option<f64>> {
+        let pull = |feels: Feels| {
+            let never_pulls = match feels {
+                Feels::Element(at) => self.assembly.connections[at].never_pulls,
+                Feels::Body(body) => self.doubt_of_body(body) >= NO_PULL,
+            };
+            if never_pulls {
+                return None;
+            }
+            first_pull(self.contact_force(feels)?.as_ref(), self.end())
+        };
+        self.contacts_felt().map(pull).collect()
+    }
+
+    /// The contacts with impactors.
+    fn contacts_felt(&self) -> impl Iterator<Item = Feels> {
+        let elements = self.assembly.connections.iter().enumerate();
+        let touching = elements.filter(|(_, own)| self.touches_impactor(own));
+        let bodies = (0..self.has_impactor.len()).filter(|&body| self.has_impactor[body]);
+        touching.map(|(at, _)| Feels::Element(at)).chain(bodies.map(Feels::Body))
+    }
+
+    fn contact_force(&self, feels: Feels) -> Option<Cow<'_, Signal>> {
+        match feels {
+            Feels::Element(at) => {
+                self.assembly.connections[at].force.map(|own| Cow::Borrowed(self.signal(own)))
+            }
+            Feels::Body(body) => self.push_on(body).map(Cow::Owned),
+        }
+    }
+
+    fn impact_felt(&self, feels: Feels) -> Impact {
+        match feels {
+            Feels::Element(at) => self.element_impact(at),
+            Feels::Body(body) => self.body_impact(body),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
