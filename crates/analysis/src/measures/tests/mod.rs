@@ -180,7 +180,7 @@ fn overflow_is_no_value() {
     let huge = |_: &str, _: f64| 1e200;
     for reading in [read(SeverityIndex::default(), 1.0, huge), read(Hic::default(), 1.0, huge)] {
         assert_eq!(reading.value, None);
-        assert!(reading.notes == [Note::BeyondRange]);
+        assert!(reading.notes.contains(&Note::BeyondRange));
     }
 }
 
