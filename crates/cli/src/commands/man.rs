@@ -17,21 +17,21 @@ pub(crate) fn man(out: Option<&Path>) -> Result<Status, CliError> {
     let mut command = Arguments::command().disable_help_subcommand(true);
     command.build();
     let Some(folder) = out else {
-        print_data(&page(Man::new(command))?)?;
+        print_data(&page(&Man::new(command))?)?;
         return Ok(Status::Done);
     };
     fs::create_dir_all(folder).map_err(unwritable(folder))?;
     for verb in command.get_subcommands() {
         let path = folder.join(format!("dashpot-{}.1", verb.get_name()));
-        write_text(&path, &page(Man::new(verb.clone()))?, true)?;
+        write_text(&path, &page(&Man::new(verb.clone()))?, true)?;
     }
     let count = command.get_subcommands().count() + 1;
-    write_text(&folder.join("dashpot.1"), &page(Man::new(command))?, true)?;
+    write_text(&folder.join("dashpot.1"), &page(&Man::new(command))?, true)?;
     print(&format!("wrote {count} manual pages to {}\n", folder.display()))?;
     Ok(Status::Done)
 }
 
-fn page(man: Man) -> Result<String, CliError> {
+fn page(man: &Man) -> Result<String, CliError> {
     let mut text = Vec::new();
     man.render(&mut text).map_err(CliError::Output)?;
     Ok(String::from_utf8_lossy(&text).into_owned())
