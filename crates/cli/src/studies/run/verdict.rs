@@ -330,12 +330,11 @@ fn is_hic(kind: &str) -> bool {
     [Hic::KIND, Hic15::KIND, Hic36::KIND].contains(&kind)
 }
 
-/// The name of an index; of a head injury criterion with the longest interval that it may have, which
-/// is not to be guessed: `HIC15`.
+/// The field's name of an index: `GSI`, Gadd's severity index, or `HIC15`, the head injury criterion with the
+/// longest interval that it may have, which is not to be guessed.
 fn index_name(run: &RunReport, measure: &MeasureReport) -> String {
     if measure.kind != Hic::KIND {
-        let name = measure.kind.replace('-', " ");
-        return if is_hic(measure.kind) { name.to_uppercase() } else { name };
+        return if is_hic(measure.kind) { measure.kind.to_uppercase() } else { "GSI".to_owned() };
     }
     let cap = measure.parameters.iter().find_map(|(_, value)| value.number());
     match cap.filter(|cap| *cap < run.trajectory.t_end) {
@@ -352,7 +351,8 @@ fn injury(run: &RunReport) -> Option<String> {
             return measure.time.map(|_| format!("{name} is infinite"));
         };
         let digits = numbers::digits(value, measure.error, DIGITS);
-        let number = Unit::plain(measure.unit).text(value, digits);
+        // The field prints indices as plain numbers, of seconds and g.
+        let number = Unit::plain("1").text(value, digits);
         let found = measure.window.filter(|_| is_hic(measure.kind)).map_or(String::new(), |own| {
             let [from, to] = [own.0, own.1].map(|time| quantity(time, "s", TIME_DIGITS));
             format!(" (from {from} to {to})")
