@@ -340,8 +340,8 @@ macro_rules! choices {
 /// rest. Every field is a parameter. Its comment is the line of help: what it is, symbol, unit,
 /// range. Then come its key where it is not the field's name, the [`ParameterKind`] of its value,
 /// and, in any order, `default` (as a scene would write it), `follows` (from what, in words; the
-/// field is then an `Option`), and the [`Range`](crate::parameters::Range) of its number, [`Finite`](crate::parameters::Range::Finite) where
-/// none is stated. `field: Type => PARAMETER` takes over a [`Parameter`] that several kinds share.
+/// field is then an `Option`), and the [`Range`] of its number,
+/// [`Finite`](crate::parameters::Range::Finite) where none is stated. `field: Type => PARAMETER` takes over a [`Parameter`] that several kinds share.
 /// A struct `on` a field has the name of what it acts on there, which is no parameter: made of values
 /// it is that of the example. Below stands
 /// an example of the fields, as `sample` or as `default`, which writes [`Default`]; without either it
@@ -349,7 +349,6 @@ macro_rules! choices {
 ///
 /// [`ParameterKind`]: crate::parameters::ParameterKind
 /// [`Range`]: crate::parameters::Range
-/// [`Range::Finite`]: crate::parameters::Range::Finite
 #[macro_export]
 macro_rules! parameters {
     (
