@@ -106,7 +106,7 @@ fn the_verdict_names_the_longest_interval_of_a_head_injury_criterion() {
     let verdict = out(&run(&["run", text(&path)]));
     let words = verdict.split_whitespace().collect::<Vec<_>>().join(" ");
     let injury = &words[words.find("injury").unwrap()..];
-    for name in ["HIC15 of head ", "HIC36 of head ", "s (from "] {
+    for name in ["HIC15 of head ", "HIC36 of head ", " (from "] {
         assert!(injury.contains(name), "{name}: {verdict}");
     }
     let only = "[measures]\nhead = [{ kind = \"hic\", cap = \"5 ms\" }]\n";
