@@ -112,3 +112,26 @@ fn what_bounces_to_rest_under_friction_has_a_known_error_by_the_exact_method() {
         assert!(own.error.unwrap() <= 1e-4 * own.size.max(1.0), "{}", own.key);
     }
 }
+
+#[test]
+fn a_bounce_loses_its_share_of_the_energy_whatever_the_mass() {
+    let (velocity, restitution) = (2.0_f64, 0.7_f64);
+    for mass in [1e-300, 1e-200, 1e-160, 1e-30, 1.0, 1e30, 1e160] {
+        let text = format!(
+            "[nodes]
+            ball = {{ mass = \"{mass:e} kg\", velocity = {velocity} }}
+            [elements]
+            floor = {{ between = [\"ball\", \"ground\"], contact = {{ restitution = {restitution} }} }}
+            [measures]
+            floor = [\"energy\"]
+            [run]
+            duration = 0.2"
+        );
+        let scene = read(&text, &ReadOptions::default()).unwrap().value;
+        let report = solve(&scene.network, &scene.settings("exact").unwrap(), &mut Silent).unwrap();
+        let energy = report.measure("floor.energy").unwrap();
+        let lost = 0.5 * mass * velocity * velocity * (1.0 - restitution * restitution);
+        let gap = (energy.value.unwrap() - lost).abs();
+        assert!(gap <= energy.error.unwrap() && gap <= 1e-12 * lost, "{mass:e}: {energy:?}");
+    }
+}

@@ -1,8 +1,11 @@
 //! Ranges of numbers.
 
+use dashpot_units::{Dimension, exact_quantity};
+
 use super::InvalidParameter;
 
-/// The numbers that a parameter may have; all of them are finite.
+/// The numbers that a parameter may have; all of them are finite, and 0 or at least 2.2·10⁻³⁰⁸, below which
+/// double precision loses digits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Range {
     /// Any.
@@ -46,7 +49,7 @@ impl Range {
 
     /// Whether a number is in it.
     pub fn contains(self, number: f64) -> bool {
-        number.is_finite()
+        (number == 0.0 || number.is_normal())
             && match self {
                 Self::Finite => true,
                 Self::NotZero => number != 0.0,
@@ -71,7 +74,7 @@ impl Range {
         }
         let found = match self {
             Self::AboveAbsoluteZero => kelvins(number),
-            _ => number.to_string(),
+            _ => exact_quantity(number, Dimension::NUMBER),
         };
         Err(InvalidParameter::new(parameter, self.words(), found))
     }

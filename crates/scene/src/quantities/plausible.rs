@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use dashpot_network::parameters::Dimension;
 
 use super::basis::{AREA, DENSITY};
-use crate::diagnostics::fault::Fault;
+use crate::{diagnostics::fault::Fault, units::exact_quantity};
 
 /// What a bare number usually is.
 struct Usual {
@@ -71,7 +71,8 @@ impl Usual {
         let most = range.end();
         let is_more = size > *most;
         let meant = if is_more { above } else { below };
-        let written = if unit.is_empty() { value.to_string() } else { format!("{value} {unit}") };
+        let value = exact_quantity(value, Dimension::NUMBER);
+        let written = if unit.is_empty() { value.clone() } else { format!("{value} {unit}") };
         let message = match (is_more, meant.is_empty()) {
             (true, true) => format!("`{subject}` is {written}, which is very much"),
             (true, false) => format!("`{subject}` is {written}: did you mean {above}?"),

@@ -182,7 +182,8 @@ impl PhasedNetwork {
         let total: f64 = impulses.iter().sum();
         let mut met: Vec<Impact> = Vec::new();
         for (own, &impulse) in pushes.filter(|own| *own.1 > 0.0) {
-            let (lost, worked) = ((lost + work) * impulse / total, work * impulse / total);
+            let share = impulse / total;
+            let (lost, worked) = ((lost + work) * share, work * share);
             let own_impact =
                 Impact { part: own.part, impulse, lost, worked, pace: own.pace, sides: own.ends };
             met.push(own_impact);
