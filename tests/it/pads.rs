@@ -142,7 +142,7 @@ fn without_an_impactor_what_lies_at_a_head_may_not_pull_unseen() {
              [measures]\nhead = [\"{measure}\"]\n[run]\nduration = \"80 ms\"\n"
         )
     };
-    assert!(warned(&run(&text("hic15")), "the pad pulls: separation is off"));
+    assert!(warned(&run(&text("hic15")), "the pad is in tension: separation is off"));
     // What is not asked whom it hurts may be a mount.
     assert!(!warned(&run(&text("peak-displacement")), "pulls"));
 }

@@ -65,7 +65,7 @@ fn the_text_and_the_page_say_what_was_left_out() {
     for part in [
         "left out gravity (A = g δ/V0² = 0.0020): `padding.contact-time` moves by",
         "0.77 %, the most of all; checked by 1 further run in",
-        "every figure is good to 0.8 %: a bound of `exact` and what was left out",
+        "every figure within 0.8 % (a bound of `exact` and what was left out)",
     ] {
         assert!(said.contains(part), "{part}: {text}");
     }

@@ -273,7 +273,7 @@ fn what_a_run_is_warned_of_is_told_with_its_points() {
     let json = crate::cli::json(&speeds);
     assert_eq!(json["stamped"], 3);
     let told = |at: usize| json["warnings"][at]["text"].as_str().unwrap();
-    assert!(told(0).ends_with("the padding pulls: separation is off"), "{}", told(0));
+    assert!(told(0).ends_with("the padding is in tension: separation is off"), "{}", told(0));
     assert_eq!(json["warnings"][0]["points"], serde_json::json!([0, 1, 2]));
     assert!(told(1).contains("more than its thickness"), "{}", told(1));
     assert_eq!(json["warnings"][1]["points"], serde_json::json!([2]));

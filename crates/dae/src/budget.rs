@@ -17,7 +17,7 @@ const CHOICE: u64 = 2000;
 /// Work that runs may be, and that they have been so far: counted, never timed, so that a run that ends
 /// by it repeats to the bit.
 ///
-/// A unit is what one unknown costs in one step, some 20 ns. A step costs 16 units and one for each
+/// A unit is what one unknown costs in one step, some 30 ns. A step costs 16 units and one for each
 /// unknown, up to 1000, and so do a rejected one and a panel of `exact` for its modes; a linear system about
 /// as much, a factorisation more for each entry; modes cost twice the cube of their number; a choice of
 /// phases 2000. Copies share one account.

@@ -67,8 +67,8 @@ impl fmt::Display for Shape {
         ];
         let parts: Vec<String> = parts.into_iter().flatten().collect();
         let place = match self.form {
-            Canonical::Maxwell => "side by side",
-            Canonical::Kelvin => "in a row",
+            Canonical::Maxwell => "in parallel",
+            Canonical::Kelvin => "in series",
         };
         match &parts[..] {
             [] => formatter.write_str("nothing"),
@@ -103,13 +103,13 @@ impl Target {
             Self {
                 word: "generalized-maxwell",
                 aliases: &["prony"],
-                summary: "a spring, a dashpot and Maxwell elements side by side",
+                summary: "a spring, a dashpot and Maxwell elements in parallel",
                 arrangement: Arrangement::Canonical(Canonical::Maxwell),
             },
             Self {
                 word: "generalized-kelvin",
                 aliases: &["generalized-kelvin-voigt", "kelvin-chain"],
-                summary: "a spring, a dashpot and Kelvin-Voigt elements in a row",
+                summary: "a spring, a dashpot and Kelvin-Voigt elements in series",
                 arrangement: Arrangement::Canonical(Canonical::Kelvin),
             },
         ];
@@ -351,8 +351,8 @@ mod tests {
         let unfit = converted(&model, &Target::named("burgers").unwrap()).unwrap_err();
         assert_eq!(
             unfit.to_string(),
-            "the form is a spring, a dashpot and a Kelvin-Voigt element in a row; \
-             the model is a spring and a Kelvin-Voigt element in a row"
+            "the form is a spring, a dashpot and a Kelvin-Voigt element in series; \
+             the model is a spring and a Kelvin-Voigt element in series"
         );
     }
 }

@@ -25,7 +25,7 @@ pub struct Entangled {
 ///
 /// # Examples
 ///
-/// Of two springs in a row, only `1/(1/k₁ + 1/k₂)` can be told:
+/// Of two springs in series, only `1/(1/k₁ + 1/k₂)` can be told:
 ///
 /// ```
 /// use dashpot_rheology::{Primitive::Spring, Tree, identifiability::entangled};
@@ -134,7 +134,7 @@ fn composed<'t, P>(node: &'t Tree<P>, mut parts: Vec<Seen<'t, P>>) -> Seen<'t, P
     let in_series = node.is_series();
     let start = parts.first().map_or(0, |own| own.parameters.start);
     let parameters = start..parts.last().map_or(start, |own| own.parameters.end);
-    // In a series what bears nothing decides alone and what is rigid does not matter; side by side
+    // In a series what bears nothing decides alone and what is rigid does not matter; in parallel
     // it is the other way round.
     let (alone, neutral) = if in_series {
         (Constants::Nothing, Constants::Rigid)

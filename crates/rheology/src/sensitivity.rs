@@ -30,7 +30,7 @@ pub struct ParameterMap {
 
 impl ParameterMap {
     /// Largest relative change of a parameter for relative changes of at most 1 in those that the
-    /// map comes from: the largest sum of absolute values in a row; infinite where it is not known.
+    /// map comes from: the largest sum of absolute values in series; infinite where it is not known.
     pub fn condition(&self) -> f64 {
         let row = |own: &Vec<f64>| own.iter().map(|entry| entry.abs()).sum::<f64>();
         let rows = self.relative.iter().map(row);

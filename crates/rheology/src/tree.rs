@@ -26,9 +26,9 @@ pub const MOST_LEVELS: usize = 128;
 pub enum Tree<P> {
     /// A part that is not composed of others.
     Part(P),
-    /// Branches in a row.
+    /// Branches in series.
     Series(Vec<Branch<P>>),
-    /// Branches side by side.
+    /// Branches in parallel.
     Parallel(Vec<Branch<P>>),
 }
 
@@ -56,12 +56,12 @@ impl<P> From<P> for Tree<P> {
 }
 
 impl<P> Tree<P> {
-    /// Branches in a row, named by their position: `1`, `2`, …
+    /// Branches in series, named by their position: `1`, `2`, …
     pub fn series(branches: impl IntoIterator<Item = Self>) -> Self {
         Self::Series(numbered(branches))
     }
 
-    /// Branches side by side, named by their position: `1`, `2`, …
+    /// Branches in parallel, named by their position: `1`, `2`, …
     pub fn parallel(branches: impl IntoIterator<Item = Self>) -> Self {
         Self::Parallel(numbered(branches))
     }
@@ -74,7 +74,7 @@ impl<P> Tree<P> {
         }
     }
 
-    /// Whether the branches stand in a row.
+    /// Whether the branches stand in series.
     pub fn is_series(&self) -> bool {
         matches!(self, Self::Series(_))
     }

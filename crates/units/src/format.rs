@@ -56,7 +56,7 @@ pub fn format_short(value: f64, dimension: Dimension, digits: usize) -> String {
     written(value, &format!("{mantissa}e{exponent}"), dimension)
 }
 
-/// A value as text that is read back to the same bits, or as [`tidy`]; 0, or at least 2.2·10⁻³⁰⁸ in size.
+/// A value as text that is read back to the same bits, or as [`tidy`].
 pub fn exact_quantity(value: f64, dimension: Dimension) -> String {
     let molar = if dimension == Dimension::ENERGY { exact_molar(value) } else { None };
     let value = tidy(value);

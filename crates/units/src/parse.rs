@@ -45,11 +45,8 @@ pub enum UnitError {
         /// What was given.
         text: String,
     },
-    /// Not zero, but below the numbers that a double holds to all its digits.
-    #[error(
-        "`{text}` is too small: below {:.1e} in SI units a double loses digits",
-        f64::MIN_POSITIVE
-    )]
+    /// Not zero, but smaller than the smallest double.
+    #[error("`{text}` is too small: it would be rounded to zero")]
     TooSmall {
         /// What was given.
         text: String,
@@ -134,7 +131,7 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
     if !value.is_finite() {
         return Err(UnitError::TooLarge { text: text.to_owned() });
     }
-    if !value.is_normal() && has_digit_above_zero(number) {
+    if value == 0.0 && has_digit_above_zero(number) {
         return Err(UnitError::TooSmall { text: text.to_owned() });
     }
     Ok(Quantity {

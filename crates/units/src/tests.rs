@@ -71,8 +71,7 @@ fn what_is_no_quantity_is_refused_in_plain_words() {
     assert!(matches!(parse_quantity("1e400"), Err(UnitError::TooLarge { .. })));
     assert!(matches!(parse_quantity("1e305 GN/m"), Err(UnitError::TooLarge { .. })));
     assert!(matches!(parse_quantity("1e-320 nm"), Err(UnitError::TooSmall { .. })));
-    assert!(matches!(parse_quantity("1e-310 m"), Err(UnitError::TooSmall { .. })));
-    assert!(parse_quantity("1e-307 m").is_ok() && parse_quantity("0e-999 nm").is_ok());
+    assert!(parse_quantity("1e-310 m").is_ok() && parse_quantity("0e-999 nm").is_ok());
     assert!(matches!(parse_quantity("0,5 kN"), Err(UnitError::DecimalComma { .. })));
     for text in ["", " ", "N", "-", "kN 5", ".", "e5", "+-1"] {
         assert!(matches!(parse_quantity(text), Err(UnitError::NoNumber { .. })), "{text:?}");
@@ -179,7 +178,7 @@ fn exact_text_comes_back_to_the_same_bits() {
     for at in 0..20_000_usize {
         bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let value = f64::from_bits(bits ^ (bits >> 29));
-        if !value.is_normal() {
+        if !value.is_finite() {
             continue;
         }
         let dimension = named[at % named.len()];

@@ -67,7 +67,7 @@ fn what_bears_nothing_or_gives_nothing_has_one_form_only() {
     for (name, form, reason) in [
         ("rigid", "generalized-maxwell", "a rigid link has no Maxwell form"),
         ("nothing", "generalized-kelvin", "a model that bears no force has no Kelvin form"),
-        ("nothing", "zener", "the form is a spring and a Maxwell element side by side"),
+        ("nothing", "zener", "the form is a spring and a Maxwell element in parallel"),
     ] {
         let word = desk.word(&format!("odd.toml:{name}"));
         let (shown, said) = ends(&["convert", &word, "--to", form], 2);
@@ -131,7 +131,7 @@ fn a_material_stays_one() {
     let desk = Desk::with(&[("scene.toml", SCENE)]);
     let word = desk.word("scene.toml:foam");
     let shown = ends(&["convert", &word, "--to", "generalized-kelvin"], 0).0;
-    // K₁K₂/(K₁ + K₂) in a row: 3.8 MPa, then 0.8 · 3.8/3 MPa beside 9 kPa s (3.8/3)².
+    // K₁K₂/(K₁ + K₂) in series: 3.8 MPa, then 0.8 · 3.8/3 MPa beside 9 kPa s (3.8/3)².
     let options = ReadOptions::default();
     let found = read_named_model(&shown, "foam", &options).unwrap().value;
     assert!(found.is_material && shown.contains("MPa") && shown.contains("kPa s"), "{shown}");
@@ -280,7 +280,7 @@ fn the_response_of_a_network_becomes_a_model() {
         ends(&["convert", &word, "--to", form, "--out", text(&path), "--force"], 0);
         ends(&["compare", &word, &format!("{}:response", text(&path))], 0);
     }
-    // At low rates the bridge is 1e6, 4e6 and 5e6 N/m in a row, c beside and b off: it bears
+    // At low rates the bridge is 1e6, 4e6 and 5e6 N/m in series, c beside and b off: it bears
     // a constant load as a spring.
     let text = fs::read_to_string(&path).unwrap();
     let model = read_named_model(&text, "response", &ReadOptions::default()).unwrap().value.model;

@@ -333,7 +333,7 @@ impl fmt::Display for Missed {
             None => {
                 write!(
                     f,
-                    "`{}` is good to {}, not {}",
+                    "`{}` is known to {}, not to {}",
                     self.measure,
                     percent(reached),
                     percent(wish)
@@ -355,7 +355,7 @@ impl fmt::Display for Warning {
             ),
             Self::Pulls { element, since } => {
                 let since = since.as_ref().map_or("the start".to_owned(), time);
-                write!(f, "from {since} the {element} pulls: separation is off")
+                write!(f, "from {since} the {element} is in tension: separation is off")
             }
             Self::PressedThrough { through, others } => match others {
                 0 => write!(f, "{through}"),

@@ -52,7 +52,7 @@ pub(crate) struct ConvertArguments {
     dashpot compare pads.toml:felt fibre.toml:felt --impact reference:padding\n  \
     dashpot compare bridge.toml:face,ground pads.toml:felt\n  \
     dashpot compare old.toml:head,ground new.toml:head,ground\n\n\
-    `Same` means that all poles and strengths agree within 1e-11, relatively.\n\n\
+    `Same` means that all poles and residues agree within 1e-11, relatively.\n\n\
     Exit codes: 0 they are the same, 3 they are not, 2 the input is wrong.")]
 pub(crate) struct CompareArguments {
     /// The model.
@@ -79,7 +79,7 @@ pub(crate) struct CompareArguments {
     dashpot rheometer pads.toml:felt --test load-hold-unload --with \"hold=5 ms\"\n  \
     dashpot rheometer pads.toml:felt --test sweep --out felt\n  \
     dashpot rheometer pads.toml:felt --method exact,bdf\n\n\
-    Each test is computed from the model's poles and strengths in closed form, and \
+    Each test is computed from the model's poles and residues in closed form, and \
     independently from the equations of its network; both are shown. `dashpot list tests` \
     tells of each test and its parameters.")]
 pub(crate) struct RheometerArguments {

@@ -38,7 +38,7 @@ pub(crate) struct SweepArguments {
     /// points spread over the sweep [default: the scene's, else nothing].
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub(crate) neglect: Option<f64>,
-    /// Most work of each point, in units of a step of one unknown, some 20 ns [default: 1e9, some 30 s].
+    /// Most work of each point, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
     #[arg(long, value_name = "UNITS", value_parser = budget)]
     pub(crate) budget: Option<u64>,
     /// How many threads share the points; the results are the same [default: one per core].
@@ -72,7 +72,7 @@ pub(crate) struct CostArguments {
     /// scene wants an accuracy of, else all].
     #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
     pub(crate) measure: Vec<String>,
-    /// Most work of each solution, in units of a step of one unknown, some 20 ns [default: 1e9, some 30 s].
+    /// Most work of each solution, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
     #[arg(long, value_name = "UNITS", value_parser = budget)]
     pub(crate) budget: Option<u64>,
     /// How often each solution is repeated for its time [default: the more often, the fewer steps

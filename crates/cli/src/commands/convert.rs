@@ -81,9 +81,9 @@ fn round_trip(comparison: &Equivalence) -> f64 {
 
 fn said(error: f64) -> String {
     if error == 0.0 {
-        "round trip: the same in every rate and strength, to the last digit".to_owned()
+        "round trip: the same in every rate and residue, to the last digit".to_owned()
     } else {
-        format!("round trip: the same within {} in every rate and strength", bound(error))
+        format!("round trip: the same within {} in every rate and residue", bound(error))
     }
 }
 

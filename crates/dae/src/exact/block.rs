@@ -89,6 +89,15 @@ impl Block {
         rest + &self.low
     }
 
+    /// What it costs to advance by times up to `t` \[s\] beyond what a single mode does, in units of the budget.
+    pub(super) fn cost(&self, t: f64) -> u64 {
+        /// Some 60 products of small matrices.
+        const SQUARED: u64 = 100;
+        let size = || largest_column(&self.offset(self.shift()).map(Complex::norm));
+        let is_squared = self.len() > 1 && size() * t > REACH * STEPS;
+        if is_squared { SQUARED * (self.len() * self.len()) as u64 } else { 0 }
+    }
+
     /// `vector ← e^{D_i t} vector`.
     pub(super) fn advance(&self, t: f64, vector: &mut [Complex]) {
         if vector.iter().all(|value| *value == Complex::default()) {

@@ -134,11 +134,13 @@ impl ModalRow {
         let inherited = self.error(modes, span);
         let mut worst = 0.0_f64;
         let mut walk = Walk::new(self, (modes, tables), &span.start, length);
+        let powers: u64 = modes.blocks.iter().map(|block| block.cost(length)).sum();
         loop {
             let local = self.size_at(walk.sizes());
             quality.size = quality.size.max(local);
             let tolerance = 2.0 * f64::EPSILON * (local + FLOOR * scale);
             let at = walk.at();
+            budget.charge(powers);
             let is_over = budget.charge_step(modes.len());
             let most = if is_over || pieces.len() >= MOST {
                 length - at

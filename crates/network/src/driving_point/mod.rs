@@ -98,7 +98,7 @@ pub struct Massless {
     pub model: LinearModel,
     /// Modes of the network that do not show.
     pub hidden: Vec<Hidden>,
-    /// Relative error of every rate and strength that the model keeps: the largest difference of
+    /// Relative error of every rate and residue that the model keeps: the largest difference of
     /// two computations.
     pub error: f64,
 }

@@ -162,7 +162,7 @@ const PARAMETERS: [Parameter; 8] = {
 
 impl Kind for HystereticFoam {
     const KIND: &'static str = "hysteretic-foam";
-    const SUMMARY: &'static str = "foam that unloads on a lower curve and keeps a set; never pulls";
+    const SUMMARY: &'static str = "foam with hysteresis and permanent set; never pulls";
     const PARAMETERS: &'static [Parameter] = &PARAMETERS;
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {

@@ -4,8 +4,8 @@ use dashpot_units::{Dimension, exact_quantity};
 
 use super::InvalidParameter;
 
-/// The numbers that a parameter may have; all of them are finite, and 0 or at least 2.2·10⁻³⁰⁸, below which
-/// double precision loses digits.
+/// The numbers that a parameter may have; all of them are finite. Those that are never negative are 0 or at
+/// least 2.2·10⁻³⁰⁸: the reciprocal of less is beyond double precision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Range {
     /// Any.
@@ -49,7 +49,8 @@ impl Range {
 
     /// Whether a number is in it.
     pub fn contains(self, number: f64) -> bool {
-        (number == 0.0 || number.is_normal())
+        number.is_finite()
+            && (!number.is_subnormal() || self == Self::Finite)
             && match self {
                 Self::Finite => true,
                 Self::NotZero => number != 0.0,
@@ -73,6 +74,10 @@ impl Range {
             return Ok(());
         }
         let found = match self {
+            _ if number.is_subnormal() => {
+                let least = exact_quantity(f64::MIN_POSITIVE, Dimension::NUMBER);
+                format!("{number:e}, which is below {least}")
+            }
             Self::AboveAbsoluteZero => kelvins(number),
             _ => exact_quantity(number, Dimension::NUMBER),
         };

@@ -17,7 +17,7 @@ const STYLE: &str = include_str!("style.css");
 /// let report = Report {
 ///     title: "Head on a padded panel".into(),
 ///     verdict: vec!["peak force 38.4 kN at 0.98 ms".into()],
-///     warnings: vec!["from 7.43 ms the padding pulls: separation is off".into()],
+///     warnings: vec!["from 7.43 ms the padding is in tension: separation is off".into()],
 ///     tables: vec![Table {
 ///         caption: "Measures".into(),
 ///         header: vec!["measure".into(), "exact".into()],
@@ -224,7 +224,7 @@ mod tests {
         });
         Report {
             title: "Head <of 10 kg> & panel".into(),
-            warnings: vec!["from 7.43 ms the padding pulls: separation is off".into()],
+            warnings: vec!["from 7.43 ms the padding is in tension: separation is off".into()],
             verdict: row(&["peak force 38.4 kN at 0.98 ms, 391 g", "deepest 17.5 mm, 2.5 mm left"]),
             tables: vec![Table {
                 caption: "Measures".into(),

@@ -7,7 +7,7 @@
 //! for as long as their times differ at all.
 //!
 //! In the thesis, the Burgers element is a spring `K2`, a dashpot `C2` and a Kelvin–Voigt element
-//! `K1`, `C1` in a row; the Maxwell elements are `K3`, `C3` and `K4`, `C4`.
+//! `K1`, `C1` in series; the Maxwell elements are `K3`, `C3` and `K4`, `C4`.
 
 mod wide;
 
@@ -24,7 +24,7 @@ pub struct SpringDashpot {
     pub dashpot: f64,
 }
 
-/// A Maxwell and a Kelvin–Voigt element in a row.
+/// A Maxwell and a Kelvin–Voigt element in series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Burgers {
     /// Spring `K2` and dashpot `C2`, in series.
@@ -33,7 +33,7 @@ pub struct Burgers {
     pub kelvin: SpringDashpot,
 }
 
-/// Two Maxwell elements side by side.
+/// Two Maxwell elements in parallel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TwoMaxwell {
     /// Spring `K3` and dashpot `C3`, the element with the longer relaxation time `C3/K3`.
@@ -42,7 +42,7 @@ pub struct TwoMaxwell {
     pub fast: SpringDashpot,
 }
 
-/// What two Maxwell elements side by side are.
+/// What two Maxwell elements in parallel are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Equivalent {
     /// A Burgers element, where their relaxation times differ.

@@ -95,7 +95,7 @@ fn a_missing_mode_is_named() {
 
 #[test]
 fn constants_are_those_of_the_forms() {
-    // A spring of 2 in a row with 5 ∥ 10: J_g = 1/2, J = 1/5, λ = 2, and seen as a Maxwell form
+    // A spring of 2 in series with 5 ∥ 10: J_g = 1/2, J = 1/5, λ = 2, and seen as a Maxwell form
     // K_e = 10/7, K = 4/7, τ = λ K_e/K_g = 10/7.
     let kelvin = Tree::parallel([Spring(5.0).into(), Dashpot(10.0).into()]);
     let zener = model(&Tree::series([Spring(2.0).into(), kelvin]));

@@ -2,7 +2,7 @@
 
 use super::{Form, KELVIN_VOIGT, MAXWELL, Part};
 
-/// A Maxwell element in a row with a Kelvin–Voigt element: the four-parameter model of the thesis.
+/// A Maxwell element in series with a Kelvin–Voigt element: the four-parameter model of the thesis.
 ///
 /// Liquid; instantaneous stiffness that of the Maxwell spring (the thesis' `K2`), which stands on
 /// the impactor's side, then the Maxwell dashpot (`C2`), then `K1 ∥ C1`. The thesis' equation 2.12,

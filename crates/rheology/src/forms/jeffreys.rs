@@ -2,7 +2,7 @@
 
 use super::{Form, KELVIN_VOIGT, Part, Role};
 
-/// A dashpot in a row with a Kelvin–Voigt element.
+/// A dashpot in series with a Kelvin–Voigt element.
 ///
 /// Liquid without instantaneous elasticity; seen from outside, a Maxwell element beside a dashpot.
 pub const JEFFREYS: Form = Form {

@@ -2,7 +2,7 @@
 
 use super::{Form, Part, Role};
 
-/// A spring and a dashpot side by side, `F = K y + C ẏ` (the thesis' Kelvin element).
+/// A spring and a dashpot in parallel, `F = K y + C ẏ` (the thesis' Kelvin element).
 ///
 /// Solid; no instantaneous elasticity; retardation time `λ = C/K`.
 pub const KELVIN_VOIGT: Form = Form {

@@ -2,7 +2,7 @@
 
 use super::{Form, Part, Role};
 
-/// A spring and a dashpot in a row, `F + (C/K) F' = C ẏ`.
+/// A spring and a dashpot in series, `F + (C/K) F' = C ẏ`.
 ///
 /// Liquid; instantaneous stiffness `K`; relaxation time `τ = C/K`.
 pub const MAXWELL: Form = Form {

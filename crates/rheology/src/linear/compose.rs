@@ -79,12 +79,12 @@ impl LinearModel {
         Self::finished(Half::primitive(primitive), Vec::new())
     }
 
-    /// Models in a row: one force, deformations add up. No model at all is rigid.
+    /// Models in series: one force, deformations add up. No model at all is rigid.
     pub fn series(parts: &[Self]) -> Self {
         Self::composed(parts, true)
     }
 
-    /// Models side by side: one deformation, forces add up. No model at all bears no force.
+    /// Models in parallel: one deformation, forces add up. No model at all bears no force.
     pub fn parallel(parts: &[Self]) -> Self {
         Self::composed(parts, false)
     }

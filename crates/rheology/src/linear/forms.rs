@@ -8,9 +8,9 @@ use crate::{Branch, Tree};
 /// A canonical form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Canonical {
-    /// Generalised Maxwell: a spring, a dashpot and Maxwell elements side by side (a Prony series).
+    /// Generalised Maxwell: a spring, a dashpot and Maxwell elements in parallel (a Prony series).
     Maxwell,
-    /// Generalised Kelvin–Voigt: a spring, a dashpot and Kelvin–Voigt elements in a row.
+    /// Generalised Kelvin–Voigt: a spring, a dashpot and Kelvin–Voigt elements in series.
     Kelvin,
 }
 
@@ -42,11 +42,11 @@ pub struct KelvinElement {
     pub rate: Twofold,
 }
 
-/// `Q(s) = K_e + C s + Σ K_j s/(s + r_j)`: a spring, a dashpot and Maxwell elements side by side.
+/// `Q(s) = K_e + C s + Σ K_j s/(s + r_j)`: a spring, a dashpot and Maxwell elements in parallel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MaxwellForm(pub(crate) Fractions);
 
-/// `1/Q(s) = J_g + φ₀/s + Σ φ_i/(s + z_i)`: a spring, a dashpot and Kelvin–Voigt elements in a row.
+/// `1/Q(s) = J_g + φ₀/s + Σ φ_i/(s + z_i)`: a spring, a dashpot and Kelvin–Voigt elements in series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KelvinForm(pub(crate) Fractions);
 

@@ -63,7 +63,7 @@ pub struct Merged {
 ///
 /// # Examples
 ///
-/// A Burgers element relaxes like two Maxwell elements side by side:
+/// A Burgers element relaxes like two Maxwell elements in parallel:
 ///
 /// ```
 /// use dashpot_rheology::{LinearModel, Primitive::{Dashpot, Spring}};

@@ -401,7 +401,7 @@ impl Fault {
             }
             Self::NoQuantity { expected, .. } => Some(example(*expected)),
             Self::TooDeep { .. } | Self::ModelTooDeep { .. } => Some(
-                "write branches in a row, or side by side, into one list: `series = [a, b, c]`"
+                "write branches in series, or in parallel, into one list: `series = [a, b, c]`"
                     .to_owned(),
             ),
             Self::AngularFrequency { frequency, .. } => {

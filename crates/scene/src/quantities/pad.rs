@@ -70,7 +70,7 @@ impl EnclosingPad {
         let Some(whole) = self.around.filter(|_| key == SIZE[0]) else { return };
         let excess = own.value - whole.value;
         if self.in_row && excess > SAME * whole.value {
-            note(key, [own, whole], "a part in a row is no thicker than the whole", faults);
+            note(key, [own, whole], "a part in series is no thicker than the whole", faults);
         } else if !self.in_row && excess.abs() > SAME * whole.value {
             let help = "what lies between the same ends has one thickness: correct one, or leave \
                         that of the element out";

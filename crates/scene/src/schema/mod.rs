@@ -248,8 +248,8 @@ fn composed<'k>(
     }
     let branch = reference(if is_material { "material-branch" } else { "branch" });
     let branches = json!({ "type": "array", "items": branch, "minItems": 1 });
-    laws.insert("series", described_as(branches.clone(), "branches in a row"));
-    laws.insert("parallel", described_as(branches, "branches side by side"));
+    laws.insert("series", described_as(branches.clone(), "branches in series"));
+    laws.insert("parallel", described_as(branches, "branches in parallel"));
     let by_name = |word: &str| {
         let description = format!("a {word} by name, or `file.toml:name`");
         json!({ "type": "string", "description": description })

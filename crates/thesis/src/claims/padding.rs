@@ -146,7 +146,7 @@ fn equivalent(study: &Study) -> Result<Claim, ThesisError> {
         named.map(|(name, value, unit)| row([name.to_owned(), significant(value / unit, 6)]));
     Ok(Claim {
         place: "A",
-        says: "two Maxwell elements side by side describe the padding with equal precision",
+        says: "two Maxwell elements in parallel describe the padding with equal precision",
         verdict: Verdict::single(most < SAME),
         finding: format!(
             "In the impact of chapter IV force and deformation differ by {}.",

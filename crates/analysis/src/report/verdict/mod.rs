@@ -11,8 +11,8 @@ use crate::{
     energy::ledger::{Ledger, ledger},
     impact::bodies,
     measures::{
-        ContactTime, EndVelocity, Energy, MeasureKind, PeakAcceleration, PeakDeformation,
-        PeakForce, TransmittedForce,
+        CoefficientOfRestitution, ContactTime, EndVelocity, Energy, MeasureKind, PeakAcceleration,
+        PeakDeformation, PeakForce, TransmittedForce,
     },
 };
 
@@ -169,6 +169,8 @@ pub struct Leaving<'r> {
     pub speed: f64,
     /// Whether it has turned.
     pub returns: bool,
+    /// The element's coefficient of restitution \[1\], where the impactor has turned.
+    pub restitution: Option<f64>,
 }
 
 /// What is known of the errors of the values.
@@ -409,7 +411,10 @@ impl<'r> Found<'r> {
         });
         let (node, speed) = speeds.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
         let returns = speed * node.start_velocity.unwrap_or(0.0) < 0.0;
-        Some(Leaving { impactor: &node.name, speed: speed.abs(), returns })
+        let at = self.0.assembly.position(element)?;
+        let restitution = MeasureKind::read(&CoefficientOfRestitution::default(), &solution, at);
+        let restitution = restitution.value.filter(|_| returns);
+        Some(Leaving { impactor: &node.name, speed: speed.abs(), returns, restitution })
     }
 
     fn reached(self) -> Reached<'r> {

@@ -84,7 +84,7 @@ fn burgers(padding: &Connection) -> Result<[f64; 4], &'static str> {
 
 /// K3 and C3 of the mount.
 fn holder(mount: &Connection) -> Result<(f64, f64), &'static str> {
-    const OTHER: &str = "the support is not held by a spring and a dashpot side by side";
+    const OTHER: &str = "the support is not held by a spring and a dashpot in parallel";
     if mount.layers.is_some() || first_nonlinear(&mount.model).is_some() {
         return Err(OTHER);
     }

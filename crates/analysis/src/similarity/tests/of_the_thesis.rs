@@ -36,7 +36,7 @@ fn gravity_and_a_mass_on_the_face_make_two_more_groups() {
 
 #[test]
 fn any_model_that_is_a_burgers_model_from_outside_has_its_groups() {
-    // Appendix A: two Maxwell elements side by side.
+    // Appendix A: two Maxwell elements in parallel.
     let mut network = reference();
     let (k1, c1, k2, c2) = (2e7_f64, 4e3, 2e7, 6e3);
     let alpha = 0.5 * (k2 / c2 + k2 / c1 + k1 / c1);
@@ -116,5 +116,5 @@ fn other_forms_are_told_from_that_of_the_thesis() {
     assert!(reason(&network).contains("four-parameter"));
     let mut network = reference();
     network.set_model(1, Tree::series([spring(1e6), dashpot(1e3)]));
-    assert!(reason(&network).contains("side by side"));
+    assert!(reason(&network).contains("in parallel"));
 }

@@ -257,9 +257,9 @@ impl Form {
     /// As a table.
     pub(super) fn table(&self) -> Table {
         let caption = if self.word == "kelvin" {
-            "Kelvin form: in a row"
+            "Kelvin form: in series"
         } else {
-            "Maxwell form: side by side"
+            "Maxwell form: in parallel"
         };
         let rows = self.constants.iter().map(|own| {
             let time = own.time.map_or_else(String::new, times);
@@ -269,7 +269,7 @@ impl Form {
             let [first, second] = own.value.map(value);
             vec![own.part.clone(), time, first, second, apart(own.difference)]
         });
-        Table::new(caption, &["", "time", "first", "second", "apart by"], rows)
+        Table::new(caption, &["", "time", "first", "second", "difference"], rows)
     }
 }
 
@@ -287,6 +287,6 @@ impl Impact {
             vec![own.measure.clone(), value(0), value(1), difference, error]
         });
         let caption = format!("The impact {} with each as its `{}`", self.scene, self.element);
-        Table::new(caption, &["", "first", "second", "apart by", "known to"], rows)
+        Table::new(caption, &["", "first", "second", "difference", "known to"], rows)
     }
 }

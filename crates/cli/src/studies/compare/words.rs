@@ -14,9 +14,9 @@ pub(super) fn sentences(found: &Comparison) -> Vec<String> {
     if let Some(largest) = found.largest_difference {
         let limit = bound(found.within);
         let text = if found.same {
-            "All poles and strengths agree within"
+            "All poles and residues agree within"
         } else {
-            "A pole or strength differs by"
+            "A pole or residue differs by"
         };
         all.push(format!("{text} {} (the limit is {limit}).", apart(largest)));
     }

@@ -105,7 +105,10 @@ impl Study for Costs {
 impl Costs {
     /// Solutions that failed, and errors that no run tells of.
     fn faults(&self) -> [(&'static str, Vec<String>); 2] {
-        [("Failed", failures(&self.report)), ("Further off than it is said", slips(&self.report))]
+        [
+            ("Failed", failures(&self.report)),
+            ("True error exceeds the estimate", slips(&self.report)),
+        ]
     }
 }
 

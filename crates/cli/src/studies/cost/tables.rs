@@ -62,7 +62,7 @@ pub(super) fn work(report: &CostReport) -> Table {
     };
     Table::new(
         "Work",
-        &["method", "rtol", "steps", "redone", "rhs", "Jacobians", "LU", "solves", "integration"],
+        &["method", "rtol", "steps", "rejected", "rhs", "Jacobians", "LU", "solves", "integration"],
         steps.map(row),
     )
 }

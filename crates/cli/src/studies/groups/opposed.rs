@@ -52,6 +52,6 @@ pub(super) fn table(caption: &str, [first, second]: [&str; 2], measures: &[Measu
         });
         vec![own.key.clone(), one, other, by]
     };
-    let header = ["measure", first, second, "apart (of larger)"];
+    let header = ["measure", first, second, "difference (of larger)"];
     Table::new(caption, &header, measures.iter().map(row))
 }

@@ -121,7 +121,7 @@ impl Pair {
             let [one, other] = own.values.map(|value| significant(value, DIGITS));
             vec![own.formula.clone(), one, other, apart(own.apart)]
         };
-        let header = ["group", "first", "second", "apart"];
+        let header = ["group", "first", "second", "difference"];
         Table::new("Groups that differ", &header, self.found.different().map(row))
     }
 

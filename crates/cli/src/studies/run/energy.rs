@@ -44,7 +44,7 @@ pub(super) fn energy_table(run: &RunReport) -> Table {
         let amounts = ledgers.iter().map(|(_, ledger)| unit.decimal(amount(ledger), decimals));
         [label.to_owned()].into_iter().chain(amounts).collect::<Vec<_>>()
     };
-    let mut rows = vec![row("there at the start", &|ledger| ledger.start)];
+    let mut rows = vec![row("initial energy", &|ledger| ledger.start)];
     if !run.energy.work_in.is_empty() {
         rows.push(row(&work_of(&run.assembly.drives), &Ledger::total_work_in));
     }
@@ -82,6 +82,6 @@ pub(super) fn energy_table(run: &RunReport) -> Table {
     line("stored in the others".to_owned(), &|at| sum(&|element| stored(at, element)));
     line("dissipated in the others".to_owned(), &|at| sum(&|element| dissipated(at, element)));
     let missing = ledgers.iter().map(|(_, ledger)| share(ledger.closure()));
-    rows.push(["missing".to_owned()].into_iter().chain(missing).collect());
+    rows.push(["balance error".to_owned()].into_iter().chain(missing).collect());
     Table { caption: "Energy".to_owned(), header, rows }
 }

@@ -82,7 +82,7 @@ fn build(answer: &Answer, block: &Block<'_>) -> Table {
         header.push("at".to_owned());
     }
     if block.apart {
-        header.push("apart".to_owned());
+        header.push("difference".to_owned());
     }
     let differences = answer.differences();
     let apart: HashMap<&str, &Difference> =

@@ -53,7 +53,7 @@ const PLOT_HEIGHT: usize = 14;
 /// Points of a curve in the plot: many more than dots, so that quick oscillations fill their band.
 const PLOT_POINTS: usize = 8001;
 /// Columns of the verdict's labels.
-const LABELS: usize = 13;
+const LABELS: usize = 15;
 
 /// A scene and its runs.
 struct Answer {

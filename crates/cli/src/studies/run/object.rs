@@ -113,7 +113,7 @@ fn put_back(own: &PutBack) -> impl Serialize {
         Why::Moves(cost) => (Some(cost), None),
         Why::Fails(error) => (None, Some(error.to_string())),
         Why::Pulls { element, time } => {
-            (None, Some(format!("`{element}` would pull from {time} s on")))
+            (None, Some(format!("`{element}` would go into tension at {time} s")))
         }
     };
     let (formula, estimate) = (&own.influence.formula, own.influence.value);

@@ -47,7 +47,10 @@ fn why(partial: &Partial, why: &Why) -> String {
         }
         Why::Fails(error) => format!("without it {error}"),
         Why::Pulls { element, time } => {
-            format!("without it the {element} pulls from {} on", quantity(*time, "s", TIME_DIGITS))
+            format!(
+                "without it the {element} goes into tension at {}",
+                quantity(*time, "s", TIME_DIGITS)
+            )
         }
     }
 }

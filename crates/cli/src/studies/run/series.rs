@@ -187,7 +187,7 @@ fn markers(report: &RunReport) -> Vec<RunMarker> {
         element: contact.element.clone(),
         kind: RunMarkerKind::TensionStart,
         time: contact.impact.end,
-        label: format!("pulls from {}", quantity(contact.impact.end, "s", DIGITS)),
+        label: format!("tension from {}", quantity(contact.impact.end, "s", DIGITS)),
         moment: String::new(),
     }));
     markers

@@ -14,7 +14,7 @@ const TIMES: &str = "`time`: integration alone (of `exact`: its set-up); `in all
 /// Work and time of each run.
 pub(super) fn solving_table(answer: &Answer) -> Table {
     let header =
-        ["method", "rtol", "steps", "redone", "Jacobians", "LU", "time", "for errors", "in all"];
+        ["method", "rtol", "steps", "rejected", "Jac.", "LU", "time", "for errors", "in all"];
     let row = |(run, elapsed): (&RunReport, &Duration)| {
         let (solver, work) = (&run.solver, &run.solver.statistics);
         let stepwise = solver.rtol.is_some();

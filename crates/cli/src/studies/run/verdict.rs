@@ -12,7 +12,7 @@ use super::{
     partial::{left_out, put_back},
     zero::Zeros,
 };
-use crate::numbers::{self, Unit, bound, constant, quantity, rounded, share};
+use crate::numbers::{self, Unit, bound, constant, percent, quantity, rounded, share, significant};
 
 /// Digits of a number that is read in passing.
 const DIGITS: usize = 4;
@@ -27,7 +27,7 @@ const ZERO: f64 = 1e-9;
 /// So many figures are named in one line.
 const NAMED: usize = 3;
 /// What follows the release.
-const GLUED: &str = ", then it pulls as if glued (separation is off)";
+const GLUED: &str = ", then it goes into tension (separation is not modelled)";
 /// Of a peak where the run ends.
 const SO_FAR: &str = " so far, still rising at the end of the run";
 /// What the errors of a run that ends in contact do not say.
@@ -70,13 +70,13 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
         ("of it", of_it),
         ("elsewhere", elsewhere),
         ("peak g", found.peak_acceleration.map(|peak| words.peak_g(peak))),
-        ("deepest point", found.depth.map(|own| words.depth(own.peak, own.left))),
+        ("max. deflection", found.depth.map(|own| words.depth(own.peak, own.left))),
         ("energy", found.energy.as_ref().map(|own| words.energy(own))),
         ("contact", found.ending.as_ref().map(|own| words.ending(own))),
-        ("injury", injury(run)),
+        ("indices", indices(run)),
         ("left out", left_out(run)),
         ("put back", put_back(run)),
-        ("how wrong", words.how_wrong(&found)),
+        ("num. error", words.error(&found)),
         ("next digit", next_digit(answer, run)),
     ];
     lines.into_iter().filter_map(|(label, text)| Some(Line { label, text: text? })).collect()
@@ -141,24 +141,26 @@ impl Words<'_> {
         let limit = constant(thickness, "m");
         let digits = numbers::digits(left, measure.error, TIME_DIGITS);
         let rest = quantity(left.abs(), "m", digits);
+        let strain = 1.0 - left / thickness;
+        let strain = percent(strain, if strain < 1.0 { 2 } else { 3 });
         if left >= 0.0 {
-            format!("{text}, {rest} of {limit} left")
+            format!("{text}: {strain} of {limit}, {rest} left")
         } else {
-            format!("{text}, {rest} MORE than its {limit}")
+            format!("{text}: {strain} of {limit}, {rest} MORE than there is")
         }
     }
 
     fn energy(&self, own: &Absorbed<'_>) -> String {
         let (value, name) = (own.value, &own.measure.target);
         let amount = self.shown(own.measure, value);
-        let Some(supply) = &own.supply else { return format!("{name} takes up {amount}") };
+        let Some(supply) = &own.supply else { return format!("{name} absorbs {amount}") };
         let (kinetic, work) = (supply.kinetic, supply.work);
         if kinetic <= LITTLE * work {
             // What falls begins without energy, or with what little its layers hold at rest.
             let whole = rounded(work, "J", TIME_DIGITS);
             let part =
                 if value <= work { format!(" ({})", share(value / work)) } else { String::new() };
-            return format!("{name} takes up {amount} of {whole} put in{part}");
+            return format!("{name} absorbs {amount} of {whole} put in{part}");
         }
         let whole = rounded(kinetic, "J", DIGITS);
         let whole = if supply.impactors.is_empty() {
@@ -179,7 +181,7 @@ impl Words<'_> {
         } else {
             String::new()
         };
-        format!("{name} takes up {amount} of {whole}{added}{part}")
+        format!("{name} absorbs {amount} of {whole}{added}{part}")
     }
 
     fn ending(&self, ending: &Ending<'_>) -> String {
@@ -208,8 +210,11 @@ impl Words<'_> {
                     let error = self.run.worst_relative_error();
                     let digits = numbers::digits(1.0, error, TIME_DIGITS);
                     let text = quantity(own.speed, "m/s", digits);
-                    let how = if own.returns { "leaves" } else { "then goes on" };
-                    format!("; {} {how} at {text}", own.impactor)
+                    let how = if own.returns { "rebounds" } else { "goes on" };
+                    let restitution = own.restitution.map_or(String::new(), |own| {
+                        format!(", coefficient of restitution {}", significant(own, digits))
+                    });
+                    format!("; {} {how} at {text}{restitution}", own.impactor)
                 });
                 let again = contact.map_or(String::new(), again);
                 let time = self.shown(measure, *value);
@@ -218,7 +223,7 @@ impl Words<'_> {
         }
     }
 
-    fn how_wrong(&self, found: &Verdict<'_>) -> Option<String> {
+    fn error(&self, found: &Verdict<'_>) -> Option<String> {
         let (answer, run, reached) = (self.answer, self.run, &found.reached);
         let method = run.solver.method;
         let is_estimated = answer.asked.iter().any(|asked| asked.estimate);
@@ -227,30 +232,31 @@ impl Words<'_> {
             None if is_estimated && reached.is_unknown => {
                 "it is not known: no further solutions came about to tell errors".to_owned()
             }
-            None if is_estimated => "no figure has a size to be wrong by".to_owned(),
+            None if is_estimated => "no figure has a size to be relative to".to_owned(),
             None => "errors were not estimated".to_owned(),
             Some(worst) if !worst.is_finite() => {
                 "some figures come and go with the tolerance; see the table".to_owned()
             }
             Some(worst) => {
+                let of = and_segments(run) + and_left_out(run);
                 let how = if run.solver.rtol.is_none() {
-                    format!(": a bound of `{method}`")
+                    format!(" (a bound of `{method}`{of})")
                 } else {
-                    format!(", by {} solutions of `{method}`", run.solver.solves_for_error + 1)
+                    let solutions = run.solver.solves_for_error + 1;
+                    format!(" (by {solutions} solutions of `{method}`{of})")
                 };
                 let but = self.exceptions(reached);
                 let every = if but.is_empty() { "every figure" } else { "every other figure" };
-                let of = and_segments(run);
-                format!("{but}{every} is good to {}{how}{of}{}", bound(worst), and_left_out(run))
+                format!("{but}{every} within {}{how}", bound(worst))
             }
         };
         let apart = answer.differences().iter().map(|entry| entry.relative).reduce(f64::max);
         let apart = apart.map(|apart| match answer.runs.as_slice() {
             [one, other] => {
                 let names = format!("`{}` and `{}`", one.solver.method, other.solver.method);
-                format!("; {names} are {} apart", bound(apart))
+                format!("; {names} differ by {}", bound(apart))
             }
-            _ => format!("; all methods are within {}", bound(apart)),
+            _ => format!("; all methods differ by {} at most", bound(apart)),
         });
         let cut = if found.is_cut { CUT } else { "" };
         Some(own + cut + &apart.unwrap_or_default())
@@ -343,9 +349,9 @@ fn index_name(run: &RunReport, measure: &MeasureReport) -> String {
     }
 }
 
-fn injury(run: &RunReport) -> Option<String> {
-    let indices = run.measures.iter().filter(|measure| is_index(measure.kind));
-    let texts = indices.filter_map(|measure| {
+fn indices(run: &RunReport) -> Option<String> {
+    let found = run.measures.iter().filter(|measure| is_index(measure.kind));
+    let texts = found.filter_map(|measure| {
         let name = format!("{} of {}", index_name(run, measure), measure.target);
         let Some(value) = measure.value else {
             return measure.time.map(|_| format!("{name} is infinite"));

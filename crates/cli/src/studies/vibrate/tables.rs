@@ -99,7 +99,7 @@ pub(super) fn remarks(sweep: &Sweep) -> Vec<String> {
     }
     remarks.push(format!("limit at slow oscillation: {}", limits(&sweep.transmissions)));
     let worst = all().map(Transmission::worst_error).fold(0.0, f64::max);
-    remarks.push(format!("every ratio is good to {}, by rounding", bound(worst)));
+    remarks.push(format!("every ratio within {}, by rounding", bound(worst)));
     remarks
 }
 
