@@ -6,13 +6,14 @@ use dashpot_analysis::{
     verdict::{Absorbed, Ending, Opened, Peak, Reached, Verdict, WholeForce},
 };
 use dashpot_network::parameters::Kind as _;
+use dashpot_units::percent;
 
 use super::{
     Answer,
     partial::{left_out, put_back},
     zero::Zeros,
 };
-use crate::numbers::{self, Unit, bound, constant, percent, quantity, rounded, share, significant};
+use crate::numbers::{self, Unit, bound, constant, quantity, rounded, share, significant};
 
 /// Digits of a number that is read in passing.
 const DIGITS: usize = 4;
