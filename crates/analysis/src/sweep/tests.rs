@@ -194,7 +194,7 @@ fn stamped_points_are_warned_of_what_full_ones_are() {
         found.warnings.iter().find(|own| own.warning.to_string().contains("harder blow")).unwrap();
     assert_eq!(harder.points, [0, 1]);
     let pulls =
-        found.warnings.iter().find(|own| own.warning.to_string().contains("pulls")).unwrap();
+        found.warnings.iter().find(|own| own.warning.to_string().contains("in tension")).unwrap();
     assert_eq!(pulls.points, [0, 1, 2, 3]);
     assert_eq!(found.stamped, 2, "{:?}", found.warnings);
 }

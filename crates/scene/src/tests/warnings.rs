@@ -36,7 +36,7 @@ fn bare_numbers_that_cannot_be_meant_are_told() {
     let shown = thick("40");
     has(&shown, &["warning: `thickness` is 40 m: did you mean mm?", "^^"]);
     has(&shown, &["help: a bare number is in m; write it with its unit: \"40 mm\""]);
-    has(&thick("0.000004"), &["`thickness` is 0.000004 m, which is very little"]);
+    has(&thick("0.000004"), &["`thickness` is 4e-6 m, which is very little"]);
     assert_eq!(thick("\"40 m\"") + &thick("0.04") + &thick("1"), "");
     let shown = warnings("head = { mass = 250000, velocity = 1 }", PAD, RUN);
     has(&shown, &["`mass` is 250000 kg: did you mean g?"]);
