@@ -2,7 +2,7 @@
 
 use std::{fmt::Debug, time::Duration};
 
-use crate::{Digest, Event, Shared, Signal, Switch, System};
+use crate::{Digest, Event, Shared, Signal, System};
 
 /// How much work a run was.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -45,6 +45,29 @@ pub enum Outcome {
         /// Index into [`Run::guards`](crate::Run::guards).
         guard: usize,
     },
+}
+
+/// Something that switched.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Switch {
+    /// When \[s\].
+    pub time: f64,
+    /// Number of the switching part.
+    pub part: usize,
+    /// Its name.
+    pub name: String,
+    /// Number of the phase that begins; the one that ended, where an impact left it as it was.
+    pub phase: usize,
+    /// The word for that phase, or for the impact.
+    pub what: &'static str,
+    /// What the phase remembers.
+    pub memory: f64,
+    /// Impulse of an impact \[N s\]; 0 where speeds did not jump.
+    pub impulse: f64,
+    /// Kinetic energy lost by an impact \[J\].
+    pub lost: f64,
+    /// Work that a moving support does in an impact \[J\].
+    pub worked: f64,
 }
 
 /// A solution between its ends.

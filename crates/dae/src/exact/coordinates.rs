@@ -4,7 +4,7 @@ use dashpot_twofold::Accumulator;
 use nalgebra::DMatrix;
 
 use super::{
-    Augmented, Complex, augmented::Span, bounds::coupling_error, modes::Modes,
+    Augmented, Complex, augmented::Span, block::Block, bounds::enclose, modes::Modes,
     refinement::enclose_matrix,
 };
 
@@ -166,6 +166,47 @@ fn span_errors(
         }
     }
     (largest, last)
+}
+
+/// The error that the defect `Δ = X⁻¹ Ā X − D` may cause in each modal coordinate within `length`
+/// after a state whose coordinates have these `sizes`.
+///
+/// To first order it is `∫₀ᵗ e^{D_i (t−s)} Δ_ij e^{D_j s} c_j ds`, which is at most the largest value
+/// of one exponential times the integral of the other; the smaller of the two products counts. The
+/// error drives itself in the same way. Growth that all modes are granted is taken out first, so
+/// that it does not count twice.
+fn coupling_error(modes: &Modes, sizes: &[f64], length: f64) -> Vec<f64> {
+    let growth = modes.blocks.iter().map(Block::growth_rate).fold(0.0, f64::max);
+    let largest = |block: &Block, sizes: &[f64]| block.largest_discounted(length, sizes, growth);
+    let integral = |block: &Block, sizes: &[f64]| block.integral(length, sizes, growth);
+    let mut tops = Vec::with_capacity(sizes.len());
+    let mut areas = Vec::with_capacity(sizes.len());
+    for block in &modes.blocks {
+        tops.extend(largest(block, &sizes[block.range()]));
+        areas.extend(integral(block, &sizes[block.range()]));
+    }
+    let mut first = vec![0.0; sizes.len()];
+    for target in &modes.blocks {
+        for source in &modes.blocks {
+            let pushed = |sizes: &[f64]| -> Vec<f64> {
+                let push = |i| source.range().map(|j| modes.defect[(i, j)] * sizes[j]).sum();
+                target.range().map(push).collect()
+            };
+            let held = integral(target, &pushed(&tops));
+            let spread = largest(target, &pushed(&areas));
+            for (i, (a, b)) in target.range().zip(held.iter().zip(&spread)) {
+                first[i] += a.min(*b);
+            }
+        }
+    }
+    let again = |error: &[f64]| -> Vec<f64> {
+        let pushed: Vec<f64> = (0..error.len())
+            .map(|i| error.iter().enumerate().map(|(j, e)| modes.defect[(i, j)] * e).sum())
+            .collect();
+        modes.blocks.iter().flat_map(|block| integral(block, &pushed[block.range()])).collect()
+    };
+    let factor = (growth * length).exp();
+    enclose(&first, again).iter().map(|error| factor * error).collect()
 }
 
 /// Goes from the start of one span to that of the next.

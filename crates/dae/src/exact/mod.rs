@@ -13,24 +13,22 @@ mod augmented;
 mod balance;
 mod block;
 mod bounds;
-mod clusters;
 mod components;
 mod coordinates;
+mod decomposition;
 mod decoupling;
 mod drift;
 mod exponential;
 mod generators;
-mod majorants;
+mod modal_row;
 mod modes;
 mod panels;
 mod propagator;
 mod refinement;
 mod schur;
 mod shared;
-mod shares;
 mod solution;
 mod tables;
-mod walk;
 
 #[cfg(test)]
 mod tests;

@@ -5,9 +5,7 @@ use nalgebra::DMatrix;
 use super::{
     Augmented, Complex,
     block::Block,
-    clusters::Clusters,
-    decoupling::{Caution, Decoupling, decouple, invert_unit_triangle},
-    refinement,
+    decoupling::{Clusters, Decoupling, invert_unit_triangle},
     schur::ComplexSchur,
 };
 
@@ -32,33 +30,9 @@ pub(super) struct Modes {
 }
 
 impl Modes {
-    /// The modes of an augmented system over its run.
-    ///
-    /// Eigenvalues that the refinement finds to be alike are joined, and the rest begun anew. Where
-    /// the eigenvalue iteration fails, the whole matrix is taken as one block: slower, and without
-    /// an error bound, but with the right values.
-    pub(super) fn new(system: &Augmented, caution: Caution) -> Self {
-        if let Some(chains) = chains(&system.matrix) {
-            return Self::of_chains(system, &chains);
-        }
-        let Some(mut schur) = augmented_schur(system) else { return Self::undivided(system) };
-        let mut clusters = Clusters::single(&schur);
-        loop {
-            let decoupling = decouple(&mut schur, &mut clusters, system.end(), caution);
-            let mut modes = Self::assemble(&schur, &decoupling, system.end());
-            modes.pair_conjugates(&clusters);
-            let alike = refinement::refine(&system.matrix, &mut modes);
-            if alike.is_empty() {
-                let known = modes.defect.iter().all(|d| d.is_finite());
-                return if known { modes } else { Self::undivided(system) };
-            }
-            clusters.join(&alike);
-        }
-    }
-
     /// The modes of a matrix of integrators in chains, which is triangular but for its order: its
     /// entries are kept as they are, and nothing is rounded.
-    fn of_chains(system: &Augmented, chains: &[Vec<usize>]) -> Self {
+    pub(super) fn of_chains(system: &Augmented, chains: &[Vec<usize>]) -> Self {
         let size = system.size();
         let mut basis = DMatrix::zeros(size, size);
         let mut dual = DMatrix::zeros(size, size);
@@ -104,7 +78,7 @@ impl Modes {
         }
     }
 
-    fn assemble(schur: &ComplexSchur, decoupling: &Decoupling, horizon: f64) -> Self {
+    pub(super) fn assemble(schur: &ComplexSchur, decoupling: &Decoupling, horizon: f64) -> Self {
         let size = schur.triangle.nrows();
         let mut basis = &schur.basis * &decoupling.transform;
         let mut dual = invert_unit_triangle(&decoupling.transform) * schur.basis.adjoint();
@@ -138,7 +112,7 @@ impl Modes {
     }
 
     /// Pairs single complex modes with their conjugates.
-    fn pair_conjugates(&mut self, clusters: &Clusters) {
+    pub(super) fn pair_conjugates(&mut self, clusters: &Clusters) {
         let label = |block: &Block| clusters.labels[block.start];
         for i in 0..self.blocks.len() {
             let block = &self.blocks[i];
@@ -174,7 +148,7 @@ impl Modes {
 
 /// The states in an order in which each depends on later ones only, apart for each set of states that
 /// have nothing to do with the others. `None` where a state acts back on itself.
-fn chains(matrix: &DMatrix<f64>) -> Option<Vec<Vec<usize>>> {
+pub(super) fn chains(matrix: &DMatrix<f64>) -> Option<Vec<Vec<usize>>> {
     let size = matrix.nrows();
     let mut waits: Vec<usize> =
         (0..size).map(|j| (0..size).filter(|&i| matrix[(i, j)] != 0.0).count()).collect();
@@ -210,42 +184,6 @@ fn graded(triangle: &DMatrix<Complex>, horizon: f64) -> Vec<f64> {
         exponents.push(exponents.iter().enumerate().map(wanted).fold(0.0, f64::min).max(-600.0));
     }
     exponents.into_iter().map(f64::exp2).collect()
-}
-
-/// The Schur form of `[A B; 0 G]`: that of `A` by iteration, that of the generators by hand, so
-/// that their eigenvalues `0` and `±iω` are exact.
-fn augmented_schur(system: &Augmented) -> Option<ComplexSchur> {
-    let (states, size) = (system.states, system.size());
-    let inner = ComplexSchur::new(&system.matrix.view((0, 0), (states, states)).into_owned())?;
-    if size == states {
-        return Some(inner);
-    }
-    let complex = |x: f64| Complex::new(x, 0.0);
-    let mut basis = DMatrix::identity(size, size);
-    let mut triangle = DMatrix::zeros(size, size);
-    basis.view_mut((0, 0), (states, states)).copy_from(&inner.basis);
-    triangle.view_mut((0, 0), (states, states)).copy_from(&inner.triangle);
-    let generators = size - states;
-    let corner = system.matrix.view((states, states), (generators, generators));
-    triangle.view_mut((states, states), (generators, generators)).copy_from(&corner.map(complex));
-    let half = std::f64::consts::FRAC_1_SQRT_2;
-    for (at, omega) in system.generators.waves() {
-        let (p, q) = (states + at, states + at + 1);
-        // p' = ω q, q' = −ω p: the vectors (1, ±i)/√2 belong to ±iω.
-        basis[(p, p)] = complex(half);
-        basis[(p, q)] = complex(half);
-        basis[(q, p)] = Complex::new(0.0, half);
-        basis[(q, q)] = Complex::new(0.0, -half);
-        triangle[(p, p)] = Complex::new(0.0, omega);
-        triangle[(q, q)] = Complex::new(0.0, -omega);
-        triangle[(p, q)] = Complex::default();
-        triangle[(q, p)] = Complex::default();
-    }
-    let coupling = system.matrix.view((0, states), (states, generators)).map(complex);
-    let turned = inner.basis.adjoint() * coupling;
-    let outer = basis.view((states, states), (generators, generators)).into_owned();
-    triangle.view_mut((0, states), (states, generators)).copy_from(&(turned * outer));
-    Some(ComplexSchur { basis, triangle })
 }
 
 #[cfg(test)]

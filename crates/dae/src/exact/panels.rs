@@ -1,18 +1,19 @@
 //! Outputs as piecewise polynomials, with a bound of the interpolation error that holds everywhere.
 
-use std::ops::Range;
+use std::{collections::BTreeMap, sync::Arc};
 
-use dashpot_twofold::Accumulator;
+use dashpot_twofold::two_sum;
 
 use super::{
     Complex,
-    block::{Block, exponential_of},
+    block::Block,
     coordinates::SpanCoordinates,
+    modal_row::{ModalRow, coordinates_at, size_of, sizes_of},
     modes::Modes,
-    tables::{COUNT, DEGREE, Tables, at_most},
-    walk::Walk,
+    number,
+    tables::{COUNT, Course, LINKS, Line, Share, Tables, step_of, width_of},
 };
-use crate::{Budget, chebyshev::Interpolation};
+use crate::Budget;
 
 /// Part of the largest size that counts where the solution itself has decayed.
 const FLOOR: f64 = 1e-2;
@@ -24,6 +25,10 @@ const NARROWEST: f64 = 1e-18;
 
 /// Rounding of a panel's borders and of a place within it, relative to the time.
 const TIMING: f64 = f64::EPSILON;
+/// Most steps by which a panel is wider than the one before.
+const WIDER: i32 = 8;
+/// Part of the tolerance that all modes which are left out may contribute.
+const FAINT: f64 = 1e-4;
 
 /// One polynomial of an output on `[start, end]`, dimensionless.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,16 +41,6 @@ pub(super) struct Piece {
     pub(super) coefficients: Vec<f64>,
 }
 
-/// The modal form of an output: `Σ_j Re (r_j c_j(t))`.
-#[derive(Debug, Clone)]
-pub(super) struct ModalRow {
-    row: Vec<Complex>,
-    /// `|r_j|`.
-    sizes: Vec<f64>,
-    /// What each `|c_j|` adds at most to the size of the output's rate.
-    rates: Vec<f64>,
-}
-
 /// What is known about a piecewise polynomial as a whole.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Quality {
@@ -55,220 +50,57 @@ pub(super) struct Quality {
     pub(super) error: f64,
 }
 
-impl ModalRow {
-    /// The row `form · X` of a linear form over `z`.
-    pub(super) fn new(modes: &Modes, form: &[(usize, f64)]) -> Self {
-        let mut row = vec![Complex::default(); modes.len()];
-        for block in modes.blocks.iter().filter(|block| block.weight > 0.0) {
-            for j in block.range() {
-                let (mut re, mut im) = (Accumulator::default(), Accumulator::default());
-                for &(i, coefficient) in form {
-                    let (x, low) = (modes.basis[(i, j)], modes.basis_low[(i, j)]);
-                    re.add_product(coefficient, x.re);
-                    im.add_product(coefficient, x.im);
-                    re.add_small(coefficient * low.re);
-                    im.add_small(coefficient * low.im);
-                }
-                row[j] = Complex::new(re.value(), im.value()) * block.weight;
-            }
-        }
-        let sizes: Vec<f64> = row.iter().map(|r| r.norm()).collect();
-        let mut rates = vec![0.0; modes.len()];
-        for block in modes.blocks.iter().filter(|block| block.weight > 0.0) {
-            for (rate, column) in rates[block.range()].iter_mut().zip(block.matrix.column_iter()) {
-                let pushed = column.iter().zip(&sizes[block.range()]);
-                *rate = pushed.map(|(d, r)| d.norm() * r).sum();
-            }
-        }
-        Self { row, sizes, rates }
-    }
-
-    /// The value where the modal coordinates are `c`.
-    pub(super) fn value(&self, c: &[Complex]) -> f64 {
-        self.row.iter().zip(c).map(|(r, c)| (r * c).re).sum()
-    }
-
-    /// The sum of all terms' sizes where those of the modal coordinates are `c`.
-    fn size_at(&self, c: &[f64]) -> f64 {
-        self.sizes.iter().zip(c).map(|(r, c)| r * c).sum()
-    }
-
-    /// A bound of the output's rate where the sizes of the modal coordinates are `c`.
-    fn rate_at(&self, c: &[f64]) -> f64 {
-        self.rates.iter().zip(c).map(|(rate, c)| rate * c).sum()
-    }
-
-    /// An upper bound of the sum of all terms' sizes over a span.
-    pub(super) fn size(&self, modes: &Modes, span: &SpanCoordinates, length: f64) -> f64 {
-        let part = |block: &Block| {
-            let sizes: Vec<f64> = span.start[block.range()].iter().map(|c| c.norm()).collect();
-            let largest = block.largest(length, &sizes);
-            block.range().zip(largest).map(|(i, c)| self.sizes[i] * c).sum::<f64>()
+/// Appends the output on `[start, start + length]`, a span whose coordinates are given, and
+/// updates the `quality`.
+///
+/// A panel of width `h` misses the solution by at most `4 (h/4)^n/n! · |g^(n)|`, `n = 17`; the
+/// derivative is bounded mode by mode by `|r_j| |λ_j|^n |c_j|`, and no mode can contribute more
+/// than its own size. The widest of certain widths is taken for which that is below the rounding
+/// errors.
+pub(super) fn interpolate(
+    row: &ModalRow,
+    (modes, tables): (&Modes, &Tables),
+    span: &SpanCoordinates,
+    (start, length): (f64, f64),
+    scale: f64,
+    (quality, budget): (&mut Quality, &Budget),
+    pieces: &mut Vec<Piece>,
+) {
+    let inherited = row.error(modes, span);
+    let mut worst = 0.0_f64;
+    let mut walk = Walk::new(row, (modes, tables), &span.start, length);
+    let powers: u64 = modes.blocks.iter().map(|block| block.cost(length)).sum();
+    loop {
+        let local = row.size_at(&walk.sizes);
+        quality.size = quality.size.max(local);
+        let tolerance = 2.0 * f64::EPSILON * (local + FLOOR * scale);
+        let at = walk.at;
+        budget.charge(powers);
+        let is_over = budget.charge_step(modes.len());
+        let most = if is_over || pieces.len() >= MOST {
+            length - at
+        } else {
+            (NARROWEST * length).max(4.0 * f64::EPSILON * at)
         };
-        modes.blocks.iter().filter(|block| block.weight > 0.0).map(part).sum()
-    }
-
-    /// The error bound over a span that the coordinates cause.
-    pub(super) fn error(&self, modes: &Modes, span: &SpanCoordinates) -> f64 {
-        let part =
-            |block: &Block| block.range().map(|i| self.sizes[i] * span.error[i]).sum::<f64>();
-        modes.blocks.iter().filter(|block| block.weight > 0.0).map(part).sum()
-    }
-
-    /// Appends the output on `[start, start + length]`, a span whose coordinates are given, and
-    /// updates the `quality`.
-    ///
-    /// A panel of width `h` misses the solution by at most `4 (h/4)^n/n! · |g^(n)|`, `n = 17`; the
-    /// derivative is bounded mode by mode by `|r_j| |λ_j|^n |c_j|`, and no mode can contribute more
-    /// than its own size. The widest of certain widths is taken for which that is below the rounding
-    /// errors.
-    pub(super) fn interpolate(
-        &self,
-        (modes, tables): (&Modes, &Tables),
-        span: &SpanCoordinates,
-        (start, length): (f64, f64),
-        scale: f64,
-        (quality, budget): (&mut Quality, &Budget),
-        pieces: &mut Vec<Piece>,
-    ) {
-        let inherited = self.error(modes, span);
-        let mut worst = 0.0_f64;
-        let mut walk = Walk::new(self, (modes, tables), &span.start, length);
-        let powers: u64 = modes.blocks.iter().map(|block| block.cost(length)).sum();
-        loop {
-            let local = self.size_at(walk.sizes());
-            quality.size = quality.size.max(local);
-            let tolerance = 2.0 * f64::EPSILON * (local + FLOOR * scale);
-            let at = walk.at();
-            budget.charge(powers);
-            let is_over = budget.charge_step(modes.len());
-            let most = if is_over || pieces.len() >= MOST {
-                length - at
-            } else {
-                (NARROWEST * length).max(4.0 * f64::EPSILON * at)
-            };
-            let width = walk.widen(tolerance, most);
-            let shifted = TIMING * (start + at + width) * self.rate_at(walk.sizes());
-            let missed = walk.missed() + shifted;
-            worst = if missed.is_finite() { worst.max(missed) } else { f64::INFINITY };
-            let mut coefficients = walk.fit();
-            trim(&mut coefficients, 0.1 * tolerance);
-            walk.go_on();
-            pieces.push(Piece { start: start + at, end: start + walk.at(), coefficients });
-            if walk.at() >= length {
-                break;
-            }
-        }
-        // The sizes at the starts of all panels are known, and here that at the very end.
-        let last = sizes_of(&coordinates_at(modes, &span.start, length));
-        quality.size = quality.size.max(self.size_at(&last));
-        worst = worst.max(TIMING * (start + length) * self.rate_at(&last));
-        let error = inherited + worst;
-        // Also where it is not a number: then nothing is known.
-        quality.error = if error.is_finite() { quality.error.max(error) } else { f64::INFINITY };
-    }
-
-    /// The bound of the interpolation error of a panel of this width, at whose start the modal
-    /// coordinates are of these sizes.
-    pub(super) fn missed(&self, modes: &Modes, sizes: &[f64], width: f64) -> f64 {
-        let part = |block: &Block| self.missed_of(block, &sizes[block.range()], width);
-        modes.blocks.iter().filter(|block| self.has_part(block)).map(part).sum()
-    }
-
-    /// That of a block alone.
-    pub(super) fn missed_of(&self, block: &Block, sizes: &[f64], width: f64) -> f64 {
-        if sizes.iter().all(|size| *size == 0.0) {
-            return 0.0;
-        }
-        let (size, missed) =
-            block.sizes_on_panel(self.sizes_in(block.range()), sizes, width, COUNT);
-        at_most(missed, size)
-    }
-
-    /// The interpolating polynomial on a panel of this width, at whose start the modal coordinates are
-    /// given.
-    pub(super) fn fit(&self, modes: &Modes, coordinates: &[Complex], width: f64) -> Vec<f64> {
-        let mut values = [0.0; COUNT];
-        for block in modes.blocks.iter().filter(|block| self.has_part(block)) {
-            self.add_values(block, &coordinates[block.range()], width, &mut values);
-        }
-        coefficients(&values)
-    }
-
-    /// That of a block alone.
-    pub(super) fn fit_block(&self, block: &Block, coordinates: &[Complex], width: f64) -> Vec<f64> {
-        let mut values = [0.0; COUNT];
-        self.add_values(block, coordinates, width, &mut values);
-        coefficients(&values)
-    }
-
-    /// Adds a block's part at the nodes of a panel.
-    fn add_values(
-        &self,
-        block: &Block,
-        coordinates: &[Complex],
-        width: f64,
-        values: &mut [f64; COUNT],
-    ) {
-        let nodes = Interpolation::of_degree(DEGREE);
-        let factors = self.factors_in(block.range());
-        let times = nodes.nodes().iter().map(|x| 0.5 * width * (1.0 + x));
-        if let ([factor], [coordinate]) = (factors, coordinates) {
-            let (high, low, term) = (block.matrix[(0, 0)], block.low[(0, 0)], factor * coordinate);
-            for (value, time) in values.iter_mut().zip(times) {
-                *value += (term * exponential_of(high, low, time)).re;
-            }
-            return;
-        }
-        for (value, time) in values.iter_mut().zip(times) {
-            let mut vector = coordinates.to_vec();
-            block.advance(time, &mut vector);
-            *value += factors.iter().zip(&vector).map(|(r, c)| (r * c).re).sum::<f64>();
+        let width = walk.widen(tolerance, most);
+        let shifted = TIMING * (start + at + width) * row.rate_at(&walk.sizes);
+        let missed = walk.missed + shifted;
+        worst = if missed.is_finite() { worst.max(missed) } else { f64::INFINITY };
+        let mut coefficients = walk.fit();
+        trim(&mut coefficients, 0.1 * tolerance);
+        walk.go_on();
+        pieces.push(Piece { start: start + at, end: start + walk.at, coefficients });
+        if walk.at >= length {
+            break;
         }
     }
-
-    /// Whether a block has a part in the output.
-    pub(super) fn has_part(&self, block: &Block) -> bool {
-        block.weight > 0.0 && self.sizes_in(block.range()).iter().any(|&size| size != 0.0)
-    }
-
-    /// The factors of some modes.
-    pub(super) fn factors_in(&self, range: Range<usize>) -> &[Complex] {
-        &self.row[range]
-    }
-
-    /// The magnitudes of the factors of some modes.
-    pub(super) fn sizes_in(&self, range: Range<usize>) -> &[f64] {
-        &self.sizes[range]
-    }
-}
-
-fn coefficients(values: &[f64; COUNT]) -> Vec<f64> {
-    let mut coefficients = vec![0.0; COUNT];
-    Interpolation::of_degree(DEGREE).coefficients(values, &mut coefficients);
-    coefficients
-}
-
-/// `e^{D t} c`.
-pub(super) fn coordinates_at(modes: &Modes, start: &[Complex], t: f64) -> Vec<Complex> {
-    let mut coordinates = start.to_vec();
-    if t != 0.0 {
-        for block in modes.blocks.iter().filter(|block| block.weight > 0.0) {
-            block.advance(t, &mut coordinates[block.range()]);
-        }
-    }
-    coordinates
-}
-
-fn sizes_of(coordinates: &[Complex]) -> Vec<f64> {
-    coordinates.iter().map(|&c| size_of(c)).collect()
-}
-
-/// `|z|`.
-pub(super) fn size_of(z: Complex) -> f64 {
-    let square = z.re * z.re + z.im * z.im;
-    // Beyond this range of squares digits are lost.
-    if square > 1e-280 && square < 1e280 { square.sqrt() } else { z.norm() }
+    // The sizes at the starts of all panels are known, and here that at the very end.
+    let last = sizes_of(&coordinates_at(modes, &span.start, length));
+    quality.size = quality.size.max(row.size_at(&last));
+    worst = worst.max(TIMING * (start + length) * row.rate_at(&last));
+    let error = inherited + worst;
+    // Also where it is not a number: then nothing is known.
+    quality.error = if error.is_finite() { quality.error.max(error) } else { f64::INFINITY };
 }
 
 /// Drops the last coefficients as long as their sum stays below `negligible`.
@@ -280,5 +112,275 @@ fn trim(coefficients: &mut Vec<f64>, negligible: f64) {
             break;
         }
         coefficients.pop();
+    }
+}
+
+/// The width of a panel.
+#[derive(Debug, Clone, Copy)]
+enum Width {
+    /// That of a step.
+    Step(i32),
+    /// Any other.
+    Odd(f64),
+}
+
+/// A walk along a span, from the start of one panel to that of the next.
+struct Walk<'m> {
+    row: &'m ModalRow,
+    modes: &'m Modes,
+    tables: &'m Tables,
+    /// The coordinates at the start of the span.
+    start: &'m [Complex],
+    /// The length of the span.
+    length: f64,
+    /// Numbers of the blocks that have a part in the output.
+    active: Vec<usize>,
+    lines: BTreeMap<i32, Line>,
+    /// Where it is, from the start of the span.
+    at: f64,
+    /// The coordinates there.
+    coordinates: Vec<Complex>,
+    /// Their sizes, but of those that have no part.
+    sizes: Vec<f64>,
+    /// The step of the widths that was taken last.
+    step: Option<i32>,
+    /// Where the coordinates have been found by themselves, as those of a chain of panels.
+    anchor: Option<Anchor>,
+    width: Width,
+    /// By how much the panel that begins here may miss the output.
+    missed: f64,
+    /// Size below which a mode is left out.
+    faint: f64,
+}
+
+/// The start of a chain of panels of one width.
+struct Anchor {
+    coordinates: Vec<Complex>,
+    /// Step of the width, once there is a panel.
+    step: Option<i32>,
+    /// How many panels there are.
+    links: usize,
+}
+
+impl<'m> Walk<'m> {
+    /// A walk along a span of which the coordinates at the start are given.
+    fn new(
+        row: &'m ModalRow,
+        (modes, tables): (&'m Modes, &'m Tables),
+        start: &'m [Complex],
+        length: f64,
+    ) -> Self {
+        let is_active = |block: &Block| row.has_part(block) && block.moves(start);
+        let active = (0..modes.blocks.len()).filter(|&at| is_active(&modes.blocks[at]));
+        let mut walk = Self {
+            row,
+            modes,
+            tables,
+            start,
+            length,
+            active: active.collect(),
+            lines: BTreeMap::new(),
+            at: 0.0,
+            coordinates: start.to_vec(),
+            sizes: vec![0.0; start.len()],
+            step: None,
+            anchor: Some(Anchor { coordinates: start.to_vec(), step: None, links: 0 }),
+            width: Width::Odd(length),
+            missed: 0.0,
+            faint: 0.0,
+        };
+        walk.measure();
+        walk
+    }
+
+    /// Makes the panel that begins here as wide as is good to `tolerance`, but no narrower than `least`,
+    /// and returns its width.
+    fn widen(&mut self, tolerance: f64, least: f64) -> f64 {
+        self.faint = FAINT * tolerance / number(self.start.len().max(1));
+        let remaining = self.length - self.at;
+        let least = least.min(remaining);
+        (self.width, self.missed) = self.widest(tolerance, (least, remaining));
+        match self.width {
+            Width::Step(step) => {
+                self.step = Some(step);
+                self.missed += FAINT * tolerance;
+                width_of(step)
+            }
+            Width::Odd(width) => width,
+        }
+    }
+
+    fn widest(&mut self, tolerance: f64, (least, remaining): (f64, f64)) -> (Width, f64) {
+        if self.step.is_none() || least >= remaining {
+            let missed = self.row.missed(self.modes, &self.sizes, remaining);
+            if missed <= tolerance || least >= remaining {
+                return (Width::Odd(remaining), missed);
+            }
+        }
+        let most = step_of(remaining);
+        let mut step = self.step.unwrap_or(most).min(most);
+        let mut above = most.min(step.saturating_add(WIDER)).saturating_add(1);
+        let mut missed = self.missed_at(step);
+        // What is not a number is too much.
+        while missed.is_nan() || missed > tolerance {
+            let width = width_of(step);
+            if width <= least {
+                return (Width::Odd(least), self.row.missed(self.modes, &self.sizes, least));
+            }
+            let factor = (tolerance / missed).powf(1.0 / number(COUNT));
+            let factor = if factor > 0.1 { factor } else { 0.1 };
+            above = step;
+            step = step_of(factor * width).min(step - 1);
+            missed = self.missed_at(step);
+        }
+        while step + 1 < above {
+            let wider = self.missed_at(step + 1);
+            if wider.is_nan() || wider > tolerance {
+                break;
+            }
+            (step, missed) = (step + 1, wider);
+        }
+        let width = width_of(step);
+        if width >= remaining {
+            (Width::Odd(remaining), missed)
+        } else if width < least {
+            (Width::Odd(least), self.row.missed(self.modes, &self.sizes, least))
+        } else {
+            (Width::Step(step), missed)
+        }
+    }
+
+    /// By how much a panel of the width of this step may miss the output.
+    fn missed_at(&mut self, step: i32) -> f64 {
+        self.line(step);
+        let Some(line) = self.lines.get(&step) else { return f64::INFINITY };
+        let part = |(&at, share): (&usize, &Share)| {
+            let block = &self.modes.blocks[at];
+            let sizes = &self.sizes[block.range()];
+            match share {
+                Share::Single(weight) => weight * sizes[0],
+                Share::Cluster(cluster) => cluster.missed(sizes),
+                Share::Apart => self.row.missed_of(block, sizes, line.table.width),
+            }
+        };
+        self.active.iter().zip(&line.shares).map(part).sum()
+    }
+
+    fn line(&mut self, step: i32) {
+        let (row, modes, active) = (self.row, self.modes, &self.active);
+        let tables = self.tables;
+        self.lines.entry(step).or_insert_with(|| {
+            let table = tables.at(modes, step);
+            let share = |&at: &usize| {
+                let range = modes.blocks[at].range();
+                Share::new(row.sizes_in(range), &table.bounds[at])
+            };
+            Line { shares: active.iter().map(share).collect(), table }
+        });
+    }
+
+    /// The interpolating polynomial on the panel.
+    fn fit(&self) -> Vec<f64> {
+        let step = match self.width {
+            Width::Odd(width) => return self.row.fit(self.modes, &self.coordinates, width),
+            Width::Step(step) => step,
+        };
+        let mut sum = [0.0; COUNT];
+        let Some(line) = self.lines.get(&step) else { return sum.to_vec() };
+        let courses = line.table.courses(self.modes);
+        for (&at, share) in self.active.iter().zip(&line.shares) {
+            let block = &self.modes.blocks[at];
+            let range = block.range();
+            let coordinates = &self.coordinates[range.clone()];
+            match (share, &courses[at]) {
+                (Share::Single(_), Course::Single { shape, .. }) => {
+                    let is_faint = block.matrix[(0, 0)].re <= 0.0
+                        && self.row.sizes_in(range)[0] * self.sizes[block.start] <= self.faint;
+                    if !is_faint {
+                        let factor = self.row.factors_in(block.range())[0];
+                        shape.add_to(factor * coordinates[0], &mut sum);
+                    }
+                }
+                (Share::Cluster(cluster), Course::Cluster(columns)) => {
+                    let factors = self.row.factors_in(range);
+                    let shapes = cluster.shapes(factors, columns);
+                    for (shape, &coordinate) in shapes.iter().zip(coordinates) {
+                        shape.add_to(coordinate, &mut sum);
+                    }
+                }
+                _ => {
+                    let apart = self.row.fit_block(block, coordinates, line.table.width);
+                    sum.iter_mut().zip(apart).for_each(|(sum, own)| *sum += own);
+                }
+            }
+        }
+        sum.to_vec()
+    }
+
+    /// Goes on to the start of the next panel, or to the end of the span.
+    fn go_on(&mut self) {
+        let before = self.at;
+        let (width, step) = match self.width {
+            Width::Odd(width) if width >= self.length - before => {
+                self.at = self.length;
+                return;
+            }
+            Width::Odd(width) => (width, None),
+            Width::Step(step) => (width_of(step), Some(step)),
+        };
+        let (at, lost) = two_sum(before, width);
+        self.at = at.min(self.length);
+        if self.at >= self.length {
+            return;
+        }
+        let is_linked = lost == 0.0 && step.is_some_and(|step| self.link(step));
+        if !is_linked {
+            for number in 0..self.active.len() {
+                self.begin(self.active[number]);
+            }
+            let coordinates = self.coordinates.clone();
+            self.anchor = Some(Anchor { coordinates, step: None, links: 0 });
+        }
+        self.measure();
+    }
+
+    /// The coordinates of a block where it is, from those at the start of the span.
+    fn begin(&mut self, at: usize) {
+        let block = &self.modes.blocks[at];
+        let own = &mut self.coordinates[block.range()];
+        own.copy_from_slice(&self.start[block.range()]);
+        block.advance(self.at, own);
+    }
+
+    /// Finds the coordinates from those of the chain's start, if the panel belongs to the chain and that
+    /// is not too long.
+    fn link(&mut self, step: i32) -> bool {
+        let Some(mut anchor) = self.anchor.take() else { return false };
+        if anchor.step.is_some_and(|own| own != step) || anchor.links >= LINKS {
+            return false;
+        }
+        let Some(line) = self.lines.get(&step) else { return false };
+        let table = Arc::clone(&line.table);
+        let courses = table.courses(self.modes);
+        for number in 0..self.active.len() {
+            let at = self.active[number];
+            if let Course::Single { links, .. } = &courses[at] {
+                let mode = self.modes.blocks[at].start;
+                self.coordinates[mode] = anchor.coordinates[mode] * links[anchor.links];
+            } else {
+                self.begin(at);
+            }
+        }
+        (anchor.step, anchor.links) = (Some(step), anchor.links + 1);
+        self.anchor = Some(anchor);
+        true
+    }
+
+    fn measure(&mut self) {
+        for &at in &self.active {
+            let range = self.modes.blocks[at].range();
+            let both = self.sizes[range.clone()].iter_mut().zip(&self.coordinates[range]);
+            both.for_each(|(size, coordinate)| *size = size_of(*coordinate));
+        }
     }
 }

@@ -6,11 +6,13 @@ use super::{
     Augmented, Complex,
     block::Block,
     coordinates::{SpanCoordinates, follow},
+    decomposition::decompose,
     decoupling::CAUTIONS,
     drift::drifts,
+    modal_row::{ModalRow, coordinates_at},
     modes::Modes,
     number,
-    panels::{ModalRow, Piece, Quality, coordinates_at},
+    panels::{Piece, Quality, interpolate},
     propagator::{Grid, advance, march},
     shared::{Form, Shared},
 };
@@ -103,7 +105,7 @@ impl Solution {
             let mut best: Option<(f64, Modal)> = None;
             for caution in CAUTIONS {
                 self.budget.charge_decomposition(self.system.size());
-                let modal = Modal::of(&self.system, Modes::new(&self.system, caution));
+                let modal = Modal::of(&self.system, decompose(&self.system, caution));
                 let loss = modal.loss(&self.system);
                 if best.as_ref().is_none_or(|(least, _)| loss < *least) {
                     best = Some((loss, modal));
@@ -257,7 +259,7 @@ impl Dense for Solution {
         for (span, coordinates) in lengths() {
             let place = (span.start, span.length());
             let known = (&mut quality, &self.budget);
-            row.interpolate((modes, tables), coordinates, place, scale, known, &mut pieces);
+            interpolate(&row, (modes, tables), coordinates, place, scale, known, &mut pieces);
         }
         let unit = output.scale;
         let noise = NOISE * f64::EPSILON * quality.size * unit.abs();

@@ -15,7 +15,7 @@ pub use exact::Exact;
 pub use tr_bdf2::TrBdf2;
 pub use tsit45::Tsit45;
 
-pub(crate) use stepping::derivatives;
+pub use stepping::derivatives;
 
 use std::fmt::Debug;
 

@@ -13,7 +13,7 @@ use super::{
     shaken::{Afterwards, Shaken},
 };
 use crate::{
-    Event, Keep, Method, Observer, Outcome, Progress, Run, Shared, SolveError, Statistics,
+    Event, Keep, Method, Observer, Outcome, Progress, Run, Shared, SolveError, Statistics, Switch,
     Trajectory, pieces::MOST_BYTES,
 };
 
@@ -189,7 +189,7 @@ struct Drive<'r> {
 #[derive(Default)]
 struct Found {
     events: Vec<Event>,
-    switches: Vec<super::Switch>,
+    switches: Vec<Switch>,
     statistics: Statistics,
     outcome: Option<usize>,
 }

@@ -13,7 +13,7 @@ mod shaken;
 
 use std::{fmt::Debug, sync::Arc};
 
-use crate::{Guard, SolveError, System};
+use crate::{Guard, SolveError, Switch, System};
 
 pub use drive::integrate;
 pub use flight::Flight;
@@ -51,29 +51,6 @@ pub struct LegEnd<'a> {
     /// Size of the error of a quantity in parts of its terms: what is smaller cannot be told from
     /// zero.
     pub doubt: f64,
-}
-
-/// Something that switched.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Switch {
-    /// When \[s\].
-    pub time: f64,
-    /// Number of the switching part.
-    pub part: usize,
-    /// Its name.
-    pub name: String,
-    /// Number of the phase that begins; the one that ended, where an impact left it as it was.
-    pub phase: usize,
-    /// The word for that phase, or for the impact.
-    pub what: &'static str,
-    /// What the phase remembers.
-    pub memory: f64,
-    /// Impulse of an impact \[N s\]; 0 where speeds did not jump.
-    pub impulse: f64,
-    /// Kinetic energy lost by an impact \[J\].
-    pub lost: f64,
-    /// Work that a moving support does in an impact \[J\].
-    pub worked: f64,
 }
 
 /// Knows the legs of a run.

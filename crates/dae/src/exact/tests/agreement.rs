@@ -6,8 +6,9 @@ use crate::{
     exact::{
         Augmented, Solution,
         coordinates::follow,
+        modal_row::ModalRow,
         modes::Modes,
-        panels::{ModalRow, Quality},
+        panels::{Quality, interpolate},
         propagator::Grid,
         tables::Tables,
     },
@@ -102,7 +103,8 @@ fn without_eigenvalues_the_values_are_still_right() {
     let spans = follow(&augmented, &modes);
     let row = ModalRow::new(&modes, &augmented.form(system.outputs.at(0)));
     let (mut quality, mut pieces) = (Quality::default(), Vec::new());
-    row.interpolate(
+    interpolate(
+        &row,
         (&modes, &Tables::default()),
         &spans[0],
         (0.0, 8.0),

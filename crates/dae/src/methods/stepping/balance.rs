@@ -6,7 +6,6 @@ use nalgebra_sparse::CsrMatrix;
 use super::{
     algebra::{Algebra, Slice, entries, matrix, pattern},
     equations::Equations,
-    newton,
     terms::{self, Places, Slopes, Terms},
 };
 use crate::{System, Term, UnknownKind};
@@ -161,6 +160,11 @@ impl<M: Algebra> Balance<M> {
         self.work.0 += 1;
     }
 
+    /// Whether no term makes the balances other than linear.
+    pub(super) fn is_linear(&self) -> bool {
+        self.curved.is_none()
+    }
+
     /// The algebraic unknowns in order.
     pub(super) fn algebraic(&self) -> &[usize] {
         &self.algebraic
@@ -169,26 +173,6 @@ impl<M: Algebra> Balance<M> {
     /// Factorisations and linear solves so far.
     pub(super) fn work(&self) -> (usize, usize) {
         self.work
-    }
-
-    /// Replaces the algebraic entries of `state` by those that satisfy the balances at the start of
-    /// the span that `equations` have entered, and makes ready for [`slopes`](Self::slopes).
-    pub(super) fn values(
-        &mut self,
-        equations: &Equations<'_, M>,
-        state: &mut [f64],
-    ) -> Result<(), Imbalance> {
-        if self.curved.is_none() {
-            return Ok(self.solve(equations, equations.driven(0), state)?);
-        }
-        newton::settle(self, equations, state)?;
-        for kind in [Slopes::Own, Slopes::Filled] {
-            self.linearise(equations, state, kind);
-            if self.direction(&vec![1.0; state.len()]).is_some() {
-                return Ok(());
-            }
-        }
-        Err(Imbalance::Singular)
     }
 
     /// Replaces the algebraic entries of `slopes`, the `order`-th derivatives of the unknowns at
@@ -251,7 +235,7 @@ impl<M: Algebra> Balance<M> {
 
     /// Solves the linearised balances in which `driven` does not depend on the unknowns that
     /// `numbers` are of.
-    fn solve(
+    pub(super) fn solve(
         &mut self,
         equations: &Equations<'_, M>,
         mut driven: Vec<f64>,

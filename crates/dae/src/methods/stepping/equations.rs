@@ -9,17 +9,9 @@ use diffsol::{
 
 use super::{
     algebra::{Algebra, Rows, Slice, entries, matrix, pattern},
-    terms::{self, Places, Slopes, Terms},
+    terms::{self, Drive, Places, Slopes, Terms},
 };
-use crate::{Input, Piece, System, UnknownKind};
-
-/// An input that changes with time during a span, and the column of `B` that it drives.
-#[derive(Debug, Clone)]
-pub(super) struct Drive {
-    piece: Piece,
-    derivative: u32,
-    input: usize,
-}
+use crate::{System, UnknownKind};
 
 /// `M ẏ = J y + B w + n(y, w)` on one smooth span, in the span's own time `t − start`.
 pub(in crate::methods) struct Equations<'s, M: Algebra> {
@@ -126,7 +118,7 @@ impl<'s, M: Algebra> Equations<'s, M> {
             *value += constant;
         }
         for drive in &self.drives {
-            drive.add(0, self.start + t, &self.columns[drive.input], out);
+            drive.add(0, self.start + t, &self.columns[drive.input()], out);
         }
         if let Some((terms, _)) = &self.terms {
             terms.add_values(self.start + t, y, out);
@@ -140,7 +132,7 @@ impl<'s, M: Algebra> Equations<'s, M> {
             out.copy_from_slice(&self.constant);
         }
         for drive in &self.drives {
-            drive.add(order, self.start, &self.columns[drive.input], &mut out);
+            drive.add(order, self.start, &self.columns[drive.input()], &mut out);
         }
         out
     }
@@ -223,35 +215,6 @@ impl<'s, M: Algebra> Equations<'s, M> {
     /// than about its reciprocal.
     pub(super) fn fastest(&self) -> f64 {
         self.fastest
-    }
-}
-
-impl Drive {
-    /// An input of `system` on the span that begins at `start`.
-    pub(super) fn of(system: &System, input: usize, start: f64) -> Self {
-        let Input { waveform, derivative } = system.inputs[input];
-        Self { piece: *system.waveforms[waveform].piece_at(start), derivative, input }
-    }
-
-    /// The input.
-    pub(super) fn input(&self) -> usize {
-        self.input
-    }
-
-    /// The `order`-th derivative of the input at `t`.
-    pub(super) fn value(&self, order: u32, t: f64) -> f64 {
-        self.piece.derivative(self.derivative + order, t)
-    }
-
-    fn is_constant(&self) -> bool {
-        self.piece.is_constant(self.derivative)
-    }
-
-    fn add(&self, order: u32, t: f64, column: &[(usize, f64)], out: &mut [f64]) {
-        let value = self.value(order, t);
-        for &(row, factor) in column {
-            out[row] += factor * value;
-        }
     }
 }
 

@@ -31,7 +31,7 @@ mod terms;
 mod walk;
 
 pub(super) use algebra::Algebra;
-pub(crate) use recursion::derivatives;
+pub use recursion::derivatives;
 pub(super) use start::Problem;
 pub(super) use walk::{Polynomial, Walk};
 

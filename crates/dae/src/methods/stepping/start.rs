@@ -9,6 +9,7 @@ use super::{
     algebra::{Algebra, DENSE_UP_TO, Slice},
     balance::{Balance, Imbalance},
     equations::Equations,
+    newton::consistent,
 };
 use crate::{Run, System, UnknownKind};
 
@@ -100,7 +101,7 @@ pub(super) fn enter<M: Algebra>(
     problem.eqn.enter(start, state);
     let mut slopes = vec![0.0; state.len()];
     if let Some(balance) = &mut balance {
-        balance.values(&problem.eqn, state)?;
+        consistent(balance, &problem.eqn, state)?;
         problem.eqn.enter(start, state);
     }
     problem.eqn.evaluate(0.0, state, &mut slopes);

@@ -1,9 +1,49 @@
-//! The terms of a system that are not linear, in the form that the integrators ask for.
+//! What the right-hand sides have beside `J y` on one smooth span: the driving functions, and the terms
+//! that are not linear, in the form that the integrators ask for.
 
 use std::cell::{Ref, RefCell};
 
-use super::{algebra::Algebra, equations::Drive};
-use crate::{LinearForm, System, Term};
+use super::algebra::Algebra;
+use crate::{Input, Piece, System, Term};
+
+/// An input during a span, and the column of `B` that it drives.
+#[derive(Debug, Clone)]
+pub(super) struct Drive {
+    piece: Piece,
+    derivative: u32,
+    input: usize,
+}
+
+impl Drive {
+    /// An input of `system` on the span that begins at `start`.
+    pub(super) fn of(system: &System, input: usize, start: f64) -> Self {
+        let Input { waveform, derivative } = system.inputs[input];
+        Self { piece: *system.waveforms[waveform].piece_at(start), derivative, input }
+    }
+
+    /// The input.
+    pub(super) fn input(&self) -> usize {
+        self.input
+    }
+
+    /// The `order`-th derivative of the input at `t`.
+    pub(super) fn value(&self, order: u32, t: f64) -> f64 {
+        self.piece.derivative(self.derivative + order, t)
+    }
+
+    /// Whether it stays the same on the span.
+    pub(super) fn is_constant(&self) -> bool {
+        self.piece.is_constant(self.derivative)
+    }
+
+    /// Adds the `order`-th derivative at `t` to the rows of the input's `column` in `B`.
+    pub(super) fn add(&self, order: u32, t: f64, column: &[(usize, f64)], out: &mut [f64]) {
+        let value = self.value(order, t);
+        for &(row, factor) in column {
+            out[row] += factor * value;
+        }
+    }
+}
 
 /// Which slopes of the laws to take.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -153,7 +193,7 @@ impl<'s> Terms<'s> {
             let at = term.arguments.each_ref().map(|own| own.at(y, &now));
             for (k, argument) in term.arguments.iter().enumerate() {
                 let size =
-                    absolute(&argument.unknowns, unknowns) + absolute(&argument.inputs, inputs);
+                    argument.unknowns.magnitude_at(unknowns) + argument.inputs.magnitude_at(inputs);
                 let blur = f64::EPSILON * (argument.scale * size).abs();
                 let shifted = |by: f64| {
                     let mut moved = at;
@@ -177,7 +217,7 @@ impl<'s> Terms<'s> {
             let slopes = slopes(term, y, &now, Slopes::Own);
             for (slope, argument) in slopes.iter().zip(&term.arguments) {
                 let size =
-                    absolute(&argument.unknowns, unknowns) + absolute(&argument.inputs, inputs);
+                    argument.unknowns.magnitude_at(unknowns) + argument.inputs.magnitude_at(inputs);
                 out[term.row] += slope.abs() * size;
             }
         }
@@ -197,11 +237,6 @@ pub(super) fn pattern(system: &System) -> impl Iterator<Item = (usize, usize)> {
         let unknowns = term.arguments.iter().flat_map(|own| own.unknowns.terms());
         unknowns.map(|&(column, _)| (term.row, column))
     })
-}
-
-/// `Σ |cᵢ| sizeᵢ`.
-fn absolute(form: &LinearForm, sizes: &[f64]) -> f64 {
-    form.magnitude_at(sizes)
 }
 
 /// The slopes of a term over its arguments in their own units.

@@ -1,4 +1,4 @@
-//! Values of the algebraic unknowns where the balances are not linear.
+//! Values of the algebraic unknowns that satisfy the balances.
 
 use super::{
     algebra::Algebra,
@@ -29,13 +29,32 @@ enum Ended {
 }
 
 /// Replaces the algebraic entries of `state` by those that satisfy the balances at the start of the
-/// span that `equations` have entered.
+/// span that `equations` have entered, and makes the balance ready for [`slopes`](Balance::slopes).
+pub(super) fn consistent<M: Algebra>(
+    balance: &mut Balance<M>,
+    equations: &Equations<'_, M>,
+    state: &mut [f64],
+) -> Result<(), Imbalance> {
+    if balance.is_linear() {
+        return Ok(balance.solve(equations, equations.driven(0), state)?);
+    }
+    settle(balance, equations, state)?;
+    for kind in [Slopes::Own, Slopes::Filled] {
+        balance.linearise(equations, state, kind);
+        if balance.direction(&vec![1.0; state.len()]).is_some() {
+            return Ok(());
+        }
+    }
+    Err(Imbalance::Singular)
+}
+
+/// The same where terms are not linear.
 ///
 /// Newton's method with a line search on the residuals, down to their rounding. Where it gets stuck,
 /// because a law is steep or flat, the terms are settled one after the other, each by a bracketed
 /// search along the line on which all other balances stay as they are to first order. A single term
 /// is thereby solved for certain if its balance changes sign.
-pub(super) fn settle<M: Algebra>(
+fn settle<M: Algebra>(
     balance: &mut Balance<M>,
     equations: &Equations<'_, M>,
     state: &mut [f64],

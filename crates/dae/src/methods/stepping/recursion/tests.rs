@@ -173,3 +173,43 @@ fn what_has_no_derivatives_is_refused() {
     let Err(error) = derivatives(&system, &[1.0, 0.0, 0.0], 1) else { panic!("{system:?}") };
     assert!(error.to_string().contains("no balance determines `f`"), "{error}");
 }
+
+#[test]
+fn dense_and_sparse_matrices_give_the_same_derivatives() {
+    for problem in problems::all() {
+        let system = &problem.system;
+        let dense = derivatives_in::<NalgebraMat<f64>>(system, &system.initial, 4).unwrap();
+        let sparse = derivatives_in::<FaerSparseMat<f64>>(system, &system.initial, 4).unwrap();
+        for k in 0..=4 {
+            for i in 0..system.len() {
+                let difference = (dense.values[k][i] - sparse.values[k][i]).abs();
+                let size = dense.magnitudes[k][i].max(sparse.magnitudes[k][i]);
+                let what = format!("{} {k} {i}: {difference:e} of {size:e}", problem.name);
+                assert!(difference <= 16.0 * f64::EPSILON * size, "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn magnitudes_of_drives_are_not_below_their_values() {
+    let piece = Piece {
+        start: -0.7,
+        value: 1.0,
+        slope: -2.0,
+        curvature: 3.0,
+        jerk: -0.5,
+        sine: 0.4,
+        cosine: -0.9,
+        omega: 3.0,
+        sweep: 0.6,
+    };
+    for order in 0..6 {
+        for t in [-0.7, 0.0, 2.0] {
+            let value = piece.derivative(order, t).abs();
+            let magnitude = magnitude(&piece, order, t);
+            assert!(value <= magnitude * (1.0 + 1e-15), "{order} {t}: {value} {magnitude}");
+            assert!(magnitude < 1e3 * (1.0 + value), "{order} {t}: {value} {magnitude}");
+        }
+    }
+}
