@@ -14,13 +14,14 @@ use dashpot::{
     analysis::{SolveSettings, solve},
     dae::{
         Dense, Method, Observer, Outcome, Panel, Run, Signal, Silent, SolveError, Statistics,
-        System, Trajectory, chebyshev::Interpolation, methods::Exact,
+        System, Trajectory, methods::Exact,
     },
     network::{
         Model, Network, Node,
         elements::{Dashpot, Spring},
         part,
     },
+    numerics::chebyshev::Interpolation,
 };
 
 /// `y₊ = y + h (k₁ + 2 k₂ + 2 k₃ + k₄)/6` on a linear system that nothing drives, with the step

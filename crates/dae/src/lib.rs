@@ -6,21 +6,18 @@
 //! integrals are those of the continuous solution, not of samples.
 
 mod budget;
-pub mod chebyshev;
 mod derivatives;
 mod digest;
 mod error;
 pub mod events;
 mod exact;
 pub mod frequency;
-mod linear_form;
 pub mod methods;
 mod outputs;
 mod pieces;
 pub mod problems;
 mod run;
 mod signal;
-pub mod small;
 pub mod switching;
 mod system;
 mod term;
@@ -28,12 +25,12 @@ mod trajectory;
 mod waveform;
 
 pub use budget::Budget;
+pub use dashpot_numerics::{FormRef, LinearForm};
 pub use derivatives::Derivatives;
 pub use digest::{Digest, Jump, Product};
 pub use error::SolveError;
 pub use events::{Direction, Event, Guard};
 pub use exact::Shared;
-pub use linear_form::{FormRef, LinearForm};
 pub use methods::{Method, MethodKind, derivatives};
 pub use outputs::{Output, Outputs};
 pub use run::{Keep, Observer, Part, Progress, Run, Silent};

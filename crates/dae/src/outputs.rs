@@ -5,10 +5,9 @@
 
 use std::{fmt, sync::Arc};
 
-use crate::{
-    FormRef, LinearForm,
-    linear_form::{Forms, packed},
-};
+use dashpot_numerics::{Forms, packed};
+
+use crate::{FormRef, LinearForm};
 
 /// A named scalar that a system can report: `scale · (unknowns·y + inputs·w)`.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,8 @@
 //! The pulse `P τ e^(−mτ)` that comes nearest to a force.
 
-use crate::{Impact, Pulse, roots::monotone_root};
+use dashpot_numerics::{quadrature::GaussLegendre, roots::monotone_root};
+
+use crate::{Impact, Pulse};
 
 /// A pulse of an impact and how far it is from the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,13 +15,8 @@ pub struct Fit {
 
 /// Panels of the integrals over the impact; the fastest rates of paddings are below 100.
 const PANELS: usize = 256;
-/// Nodes and weights of Gauss and Legendre of 4 points on −1 … 1.
-const GAUSS: [(f64, f64); 4] = [
-    (-0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
-    (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
-    (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
-    (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
-];
+/// Points of the rule of Gauss and Legendre on each.
+const POINTS: usize = 4;
 /// Range of m times the length of the impact in which the best one is looked for, and trials in it.
 const RANGE: (f64, f64) = (0.1, 200.0);
 const TRIALS: i32 = 200;
@@ -36,8 +33,9 @@ impl Samples {
         let length = impact.end();
         let half = 0.5 * length / PANELS as f64;
         let place = |panel: usize| (2 * panel + 1) as f64 * half;
+        let rule = GaussLegendre::with_points(POINTS);
         let points = (0..PANELS).flat_map(|panel| {
-            GAUSS.map(|(node, weight)| {
+            rule.nodes().iter().zip(rule.weights()).map(move |(node, weight)| {
                 let time = place(panel) + half * node;
                 [time, half * weight, impact.force(time)]
             })
@@ -85,7 +83,7 @@ pub fn best_pulse(impact: &Impact) -> Option<Fit> {
     let (low, high) = (RANGE.0 / samples.length, RANGE.1 / samples.length);
     let trial = |at: i32| low * (high / low).powf(f64::from(at) / f64::from(TRIALS));
     let turns = (0..TRIALS)
-        .filter_map(|at| monotone_root(&|decay| samples.gradient(decay), trial(at), trial(at + 1)));
+        .filter_map(|at| monotone_root(|decay| samples.gradient(decay), trial(at), trial(at + 1)));
     let fits = turns.map(|decay| {
         let pulse = Pulse { padding: impact.groups, slope: samples.slope(decay), decay };
         Fit { pulse, misfit: samples.misfit(&pulse) }

@@ -32,7 +32,6 @@ mod misprints;
 mod numbers;
 mod pulse;
 mod report;
-mod roots;
 mod study;
 mod words;
 

@@ -1,5 +1,6 @@
 //! The impacts that everything else is read off: the base and families with one parameter varied.
 
+use dashpot_numerics::roots::false_position;
 use dashpot_plot::Table;
 
 use crate::{
@@ -140,28 +141,13 @@ impl Varied {
     ///
     /// As [`Impact::of_groups`].
     pub fn limit(self, low: f64, high: f64) -> Result<Option<f64>, ThesisError> {
-        /// More steps are never needed: half of them halve the interval.
-        const MOST: usize = 100;
         let excess = |value| Ok::<f64, ThesisError>(self.impact(value)?.deepest().value - 1.0);
-        let (mut low, mut high) = ((low, excess(low)?), (high, excess(high)?));
+        let (low, high) = ((low, excess(low)?), (high, excess(high)?));
         if low.1 * high.1 > 0.0 {
             return Ok(None);
         }
-        for step in 0..MOST {
-            let secant = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-            let next = if step % 3 == 2 { f64::midpoint(low.0, high.0) } else { secant };
-            let own = excess(next)?;
-            if own == 0.0 || (high.0 - low.0).abs() < 1e-9 * high.0.abs() {
-                return Ok(Some(next));
-            }
-            if own * low.1 > 0.0 {
-                // The weight of an end that stays is halved, or the secant would creep.
-                (low, high) = ((next, own), (high.0, 0.5 * high.1));
-            } else {
-                (low, high) = ((low.0, 0.5 * low.1), (next, own));
-            }
-        }
-        Ok(Some(f64::midpoint(low.0, high.0)))
+        let [low, high] = false_position(excess, low, high, 1e-9)?;
+        Ok(Some(if low.1.abs() < high.1.abs() { low.0 } else { high.0 }))
     }
 }
 

@@ -1,5 +1,7 @@
 //! Where a model damps most.
 
+use dashpot_numerics::extrema::maximum;
+
 use super::{Specimen, schedule::logarithmic};
 
 /// How far beyond the model's times peaks are looked for.
@@ -36,17 +38,6 @@ pub(super) fn highest_loss_factor(specimen: &Specimen) -> Option<Peak> {
 
 /// The peak between two frequencies, by golden section in the logarithm.
 fn refined(factor: &impl Fn(f64) -> f64, low: f64, high: f64) -> Peak {
-    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let (mut low, mut high) = (low.ln(), high.ln());
-    for _ in 0..STEPS {
-        let width = share * (high - low);
-        let (left, right) = (high - width, low + width);
-        if factor(left.exp()) < factor(right.exp()) {
-            low = left;
-        } else {
-            high = right;
-        }
-    }
-    let omega = (0.5 * (low + high)).exp();
-    Peak { omega, value: factor(omega) }
+    let (place, value) = maximum(low.ln(), high.ln(), STEPS, |place| factor(place.exp()));
+    Peak { omega: place.exp(), value }
 }

@@ -1,6 +1,10 @@
 //! Where a signal turns, or falls through zero, within a step.
 
-use dashpot_dae::small::{Square, advanced, apply};
+use dashpot_numerics::{
+    exponential::advanced,
+    roots::Bracket,
+    small::{Square, apply},
+};
 
 /// Newton's method ends after so many rounds.
 const ROUNDS: usize = 12;
@@ -87,22 +91,18 @@ impl<const N: usize> Step<'_, N> {
     /// When the signal at `place`, whose rate changes its sign in the step, turns, and its value there.
     pub(super) fn turn(&self, flank: &Flank, place: usize) -> Option<(f64, f64)> {
         let mut time = self.first_guess(flank.rate, flank.bend);
-        let (mut low, mut high) = (0.0, self.length);
+        let mut bracket = Bracket { low: 0.0, high: self.length };
         let sign = if flank.rate[0] > 0.0 { 1.0 } else { -1.0 };
         for _ in 0..ROUNDS {
             let seen = apply(self.looks, &self.state(time));
             let (value, rate, bend) = (seen[place], seen[place + 1], seen[place + 2]);
-            if rate * sign > 0.0 {
-                low = time;
-            } else {
-                high = time;
-            }
+            bracket.cut(time, rate * sign > 0.0);
             let way = -rate / bend;
             let next = time + way;
             if self.is_found(flank, way, value.abs()) {
                 return Some((next, value + 0.5 * rate * way));
             }
-            time = if next > low && next < high { next } else { 0.5 * (low + high) };
+            time = bracket.within(next);
         }
         None
     }
@@ -111,22 +111,18 @@ impl<const N: usize> Step<'_, N> {
     /// falls through zero, and the second one there.
     pub(super) fn fall(&self, flank: &Flank) -> Option<(f64, f64)> {
         let mut time = self.first_guess(flank.value, flank.rate);
-        let (mut low, mut high) = (0.0, self.length);
+        let mut bracket = Bracket { low: 0.0, high: self.length };
         for _ in 0..ROUNDS {
             let [value, rate, bend, other, other_rate, other_bend] =
                 apply(self.looks, &self.state(time));
-            if value > 0.0 {
-                low = time;
-            } else {
-                high = time;
-            }
+            bracket.cut(time, value > 0.0);
             // Newton's move, and by how much the bend makes it longer.
             let way = -value / rate * (1.0 + 0.5 * value * bend / (rate * rate));
             let next = time + way;
             if self.is_found(flank, way, (rate * self.length).abs()) {
                 return Some((next, other + way * (other_rate + 0.5 * way * other_bend)));
             }
-            time = if next > low && next < high { next } else { 0.5 * (low + high) };
+            time = bracket.within(next);
         }
         None
     }
@@ -149,17 +145,12 @@ impl<const N: usize> Step<'_, N> {
             2.0 * (first - last) + slope[0] + slope[1],
         );
         let mut share = first / (first - last);
-        let (mut low, mut high) = (0.0, 1.0);
+        let mut bracket = Bracket { low: 0.0, high: 1.0 };
         for _ in 0..4 {
             let value = first + share * (b + share * (c + share * d));
             let rate = b + share * (2.0 * c + share * 3.0 * d);
-            if (value > 0.0) == (first > 0.0) {
-                low = share;
-            } else {
-                high = share;
-            }
-            let next = share - value / rate;
-            share = if next > low && next < high { next } else { 0.5 * (low + high) };
+            bracket.cut(share, (value > 0.0) == (first > 0.0));
+            share = bracket.within(share - value / rate);
         }
         share.clamp(0.0, 1.0) * length
     }

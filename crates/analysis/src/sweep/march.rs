@@ -8,7 +8,10 @@
 
 use std::ops::ControlFlow;
 
-use dashpot_dae::small::{Powers, Square, apply, apply_left};
+use dashpot_numerics::{
+    exponential::Powers,
+    small::{Square, apply, apply_left},
+};
 
 use super::{
     bracket::{Flank, Step},
@@ -147,7 +150,7 @@ struct March<'p, const N: usize> {
 
 impl<'p, const N: usize> March<'p, N> {
     fn new(posed: &'p Posed<'p, N>, wanted: Wanted) -> Option<Self> {
-        let powers = Powers::of(posed.matrix);
+        let powers = Powers::of(*posed.matrix);
         let rate = powers.rate();
         let integrates = wanted.work || wanted.work_at_end || wanted.power.is_some();
         let longest = if integrates { FINE } else { COARSE } / rate;

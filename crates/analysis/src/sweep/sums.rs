@@ -1,63 +1,18 @@
 //! Integrals over an impact, as Gauss's sums over the steps of its solution.
 
-use dashpot_dae::small::{Square, apply, apply_left, dot};
+use dashpot_numerics::{
+    quadrature::GaussLegendre,
+    small::{Square, apply, apply_left, dot},
+};
 
 use super::march::{Figure, Impact, Posed, Wanted};
 
 /// Terms of the series of a force within a step.
 const TERMS: usize = 24;
-/// Points of Gauss's rule.
+/// Points of Gauss's rule …
 const GAUSS: usize = 6;
-/// Its places on 0…1 …
-const PLACES: [f64; GAUSS] = [
-    0.033_765_242_898_423_99,
-    0.169_395_306_766_867_74,
-    0.380_690_406_958_401_55,
-    0.619_309_593_041_598_5,
-    0.830_604_693_233_132_3,
-    0.966_234_757_101_576,
-];
-/// … and their weights.
-const WEIGHTS: [f64; GAUSS] = [
-    0.085_662_246_189_585_17,
-    0.180_380_786_524_069_3,
-    0.233_956_967_286_345_52,
-    0.233_956_967_286_345_52,
-    0.180_380_786_524_069_3,
-    0.085_662_246_189_585_17,
-];
-/// Points of the rule for the first step and the last ones.
+/// … and of that for the first step and the last ones.
 const ENDS: usize = 12;
-/// Its places on 0…1 …
-const END_PLACES: [f64; ENDS] = [
-    0.009_219_682_876_640_375,
-    0.047_941_371_814_762_57,
-    0.115_048_662_902_847_65,
-    0.206_341_022_856_691_3,
-    0.316_084_250_500_909_9,
-    0.437_383_295_744_265_54,
-    0.562_616_704_255_734_5,
-    0.683_915_749_499_090_1,
-    0.793_658_977_143_308_7,
-    0.884_951_337_097_152_3,
-    0.952_058_628_185_237_5,
-    0.990_780_317_123_359_7,
-];
-/// … and their weights.
-const END_WEIGHTS: [f64; ENDS] = [
-    0.023_587_668_193_255_914,
-    0.053_469_662_997_659_21,
-    0.080_039_164_271_673_11,
-    0.101_583_713_361_532_96,
-    0.116_746_268_269_177_4,
-    0.124_573_522_906_701_39,
-    0.124_573_522_906_701_39,
-    0.116_746_268_269_177_4,
-    0.101_583_713_361_532_96,
-    0.080_039_164_271_673_11,
-    0.053_469_662_997_659_21,
-    0.023_587_668_193_255_914,
-];
 /// What a Gauss sum may be off by, in parts of the integral; see the tests.
 const QUADRATURE: f64 = 1e-9;
 
@@ -65,6 +20,9 @@ const QUADRATURE: f64 = 1e-9;
 pub(super) struct Sums<const N: usize> {
     wanted: Wanted,
     step: f64,
+    /// Places on 0…1 and weights of both rules.
+    rule: ([f64; GAUSS], [f64; GAUSS]),
+    end_rule: ([f64; ENDS], [f64; ENDS]),
     /// Force and rate of deformation at Gauss's points of a step, over the state at its start.
     force_at: [[f64; GAUSS]; N],
     speed_at: [[f64; GAUSS]; N],
@@ -134,14 +92,21 @@ impl Amounts {
 
 impl<const N: usize> Sums<N> {
     pub(super) fn new(posed: &Posed<'_, N>, wanted: Wanted, step: f64, speed: &[f64; N]) -> Self {
+        let rule = GaussLegendre::on_unit();
         let force_terms = terms(posed.force, posed.matrix);
         let needs_speed = wanted.work || wanted.work_at_end;
         let speed_terms = if needs_speed { terms(speed, posed.matrix) } else { [[0.0; N]; TERMS] };
         Self {
             wanted,
             step,
-            force_at: rows(&force_terms, step),
-            speed_at: if needs_speed { rows(&speed_terms, step) } else { [[0.0; GAUSS]; N] },
+            rule,
+            end_rule: GaussLegendre::on_unit(),
+            force_at: rows(&force_terms, &rule.0, step),
+            speed_at: if needs_speed {
+                rows(&speed_terms, &rule.0, step)
+            } else {
+                [[0.0; GAUSS]; N]
+            },
             force_terms,
             speed_terms,
             sure: Amounts::default(),
@@ -165,17 +130,17 @@ impl<const N: usize> Sums<N> {
         let amounts = match until {
             None if at > 0 => {
                 let seen = (&apply(&self.force_at, z), &apply(&self.speed_at, z));
-                let weights = WEIGHTS.map(|own| own * self.step);
+                let weights = self.rule.1.map(|own| own * self.step);
                 Amounts::of(seen, &weights, self.wanted.power, floor)?
             }
             None => {
-                let times = END_PLACES.map(|u| self.step * u * u);
+                let times = self.end_rule.0.map(|u| self.step * u * u);
                 self.in_roots(z, &times, self.step, floor)?
             }
             Some(_) if at < 2 => return None,
             Some(time) => {
                 let length = self.step + time;
-                let times = END_PLACES.map(|u| length * (1.0 - u * u));
+                let times = self.end_rule.0.map(|u| length * (1.0 - u * u));
                 self.last = Amounts::default();
                 self.in_roots(&self.before, &times, length, floor)?
             }
@@ -193,8 +158,8 @@ impl<const N: usize> Sums<N> {
         length: f64,
         floor: f64,
     ) -> Option<Amounts> {
-        let mut weights = END_WEIGHTS;
-        for (weight, u) in weights.iter_mut().zip(END_PLACES) {
+        let (places, mut weights) = self.end_rule;
+        for (weight, u) in weights.iter_mut().zip(places) {
             *weight *= 2.0 * u * length;
         }
         let seen = (&self.force_terms, &self.speed_terms);
@@ -217,14 +182,14 @@ impl<const N: usize> Sums<N> {
             } else {
                 let at = |terms: &[[f64; N]; TERMS]| {
                     let own = terms.map(|row| dot(&row, &state));
-                    PLACES.map(|place| polynomial(&own, place * left))
+                    self.rule.0.map(|place| polynomial(&own, place * left))
                 };
                 (at(&self.force_terms), at(&self.speed_terms), left)
             };
             for at in 0..GAUSS {
                 let power = force[at] * speed[at];
-                self.whole[0] += WEIGHTS[at] * length * power;
-                self.whole[1] += WEIGHTS[at] * length * power.abs();
+                self.whole[0] += self.rule.1[at] * length * power;
+                self.whole[1] += self.rule.1[at] * length * power.abs();
             }
             state = apply(carry, &state);
             left -= self.step;
@@ -277,9 +242,13 @@ fn terms<const N: usize>(row: &[f64; N], matrix: &Square<N>) -> [[f64; N]; TERMS
 }
 
 /// The rows at Gauss's points of a step.
-fn rows<const N: usize>(terms: &[[f64; N]; TERMS], step: f64) -> [[f64; GAUSS]; N] {
+fn rows<const N: usize>(
+    terms: &[[f64; N]; TERMS],
+    places: &[f64; GAUSS],
+    step: f64,
+) -> [[f64; GAUSS]; N] {
     let mut all = [[0.0; GAUSS]; N];
-    for (place, share) in PLACES.iter().enumerate() {
+    for (place, share) in places.iter().enumerate() {
         let time = share * step;
         for (at, own) in all.iter_mut().enumerate() {
             own[place] = terms.iter().rev().fold(0.0, |sum, row| sum * time + row[at]);

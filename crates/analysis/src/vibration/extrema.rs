@@ -1,6 +1,10 @@
 //! Peaks and valleys of a response on the frequency axis: found where its slope changes sign, not
 //! where a sample is the largest.
 
+use std::ops::ControlFlow;
+
+use dashpot_numerics::{extrema::maximum_unless, roots::false_position};
+
 use super::curve::Curve;
 
 /// Samples in each decade with which the search begins.
@@ -14,8 +18,6 @@ const LEAST_DAMPING: [f64; 4] = [1e-9, 1e-11, 1e-13, 1e-15];
 const SMOOTH: f64 = 0.05;
 /// Halvings of one stretch.
 const MOST_HALVINGS: u32 = 40;
-/// Steps to a root; each second one at least halves the bracket.
-const MOST_STEPS: usize = 200;
 /// Steps by which the flattest place of a shoulder is looked for: to a hundred thousandth.
 const SHOULDER_STEPS: usize = 24;
 /// Smaller hills, in `ln |T|²`, are what rounding makes.
@@ -156,21 +158,12 @@ impl Curve<'_> {
     /// A sample between two others at which `value` is negative, by golden section; `None` where
     /// none is found.
     fn beyond(&self, left: Probe, right: Probe, value: impl Fn(&Probe) -> f64) -> Option<Probe> {
-        let share = 0.5 * (5.0_f64.sqrt() - 1.0);
-        let (mut low, mut high) = (left.omega, right.omega);
-        for _ in 0..SHOULDER_STEPS {
-            let width = share * (high - low);
-            let [one, other] = [self.probe(high - width)?, self.probe(low + width)?];
-            if let Some(found) = [one, other].into_iter().find(|own| value(own) < 0.0) {
-                return Some(found);
-            }
-            if value(&one) < value(&other) {
-                high = other.omega;
-            } else {
-                low = one.omega;
-            }
-        }
-        None
+        let look = |omega: f64| match self.probe(omega) {
+            Some(probe) if value(&probe) < 0.0 => ControlFlow::Break(Some(probe)),
+            Some(probe) => ControlFlow::Continue(-value(&probe)),
+            None => ControlFlow::Break(None),
+        };
+        maximum_unless(left.omega, right.omega, SHOULDER_STEPS, look).break_value().flatten()
     }
 
     /// The peak or valley between two samples with slopes of different signs.
@@ -204,32 +197,17 @@ impl Curve<'_> {
         distance
     }
 
-    /// Where `value` changes its sign between two samples: false position, with a halving wherever
-    /// that does not halve the bracket by itself.
+    /// Where `value` changes its sign between two samples.
     pub(super) fn root(&self, left: Probe, right: Probe, value: impl Fn(&Probe) -> f64) -> Root {
-        let (mut left, mut right) = (left, right);
-        let sign = value(&left) > 0.0;
-        let mut halve = false;
-        for _ in 0..MOST_STEPS {
-            let width = right.omega - left.omega;
-            let (a, b) = (value(&left), value(&right));
-            let share = if halve { 0.5 } else { (a / (a - b)).clamp(0.02, 0.98) };
-            let omega = left.omega + share * width;
-            if omega <= left.omega || omega >= right.omega {
-                break;
+        let look = |omega: f64| self.probe(omega).map(|probe| value(&probe)).ok_or(omega);
+        let ends = [left, right].map(|probe| (probe.omega, value(&probe)));
+        match false_position(look, ends[0], ends[1], 0.0) {
+            Ok([left, right]) => {
+                let nearer = if left.1.abs() <= right.1.abs() { left } else { right };
+                Root { omega: nearer.0, probe: self.probe(nearer.0), width: right.0 - left.0 }
             }
-            let Some(middle) = self.probe(omega) else {
-                return Root { omega, probe: None, width: 0.0 };
-            };
-            if (value(&middle) > 0.0) == sign {
-                left = middle;
-            } else {
-                right = middle;
-            }
-            halve = right.omega - left.omega > 0.5 * width;
+            Err(omega) => Root { omega, probe: None, width: 0.0 },
         }
-        let nearer = if value(&left).abs() <= value(&right).abs() { left } else { right };
-        Root { omega: nearer.omega, probe: Some(nearer), width: right.omega - left.omega }
     }
 }
 

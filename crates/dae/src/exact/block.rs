@@ -1,6 +1,6 @@
 //! One block of the block-diagonal form and its exponential.
 
-use dashpot_twofold::{two_product, two_sum};
+use dashpot_numerics::{two_product, two_sum};
 use nalgebra::DMatrix;
 
 use super::{Complex, number};

@@ -1,6 +1,6 @@
 //! The solution in modal coordinates, span by span.
 
-use dashpot_twofold::Accumulator;
+use dashpot_numerics::Accumulator;
 use nalgebra::DMatrix;
 
 use super::{

@@ -4,7 +4,7 @@
 //! unknowns together with those *generators* are `ż = Ā z`, `z(t) = e^{Ā t} z(0)`
 //! ([`augmented`]). Two evaluations of that exponential are kept, which share no arithmetic:
 //!
-//! - the propagator ([`exponential`], [`propagator`]): `z_{k+1} = e^{Ā Δt} z_k` on uniform grids;
+//! - the propagator ([`propagator`]): `z_{k+1} = e^{Ā Δt} z_k` on uniform grids;
 //! - the modal form ([`modes`]): `z(t) = X e^{D t} X⁻¹ z(0)` with block-diagonal `D`, which gives
 //!   every output as a sum of modes and from it, with a rigorous bound of the interpolation error,
 //!   a piecewise polynomial ([`panels`]).
@@ -18,7 +18,6 @@ mod coordinates;
 mod decomposition;
 mod decoupling;
 mod drift;
-mod exponential;
 mod generators;
 mod modal_row;
 mod modes;

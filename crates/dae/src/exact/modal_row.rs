@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use dashpot_twofold::Accumulator;
+use dashpot_numerics::Accumulator;
+use dashpot_numerics::chebyshev::Interpolation;
 
 use super::{
     Complex,
@@ -11,7 +12,6 @@ use super::{
     modes::Modes,
     tables::{COUNT, DEGREE, at_most},
 };
-use crate::chebyshev::Interpolation;
 
 /// The modal form of an output: `Σ_j Re (r_j c_j(t))`.
 #[derive(Debug, Clone)]

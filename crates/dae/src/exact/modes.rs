@@ -33,68 +33,68 @@ impl Modes {
     /// The modes of a matrix of integrators in chains, which is triangular but for its order: its
     /// entries are kept as they are, and nothing is rounded.
     pub(super) fn of_chains(system: &Augmented, chains: &[Vec<usize>]) -> Self {
-        let size = system.size();
-        let mut basis = DMatrix::zeros(size, size);
-        let mut dual = DMatrix::zeros(size, size);
-        let mut blocks = Vec::with_capacity(chains.len());
-        let mut start = 0;
-        for chain in chains {
-            let mut matrix = DMatrix::from_fn(chain.len(), chain.len(), |i, j| {
+        let mut basis = DMatrix::zeros(system.size(), system.size());
+        for (mode, state) in chains.concat().into_iter().enumerate() {
+            basis[(state, mode)] = Complex::new(1.0, 0.0);
+        }
+        let dual = basis.transpose();
+        let block = |chain: &Vec<usize>| {
+            DMatrix::from_fn(chain.len(), chain.len(), |i, j| {
                 Complex::new(system.matrix[(chain[i], chain[j])], 0.0)
-            });
-            for (i, unit) in graded(&matrix, system.end()).into_iter().enumerate() {
-                basis[(chain[i], start + i)] = Complex::new(unit, 0.0);
-                dual[(start + i, chain[i])] = Complex::new(unit.recip(), 0.0);
-                matrix.column_mut(i).apply(|z| *z *= unit);
-                matrix.row_mut(i).apply(|z| *z /= unit);
-            }
-            blocks.push(Block::new(start, matrix));
-            start += chain.len();
-        }
-        Self {
-            basis,
-            basis_low: DMatrix::zeros(size, size),
-            dual,
-            blocks,
-            pairs: Vec::new(),
-            defect: DMatrix::zeros(size, size),
-            dual_defect: DMatrix::zeros(size, size),
-        }
+            })
+        };
+        Self::graded(basis, dual, chains.iter().map(block), system.end())
     }
 
     /// The whole matrix as one block.
     pub(super) fn undivided(system: &Augmented) -> Self {
         let size = system.size();
+        let one = DMatrix::identity(size, size);
         let matrix = system.matrix.map(|x| Complex::new(x, 0.0));
+        let blocks = if size == 0 { Vec::new() } else { vec![Block::new(0, matrix)] };
         let defect = DMatrix::from_element(size, size, f64::INFINITY);
-        Self {
-            basis: DMatrix::identity(size, size),
-            basis_low: DMatrix::zeros(size, size),
-            dual: DMatrix::identity(size, size),
-            blocks: if size == 0 { Vec::new() } else { vec![Block::new(0, matrix)] },
-            pairs: Vec::new(),
-            defect,
-            dual_defect: DMatrix::zeros(size, size),
-        }
+        Self { defect, ..Self::of(one.clone(), one, blocks) }
     }
 
+    /// The modes of a Schur form whose clusters have been decoupled.
     pub(super) fn assemble(schur: &ComplexSchur, decoupling: &Decoupling, horizon: f64) -> Self {
-        let size = schur.triangle.nrows();
-        let mut basis = &schur.basis * &decoupling.transform;
-        let mut dual = invert_unit_triangle(&decoupling.transform) * schur.basis.adjoint();
-        let mut blocks = Vec::with_capacity(decoupling.sizes.len());
+        let basis = &schur.basis * &decoupling.transform;
+        let dual = invert_unit_triangle(&decoupling.transform) * schur.basis.adjoint();
         let mut start = 0;
-        for &len in &decoupling.sizes {
-            let mut matrix = schur.triangle.view((start, start), (len, len)).into_owned();
-            for (i, unit) in graded(&matrix, horizon).into_iter().enumerate() {
+        let block = |&len: &usize| {
+            start += len;
+            schur.triangle.view((start - len, start - len), (len, len)).into_owned()
+        };
+        Self::graded(basis, dual, decoupling.sizes.iter().map(block), horizon)
+    }
+
+    /// The modes of these triangular blocks one after the other, in units in which their couplings act on
+    /// the time scale of the run; see [`units`].
+    fn graded(
+        mut basis: DMatrix<Complex>,
+        mut dual: DMatrix<Complex>,
+        triangles: impl Iterator<Item = DMatrix<Complex>>,
+        horizon: f64,
+    ) -> Self {
+        let mut start = 0;
+        let block = |mut matrix: DMatrix<Complex>| {
+            for (i, unit) in units(&matrix, horizon).into_iter().enumerate() {
                 basis.column_mut(start + i).apply(|z| *z *= unit);
                 dual.row_mut(start + i).apply(|z| *z /= unit);
                 matrix.column_mut(i).apply(|z| *z *= unit);
                 matrix.row_mut(i).apply(|z| *z /= unit);
             }
-            blocks.push(Block::new(start, matrix));
-            start += len;
-        }
+            let block = Block::new(start, matrix);
+            start += block.len();
+            block
+        };
+        let blocks = triangles.map(block).collect();
+        Self::of(basis, dual, blocks)
+    }
+
+    /// Modes of which nothing is known to be wrong yet.
+    fn of(basis: DMatrix<Complex>, dual: DMatrix<Complex>, blocks: Vec<Block>) -> Self {
+        let size = basis.nrows();
         Self {
             basis,
             basis_low: DMatrix::zeros(size, size),
@@ -175,7 +175,7 @@ pub(super) fn chains(matrix: &DMatrix<f64>) -> Option<Vec<Vec<usize>>> {
 
 /// Factors for a triangular block's basis, powers of two and as few as needed, after which its
 /// couplings act on the time scale of the run: `|T_ij| u_j/u_i · horizon ≤ 1`.
-fn graded(triangle: &DMatrix<Complex>, horizon: f64) -> Vec<f64> {
+fn units(triangle: &DMatrix<Complex>, horizon: f64) -> Vec<f64> {
     let mut exponents: Vec<f64> = Vec::with_capacity(triangle.nrows());
     for j in 0..triangle.nrows() {
         let wanted = |(i, exponent): (usize, &f64)| {

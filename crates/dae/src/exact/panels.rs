@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use dashpot_twofold::two_sum;
+use dashpot_numerics::two_sum;
 
 use super::{
     Complex,

@@ -1,8 +1,10 @@
 //! Marching on a uniform grid: `z_{k+1} = e^{Ā Δt} z_k`.
 
+use dashpot_numerics::{
+    exponential::exponential,
+    small::{Square, apply, product},
+};
 use nalgebra::{DMatrix, DVector};
-
-use super::exponential::{Columns, Square, apply, exponential};
 
 /// Equally spaced times, counted from the state that is marched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,8 +82,8 @@ fn march_fixed<const N: usize>(
     for lane in 1..4 {
         lanes[lane] = apply(&e, &lanes[lane - 1]);
     }
-    let e2 = e.product(&e);
-    let e4 = e2.product(&e2);
+    let e2 = product(&e, &e);
+    let e4 = product(&e2, &e2);
     for _ in 0..grid.count / 4 {
         if keep == N {
             out.extend_from_slice(lanes.as_flattened());
@@ -95,7 +97,7 @@ fn march_fixed<const N: usize>(
 
 /// `matrix · vector` for four vectors.
 #[inline]
-fn apply_four<const N: usize>(matrix: &Columns<N>, vectors: &[[f64; N]; 4]) -> [[f64; N]; 4] {
+fn apply_four<const N: usize>(matrix: &Square<N>, vectors: &[[f64; N]; 4]) -> [[f64; N]; 4] {
     let mut sums = [[0.0; N]; 4];
     for (k, column) in matrix.iter().enumerate() {
         for (sum, vector) in sums.iter_mut().zip(vectors) {

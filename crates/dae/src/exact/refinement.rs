@@ -1,7 +1,7 @@
 //! Newton's iteration for the modal form, with residuals in twice the digits of a double, and the
 //! bound of what is left.
 
-use dashpot_twofold::{Accumulator, two_sum};
+use dashpot_numerics::{Accumulator, two_sum};
 use nalgebra::DMatrix;
 
 use super::{Complex, bounds::enclose, modes::Modes, number};

@@ -7,6 +7,7 @@ use std::{
     sync::{Arc, Mutex, OnceLock, PoisonError},
 };
 
+use dashpot_numerics::chebyshev::Interpolation;
 use nalgebra::DMatrix;
 
 use super::{
@@ -15,7 +16,6 @@ use super::{
     modes::Modes,
     number,
 };
-use crate::chebyshev::Interpolation;
 
 /// Degree of the panels.
 pub(super) const DEGREE: usize = 16;

@@ -1,10 +1,9 @@
 //! The panels of one step, where outputs may follow driving functions directly.
 
+use dashpot_numerics::chebyshev::{Interpolation, evaluate};
+
 use super::{Step, between};
-use crate::{
-    Output, Panel, Piece, System,
-    chebyshev::{Interpolation, evaluate},
-};
+use crate::{Output, Panel, Piece, System};
 
 /// Half periods, as `ω · length / 2`, that one panel may hold; longer steps are divided.
 const LONGEST: f64 = 8.0;

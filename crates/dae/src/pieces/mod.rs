@@ -8,7 +8,9 @@ mod stream;
 #[cfg(test)]
 mod tests;
 
-use crate::{Dense, Digest, Keep, Output, Panel, Run, Signal, System, chebyshev::Interpolation};
+use dashpot_numerics::chebyshev::Interpolation;
+
+use crate::{Dense, Digest, Keep, Output, Panel, Run, Signal, System};
 use lagrange::Lagrange;
 use stream::Stream;
 

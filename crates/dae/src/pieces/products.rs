@@ -1,13 +1,13 @@
 //! Integrals of products of outputs, step by step.
 
+use dashpot_numerics::{Forms, quadrature::GaussLegendre};
 use nalgebra::DMatrix;
 
 use super::{
     Step, between, inputs,
     lagrange::{HIGHEST, Lagrange},
-    stream::Row,
 };
-use crate::{FormRef, LinearForm, Product, System, chebyshev::GaussLegendre, linear_form::Forms};
+use crate::{FormRef, LinearForm, Product, System};
 
 /// Products that are worked on at once, so that they stay in the processor's nearest memory.
 const BLOCK: usize = 256;
@@ -31,6 +31,13 @@ pub(super) struct Products {
     /// The factors, as forms over the unknowns: those of squares once, then the first of all other
     /// pairs, then the second.
     forms: Forms,
+}
+
+/// All unknowns at one time, and of them the factors of the products.
+#[derive(Debug, Default)]
+pub(super) struct Row {
+    pub(super) state: Vec<f64>,
+    pub(super) factors: Vec<f64>,
 }
 
 /// One integral.

@@ -5,7 +5,7 @@ use std::{collections::VecDeque, sync::Arc};
 use super::{
     ROUNDING, Step,
     lagrange::{HIGHEST, Lagrange},
-    products::Products,
+    products::{Products, Row},
 };
 use crate::{Digest, Jump, Part, System, digest::Instant};
 
@@ -23,13 +23,6 @@ pub(super) struct Stream {
     pub(super) pending: Option<Step>,
     products: Products,
     pub(super) digest: Digest,
-}
-
-/// All unknowns at one time, and of them the factors of the products.
-#[derive(Debug, Default)]
-pub(super) struct Row {
-    state: Vec<f64>,
-    pub(super) factors: Vec<f64>,
 }
 
 impl Stream {

@@ -1,10 +1,12 @@
 //! A ball against a half-space.
 
+use dashpot_numerics::quadrature::GaussLegendre;
+
 use super::{
     Problem, TIME_SCALE,
     nonlinear::{Law, mass_under, term},
 };
-use crate::{LinearForm, chebyshev::GaussLegendre};
+use crate::LinearForm;
 
 /// A ball that touches with `v = 1`, is pushed by `f = x^(3/2)` while it is pressed in, and flies off.
 ///

@@ -1,7 +1,8 @@
 //! Signals made from signals.
 
+use dashpot_numerics::chebyshev;
+
 use super::{Panel, Signal};
-use crate::chebyshev;
 
 /// Rounding up to which a slope counts as known, in parts of it.
 const OF_SLOPE: f64 = 1e-3;

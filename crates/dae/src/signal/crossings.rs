@@ -1,7 +1,8 @@
 //! Where a signal passes a level.
 
+use dashpot_numerics::chebyshev::{self, bracketed_root, evaluate, sign_changes};
+
 use super::{Crossing, Panel, Signal};
-use crate::chebyshev::{self, bracketed_root, evaluate, sign_changes};
 
 impl Signal {
     /// All places in the window at which the signal passes or touches the `level`, in order of

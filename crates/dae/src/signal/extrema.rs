@@ -1,7 +1,8 @@
 //! Largest and smallest values.
 
+use dashpot_numerics::chebyshev::{self, evaluate, sign_changes};
+
 use super::{Extremum, Signal};
-use crate::chebyshev::{self, evaluate, sign_changes};
 
 /// What is to be as large as possible.
 #[derive(Debug, Clone, Copy)]

@@ -2,19 +2,21 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use dashpot_numerics::{
+    Accumulator,
+    chebyshev::{self, bracketed_root, evaluate, sign_changes},
+    quadrature::{GaussLegendre, integral_to},
+};
+
 use super::{Panel, Signal};
-use crate::chebyshev::{self, GaussLegendre, bracketed_root, evaluate, sign_changes};
 
-/// Relative difference of two rules at which the better one is taken.
+/// Difference of two rules at which the better one is taken, in parts of the typical integrand.
 const TOLERANCE: f64 = 1e-12;
-
-/// How often a piece is halved at most, should `f` be rougher than promised.
-const MOST_HALVINGS: u32 = 200;
 
 impl Signal {
     /// The integral over the window \[unit·s\], exact up to rounding.
     pub fn integral(&self, window: (f64, f64)) -> f64 {
-        let mut sum = Sum::default();
+        let mut sum = Accumulator::default();
         for panel in self.panels_in(window) {
             sum.add(panel.integral());
         }
@@ -23,7 +25,7 @@ impl Signal {
 
     /// `∫ self · other dt` over the part of the window that both cover, exact up to rounding.
     pub fn integral_of_product(&self, other: &Self, window: (f64, f64)) -> f64 {
-        let mut sum = Sum::default();
+        let mut sum = Accumulator::default();
         let (mut places, mut first, mut second) = (Vec::new(), Vec::new(), Vec::new());
         self.overlaps(other, window, |one, two, start, end| {
             let points = usize::midpoint(one.coefficients.len(), two.coefficients.len()) + 1;
@@ -47,7 +49,7 @@ impl Signal {
 
     /// `∫ |self| dt` over the window \[unit·s\], exact up to rounding: the area on both sides of zero.
     pub fn absolute_integral(&self, window: (f64, f64)) -> f64 {
-        let mut sum = Sum::default();
+        let mut sum = Accumulator::default();
         for panel in self.panels_in(window) {
             let zeros = sign_changes(&panel.coefficients);
             if zeros.is_empty() {
@@ -68,7 +70,7 @@ impl Signal {
     /// A bound of `∫ |self| dt` over the window \[unit·s\]: itself where the signal keeps its sign, and as a
     /// rule two fifths more where it oscillates.
     pub fn area_bound(&self, window: (f64, f64)) -> f64 {
-        let mut sum = Sum::default();
+        let mut sum = Accumulator::default();
         for panel in self.panels_in(window) {
             let coefficients = &panel.coefficients;
             let middle = coefficients.first().map_or(0.0, |own| own.abs());
@@ -93,10 +95,9 @@ impl Signal {
         let rough: f64 = panels.clone().map(|panel| panel.length() * middle(&panel)).sum();
         let length: f64 = panels.clone().map(|panel| panel.length()).sum();
         let density = if length > 0.0 { rough / length } else { 0.0 };
-        let (coarse, fine) = (GaussLegendre::with_points(6), GaussLegendre::with_points(10));
-        let mut sum = Sum::default();
+        let mut sum = Accumulator::default();
         for panel in panels.filter(|panel| panel.length() > 0.0) {
-            let curve = Curve { panel: &panel, f: &f, density, rules: (&coarse, &fine) };
+            let curve = Curve { panel: &panel, f: &f, density };
             let places = places(&panel.coefficients, breaks);
             for pair in places.windows(2) {
                 sum.add(0.5 * panel.length() * curve.piece(pair[0], pair[1]));
@@ -160,8 +161,6 @@ struct Curve<'a, F> {
     f: &'a F,
     /// Typical size of the integrand, against which errors are judged.
     density: f64,
-    /// The rule by which the better one is judged, and the better one.
-    rules: (&'a GaussLegendre, &'a GaussLegendre),
 }
 
 impl<F: Fn(f64) -> f64> Curve<'_, F> {
@@ -175,19 +174,13 @@ impl<F: Fn(f64) -> f64> Curve<'_, F> {
         let tolerance = self.tolerance(0.5 * (a.0 + b.0)) * width;
         // x = a + width u³ makes a power of x − a smooth enough for the rule.
         let cubic = |u: f64| (width * u * u * u, 3.0 * width * u * u);
-        let mut halvings = MOST_HALVINGS;
         match (a.1, b.1) {
-            (false, false) => {
-                let g = |x: f64| self.at(x);
-                self.refine(&g, (a.0, b.0), tolerance, &mut halvings)
-            }
+            (false, false) => integral_to(|x| self.at(x), a.0, b.0, tolerance),
             (true, false) => {
-                let g = |u: f64| cubic(u).1 * self.at(a.0 + cubic(u).0);
-                self.refine(&g, (0.0, 1.0), tolerance, &mut halvings)
+                integral_to(|u| cubic(u).1 * self.at(a.0 + cubic(u).0), 0.0, 1.0, tolerance)
             }
             (false, true) => {
-                let g = |u: f64| cubic(u).1 * self.at(b.0 - cubic(u).0);
-                self.refine(&g, (0.0, 1.0), tolerance, &mut halvings)
+                integral_to(|u| cubic(u).1 * self.at(b.0 - cubic(u).0), 0.0, 1.0, tolerance)
             }
             (true, true) => {
                 let middle = (0.5 * (a.0 + b.0), false);
@@ -203,48 +196,5 @@ impl<F: Fn(f64) -> f64> Curve<'_, F> {
         let value = evaluate(coefficients, x);
         let noise = (self.f)(value + rounding) - (self.f)(value - rounding);
         noise.abs().max(TOLERANCE * self.density)
-    }
-
-    /// The integral of `g` from `a` to `b` by halving until two rules agree.
-    fn refine(
-        &self,
-        g: &impl Fn(f64) -> f64,
-        (a, b): (f64, f64),
-        tolerance: f64,
-        halvings: &mut u32,
-    ) -> f64 {
-        let coarse = self.rules.0.integrate(a, b, g);
-        let fine = self.rules.1.integrate(a, b, g);
-        let agree = (fine - coarse).abs() <= tolerance.max(TOLERANCE * fine.abs());
-        if agree || *halvings == 0 {
-            return fine;
-        }
-        *halvings -= 1;
-        let middle = 0.5 * (a + b);
-        self.refine(g, (a, middle), 0.5 * tolerance, halvings)
-            + self.refine(g, (middle, b), 0.5 * tolerance, halvings)
-    }
-}
-
-/// A sum that keeps what its additions round off (Neumaier).
-#[derive(Debug, Default)]
-struct Sum {
-    sum: f64,
-    lost: f64,
-}
-
-impl Sum {
-    fn add(&mut self, summand: f64) {
-        let sum = self.sum + summand;
-        self.lost += if self.sum.abs() >= summand.abs() {
-            (self.sum - sum) + summand
-        } else {
-            (summand - sum) + self.sum
-        };
-        self.sum = sum;
-    }
-
-    fn value(&self) -> f64 {
-        self.sum + self.lost
     }
 }

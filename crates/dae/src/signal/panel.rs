@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
+use dashpot_numerics::chebyshev;
+
 use super::Signal;
-use crate::chebyshev;
 
 /// A polynomial on `[start, end]`: `Σ c_k T_k(x)`, `x = (2t − start − end)/(end − start)`.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
+use dashpot_numerics::chebyshev::Interpolation;
+
 use super::*;
-use crate::chebyshev::Interpolation;
 
 const EVERYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 

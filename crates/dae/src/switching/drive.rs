@@ -2,14 +2,13 @@
 
 use std::{ops::ControlFlow, time::Instant};
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{
     Leg, LegEnd, Switching,
     chain::{Chain, Solved},
     flight::follow,
-    margin::margin,
-    nominal,
+    precision::{margin, smaller_sizes},
     shaken::{Afterwards, Shaken},
 };
 use crate::{
@@ -108,33 +107,14 @@ fn solve(
         let start = drive.start.high();
         let (mut trajectory, reached) = drive.leg(method, &leg, &mut found)?;
         let t_end = reached.high();
-        let own = leg.guards.len();
-        let goes_on = match trajectory.outcome {
-            Outcome::Stopped { guard } if guard < own => {
-                // A condition of the run's own may be met at the same instant.
-                let met = |event: &&Event| {
-                    event.time >= trajectory.t_end
-                        && event.guard >= own
-                        && run.guards[event.guard - own].stops
-                };
-                found.outcome = trajectory.events.iter().find(met).map(|event| event.guard - own);
-                found.outcome.is_none() && t_end < run.t_end
-            }
-            Outcome::Stopped { guard } => {
-                found.outcome = Some(guard - own);
-                false
-            }
-            Outcome::Finished if t_end < run.t_end => true,
-            Outcome::Finished => {
-                if !method.is_exact() {
-                    drive.chain.margin = margin(&leg, trajectory.dense.as_ref(), run, doubt);
-                }
-                false
-            }
-        };
+        let goes_on = found.goes_on(&leg, &trajectory, t_end, run);
+        if trajectory.outcome == Outcome::Finished && !goes_on && !method.is_exact() {
+            drive.chain.margin = margin(&leg, trajectory.dense.as_ref(), run, doubt);
+        }
         let length = trajectory.t_end / leg.system.time_scale;
         let state = trajectory.dense.sample(&leg.system, &[length]);
-        let at_end = |event: &&Event| event.time >= trajectory.t_end && event.guard < own;
+        let at_end =
+            |event: &&Event| event.time >= trajectory.t_end && event.guard < leg.guards.len();
         let fired: Vec<usize> =
             trajectory.events.iter().filter(at_end).map(|event| event.guard).collect();
         let name = trajectory.method;
@@ -195,6 +175,26 @@ struct Found {
 }
 
 impl Found {
+    /// Whether another leg follows the one of this `trajectory`, which ends at `t_end` in the run; takes
+    /// down the run's own guard that has ended it.
+    fn goes_on(&mut self, leg: &Leg, trajectory: &Trajectory, t_end: f64, run: &Run) -> bool {
+        let own = leg.guards.len();
+        self.outcome = match trajectory.outcome {
+            Outcome::Finished => None,
+            Outcome::Stopped { guard } if guard >= own => Some(guard - own),
+            Outcome::Stopped { .. } => {
+                // A condition of the run's own may be met at the same instant.
+                let met = |event: &&Event| {
+                    event.time >= trajectory.t_end
+                        && event.guard >= own
+                        && run.guards[event.guard - own].stops
+                };
+                trajectory.events.iter().find(met).map(|event| event.guard - own)
+            }
+        };
+        self.outcome.is_none() && t_end < run.t_end
+    }
+
     /// The error of a run that does not come on.
     fn endless(&self, time: f64) -> SolveError {
         let parts = self.last_parts();
@@ -267,7 +267,7 @@ fn solve_to_size(
     if method.is_exact() {
         return Ok(found);
     }
-    while let Some(sizes) = nominal::smaller(leg, &run, &found) {
+    while let Some(sizes) = smaller_sizes(leg, &run, &found) {
         observer.steps += found.statistics.accepted;
         run.nominal = sizes;
         let work = found.statistics;

@@ -6,12 +6,12 @@
 
 use std::time::Instant;
 
+use dashpot_numerics::chebyshev::Interpolation;
+
 use super::Leg;
 use crate::{
     Dense, Derivatives, Direction, Event, Guard, Method, Observer, Outcome, Panel, Progress, Run,
-    Signal, SolveError, Statistics, System, Trajectory,
-    chebyshev::Interpolation,
-    derivatives,
+    Signal, SolveError, Statistics, System, Trajectory, derivatives,
     events::scan,
     pieces::{Pieces, ROUNDING, between},
 };

@@ -7,8 +7,7 @@
 mod chain;
 mod drive;
 mod flight;
-mod margin;
-mod nominal;
+mod precision;
 mod shaken;
 
 use std::{fmt::Debug, sync::Arc};

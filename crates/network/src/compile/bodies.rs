@@ -1,5 +1,7 @@
 //! Joints merged into bodies by rigid links.
 
+use dashpot_units::STANDARD_GRAVITY;
+
 use super::expand::{Expansion, Primitive};
 use crate::{Network, NetworkError, Start, Subject, Support, elements::Law};
 
@@ -75,8 +77,6 @@ pub(crate) fn start_velocity(network: &Network, start: Start) -> f64 {
         }
     }
 }
-
-pub(crate) use dashpot_units::STANDARD_GRAVITY;
 
 impl Bodies {
     /// Merges the joints at the ends of rigid links.

@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::row::Combination;
 

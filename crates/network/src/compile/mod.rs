@@ -16,7 +16,6 @@ pub(crate) mod bodies;
 mod carry;
 mod dashpots;
 pub(crate) mod expand;
-mod form;
 mod inner_pads;
 mod laws;
 mod mesh;

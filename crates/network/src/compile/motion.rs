@@ -1,7 +1,7 @@
 //! Deformations, forces and velocities, and from them the rate of every unknown.
 
 use dashpot_dae::UnknownKind;
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{
     bodies::{Bodies, Role},

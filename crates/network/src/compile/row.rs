@@ -1,8 +1,10 @@
 //! Quantities as linear combinations of unknowns and inputs.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::{LinearForm, Twofold, packed};
 
-use super::form::Form;
+/// Of the small rest of large terms: of a spring in parallel with the fastest dashpot of a chain only what
+/// the other dashpots give way to is left.
+type Form = LinearForm<Twofold>;
 
 /// What can be scaled and added: numbers and [`Row`]s.
 pub(super) trait Combination: Clone + Default {
@@ -120,10 +122,6 @@ impl Rows {
         self.places.resize(self.places.len().max(at + 1), Place::NONE);
         self.places[at] = place;
     }
-}
-
-fn packed(number: usize) -> u32 {
-    u32::try_from(number).unwrap_or_else(|_| panic!("too many terms for 32 bits"))
 }
 
 /// A sum of many rows, formed in one pass.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{DrivingPointError, links::Links};
 use crate::{

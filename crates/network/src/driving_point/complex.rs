@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Complex {

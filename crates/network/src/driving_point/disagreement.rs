@@ -1,11 +1,13 @@
 //! At which frequency two receptances disagree most.
 
+use dashpot_numerics::extrema::maximum;
+
 use super::{Receptance, complex::Complex};
 
 /// Points between neighbouring frequencies at which something may happen.
 const BETWEEN: usize = 8;
 /// Steps of the search for a maximum between two points.
-const STEPS: usize = 60;
+pub(super) const STEPS: usize = 60;
 /// How far beyond the poles the limits are taken.
 const FAR: f64 = 1e8;
 
@@ -40,7 +42,7 @@ pub(super) fn worst(a: &Receptance, b: &Receptance) -> (f64, f64) {
         let is_peak = values[at] >= values[at - 1] && values[at] >= values[at + 1];
         if is_peak && values[at] > 0.0 {
             let value = |x: f64| apart(a, b, x.exp());
-            let (place, height) = summit(points[at - 1].ln(), points[at + 1].ln(), value);
+            let (place, height) = maximum(points[at - 1].ln(), points[at + 1].ln(), STEPS, value);
             let peak = (place.exp(), height);
             let peak = if peak.1 > values[at] { peak } else { (points[at], values[at]) };
             // Beyond the limits' own rounding, so that a plateau is reported as a limit.
@@ -53,25 +55,6 @@ pub(super) fn worst(a: &Receptance, b: &Receptance) -> (f64, f64) {
         best = (f64::INFINITY, values[last]);
     }
     best
-}
-
-/// A maximum between two places by golden section.
-pub(super) fn summit(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> (f64, f64) {
-    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let (mut p, mut q) = (high - golden * (high - low), low + golden * (high - low));
-    let (mut at_p, mut at_q) = (value(p), value(q));
-    for _ in 0..STEPS {
-        if at_p > at_q {
-            (high, q, at_q) = (q, p, at_p);
-            p = high - golden * (high - low);
-            at_p = value(p);
-        } else {
-            (low, p, at_p) = (p, q, at_q);
-            q = low + golden * (high - low);
-            at_q = value(q);
-        }
-    }
-    if at_p > at_q { (p, at_p) } else { (q, at_q) }
 }
 
 /// Relative difference at one frequency.

@@ -1,6 +1,6 @@
 //! The dynamic stiffness `P(s) = s²M + sC + K` of a circuit at a complex rate.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{
     circuit::{Circuit, Ends, Link},

@@ -1,6 +1,6 @@
 //! Motion of poles that stand too close for exponentials of their own.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{complex::Complex, terms::Term};
 

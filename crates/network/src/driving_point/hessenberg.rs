@@ -1,6 +1,6 @@
 //! Eigenvalues of a real matrix in twice the digits of a double.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{DrivingPointError, complex::Complex, links::dot};
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{
     Receptance,

@@ -1,6 +1,6 @@
 //! Orthogonal columns by rotations.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{DrivingPointError, links::dot};
 

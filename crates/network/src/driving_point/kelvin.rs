@@ -1,6 +1,6 @@
 //! Massless circuits: the Kelvin form of what is seen at the two nodes.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{
     DrivingPointError, Hidden, Massless,

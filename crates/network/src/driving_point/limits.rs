@@ -1,6 +1,6 @@
 //! What a circuit does at infinite and at vanishing rates, from its graph.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{
     circuit::{Circuit, Link},

@@ -1,6 +1,6 @@
 //! Balances of linked bodies, by star–mesh elimination in twice the digits of a double.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::circuit::{Ends, Link};
 

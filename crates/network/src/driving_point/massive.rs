@@ -1,6 +1,6 @@
 //! Circuits with masses: poles and strengths, computed twice.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{
     DrivingPointError, Hidden, Receptance,

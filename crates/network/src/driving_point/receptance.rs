@@ -1,6 +1,6 @@
 //! The receptance of a network with masses.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{Hidden, complex::Complex, terms::Term};
 

@@ -1,7 +1,9 @@
 //! Search for the largest difference along the time.
 
+use dashpot_numerics::extrema::maximum;
+
 use super::{
-    disagreement::summit,
+    disagreement::STEPS,
     impulse::{Course, Part, Point},
 };
 
@@ -93,20 +95,20 @@ impl<'a> Search<'a> {
         let [low, high] = crest.ends;
         let height = |t: f64| self.course.at(t, &mut Vec::new()).heights[crest.side];
         // A value that was looked at needs no search.
-        if low < high { summit(low, high, height).1 } else { crest.height }
+        if low < high { maximum(low, high, STEPS, height).1 } else { crest.height }
     }
 
     /// The time of the largest difference, and that difference.
     pub(super) fn top(&self) -> (f64, f64) {
         let [low, high] = self.top.ends.map(|look| look.t);
         let course = |t: f64| self.course.at(t, &mut Vec::new());
-        let peaks = [0, 1].map(|side| summit(low, high, |t| course(t).heights[side]));
+        let peaks = [0, 1].map(|side| maximum(low, high, STEPS, |t| course(t).heights[side]));
         let before = self.refined(self.top.ends[0].crest);
         let apart = |t: f64| {
             let past = peaks.iter().filter(|peak| t >= peak.0).map(|peak| peak.1);
             course(t).apart(past.fold(before, f64::max))
         };
-        let (found, own) = (summit(low, high, apart), (self.top.at, apart(self.top.at)));
+        let (found, own) = (maximum(low, high, STEPS, apart), (self.top.at, apart(self.top.at)));
         if found.1 > own.1 { found } else { own }
     }
 

@@ -1,6 +1,6 @@
 //! The poles of a circuit with masses.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{
     DrivingPointError,

@@ -1,6 +1,6 @@
 //! The receptance as a sum of terms, one for each pole or group of poles that belong together.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{
     circuit::{Circuit, shift},

@@ -1,11 +1,11 @@
 //! Gravity.
 
 use dashpot_dae::Waveform;
+use dashpot_units::STANDARD_GRAVITY;
 
 use super::{Effect, EffectKind};
 use crate::{
-    Influence, Network, NodeId, Situation, Start, choices,
-    compile::bodies::{STANDARD_GRAVITY, start_velocity},
+    Influence, Network, NodeId, Situation, Start, choices, compile::bodies::start_velocity,
     parameters,
 };
 

@@ -1,5 +1,7 @@
 //! Contact with a wanted restitution.
 
+use dashpot_numerics::roots::{TO_THE_LAST_BIT, bisect};
+
 use super::{
     Element, Law, Tangent,
     impact_law::{Impact, ImpactLaw},
@@ -129,18 +131,9 @@ fn number_of_damping(e: f64) -> f64 {
     }
     // x = −ln(1 − e d) tells d from its limit 1/e, of which d itself falls short by e^(−1/e).
     let of = |x: f64| -(-x).exp_m1() / e;
-    let (mut low, mut high) = (0.0, (1.0 + e) / e + 1.0);
-    loop {
-        let middle = f64::midpoint(low, high);
-        if middle <= low || middle >= high {
-            return of(middle);
-        }
-        if excess(e, middle, of(middle)) < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let most = (1.0 + e) / e + 1.0;
+    let (low, high) = bisect(0.0, most, TO_THE_LAST_BIT, |x| excess(e, x, of(x)) >= 0.0);
+    of(f64::midpoint(low, high))
 }
 
 /// A number of the sign of `ln(1 + d) + x − d (1 + e)`, where `x = −ln(1 − e d)`.

@@ -1,6 +1,8 @@
 //! Foam with a plateau and densification.
 
-use super::{Element, Law, Tangent, power::in_range, quadrature::integral};
+use dashpot_numerics::quadrature::integral;
+
+use super::{Element, Law, Tangent, power::in_range};
 use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {

@@ -1,9 +1,10 @@
 //! Foam that unloads on another curve.
 
+use dashpot_numerics::quadrature::integral;
+
 use super::{
     Element, Foam,
     hysteresis::{self, Hysteresis},
-    quadrature::integral,
 };
 use crate::{
     parameters::{

@@ -15,7 +15,6 @@ mod monotone;
 mod power;
 mod power_dashpot;
 mod power_spring;
-pub(crate) mod quadrature;
 mod rate_spring;
 mod rigid;
 mod spring;

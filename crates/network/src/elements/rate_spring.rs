@@ -175,7 +175,7 @@ mod tests {
         let (low, high) = (from.min(to), from.max(to));
         let sides = [(low.min(0.0), high.min(0.0)), (low.max(0.0), high.max(0.0))];
         let work = sides.iter().map(|&(low, high)| {
-            super::super::quadrature::integral(
+            dashpot_numerics::quadrature::integral(
                 // The integrand is to be positive: the sign is that of the side.
                 |y| spring.force(y, rate).abs(),
                 low,

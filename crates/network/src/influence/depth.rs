@@ -1,8 +1,10 @@
 //! How deep an energy presses a law that is not linear.
 
+use dashpot_numerics::{quadrature::integral, roots::bisect};
+
 use crate::{
     Model,
-    elements::{Element, Law, quadrature::integral},
+    elements::{Element, Law},
     phases::PhaseLaw,
 };
 
@@ -26,11 +28,7 @@ pub(super) fn at_energy(model: &Model, energy: f64) -> Option<f64> {
         }
         high *= 2.0;
     }
-    let mut low = 0.0;
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(low, high);
-        if taken(middle) < energy { low = middle } else { high = middle }
-    }
+    let (_, high) = bisect(0.0, high, HALVINGS, |depth| taken(depth) >= energy);
     (high.is_normal() && taken(high) >= energy).then_some(high)
 }
 

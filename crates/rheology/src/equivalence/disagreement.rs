@@ -1,5 +1,6 @@
 //! Where two models differ most.
 
+use dashpot_numerics::extrema::maximum;
 use nalgebra::Complex;
 
 use super::alignment::{Aligned, aligned};
@@ -102,15 +103,9 @@ fn largest(places: &[f64], value: impl Fn(f64) -> f64) -> (f64, f64) {
         return (if limit == 0 { 0.0 } else { f64::INFINITY }, all[limit]);
     };
     let best = (places[top], all[top]);
-    let (mut low, mut high) = (places[top - 1].ln(), places[top + 1].ln());
-    let ratio = (5_f64.sqrt() - 1.0) / 2.0;
-    for _ in 0..STEPS {
-        let [left, right] = [high - ratio * (high - low), low + ratio * (high - low)];
-        if value(left.exp()) > value(right.exp()) { high = right } else { low = left }
-    }
-    let refined = f64::midpoint(low, high).exp();
-    let found = value(refined);
-    if found > best.1 { (refined, found) } else { best }
+    let (low, high) = (places[top - 1].ln(), places[top + 1].ln());
+    let (place, found) = maximum(low, high, STEPS, |place| value(place.exp()));
+    if found > best.1 { (place.exp(), found) } else { best }
 }
 
 /// `iω/(iω + r)`.

@@ -10,7 +10,7 @@
 mod alignment;
 mod disagreement;
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use crate::{
     LinearModel,

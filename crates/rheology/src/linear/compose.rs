@@ -1,6 +1,6 @@
 //! Models composed of models.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{Canonical, Fractions, LinearModel, Merged, Merger, Primitive};
 use crate::Tree;

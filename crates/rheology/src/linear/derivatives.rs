@@ -1,6 +1,6 @@
 //! Derivatives of partial fractions with respect to the parameters of a tree.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{Fractions, Primitive};
 use crate::Tree;

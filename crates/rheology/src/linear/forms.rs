@@ -1,6 +1,6 @@
 //! The two canonical forms of a linear model.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{Fractions, LinearModel, Primitive};
 use crate::{Branch, Tree};

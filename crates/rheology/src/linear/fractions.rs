@@ -1,6 +1,6 @@
 //! Partial fractions with positive strengths, and their reciprocal.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::secular::{Line, Secular};
 

@@ -1,6 +1,6 @@
 //! Material functions.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::{Fractions, LinearModel};
 

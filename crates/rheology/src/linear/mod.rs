@@ -20,7 +20,7 @@ mod fractions;
 mod functions;
 mod secular;
 
-pub use dashpot_twofold::Twofold;
+pub use dashpot_numerics::Twofold;
 pub use forms::{Canonical, KelvinElement, KelvinForm, MaxwellElement, MaxwellForm};
 pub use fractions::MERGED_BELOW;
 

@@ -5,7 +5,7 @@
 //! and everything that follows depends on distances. A safeguarded Newton iteration in doubles is
 //! polished in twice their digits.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::{Twofold, roots::Bracket};
 
 /// Newton steps in doubles; about eight are usual, and bisection alone takes this many at worst.
 const MOST_STEPS: usize = 200;
@@ -144,12 +144,13 @@ impl View {
     /// The distance `η` at which `φ(η) = side · η · R(η) − w` is zero, `R` being the function
     /// without the pole itself. Unlike the function, `φ` is smooth down to `η = 0`.
     fn zero(&self) -> f64 {
-        let (mut low, mut high) = (0.0, self.limit);
-        let mut at = self.first().max(f64::MIN_POSITIVE).min(high);
+        let mut bracket = Bracket { low: 0.0, high: self.limit };
+        let mut at = self.first().max(f64::MIN_POSITIVE).min(self.limit);
         for _ in 0..MOST_STEPS {
             let (rest, slope) = self.rest(at);
             let value = at * self.side * rest - self.strength;
-            *(if value > 0.0 { &mut high } else { &mut low }) = at;
+            bracket.cut(at, value.is_nan() || value <= 0.0);
+            let Bracket { low, high } = bracket;
             let next = at - value / (self.side * rest + at * slope);
             let next = if next > low && next < high { next } else { between(low, high) };
             let step = (next - at).abs();

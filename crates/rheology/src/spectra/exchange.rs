@@ -1,5 +1,7 @@
 //! The sum of the least maximum, by exchange of the places of greatest deviation.
 
+use dashpot_numerics::roots::bisect;
+
 use super::{equalise::equalised, guess, sum::Sum, target::Target};
 
 /// Intervals between two neighbouring places in which a lobe's peak is looked for.
@@ -56,17 +58,8 @@ impl Levelled {
         let mut places = self.places.clone();
         for _ in 0..2 {
             // Turned around, the first place and the last are treated alike.
-            let (mut flat, mut steep) = (places[0], places[1]);
-            let peak = deviation(flat);
-            for _ in 0..30 {
-                let middle = 0.5 * (flat + steep);
-                if deviation(middle) / peak > 0.97 {
-                    flat = middle;
-                } else {
-                    steep = middle;
-                }
-            }
-            places[0] = flat;
+            let peak = deviation(places[0]);
+            places[0] = bisect(places[0], places[1], 30, |at| deviation(at) / peak <= 0.97).0;
             places.reverse();
         }
         places

@@ -11,7 +11,6 @@ mod guess;
 mod list;
 mod log_normal;
 mod power_law;
-mod quadrature;
 mod reduction;
 mod sum;
 mod target;

@@ -1,6 +1,8 @@
 //! Power-law spectrum.
 
-use super::{InvalidSpectrum, Spectrum, approach, positive, quadrature::gauss_legendre, whole};
+use dashpot_numerics::quadrature::GaussLegendre;
+
+use super::{InvalidSpectrum, Spectrum, approach, positive, whole};
 
 /// Nodes of the Gauss–Legendre rule in each panel.
 const NODES: usize = 12;
@@ -75,10 +77,10 @@ impl PowerLaw {
         let width = (0.25 * decay).max(1.0).recip();
         let panels = (counts / width).ceil().max(1.0);
         let half = 0.5 * counts / panels;
-        let rule = gauss_legendre::<NODES>();
+        let rule = GaussLegendre::with_points(NODES);
         let mut nodes = Vec::new();
         for panel in 0..whole(panels) {
-            for (x, weight) in rule {
+            for (x, weight) in rule.nodes().iter().zip(rule.weights()) {
                 let distance = half * (2.0 * panel as f64 + 1.0 + x);
                 let time = anchor * (direction * distance).exp();
                 nodes.push((time, half * weight * (-decay * distance).exp()));

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use dashpot_numerics::roots::bisect;
+
 use super::{Spectrum, sum::Sum, whole};
 
 /// Degree of the polynomials that stand for a function in one panel.
@@ -79,8 +81,9 @@ impl<'a> Target<'a> {
         let rest = |place| last - logarithm(place);
         // Creep rises and is concave, so that both conditions hold from one place on.
         let (least_bend, least_rest) = (1e-3 * bend(end), 1e-3 * rest(start));
-        let from = crossing(start, end, |place| bend(place) > least_bend);
-        let to = crossing(start, end, |place| rest(place) < least_rest);
+        let from = bisect(start, end, 20, |place| bend(place) > least_bend);
+        let to = bisect(start, end, 20, |place| rest(place) < least_rest);
+        let [from, to] = [from, to].map(|(before, after)| f64::midpoint(before, after));
         if from < to { [from, to] } else { [start, end] }
     }
 
@@ -145,20 +148,6 @@ impl<'a> Target<'a> {
         }
         worst / (0.5 * PI * DEGREE as f64 / LOOKS as f64).cos() + 1e-13
     }
-}
-
-/// The place from which on `holds` does, between `start` and `end`.
-fn crossing(start: f64, end: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    let (mut before, mut after) = (start, end);
-    for _ in 0..20 {
-        let middle = 0.5 * (before + after);
-        if holds(middle) {
-            after = middle;
-        } else {
-            before = middle;
-        }
-    }
-    0.5 * (before + after)
 }
 
 #[cfg(test)]

@@ -1,13 +1,13 @@
 //! What the force curves and the stress–strain curves do.
 
 use dashpot_dae::Extremum;
+use dashpot_numerics::roots::monotone_root;
 
 use dashpot_plot::Table;
 
 use super::{Claim, Trend, Verdict, row};
 use crate::{
     DURATION, Family, Impact, Study, ThesisError, Varied,
-    roots::monotone_root,
     words::{change, listed, significant},
 };
 
@@ -43,7 +43,7 @@ fn meeting(one: &Impact, other: &Impact) -> Option<f64> {
     let end = one.end().min(other.end());
     let time = |at: i32| end * f64::from(at) / f64::from(STEPS);
     let gap = |time: f64| one.force(time) - other.force(time);
-    (1..STEPS).find_map(|at| monotone_root(&gap, time(at), time(at + 1)))
+    (1..STEPS).find_map(|at| monotone_root(gap, time(at), time(at + 1)))
 }
 
 fn crossing(study: &Study) -> Claim {
@@ -107,7 +107,7 @@ fn decay(study: &Study) -> Claim {
 fn slope_at(impact: &Impact, strain: f64) -> f64 {
     let rising = |time: f64| impact.deformation(time) - strain;
     // The deformation rises at the speed 1 at first, and is beyond the strain within twice its time.
-    monotone_root(&rising, 0.0, 2.0 * strain).map_or(f64::NAN, |time| impact.slope(time))
+    monotone_root(rising, 0.0, 2.0 * strain).map_or(f64::NAN, |time| impact.slope(time))
 }
 
 fn slopes(study: &Study) -> Claim {

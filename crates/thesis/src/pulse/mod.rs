@@ -9,7 +9,9 @@
 //!
 //! A pulse that is prescribed need not be one of any impact: see [`Pulse::checks`].
 
-use crate::{Groups, lambert::intersections, roots::monotone_root};
+use dashpot_numerics::{quadrature::GaussLegendre, roots::monotone_root};
+
+use crate::{Groups, lambert::intersections};
 
 /// A pulse on a padding, both without dimensions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,13 +75,8 @@ pub enum Parameter {
     Decay,
 }
 
-/// Nodes and weights of Gauss and Legendre on −1 … 1, of order 8; the other half is symmetric.
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-];
+/// Points of the rule of Gauss and Legendre on each panel of an integral.
+const POINTS: usize = 8;
 /// Panels of an integral per unit of the fastest rate.
 const PANELS: f64 = 4.0;
 /// Times of the slowest decay after which nothing is left in doubles.
@@ -139,13 +136,11 @@ impl Pulse {
         let panels = (PANELS * fastest * time).ceil().max(1.0);
         let half = 0.5 * time / panels;
         let power = |at: f64| self.force(at) * self.rate(at);
+        let rule = GaussLegendre::with_points(POINTS);
         let mut sum = 0.0;
         let mut middle = half;
         while middle < time {
-            for (node, weight) in GAUSS {
-                let off = node * half;
-                sum += weight * half * (power(middle - off) + power(middle + off));
-            }
+            sum += rule.integrate(middle - half, middle + half, power);
             middle += 2.0 * half;
         }
         sum
@@ -164,7 +159,7 @@ impl Pulse {
         bounds.push(end);
         // The faster exponential is taken out, so that signs survive where both have decayed.
         let sign = |time: f64| self.rate(time) * (self.nu().min(self.decay) * time).exp();
-        bounds.windows(2).filter_map(|way| monotone_root(&sign, way[0], way[1])).collect()
+        bounds.windows(2).filter_map(|way| monotone_root(sign, way[0], way[1])).collect()
     }
 
     /// Time and size of the largest deformation; the time is infinite where ξ only approaches it.

@@ -1,7 +1,8 @@
 //! A mass on a linear model whose other end follows a body: the networks that measures are.
 
-use dashpot_dae::{Panel, Signal, chebyshev};
+use dashpot_dae::{Panel, Signal};
 use dashpot_network::{Model, first_nonlinear, linear_model, parameters::WindowWish};
+use dashpot_numerics::chebyshev;
 
 use crate::{Note, Reading, Solution, impact::impulses, measures::reading::peak};
 

@@ -1,11 +1,11 @@
 use std::f64::consts::PI;
 
-use dashpot_dae::chebyshev::Interpolation;
 use dashpot_network::{
     elements::{CubicSpring, Dashpot, Rigid, Spring},
     parameters::Kind as _,
     part,
 };
+use dashpot_numerics::chebyshev::Interpolation;
 use dashpot_rheology::Tree;
 
 use super::*;

@@ -1,7 +1,11 @@
 //! For how long a signal exceeds a level.
 
-use dashpot_dae::{Panel, Signal, chebyshev};
+use dashpot_dae::{Panel, Signal};
 use dashpot_network::choices;
+use dashpot_numerics::{
+    chebyshev,
+    roots::{TO_THE_LAST_BIT, bisect},
+};
 
 choices! {
     /// Which times count as those of a level.
@@ -70,20 +74,11 @@ impl Exceedance {
     /// The largest level that is reached for `duration` \[s\], to the last digits.
     pub(crate) fn level(&self, duration: f64, counted: Counted) -> Level {
         let ends = self.pieces.iter().flat_map(|piece| piece.ends);
-        let (mut low, mut high) = (0.0, ends.map(f64::abs).fold(0.0, f64::max));
+        let most = ends.map(f64::abs).fold(0.0, f64::max);
         // The time falls as the level rises.
-        if longest(&self.stretches(high), counted) >= duration {
-            low = high;
-        } else {
-            while high - low > 2.0 * f64::EPSILON * high {
-                let middle = 0.5 * (low + high);
-                if middle <= low || middle >= high {
-                    break;
-                }
-                let is_reached = longest(&self.stretches(middle), counted) >= duration;
-                *(if is_reached { &mut low } else { &mut high }) = middle;
-            }
-        }
+        let is_missed = |level: f64| longest(&self.stretches(level), counted) < duration;
+        let low =
+            if is_missed(most) { bisect(0.0, most, TO_THE_LAST_BIT, is_missed).0 } else { most };
         let is_passed = |piece: &&Piece| {
             let [first, last] = piece.ends.map(f64::abs);
             first.min(last) < low && first.max(last) >= low
@@ -128,15 +123,8 @@ impl Exceedance {
 fn passage(piece: &Piece, level: f64) -> f64 {
     let value = |x: f64| chebyshev::evaluate(&piece.panel.coefficients, x).abs() - level;
     let rises = piece.ends[1].abs() >= piece.ends[0].abs();
-    let (mut from, mut to) = (-1.0_f64, 1.0_f64);
     // The magnitude is monotone, so halving finds it to the last bit.
-    while to - from > f64::EPSILON {
-        let middle = 0.5 * (from + to);
-        if middle <= from || middle >= to {
-            break;
-        }
-        *(if (value(middle) >= 0.0) == rises { &mut to } else { &mut from }) = middle;
-    }
+    let (from, to) = bisect(-1.0, 1.0, 53, |x| (value(x) >= 0.0) == rises);
     0.5 * (from + to)
 }
 

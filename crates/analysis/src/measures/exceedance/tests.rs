@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use dashpot_dae::chebyshev::Interpolation;
+use dashpot_numerics::chebyshev::Interpolation;
 
 use super::*;
 

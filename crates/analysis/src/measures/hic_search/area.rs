@@ -1,6 +1,7 @@
 //! The area under the absolute value of a signal.
 
-use dashpot_dae::{Panel, Signal, chebyshev};
+use dashpot_dae::{Panel, Signal};
+use dashpot_numerics::chebyshev;
 
 use super::Range;
 

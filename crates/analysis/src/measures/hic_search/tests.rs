@@ -1,6 +1,7 @@
 use std::f64::consts::PI;
 
-use dashpot_dae::{Panel, chebyshev::Interpolation};
+use dashpot_dae::Panel;
+use dashpot_numerics::chebyshev::Interpolation;
 
 use super::*;
 

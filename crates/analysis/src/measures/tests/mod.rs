@@ -4,15 +4,14 @@ mod transmitted;
 
 use std::f64::consts::PI;
 
-use dashpot_dae::{
-    Dense, Outcome, Panel, Signal, Statistics, System, Trajectory, chebyshev::Interpolation,
-};
+use dashpot_dae::{Dense, Outcome, Panel, Signal, Statistics, System, Trajectory};
 use dashpot_network::{
     Assembly, Model, Network, Node,
     elements::{Dashpot, Spring},
     parameters::{Value, WindowWish},
     part,
 };
+use dashpot_numerics::chebyshev::Interpolation;
 
 use super::*;
 use crate::{Counted, Note};

@@ -1,8 +1,10 @@
 //! The two evaluations, which share no arithmetic, against each other on scenes of all sorts.
 
+use dashpot_numerics::chebyshev;
+
 use super::{Scene, Sequence, Solved};
 use crate::{
-    Budget, Piece, Waveform, chebyshev,
+    Budget, Piece, Waveform,
     exact::{
         Augmented, Solution,
         coordinates::follow,

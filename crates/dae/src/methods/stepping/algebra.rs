@@ -88,6 +88,36 @@ impl Algebra for FaerSparseMat<f64> {
     }
 }
 
+/// What every operator says of itself: its `context`, and the number of its rows and columns.
+macro_rules! square_operator {
+    ($operator:ty, $size:expr) => {
+        impl<M: Algebra> diffsol::Op for $operator {
+            type T = f64;
+            type V = M::V;
+            type M = M;
+            type C = M::C;
+
+            fn context(&self) -> &M::C {
+                &self.context
+            }
+
+            fn nstates(&self) -> usize {
+                let size: fn(&Self) -> usize = $size;
+                size(self)
+            }
+
+            fn nout(&self) -> usize {
+                self.nstates()
+            }
+
+            fn nparams(&self) -> usize {
+                0
+            }
+        }
+    };
+}
+pub(super) use square_operator;
+
 /// The matrix with the given entries `(row, column, value)`.
 pub(super) fn matrix<M: Algebra>(
     size: usize,

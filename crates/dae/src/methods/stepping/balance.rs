@@ -4,7 +4,7 @@ use diffsol::{Context as _, DiffsolError, LinearSolver, NonLinearOp, NonLinearOp
 use nalgebra_sparse::CsrMatrix;
 
 use super::{
-    algebra::{Algebra, Slice, entries, matrix, pattern},
+    algebra::{Algebra, Slice, entries, matrix, pattern, square_operator},
     equations::Equations,
     terms::{self, Places, Slopes, Terms},
 };
@@ -63,28 +63,7 @@ struct Stored<M: Algebra> {
     matrix: M,
 }
 
-impl<M: Algebra> Op for Stored<M> {
-    type T = f64;
-    type V = M::V;
-    type M = M;
-    type C = M::C;
-
-    fn context(&self) -> &M::C {
-        &self.context
-    }
-
-    fn nstates(&self) -> usize {
-        self.matrix.ncols()
-    }
-
-    fn nout(&self) -> usize {
-        self.matrix.nrows()
-    }
-
-    fn nparams(&self) -> usize {
-        0
-    }
-}
+square_operator!(Stored<M>, |own| own.matrix.nrows());
 
 impl<M: Algebra> NonLinearOp for Stored<M> {
     fn call_inplace(&self, x: &M::V, _t: f64, out: &mut M::V) {

@@ -4,11 +4,11 @@ use std::cell::Cell;
 
 use diffsol::{
     ConstantOp, Context as _, DiffsolError, LinearOp, NonLinearOp, NonLinearOpJacobian,
-    OdeEquations, OdeEquationsRef, Op, UnitCallable,
+    OdeEquations, OdeEquationsRef, UnitCallable,
 };
 
 use super::{
-    algebra::{Algebra, Rows, Slice, entries, matrix, pattern},
+    algebra::{Algebra, Rows, Slice, entries, matrix, pattern, square_operator},
     terms::{self, Drive, Places, Slopes, Terms},
 };
 use crate::{System, UnknownKind};
@@ -227,28 +227,7 @@ fn refill<M: Algebra>(into: &mut M, from: &M) {
     }
 }
 
-impl<M: Algebra> Op for Equations<'_, M> {
-    type T = f64;
-    type V = M::V;
-    type M = M;
-    type C = M::C;
-
-    fn context(&self) -> &M::C {
-        &self.context
-    }
-
-    fn nstates(&self) -> usize {
-        self.state.len()
-    }
-
-    fn nout(&self) -> usize {
-        self.state.len()
-    }
-
-    fn nparams(&self) -> usize {
-        0
-    }
-}
+square_operator!(Equations<'_, M>, |own| own.state.len());
 
 impl<M: Algebra> NonLinearOp for Equations<'_, M> {
     fn call_inplace(&self, y: &M::V, t: f64, out: &mut M::V) {
@@ -286,28 +265,7 @@ impl<M: Algebra> ConstantOp for Equations<'_, M> {
     }
 }
 
-impl<M: Algebra> Op for Mass<M> {
-    type T = f64;
-    type V = M::V;
-    type M = M;
-    type C = M::C;
-
-    fn context(&self) -> &M::C {
-        &self.context
-    }
-
-    fn nstates(&self) -> usize {
-        self.diagonal.len()
-    }
-
-    fn nout(&self) -> usize {
-        self.diagonal.len()
-    }
-
-    fn nparams(&self) -> usize {
-        0
-    }
-}
+square_operator!(Mass<M>, |own| own.diagonal.len());
 
 impl<M: Algebra> LinearOp for Mass<M> {
     fn gemv_inplace(&self, x: &M::V, _t: f64, beta: f64, out: &mut M::V) {

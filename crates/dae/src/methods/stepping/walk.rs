@@ -1,12 +1,12 @@
 //! From one step to the next.
 
+use dashpot_numerics::chebyshev::Interpolation;
 use diffsol::{OdeSolverMethod, OdeSolverStopReason, Vector, ode_solver::OdeSolverStatistics};
 
 use super::{Algebra, Stop, algebra::Slice, equations::Equations, failure::Site};
 use crate::{
     Observer, Output, Progress, Run, Signal, SolveError, Statistics, System, UnknownKind,
     budget::Besides,
-    chebyshev::Interpolation,
     events::Watch,
     pieces::{self, MOST_BYTES, Pieces, between},
 };

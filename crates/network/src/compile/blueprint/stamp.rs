@@ -1,6 +1,6 @@
 //! The system of one network of a form.
 
-use dashpot_dae::small::Square;
+use dashpot_numerics::small::Square;
 
 use super::{Blueprint, Eliminated};
 

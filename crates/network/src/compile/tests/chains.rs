@@ -1,8 +1,8 @@
 //! Chains of Kelvin–Voigt elements, whose times lie up to thirteen decades apart, and nests of them.
 
 use dashpot_dae::{Piece, Run, Signal, Silent, Waveform, methods};
+use dashpot_numerics::Twofold;
 use dashpot_rheology::LinearModel;
-use dashpot_twofold::Twofold;
 use nalgebra_sparse::SparseEntry;
 
 use super::{dashpot, spring};

@@ -1,6 +1,6 @@
 //! Random networks against the balance of forces at real rates, where nothing cancels.
 
-use dashpot_twofold::Twofold;
+use dashpot_numerics::Twofold;
 
 use super::*;
 use crate::driving_point::{

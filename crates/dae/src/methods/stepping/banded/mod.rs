@@ -4,8 +4,9 @@ mod window;
 
 use std::cell::RefCell;
 
+use dashpot_numerics::packed;
+
 use super::ordering::{Order, places};
-use crate::linear_form::packed;
 
 /// Part of the largest entry below from which on that on the diagonal is left to be the pivot, as in
 /// KLU (`davis2010` in `docs/references.bib`). Where no rows are exchanged the factors stay half as

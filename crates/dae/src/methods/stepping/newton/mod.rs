@@ -1,5 +1,7 @@
 //! Values of the algebraic unknowns that satisfy the balances.
 
+use dashpot_numerics::roots::bisect;
+
 use super::{
     algebra::Algebra,
     balance::{Balance, Imbalance},
@@ -187,7 +189,6 @@ impl<M: Algebra> Search<'_, '_, M> {
     }
 
     /// Makes the residual of `row` zero by going along `direction`, where its sign changes there.
-    #[expect(clippy::float_cmp, reason = "the middle of neighbours is one of them")]
     fn relax(&mut self, row: usize, direction: &[f64]) {
         let from = self.state.clone();
         let first = self.residual[row];
@@ -195,27 +196,16 @@ impl<M: Algebra> Search<'_, '_, M> {
             return;
         }
         // The coarse slope of the residual along the direction is one.
-        let Some((mut near, mut far)) =
+        let Some((near, far)) =
             [-first, first].into_iter().find_map(|step| self.bracket(row, &from, direction, step))
         else {
             self.along(&from, direction, 0.0);
             return;
         };
-        for _ in 0..BRACKETINGS {
-            let middle = 0.5 * (near + far);
-            if middle == near || middle == far {
-                break;
-            }
-            self.along(&from, direction, middle);
-            if self.residual[row] == 0.0 {
-                return;
-            }
-            if self.residual[row].signum() == first.signum() {
-                near = middle;
-            } else {
-                far = middle;
-            }
-        }
+        let (near, far) = bisect(near, far, BRACKETINGS, |part| {
+            self.along(&from, direction, part);
+            self.residual[row] == 0.0 || self.residual[row].signum() != first.signum()
+        });
         self.along(&from, direction, near);
         let left = self.residual[row].abs();
         self.along(&from, direction, far);

@@ -2,11 +2,9 @@
 //!
 //! A slice of coefficients is a polynomial; the empty slice is zero.
 
-mod gauss;
 mod interpolation;
 mod roots;
 
-pub use gauss::GaussLegendre;
 pub use interpolation::Interpolation;
 pub use roots::{bracketed_root, sign_changes};
 

@@ -1,11 +1,12 @@
-//! Sizes of unknowns in legs that see little of them.
+//! How well a leg is known where its guards look: what may have switched before a run ends, and sizes of
+//! unknowns in legs that see little of them.
 //!
 //! Scales are made for a whole run: what a weight could do in all of it may be 10⁹ times what a gap leaves
 //! it. A method that follows places to its tolerance of such a scale knows nothing of when the gap closes.
 //! A leg in which a guard's output stays that small is solved once more, with sizes of its own.
 
 use super::Leg;
-use crate::{Dense, Run, System, Trajectory, UnknownKind, pieces::ROUNDING};
+use crate::{Dense, Direction, Guard, Run, System, Trajectory, UnknownKind, pieces::ROUNDING};
 
 /// An output that has strayed from its level by less than this part of what tolerances are made for is
 /// solved for again.
@@ -15,8 +16,36 @@ const LEAST_BALANCED: f64 = 1e-5;
 /// Least size of all others.
 const LEAST: f64 = 1e-20;
 
+/// By how much more than it takes a run is to be longer.
+const AMPLE: f64 = 2.0;
+/// Longest margin in parts of the run: what takes longer rests, or settles on its level.
+const LONGEST_MARGIN: f64 = 0.05;
+
+/// How much longer the last `leg` would have to be for outputs on their way out to be seen beyond the levels
+/// of their guards, if by the error of the method they may be there before its end \[s\]. `doubt` is as in
+/// [`LegEnd::doubt`](super::LegEnd::doubt).
+pub(super) fn margin(leg: &Leg, dense: &dyn Dense, run: &Run, doubt: f64) -> Option<f64> {
+    let system = leg.system.as_ref();
+    let of_guard = |guard: &Guard| {
+        let outward = match guard.direction {
+            Direction::Rising => 1.0,
+            Direction::Falling => -1.0,
+            Direction::Either => return None,
+        };
+        let signal = dense.signal(system, guard.output);
+        let last = signal.panels.last().filter(|panel| panel.length() > 0.0)?;
+        let left = outward * (guard.level - last.value(last.end));
+        let speed = outward * last.slope(last.end);
+        let largest = signal.noise / (ROUNDING * f64::EPSILON);
+        let span = AMPLE * (left.max(0.0) + AMPLE * run.rtol * largest) / speed;
+        let is_near = speed > 0.0 && left <= doubt * largest && span <= LONGEST_MARGIN * run.t_end;
+        is_near.then_some(span)
+    };
+    leg.guards.iter().filter_map(of_guard).reduce(f64::max)
+}
+
 /// The sizes with which a leg is to be solved again; `None` where those of the `run` have done.
-pub(super) fn smaller(leg: &Leg, run: &Run, trajectory: &Trajectory) -> Option<Vec<f64>> {
+pub(super) fn smaller_sizes(leg: &Leg, run: &Run, trajectory: &Trajectory) -> Option<Vec<f64>> {
     let system = leg.system.as_ref();
     let before = |unknown: usize| run.nominal.get(unknown).copied().unwrap_or(1.0);
     let mut found: Option<Vec<f64>> = None;

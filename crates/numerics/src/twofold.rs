@@ -1,4 +1,4 @@
-//! Numbers as sums of two doubles.
+//! Double-double arithmetic: numbers as sums of two doubles.
 
 use std::{
     cmp::Ordering,
@@ -6,9 +6,22 @@ use std::{
     ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign},
 };
 
-use crate::{two_product, two_sum};
+/// `a + b = sum + rest` exactly (Knuth), as long as nothing overflows.
+#[inline]
+pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let other = sum - a;
+    (sum, (a - (sum - other)) + (b - other))
+}
 
-/// A number known to about 32 digits: the unevaluated sum of two doubles, of which the second is at
+/// `a b = product + rest` exactly, unless the rest is below the smallest double.
+#[inline]
+pub fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    (product, a.mul_add(b, -product))
+}
+
+/// A double-double number, known to about 32 digits: the unevaluated sum of two doubles, of which the second is at
 /// most half a unit in the last place of the first.
 ///
 /// Each operation is right to a few units of 2⁻¹⁰⁴, relatively, as long as its result and rest are

@@ -1,42 +1,95 @@
 //! Sparse linear forms.
 
-/// A sparse linear form `Σ cᵢ zᵢ` over numbered variables, kept sorted by variable.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct LinearForm {
-    terms: Vec<(usize, f64)>,
+use std::{
+    iter::Sum,
+    ops::{Add, Mul},
+};
+
+use crate::Twofold;
+
+/// A coefficient of a [`LinearForm`].
+pub trait Coefficient:
+    Copy + Default + Add<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self> + Sum
+{
+    /// 1.
+    const ONE: Self;
+    /// What is left of terms that cancel counts as zero up to this part of the largest of them.
+    const NOTHING: f64;
+
+    /// The nearest double.
+    fn rounded(self) -> f64;
 }
 
-impl LinearForm {
+impl Coefficient for f64 {
+    const ONE: Self = 1.0;
+    const NOTHING: f64 = 0.0;
+
+    fn rounded(self) -> f64 {
+        self
+    }
+}
+
+impl Coefficient for Twofold {
+    const ONE: Self = Self::ONE;
+    /// A thousand roundings of 106 bits.
+    const NOTHING: f64 = 1.0 / ((1_u128 << 94) as f64);
+
+    fn rounded(self) -> f64 {
+        self.high()
+    }
+}
+
+/// Whether a sum of terms is nothing beside the largest of them.
+fn is_nothing<T: Coefficient>(sum: T, largest: f64) -> bool {
+    sum.rounded().abs() <= T::NOTHING * largest
+}
+
+/// A sparse linear form `Σ cᵢ zᵢ` over numbered variables, kept sorted by variable.
+///
+/// Its coefficients are doubles, or double-double numbers where the small rest of large terms that cancel
+/// is to keep its digits: thirty-two of them leave sixteen of a rest over sixteen decades.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LinearForm<T = f64> {
+    terms: Vec<(usize, T)>,
+}
+
+impl<T: Coefficient> LinearForm<T> {
     /// The form that is zero everywhere.
     pub fn zero() -> Self {
         Self::default()
     }
 
+    /// The variable of this number.
+    pub fn variable(at: usize) -> Self {
+        Self { terms: vec![(at, T::ONE)] }
+    }
+
     /// The form `coefficient · z_variable`.
-    pub fn term(variable: usize, coefficient: f64) -> Self {
-        if coefficient == 0.0 {
-            Self::zero()
-        } else {
-            Self { terms: vec![(variable, coefficient)] }
-        }
+    pub fn term(variable: usize, coefficient: T) -> Self {
+        Self::sum(vec![(variable, coefficient)])
     }
 
     /// The sum of `terms`, which may stand in any order and name a variable more than once.
-    pub fn sum(mut terms: Vec<(usize, f64)>) -> Self {
+    pub fn sum(mut terms: Vec<(usize, T)>) -> Self {
         terms.sort_by_key(|term| term.0);
-        let mut merged: Vec<(usize, f64)> = Vec::with_capacity(terms.len());
-        for (variable, coefficient) in terms {
-            match merged.last_mut() {
-                Some(last) if last.0 == variable => last.1 += coefficient,
-                _ => merged.push((variable, coefficient)),
+        let mut merged = Vec::with_capacity(terms.len());
+        for group in terms.chunk_by(|one, other| one.0 == other.0) {
+            let all = group.iter().map(|term| term.1);
+            let largest = all.clone().map(|own| own.rounded().abs()).fold(0.0, f64::max);
+            if let Some(sum) = all.reduce(Add::add).filter(|sum| !is_nothing(*sum, largest)) {
+                merged.push((group[0].0, sum));
             }
         }
-        merged.retain(|term| term.1 != 0.0);
         Self { terms: merged }
     }
 
+    /// The form of these terms, each of another variable, in rising order; none is zero.
+    pub fn of(terms: Vec<(usize, T)>) -> Self {
+        Self { terms }
+    }
+
     /// The terms `(variable, coefficient)` in rising order of the variable; none is zero.
-    pub fn terms(&self) -> &[(usize, f64)] {
+    pub fn terms(&self) -> &[(usize, T)] {
         &self.terms
     }
 
@@ -46,38 +99,39 @@ impl LinearForm {
     }
 
     /// The coefficient of `variable`, zero where it does not appear.
-    pub fn coefficient(&self, variable: usize) -> f64 {
-        self.terms.binary_search_by_key(&variable, |term| term.0).map_or(0.0, |at| self.terms[at].1)
+    pub fn coefficient(&self, variable: usize) -> T {
+        let place = self.terms.binary_search_by_key(&variable, |term| term.0);
+        place.map_or_else(|_| T::default(), |at| self.terms[at].1)
     }
 
-    /// `self + factor · other`; terms that cancel exactly disappear.
+    /// `self + factor · other`; terms that cancel disappear.
     #[must_use]
-    pub fn plus(&self, factor: f64, other: &Self) -> Self {
+    pub fn plus(&self, factor: T, other: &Self) -> Self {
         let mut terms = Vec::with_capacity(self.terms.len() + other.terms.len());
         let (mut left, mut right) = (self.terms.iter().peekable(), other.terms.iter().peekable());
         loop {
-            let term = match (left.peek(), right.peek()) {
+            let (variable, sum, largest) = match (left.peek(), right.peek()) {
                 (Some(&&(i, a)), Some(&&(j, _))) if i < j => {
                     left.next();
-                    (i, a)
+                    (i, a, 0.0)
                 }
                 (Some(&&(i, a)), Some(&&(j, b))) if i == j => {
                     left.next();
                     right.next();
-                    (i, a + factor * b)
+                    (i, a + factor * b, a.rounded().abs())
                 }
                 (_, Some(&&(j, b))) => {
                     right.next();
-                    (j, factor * b)
+                    (j, factor * b, 0.0)
                 }
                 (Some(&&(i, a)), None) => {
                     left.next();
-                    (i, a)
+                    (i, a, 0.0)
                 }
                 (None, None) => break,
             };
-            if term.1 != 0.0 {
-                terms.push(term);
+            if !is_nothing(sum, largest) {
+                terms.push((variable, sum));
             }
         }
         Self { terms }
@@ -85,7 +139,7 @@ impl LinearForm {
 
     /// `factor · self`.
     #[must_use]
-    pub fn times(&self, factor: f64) -> Self {
+    pub fn times(&self, factor: T) -> Self {
         Self::zero().plus(factor, self)
     }
 
@@ -95,9 +149,17 @@ impl LinearForm {
     ///
     /// When a variable of the form lies beyond the end of `z`.
     pub fn at(&self, z: &[f64]) -> f64 {
-        self.terms.iter().map(|&(i, c)| c * z[i]).sum()
+        self.terms.iter().map(|&(i, c)| c * z[i]).sum::<T>().rounded()
     }
 
+    /// The form over variables in units of their `scales`, each coefficient rounded once.
+    pub fn scaled(&self, scales: &[f64]) -> LinearForm {
+        let terms = self.terms.iter();
+        LinearForm::sum(terms.map(|&(at, own)| (at, own.rounded() * scales[at])).collect())
+    }
+}
+
+impl LinearForm {
     /// `Σ |cᵢ zᵢ|`, the scale of the rounding error of [`at`](Self::at).
     ///
     /// # Panics
@@ -152,13 +214,13 @@ impl<'f> FormRef<'f> {
 
     /// The same form by itself.
     pub fn to_form(self) -> LinearForm {
-        LinearForm { terms: self.terms().collect() }
+        LinearForm::of(self.terms().collect())
     }
 }
 
 /// Many linear forms, one behind the other: each takes four bytes and twelve for each term.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Forms {
+pub struct Forms {
     /// Where the terms of each form end.
     ends: Vec<u32>,
     variables: Vec<u32>,
@@ -171,7 +233,7 @@ impl Forms {
     /// # Panics
     ///
     /// When there are 2³² terms in all, or as many variables.
-    pub(crate) fn push(&mut self, terms: impl Iterator<Item = (usize, f64)>) {
+    pub fn push(&mut self, terms: impl Iterator<Item = (usize, f64)>) {
         for (variable, coefficient) in terms {
             self.variables.push(packed(variable));
             self.coefficients.push(coefficient);
@@ -184,13 +246,13 @@ impl Forms {
     /// # Panics
     ///
     /// When there are not so many.
-    pub(crate) fn form(&self, at: usize) -> FormRef<'_> {
+    pub fn form(&self, at: usize) -> FormRef<'_> {
         let start = at.checked_sub(1).map_or(0, |before| self.ends[before]);
         self.between(start, self.ends[at])
     }
 
     /// All forms in order.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = FormRef<'_>> {
+    pub fn iter(&self) -> impl Iterator<Item = FormRef<'_>> {
         let starts = std::iter::once(&0).chain(&self.ends);
         starts.zip(&self.ends).map(|(&start, &end)| self.between(start, end))
     }
@@ -204,7 +266,7 @@ impl Forms {
     }
 
     /// Gives back memory that was set aside for more.
-    pub(crate) fn shrink_to_fit(&mut self) {
+    pub fn shrink_to_fit(&mut self) {
         self.ends.shrink_to_fit();
         self.variables.shrink_to_fit();
         self.coefficients.shrink_to_fit();
@@ -216,6 +278,30 @@ impl Forms {
 /// # Panics
 ///
 /// When it has no room there.
-pub(crate) fn packed(number: usize) -> u32 {
+pub fn packed(number: usize) -> u32 {
     u32::try_from(number).unwrap_or_else(|_| panic!("{number} has no room in 32 bits"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rest_over_fourteen_decades_keeps_all_digits_of_a_double() {
+        let (large, small) = (Twofold::from(1e14) / 3.0, Twofold::ONE / 7.0);
+        let sum = LinearForm::sum(vec![(2, large), (0, Twofold::ONE), (2, small), (2, -large)]);
+        assert_eq!(sum.terms()[0], (0, Twofold::ONE));
+        assert!((sum.scaled(&[1.0; 3]).coefficient(2) * 7.0 - 1.0).abs() <= f64::EPSILON);
+        assert_eq!(sum.terms().len(), 2);
+    }
+
+    #[test]
+    fn what_cancels_but_for_rounding_disappears() {
+        let third = Twofold::ONE / 3.0;
+        let form =
+            LinearForm::variable(4).plus(-third, &LinearForm::sum(vec![(4, Twofold::from(3.0))]));
+        assert!(form.is_zero());
+        let form = LinearForm::sum(vec![(1, third), (1, third), (1, third), (1, -Twofold::ONE)]);
+        assert!(form.is_zero());
+    }
 }

@@ -1,5 +1,6 @@
+use dashpot_numerics::chebyshev::Interpolation;
+
 use super::*;
-use crate::chebyshev::Interpolation;
 
 fn guard(level: f64, direction: Direction, stops: bool) -> Guard {
     Guard {
