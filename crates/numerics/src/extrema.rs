@@ -39,6 +39,22 @@ pub fn maximum_unless<B>(
     ControlFlow::Continue(if at_p > at_q { (p, at_p) } else { (q, at_q) })
 }
 
+/// The vertex of the parabola through three points in rising order, as its place, no farther than the
+/// outer ones, and its value there; `None` where they are in line or no numbers.
+///
+/// # Panics
+///
+/// When the places are not in rising order.
+pub fn vertex([a, b, c]: [(f64, f64); 3]) -> Option<(f64, f64)> {
+    let [rise, fall] = [(a, b), (b, c)].map(|(p, q)| (q.1 - p.1) / (q.0 - p.0));
+    let bend = (fall - rise) / (c.0 - a.0);
+    if bend.is_nan() || bend == 0.0 {
+        return None;
+    }
+    let place = (f64::midpoint(a.0, b.0) - 0.5 * rise / bend).clamp(a.0, c.0);
+    Some((place, a.1 + rise * (place - a.0) + bend * (place - a.0) * (place - b.0)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -51,6 +67,14 @@ mod tests {
         assert!(maximum(0.0, 1.0, 60, |x| -x).0 < 1e-12);
         let steep = maximum(0.0, 1.0, 60, |x| if x < 0.3 { x } else { 0.3 - 1e9 * (x - 0.3) });
         assert!((steep.0 - 0.3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_vertex_of_a_parabola_is_found_from_uneven_points() {
+        let value = |x: f64| (x, 3.0 - 2.0 * (x - 1.25) * (x - 1.25));
+        let (place, height) = vertex([0.5, 1.0, 2.0].map(value)).unwrap();
+        assert!((place - 1.25).abs() < 1e-14 && (height - 3.0).abs() < 1e-14);
+        assert_eq!(vertex([(0.0, 1.0), (1.0, 1.0), (2.0, 1.0)]), None);
     }
 
     #[test]

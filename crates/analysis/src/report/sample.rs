@@ -28,7 +28,6 @@ pub struct Table {
 /// start.
 pub fn regular_times(end: f64, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1).max(1);
-    #[expect(clippy::cast_precision_loss, reason = "counts of samples are far below 2^53")]
     let share = |at: usize| at as f64 / last as f64;
     (0..count).map(|at| if at == last { end } else { end * share(at) }).collect()
 }

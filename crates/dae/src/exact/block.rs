@@ -3,7 +3,7 @@
 use dashpot_numerics::{two_product, two_sum};
 use nalgebra::DMatrix;
 
-use super::{Complex, number};
+use super::Complex;
 
 /// Size of `M t` up to which the exponential's series is summed in one go.
 pub(super) const REACH: f64 = 2.0;
@@ -77,7 +77,7 @@ impl Block {
     /// The growth rate with the mean frequency.
     pub(super) fn shift(&self) -> Complex {
         let sum: f64 = (0..self.len()).map(|i| self.matrix[(i, i)].im).sum();
-        Complex::new(self.growth_rate(), sum / number(self.len()))
+        Complex::new(self.growth_rate(), sum / self.len() as f64)
     }
 
     /// `D_i − shift`.
@@ -143,7 +143,7 @@ fn series(matrix: &DMatrix<Complex>, vector: &mut [Complex]) {
         let mut next = vec![Complex::default(); term.len()];
         for (j, t) in term.iter().enumerate() {
             for (i, n) in next.iter_mut().enumerate() {
-                *n += matrix[(i, j)] * t / number(k);
+                *n += matrix[(i, j)] * t / k as f64;
             }
         }
         term = next;

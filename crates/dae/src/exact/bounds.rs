@@ -6,7 +6,6 @@ use nalgebra::DVector;
 use super::{
     Complex,
     block::{Block, REACH, STEPS, TERMS, largest_column},
-    number,
 };
 
 /// Factor by which a bound is widened at each step of the search for one that confirms itself.
@@ -36,7 +35,7 @@ impl Block {
             for (j, t) in term.iter().enumerate() {
                 for (i, n) in next.iter_mut().enumerate() {
                     if i != j {
-                        *n += self.matrix[(i, j)].norm() * t * (s / number(k));
+                        *n += self.matrix[(i, j)].norm() * t * (s / k as f64);
                     }
                 }
             }
@@ -75,7 +74,7 @@ impl Block {
         let mut rest = self.offset(self.shift()).map(Complex::norm);
         rest *= s;
         let size = largest_column(&rest);
-        let operations = (number(count) + 6.0) / 8.0 * size.min(REACH).exp();
+        let operations = (count as f64 + 6.0) / 8.0 * size.min(REACH).exp();
         let mut pushed = &rest * DVector::from_column_slice(vector);
         if size > REACH * STEPS {
             pushed.fill(size * vector.iter().fold(0.0, |most, v| v.max(most)));
@@ -102,7 +101,7 @@ impl Block {
         let sigma = self.growth_rate() - discount;
         let mut decay = 1.0;
         self.majorant(s, vector, |k| {
-            let order = number(k);
+            let order = k as f64;
             let whole = s / (order + 1.0) * (sigma * s).exp().max(1.0);
             if sigma >= 0.0 || s == 0.0 {
                 return whole;
@@ -145,7 +144,7 @@ impl Block {
             let mut next = vec![0.0; weights.len()];
             for (j, value) in next.iter_mut().enumerate() {
                 for (i, w) in weights.iter().enumerate() {
-                    *value += w * self.matrix[(i, j)].norm() * (h / number(order));
+                    *value += w * self.matrix[(i, j)].norm() * (h / order as f64);
                 }
             }
             weights = next;
@@ -156,13 +155,13 @@ impl Block {
 
 /// `x^n/n!`; infinite or zero where a power leaves the range of numbers.
 fn taylor_weight(x: f64, n: usize) -> f64 {
-    let factorial: f64 = (2..=n).map(number).product();
+    let factorial: f64 = (2..=n).map(|k| k as f64).product();
     x.powi(i32::try_from(n).unwrap_or(i32::MAX)) / factorial
 }
 
 /// The largest `x^k e^{exponent x}` for `x` in `[0, 1]`.
 fn largest_power(k: usize, exponent: f64) -> f64 {
-    let order = number(k);
+    let order = k as f64;
     if k == 0 {
         exponent.exp().max(1.0)
     } else if exponent >= -order {

@@ -17,7 +17,6 @@ mod components;
 mod coordinates;
 mod decomposition;
 mod decoupling;
-mod drift;
 mod generators;
 mod modal_row;
 mod modes;
@@ -38,9 +37,3 @@ pub(crate) use solution::Solution;
 
 /// A complex number.
 type Complex = nalgebra::Complex<f64>;
-
-/// A count as a number.
-#[expect(clippy::cast_precision_loss, reason = "counts are far below 2^52")]
-fn number(count: usize) -> f64 {
-    count as f64
-}

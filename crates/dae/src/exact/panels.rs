@@ -10,7 +10,6 @@ use super::{
     coordinates::SpanCoordinates,
     modal_row::{ModalRow, coordinates_at, size_of, sizes_of},
     modes::Modes,
-    number,
     tables::{COUNT, Course, LINKS, Line, Share, Tables, step_of, width_of},
 };
 use crate::Budget;
@@ -196,7 +195,7 @@ impl<'m> Walk<'m> {
     /// Makes the panel that begins here as wide as is good to `tolerance`, but no narrower than `least`,
     /// and returns its width.
     fn widen(&mut self, tolerance: f64, least: f64) -> f64 {
-        self.faint = FAINT * tolerance / number(self.start.len().max(1));
+        self.faint = FAINT * tolerance / self.start.len().max(1) as f64;
         let remaining = self.length - self.at;
         let least = least.min(remaining);
         (self.width, self.missed) = self.widest(tolerance, (least, remaining));
@@ -227,7 +226,7 @@ impl<'m> Walk<'m> {
             if width <= least {
                 return (Width::Odd(least), self.row.missed(self.modes, &self.sizes, least));
             }
-            let factor = (tolerance / missed).powf(1.0 / number(COUNT));
+            let factor = (tolerance / missed).powf(1.0 / COUNT as f64);
             let factor = if factor > 0.1 { factor } else { 0.1 };
             above = step;
             step = step_of(factor * width).min(step - 1);

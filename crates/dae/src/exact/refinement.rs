@@ -4,7 +4,7 @@
 use dashpot_numerics::{Accumulator, two_sum};
 use nalgebra::DMatrix;
 
-use super::{Complex, bounds::enclose, modes::Modes, number};
+use super::{Complex, bounds::enclose, modes::Modes};
 
 /// Most iterations; convergence is quadratic until rounding stops it.
 const ITERATIONS: usize = 6;
@@ -119,7 +119,7 @@ fn dual_defect(modes: &Modes) -> DMatrix<f64> {
     let size = modes.len();
     let rest = DMatrix::identity(size, size) - &modes.dual * &modes.basis;
     let noise = modes.dual.map(Complex::norm) * modes.basis.map(Complex::norm);
-    rest.map(Complex::norm) + noise * ((number(size) + 8.0) * f64::EPSILON)
+    rest.map(Complex::norm) + noise * ((size as f64 + 8.0) * f64::EPSILON)
 }
 
 /// A bound of `|(1 − R)⁻¹ M|` for `|R| ≤ contraction` and `|M| ≤ first`.
@@ -176,7 +176,5 @@ fn rounding(matrix: &DMatrix<f64>, modes: &Modes) -> DMatrix<f64> {
         let mut part = sizes.columns_mut(block.start, block.len());
         part += columns;
     }
-    modes.dual.map(Complex::norm)
-        * sizes
-        * (4.0 * number(modes.len()) * f64::EPSILON * f64::EPSILON)
+    modes.dual.map(Complex::norm) * sizes * (4.0 * modes.len() as f64 * f64::EPSILON * f64::EPSILON)
 }

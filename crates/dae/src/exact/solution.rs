@@ -8,12 +8,10 @@ use super::{
     coordinates::{SpanCoordinates, follow},
     decomposition::decompose,
     decoupling::CAUTIONS,
-    drift::drifts,
     modal_row::{ModalRow, coordinates_at},
     modes::Modes,
-    number,
     panels::{Piece, Quality, interpolate},
-    propagator::{Grid, advance, march},
+    propagator::{Grid, advance, drifts, march},
     shared::{Form, Shared},
 };
 use crate::{Budget, Dense, Panel, Signal, System};
@@ -209,7 +207,7 @@ impl Solution {
         let mut values = Vec::with_capacity(grid.count * system.states);
         let mut state = system.initial.clone();
         let mut done = 0;
-        let time = |k: usize| grid.first + number(k) * grid.step;
+        let time = |k: usize| grid.first + k as f64 * grid.step;
         for (at, span) in system.spans.iter().enumerate() {
             let last = at + 1 == system.spans.len();
             let mut until = done;
@@ -324,8 +322,8 @@ fn uniform(times: &[f64]) -> Option<Grid> {
     if count == 1 {
         return Some(Grid { first, step: 0.0, count });
     }
-    let step = (last - first) / number(count - 1);
+    let step = (last - first) / (count - 1) as f64;
     let tolerance = UNIFORM * last.abs();
-    let fits = |(k, t): (usize, &f64)| (first + number(k) * step - t).abs() <= tolerance;
+    let fits = |(k, t): (usize, &f64)| (first + k as f64 * step - t).abs() <= tolerance;
     times.iter().enumerate().all(fits).then_some(Grid { first, step, count })
 }

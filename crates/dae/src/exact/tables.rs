@@ -14,7 +14,6 @@ use super::{
     Complex,
     block::{Block, exponential_of},
     modes::Modes,
-    number,
 };
 
 /// Degree of the panels.
@@ -187,7 +186,7 @@ impl Course {
         if block.len() == 1 {
             let (high, low) = (block.matrix[(0, 0)], block.low[(0, 0)]);
             let values: Vec<Complex> = times.map(|t| exponential_of(high, low, t)).collect();
-            let link = |k: usize| exponential_of(high, low, number(k + 1) * width);
+            let link = |k: usize| exponential_of(high, low, (k + 1) as f64 * width);
             let (shape, links) =
                 (Box::new(Shape::of(&values)), Box::new(std::array::from_fn(link)));
             return Self::Single { shape, links };

@@ -122,7 +122,6 @@ fn check(system: &System, run: &Run) -> Result<(), SolveError> {
         return Err(setting("time_scale", "positive, and finite", system.time_scale));
     }
     match run.guards.iter().find(|guard| guard.output >= system.outputs.len()) {
-        #[expect(clippy::cast_precision_loss, reason = "a small index")]
         Some(guard) => Err(setting("guard", "about an output of the system", guard.output as f64)),
         None => Ok(()),
     }

@@ -32,7 +32,7 @@ pub(super) fn add(
     let omega = terms.iter().map(|term| term.omega(step)).fold(0.0, f64::max);
     let half = 0.5 * omega * (step.end - step.start);
     let parts = count((half / LONGEST).ceil()).max(1);
-    let degree = degree(step, &terms, half / size(parts), parts);
+    let degree = degree(step, &terms, half / parts as f64, parts);
     let interpolation = Interpolation::of_degree(degree);
     let mut own = vec![0.0; step.degree + 1];
     Interpolation::of_degree(step.degree).coefficients(values, &mut own);
@@ -43,7 +43,7 @@ pub(super) fn add(
         return;
     }
     for part in 0..parts {
-        let place = |k: usize| 2.0 * size(k) / size(parts) - 1.0;
+        let place = |k: usize| 2.0 * k as f64 / parts as f64 - 1.0;
         let (from, to) = (place(part), place(part + 1));
         let value = |&node: &f64| {
             let x = between(from, to, node);
@@ -72,7 +72,7 @@ pub(super) fn resolution(system: &System, step: &Step) -> (usize, usize) {
     let omega = terms.iter().map(|term| term.omega(step)).fold(0.0, f64::max);
     let half = 0.5 * omega * (step.end - step.start);
     let parts = count((half / LONGEST).ceil()).max(1);
-    (degree(step, &terms, half / size(parts), parts), parts)
+    (degree(step, &terms, half / parts as f64, parts), parts)
 }
 
 /// Adds a panel; adjoining panels share their border to the last bit.
@@ -90,7 +90,7 @@ fn term_of(system: &System, step: &Step, (input, factor): (usize, f64)) -> Term 
 /// The degree that follows the step's polynomial, and the driving functions on one of `parts` equal
 /// parts of the step, on which the phase of no sine turns by more than ±`half`.
 fn degree(step: &Step, terms: &[Term], half: f64, parts: usize) -> usize {
-    let own = |term: &Term| term.degree(half, (step.end - step.start) / size(parts));
+    let own = |term: &Term| term.degree(half, (step.end - step.start) / parts as f64);
     terms.iter().map(own).fold(step.degree, usize::max)
 }
 
@@ -101,7 +101,7 @@ fn waves(half: f64) -> usize {
     let mut bound = 0.5 * half;
     while bound > NEGLIGIBLE {
         waves += 1;
-        bound *= 0.5 * half / size(waves + 1);
+        bound *= 0.5 * half / (waves + 1) as f64;
     }
     waves
 }
@@ -144,9 +144,4 @@ fn wide(order: u32) -> usize {
 )]
 fn count(number: f64) -> usize {
     number as usize
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts of panels are small")]
-pub(super) fn size(count: usize) -> f64 {
-    count as f64
 }

@@ -150,9 +150,9 @@ impl Products {
         let count = self.driven.len();
         let mut given = vec![0.0; system.inputs.len()];
         let mut work = vec![0.0; count];
-        let length = (step.end - step.start) / inputs::size(parts);
+        let length = (step.end - step.start) / parts as f64;
         for part in 0..parts {
-            let start = step.start + length * inputs::size(part);
+            let start = step.start + length * part as f64;
             for (&x, weight) in rule.nodes().iter().zip(rule.weights()) {
                 let time = between(start, start + length, x);
                 let point = Point { weight: 0.5 * length * weight, shares: lagrange.weights(time) };

@@ -72,7 +72,6 @@ impl Flight {
 fn series(derivative: impl Fn(usize) -> f64) -> [f64; ORDERS + 1] {
     let mut factorial = 1.0;
     std::array::from_fn(|order| {
-        #[expect(clippy::cast_precision_loss, reason = "an order")]
         let factor = order.max(1) as f64;
         factorial *= factor;
         derivative(order) / factorial

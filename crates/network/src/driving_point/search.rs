@@ -1,6 +1,6 @@
 //! Search for the largest difference along the time.
 
-use dashpot_numerics::extrema::maximum;
+use dashpot_numerics::extrema::{maximum, vertex};
 
 use super::{
     disagreement::STEPS,
@@ -118,7 +118,7 @@ impl<'a> Search<'a> {
                 let [old, middle] = [&*before, &*own].map(|look| (look.t, look.heights[side]));
                 let new = (t, point.heights[side]);
                 if middle.1 >= old.1 && middle.1 >= new.1 {
-                    let peak = vertex([old, middle, new]);
+                    let peak = vertex([old, middle, new]).unwrap_or(middle);
                     let crest = Crest { height: peak.1, side, ends: [old.0, t] };
                     self.crest = self.crest.larger(crest);
                     if peak.0 <= own.t {
@@ -135,7 +135,7 @@ impl<'a> Search<'a> {
         match self.looks[..] {
             [.., before, own] if own.apart >= before.apart && own.apart >= apart => {
                 let places = [before, own, look].map(|look| (look.t, look.apart));
-                self.take(before, own, look, vertex(places).1);
+                self.take(before, own, look, vertex(places).unwrap_or(places[1]).1);
             }
             [own] if own.apart >= apart => self.take(own, own, look, own.apart),
             _ => {}
@@ -160,33 +160,5 @@ impl<'a> Search<'a> {
         };
         let fastest = parts.iter().filter(matters).map(|part| part.speed).fold(0.0, f64::max);
         STEP * t.min(fastest.recip())
-    }
-}
-
-/// The vertex of the parabola through three points of which the middle one is the highest.
-fn vertex([a, b, c]: [(f64, f64); 3]) -> (f64, f64) {
-    let [rise, fall] = [(a, b), (b, c)].map(|(p, q)| (q.1 - p.1) / (q.0 - p.0));
-    let bend = (fall - rise) / (c.0 - a.0);
-    if bend.is_nan() || bend >= 0.0 {
-        return b;
-    }
-    let t = (f64::midpoint(a.0, b.0) - 0.5 * rise / bend).clamp(a.0, c.0);
-    (t, a.1 + rise * (t - a.0) + bend * (t - a.0) * (t - b.0))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_vertex_of_a_parabola_is_found_from_uneven_points() {
-        let value = |t: f64| (t, 3.0 - 2.0 * (t - 1.25) * (t - 1.25));
-        let (t, height) = vertex([0.5, 1.0, 2.0].map(value));
-        assert!((t - 1.25).abs() < 1e-14 && (height - 3.0).abs() < 1e-14);
-    }
-
-    #[test]
-    fn a_plateau_has_its_vertex_in_the_middle() {
-        assert_eq!(vertex([(0.0, 1.0), (1.0, 1.0), (2.0, 1.0)]), (1.0, 1.0));
     }
 }

@@ -2,8 +2,6 @@
 
 use std::{borrow::Cow, f64::consts::FRAC_PI_2, f64::consts::PI, sync::OnceLock};
 
-use super::order;
-
 /// Highest degree that is kept ready.
 const KEPT: usize = 32;
 
@@ -23,15 +21,15 @@ impl Interpolation {
             return Self { nodes: vec![0.0], transform: vec![1.0] };
         }
         let count = degree + 1;
-        let d = order(degree);
+        let d = degree as f64;
         // The sine makes the nodes symmetric about an exact zero.
-        let nodes = (0..count).map(|j| (FRAC_PI_2 * (2.0 * order(j) - d) / d).sin()).collect();
+        let nodes = (0..count).map(|j| (FRAC_PI_2 * (2.0 * j as f64 - d) / d).sin()).collect();
         let half = |index: usize| if index == 0 || index == degree { 0.5 } else { 1.0 };
         let mut transform = Vec::with_capacity(count * count);
         for j in 0..count {
             for k in 0..count {
                 // T_k(x_j) = cos(π k (d − j)/d), with the argument reduced exactly.
-                let angle = PI * order(k * (degree - j) % (2 * degree)) / d;
+                let angle = PI * (k * (degree - j) % (2 * degree)) as f64 / d;
                 transform.push(2.0 / d * half(k) * half(j) * angle.cos());
             }
         }

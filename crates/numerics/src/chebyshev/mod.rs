@@ -75,7 +75,7 @@ fn recurrence<const N: usize>(
 pub fn derivative(coefficients: &[f64]) -> Vec<f64> {
     let degree = coefficients.len().saturating_sub(1);
     let mut slope = vec![0.0; degree.max(1)];
-    let mut factor = 2.0 * order(degree);
+    let mut factor = 2.0 * degree as f64;
     for k in (1..=degree).rev() {
         slope[k - 1] = factor * coefficients[k] + slope.get(k + 1).copied().unwrap_or(0.0);
         factor -= 2.0;
@@ -91,7 +91,7 @@ pub fn antiderivative(coefficients: &[f64]) -> Vec<f64> {
     let mut start = 0.0;
     for k in 1..=coefficients.len() {
         let before = if k == 1 { 2.0 * at(0) } else { at(k - 1) };
-        let c = (before - at(k + 1)) / (2.0 * order(k));
+        let c = (before - at(k + 1)) / (2.0 * k as f64);
         start += if k % 2 == 0 { c } else { -c };
         area.push(c);
     }
@@ -102,7 +102,7 @@ pub fn antiderivative(coefficients: &[f64]) -> Vec<f64> {
 /// The integral of `p` over `[−1, 1]`.
 pub fn integral(coefficients: &[f64]) -> f64 {
     let even = coefficients.iter().enumerate().step_by(2).rev();
-    even.map(|(k, c)| 2.0 * c / (1.0 - order(k) * order(k))).sum()
+    even.map(|(k, c)| 2.0 * c / (1.0 - k as f64 * k as f64)).sum()
 }
 
 /// The polynomial seen on `[a, b]` only: the `q` of the same degree with
@@ -130,12 +130,6 @@ pub fn bound(coefficients: &[f64]) -> f64 {
 /// `Σ |c_k|` without the constant: how far `p` strays at most from `c_0`.
 pub fn variation(coefficients: &[f64]) -> f64 {
     bound(coefficients.get(1..).unwrap_or_default())
-}
-
-/// A degree or index as a number.
-#[expect(clippy::cast_precision_loss, reason = "degrees are small")]
-fn order(k: usize) -> f64 {
-    k as f64
 }
 
 #[cfg(test)]

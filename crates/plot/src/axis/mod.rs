@@ -167,10 +167,10 @@ fn range(values: impl Iterator<Item = f64>, padded: bool) -> (f64, f64) {
 
 /// About `wanted` multiples of a round step from `low` to `high`, and the step.
 fn round_ticks(low: f64, high: f64, wanted: usize) -> (Vec<f64>, f64) {
-    let step = round_step((high - low) / lossless(wanted));
+    let step = round_step((high - low) / wanted as f64);
     let first = (low / step - 1e-9).ceil();
     let ticks = (0..=4 * wanted)
-        .map(|i| (first + lossless(i)) * step)
+        .map(|i| (first + i as f64) * step)
         .take_while(|tick| *tick <= high + 1e-9 * step)
         .collect();
     (ticks, step)
@@ -208,11 +208,6 @@ fn decimals_of(step: f64) -> usize {
         decimals += 1;
     }
     decimals
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts of ticks are far below 2^52")]
-fn lossless(count: usize) -> f64 {
-    count as f64
 }
 
 #[cfg(test)]

@@ -39,7 +39,7 @@ pub(super) fn places(stretches: &[Path]) -> Vec<Place> {
             let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
             let steps = pixel(dx.abs().max(dy.abs())) + 1;
             for step in 0..steps {
-                let part = lossless(step) / lossless(steps);
+                let part = step as f64 / steps as f64;
                 places.push((pixel(pair[0].1 + part * dy), pixel(pair[0].0 + part * dx)));
             }
         }
@@ -55,11 +55,6 @@ pub(super) fn places(stretches: &[Path]) -> Vec<Place> {
 )]
 fn pixel(length: f64) -> usize {
     length.clamp(0.0, 1e5).round() as usize
-}
-
-#[expect(clippy::cast_precision_loss, reason = "a chart has far fewer than 2^52 pixels")]
-fn lossless(count: usize) -> f64 {
-    count as f64
 }
 
 /// Draws the stretches of one curve.

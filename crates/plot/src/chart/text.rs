@@ -226,7 +226,7 @@ fn line_dots(
     end: (f64, f64),
     (wide, high): (usize, usize),
 ) -> Vec<(usize, usize)> {
-    let stride = lossless(wide).recip().min(lossless(high).recip());
+    let stride = (wide as f64).recip().min((high as f64).recip());
     let steps = 1.0_f64.max(((end.0 - start.0).abs().max((end.1 - start.1).abs()) / stride).ceil());
     let mut dots = Vec::new();
     let mut step = 0.0;
@@ -252,12 +252,7 @@ fn row(y: &Axis, value: f64, height: usize) -> usize {
     reason = "the value is clamped to 0…count before"
 )]
 fn place(fraction: f64, count: usize) -> usize {
-    ((fraction.clamp(0.0, 1.0) * lossless(count)) as usize).min(count - 1)
-}
-
-#[expect(clippy::cast_precision_loss, reason = "terminals are far narrower than 2^52 columns")]
-fn lossless(count: usize) -> f64 {
-    count as f64
+    ((fraction.clamp(0.0, 1.0) * count as f64) as usize).min(count - 1)
 }
 
 #[cfg(test)]

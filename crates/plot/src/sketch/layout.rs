@@ -131,7 +131,7 @@ impl Columns {
             }
             x += width;
             let tracks = self.tracks(column, &heights);
-            let room = lossless(tracks.len().saturating_sub(1)) * metrics.track;
+            let room = tracks.len().saturating_sub(1) as f64 * metrics.track;
             channels.push((x + metrics.lead, tracks));
             if column + 1 < count {
                 x += 2.0 * metrics.lead + room + metrics.wire;
@@ -144,7 +144,7 @@ impl Columns {
             for w in &vertex.right {
                 let key = self.rail(v, *w);
                 let track = tracks.iter().position(|t| *t == key).unwrap_or(0);
-                let turn = start + lossless(track) * metrics.track;
+                let turn = start + track as f64 * metrics.track;
                 let from = (places[v] + vertex.extent.width - metrics.wire, heights[v]);
                 let to = (places[*w], heights[*w]);
                 plan.wires.push(vec![from, (turn, from.1), (turn, to.1), to]);
@@ -206,11 +206,6 @@ impl Columns {
         }
         tracks
     }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "drawings have a few dozen wires")]
-fn lossless(count: usize) -> f64 {
-    count as f64
 }
 
 #[cfg(test)]

@@ -121,13 +121,13 @@ fn sort_by_neighbours(vertices: &[Vertex], columns: &mut [Vec<usize>], from_left
             .enumerate()
             .map(|(own, v)| {
                 let neighbours = if from_left { &vertices[*v].left } else { &vertices[*v].right };
-                (mean(neighbours.iter().map(|n| place[*n])).unwrap_or(lossless(own)), *v)
+                (mean(neighbours.iter().map(|n| place[*n])).unwrap_or(own as f64), *v)
             })
             .collect();
         keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
         *column = keyed.into_iter().map(|(_, v)| v).collect();
         for (position, v) in column.iter().enumerate() {
-            place[*v] = lossless(position);
+            place[*v] = position as f64;
         }
     }
 }
@@ -167,11 +167,6 @@ fn repeated(value: f64, times: f64) -> impl Iterator<Item = f64> {
 fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, count), v| (sum + v, count + 1.0));
     (count > 0.0).then(|| sum / count)
-}
-
-#[expect(clippy::cast_precision_loss, reason = "columns hold a few dozen boxes")]
-fn lossless(count: usize) -> f64 {
-    count as f64
 }
 
 #[cfg(test)]

@@ -111,7 +111,7 @@ impl Sketch {
             wire: 1.0,
         };
         let plan = plan(self, &metrics);
-        if index_limit(width) < plan.width {
+        if (width as f64) < plan.width {
             return None;
         }
         let mut grid = Grid::default();
@@ -212,12 +212,7 @@ pub(super) fn symbol(leaf: &SketchTree) -> (String, &str) {
 
 /// Terminal columns of a text.
 pub(super) fn columns(text: &str) -> f64 {
-    index_limit(text_metrics::columns(text))
-}
-
-#[expect(clippy::cast_precision_loss, reason = "texts are far shorter than 2^52 columns")]
-fn index_limit(count: usize) -> f64 {
-    count as f64
+    text_metrics::columns(text) as f64
 }
 
 #[cfg(test)]

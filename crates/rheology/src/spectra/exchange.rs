@@ -1,6 +1,6 @@
 //! The sum of the least maximum, by exchange of the places of greatest deviation.
 
-use dashpot_numerics::roots::bisect;
+use dashpot_numerics::{extrema::vertex, roots::bisect};
 
 use super::{equalise::equalised, guess, sum::Sum, target::Target};
 
@@ -123,16 +123,9 @@ fn peaks(target: &Target<'_>, sum: &Sum, places: &[f64]) -> Option<Vec<(f64, f64
         else {
             return row[peak];
         };
-        // Also a vertex that is not a number becomes one of the bounds.
-        let vertex = sampled(vertex(*left, *middle, *right).max(left.0).min(right.0));
+        let place = vertex([*left, *middle, *right]).map_or(middle.0, |vertex| vertex.0);
+        let vertex = sampled(place);
         if vertex.1.abs() > middle.1.abs() { vertex } else { *middle }
     });
     Some(refined.collect())
-}
-
-/// Where the parabola through three points has its vertex.
-fn vertex(left: (f64, f64), middle: (f64, f64), right: (f64, f64)) -> f64 {
-    let (before, after) = (middle.0 - left.0, right.0 - middle.0);
-    let (rise, fall) = ((middle.1 - left.1) / before, (right.1 - middle.1) / after);
-    middle.0 + 0.5 * (rise * after + fall * before) / (rise - fall)
 }

@@ -2,13 +2,15 @@
 
 use std::f64::consts::PI;
 
-use dashpot_numerics::roots::bisect;
+use dashpot_numerics::{
+    chebyshev::{self, Interpolation},
+    roots::bisect,
+};
 
 use super::{Spectrum, sum::Sum, whole};
 
 /// Degree of the polynomials that stand for a function in one panel.
 const DEGREE: usize = 14;
-const NODES: usize = DEGREE + 1;
 /// Greatest half width of a panel in `ln t`.
 const HALF_PANEL: f64 = 0.2;
 /// Places per panel at which a polynomial is looked at when it is bounded.
@@ -28,41 +30,33 @@ pub(super) struct Target<'a> {
     start: f64,
     end: f64,
     half: f64,
-    nodes: [f64; NODES],
-    weights: [f64; NODES],
-    /// Per panel: share of the compliance at the nodes, and its logarithm.
-    panels: Vec<[(f64, f64); NODES]>,
+    panels: Vec<Panel>,
+}
+
+#[derive(Debug)]
+struct Panel {
+    /// Shares of the compliance at the nodes.
+    shares: Vec<f64>,
+    /// Chebyshev coefficients of their logarithm.
+    logarithm: Vec<f64>,
 }
 
 impl<'a> Target<'a> {
     /// The creep of `spectrum` for `ln t` from `start` to `end`.
     pub(super) fn new(spectrum: &'a dyn Spectrum, start: f64, end: f64) -> Self {
         let count = ((end - start) / (2.0 * HALF_PANEL)).ceil().max(1.0);
-        let angle = |node: usize| (node as f64 + 0.5) * PI / NODES as f64;
-        let nodes = std::array::from_fn(|node| -angle(node).cos());
-        let weights =
-            std::array::from_fn(
-                |node| {
-                    if node % 2 == 0 { angle(node).sin() } else { -angle(node).sin() }
-                },
-            );
-        let mut target = Self {
-            spectrum,
-            start,
-            end,
-            half: 0.5 * (end - start) / count,
-            nodes,
-            weights,
-            panels: Vec::new(),
+        let half = 0.5 * (end - start) / count;
+        let mut target = Self { spectrum, start, end, half, panels: Vec::new() };
+        let nodes = Interpolation::of_degree(DEGREE);
+        let panel = |panel: usize| {
+            let share = |&node: &f64| target.share(target.place(panel, node));
+            let shares: Vec<f64> = nodes.nodes().iter().map(share).collect();
+            let logarithms: Vec<f64> = shares.iter().map(|share| share.ln()).collect();
+            let mut logarithm = vec![0.0; DEGREE + 1];
+            nodes.coefficients(&logarithms, &mut logarithm);
+            Panel { shares, logarithm }
         };
-        target.panels = (0..whole(count))
-            .map(|panel| {
-                nodes.map(|node| {
-                    let share = target.share(target.place(panel, node));
-                    (share, share.ln())
-                })
-            })
-            .collect();
+        target.panels = (0..whole(count)).map(panel).collect();
         target
     }
 
@@ -98,27 +92,12 @@ impl<'a> Target<'a> {
         let panel = whole((place - self.start) / (2.0 * self.half));
         let panel = panel.min(count - 1);
         let x = (place - self.place(panel, 0.0)) / self.half;
-        let values = self.panels[panel].map(|(_, logarithm)| logarithm);
-        self.interpolate(x, &values).exp()
+        chebyshev::evaluate(&self.panels[panel].logarithm, x).exp()
     }
 
     /// `ln t` at `node` within \[−1, 1\] of a panel.
     fn place(&self, panel: usize, node: f64) -> f64 {
         self.start + self.half * (2.0 * panel as f64 + 1.0 + node)
-    }
-
-    /// The polynomial through `values` at the nodes, at `x`.
-    fn interpolate(&self, x: f64, values: &[f64; NODES]) -> f64 {
-        let (mut above, mut below) = (0.0, 0.0);
-        for ((node, weight), value) in self.nodes.iter().zip(self.weights).zip(values) {
-            let distance = x - node;
-            if distance == 0.0 {
-                return *value;
-            }
-            above += weight / distance * value;
-            below += weight / distance;
-        }
-        above / below
     }
 
     /// An upper bound of `|sum/R − 1|` over the whole range, at most 2e-4 of itself (and 1e-13)
@@ -129,21 +108,20 @@ impl<'a> Target<'a> {
     pub(super) fn bound(&self, sum: &Sum) -> f64 {
         let looks: Vec<f64> =
             (0..LOOKS).map(|look| -((look as f64 + 0.5) * PI / LOOKS as f64).cos()).collect();
+        let nodes = Interpolation::of_degree(DEGREE);
+        let (mut deviation, mut values) = (vec![0.0; DEGREE + 1], vec![0.0; LOOKS]);
         let mut worst = 0.0_f64;
         for (index, panel) in self.panels.iter().enumerate() {
-            let mut values = [0.0; NODES];
-            for ((value, node), (share, _)) in values.iter_mut().zip(self.nodes).zip(panel) {
-                *value = (sum.share(self.place(index, node)) - share) / share;
-            }
-            let highest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-            if values.iter().any(|value| !value.is_finite()) {
+            let at_node =
+                |(node, share): (&f64, &f64)| (sum.share(self.place(index, *node)) - share) / share;
+            let at_nodes: Vec<f64> = nodes.nodes().iter().zip(&panel.shares).map(at_node).collect();
+            if at_nodes.iter().any(|value| !value.is_finite()) {
                 return f64::INFINITY;
             }
-            // No interpolation through 15 nodes exceeds 2.7 times their greatest value.
-            if 2.7 * highest > worst {
-                for x in &looks {
-                    worst = worst.max(self.interpolate(*x, &values).abs());
-                }
+            nodes.coefficients(&at_nodes, &mut deviation);
+            if chebyshev::bound(&deviation) > worst {
+                chebyshev::evaluate_all(&deviation, &looks, &mut values);
+                worst = values.iter().fold(worst, |most, value| most.max(value.abs()));
             }
         }
         worst / (0.5 * PI * DEGREE as f64 / LOOKS as f64).cos() + 1e-13

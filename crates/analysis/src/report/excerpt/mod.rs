@@ -99,7 +99,6 @@ fn stir(solution: &Solution<'_>, (outer, inner): (f64, f64)) -> Option<f64> {
     let forces: Vec<_> = forces.into_iter().map(|own| solution.signal(own)).collect();
     let largest = forces.iter().map(|own| own.bound()).fold(0.0, f64::max);
     let still: Vec<f64> = forces.iter().map(|own| own.value(outer)).collect();
-    #[expect(clippy::cast_precision_loss, reason = "far below 2^53")]
     let time = |look: usize| outer + (inner - outer) * look as f64 / LOOKS as f64;
     // The contact itself is not looked at: its force may begin with a jump.
     (1..LOOKS).map(time).find(|&time| {
@@ -144,7 +143,6 @@ pub fn resolving_times(window: (f64, f64), spans: &[(f64, f64)], count: usize) -
         if index == last {
             return to;
         }
-        #[expect(clippy::cast_precision_loss, reason = "counts of samples are far below 2^53")]
         let part = index as f64 / last as f64;
         while knots.get(at + 1).is_some_and(|knot| knot.0 <= part) {
             at += 1;

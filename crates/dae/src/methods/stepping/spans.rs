@@ -135,7 +135,6 @@ impl Walk<'_> {
             return borders;
         }
         let Some(own) = self.system.shortest_time(end) else { return borders };
-        #[expect(clippy::cast_precision_loss, reason = "an order")]
         let parts = 8.0 * self.run.rtol.powf(-1.0 / (order as f64 + 1.0));
         let longest = (own / parts).max(end / MOST_SPANS);
         let mut fine = vec![0.0];

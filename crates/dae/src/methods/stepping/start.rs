@@ -82,7 +82,6 @@ fn tolerance(rtol: f64, size: usize) -> f64 {
     if size <= DENSE_UP_TO {
         return rtol;
     }
-    #[expect(clippy::cast_precision_loss, reason = "a ratio of sizes")]
     let share = DENSE_UP_TO as f64 / size as f64;
     (rtol * share.sqrt()).max(TIGHTEST.min(rtol))
 }
