@@ -11,7 +11,7 @@ use std::{f64::consts::PI, sync::Arc};
 use allocation_counter::measure;
 use dashpot::{
     analysis::{
-        MeasureKind, MeasureWish, RunReport, Solution, SolveSettings,
+        Measure, MeasureWish, RunReport, Solution, SolveSettings,
         ledger::ledger,
         measures::{EndVelocity, Impulse, PeakForce},
         solve, solve_assembly, table,

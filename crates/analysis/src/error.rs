@@ -121,7 +121,7 @@ pub enum RunError {
     /// Energy appeared or vanished.
     #[error(
         "the solution of `{method}` cannot be trusted: {} of the energy turned over {}{}",
-        crate::report::wording::percent(.closure.abs()),
+        crate::wording::percent(.closure.abs()),
         if *.closure > 0.0 { "is missing" } else { "is too much" },
         .leak.as_ref().map_or(String::new(), |leak| format!(", {leak}"))
     )]

@@ -4,44 +4,49 @@
 //! [`solve`] compiles a network, integrates it as often as its errors ask for, and returns a
 //! [`RunReport`]. All measures are read off the continuous solution, never off samples.
 
+pub mod contribution;
 mod energy;
 mod error;
 mod errors;
 mod impact;
 pub mod measures;
+mod memory;
+mod note;
 pub mod partial;
 mod report;
 pub mod rheometer;
+mod run;
+mod settings;
 pub mod similarity;
 mod solution;
 mod solve;
 pub mod sweep;
 pub mod vibration;
+mod wording;
 pub mod work_precision;
 
 pub use energy::ledger;
 pub use energy::ledger::{EnergySeries, Leak, Ledger, Place};
 pub use error::RunError;
-pub use errors::accuracy::Accuracy;
 pub use impact::holding::SliderFault;
 pub use impact::idle::Idle;
+pub use impact::impulses::VelocityJump;
 pub use impact::interval::{Contact, Impact, Span};
 pub use measures::exceedance::Counted;
 pub use measures::selection::MeasureWish;
 pub use measures::{Family, MEASURES, Measure, MeasureKind, Reading};
-pub use partial::contribution;
-pub use partial::segmentation::Segmentation;
-pub use partial::{Partial, solve_partial};
+pub use note::Note;
 pub use report::difference::{Difference, differences};
 pub use report::excerpt::{excerpt, resolving_times, touching};
-pub use report::note::Note;
+pub use report::partial::{Partial, Segmentation};
 pub use report::sample::{Column, Table, regular_times, table, table_at};
 pub use report::verdict;
 pub use report::warning::{Beyond, Harder, Missed, Through, Warning};
 pub use report::{
     ContactReport, EventReport, MeasureReport, RunReport, SolverReport, SystemReport,
 };
+pub use run::{choice, hopeless_measures, reported_measures, solve_assembly};
+pub use settings::{Accuracy, Choice, SolveSettings, Stop};
 pub use solution::{Solution, doubt_at};
-pub use solve::settings::{Choice, SolveSettings, Stop};
-pub use solve::{choice, hopeless_measures, reported_measures, solve, solve_assembly};
+pub use solve::{solve, solve_partial};
 pub use work_precision::work_precision;

@@ -1,47 +1,6 @@
-//! How accurate measures are to be, and how accurate they are.
+//! How accurate measures are: error bars from several solutions.
 
-use std::collections::BTreeMap;
-
-use crate::Reading;
-
-/// The accuracy wanted, relative to each measure's magnitude.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Accuracy {
-    /// That of all measures without a wish of their own, positive.
-    pub default: f64,
-    /// That of single measures, by key such as `padding.peak-force`, positive.
-    pub by_measure: BTreeMap<String, f64>,
-    /// What moves no measure by more than this part of its size may be left out, from more than 0
-    /// to [`LOOSEST`](Self::LOOSEST); `None` leaves nothing out.
-    pub neglect_below: Option<f64>,
-}
-
-impl Default for Accuracy {
-    /// 0.1 % in every measure.
-    fn default() -> Self {
-        Self::of_all(1e-3)
-    }
-}
-
-impl Accuracy {
-    /// The loosest wish that makes sense: a number that is further off says nothing any more.
-    pub const LOOSEST: f64 = 0.2;
-
-    /// The same accuracy in every measure.
-    pub fn of_all(relative: f64) -> Self {
-        Self { default: relative, by_measure: BTreeMap::new(), neglect_below: None }
-    }
-
-    /// The strictest of all wishes.
-    pub(crate) fn strictest(&self) -> f64 {
-        self.by_measure.values().copied().fold(self.default, f64::min)
-    }
-
-    /// The accuracy wanted of the measure with this key.
-    pub fn of(&self, key: &str) -> f64 {
-        self.by_measure.get(key).copied().unwrap_or(self.default)
-    }
-}
+use crate::{Reading, report::FIRST_DIGIT};
 
 /// Roundings, in units of the measure's size, that no error bar falls short of: the solutions that
 /// it is taken from may agree by chance.
@@ -182,9 +141,6 @@ pub(crate) fn is_as_good_as_zero(
 /// Part of the largest measure of its kind that one counts for at least: the wish for a smaller one is no
 /// stricter, unless it is asked for by name.
 pub(crate) const SMALL: f64 = 1e-3;
-/// Error in parts of a value whose first digit is just known.
-pub(crate) const FIRST_DIGIT: f64 = 0.1;
-
 /// Whether the first digit of a value is known, as far as errors are.
 pub(crate) fn is_determined(reading: &Reading, error: Option<f64>) -> bool {
     error.is_none_or(|error| error <= FIRST_DIGIT * reading.size)
@@ -337,14 +293,5 @@ mod tests {
             !is_as_good_as_zero(&reading(Some(1e-20)), Some(1e-27), (1.0, 1e-3)),
             "it is a number"
         );
-    }
-
-    #[test]
-    fn single_wishes_override_the_default() {
-        let mut accuracy = Accuracy::default();
-        accuracy.by_measure.insert("a.b".to_owned(), 1e-6);
-        assert!((accuracy.of("a.b") - 1e-6).abs() < 1e-20);
-        assert!((accuracy.of("c") - 1e-3).abs() < 1e-20);
-        assert!((accuracy.strictest() - 1e-6).abs() < 1e-20);
     }
 }

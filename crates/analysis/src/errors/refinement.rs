@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, time::Duration};
 use dashpot_dae::{Observer, Run, SolveError};
 
 use crate::{
-    Reading, Solution,
+    Ledger, Reading, Solution,
     errors::{
         accuracy::{
             Evidence, SMALL, SOLUTIONS, excess, is_as_good_as_zero, is_determined,
@@ -20,8 +20,6 @@ use crate::{
     solution::doubt_at,
 };
 
-/// Part of the energy turned over beyond which a balance that does not close fails the run.
-pub(crate) const MOST_LOST: f64 = 0.01;
 /// At how many tolerances in a row a run may find no way on from one and the same instant before none is
 /// looked for any more.
 const ENDS_ALIKE: usize = 6;
@@ -321,7 +319,7 @@ impl Task<'_> {
         let closure = solved.energy.closure().abs();
         let strictest = accuracy.strictest();
         excesses.all(|excess| excess <= 1.0)
-            && closure <= strictest.min(MOST_LOST)
+            && closure <= strictest.min(Ledger::MOST_LOST)
             && solved.tension <= strictest
     }
 }

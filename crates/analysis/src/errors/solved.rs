@@ -6,11 +6,12 @@ use dashpot_dae::{Method, Observer, Progress, Run, SolveError, Trajectory, switc
 use dashpot_network::Assembly;
 
 use crate::{
-    Ledger, Reading, Solution, SolveSettings,
-    energy::ledger::ledger,
+    Ledger, Reading, RunError, Solution, SolveSettings,
+    energy::ledger::{leak, ledger},
+    errors::keep::keep_also,
+    impact::holding::slider_fault,
     measures::selection::Selected,
     solution::{Known, doubt_at},
-    solve::large::keep_also,
 };
 
 /// Work of reading a panel of a signal.
@@ -45,6 +46,21 @@ impl Solved {
     /// The solution as the measures have been read off it.
     pub(crate) fn as_read<'a>(&'a self, assembly: &'a Assembly) -> Solution<'a> {
         Solution::new(assembly, &self.trajectory).doubting(self.doubt)
+    }
+
+    /// What is to be said of a solution in which so much energy is missing, or too much, that nothing of it
+    /// can be trusted, or in which sliders do what they cannot.
+    pub(crate) fn fault(&self, assembly: &Assembly) -> Option<RunError> {
+        let closure = self.energy.closure();
+        let (method, solution) =
+            (self.trajectory.method, Solution::new(assembly, &self.trajectory));
+        if !closure.is_finite() {
+            return Some(RunError::BeyondRange);
+        }
+        if closure.abs() > Ledger::MOST_LOST {
+            return Some(RunError::EnergyLost { method, closure, leak: leak(&solution) });
+        }
+        slider_fault(&solution, &self.energy).map(|fault| RunError::Slider { method, fault })
     }
 
     /// What it tells of errors.

@@ -10,7 +10,7 @@ use dashpot_network::{
     phases::{Phase, PhaseLaw},
 };
 
-use crate::{energy::roles::Accounts, report::wording::quantity};
+use crate::{energy::roles::Accounts, wording::quantity};
 
 /// The parts of a connection.
 fn parts<'a>(assembly: &'a Assembly, connection: &ConnectionOutputs) -> &'a [PrimitiveOutputs] {

@@ -5,7 +5,7 @@ use dashpot_network::{Assembly, NodeId};
 
 use crate::impact::{
     contacts,
-    impulses::Blow,
+    impulses::VelocityJump,
     interval::{Contact, Impact, NO_PULL, Push, SLIGHT, pushes},
 };
 
@@ -44,7 +44,7 @@ pub(crate) struct Struck<'a> {
     /// The force between the face and what strikes it.
     pub(crate) touch: &'a Signal,
     /// The impulses there.
-    pub(crate) blows: &'a [Blow],
+    pub(crate) blows: &'a [VelocityJump],
     /// The force of the padding.
     pub(crate) padding: &'a Signal,
     /// End of the run \[s\].

@@ -4,11 +4,11 @@
 
 use std::fmt;
 
-use crate::{Ledger, Solution, report::wording::quantity};
+use crate::{Ledger, Solution, wording::quantity};
 
 /// Part of the largest force by which a slider may hold more than it can, and of the energy turned over
 /// that sliders may give in jumps: as much as a method may lose of the energy.
-const MOST: f64 = crate::errors::refinement::MOST_LOST;
+const MOST: f64 = Ledger::MOST_LOST;
 
 /// What no dry slider does.
 #[derive(Debug, Clone, PartialEq)]

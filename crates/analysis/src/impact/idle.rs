@@ -2,16 +2,9 @@
 
 use std::fmt;
 
-use dashpot_network::parameters::Kind as _;
-use dashpot_network::{
-    ConnectionOutputs, IdleSlider, PrimitiveOutputs, parameters::WindowWish, phases::Phase,
-};
+use dashpot_network::{IdleSlider, phases::Phase};
 
-use crate::{
-    MeasureReport, Note, Solution,
-    measures::{Impulse, PeakForce},
-    report::wording::quantity,
-};
+use crate::{Solution, wording::quantity};
 
 /// A time over which a slider is held by others while it slides neither way. Its force may be anything
 /// that it can hold, and what holds it bears the rest; the motion does not depend on it.
@@ -74,79 +67,6 @@ pub(crate) fn idle_times(solution: &Solution<'_>) -> Vec<Idle> {
     }
     add(&phases, from, solution.end());
     found
-}
-
-/// The report on a measure of a force, which is not determined where it hangs on that of an idle slider.
-pub(crate) fn without_idle_forces(
-    report: MeasureReport,
-    solution: &Solution<'_>,
-    times: &[Idle],
-) -> MeasureReport {
-    let is_of_force = [PeakForce::KIND, Impulse::KIND].contains(&report.kind);
-    if times.is_empty() || !is_of_force || report.value.is_none() {
-        return report;
-    }
-    let connections = &solution.assembly().connections;
-    let Some(at) = connections.iter().position(|own| own.name == report.target) else {
-        return report;
-    };
-    let impact = solution.element_impact(at);
-    let window = report.window.unwrap_or(match report.window_wish {
-        Some(WindowWish::Impact) => (impact.start, impact.end),
-        Some(WindowWish::Times(from, to)) => (from, to),
-        _ => (0.0, solution.end()),
-    });
-    let hangs = times.iter().find(|own| {
-        let span = (own.from.max(window.0), own.to.min(window.1));
-        span.0 < span.1 && own.changes(&report, solution, &connections[at], span)
-    });
-    let Some(idle) = hangs else { return report };
-    report.undetermined(Note::IdleSlider(idle.from, idle.to))
-}
-
-impl Idle {
-    /// Whether another force of the slider within a span of time \[s\] would change what is measured in
-    /// an element.
-    fn changes(
-        &self,
-        report: &MeasureReport,
-        solution: &Solution<'_>,
-        element: &ConnectionOutputs,
-        span: (f64, f64),
-    ) -> bool {
-        let Some(force) = element.force else { return false };
-        let own = &solution.assembly().primitives[element.primitives.clone()];
-        let has = |paths: &[String]| own.iter().any(|own| paths.contains(&own.name));
-        let holds = has(&self.slider.held_by);
-        if !holds && !has(&self.slider.sliders) {
-            return false;
-        }
-        let Some(peak) = report.value.filter(|_| report.kind == PeakForce::KIND) else {
-            return true;
-        };
-        if !solution.keeps(force) {
-            return true;
-        }
-        let force = solution.signal(force);
-        let (least, most) = (force.minimum(span).value, force.maximum(span).value);
-        let bound = if holds {
-            let other = self.taken(solution, &solution.assembly().primitives).abs();
-            least.abs().max(most.abs()) + 2.0 * other
-        } else {
-            let slides = self.taken(solution, own);
-            let turned = |own: f64| (own - 2.0 * slides).abs();
-            least.abs().max(most.abs()).max(turned(least)).max(turned(most))
-        };
-        let is_within = report.time.is_some_and(|time| span.0 < time && time < span.1);
-        is_within || bound > peak.abs()
-    }
-
-    /// The force \[N\] that those of these parts which are idle are taken to have.
-    fn taken(&self, solution: &Solution<'_>, parts: &[PrimitiveOutputs]) -> f64 {
-        let idle = parts.iter().filter(|own| self.slider.sliders.contains(&own.name));
-        let idle = idle.filter(|own| solution.keeps(own.force));
-        idle.map(|own| solution.signal(own.force).value(0.5 * (self.from + self.to))).sum()
-    }
 }
 
 #[cfg(test)]

@@ -7,23 +7,26 @@ use dashpot_network::Assembly;
 
 use crate::impact::bodies;
 
-/// An impulse at one instant.
+/// An instant at which masses meet, so that velocities jump by an impulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Blow {
+pub struct VelocityJump {
     /// When \[s\].
-    pub(crate) time: f64,
+    pub time: f64,
     /// Of an element the impulse that pushes its ends apart, on a body that towards the
     /// support \[N s\].
-    pub(crate) impulse: f64,
+    pub impulse: f64,
     /// Kinetic energy lost \[J\].
-    pub(crate) lost: f64,
+    pub lost: f64,
 }
 
 /// Part of the impulses on a body below which their sum is none: what is passed on.
 const PASSED_ON: f64 = 1e-9;
 
 /// The blows of each connection, in order of time; nothing where there are none in all of the run.
-pub(crate) fn by_connection(assembly: &Assembly, trajectory: &Trajectory) -> Vec<Vec<Blow>> {
+pub(crate) fn by_connection(
+    assembly: &Assembly,
+    trajectory: &Trajectory,
+) -> Vec<Vec<VelocityJump>> {
     let mut impacts = trajectory.switches.iter().filter(|own| own.impulse > 0.0).peekable();
     if impacts.peek().is_none() {
         return Vec::new();
@@ -37,14 +40,18 @@ pub(crate) fn by_connection(assembly: &Assembly, trajectory: &Trajectory) -> Vec
     }
     for own in impacts {
         if let Some(&at) = owner.get(own.name.as_str()) {
-            found[at].push(Blow { time: own.time, impulse: own.impulse, lost: own.lost });
+            found[at].push(VelocityJump { time: own.time, impulse: own.impulse, lost: own.lost });
         }
     }
     found
 }
 
 /// The blows on a body that change its speed, in order of time, those of one instant added up.
-pub(crate) fn on_body(assembly: &Assembly, all: &[Vec<Blow>], body: usize) -> Vec<Blow> {
+pub(crate) fn on_body(
+    assembly: &Assembly,
+    all: &[Vec<VelocityJump>],
+    body: usize,
+) -> Vec<VelocityJump> {
     let mut signed = Vec::new();
     for (connection, blows) in assembly.connections.iter().zip(all) {
         if blows.is_empty() || connection.is_rigid {
@@ -56,22 +63,26 @@ pub(crate) fn on_body(assembly: &Assembly, all: &[Vec<Blow>], body: usize) -> Ve
             (false, true) => 1.0,
             _ => continue,
         };
-        signed.extend(blows.iter().map(|own| Blow { impulse: sign * own.impulse, ..*own }));
+        signed.extend(blows.iter().map(|own| VelocityJump { impulse: sign * own.impulse, ..*own }));
     }
     signed.sort_by(|one, other| one.time.total_cmp(&other.time));
-    let same = |one: &Blow, other: &Blow| one.time.total_cmp(&other.time).is_eq();
+    let same = |one: &VelocityJump, other: &VelocityJump| one.time.total_cmp(&other.time).is_eq();
     let sums = signed.chunk_by(same).filter_map(|blows| {
         let first = blows.first()?;
         let impulse: f64 = blows.iter().map(|own| own.impulse).sum();
         let size: f64 = blows.iter().map(|own| own.impulse.abs()).sum();
         let lost = blows.iter().map(|own| own.lost).sum();
-        (impulse.abs() > PASSED_ON * size).then_some(Blow { time: first.time, impulse, lost })
+        (impulse.abs() > PASSED_ON * size).then_some(VelocityJump {
+            time: first.time,
+            impulse,
+            lost,
+        })
     });
     sums.collect()
 }
 
 /// Those within a window, both ends included.
-pub(crate) fn within(blows: &[Blow], window: (f64, f64)) -> &[Blow] {
+pub(crate) fn within(blows: &[VelocityJump], window: (f64, f64)) -> &[VelocityJump] {
     let from = blows.partition_point(|own| own.time < window.0);
     let to = blows.partition_point(|own| own.time <= window.1);
     blows.get(from..to).unwrap_or(&[])
@@ -83,7 +94,7 @@ mod tests {
 
     #[test]
     fn windows_include_both_ends() {
-        let blow = |time: f64| Blow { time, impulse: 1.0, lost: 0.0 };
+        let blow = |time: f64| VelocityJump { time, impulse: 1.0, lost: 0.0 };
         let blows = [blow(0.0), blow(1.0), blow(2.0)];
         assert_eq!(within(&blows, (0.0, 1.0)).len(), 2);
         assert_eq!(within(&blows, (1.0, 1.0)).len(), 1);

@@ -2,10 +2,8 @@
 
 pub(crate) mod bodies;
 pub(crate) mod contacts;
-pub(crate) mod driven;
 pub(crate) mod face;
 pub(crate) mod holding;
 pub(crate) mod idle;
 pub(crate) mod impulses;
 pub(crate) mod interval;
-pub(crate) mod support;

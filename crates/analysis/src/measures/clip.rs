@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use dashpot_network::{parameters, parameters::WindowWish};
 
-use super::{Family, Measure, MeasureKind, Needs, Reading, WINDOW};
-use crate::{
-    Note, Solution,
-    measures::exceedance::{Counted, Exceedance},
-    similarity::Scale,
+use super::{
+    Family, Measure, MeasureKind, Needs, Reading, WINDOW,
+    exceedance::{Counted, Exceedance},
 };
+use crate::{Note, Solution};
 
 parameters! {
     /// The largest acceleration that is reached or exceeded for a given time: the largest `A` \[m/s²\]
@@ -43,28 +42,19 @@ impl MeasureKind for Clip {
     const APPLIES_TO: Family = Family::Node;
     const NEEDS: Needs = Needs::Acceleration;
 
-    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
-        let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
-            return Reading::undefined(Note::Massless);
-        };
-        let span = match solution.node_impact(target).span(self.window, solution.end()) {
-            Ok(span) => span,
-            Err(note) => return Reading::undefined(note),
-        };
-        let signal = solution.signal(acceleration);
-        let found = Exceedance::new(signal, span.window()).level(self.duration, self.counted);
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let acceleration = solution.node_acceleration(target)?;
+        let span = solution.node_span(target, self.window)?;
+        let found = Exceedance::new(acceleration, span.window()).level(self.duration, self.counted);
         // Values move by the error of the signal, and a longer window moves the level no faster than
         // the signal itself.
         let end_rate = if found.reaches_end { found.slope } else { 0.0 };
-        let error = signal.error.zip(span.to_error);
+        let error = acceleration.error.zip(span.to_error);
         let error =
             error.map(|(error, shift)| error + if shift > 0.0 { end_rate * shift } else { 0.0 });
         let reading = Reading::over(&span, found.value, error).of_size(found.value);
-        let reading = reading.above(signal.noise).changing(end_rate);
-        if span.length() < self.duration {
-            return reading.noting(Note::WindowTooShort);
-        }
-        reading
+        let reading = reading.above(acceleration.noise).changing(end_rate);
+        Ok(reading.noting_if(span.length() < self.duration, Note::WindowTooShort))
     }
 }
 
@@ -90,11 +80,11 @@ impl MeasureKind for Clip3ms {
     const APPLIES_TO: Family = Family::Node;
     const NEEDS: Needs = Needs::Acceleration;
 
-    fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>> {
-        MeasureKind::of_similar(&self.clip(), scale)
+    fn general(&self) -> Option<Arc<dyn Measure>> {
+        Some(Arc::new(self.clip()))
     }
 
-    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         MeasureKind::read(&self.clip(), solution, target)
     }
 }

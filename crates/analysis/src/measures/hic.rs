@@ -5,9 +5,9 @@ use std::sync::Arc;
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW, reading::infinite,
+    Family, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW, hic_search::optimum,
 };
-use crate::{Note, Solution, measures::hic_search::optimum, similarity::Scale};
+use crate::{Note, Solution};
 
 parameters! {
     /// The head injury criterion of what an accelerometer on a body reads,
@@ -41,18 +41,13 @@ impl MeasureKind for Hic {
         2.5
     }
 
-    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
-        let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
-            return Reading::undefined(Note::Massless);
-        };
-        let span = match solution.node_impact(target).span(self.window, solution.end()) {
-            Ok(span) => span,
-            Err(note) => return Reading::undefined(note),
-        };
-        if let Some(reading) = infinite(&span, &solution.node_blows(target)) {
-            return reading;
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let acceleration = solution.node_acceleration(target)?;
+        let span = solution.node_span(target, self.window)?;
+        if let Some(reading) = Reading::infinite(&span, &solution.node_jumps(target)) {
+            return Ok(reading);
         }
-        let acceleration = solution.signal(acceleration).scaled(1.0 / STANDARD_GRAVITY);
+        let acceleration = acceleration.scaled(1.0 / STANDARD_GRAVITY);
         let found = optimum(&acceleration, span.window(), self.cap);
         let length = found.interval.1 - found.interval.0;
         let mean = if length > 0.0 { (found.value / length).powf(0.4) } else { 0.0 };
@@ -63,7 +58,7 @@ impl MeasureKind for Hic {
             growth * (error * length + last * shift) + found.doubt + 1e-13 * found.value
         });
         let reading = Reading::over(&span, found.value, error).changing(growth * last);
-        Reading { window: Some(found.interval), ..reading }
+        Ok(Reading { window: Some(found.interval), ..reading })
     }
 }
 
@@ -95,11 +90,11 @@ macro_rules! within {
                 2.5
             }
 
-            fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>> {
-                MeasureKind::of_similar(&self.hic(), scale)
+            fn general(&self) -> Option<Arc<dyn Measure>> {
+                Some(Arc::new(self.hic()))
             }
 
-            fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
+            fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
                 MeasureKind::read(&self.hic(), solution, target)
             }
         }

@@ -4,69 +4,43 @@ pub(crate) mod exceedance;
 pub(crate) mod hic_search;
 pub(crate) mod selection;
 
-mod average_deceleration;
 mod clip;
-mod coefficient_of_restitution;
-mod contact_time;
-mod dri;
-mod edi;
-mod end_deformation;
-mod end_position;
-mod end_velocity;
+mod contact;
+mod driven;
+mod ends;
 mod energy;
-mod energy_at_end;
 mod hic;
-mod impulse;
-mod needs;
-mod of_segments;
-mod peak_acceleration;
-mod peak_deformation;
-mod peak_displacement;
-mod peak_force;
-mod peak_rate;
-mod peak_strain;
-mod peak_stress;
-pub(crate) mod reading;
+mod integrals;
+mod peaks;
+mod reading;
+mod response_index;
+mod segments;
 mod severity_index;
-mod transmissibility;
-mod transmitted_force;
+mod transmitted;
 
 use std::sync::Arc;
 
-use dashpot_network::parameters::{Described, Kind, Parameter, ParameterKind, Registered};
-
-pub use average_deceleration::AverageDeceleration;
-pub use clip::{Clip, Clip3ms};
-pub use coefficient_of_restitution::CoefficientOfRestitution;
-pub use contact_time::ContactTime;
-pub use dri::Dri;
-pub use edi::Edi;
-pub use end_deformation::EndDeformation;
-pub use end_position::EndPosition;
-pub use end_velocity::EndVelocity;
-pub use energy::Energy;
-pub use energy_at_end::EnergyAtEnd;
-pub use hic::{Hic, Hic15, Hic36};
-pub use impulse::Impulse;
-pub use needs::Needs;
-pub use peak_acceleration::PeakAcceleration;
-pub use peak_deformation::PeakDeformation;
-pub use peak_displacement::PeakDisplacement;
-pub use peak_force::PeakForce;
-pub use peak_rate::PeakRate;
-pub use peak_strain::PeakStrain;
-pub use peak_stress::PeakStress;
-pub use reading::Reading;
-pub use severity_index::SeverityIndex;
-pub use transmissibility::Transmissibility;
-pub use transmitted_force::TransmittedForce;
-
-use crate::{
-    Solution,
-    similarity::{Scale, scaled_values},
+use dashpot_network::{
+    Assembly,
+    parameters::{Described, InvalidParameter, Kind, Parameter, ParameterKind, Registered, Value},
 };
-
 pub use dashpot_units::STANDARD_GRAVITY;
+
+pub use self::{
+    clip::{Clip, Clip3ms},
+    contact::{CoefficientOfRestitution, ContactTime},
+    ends::{EndDeformation, EndPosition, EndVelocity},
+    energy::{Energy, EnergyAtEnd},
+    hic::{Hic, Hic15, Hic36},
+    integrals::{AverageDeceleration, Impulse},
+    peaks::{PeakAcceleration, PeakDeformation, PeakDisplacement, PeakForce, PeakRate},
+    reading::Reading,
+    response_index::{Dri, Edi},
+    segments::{PeakStrain, PeakStress},
+    severity_index::SeverityIndex,
+    transmitted::{Transmissibility, TransmittedForce},
+};
+use crate::{Note, Solution};
 
 /// What a measure is a measure of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,6 +49,38 @@ pub enum Family {
     Element,
     /// A node.
     Node,
+}
+
+/// What an element or node must have so that a measure of it can have a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Needs {
+    /// Nothing that others of its family lack.
+    Nothing,
+    /// An acceleration that an accelerometer reads, as every free mass has.
+    Acceleration,
+    /// A thickness, of the whole element or of a part of it.
+    Thickness,
+    /// An area, of the whole element or of a part of it.
+    Area,
+}
+
+impl Needs {
+    /// Why the element or node number `target` can have no value; `None` where it can.
+    pub(crate) fn lacking(self, assembly: &Assembly, target: usize) -> Option<Note> {
+        match self {
+            Self::Nothing => None,
+            Self::Acceleration => {
+                assembly.nodes[target].acceleration.is_none().then_some(Note::Massless)
+            }
+            Self::Thickness => {
+                assembly.connections[target].segments.is_empty().then_some(Note::NoThickness)
+            }
+            Self::Area => {
+                let segments = &assembly.connections[target].segments;
+                segments.iter().all(|own| own.area.is_none()).then_some(Note::NoArea)
+            }
+        }
+    }
 }
 
 /// A scalar that can be read off a solution.
@@ -93,11 +99,19 @@ pub trait Measure: Described {
     /// The power of standard gravity over which its values are given.
     fn gravities(&self) -> f64;
 
-    /// The measure that tells the same of a scene that is similar at this scale; `None` where there
-    /// is none.
-    fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>>;
+    /// The measure that tells the same and has all its own times among its parameters; see
+    /// [`MeasureKind::general`].
+    fn general(&self) -> Option<Arc<dyn Measure>>;
 
-    /// Reads the measure off `solution` for the element or node number `target`.
+    /// The measure of the same kind with these values, one for each parameter.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] when a value is missing or out of range.
+    fn with_values(&self, values: &[Value]) -> Result<Arc<dyn Measure>, InvalidParameter>;
+
+    /// Reads the measure off `solution` for the element or node number `target`; where it has no value, a
+    /// note says why.
     ///
     /// # Panics
     ///
@@ -127,16 +141,19 @@ pub trait MeasureKind: Kind + Default {
         0.0
     }
 
-    /// The measure that tells the same of a scene that is similar at this scale: its parameters times
-    /// the factors of their dimensions. A measure with a time of its own has another kind for its
-    /// counterpart, or none.
-    fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>> {
-        let values = scaled_values(Self::PARAMETERS, &self.values(), scale)?;
-        Self::from_values(&values).ok().map(|own| Arc::new(own) as Arc<dyn Measure>)
+    /// The measure that tells the same and has all its own times among its parameters, which a scene of
+    /// another scale has otherwise: itself, or for a kind with a fixed time one of another kind. `None`
+    /// where no kind has its time for a parameter.
+    fn general(&self) -> Option<Arc<dyn Measure>> {
+        Self::from_values(&self.values()).ok().map(|own| Arc::new(own) as Arc<dyn Measure>)
     }
 
     /// Reads the measure off `solution` for the element or node number `target`.
-    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading;
+    ///
+    /// # Errors
+    ///
+    /// Why it has no value.
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note>;
 }
 
 impl<M: MeasureKind> Measure for M {
@@ -156,12 +173,16 @@ impl<M: MeasureKind> Measure for M {
         MeasureKind::gravities(self)
     }
 
-    fn of_similar(&self, scale: &Scale) -> Option<Arc<dyn Measure>> {
-        MeasureKind::of_similar(self, scale)
+    fn general(&self) -> Option<Arc<dyn Measure>> {
+        MeasureKind::general(self)
+    }
+
+    fn with_values(&self, values: &[Value]) -> Result<Arc<dyn Measure>, InvalidParameter> {
+        Ok(Arc::new(M::from_values(values)?))
     }
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
-        MeasureKind::read(self, solution, target)
+        MeasureKind::read(self, solution, target).unwrap_or_else(Reading::undefined)
     }
 }
 

@@ -11,7 +11,7 @@ use crate::{
     RunError,
     impact::bodies,
     measures::{Family, Measure, by_default, of_layers},
-    solve::memory::is_large,
+    memory::is_large,
 };
 
 /// A measure wanted of an element or a node.

@@ -2,10 +2,7 @@
 
 use dashpot_network::{parameters, parameters::WindowWish};
 
-use super::{
-    Family, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
-    reading::{infinite, with_blows},
-};
+use super::{Family, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW};
 use crate::{Note, Solution, impact::impulses};
 
 parameters! {
@@ -39,21 +36,15 @@ impl MeasureKind for SeverityIndex {
         self.exponent
     }
 
-    fn read(&self, solution: &Solution<'_>, target: usize) -> Reading {
-        let Some(acceleration) = solution.assembly().nodes[target].acceleration else {
-            return Reading::undefined(Note::Massless);
-        };
-        let span = match solution.node_impact(target).span(self.window, solution.end()) {
-            Ok(span) => span,
-            Err(note) => return Reading::undefined(note),
-        };
-        let blows = solution.node_blows(target);
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let acceleration = solution.node_acceleration(target)?;
+        let span = solution.node_span(target, self.window)?;
+        let jumps = solution.node_jumps(target);
         if self.exponent > 1.0
-            && let Some(reading) = infinite(&span, &blows)
+            && let Some(reading) = Reading::infinite(&span, &jumps)
         {
-            return reading;
+            return Ok(reading);
         }
-        let acceleration = solution.signal(acceleration);
         let severity = |a: f64| (a.abs() / STANDARD_GRAVITY).powf(self.exponent);
         let value = acceleration.integral_of(span.window(), &[0.0], severity);
         let last = severity(acceleration.left_value(span.to));
@@ -72,13 +63,13 @@ impl MeasureKind for SeverityIndex {
         });
         let reading = Reading::over(&span, value, error).changing(last);
         if self.exponent < 1.0 {
-            return reading;
+            return Ok(reading);
         }
         let unit = solution.body_mass(target) * STANDARD_GRAVITY;
-        let blows = impulses::within(&blows, span.window());
-        let jumps = blows.iter().map(|own| own.impulse.abs() / unit).sum();
+        let jumps = impulses::within(&jumps, span.window());
+        let sum = jumps.iter().map(|own| own.impulse.abs() / unit).sum();
         let error = solution.velocity_error(target).map(|error| 2.0 * error / STANDARD_GRAVITY);
-        let error = error.map(|each| blows.iter().map(|_| each).sum());
-        with_blows(reading, jumps, jumps, error)
+        let error = error.map(|each| jumps.iter().map(|_| each).sum());
+        Ok(reading.plus(sum, sum, error))
     }
 }

@@ -1,33 +1,6 @@
 //! How far measures are moved by what is left out.
 
-use serde::Serialize;
-
-use crate::{MeasureReport, RunReport};
-
-/// How far a measure is moved by what was left out.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Cost {
-    /// Key of the measure, for instance `padding.peak-force`.
-    pub measure: String,
-    /// The difference over the larger of both values, or over a twentieth of the larger size where the values
-    /// are next to nothing beside it; infinite where only one has a value.
-    pub relative: f64,
-    /// How far it may be off, by the errors of both, in the same parts; 0 where they were
-    /// not estimated.
-    pub uncertainty: f64,
-}
-
-impl Cost {
-    /// The largest move that the errors allow.
-    pub fn most(&self) -> f64 {
-        self.relative + self.uncertainty
-    }
-
-    /// The one of both that is larger.
-    pub(super) fn larger(self, other: Self) -> Self {
-        if other.most() > self.most() { other } else { self }
-    }
-}
+use crate::{MeasureReport, RunReport, partial::Cost};
 
 /// A network's measures with and without something.
 #[derive(Debug, Clone)]

@@ -11,9 +11,6 @@
 //! A single run becomes no cheaper by this: it takes two solutions or more in place of one. A
 //! [`sweep`] is checked at some of its points only.
 
-pub mod contribution;
-pub(crate) mod segmentation;
-
 mod candidates;
 mod cost;
 mod sweep;
@@ -22,114 +19,34 @@ mod trial;
 #[cfg(test)]
 mod tests;
 
-use std::{sync::Arc, time::Duration};
+use std::sync::Arc;
 
 use dashpot_dae::Observer;
-use dashpot_network::{Assembly, Detail, Influence, Network};
+use dashpot_network::{Assembly, Detail, Network};
 
+pub use self::sweep::{PartialSweep, Saving, sweep};
 pub(crate) use self::sweep::{decide, spread};
 use self::{
     candidates::{Candidate, candidates},
-    cost::{Comparison, charged},
+    cost::charged,
     trial::{Trial, settle},
 };
-pub use self::{
-    cost::Cost,
-    sweep::{PartialSweep, Saving, sweep},
-};
-use crate::{RunError, RunReport, SolveSettings, solve_assembly};
+pub use crate::report::partial::{Cost, Neglected, Partial, PutBack, Verification, Why};
+use crate::{RunError, RunReport, SolveSettings};
 
-/// What was left out of a run, and what it cost.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Partial {
-    /// The bound: the part of its value, or of a twentieth of its size, by which a measure may move.
-    pub bound: f64,
-    /// What was left out, the largest influence first.
-    pub left_out: Vec<Neglected>,
-    /// What stayed although its estimate was below the bound.
-    pub put_back: Vec<PutBack>,
-    /// How far each measure is moved by all that was left out together; none where nothing was.
-    pub costs: Vec<Cost>,
-    /// Measures of things that only what was left out brings, and that nobody asked for.
-    pub unreported: Vec<String>,
-    /// What finding this out took.
-    pub verification: Verification,
-}
-
-/// An effect that was left out.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Neglected {
-    /// What it is called, for instance `gravity` or `inertia of padding`.
-    pub effect: String,
-    /// The largest of its dimensionless numbers.
-    pub influence: Influence,
-    /// The measure that it moves the most by itself, where it was left out alone.
-    pub alone: Option<Cost>,
-}
-
-/// An effect that stayed although its estimate was below the bound.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PutBack {
-    /// What it is called.
-    pub effect: String,
-    /// The largest of its dimensionless numbers.
-    pub influence: Influence,
-    /// Why it stayed.
-    pub why: Why,
-}
-
-/// Why an effect stayed.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Why {
-    /// By itself, or with what else was left out, it moves this measure by more than the bound.
-    Moves(Cost),
-    /// What is asked of the run does not exist without it, or the run fails.
-    Fails(RunError),
-    /// An element that can part would pull, as if glued.
-    Pulls {
-        /// Its name.
-        element: String,
-        /// From when on \[s\].
-        time: f64,
-    },
-}
-
-/// Work beyond the solution that is reported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Verification {
-    /// Further runs, each with its own error estimates.
-    pub solves: usize,
-    /// Wall-clock time of those.
-    pub wall: Duration,
-}
-
-impl Partial {
-    /// The measure that what was left out moves the most.
-    pub fn worst(&self) -> Option<&Cost> {
-        self.costs.iter().max_by(|one, other| one.most().total_cmp(&other.most()))
-    }
-}
-
-/// Solves a network that is compiled already; where the accuracy has a bound for what may be left
-/// out, without what is shown to matter less. Otherwise as [`solve_assembly`], without any further
-/// solution.
-///
-/// The errors of measures include what was left out, and what the segments of layers make of them:
-/// the latter takes one further solution.
+/// Solves a network that is compiled already without what is shown to move no measure by more than
+/// `bound`; and what that is. The errors of measures include what was left out.
 ///
 /// # Errors
 ///
-/// As [`solve_assembly`].
-pub fn solve_partial(
+/// As [`solve_assembly`](crate::solve_assembly).
+pub(crate) fn reduced(
     network: &Network,
     assembly: &Arc<Assembly>,
     settings: &SolveSettings,
+    bound: f64,
     observer: &mut dyn Observer,
-) -> Result<RunReport, RunError> {
-    let Some(bound) = settings.accuracy.neglect_below else {
-        let report = solve_assembly(assembly, &words(network), settings, observer)?;
-        return segmentation::charged(network, report, settings, observer);
-    };
+) -> Result<(RunReport, Vec<Detail>), RunError> {
     settings.validate()?;
     let mut found = candidates(network, settings.duration, bound);
     let mut trial = Trial::of(network, assembly, settings, observer)?;
@@ -156,10 +73,5 @@ pub fn solve_partial(
     };
     partial.verification = Verification { solves: solves - 1, wall: wall.saturating_sub(own) };
     report.partial = Some(partial);
-    segmentation::charged(&network.without(&details), report, settings, observer)
-}
-
-/// The words of the effects that are on.
-pub(crate) fn words(network: &Network) -> Vec<&'static str> {
-    network.effects().iter().map(|effect| effect.kind()).collect()
+    Ok((report, details))
 }

@@ -10,7 +10,8 @@ use dashpot_dae::Observer;
 use dashpot_network::{Detail, Network};
 
 use super::{
-    Candidate, Cost, Neglected, PutBack, candidates,
+    Cost, Neglected, PutBack,
+    candidates::{Candidate, candidates},
     cost::charged,
     trial::{Trial, is_cancelled, settle, solve_without},
 };

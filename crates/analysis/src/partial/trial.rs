@@ -8,8 +8,11 @@ use std::{
 use dashpot_dae::{Observer, SolveError};
 use dashpot_network::{Assembly, Detail, Network};
 
-use super::{Candidate, Comparison, Cost, PutBack, Why, words};
-use crate::{Contact, RunError, RunReport, SolveSettings, solve_assembly};
+use super::{Cost, PutBack, Why, candidates::Candidate, cost::Comparison};
+use crate::{
+    Contact, RunError, RunReport, SolveSettings,
+    run::{solve_assembly, words},
+};
 
 /// A network that was solved in full, to be solved again without some of its details.
 pub(super) struct Trial<'n> {

@@ -1,15 +1,11 @@
 //! The report of a run.
 
 pub(crate) mod difference;
-pub(crate) mod events;
 pub(crate) mod excerpt;
-pub(crate) mod extremes;
-pub(crate) mod note;
+pub(crate) mod partial;
 pub(crate) mod sample;
 pub mod verdict;
 pub(crate) mod warning;
-pub(crate) mod warnings;
-pub(crate) mod wording;
 
 use std::{collections::HashMap, sync::Arc, time::Duration};
 
@@ -20,10 +16,10 @@ use dashpot_network::{
 };
 use serde::Serialize;
 
-use crate::{
-    Impact, Ledger, Note, Partial, Segmentation, Solution, Warning, errors::accuracy::FIRST_DIGIT,
-};
+use crate::{Impact, Ledger, Note, Partial, Segmentation, Solution, Warning};
 
+/// Error in parts of a value whose first digit is just known.
+pub(crate) const FIRST_DIGIT: f64 = 0.1;
 /// In networks of more elements than this nobody looks for the largest force of all.
 const MOST_ELEMENTS: usize = 200;
 
@@ -86,10 +82,24 @@ pub struct SystemReport {
     pub states: usize,
     /// Algebraic unknowns.
     pub algebraic: usize,
-    /// Modes between which the system can switch.
+    /// Modes between which the system can switch: how many combinations of phases there are, as many as
+    /// fit into the number.
     pub modes: usize,
     /// Effects that are on.
     pub effects: Vec<&'static str>,
+}
+
+impl SystemReport {
+    /// Counts what a network without effects was compiled to.
+    pub(crate) fn of(assembly: &Assembly) -> Self {
+        let parts = assembly.switching.iter().flat_map(|own| own.parts());
+        Self {
+            states: assembly.system.states(),
+            algebraic: assembly.system.algebraic(),
+            modes: parts.map(|part| part.phases.len()).fold(1, usize::saturating_mul),
+            effects: Vec::new(),
+        }
+    }
 }
 
 /// One measure.
@@ -222,7 +232,7 @@ impl RunReport {
         let connections = self.assembly.connections.iter().enumerate();
         let forces = connections.filter_map(|(at, connection)| {
             let force = solution.signal(connection.force?);
-            let peak = match solution.element_blows(at).first() {
+            let peak = match solution.element_jumps(at).first() {
                 Some(blow) => Extremum { time: blow.time, value: f64::INFINITY },
                 None => force.absolute_maximum(window),
             };

@@ -7,11 +7,15 @@ use dashpot_network::{HeldTable, NetworkWarning, parameters::Dimension};
 
 use crate::{
     Idle, Leak, Note,
-    report::wording::{percent, quantity},
+    wording::{percent, quantity},
 };
 
 /// How many measures one warning names.
 const NAMED: usize = 4;
+
+/// Closure in parts of the energy turned over, and deformation in parts of a thickness, that rounding may
+/// leave.
+pub(crate) const ROUNDING: f64 = 1e-10;
 
 /// Something that the reader of a report must know.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 use dashpot_dae::Silent;
 use dashpot_network::{Network, parameters::Dimension};
 
-use super::{Scale, Similarity, inventory::with_value};
+use super::{Scale, Similarity, inventory::with_value, scale::similar_measure};
 use crate::{
     MeasureReport, MeasureWish, RunError, RunReport, SolveSettings, Stop,
     measures::selection::select, report::difference::over, solve,
@@ -60,7 +60,7 @@ pub struct Alone {
 pub fn similar_settings(settings: &SolveSettings, scale: &Scale) -> (SolveSettings, Vec<String>) {
     let (mut measures, mut left_out) = (Vec::new(), Vec::new());
     for wish in &settings.measures {
-        match wish.measure.of_similar(scale) {
+        match similar_measure(wish.measure.as_ref(), scale) {
             Some(measure) => measures.push(MeasureWish { target: wish.target.clone(), measure }),
             None => left_out.push(format!("{}.{}", wish.target, wish.measure.kind())),
         }
@@ -145,7 +145,7 @@ pub fn alone(
 
 /// The settings without the measures that have no counterpart at a scale.
 fn with_counterparts(settings: &SolveSettings, scale: &Scale) -> SolveSettings {
-    let has_one = |wish: &&MeasureWish| wish.measure.of_similar(scale).is_some();
+    let has_one = |wish: &&MeasureWish| similar_measure(wish.measure.as_ref(), scale).is_some();
     let measures = settings.measures.iter().filter(has_one).cloned().collect();
     SolveSettings { measures, ..settings.clone() }
 }

@@ -33,5 +33,4 @@ pub use groups::{Group, Groups, Reference};
 pub use inventory::{Inventory, Quantity};
 pub use laboratory::{Chosen, Laboratory, Wish};
 pub use measured::{Alone, Measured, alone, measured, similar_settings};
-pub(crate) use scale::scaled_values;
 pub use scale::{Scale, scaled};

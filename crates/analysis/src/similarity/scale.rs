@@ -1,8 +1,10 @@
 //! Scales between similar scenes.
 
+use std::sync::Arc;
+
 use dashpot_network::{
     Network,
-    parameters::{Dimension, InvalidParameter, Parameter, Value},
+    parameters::{Dimension, InvalidParameter},
 };
 
 use super::{
@@ -90,12 +92,12 @@ pub fn scaled(network: &Network, scale: &Scale) -> Result<Network, InvalidParame
     walk(network, &mut visit)
 }
 
-/// The values of parameters in the similar scene; `None` where one leaves its range.
-pub(crate) fn scaled_values(
-    parameters: &[Parameter],
-    values: &[Value],
-    scale: &Scale,
-) -> Option<Vec<Value>> {
+/// The measure that tells the same of a scene that is similar at this scale: its parameters times the
+/// factors of their dimensions. A measure with a time of its own has another kind for its counterpart, or
+/// none.
+pub(super) fn similar_measure(measure: &dyn Measure, scale: &Scale) -> Option<Arc<dyn Measure>> {
+    let general = measure.general()?;
     let mut visit = *scale;
-    walk_values("", parameters, values, &mut visit).ok()
+    let values = walk_values("", general.parameters(), &general.values(), &mut visit).ok()?;
+    general.with_values(&values).ok()
 }

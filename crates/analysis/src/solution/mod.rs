@@ -7,14 +7,17 @@ use std::{
 };
 
 use dashpot_dae::{Signal, Trajectory};
-use dashpot_network::{Assembly, ConnectionOutputs, NodeId};
+use dashpot_network::{Assembly, ConnectionOutputs, NodeId, parameters::WindowWish};
 
-use crate::impact::{
-    bodies::{self, Members},
-    contacts,
-    face::{self, FaceContact, Struck, Through},
-    impulses::{self, Blow},
-    interval::{Impact, NO_PULL, first_felt, first_way},
+use crate::{
+    Note,
+    impact::{
+        bodies::{self, Members},
+        contacts,
+        face::{self, FaceContact, Struck, Through},
+        impulses::{self, VelocityJump},
+        interval::{Impact, NO_PULL, Span, first_felt, first_way},
+    },
 };
 
 mod grazing;
@@ -61,7 +64,7 @@ pub(crate) struct Known {
     twins: Twins,
     element_impacts: Vec<OnceCell<Box<Impact>>>,
     body_impacts: Vec<OnceCell<Box<Impact>>>,
-    blows: OnceCell<Vec<Vec<Blow>>>,
+    blows: OnceCell<Vec<Vec<VelocityJump>>>,
     faces: OnceCell<Vec<(usize, FaceContact)>>,
     members: OnceCell<Members>,
     scene_impact: OnceCell<Impact>,
@@ -239,7 +242,7 @@ impl<'a> Solution<'a> {
             }
             Box::new(match connection.force {
                 Some(force) if self.touches_impactor(connection) => {
-                    let (blows, doubt) = (self.element_blows(element), self.doubt_of(connection));
+                    let (blows, doubt) = (self.element_jumps(element), self.doubt_of(connection));
                     let impact = Impact::of_contact(self.signal(force), blows, self.end(), doubt);
                     self.ended(impact, Feels::Element(element))
                 }
@@ -267,7 +270,7 @@ impl<'a> Solution<'a> {
             let own = match self.push_on(body) {
                 Some(force) => {
                     let doubt = self.doubt_of_body(body);
-                    let blows = self.body_blows(body);
+                    let blows = self.body_jumps(body);
                     let impact = Impact::of_contact(&force, &blows, self.end(), doubt);
                     self.ended(impact, Feels::Body(body))
                 }
@@ -278,26 +281,64 @@ impl<'a> Solution<'a> {
         })
     }
 
+    /// The part of the run that a measure of the element number `element` looks at.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none.
+    pub fn element_span(&self, element: usize, wish: WindowWish) -> Result<Span, Note> {
+        self.element_impact(element).span(wish, self.end())
+    }
+
+    /// The part of the run that a measure of the node number `node` looks at.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none.
+    pub fn node_span(&self, node: usize, wish: WindowWish) -> Result<Span, Note> {
+        self.node_impact(node).span(wish, self.end())
+    }
+
+    /// The force of the element number `element` \[N\], positive in compression.
+    ///
+    /// # Errors
+    ///
+    /// [`Note::NoForce`] of a rigid link in a loop of rigid links.
+    pub fn element_force(&self, element: usize) -> Result<&Signal, Note> {
+        let force = self.assembly.connections[element].force.ok_or(Note::NoForce)?;
+        Ok(self.signal(force))
+    }
+
+    /// What an accelerometer on the node number `node` reads \[m/s²\].
+    ///
+    /// # Errors
+    ///
+    /// [`Note::Massless`] of a node that is no mass that the forces on it move.
+    pub fn node_acceleration(&self, node: usize) -> Result<&Signal, Note> {
+        let acceleration = self.assembly.nodes[node].acceleration.ok_or(Note::Massless)?;
+        Ok(self.signal(acceleration))
+    }
+
     /// Whether the element number `element` has a contact in it.
     pub(crate) fn has_contact(&self, element: usize) -> bool {
         contacts::has_contact(self.assembly, &self.assembly.connections[element])
     }
 
-    /// The impulses in the element number `element`.
-    pub(crate) fn element_blows(&self, element: usize) -> &[Blow] {
-        self.all_blows().get(element).map_or(&[], Vec::as_slice)
+    /// The velocity jumps at which masses meet in the element number `element`, in order of time.
+    pub fn element_jumps(&self, element: usize) -> &[VelocityJump] {
+        self.all_jumps().get(element).map_or(&[], Vec::as_slice)
     }
 
-    /// The impulses at which the speed of the node number `node` jumps.
-    pub(crate) fn node_blows(&self, node: usize) -> Vec<Blow> {
-        self.body_blows(self.assembly.nodes[node].body)
+    /// The velocity jumps of the node number `node`, in order of time.
+    pub fn node_jumps(&self, node: usize) -> Vec<VelocityJump> {
+        self.body_jumps(self.assembly.nodes[node].body)
     }
 
-    fn body_blows(&self, body: usize) -> Vec<Blow> {
-        impulses::on_body(self.assembly, self.all_blows(), body)
+    fn body_jumps(&self, body: usize) -> Vec<VelocityJump> {
+        impulses::on_body(self.assembly, self.all_jumps(), body)
     }
 
-    fn all_blows(&self) -> &[Vec<Blow>] {
+    fn all_jumps(&self) -> &[Vec<VelocityJump>] {
         self.known.blows.get_or_init(|| impulses::by_connection(self.assembly, self.trajectory))
     }
 
@@ -327,7 +368,7 @@ impl<'a> Solution<'a> {
         let connections = &self.assembly.connections;
         let struck = Struck {
             touch: self.signal(connections[face.connection].force?),
-            blows: self.element_blows(face.connection),
+            blows: self.element_jumps(face.connection),
             padding: self.signal(connections[element].force?),
             run_end: self.end(),
         };
@@ -349,12 +390,12 @@ impl<'a> Solution<'a> {
     }
 
     /// Bound of the error of the velocity of a node \[m/s\], where it has one.
-    pub(crate) fn velocity_error(&self, node: usize) -> Option<f64> {
+    pub fn velocity_error(&self, node: usize) -> Option<f64> {
         self.glance(self.assembly.nodes[node].velocity?).error
     }
 
     /// The mass of the body that a node belongs to \[kg\].
-    pub(crate) fn body_mass(&self, node: usize) -> f64 {
+    pub fn body_mass(&self, node: usize) -> f64 {
         self.members().mass(self.assembly.nodes[node].body)
     }
 
@@ -362,7 +403,7 @@ impl<'a> Solution<'a> {
     /// touches it.
     fn push_on(&self, body: usize) -> Option<Signal> {
         let force = resting_from_switches(self.force_on(body)?, &self.trajectory.switches);
-        let pushes = first_pushes(&force, &self.body_blows(body));
+        let pushes = first_pushes(&force, &self.body_jumps(body));
         Some(if pushes { force } else { force.scaled(-1.0) })
     }
 
@@ -423,7 +464,7 @@ impl<'a> Solution<'a> {
 }
 
 /// Whether the first force or impulse is positive; so is none.
-fn first_pushes(force: &Signal, blows: &[Blow]) -> bool {
+fn first_pushes(force: &Signal, blows: &[VelocityJump]) -> bool {
     match first_felt(blows, force).filter(|blow| Impact::begins_with(blow, force)) {
         Some(blow) => blow.impulse > 0.0,
         None => first_way(force) != Some(false),

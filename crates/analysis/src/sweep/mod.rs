@@ -17,6 +17,7 @@ mod full;
 mod grid;
 mod march;
 mod neglect;
+mod posed;
 mod report;
 mod stamped;
 mod sums;

@@ -7,7 +7,7 @@ use dashpot_network::{
 
 use super::{
     Column, Grid, Pose, Posed as Scene,
-    march::{Figure, Impact, Posed, Wanted},
+    posed::{Figure, Impact, Posed, Wanted},
     table::Table,
     warned::Notice,
 };
@@ -16,7 +16,7 @@ use crate::{
         STANDARD_GRAVITY,
         selection::{Selected, select},
     },
-    report::warnings::ROUNDING,
+    report::warning::ROUNDING,
 };
 
 /// A value that is less certain than this part of itself is left to the full solution.

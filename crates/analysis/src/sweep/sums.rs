@@ -5,7 +5,7 @@ use dashpot_numerics::{
     small::{Square, apply, apply_left, dot},
 };
 
-use super::march::{Figure, Impact, Posed, Wanted};
+use super::posed::{Figure, Impact, Posed, Wanted};
 
 /// Terms of the series of a force within a step.
 const TERMS: usize = 24;

@@ -16,7 +16,7 @@ use super::{
     linearity,
     observed::{Found, Observed},
 };
-use crate::{Solution, SolveSettings, report::wording::quantity, solve_assembly};
+use crate::{Solution, SolveSettings, solve_assembly, wording::quantity};
 
 /// A contact counts as loose at rest where it carries less than this part of the largest force.
 const LOOSE: f64 = 1e-9;

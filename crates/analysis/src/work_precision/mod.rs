@@ -55,7 +55,7 @@ use self::{point::Bench, truth::Judge, watch::Watch};
 use crate::{
     Choice, RunError, SolveSettings,
     measures::selection::{Selected, select},
-    solve::{choice, guards},
+    run::{choice, guards},
 };
 
 /// What is tried.

@@ -44,6 +44,9 @@ pub struct Ledger {
 }
 
 impl Ledger {
+    /// Part of the energy turned over beyond which a balance that does not close fails the run.
+    pub(crate) const MOST_LOST: f64 = 0.01;
+
     /// All work done from outside \[J\].
     pub fn total_work_in(&self) -> f64 {
         total(&self.work_in)

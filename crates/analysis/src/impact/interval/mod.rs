@@ -3,7 +3,7 @@
 use dashpot_dae::{Crossing, Panel, Signal};
 use dashpot_network::parameters::WindowWish;
 
-use crate::{Note, impact::impulses::Blow};
+use crate::{Note, impact::impulses::VelocityJump};
 
 /// How the contact of an impact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +65,12 @@ impl Impact {
     }
 
     /// The impact of a contact force with the impulses that act beside it.
-    pub(crate) fn of_contact(force: &Signal, blows: &[Blow], run_end: f64, doubt: f64) -> Self {
+    pub(crate) fn of_contact(
+        force: &Signal,
+        blows: &[VelocityJump],
+        run_end: f64,
+        doubt: f64,
+    ) -> Self {
         let Some(first) = first_felt(blows, force).filter(|blow| Self::begins_with(blow, force))
         else {
             return Self::of_force(force, run_end, doubt);
@@ -85,7 +90,7 @@ impl Impact {
     }
 
     /// Whether nothing acts before the blow.
-    pub(crate) fn begins_with(blow: &Blow, force: &Signal) -> bool {
+    pub(crate) fn begins_with(blow: &VelocityJump, force: &Signal) -> bool {
         first_load(force).is_none_or(|loaded| blow.time <= loaded)
     }
 
@@ -170,9 +175,12 @@ impl Impact {
         self.has_ended() || self.contact == Contact::Lasting
     }
 
-    /// The part of a run of `run_end` \[s\] that a measure with the given wish looks at; `Err` says
-    /// why there is none.
-    pub(crate) fn span(self, wish: WindowWish, run_end: f64) -> Result<Span, Note> {
+    /// The part of a run of `run_end` \[s\] that a measure with the given wish looks at.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none.
+    pub fn span(self, wish: WindowWish, run_end: f64) -> Result<Span, Note> {
         let fixed = |from, to, note| Ok(Span { from, to, to_error: Some(0.0), note });
         match wish {
             WindowWish::Run => fixed(0.0, run_end, None),
@@ -299,7 +307,10 @@ pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
 }
 
 /// The first impulse of those that act beside a force which is not next to nothing.
-pub(crate) fn first_felt<'b>(blows: &'b [Blow], force: &Signal) -> Option<&'b Blow> {
+pub(crate) fn first_felt<'b>(
+    blows: &'b [VelocityJump],
+    force: &Signal,
+) -> Option<&'b VelocityJump> {
     let most = blows.iter().map(|blow| blow.impulse.abs()).reduce(f64::max)?;
     let size = most.max(force.integral((0.0, force.end())).abs());
     blows.iter().find(|blow| blow.impulse.abs() > SMALLEST_BLOW * size)

@@ -55,9 +55,9 @@ fn touch_of_rounding_before_the_push_is_none() {
         assert_eq!(impact.contact, Contact::Parted);
     }
     let span = |impact: Impact| (impact.start, impact.end);
-    let faint = Blow { time: 0.0, impulse: 1e-14, lost: 0.0 };
+    let faint = VelocityJump { time: 0.0, impulse: 1e-14, lost: 0.0 };
     assert_eq!(span(Impact::of_contact(&force, &[faint], 8.0, NO_PULL)), (4.0, 6.0));
-    let real = Blow { impulse: 1.0, ..faint };
+    let real = VelocityJump { impulse: 1.0, ..faint };
     assert_eq!(span(Impact::of_contact(&force, &[faint, real], 8.0, NO_PULL)), (0.0, 0.0));
 }
 

@@ -11,7 +11,7 @@ use crate::{
     energy::ledger::{Ledger, ledger},
     impact::bodies,
     measures::{
-        CoefficientOfRestitution, ContactTime, EndVelocity, Energy, MeasureKind, PeakAcceleration,
+        CoefficientOfRestitution, ContactTime, EndVelocity, Energy, Measure, PeakAcceleration,
         PeakDeformation, PeakForce, TransmittedForce,
     },
 };
@@ -406,13 +406,13 @@ impl<'r> Found<'r> {
     fn leaving(self, element: &str) -> Option<Leaving<'r>> {
         let solution = self.0.solution();
         let speeds = self.impactors(Some(element)).into_iter().filter_map(|(at, node)| {
-            let reading = MeasureKind::read(&EndVelocity::default(), &solution, at);
+            let reading = Measure::read(&EndVelocity::default(), &solution, at);
             Some((node, reading.value?))
         });
         let (node, speed) = speeds.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
         let returns = speed * node.start_velocity.unwrap_or(0.0) < 0.0;
         let at = self.0.assembly.position(element)?;
-        let restitution = MeasureKind::read(&CoefficientOfRestitution::default(), &solution, at);
+        let restitution = Measure::read(&CoefficientOfRestitution::default(), &solution, at);
         let restitution = restitution.value.filter(|_| returns);
         Some(Leaving { impactor: &node.name, speed: speed.abs(), returns, restitution })
     }

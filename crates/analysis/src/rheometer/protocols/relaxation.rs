@@ -3,7 +3,6 @@
 use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{LONG, deforms};
-use crate::report::wording::quantity;
 use crate::rheometer::{
     FROM_THE_MODEL, Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
     given::{self, check_end, points_used, setting},
@@ -11,6 +10,7 @@ use crate::rheometer::{
     rig::Control,
     trial::Trial,
 };
+use crate::wording::quantity;
 
 /// Part of the model's fastest time that a step takes where it cannot be sudden.
 const QUICK: f64 = 0.01;

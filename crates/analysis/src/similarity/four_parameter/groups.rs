@@ -1,8 +1,6 @@
 //! The thesis' groups (2.27 to 2.36, appendices C and D with their misprints mended).
 
-use std::fmt;
-
-use super::{FourParameterPadding, FourParameterSupport, ImpactScales};
+use super::{FourParameterPadding, FourParameterSupport, ImpactScales, Ranges};
 use crate::similarity::SimilarityError;
 
 /// The nine groups of the thesis.
@@ -32,22 +30,6 @@ pub struct FourParameterGroups {
     pub beta: f64,
     /// `γ = m₁/m₃`.
     pub gamma: f64,
-}
-
-/// The open ranges of `a`, `b`, `c` and `d`, each with the others as they are, in which there is a
-/// padding; `None` where there is one for no value.
-///
-/// Shown as `a > 16.667; 0 < b < 166.67; no c; no d`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ranges {
-    /// That of `a`, which has no upper end.
-    pub a: (f64, f64),
-    /// That of `b`.
-    pub b: Option<(f64, f64)>,
-    /// That of `c`.
-    pub c: Option<(f64, f64)>,
-    /// That of `d`.
-    pub d: Option<(f64, f64)>,
 }
 
 impl FourParameterGroups {
@@ -184,22 +166,4 @@ impl FourParameterGroups {
             Err(SimilarityError::NoPadding { q, ranges: Box::new(self.ranges()) })
         }
     }
-}
-
-impl fmt::Display for Ranges {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "a > {}", five(self.a.0))?;
-        for (name, range) in [("b", self.b), ("c", self.c), ("d", self.d)] {
-            match range {
-                Some((from, to)) => write!(f, "; {} < {name} < {}", five(from), five(to))?,
-                None => write!(f, "; no {name}")?,
-            }
-        }
-        Ok(())
-    }
-}
-
-/// A number with five digits.
-fn five(value: f64) -> f64 {
-    format!("{value:.4e}").parse().unwrap_or(value)
 }

@@ -13,8 +13,8 @@ use dashpot_network::{
 };
 
 pub use self::{
-    groups::{FourParameterGroups, Ranges},
-    parts::{FourParameterPadding, FourParameterSupport, ImpactScales},
+    groups::FourParameterGroups,
+    parts::{FourParameterPadding, FourParameterSupport, ImpactScales, Ranges},
 };
 use super::SimilarityError;
 

@@ -1,5 +1,7 @@
 //! What an impact of the thesis' form is made of, in SI units.
 
+use std::fmt;
+
 use dashpot_network::{
     Model,
     elements::{Dashpot, Spring},
@@ -90,4 +92,38 @@ fn kelvin_voigt(stiffness: f64, damping: f64) -> Model {
         Branch::new("spring", part(Spring { stiffness })),
         Branch::new("dashpot", part(Dashpot { damping })),
     ])
+}
+
+/// The open ranges of `a`, `b`, `c` and `d`, each with the others as they are, in which there is a
+/// padding; `None` where there is one for no value.
+///
+/// Shown as `a > 16.667; 0 < b < 166.67; no c; no d`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ranges {
+    /// That of `a`, which has no upper end.
+    pub a: (f64, f64),
+    /// That of `b`.
+    pub b: Option<(f64, f64)>,
+    /// That of `c`.
+    pub c: Option<(f64, f64)>,
+    /// That of `d`.
+    pub d: Option<(f64, f64)>,
+}
+
+impl fmt::Display for Ranges {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a > {}", five(self.a.0))?;
+        for (name, range) in [("b", self.b), ("c", self.c), ("d", self.d)] {
+            match range {
+                Some((from, to)) => write!(f, "; {} < {name} < {}", five(from), five(to))?,
+                None => write!(f, "; no {name}")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A number with five digits.
+fn five(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
 }

@@ -7,7 +7,7 @@ use std::fmt;
 use parts::{Parts, count};
 
 use super::ledger;
-use crate::{Solution, report::wording::quantity};
+use crate::{Solution, wording::quantity};
 
 /// Equal slices of the run that are balanced one by one, besides the instants of switches.
 const SLICES: u32 = 128;

@@ -1,0 +1,84 @@
+//! Integrals over time, and means.
+
+use dashpot_network::{parameters, parameters::WindowWish};
+
+use super::{Family, MeasureKind, Needs, Reading, WINDOW};
+use crate::{Note, Solution, impact::impulses};
+
+parameters! {
+    /// The integral of an element's force over time, `∫ F dt` \[N s\], positive in compression, and the
+    /// impulses with which masses meet in it.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct Impulse: "impulse", "integral of the force over time [N s]" {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
+    }
+}
+
+impl MeasureKind for Impulse {
+    const UNIT: &'static str = "N s";
+    const APPLIES_TO: Family = Family::Element;
+    const BY_DEFAULT: bool = true;
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let force = solution.element_force(target)?;
+        let span = solution.element_span(target, self.window)?;
+        let connection = &solution.assembly().connections[target];
+        let jumps = impulses::within(solution.element_jumps(target), span.window());
+        let sum: f64 = jumps.iter().map(|own| own.impulse).sum();
+        // An impulse is the lighter side's mass times no more than twice the speed of approach.
+        let mass = connection.between.map(|end| {
+            let at = end.index();
+            let is_free = solution.assembly().nodes[at].free;
+            if is_free { solution.body_mass(at) } else { f64::INFINITY }
+        });
+        let of_approach = if jumps.is_empty() { None } else { solution.approach(connection).error };
+        let each = of_approach.map(|error| 2.0 * mass[0].min(mass[1]) * error);
+        let error = each.map(|each| each * jumps.iter().map(|_| 1.0).sum::<f64>());
+        Ok(Reading::integral(force, &span).plus(sum, sum.abs(), error))
+    }
+}
+
+parameters! {
+    /// The magnitude of the mean of what an accelerometer on a body reads, `|∫ a dt| / T` \[m/s²\]:
+    /// without gravity the change of velocity over the time `T` that it takes, jumps included.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct AverageDeceleration: "average-deceleration",
+        "mean of what an accelerometer reads [m/s^2]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
+    }
+}
+
+impl MeasureKind for AverageDeceleration {
+    const UNIT: &'static str = "m/s^2";
+    const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let acceleration = solution.node_acceleration(target)?;
+        let span = solution.node_span(target, self.window)?;
+        let length = span.length();
+        let jumps = solution.node_jumps(target);
+        if length <= 0.0 {
+            return Reading::infinite(&span, &jumps).ok_or(Note::NoLength);
+        }
+        let jumps = impulses::within(&jumps, span.window());
+        let mass = solution.body_mass(target);
+        let jump: f64 = jumps.iter().map(|own| own.impulse / mass).sum();
+        let size: f64 = jumps.iter().map(|own| own.impulse.abs() / mass).sum();
+        let error = solution.velocity_error(target).map(|error| 2.0 * error);
+        let error = error.map(|each| jumps.iter().map(|_| each).sum());
+        let impulse = Reading::integral(acceleration, &span).plus(jump, size, error);
+        let value = impulse.value.map_or(f64::NAN, |value| value.abs() / length);
+        // A longer window adds to the integral, and divides it by more.
+        let stretch = span.to_error.map(|shift| value * shift / length);
+        let error = impulse.error.zip(stretch).map(|(error, stretch)| error / length + stretch);
+        let end_rate = (impulse.end_rate + value) / length;
+        Ok(Reading::over(&span, value, error)
+            .of_size(impulse.size / length)
+            .above(impulse.noise / length)
+            .changing(end_rate))
+    }
+}

@@ -1,0 +1,149 @@
+//! The largest values of forces, deformations and motions.
+
+use dashpot_network::{parameters, parameters::WindowWish};
+
+use super::{Family, MeasureKind, Needs, Reading, WINDOW, reading::peaks_below_zero};
+use crate::{Note, Solution, impact::impulses};
+
+parameters! {
+    /// The largest magnitude of an element's force, `max |F(t)|` \[N\], with its time.
+    ///
+    /// It is the force of the element alone. Of a padding whose face has mass it is `F2`, behind the face;
+    /// what strikes the face feels `F1 = F2 + m2 x1″`, the peak force of `<element>.contact`. A stop beside
+    /// the element has a force of its own, `<element>.stop`;
+    /// [`TransmittedForce`](super::TransmittedForce) is what comes through both.
+    ///
+    /// In an impact the force pushes throughout; in other windows a peak in tension is noted. Where masses
+    /// meet in the element and speeds jump, it is infinite.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakForce: "peak-force",
+        "largest magnitude of the force, positive in compression [N]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
+    }
+}
+
+impl MeasureKind for PeakForce {
+    const UNIT: &'static str = "N";
+    const APPLIES_TO: Family = Family::Element;
+    const BY_DEFAULT: bool = true;
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let force = solution.element_force(target)?;
+        let span = solution.element_span(target, self.window)?;
+        if let Some(reading) = Reading::infinite(&span, solution.element_jumps(target)) {
+            return Ok(reading);
+        }
+        let reading = Reading::peak(force, &span);
+        Ok(reading.noting_if(peaks_below_zero(force, &span), Note::InTension))
+    }
+}
+
+parameters! {
+    /// The largest magnitude of an element's deformation, `max |y(t)|` \[m\], with its time; a peak in
+    /// elongation is noted. Of what never pulls it is the deepest compression, `max y(t) ≥ 0`: what it is
+    /// apart by is a gap.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakDeformation: "peak-deformation",
+        "largest magnitude of the deformation, positive in compression [m]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
+    }
+}
+
+impl MeasureKind for PeakDeformation {
+    const UNIT: &'static str = "m";
+    const APPLIES_TO: Family = Family::Element;
+    const BY_DEFAULT: bool = true;
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let span = solution.element_span(target, self.window)?;
+        let connection = &solution.assembly().connections[target];
+        let deformation = solution.signal(connection.deformation);
+        if connection.never_pulls {
+            return Ok(Reading::positive_peak(deformation, &span));
+        }
+        let mut reading = Reading::peak(deformation, &span);
+        if solution.has_contact(target) {
+            // At a contact it is the remainder of the way that its ends have come to meet.
+            reading = reading.of_size(deformation.bound());
+        }
+        Ok(reading.noting_if(peaks_below_zero(deformation, &span), Note::InElongation))
+    }
+}
+
+parameters! {
+    /// The largest magnitude of an element's deformation rate, `max |ẏ(t)|` \[m/s\], with its time.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakRate: "peak-rate", "largest magnitude of the deformation rate [m/s]" {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
+    }
+}
+
+impl MeasureKind for PeakRate {
+    const UNIT: &'static str = "m/s";
+    const APPLIES_TO: Family = Family::Element;
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let span = solution.element_span(target, self.window)?;
+        let connection = &solution.assembly().connections[target];
+        let reading = Reading::peak(&solution.rate_of(connection), &span);
+        // At a jump the rates on both sides count, also that before the span.
+        let jumps = impulses::within(solution.element_jumps(target), (span.from, span.from));
+        let before =
+            jumps.first().map_or(0.0, |own| solution.approach_before(connection, own.time).abs());
+        if reading.value.is_none_or(|value| value >= before) {
+            return Ok(reading);
+        }
+        Ok(Reading { value: Some(before), ..reading }.of_size(before).at(span.from))
+    }
+}
+
+parameters! {
+    /// The largest magnitude of what an accelerometer on a body reads, `max |Σ F_contact|/m` \[m/s²\],
+    /// with its time; free fall is 0. Where the speed jumps, it is infinite.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakAcceleration: "peak-acceleration",
+        "largest magnitude of what an accelerometer reads [m/s^2]"
+    {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
+    }
+}
+
+impl MeasureKind for PeakAcceleration {
+    const UNIT: &'static str = "m/s^2";
+    const APPLIES_TO: Family = Family::Node;
+    const NEEDS: Needs = Needs::Acceleration;
+    const BY_DEFAULT: bool = true;
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let acceleration = solution.node_acceleration(target)?;
+        let span = solution.node_span(target, self.window)?;
+        let infinite = Reading::infinite(&span, &solution.node_jumps(target));
+        Ok(infinite.unwrap_or_else(|| Reading::peak(acceleration, &span)))
+    }
+}
+
+parameters! {
+    /// The largest magnitude of a node's displacement, `max |x(t)|` \[m\], with its time.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakDisplacement: "peak-displacement", "largest magnitude of the displacement [m]" {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
+    }
+}
+
+impl MeasureKind for PeakDisplacement {
+    const UNIT: &'static str = "m";
+    const APPLIES_TO: Family = Family::Node;
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let span = solution.node_span(target, self.window)?;
+        let position = solution.assembly().nodes[target].position;
+        Ok(Reading::peak(solution.signal(position), &span))
+    }
+}

@@ -1,0 +1,174 @@
+//! Which methods are tried, in what order, and whose solution is reported.
+
+use std::sync::Arc;
+
+use dashpot_dae::{Budget, Method, Observer, Run, SolveError, methods};
+
+use crate::{
+    RunError,
+    errors::{
+        refinement::{Outcome, is_same_end},
+        solved::Task,
+    },
+};
+
+/// Work of a further method in parts of what has been done before it, where there is a solution already
+/// that is not as good as is wanted.
+const FURTHER: u64 = 4;
+/// Work of a method with steps where there are more oscillations than `exact` follows: enough where they are
+/// not excited.
+pub(crate) const HOPELESS: u64 = 2_000_000;
+/// Work of a method after one that has failed, or as much as that: some seconds.
+const AFTER_ANOTHER: u64 = 200_000_000;
+/// Such work that is always granted: some tenths of a second.
+const ALWAYS: u64 = 20_000_000;
+
+/// The solution to report.
+pub(crate) struct Found {
+    pub(crate) method: Arc<dyn Method>,
+    pub(crate) why: String,
+    pub(crate) outcome: Outcome,
+}
+
+/// Solves by `method` and, where that fails and `others` are given, by them, the last one first.
+///
+/// Each but the last may take half of what is left of the budget, so that one that is stuck leaves something
+/// to the next; none more than `most`, and those after the first no more than a while, because what ends one
+/// method seldom lets another through.
+///
+/// # Errors
+///
+/// What became of the first one, and of the others.
+pub(crate) fn first_that_solves(
+    task: &Task<'_>,
+    run: &Run,
+    ((mut method, mut why), most): ((Arc<dyn Method>, String), u64),
+    others: &mut Vec<Arc<dyn Method>>,
+    observer: &mut dyn Observer,
+) -> Result<Found, RunError> {
+    let (mut first, mut tried): (Option<RunError>, Vec<&str>) = (None, Vec::new());
+    loop {
+        let share = if others.is_empty() { u64::MAX } else { half(&run.budget, task) };
+        let granted = if first.is_some() { AFTER_ANOTHER.max(run.budget.done()) } else { u64::MAX };
+        let share = run.budget.part(share.min(granted).min(most));
+        let own = Task { method: method.as_ref(), ..*task };
+        let error = match own.run(&Run { budget: share, ..run.clone() }, observer) {
+            Ok(outcome) => match outcome.solved.fault(task.assembly) {
+                Some(error) => error,
+                None => return Ok(Found { method, why, outcome }),
+            },
+            // No other method gets farther.
+            Err(
+                error @ (SolveError::Cancelled { .. }
+                | SolveError::InvalidSetting { .. }
+                | SolveError::TooManySwitches { .. }),
+            ) => return Err(error.into()),
+            Err(error) => RunError::Solve(error),
+        };
+        let is_agreed = match (&first, &error) {
+            (Some(RunError::Solve(before)), RunError::Solve(now)) => is_same_end(before, now),
+            _ => false,
+        };
+        let goes_on = !is_agreed && !run.budget.is_spent();
+        let Some(next) = others.pop().filter(|_| goes_on) else {
+            return Err(none_gets_through(first, error, tried));
+        };
+        tried.push(next.name());
+        // A phase that is reached later may ask for more than the first one.
+        why = match &error {
+            RunError::EnergyLost { .. } | RunError::Slider { .. } => error.to_string(),
+            error => format!("`{}` does not get through: {error}", method.name()),
+        };
+        first.get_or_insert(error);
+        method = next;
+    }
+}
+
+fn half(budget: &Budget, task: &Task<'_>) -> u64 {
+    task.settings.budget.saturating_sub(budget.done()) / 2
+}
+
+/// The exact solution of the part of a run that ends at `reach` \[s\], and that part.
+pub(crate) fn of_a_part(
+    task: &Task<'_>,
+    run: &Run,
+    reach: f64,
+    observer: &mut dyn Observer,
+) -> Option<(Found, Run)> {
+    let part = Run { t_end: reach, ..run.clone() };
+    let own = Task { method: &methods::Exact, ..*task };
+    let outcome = own.run(&part, observer).ok()?;
+    let why = "the scene is linear, and its impact is over before it has oscillated too often";
+    Some((Found { method: Arc::new(methods::Exact), why: why.to_owned(), outcome }, part))
+}
+
+/// A better solution by one of the `others`, where that which was `found` is not as good as is wanted and
+/// its own method cannot make it so.
+///
+/// They may take a few times the work that it was. Theirs is better where nothing was known of its errors,
+/// or where none of their bars is wider beyond what is wanted, and one is narrower.
+pub(crate) fn improved(
+    task: &Task<'_>,
+    run: &Run,
+    mut found: Found,
+    others: Vec<Arc<dyn Method>>,
+    observer: &mut dyn Observer,
+) -> Found {
+    // Of second order, the last resort would take too long for what is asked here.
+    let last_resort = methods::TrBdf2.name();
+    for other in others.into_iter().rev().filter(|own| own.name() != last_resort) {
+        let before = Task { method: found.method.as_ref(), ..*task };
+        let is_stuck = found.method.is_exact() || found.outcome.obstacle.is_some();
+        if !is_stuck || before.suffices(&found.outcome) {
+            break;
+        }
+        let budget = run.budget.part(ALWAYS.max(FURTHER * run.budget.done()));
+        let own = Task { method: other.as_ref(), ..*task };
+        let Ok(outcome) = own.run(&Run { budget, ..run.clone() }, observer) else { continue };
+        let is_known = before.knows(&found.outcome);
+        let is_better =
+            own.knows(&outcome) && (!is_known || own.is_better(&outcome, &found.outcome));
+        if is_better && outcome.solved.fault(task.assembly).is_none() {
+            let name = found.method.name();
+            let why = if !is_known {
+                format!("the error of `{name}` is not known")
+            } else if found.method.is_exact() {
+                "the error of `exact` may exceed what is wanted".to_owned()
+            } else {
+                format!("`{name}` does not reach the accuracy that is wanted")
+            };
+            found = Found { method: other, why, outcome };
+        }
+    }
+    found
+}
+
+/// The methods that `auto` turns to where this one fails, the last one first.
+pub(crate) fn others(first: &dyn Method) -> Vec<Arc<dyn Method>> {
+    let all: [Arc<dyn Method>; 3] =
+        [Arc::new(methods::TrBdf2), Arc::new(methods::Esdirk34), Arc::new(methods::Bdf)];
+    all.into_iter().filter(|own| own.name() != first.name()).collect()
+}
+
+/// What is said where the last method that is tried fails: what became of the first.
+pub(crate) fn none_gets_through(
+    first: Option<RunError>,
+    last: RunError,
+    others: Vec<&'static str>,
+) -> RunError {
+    match first {
+        Some(RunError::Solve(
+            error @ (SolveError::StepTooSmall { .. } | SolveError::NewtonFailed { .. }),
+        )) => RunError::NoneGetsThrough { error, others },
+        // That it does not apply says nothing of why the others fail.
+        Some(RunError::Solve(SolveError::NotApplicable { .. })) => {
+            let (_, others) = others.split_last().unwrap_or((&"", &[]));
+            match last {
+                RunError::Solve(SolveError::NotApplicable { .. }) => last,
+                last => none_gets_through(Some(last.clone()), last, others.to_vec()),
+            }
+        }
+        Some(first) => first,
+        None => last,
+    }
+}

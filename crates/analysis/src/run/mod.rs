@@ -1,0 +1,215 @@
+//! From a compiled network to the report of its run: methods, budget, one attempt after the other.
+
+pub(crate) mod attempts;
+pub(crate) mod extremes;
+
+mod events;
+mod measured;
+mod outcome;
+mod warnings;
+
+use std::sync::Arc;
+
+use dashpot_dae::{Budget, Direction, Guard, Method, MethodKind, Observer, Run, methods};
+use dashpot_network::{Assembly, Network};
+
+use self::{attempts::Found, outcome::report};
+use crate::{
+    Choice, Note, RunError, RunReport, SolveSettings, Stop,
+    errors::{keep::keep, solved::Task},
+    measures::selection::{Selected, select},
+    memory,
+    wording::quantity,
+};
+
+/// Tolerance of a single solution whose error is not estimated, when none is given.
+const SINGLE: f64 = 1e-6;
+
+/// Integrates a network that is compiled already, and reports; otherwise as [`solve`](crate::solve()). `effects`
+/// are the words of those that are on.
+///
+/// # Errors
+///
+/// As [`solve`](crate::solve()), but for the network.
+pub fn solve_assembly(
+    assembly: &Arc<Assembly>,
+    effects: &[&'static str],
+    settings: &SolveSettings,
+    observer: &mut dyn Observer,
+) -> Result<RunReport, RunError> {
+    settings.validate()?;
+    memory::foresee(assembly)?;
+    let selected = select(assembly, &settings.measures)?;
+    check_keys(settings, &selected)?;
+    let run = Run {
+        t_end: settings.duration,
+        rtol: settings.rtol.unwrap_or(SINGLE),
+        nominal: Vec::new(),
+        guards: guards(assembly, settings)?,
+        keep: keep(assembly, &selected),
+        budget: Budget::of(settings.budget),
+    };
+    let is_free = matches!(settings.method, Choice::Auto);
+    let first = choose(&settings.method, assembly, &run);
+    let is_exact = first.as_ref().is_ok_and(|own| own.0.is_exact());
+    let reach = if is_exact { None } else { reach(&settings.method, assembly, &run) };
+    // Each attempt is by a method of its own.
+    let task = Task { assembly, settings, selected: &selected, method: &methods::Auto };
+    let found = first.and_then(|first| {
+        let mut others = if is_free { attempts::others(first.0.as_ref()) } else { Vec::new() };
+        let most = if reach.is_some() { attempts::HOPELESS } else { u64::MAX };
+        let found = attempts::first_that_solves(&task, &run, (first, most), &mut others, observer)?;
+        Ok(attempts::improved(&task, &run, found, others, observer))
+    });
+    let (found, run) = match (found, reach) {
+        (Err(error), Some(reach)) => match attempts::of_a_part(&task, &run, reach, observer) {
+            Some((found, part)) => (found, part),
+            None => return Err(error),
+        },
+        (found, _) => (found?, run),
+    };
+    let work = run.budget.done();
+    run.budget.close();
+    let Found { method, why, outcome } = found;
+    let task = Task { method: method.as_ref(), ..task };
+    let mut report = report(assembly, effects, &task, &run, outcome)?;
+    report.solver.work = work;
+    report.solver.why = match report.trajectory.digest() {
+        Some(_) => {
+            format!("{why}; only what the measures need is kept of so large a solution")
+        }
+        None => why,
+    };
+    Ok(report)
+}
+
+/// How far `exact` follows a run that has more oscillations than are followed \[s\], if it is by a method
+/// that may be `exact`.
+fn reach(choice: &Choice, assembly: &Assembly, run: &Run) -> Option<f64> {
+    let is_asked_for = matches!(choice, Choice::Auto) || choice.name() == methods::Exact::KIND;
+    (is_asked_for && assembly.switching.is_none())
+        .then(|| methods::Exact::reach(&assembly.system, run))
+        .flatten()
+}
+
+/// The keys of the measures that [`solve_assembly`] would report, without solving anything.
+///
+/// # Errors
+///
+/// What is wrong with the settings.
+pub fn reported_measures(
+    assembly: &Assembly,
+    settings: &SolveSettings,
+) -> Result<Vec<String>, RunError> {
+    settings.validate()?;
+    let selected = select(assembly, &settings.measures)?;
+    check_keys(settings, &selected)?;
+    guards(assembly, settings)?;
+    Ok(selected.into_iter().map(|entry| entry.key).collect())
+}
+
+/// Which measures that [`solve_assembly`] would report can have no value whatever the solution, each
+/// with the reason.
+///
+/// # Errors
+///
+/// [`RunError::UnknownTarget`] for measures of what does not exist.
+pub fn hopeless_measures(
+    assembly: &Assembly,
+    settings: &SolveSettings,
+) -> Result<Vec<(String, Note)>, RunError> {
+    let selected = select(assembly, &settings.measures)?;
+    let hopeless = selected.into_iter().filter_map(|own| {
+        own.measure.needs().lacking(assembly, own.target).map(|why| (own.key, why))
+    });
+    Ok(hopeless.collect())
+}
+
+/// The method that `auto` chooses for a run of `duration` \[s\], and why.
+pub fn choice(assembly: &Assembly, duration: f64) -> (&'static str, String) {
+    let (method, why) = methods::Auto::choose(&assembly.system, &Run::to(duration));
+    (method.name(), reason(assembly, method.as_ref(), why))
+}
+
+/// Why a method fits, of what switches said for all of the run.
+fn reason(assembly: &Assembly, method: &dyn Method, why: String) -> String {
+    if assembly.switching.is_none() || !method.is_exact() {
+        return why;
+    }
+    let states = assembly.system.states();
+    format!("between switchings the scene is linear, with {states} states at first")
+}
+
+fn choose(
+    choice: &Choice,
+    assembly: &Assembly,
+    run: &Run,
+) -> Result<(Arc<dyn Method>, String), RunError> {
+    let (method, why) = match choice {
+        Choice::Auto => {
+            let (method, why) = methods::Auto::choose(&assembly.system, run);
+            (Arc::from(method), why)
+        }
+        Choice::Method(method) => (Arc::clone(method), method.applies(&assembly.system, run)?),
+    };
+    let why = reason(assembly, method.as_ref(), why);
+    Ok((method, why))
+}
+
+fn check_keys(settings: &SolveSettings, selected: &[Selected]) -> Result<(), RunError> {
+    let is_known = |key: &&String| selected.iter().any(|entry| entry.key == **key);
+    match settings.accuracy.by_measure.keys().find(|key| !is_known(key)) {
+        None => Ok(()),
+        Some(key) => Err(RunError::UnknownMeasure {
+            key: key.clone(),
+            known: selected.iter().map(|entry| entry.key.clone()).collect(),
+        }),
+    }
+}
+
+pub(crate) fn guards(
+    assembly: &Assembly,
+    settings: &SolveSettings,
+) -> Result<Vec<Guard>, RunError> {
+    let guard = |stop: &Stop| {
+        let output = assembly.output(&stop.output).ok_or_else(|| RunError::UnknownOutput {
+            output: stop.output.clone(),
+            known: assembly.system.outputs.iter().map(|output| output.name.to_owned()).collect(),
+        })?;
+        Ok(Guard {
+            name: condition(stop, assembly.system.outputs.at(output).unit),
+            output,
+            level: stop.level,
+            direction: stop.direction,
+            stops: true,
+            begins: None,
+            rate_of: None,
+        })
+    };
+    settings.stops.iter().map(guard).collect()
+}
+
+/// What has happened when a run stops, in words; the level is in the SI unit `unit`.
+fn condition(stop: &Stop, unit: &str) -> String {
+    let way = match stop.direction {
+        Direction::Rising => "rose above",
+        Direction::Falling => "fell below",
+        Direction::Either => "reached",
+    };
+    let level = if stop.level == 0.0 { format!("0 {unit}") } else { quantity(stop.level, unit) };
+    format!("{} {way} {level}", stop.output)
+}
+
+/// The words of the effects that are on.
+pub(crate) fn words(network: &Network) -> Vec<&'static str> {
+    network.effects().iter().map(|effect| effect.kind()).collect()
+}
+
+#[cfg(test)]
+mod faults;
+#[cfg(test)]
+mod random;
+#[cfg(test)]
+mod rest;
+#[cfg(test)]
+mod tests;

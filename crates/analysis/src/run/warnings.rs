@@ -1,0 +1,301 @@
+//! What the reader of a report must know.
+
+use std::collections::BTreeSet;
+
+use dashpot_dae::{Direction, Guard, SolveError};
+use dashpot_network::{NodeId, effects::Gravity, parameters::Kind as _, parameters::WindowWish};
+
+use crate::{
+    Accuracy, ContactReport, Harder, Ledger, MeasureReport, Missed, Note, Solution, Warning,
+    energy::ledger::leak,
+    errors::undecided_release::OpenEnd,
+    impact::{
+        contacts,
+        idle::Idle,
+        interval::{Contact, Impact},
+    },
+    measures::{
+        Clip, Clip3ms, Hic, Hic15, Hic36, Measure as _, PeakAcceleration, PeakForce, PeakStrain,
+        Reading, SeverityIndex,
+    },
+    report::warning::ROUNDING,
+    run::extremes::{beyond_measured, pressed_through},
+};
+
+/// What warnings are made of.
+pub(crate) struct Findings<'a> {
+    pub(crate) solution: &'a Solution<'a>,
+    pub(crate) accuracy: &'a Accuracy,
+    pub(crate) measures: &'a [MeasureReport],
+    pub(crate) contacts: &'a [ContactReport],
+    pub(crate) energy: &'a Ledger,
+    /// Whether errors are asked for.
+    pub(crate) estimate: bool,
+    pub(crate) open_end: Option<&'a OpenEnd>,
+    pub(crate) obstacle: Option<&'a SolveError>,
+    pub(crate) guards: &'a [Guard],
+    pub(crate) effects: &'a [&'static str],
+    pub(crate) idle: &'a [Idle],
+}
+
+/// Part by which a peak outside the impact must exceed that within to be worth a warning.
+const HARDER: f64 = 0.05;
+/// Measures of what a blow does to a body.
+const INJURIES: [&str; 6] =
+    [SeverityIndex::KIND, Hic15::KIND, Hic36::KIND, Hic::KIND, Clip3ms::KIND, Clip::KIND];
+
+/// All warnings, the most important first.
+pub(crate) fn collect(findings: &Findings<'_>) -> Vec<Warning> {
+    let mut warnings = pulling(findings);
+    warnings.extend(pressed_through(findings.solution));
+    warnings.extend(beyond_measured(findings.solution));
+    warnings.extend(crushed_layers(findings));
+    warnings.extend(energy(findings));
+    warnings.extend(findings.idle.iter().cloned().map(Warning::IdleSlider));
+    warnings.extend(stops_that_hold(findings));
+    warnings.extend(still_falling(findings.solution));
+    warnings.extend(still_in_contact(findings));
+    warnings.extend(contacts_that_pull(findings));
+    warnings.extend(open_end(findings));
+    warnings.extend(harder_outside(findings));
+    warnings.extend(flying_away(findings));
+    warnings.extend(accuracy(findings));
+    let assembly = findings.solution.assembly();
+    warnings.extend(assembly.held.iter().cloned().map(Warning::HeldTable));
+    warnings.extend(assembly.warnings.iter().cloned().map(Warning::Network));
+    warnings
+}
+
+fn pulling(findings: &Findings<'_>) -> Vec<Warning> {
+    let end = findings.solution.end();
+    let since = |impact: &Impact| match impact.contact {
+        Contact::Released if impact.end < end => Some(Some(impact.end)),
+        Contact::Pulling => Some(None),
+        _ => None,
+    };
+    let assembly = findings.solution.assembly();
+    let is_glued = |element: &&str| {
+        assembly.position(element).is_some_and(|at| contacts::is_glued(assembly, at))
+    };
+    let contacts = findings.contacts.iter().map(|own| (own.element.as_str(), own.impact));
+    let warning = |(element, impact): (&str, Impact)| {
+        since(&impact).map(|since| Warning::Pulls { element: element.to_owned(), since })
+    };
+    let all = contacts.chain(pads(findings));
+    all.filter(|(element, _)| is_glued(element)).filter_map(warning).collect()
+}
+
+/// How the pads between parts that are no impactors are pressed: what has a thickness lies between
+/// its ends and cannot pull at them, while mounts may.
+fn pads<'a>(findings: &'a Findings<'a>) -> impl Iterator<Item = (&'a str, Impact)> {
+    let solution = findings.solution;
+    let connections = solution.assembly().connections.iter();
+    let heads = heads_without_a_pad(findings);
+    connections.filter_map(move |connection| {
+        let carries_a_head = || connection.between.iter().any(|end| heads.contains(end));
+        (connection.thickness.is_some() || carries_a_head()).then_some(())?;
+        let force = connection.force.filter(|_| !solution.touches_impactor(connection))?;
+        if !solution.keeps(force) {
+            return None;
+        }
+        Some((connection.name.as_str(), solution.impact_of(connection, solution.signal(force))))
+    })
+}
+
+/// Nodes whose injury is asked for in a run without impactors, where no element there has a thickness:
+/// what they touch are pads of which only that is not said.
+fn heads_without_a_pad(findings: &Findings<'_>) -> BTreeSet<NodeId> {
+    let assembly = findings.solution.assembly();
+    let injuries = findings.measures.iter().filter(|own| INJURIES.contains(&own.kind));
+    let targets: BTreeSet<&str> = injuries.map(|own| own.target.as_str()).collect();
+    if targets.is_empty() || assembly.has_impactor() {
+        return BTreeSet::new();
+    }
+    let is_head = |end: &NodeId| targets.contains(assembly.nodes[end.index()].name.as_str());
+    let ends = |is_pad: bool| {
+        let own = assembly.connections.iter().filter(move |own| own.thickness.is_some() == is_pad);
+        own.flat_map(|own| own.between)
+    };
+    let mut heads: BTreeSet<NodeId> = ends(false).filter(is_head).collect();
+    for end in ends(true) {
+        heads.remove(&end);
+    }
+    heads
+}
+
+/// Layers that are pressed in by more than their thickness, while the pad as a whole is not.
+fn crushed_layers(findings: &Findings<'_>) -> Vec<Warning> {
+    let solution = findings.solution;
+    let strains = findings.measures.iter().filter(|own| own.kind == PeakStrain::KIND);
+    let crushed = strains.filter_map(|own| {
+        let connection = solution.assembly().connection(&own.target)?;
+        let (strain, time) = own.value.zip(own.time)?;
+        let is_crushed = connection.has_layers && own.notes.contains(&Note::Crushed);
+        let (element, notes) = (own.target.clone(), own.notes.clone());
+        is_crushed.then_some(Warning::CrushedPart { element, strain, time, notes })
+    });
+    crushed.collect()
+}
+
+fn energy(findings: &Findings<'_>) -> Option<Warning> {
+    let closure = findings.energy.closure();
+    let bound = match findings.energy.error {
+        Some(error) if findings.energy.turned_over > 0.0 => error / findings.energy.turned_over,
+        _ => worst(findings.measures).unwrap_or(findings.accuracy.default),
+    };
+    (closure.abs() > bound.max(ROUNDING))
+        .then(|| Warning::EnergyNotClosed { closure, leak: leak(findings.solution) })
+}
+
+/// A condition that holds from the start is not met then: only a passage of its level is.
+fn stops_that_hold(findings: &Findings<'_>) -> Vec<Warning> {
+    let holds = |guard: &&Guard| {
+        let signal = findings.solution.signal(guard.output);
+        let above = signal.value(0.0) - guard.level;
+        match guard.direction {
+            Direction::Rising => above > signal.noise,
+            Direction::Falling => above < -signal.noise,
+            Direction::Either => false,
+        }
+    };
+    let held = findings.guards.iter().filter(|guard| guard.stops).filter(holds);
+    held.map(|guard| Warning::StopHolds { condition: guard.name.clone() }).collect()
+}
+
+fn worst(measures: &[MeasureReport]) -> Option<f64> {
+    measures.iter().filter_map(MeasureReport::relative_error).reduce(f64::max)
+}
+
+/// What was dropped and has not arrived when the run ends.
+fn still_falling(solution: &Solution<'_>) -> Vec<Warning> {
+    let impactors = solution.assembly().nodes.iter().filter(|node| node.is_impactor());
+    let end = solution.end();
+    let falling = impactors.filter(|node| node.fall > end);
+    falling
+        .map(|own| Warning::StillFalling { node: own.name.clone(), end, fall: own.fall })
+        .collect()
+}
+
+fn still_in_contact(findings: &Findings<'_>) -> Vec<Warning> {
+    // Whether it is may be open.
+    let is_known = findings.open_end.is_none_or(|own| own.undecided.is_empty());
+    let contacts = findings.contacts.iter().filter(|_| is_known);
+    let lasting = contacts.filter(|contact| contact.impact.contact == Contact::Lasting);
+    lasting
+        .map(|own| Warning::StillInContact { element: own.element.clone(), end: own.impact.end })
+        .collect()
+}
+
+/// A contact whose release has not been seen.
+fn contacts_that_pull(findings: &Findings<'_>) -> Option<Warning> {
+    let solution = findings.solution;
+    let tension = solution.tension().filter(|own| own.part > findings.accuracy.strictest())?;
+    let element = solution.assembly().connections[tension.connection].name.clone();
+    Some(Warning::ReleaseMissed { element, pull: [tension.pull, tension.part], time: tension.time })
+}
+
+/// An impact of which it cannot be told whether it ends.
+fn open_end(findings: &Findings<'_>) -> Option<Warning> {
+    let OpenEnd { time, measures, .. } = findings.open_end?;
+    let measures = measures.iter().map(|&at| findings.measures[at].key.clone()).collect();
+    Some(Warning::OpenEnd { time: *time, measures })
+}
+
+/// Peaks of forces and accelerations that lie outside the impact, and above those within.
+fn harder_outside(findings: &Findings<'_>) -> Option<Warning> {
+    let solution = findings.solution;
+    let has_ended = |own: &&MeasureReport| {
+        let is_of_impact = own.window_wish == Some(WindowWish::Impact);
+        is_of_impact && own.window.is_some_and(|(from, to)| from > 0.0 || to < solution.end())
+    };
+    let of_impact = findings.measures.iter().filter(has_ended);
+    let harder: Vec<Harder> = of_impact
+        .filter_map(|measure| {
+            let most = measure.value?;
+            let peak = peak_of_run(solution, measure)?;
+            let (value, time) = (peak.value.unwrap_or(f64::INFINITY), peak.time?);
+            let margin = measure.error.unwrap_or(0.0).max(HARDER * most);
+            // What is but rounding in the impact has no peak there to be exceeded.
+            let is_harder = value > most + margin && value > peak.noise;
+            is_harder.then(|| Harder {
+                measure: measure.key.clone(),
+                unit: measure.unit,
+                within: most,
+                outside: value,
+                time,
+            })
+        })
+        .collect();
+    (!harder.is_empty()).then_some(Warning::HarderOutside(harder))
+}
+
+/// The peak over the whole run of what a measure tells that of the impact of; `None` for other measures.
+fn peak_of_run(solution: &Solution<'_>, measure: &MeasureReport) -> Option<Reading> {
+    let (assembly, window) = (solution.assembly(), WindowWish::Run);
+    match measure.kind {
+        PeakForce::KIND => {
+            let at = assembly.position(&measure.target)?;
+            solution.keeps(assembly.connections[at].force?).then_some(())?;
+            Some(PeakForce { window }.read(solution, at))
+        }
+        PeakAcceleration::KIND => {
+            let at = assembly.nodes.iter().position(|own| own.name == measure.target)?;
+            solution.keeps(assembly.nodes[at].acceleration?).then_some(())?;
+            Some(PeakAcceleration { window }.read(solution, at))
+        }
+        _ => None,
+    }
+}
+
+/// What is shaken or pushed off without a weight that brings it back.
+fn flying_away(findings: &Findings<'_>) -> Option<Warning> {
+    let solution = findings.solution;
+    let is_struck = solution.assembly().has_impactor();
+    if is_struck || findings.effects.contains(&Gravity::KIND) {
+        return None;
+    }
+    let left = contacts::left_for_good(solution.assembly(), solution.trajectory());
+    let (time, names) = left.into_iter().next()?;
+    Some(Warning::NeverComesBack { names: names.map(str::to_owned), time })
+}
+
+fn accuracy(findings: &Findings<'_>) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    warnings.extend(unknown_errors(findings));
+    let keys = |is_meant: fn(&MeasureReport) -> bool| {
+        let meant = findings.measures.iter().filter(|own| is_meant(own));
+        let keys: Vec<String> = meant.map(|own| own.key.clone()).collect();
+        (!keys.is_empty()).then_some(keys)
+    };
+    let undecided = keys(|own| own.error.is_some_and(f64::is_infinite));
+    warnings.extend(undecided.map(Warning::Undecided));
+    warnings.extend(keys(|own| own.is_undetermined).map(Warning::Undetermined));
+    let missed = findings.measures.iter().filter_map(|measure| {
+        let reached = measure.relative_error().filter(|error| error.is_finite())?;
+        let wish = findings.accuracy.of(&measure.key);
+        (measure.excess > 1.0).then(|| Missed {
+            measure: measure.key.clone(),
+            accuracy: [reached, wish],
+            zero_within: might_be_zero(measure).map(|error| (error, measure.unit)),
+        })
+    });
+    let (missed, obstacle): (Vec<Missed>, _) = (missed.collect(), findings.obstacle.cloned());
+    if !missed.is_empty() {
+        warnings.push(Warning::NotReached { missed, obstacle });
+    }
+    warnings
+}
+
+/// That nothing is known of any error.
+fn unknown_errors(findings: &Findings<'_>) -> Option<Warning> {
+    let mut valued = findings.measures.iter().filter(|own| own.value.is_some()).peekable();
+    valued.peek().filter(|_| findings.estimate)?;
+    let is_none = valued.all(|own| own.error.is_none());
+    is_none.then(|| Warning::ErrorsUnknown { obstacle: findings.obstacle.cloned() })
+}
+
+/// The error of a value that cannot be told from zero.
+fn might_be_zero(measure: &MeasureReport) -> Option<f64> {
+    let (value, error) = measure.value.zip(measure.error)?;
+    (value.abs() <= error).then_some(error)
+}

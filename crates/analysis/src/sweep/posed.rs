@@ -1,0 +1,57 @@
+//! An impact that is to be solved, and what becomes known of it.
+
+use dashpot_dae::small::Square;
+
+/// An impact, ready to be solved: `ż = A z` in any unit of time, and what is looked at.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Posed<'s, const N: usize> {
+    /// `A` by its columns.
+    pub(super) matrix: &'s Square<N>,
+    /// The state at the start.
+    pub(super) start: &'s [f64; N],
+    /// The contact force \[N\] over the states.
+    pub(super) force: &'s [f64; N],
+    /// The deformation \[m\] of the same element.
+    pub(super) deformation: &'s [f64; N],
+    /// Length of the run.
+    pub(super) end: f64,
+}
+
+/// Which integrals are wanted.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Wanted {
+    /// `∫ F^n dt` with this exponent.
+    pub(super) power: Option<f64>,
+    /// `∫ F dt` and `∫ F ẏ dt`.
+    pub(super) work: bool,
+    /// `∫ F ẏ dt` up to the end of the run as well.
+    pub(super) work_at_end: bool,
+}
+
+/// A number and how far it may be off.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Figure {
+    pub(super) value: f64,
+    pub(super) error: f64,
+}
+
+/// What is known of an impact; times in the unit of the matrix.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Impact {
+    /// The largest force \[N\].
+    pub(super) force: Figure,
+    /// The largest deformation \[m\].
+    pub(super) depth: Figure,
+    /// When it is reached.
+    pub(super) deepest_at: f64,
+    /// When the force falls through zero.
+    pub(super) release: Figure,
+    /// `∫ F^n dt`.
+    pub(super) power: Figure,
+    /// `∫ F dt`.
+    pub(super) impulse: Figure,
+    /// `∫ F ẏ dt` \[J\].
+    pub(super) work: Figure,
+    /// The same up to the end of the run \[J\].
+    pub(super) work_at_end: Figure,
+}
