@@ -212,7 +212,7 @@ fn composites_come_back_from_toml_as_the_models_that_they_describe() {
         let again = kind.example().unwrap();
         assert_eq!(parts(&again.model), parts(&composed.model), "{}", kind.word);
         assert!(parts(&composed.model).len() > 1, "{} has one part only", kind.word);
-        if let Some(note) = &composed.note {
+        if let Some(note) = composed.note.as_ref().map(ToString::to_string) {
             assert!(!note.is_empty() && !note.ends_with('.'), "{}: {note}", kind.word);
         }
         let law = write_kind(kind.word, kind.parameters, &values, kind.about);

@@ -1,5 +1,7 @@
 //! The examples run to their end, with the assertions in them.
 
+#[path = "../../examples/custom_measure.rs"]
+mod custom_measure;
 #[path = "../../examples/custom_method.rs"]
 mod custom_method;
 #[path = "../../examples/custom_padding.rs"]
@@ -14,12 +16,24 @@ mod force_table;
 mod reference_impact;
 #[path = "../../examples/scene_from_toml.rs"]
 mod scene_from_toml;
+#[path = "../../examples/sweep_by_axes.rs"]
+mod sweep_by_axes;
 #[path = "../../examples/two_mass_chain.rs"]
 mod two_mass_chain;
 
 #[test]
 fn the_reference_impact_runs() {
     reference_impact::main().unwrap();
+}
+
+#[test]
+fn the_custom_measure_runs() {
+    custom_measure::main().unwrap();
+}
+
+#[test]
+fn the_sweep_by_axes_runs() {
+    sweep_by_axes::main().unwrap();
 }
 
 #[test]

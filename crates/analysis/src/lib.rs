@@ -28,23 +28,22 @@ pub mod work_precision;
 pub use energy::ledger;
 pub use energy::ledger::{EnergySeries, Leak, Ledger, Place};
 pub use error::RunError;
-pub use impact::holding::SliderFault;
-pub use impact::idle::Idle;
 pub use impact::impulses::VelocityJump;
 pub use impact::interval::{Contact, Impact, Span};
+pub use impact::sliders::Idle;
+pub use impact::sliders::SliderFault;
 pub use measures::exceedance::Counted;
 pub use measures::selection::MeasureWish;
 pub use measures::{Family, MEASURES, Measure, MeasureKind, Reading};
 pub use note::Note;
-pub use report::difference::{Difference, differences};
+pub use report::event::{Blow, Event, EventReport};
 pub use report::excerpt::{excerpt, resolving_times, touching};
 pub use report::partial::{Partial, Segmentation};
 pub use report::sample::{Column, Table, regular_times, table, table_at};
 pub use report::verdict;
 pub use report::warning::{Beyond, Harder, Missed, Through, Warning};
-pub use report::{
-    ContactReport, EventReport, MeasureReport, RunReport, SolverReport, SystemReport,
-};
+pub use report::{ContactReport, MeasureReport, RunReport, SolverReport, SystemReport};
+pub use report::{Difference, differences};
 pub use run::{choice, hopeless_measures, reported_measures, solve_assembly};
 pub use settings::{Accuracy, Choice, SolveSettings, Stop};
 pub use solution::{Solution, doubt_at};

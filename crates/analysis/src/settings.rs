@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use dashpot_dae::{Direction, Method, methods};
 
-use crate::{MeasureWish, RunError};
+use crate::{MeasureWish, RunError, wording::quantity};
 
 /// What is asked of a run.
 #[derive(Debug, Clone)]
@@ -57,6 +57,14 @@ impl Choice {
             let known = methods::all().iter().map(|method| method.name()).collect();
             RunError::UnknownMethod { name: name.to_owned(), known }
         })
+    }
+
+    /// The method; where the system is to tell, one that looks at it first.
+    pub(crate) fn method(&self) -> Arc<dyn Method> {
+        match self {
+            Self::Auto => Arc::new(methods::Auto),
+            Self::Method(method) => Arc::clone(method),
+        }
     }
 
     /// Its name.
@@ -122,6 +130,20 @@ pub struct Stop {
     pub level: f64,
     /// Which crossings count.
     pub direction: Direction,
+}
+
+impl Stop {
+    /// What has happened when a run stops, in words; the level is in the SI unit `unit`.
+    pub(crate) fn text(&self, unit: &str) -> String {
+        let way = match self.direction {
+            Direction::Rising => "rose above",
+            Direction::Falling => "fell below",
+            Direction::Either => "reached",
+        };
+        let level =
+            if self.level == 0.0 { format!("0 {unit}") } else { quantity(self.level, unit) };
+        format!("{} {way} {level}", self.output)
+    }
 }
 
 impl SolveSettings {

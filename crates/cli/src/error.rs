@@ -188,6 +188,7 @@ impl CliError {
             },
             Self::Sweep(error) => match error {
                 SweepError::NotPosed(_)
+                | SweepError::NoPoints
                 | SweepError::NoMeasure { .. }
                 | SweepError::NoneReported => Status::InputWrong,
                 _ => Status::RunFailed,

@@ -120,8 +120,8 @@ pub(crate) fn canonical_model(operand: &Operand) -> Result<Model, CliError> {
 
 /// Says what there is to say about models.
 pub(crate) fn tell(notes: &[ModelNote]) {
-    for ModelNote { subject, text, .. } in notes {
-        remark(&format!("{subject}: {text}"));
+    for ModelNote { subject, what, .. } in notes {
+        remark(&format!("{subject}: {what}"));
     }
 }
 

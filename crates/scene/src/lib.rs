@@ -28,7 +28,7 @@ pub use dashpot_units as units;
 pub use diagnostics::fault::Fault;
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
 pub use models::named::{NamedModel, read_named_model};
-pub use models::notes::ModelNote;
+pub use models::notes::{ModelNote, Remark};
 pub use quantities::values::NamedValue;
 pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network, text_of_bytes};
 pub use schema::schema;

@@ -3,7 +3,6 @@
 pub(crate) mod accuracy;
 pub(crate) mod keep;
 pub(crate) mod magnitude;
+pub(crate) mod open_ends;
 pub(crate) mod refinement;
-pub(crate) mod run_end;
 pub(crate) mod solved;
-pub(crate) mod undecided_release;

@@ -1,6 +1,6 @@
 //! As many solutions as the errors ask for.
 
-use std::{collections::BTreeMap, time::Duration};
+use std::{collections::BTreeMap, ops::ControlFlow, time::Duration};
 
 use dashpot_dae::{Observer, Run, SolveError};
 
@@ -12,9 +12,8 @@ use crate::{
             is_lost_in_noise, of_energy, rounding,
         },
         magnitude::largest,
-        run_end,
+        open_ends::{OpenEnd, cover_switching},
         solved::{Solved, Task},
-        undecided_release::OpenEnd,
     },
     measures::selection::Selected,
     solution::doubt_at,
@@ -59,6 +58,83 @@ struct Bars {
     /// Without what is open about the end of an impact.
     of_method: Vec<Option<f64>>,
     open_end: Option<OpenEnd>,
+}
+
+/// Solutions at falling tolerances, on the way to the accuracy that is wanted.
+struct Descent {
+    /// The finest so far, as many as error bars take at most.
+    last: Vec<Solved>,
+    solves: usize,
+    wall: Duration,
+    /// What kept the last one that failed from being solved.
+    obstacle: Option<SolveError>,
+    /// At how many tolerances in a row the run has ended at one and the same instant.
+    alike: usize,
+    /// How many more that are good enough but for an open end of the impact.
+    left: usize,
+    /// Work that the next one may take.
+    most: u64,
+}
+
+impl Descent {
+    fn new() -> Self {
+        Self {
+            last: Vec::new(),
+            solves: 0,
+            wall: Duration::ZERO,
+            obstacle: None,
+            alike: 0,
+            left: SOLUTIONS_FOR_ENDS,
+            most: u64::MAX,
+        }
+    }
+
+    /// Whether there are as many as error bars take.
+    fn is_full(&self) -> bool {
+        self.last.len() == SOLUTIONS
+    }
+
+    /// Takes a finer solution, which was so much `work`. Breaks where there is no room for it.
+    fn take(&mut self, finer: Solved, work: u64) -> ControlFlow<()> {
+        if let Some(error) = one_too_many(&self.last, &finer) {
+            self.obstacle = Some(error);
+            return ControlFlow::Break(());
+        }
+        self.most = ALWAYS.max(FINER * work);
+        self.solves += 1;
+        self.alike = 0;
+        self.wall += finer.trajectory.statistics.wall;
+        if self.is_full() {
+            self.last.remove(0);
+        }
+        if let Some(before) = self.last.last_mut() {
+            before.energy.gather_parts();
+        }
+        self.last.push(finer);
+        ControlFlow::Continue(())
+    }
+
+    /// Notes what became of a finer solution. Breaks where those that are finer still do not get through
+    /// either.
+    fn fail(&mut self, error: SolveError) -> ControlFlow<()> {
+        let again = self.obstacle.as_ref().is_some_and(|before| is_same_end(before, &error));
+        self.alike = if again { self.alike + 1 } else { 1 };
+        // A finer solution takes no less.
+        let is_too_much = matches!(
+            error,
+            SolveError::BudgetSpent { .. }
+                | SolveError::TooManySteps { .. }
+                | SolveError::TooLarge { .. }
+        );
+        self.obstacle = Some(error);
+        // A finer solution may fail where rounding rules; a coarse one may fail where a finer one does
+        // not.
+        if is_too_much || self.alike == ENDS_ALIKE || self.is_full() {
+            return ControlFlow::Break(());
+        }
+        self.last.clear();
+        ControlFlow::Continue(())
+    }
 }
 
 impl Task<'_> {
@@ -143,77 +219,20 @@ impl Task<'_> {
     /// Solutions at falling tolerances: as many as error bars take if the tolerance is given, else
     /// until the accuracy is reached.
     fn refined(&self, run: &Run, observer: &mut dyn Observer) -> Result<Outcome, SolveError> {
-        let mut last: Vec<Solved> = Vec::new();
-        let mut solves = 0;
-        let mut wall = Duration::ZERO;
-        let mut obstacle = None;
-        let mut alike = 0;
-        let mut left = SOLUTIONS_FOR_ENDS;
-        let mut most = u64::MAX;
+        let mut descent = Descent::new();
         for rtol in tolerances(self.settings.rtol) {
-            let budget = run.budget.part(most);
+            let budget = run.budget.part(descent.most);
             let own = Run { budget: budget.clone(), ..run.clone() }.with_rtol(rtol);
-            match self.solve(&own, observer) {
-                Ok(finer) => {
-                    if let Some(error) = one_too_many(&last, &finer) {
-                        obstacle = Some(error);
-                        break;
-                    }
-                    most = ALWAYS.max(FINER * budget.done());
-                    solves += 1;
-                    alike = 0;
-                    wall += finer.trajectory.statistics.wall;
-                    if last.len() == SOLUTIONS {
-                        last.remove(0);
-                    }
-                    if let Some(before) = last.last_mut() {
-                        before.energy.gather_parts();
-                    }
-                    last.push(finer);
-                }
+            let flow = match self.solve(&own, observer) {
+                Ok(finer) => descent.take(finer, budget.done()),
                 Err(error) if is_final(&error) => return Err(error),
-                // A finer solution takes no less.
-                Err(
-                    error @ (SolveError::BudgetSpent { .. }
-                    | SolveError::TooManySteps { .. }
-                    | SolveError::TooLarge { .. }),
-                ) => {
-                    obstacle = Some(error);
-                    break;
-                }
-                Err(error) => {
-                    let again = obstacle.as_ref().is_some_and(|before| is_same_end(before, &error));
-                    alike = if again { alike + 1 } else { 1 };
-                    obstacle = Some(error);
-                    if alike == ENDS_ALIKE {
-                        break;
-                    }
-                    // A finer solution may fail where rounding rules; a coarse one may fail where
-                    // a finer one does not.
-                    if last.len() == SOLUTIONS {
-                        break;
-                    }
-                    last.clear();
-                }
-            }
-            if last.len() == SOLUTIONS {
-                obstacle = None;
-                self.settle_doubts(&mut last);
-                let bars = self.bars(run, &last);
-                if let Some(finest) = last.last_mut() {
-                    self.settle_zeros(finest, &bars.errors);
-                    if self.is_good_enough(finest, &bars.errors) {
-                        break;
-                    }
-                    if self.is_good_enough(finest, &bars.of_method) {
-                        left -= 1;
-                    }
-                    if left == 0 {
-                        break;
-                    }
-                }
+                Err(error) => descent.fail(error),
+            };
+            if flow.is_break() || descent.is_full() && self.is_done(run, &mut descent) {
+                break;
             }
         }
+        let Descent { mut last, solves, wall, obstacle, .. } = descent;
         let Bars { mut errors, of_method, open_end } = self.bars(run, &last);
         for &at in open_end.iter().flat_map(|own| &own.undecided) {
             errors[at] = Some(f64::INFINITY);
@@ -224,17 +243,32 @@ impl Task<'_> {
                 reason: "no tolerance led to a solution".to_owned(),
             }));
         };
-        let wall_for_error = wall.saturating_sub(solved.trajectory.statistics.wall);
-        let solves_for_error = solves - 1;
         Ok(Outcome {
+            wall_for_error: wall.saturating_sub(solved.trajectory.statistics.wall),
+            solves_for_error: solves - 1,
             solved,
             errors,
             of_method,
             open_end,
-            solves_for_error,
-            wall_for_error,
             obstacle,
         })
+    }
+
+    /// Whether the last of as many solutions as error bars take is accurate enough, or finer ones would not
+    /// make it so.
+    fn is_done(&self, run: &Run, descent: &mut Descent) -> bool {
+        descent.obstacle = None;
+        self.settle_doubts(&mut descent.last);
+        let bars = self.bars(run, &descent.last);
+        let Some(finest) = descent.last.last_mut() else { return false };
+        self.settle_zeros(finest, &bars.errors);
+        if self.is_good_enough(finest, &bars.errors) {
+            return true;
+        }
+        if self.is_good_enough(finest, &bars.of_method) {
+            descent.left -= 1;
+        }
+        descent.left == 0
     }
 
     /// The error of each measure of the last of some solutions; unknown if there are too few.
@@ -255,7 +289,7 @@ impl Task<'_> {
             fall: self.method.fall(),
         };
         let mut of_method = evidence.error_bars();
-        run_end::cover(self, run, finest, &mut of_method);
+        cover_switching(self, run, finest, &mut of_method);
         let mut errors = of_method.clone();
         let open_end = OpenEnd::cover(self, solved, &mut errors);
         Bars { errors, of_method, open_end }

@@ -9,7 +9,7 @@ use crate::{
     Ledger, Reading, RunError, Solution, SolveSettings,
     energy::ledger::{leak, ledger},
     errors::keep::keep_also,
-    impact::holding::slider_fault,
+    impact::sliders::slider_fault,
     measures::selection::Selected,
     solution::{Known, doubt_at},
 };

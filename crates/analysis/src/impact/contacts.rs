@@ -1,4 +1,4 @@
-//! Which elements can part, and what happens at their contacts in words.
+//! Which elements can part, and what becomes of their contacts.
 
 use std::collections::HashMap;
 
@@ -10,14 +10,15 @@ use dashpot_network::{
     phases::{Phase, PhaseLaw},
 };
 
-use crate::{energy::roles::Accounts, wording::quantity};
+use crate::energy::roles::Accounts;
 
 /// The parts of a connection.
 fn parts<'a>(assembly: &'a Assembly, connection: &ConnectionOutputs) -> &'a [PrimitiveOutputs] {
     assembly.primitives.get(connection.primitives.clone()).unwrap_or(&[])
 }
 
-fn is_contact(primitive: &PrimitiveOutputs) -> bool {
+/// Whether a part is a contact.
+pub(crate) fn is_contact(primitive: &PrimitiveOutputs) -> bool {
     primitive.element.kind() == Contact::KIND
 }
 
@@ -69,73 +70,9 @@ pub(crate) fn is_glued(assembly: &Assembly, at: usize) -> bool {
     !connection.never_pulls && !separates(assembly, at) && !is_slider(assembly, connection)
 }
 
-/// What switches, in words, with the time of each \[s\].
-pub(crate) fn switchings(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, String)> {
-    let mut met: Vec<usize> = Vec::new();
-    let begins_struck =
-        |part: usize| trajectory.switches.iter().any(|own| own.part == part && own.time <= 0.0);
-    let first = trajectory.first_phases.iter().enumerate().map(|(part, phase)| (part, phase.0));
-    let lies = |&(part, phase): &(usize, usize)| phase > 0 && !begins_struck(part);
-    met.extend(first.filter(lies).map(|(part, _)| part));
-    let mut found = Vec::with_capacity(trajectory.switches.len());
-    for own in &trajectory.switches {
-        let is_again = met.contains(&own.part);
-        let at = assembly.primitives.iter().position(|primitive| primitive.name == own.name);
-        let what = match at.filter(|&at| is_contact(&assembly.primitives[at])) {
-            Some(at) => {
-                if !is_again {
-                    met.push(own.part);
-                }
-                of_contact(assembly, own, at, is_again)
-            }
-            None => format!("{}: {}", own.name, own.what),
-        };
-        found.push((own.time, what));
-    }
-    found
-}
-
-fn of_contact(assembly: &Assembly, own: &Switch, at: usize, is_again: bool) -> String {
-    let owner = assembly.owner(at);
-    // A contact that is all of an element goes by the element's name.
-    let is_connection = owner.is_some_and(|at| assembly.connections[at].name == own.name);
-    let name = if is_connection { &own.name } else { assembly.primitives[at].place() };
-    let again = if is_again { " again" } else { "" };
-    let (impulse, lost) = (quantity(own.impulse, "N s"), quantity(own.lost.max(0.0), "J"));
-    let blow = format!("impact of {impulse}, which loses {lost}");
-    if stays_closed(own) {
-        return if own.lost > 0.0 {
-            format!("{name}: {blow}")
-        } else {
-            format!("{name} passes on {impulse}")
-        };
-    }
-    let told = match owner.and_then(|at| sides(assembly, at)) {
-        Some((node, element)) if is_meeting(own) => format!("{node} meets the {element}{again}"),
-        Some((node, element)) => format!("{node} leaves the {element}"),
-        None if own.phase > 0 => format!("{name} closes{again}"),
-        None if own.impulse > 0.0 => return format!("{name}: {blow}"),
-        None => format!("{name} opens"),
-    };
-    if own.impulse > 0.0 { format!("{told}: {blow}") } else { told }
-}
-
-/// Whether a contact is met: it closes, or an impulse parts it again at once.
-fn is_meeting(own: &Switch) -> bool {
-    own.impulse > 0.0 || own.phase > 0
-}
-
 /// Whether an impulse acts in a contact that was closed and stays so.
-fn stays_closed(own: &Switch) -> bool {
+pub(crate) fn stays_closed(own: &Switch) -> bool {
     own.time > 0.0 && own.phase > 0 && own.what == IMPACT
-}
-
-/// The node and the element between which this contact is, where an effect has put it there.
-fn sides(assembly: &Assembly, contact: usize) -> Option<(&str, &str)> {
-    let pad = assembly.pad_behind(contact)?;
-    let mut ends = assembly.connections[contact].between.into_iter().map(NodeId::index);
-    let node = ends.find(|&end| pad.face != Some(end))?;
-    Some((&assembly.nodes[node].name, &assembly.connections[pad.element].name))
 }
 
 /// Free masses that nothing but one contact touches, where it is open at the end of a run: the

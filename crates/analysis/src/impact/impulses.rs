@@ -19,6 +19,15 @@ pub struct VelocityJump {
     pub lost: f64,
 }
 
+impl VelocityJump {
+    /// Those of some, in order of time, within a window \[s\], both ends included.
+    pub fn within(all: &[Self], window: (f64, f64)) -> &[Self] {
+        let from = all.partition_point(|own| own.time < window.0);
+        let to = all.partition_point(|own| own.time <= window.1);
+        all.get(from..to).unwrap_or(&[])
+    }
+}
+
 /// Part of the impulses on a body below which their sum is none: what is passed on.
 const PASSED_ON: f64 = 1e-9;
 
@@ -81,13 +90,6 @@ pub(crate) fn on_body(
     sums.collect()
 }
 
-/// Those within a window, both ends included.
-pub(crate) fn within(blows: &[VelocityJump], window: (f64, f64)) -> &[VelocityJump] {
-    let from = blows.partition_point(|own| own.time < window.0);
-    let to = blows.partition_point(|own| own.time <= window.1);
-    blows.get(from..to).unwrap_or(&[])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -96,9 +98,9 @@ mod tests {
     fn windows_include_both_ends() {
         let blow = |time: f64| VelocityJump { time, impulse: 1.0, lost: 0.0 };
         let blows = [blow(0.0), blow(1.0), blow(2.0)];
-        assert_eq!(within(&blows, (0.0, 1.0)).len(), 2);
-        assert_eq!(within(&blows, (1.0, 1.0)).len(), 1);
-        assert_eq!(within(&blows, (1.5, 1.0)).len(), 0);
-        assert_eq!(within(&blows, (3.0, 4.0)).len(), 0);
+        assert_eq!(VelocityJump::within(&blows, (0.0, 1.0)).len(), 2);
+        assert_eq!(VelocityJump::within(&blows, (1.0, 1.0)).len(), 1);
+        assert_eq!(VelocityJump::within(&blows, (1.5, 1.0)).len(), 0);
+        assert_eq!(VelocityJump::within(&blows, (3.0, 4.0)).len(), 0);
     }
 }

@@ -3,7 +3,6 @@
 pub(crate) mod bodies;
 pub(crate) mod contacts;
 pub(crate) mod face;
-pub(crate) mod holding;
-pub(crate) mod idle;
 pub(crate) mod impulses;
 pub(crate) mod interval;
+pub(crate) mod sliders;

@@ -5,10 +5,7 @@ use std::borrow::Cow;
 use dashpot_network::{NodeId, parameters, parameters::WindowWish};
 
 use super::{Family, MeasureKind, Reading};
-use crate::{
-    Note, Solution,
-    impact::{impulses, interval::Contact},
-};
+use crate::{Note, Solution, VelocityJump, impact::interval::Contact};
 
 /// Part of a time within which the end of a run is at that time.
 const AT_ONCE: f64 = 1e-9;
@@ -108,7 +105,7 @@ impl MeasureKind for CoefficientOfRestitution {
         };
         let touch = face.map_or(target, |face| face.connection);
         let jumps = solution.element_jumps(touch);
-        let is_struck = |time: f64| !impulses::within(jumps, (time, time)).is_empty();
+        let is_struck = |time: f64| !VelocityJump::within(jumps, (time, time)).is_empty();
         let ends = face.map_or(connection.between.map(NodeId::index), |face| face.ends);
         let meeting = if is_struck(span.from) && span.from <= 0.0 {
             solution.start_approach(ends)

@@ -3,7 +3,7 @@
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{Family, MeasureKind, Reading, WINDOW};
-use crate::{Note, Solution, impact::impulses};
+use crate::{Note, Solution, VelocityJump};
 
 parameters! {
     /// An element's deformation at the end of the window, `y(t_end)` \[m\], positive in compression.
@@ -69,7 +69,7 @@ impl MeasureKind for EndVelocity {
         let span = solution.node_span(target, self.window)?;
         let reading = Reading::end_value(velocity, &span);
         // What jumps at the end has jumped.
-        let reading = match impulses::within(&solution.node_jumps(target), (span.to, span.to)) {
+        let reading = match VelocityJump::within(&solution.node_jumps(target), (span.to, span.to)) {
             [] => reading,
             _ => Reading { value: Some(velocity.value(span.to)), ..reading },
         };

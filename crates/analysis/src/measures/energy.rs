@@ -5,12 +5,12 @@ use dashpot_network::{ConnectionOutputs, PrimitiveOutputs, parameters, parameter
 
 use super::{Family, MeasureKind, Reading, WINDOW, reading::moved};
 use crate::{
-    Note, Solution,
+    Note, Solution, VelocityJump,
     energy::{
         ledger,
         roles::{self, Accounts},
     },
-    impact::{impulses, interval::Span},
+    impact::interval::Span,
 };
 
 parameters! {
@@ -88,7 +88,7 @@ fn work(solution: &Solution<'_>, (target, force): (usize, &Signal), span: &Span)
     };
     let area = |signal: &Signal| signal.area_bound(window);
     let noise = force.noise * area(&rate) + rate.noise * area(force);
-    let jumps = impulses::within(solution.element_jumps(target), window);
+    let jumps = VelocityJump::within(solution.element_jumps(target), window);
     let lost: f64 = jumps.iter().map(|own| own.lost).sum();
     let push: f64 = jumps.iter().map(|own| own.impulse).sum();
     // What is lost changes with the speeds by no more than the impulse.

@@ -3,7 +3,7 @@
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{Family, MeasureKind, Needs, Reading, WINDOW};
-use crate::{Note, Solution, impact::impulses};
+use crate::{Note, Solution, VelocityJump};
 
 parameters! {
     /// The integral of an element's force over time, `∫ F dt` \[N s\], positive in compression, and the
@@ -24,7 +24,7 @@ impl MeasureKind for Impulse {
         let force = solution.element_force(target)?;
         let span = solution.element_span(target, self.window)?;
         let connection = &solution.assembly().connections[target];
-        let jumps = impulses::within(solution.element_jumps(target), span.window());
+        let jumps = VelocityJump::within(solution.element_jumps(target), span.window());
         let sum: f64 = jumps.iter().map(|own| own.impulse).sum();
         // An impulse is the lighter side's mass times no more than twice the speed of approach.
         let mass = connection.between.map(|end| {
@@ -59,26 +59,17 @@ impl MeasureKind for AverageDeceleration {
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let acceleration = solution.node_acceleration(target)?;
         let span = solution.node_span(target, self.window)?;
-        let length = span.length();
         let jumps = solution.node_jumps(target);
-        if length <= 0.0 {
+        if span.length() <= 0.0 {
             return Reading::infinite(&span, &jumps).ok_or(Note::NoLength);
         }
-        let jumps = impulses::within(&jumps, span.window());
+        let jumps = VelocityJump::within(&jumps, span.window());
         let mass = solution.body_mass(target);
         let jump: f64 = jumps.iter().map(|own| own.impulse / mass).sum();
         let size: f64 = jumps.iter().map(|own| own.impulse.abs() / mass).sum();
         let error = solution.velocity_error(target).map(|error| 2.0 * error);
         let error = error.map(|each| jumps.iter().map(|_| each).sum());
-        let impulse = Reading::integral(acceleration, &span).plus(jump, size, error);
-        let value = impulse.value.map_or(f64::NAN, |value| value.abs() / length);
-        // A longer window adds to the integral, and divides it by more.
-        let stretch = span.to_error.map(|shift| value * shift / length);
-        let error = impulse.error.zip(stretch).map(|(error, stretch)| error / length + stretch);
-        let end_rate = (impulse.end_rate + value) / length;
-        Ok(Reading::over(&span, value, error)
-            .of_size(impulse.size / length)
-            .above(impulse.noise / length)
-            .changing(end_rate))
+        let mean = Reading::integral(acceleration, &span).plus(jump, size, error).mean(&span);
+        Ok(Reading { value: mean.value.map(f64::abs), ..mean })
     }
 }

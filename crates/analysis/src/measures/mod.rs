@@ -9,13 +9,12 @@ mod contact;
 mod driven;
 mod ends;
 mod energy;
-mod hic;
+mod injury;
 mod integrals;
 mod peaks;
 mod reading;
 mod response_index;
 mod segments;
-mod severity_index;
 mod transmitted;
 
 use std::sync::Arc;
@@ -31,13 +30,12 @@ pub use self::{
     contact::{CoefficientOfRestitution, ContactTime},
     ends::{EndDeformation, EndPosition, EndVelocity},
     energy::{Energy, EnergyAtEnd},
-    hic::{Hic, Hic15, Hic36},
+    injury::{Hic, Hic15, Hic36, SeverityIndex},
     integrals::{AverageDeceleration, Impulse},
     peaks::{PeakAcceleration, PeakDeformation, PeakDisplacement, PeakForce, PeakRate},
     reading::Reading,
     response_index::{Dri, Edi},
     segments::{PeakStrain, PeakStress},
-    severity_index::SeverityIndex,
     transmitted::{Transmissibility, TransmittedForce},
 };
 use crate::{Note, Solution};
@@ -265,12 +263,12 @@ pub fn of_layers() -> Vec<Arc<dyn Measure>> {
 }
 
 /// The `window` parameter of a measure of the impact.
-const WINDOW: Parameter =
+pub const WINDOW: Parameter =
     Parameter::new("window", ParameterKind::Window, "`impact`, `run`, or a pair of times [s]")
         .default("impact");
 
 /// The same of a measure whose largest value may come after the impact.
-const WHOLE_RUN: Parameter = WINDOW.default("run");
+pub const WHOLE_RUN: Parameter = WINDOW.default("run");
 
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{Family, MeasureKind, Needs, Reading, WINDOW, reading::peaks_below_zero};
-use crate::{Note, Solution, impact::impulses};
+use crate::{Note, Solution, VelocityJump};
 
 parameters! {
     /// The largest magnitude of an element's force, `max |F(t)|` \[N\], with its time.
@@ -92,7 +92,7 @@ impl MeasureKind for PeakRate {
         let connection = &solution.assembly().connections[target];
         let reading = Reading::peak(&solution.rate_of(connection), &span);
         // At a jump the rates on both sides count, also that before the span.
-        let jumps = impulses::within(solution.element_jumps(target), (span.from, span.from));
+        let jumps = VelocityJump::within(solution.element_jumps(target), (span.from, span.from));
         let before =
             jumps.first().map_or(0.0, |own| solution.approach_before(connection, own.time).abs());
         if reading.value.is_none_or(|value| value >= before) {

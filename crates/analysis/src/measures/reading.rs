@@ -4,10 +4,7 @@ use dashpot_dae::{Extremum, Signal};
 
 use crate::{
     Note,
-    impact::{
-        impulses::{self, VelocityJump},
-        interval::Span,
-    },
+    impact::{impulses::VelocityJump, interval::Span},
 };
 
 /// A number read off a solution.
@@ -102,7 +99,7 @@ impl Reading {
     /// No value, where speeds jump within the span so that what is measured is infinite there: the force
     /// of an element in which masses meet, the acceleration of a node. `None` where none does.
     pub fn infinite(span: &Span, jumps: &[VelocityJump]) -> Option<Self> {
-        let first = impulses::within(jumps, span.window()).first()?;
+        let first = VelocityJump::within(jumps, span.window()).first()?;
         let reading = Self { value: None, size: 0.0, ..Self::over(span, 0.0, None) };
         Some(reading.at(first.time).noting(Note::Infinite(first.time)))
     }
@@ -147,6 +144,21 @@ impl Reading {
         let noise = signal.noise * span.length();
         let value = signal.integral(span.window());
         Self::over(span, value, error).of_size(size).above(noise).changing(last)
+    }
+
+    /// The same reading over the length of its span, which is positive: the mean of what it is the integral
+    /// of.
+    #[must_use]
+    pub fn mean(self, span: &Span) -> Self {
+        let length = span.length();
+        let value = self.value.map_or(f64::NAN, |value| value / length);
+        // A longer window adds to the integral, and divides it by more.
+        let stretch = span.to_error.map(|shift| value.abs() * shift / length);
+        let error = self.error.zip(stretch).map(|(error, stretch)| error / length + stretch);
+        Self::over(span, value, error)
+            .of_size(self.size / length)
+            .above(self.noise / length)
+            .changing((self.end_rate + value.abs()) / length)
     }
 
     /// The same reading with what impulses add to it: `amount` is their sum, `size` that of their

@@ -1,7 +1,7 @@
 //! Partial modelling: what matters little is left out, and what that costs is measured.
 //!
 //! An effect is a candidate where each of its dimensionless numbers
-//! ([`Influence`]) is below the bound; one without a number is none. An
+//! ([`Influence`](dashpot_network::Influence)) is below the bound; one without a number is none. An
 //! estimate proves nothing, so the network is solved with and without all candidates together, and
 //! every measure that both have is compared. Where one moves by more than the bound, each candidate
 //! is left out alone. Those that exceed the bound by themselves are put back, and where the rest
@@ -11,7 +11,6 @@
 //! A single run becomes no cheaper by this: it takes two solutions or more in place of one. A
 //! [`sweep`] is checked at some of its points only.
 
-mod candidates;
 mod cost;
 mod sweep;
 mod trial;
@@ -27,9 +26,8 @@ use dashpot_network::{Assembly, Detail, Network};
 pub use self::sweep::{PartialSweep, Saving, sweep};
 pub(crate) use self::sweep::{decide, spread};
 use self::{
-    candidates::{Candidate, candidates},
     cost::charged,
-    trial::{Trial, settle},
+    trial::{Candidate, Trial, candidates, settle},
 };
 pub use crate::report::partial::{Cost, Neglected, Partial, PutBack, Verification, Why};
 use crate::{RunError, RunReport, SolveSettings};

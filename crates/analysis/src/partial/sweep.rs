@@ -11,9 +11,8 @@ use dashpot_network::{Detail, Network};
 
 use super::{
     Cost, Neglected, PutBack,
-    candidates::{Candidate, candidates},
     cost::charged,
-    trial::{Trial, is_cancelled, settle, solve_without},
+    trial::{Candidate, Trial, candidates, is_cancelled, settle, solve_without},
 };
 use crate::{RunError, RunReport, SolveSettings};
 

@@ -1,6 +1,6 @@
-//! The report of a run.
+//! The report of a run, and how far two of them are apart.
 
-pub(crate) mod difference;
+pub(crate) mod event;
 pub(crate) mod excerpt;
 pub(crate) mod partial;
 pub(crate) mod sample;
@@ -16,7 +16,7 @@ use dashpot_network::{
 };
 use serde::Serialize;
 
-use crate::{Impact, Ledger, Note, Partial, Segmentation, Solution, Warning};
+use crate::{EventReport, Impact, Ledger, Note, Partial, Segmentation, Solution, Warning};
 
 /// Error in parts of a value whose first digit is just known.
 pub(crate) const FIRST_DIGIT: f64 = 0.1;
@@ -178,18 +178,6 @@ pub struct ContactReport {
     pub again: usize,
 }
 
-/// Something that happened.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct EventReport {
-    /// When \[s\].
-    pub time: f64,
-    /// What, in words.
-    pub what: String,
-    /// Whether it ended the run.
-    #[serde(skip)]
-    pub stops: bool,
-}
-
 impl RunReport {
     /// The measure with this key, for instance `padding.peak-force`.
     pub fn measure(&self, key: &str) -> Option<&MeasureReport> {
@@ -245,4 +233,34 @@ impl RunReport {
     pub fn worst_relative_error(&self) -> Option<f64> {
         self.measures.iter().filter_map(MeasureReport::relative_error).reduce(f64::max)
     }
+}
+
+/// How far two runs are apart in one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// Key of the measure.
+    pub key: String,
+    /// `|a − b|` over the larger of both measures' sizes, to which their errors refer as well; 0 where
+    /// both are zero.
+    pub relative: f64,
+}
+
+/// The differences in all measures that have a value in both runs, in the order of the first.
+pub fn differences(one: &RunReport, other: &RunReport) -> Vec<Difference> {
+    let others = other.by_key();
+    one.measures
+        .iter()
+        .filter_map(|measure| {
+            let a = measure.value?;
+            let opposite = others.get(measure.key.as_str())?;
+            let b = opposite.value?;
+            let relative = over((a - b).abs(), measure.size.max(opposite.size));
+            Some(Difference { key: measure.key.clone(), relative })
+        })
+        .collect()
+}
+
+/// A difference over the size of what differs; 0 where that is zero.
+pub(crate) fn over(difference: f64, size: f64) -> f64 {
+    if size > 0.0 { difference / size } else { 0.0 }
 }

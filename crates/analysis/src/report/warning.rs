@@ -468,8 +468,8 @@ impl Warning {
             }
             Self::HeldTable(table) => {
                 let unit = |dimension: Dimension| dimension.named().map_or("", |own| own.1);
-                let told = table.told(|value, dimension| quantity(value, unit(dimension)));
-                write!(f, "{}", told.join("; "))
+                let show = |value, dimension| quantity(value, unit(dimension));
+                write!(f, "{}; {}", table.message(show), table.help())
             }
             Self::Network(own) => write!(f, "{own}"),
             Self::Segments { measure, parts: [part, stated], counts: [segments, others] } => {

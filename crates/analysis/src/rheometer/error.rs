@@ -25,14 +25,6 @@ pub enum RheometerError {
         /// What it has.
         known: Vec<&'static str>,
     },
-    /// There is no such method.
-    #[error("unknown method `{name}`; known methods: {}", .known.join(", "))]
-    UnknownMethod {
-        /// What was asked for.
-        name: String,
-        /// What there is.
-        known: Vec<&'static str>,
-    },
     /// A parameter of the test or of the model is out of its range.
     #[error(transparent)]
     Invalid(#[from] InvalidParameter),

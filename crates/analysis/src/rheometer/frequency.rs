@@ -4,7 +4,7 @@ use dashpot_dae::{Piece, System, UnknownKind, Waveform};
 use dashpot_network::{Model, Network, Node};
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::shaking::shake;
+use super::{Obstacle, shaking::shake};
 
 /// Rounds of iterative refinement.
 const REFINEMENTS: usize = 2;
@@ -20,16 +20,15 @@ pub(super) struct Shaker {
 
 impl Shaker {
     /// The network of `model`, or why there is none; `time` \[s\] is what its times are like.
-    pub(super) fn new(model: &Model, time: f64) -> Result<Self, String> {
+    pub(super) fn new(model: &Model, time: f64) -> Result<Self, Obstacle> {
         let wave = Piece { sine: 1.0, omega: 1.0 / time, ..Piece::default() };
-        let motion = Waveform::new(vec![wave])
-            .ok_or_else(|| "the times of the model are out of range".to_owned())?;
+        let motion = Waveform::new(vec![wave]).ok_or(Obstacle::OutOfRange)?;
         let mut network = Network::new();
         let head = network.add_node(Node::prescribed("head", motion));
         network.connect("model", head, network.ground(), model.clone());
-        let assembly = network.compile(time).map_err(|errors| errors.to_string())?;
+        let assembly = network.compile(time)?;
         let force = assembly.connections.first().and_then(|connection| connection.force);
-        let force = force.ok_or_else(|| "the force in a rigid link is undetermined".to_owned())?;
+        let force = force.ok_or(Obstacle::Undetermined)?;
         let amplitude = assembly.system.waveforms.first().map_or(0.0, |own| own.pieces()[0].sine);
         Ok(Self { system: assembly.system, force, amplitude })
     }

@@ -8,27 +8,24 @@
 //! # Examples
 //!
 //! ```
-//! use dashpot_analysis::rheometer::{DEFAULT_METHODS, Specimen, protocol};
+//! use dashpot_analysis::rheometer::{Specimen, default_methods, protocol};
 //! use dashpot_network::{Model, elements::{Dashpot, Spring}, part};
 //!
 //! let maxwell = Model::series([part(Spring { stiffness: 2e6 }), part(Dashpot { damping: 4e3 })]);
 //! let specimen = Specimen::new(&maxwell)?;
-//! let report = protocol("relaxation", &[])?.run(&specimen, DEFAULT_METHODS)?;
+//! let report = protocol("relaxation", &[])?.run(&specimen, &default_methods())?;
 //! assert!(report.largest_difference().unwrap() < 1e-12);
 //! # Ok::<(), dashpot_analysis::rheometer::RheometerError>(())
 //! ```
 
-mod comparison;
 mod error;
 mod frequency;
 mod given;
 mod history;
-mod peak;
+mod note;
 mod protocols;
 mod report;
 mod response;
-mod rig;
-mod schedule;
 mod shaking;
 mod simulation;
 mod specimen;
@@ -37,28 +34,37 @@ mod trial;
 #[cfg(test)]
 mod tests;
 
+use dashpot_dae::methods;
 use dashpot_network::parameters::{Described, Kind, Registered, Value, registered};
 
 pub use error::RheometerError;
+pub use note::{Note, Obstacle};
 pub use protocols::{ConstantRate, Creep, CreepRecovery, LoadHoldUnload, Relaxation, Sweep};
 pub use report::{Computation, Computed, Disagreement, Figure, RheometerReport, Series, Setting};
 pub use specimen::Specimen;
 
+use crate::Choice;
+
 /// The methods by which tests are simulated where nothing else is asked for.
-pub const DEFAULT_METHODS: &[&str] = &["exact"];
+pub fn default_methods() -> [Choice; 1] {
+    [Choice::from(methods::Exact)]
+}
 
 /// A test of a model with all its settings.
 ///
 /// Implemented for every [`ProtocolKind`]; this is the form in which tests are passed around.
 pub trait Protocol: Described {
-    /// Makes the test in closed form, and by each of the methods named in `methods`. A frequency
-    /// sweep solves the equations of the network at each frequency instead, if any is named.
+    /// Makes the test in closed form, and by each of the `methods`. A frequency
+    /// sweep solves the equations of the network at each frequency instead, if there is any.
     ///
     /// # Errors
     ///
     /// Any [`RheometerError`] but those of names of protocols and parameters.
-    fn run(&self, specimen: &Specimen, methods: &[&str])
-    -> Result<RheometerReport, RheometerError>;
+    fn run(
+        &self,
+        specimen: &Specimen,
+        methods: &[Choice],
+    ) -> Result<RheometerReport, RheometerError>;
 }
 
 /// What a protocol says about itself. All its parameters are optional; where the default is
@@ -72,7 +78,7 @@ pub trait ProtocolKind: Kind + Default {
     fn test(
         &self,
         specimen: &Specimen,
-        methods: &[&str],
+        methods: &[Choice],
     ) -> Result<RheometerReport, RheometerError>;
 }
 
@@ -83,7 +89,7 @@ impl<P: ProtocolKind> Protocol for P {
     fn run(
         &self,
         specimen: &Specimen,
-        methods: &[&str],
+        methods: &[Choice],
     ) -> Result<RheometerReport, RheometerError> {
         self.test(specimen, methods)
     }

@@ -1,5 +1,6 @@
-//! What a test found.
+//! What a test found, and how far the model object and an independent computation are apart.
 
+use super::{Note, Obstacle, simulation::Track};
 use crate::Column;
 
 /// What a test of a model found: the same quantities from the model object in closed form, and
@@ -23,8 +24,8 @@ pub struct RheometerReport {
     pub figures: Vec<Figure>,
     /// One for each independent computation, in the order in which they were asked for.
     pub computations: Vec<Computation>,
-    /// What is special about this model under this test, in whole clauses.
-    pub notes: Vec<String>,
+    /// What is special about this model under this test.
+    pub notes: Vec<Note>,
 }
 
 impl RheometerReport {
@@ -106,7 +107,7 @@ pub struct Computation {
     /// The last time \[s\] or frequency \[Hz\] that it reaches; `None` where there is nothing.
     pub reach: Option<f64>,
     /// Why it does not reach further.
-    pub obstacle: Option<String>,
+    pub obstacle: Option<Obstacle>,
 }
 
 /// A number that characterises a model or a test.
@@ -121,7 +122,7 @@ pub struct Figure {
     /// From the first independent computation, where that gives it.
     pub computed: Option<f64>,
     /// Why there is no value.
-    pub note: Option<&'static str>,
+    pub note: Option<Note>,
 }
 
 impl Figure {
@@ -132,12 +133,73 @@ impl Figure {
     }
 
     /// The same figure, with the reason why there is no value, should there be none.
-    pub(super) fn noting(self, note: &'static str) -> Self {
+    pub(super) fn noting(self, note: Note) -> Self {
         Self { note: self.model.is_none().then_some(note), ..self }
     }
 
     /// The same figure with the value of the first computation.
     pub(super) fn computed(self, computed: Option<f64>) -> Self {
         Self { computed: computed.filter(|value| value.is_finite()), ..self }
+    }
+}
+
+/// The series of a quantity over `times` \[s\], with its differences relative to its largest value.
+pub(super) fn series<'a>(
+    name: &'static str,
+    unit: &'static str,
+    times: &[f64],
+    model: Vec<f64>,
+    tracks: impl IntoIterator<Item = &'a Track>,
+) -> Series {
+    let compared = |track: &Track| Computed {
+        difference: difference(times, &model, track),
+        values: track.values.clone(),
+    };
+    let computed = tracks.into_iter().map(compared).collect();
+    Series { name, unit, model, computed }
+}
+
+fn difference(times: &[f64], model: &[f64], track: &Track) -> Option<Disagreement> {
+    let pairs = || {
+        let both = model.iter().zip(&track.values);
+        both.zip(times).filter_map(|((&own, &other), &at)| Some((own, other?, at)))
+    };
+    let of_model = pairs().map(|(own, ..)| own.abs()).reduce(f64::max)?;
+    let scale = if of_model > 0.0 {
+        of_model
+    } else {
+        pairs().map(|(_, other, _)| other.abs()).fold(0.0, f64::max)
+    };
+    let (largest, at) = pairs()
+        .map(|(own, other, at)| ((own - other).abs(), at))
+        .max_by(|one, other| one.0.total_cmp(&other.0))?;
+    let relative = |size: f64| if size == 0.0 { 0.0 } else { size / scale };
+    Some(Disagreement {
+        largest,
+        at,
+        relative: relative(largest),
+        stated: track.error.map(relative),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_computation_does_not_reach_does_not_count() {
+        let values = vec![Some(1.0), Some(1.5), None];
+        let track = Track { values, error: Some(0.1) };
+        let series = series("deformation", "m", &[1.0, 2.0, 3.0], vec![1.0, 2.0, 9.0], [&track]);
+        let found = series.computed[0].difference.unwrap();
+        assert_eq!((found.largest, found.at, found.relative), (0.5, 2.0, 0.25));
+        assert_eq!(found.stated, Some(0.05));
+    }
+
+    #[test]
+    fn nothing_differs_from_nothing_by_nothing() {
+        let track = Track { values: vec![Some(0.0)], error: None };
+        let series = series("force", "N", &[1.0], vec![0.0], [&track]);
+        assert_eq!(series.computed[0].difference.map(|own| own.relative), Some(0.0));
     }
 }

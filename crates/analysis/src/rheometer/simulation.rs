@@ -1,13 +1,14 @@
-//! The independent way: the network of the model, compiled and solved.
+//! The independent way: the network around a model, compiled and solved.
 
-use dashpot_dae::{Method, Run, Signal, Silent, System, Waveform, methods};
+use dashpot_dae::{Method, Run, Signal, Silent, System, Waveform};
+use dashpot_network::{Model, Network, Node};
 
 use super::{
-    RheometerError,
-    history::{Instant, Side},
-    rig::Rig,
-    shaking::{CAUTION, SEEDS, shake},
+    Obstacle,
+    history::{History, Instant, Side},
+    shaking::{CAUTION, SEEDS, shake, shaken},
 };
+use crate::Choice;
 
 /// Tolerances of a method that states no bound; its error follows from their differences.
 const TOLERANCES: [f64; 3] = [1e-7, 1e-8, 1e-9];
@@ -28,7 +29,7 @@ pub(super) struct Simulation {
     /// The time \[s\] up to which it could be solved; `None` if not at all.
     pub(super) reach: Option<f64>,
     /// Why it could not be solved to the end.
-    pub(super) obstacle: Option<String>,
+    pub(super) obstacle: Option<Obstacle>,
 }
 
 /// An output at the instants.
@@ -41,21 +42,10 @@ pub(super) struct Track {
 }
 
 impl Simulation {
-    /// Solves the network of `rig` by the method of this name and reads it at `instants`, which
+    /// Solves the network of `rig` by a method and reads it at `instants`, which
     /// rise. What cannot be solved to its end is solved as far as tenths of the time go.
-    ///
-    /// # Errors
-    ///
-    /// [`RheometerError::UnknownMethod`].
-    pub(super) fn new(
-        rig: &Rig<'_>,
-        method: &str,
-        instants: &[Instant],
-    ) -> Result<Self, RheometerError> {
-        let Some(method) = methods::by_name(method) else {
-            let known = methods::all().iter().map(|method| method.name()).collect();
-            return Err(RheometerError::UnknownMethod { name: method.to_owned(), known });
-        };
+    pub(super) fn new(rig: &Rig<'_>, method: &Choice, instants: &[Instant]) -> Self {
+        let method = method.method();
         let name = method.name();
         let first = instants.iter().map(|instant| instant.time).find(|&time| time > 0.0);
         let first = first.unwrap_or(f64::INFINITY);
@@ -64,7 +54,7 @@ impl Simulation {
         while reach >= first {
             match solve(rig, method.as_ref(), reach, instants) {
                 Ok(tracks) => {
-                    return Ok(Self { method: name, tracks, reach: Some(reach), obstacle });
+                    return Self { method: name, tracks, reach: Some(reach), obstacle };
                 }
                 Err(reason) => {
                     obstacle.get_or_insert(reason);
@@ -74,7 +64,7 @@ impl Simulation {
         }
         let nothing = Track { values: vec![None; instants.len()], error: None };
         let tracks = vec![nothing; rig.outputs.len()];
-        Ok(Self { method: name, tracks, reach: None, obstacle })
+        Self { method: name, tracks, reach: None, obstacle }
     }
 }
 
@@ -84,7 +74,7 @@ fn solve(
     method: &dyn Method,
     reach: f64,
     instants: &[Instant],
-) -> Result<Vec<Track>, String> {
+) -> Result<Vec<Track>, Obstacle> {
     let solved = |rtol: f64, seed| tracks(rig, method, (reach, rtol), seed, instants);
     if !method.is_exact() {
         let [coarse, middle, fine] = TOLERANCES.map(|rtol| solved(rtol, None));
@@ -111,12 +101,12 @@ fn tracks(
     (reach, rtol): (f64, f64),
     seed: Option<u64>,
     instants: &[Instant],
-) -> Result<Vec<Track>, String> {
+) -> Result<Vec<Track>, Obstacle> {
     let network = seed.map_or_else(|| rig.network(), |seed| rig.shaken(seed).network());
-    let network = network.ok_or("two changes of the test cannot be told apart")?;
-    let mut assembly = network.compile(reach).map_err(|errors| errors.to_string())?;
+    let network = network.ok_or(Obstacle::ChangesAtOnce)?;
+    let mut assembly = network.compile(reach)?;
     let numbers: Option<Vec<usize>> = rig.outputs.iter().map(|own| assembly.output(own)).collect();
-    let numbers = numbers.ok_or("the force in a rigid link is undetermined")?;
+    let numbers = numbers.ok_or(Obstacle::Undetermined)?;
     if let Some(seed) = seed {
         shake(&mut assembly.system, seed);
     }
@@ -124,8 +114,7 @@ fn tracks(
         check_width(&assembly.system, reach)?;
     }
     let run = Run::to(reach).with_rtol(rtol);
-    let trajectory = method.integrate(&assembly.system, &run, &mut Silent);
-    let trajectory = trajectory.map_err(|error| error.to_string())?;
+    let trajectory = method.integrate(&assembly.system, &run, &mut Silent)?;
     let signals = numbers.iter().map(|&at| trajectory.signal(&assembly.system, at));
     Ok(signals.map(|signal| read(&signal, reach, instants)).collect())
 }
@@ -133,7 +122,7 @@ fn tracks(
 /// Declines systems of many unknowns over so many decades that the exact solution has no useful
 /// bound, or takes long: those that are coupled, and those that are driven by lines, because what is
 /// slow then belongs together with the drive.
-fn check_width(system: &System, reach: f64) -> Result<(), String> {
+fn check_width(system: &System, reach: f64) -> Result<(), Obstacle> {
     let entries = || system.jacobian.triplet_iter();
     let is_coupled = entries().any(|(row, column, _)| row != column);
     let fastest = entries().map(|(_, _, value)| value.abs()).fold(0.0, f64::max);
@@ -143,11 +132,7 @@ fn check_width(system: &System, reach: f64) -> Result<(), String> {
     let is_line = |own: &Waveform| [0.0, 0.5 * end].iter().any(|&time| is_sloped(own, time));
     let is_together = is_coupled || system.waveforms.iter().any(is_line);
     if is_together && system.len() > FEW && width > WIDE {
-        let (count, decades) = (system.len(), width.log10());
-        return Err(format!(
-            "{count} unknowns over {decades:.0} decades of time leave the exact solution without \
-             a useful bound"
-        ));
+        return Err(Obstacle::TooWide { unknowns: system.len(), decades: width.log10() });
     }
     Ok(())
 }
@@ -179,4 +164,83 @@ fn estimated(coarse: &[Track], middle: &[Track], fine: Vec<Track>) -> Vec<Track>
 fn difference(one: &[Option<f64>], other: &[Option<f64>]) -> Option<f64> {
     let pairs = one.iter().zip(other).filter_map(|(one, other)| one.zip(*other));
     pairs.map(|(one, other)| (one - other).abs()).reduce(f64::max)
+}
+
+/// Name of the connection that a model becomes.
+const NAME: &str = "model";
+
+/// What is prescribed at the head of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Control {
+    /// Its force.
+    Force,
+    /// Its deformation.
+    Deformation,
+}
+
+/// Models in a row between a massless head and the ground, and what is read off them.
+#[derive(Debug)]
+pub(super) struct Rig<'a> {
+    chain: Vec<(&'static str, Model)>,
+    control: Control,
+    history: &'a History,
+    /// Names of the outputs that are read.
+    pub(super) outputs: Vec<String>,
+}
+
+impl<'a> Rig<'a> {
+    /// A rig for `model`; its one output is the deformation under a given force, or the force under
+    /// a given deformation.
+    pub(super) fn new(model: &Model, control: Control, history: &'a History) -> Self {
+        let output = match control {
+            Control::Force => format!("{NAME}.deformation"),
+            Control::Deformation => format!("{NAME}.force"),
+        };
+        Self { chain: vec![(NAME, model.clone())], control, history, outputs: vec![output] }
+    }
+
+    /// A rig for models in a row, from the head on; its outputs are their deformations.
+    pub(super) fn chain(
+        chain: Vec<(&'static str, Model)>,
+        control: Control,
+        history: &'a History,
+    ) -> Self {
+        let outputs = chain.iter().map(|(name, _)| format!("{name}.deformation")).collect();
+        Self { chain, control, history, outputs }
+    }
+
+    /// The same rig with the models [`shaken`].
+    pub(super) fn shaken(&self, seed: u64) -> Self {
+        let chain = self.chain.iter().map(|(name, model)| (*name, shaken(model, seed))).collect();
+        Self { chain, outputs: self.outputs.clone(), ..*self }
+    }
+
+    pub(super) fn history(&self) -> &History {
+        self.history
+    }
+
+    /// The network; `None` where the corners of the history cannot be told apart.
+    pub(super) fn network(&self) -> Option<Network> {
+        let waveform = self.history.waveform()?;
+        let mut network = Network::new();
+        let head = match self.control {
+            Control::Force => {
+                let head = network.add_node(Node::massless("head"));
+                network.add_load("force", head, waveform);
+                head
+            }
+            Control::Deformation => network.add_node(Node::prescribed("head", waveform)),
+        };
+        let mut from = head;
+        for (at, (name, model)) in self.chain.iter().enumerate() {
+            let to = if at + 1 < self.chain.len() {
+                network.add_node(Node::massless(format!("behind {name}")))
+            } else {
+                network.ground()
+            };
+            network.connect(*name, from, to, model.clone());
+            from = to;
+        }
+        Some(network)
+    }
 }

@@ -1,16 +1,13 @@
 //! What tests over time have in common.
 
 use super::{
-    RheometerError, Specimen,
-    comparison::series,
-    history::{History, Instant},
-    report::{Computation, RheometerReport, Series, Setting},
+    Specimen,
+    history::{History, Instant, instants},
+    report::{Computation, RheometerReport, Series, Setting, series},
     response::{self, Parts},
-    rig::{Control, Rig},
-    schedule::instants,
-    simulation::Simulation,
+    simulation::{Control, Rig, Simulation},
 };
-use crate::Column;
+use crate::{Choice, Column};
 
 /// A model under a history, in closed form and simulated.
 pub(super) struct Trial<'a> {
@@ -19,7 +16,7 @@ pub(super) struct Trial<'a> {
     control: Control,
     instants: Vec<Instant>,
     times: Vec<f64>,
-    methods: &'a [&'a str],
+    methods: &'a [Choice],
     simulations: Vec<Simulation>,
 }
 
@@ -30,14 +27,14 @@ impl<'a> Trial<'a> {
         control: Control,
         history: History,
         points: usize,
-        methods: &'a [&'a str],
-    ) -> Result<Self, RheometerError> {
+        methods: &'a [Choice],
+    ) -> Self {
         let instants = instants(&history, specimen.range_of_times().0, points);
         let rig = Rig::new(specimen.model(), control, &history);
-        let simulate = |method: &&str| Simulation::new(&rig, method, &instants);
-        let simulations = methods.iter().map(simulate).collect::<Result<_, _>>()?;
+        let simulate = |method: &Choice| Simulation::new(&rig, method, &instants);
+        let simulations = methods.iter().map(simulate).collect();
         let times = instants.iter().map(|instant| instant.time).collect();
-        Ok(Self { specimen, history, control, instants, times, methods, simulations })
+        Self { specimen, history, control, instants, times, methods, simulations }
     }
 
     /// The parts of the deformation at an instant, in closed form; zero for what bears no force.
@@ -78,27 +75,26 @@ impl<'a> Trial<'a> {
     }
 
     /// The parts of the deformation over time, simulated with the Kelvin form in place of the model.
-    pub(super) fn series_of_parts(&self) -> Result<Vec<Series>, RheometerError> {
+    pub(super) fn series_of_parts(&self) -> Vec<Series> {
         let parts: Vec<Parts> = self.instants.iter().map(|&at| self.parts(at)).collect();
         let chain = self.specimen.kelvin_chain();
         let names: Vec<&str> = chain.iter().map(|(name, _)| *name).collect();
         let mut simulations = Vec::new();
         if !chain.is_empty() {
             let rig = Rig::chain(chain, self.control, &self.history);
-            for method in self.methods {
-                simulations.push(Simulation::new(&rig, method, &self.instants)?);
-            }
+            let simulate = |method: &Choice| Simulation::new(&rig, method, &self.instants);
+            simulations.extend(self.methods.iter().map(simulate));
         }
         let of = |name: &'static str, value: fn(&Parts) -> f64| {
             let track = names.iter().position(|&known| known == name);
             let tracks = simulations.iter().filter_map(|own| own.tracks.get(track?));
             series(name, "m", &self.times, parts.iter().map(value).collect(), tracks)
         };
-        Ok(vec![
+        vec![
             of("instantaneous", |parts| parts.instantaneous),
             of("delayed", |parts| parts.delayed),
             of("viscous", |parts| parts.viscous),
-        ])
+        ]
     }
 
     /// The report, without figures of the test and notes.

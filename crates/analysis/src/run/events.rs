@@ -1,19 +1,21 @@
 //! What happened in a run, in order of time.
 
-use dashpot_dae::{Run, Trajectory};
-use dashpot_network::Assembly;
+use dashpot_dae::{Run, Switch, Trajectory};
+use dashpot_network::{Assembly, NodeId};
 
 use crate::{
-    ContactReport, EventReport,
-    impact::{contacts, interval::Contact},
-    wording::quantity,
+    Blow, ContactReport, Event, EventReport, Stop,
+    impact::{
+        contacts::{is_contact, stays_closed},
+        interval::Contact,
+    },
 };
 
 /// Most switchings that are listed one by one.
 const LISTED: usize = 20;
 
 /// Conditions that were met, contacts that end, and what switched.
-pub(crate) fn collect(
+pub(super) fn collect(
     run: &Run,
     assembly: &Assembly,
     trajectory: &Trajectory,
@@ -21,21 +23,85 @@ pub(crate) fn collect(
 ) -> Vec<EventReport> {
     let guards = trajectory.events.iter().filter_map(|event| {
         let guard = run.guards.get(event.guard)?;
-        Some(EventReport { time: event.time, what: guard.name.clone(), stops: guard.stops })
+        let output = assembly.system.outputs.at(guard.output);
+        let (name, unit) = (output.name.to_owned(), output.unit);
+        let stop = Stop { output: name, level: guard.level, direction: guard.direction };
+        let what = Event::Condition { stop, unit };
+        Some(EventReport { time: event.time, what, stops: guard.stops })
     });
-    let told = |time: f64, what: String| EventReport { time, what, stops: false };
+    let event = |time: f64, what: Event| EventReport { time, what, stops: false };
     let pulls =
         contacts.iter().filter(|own| own.is_glued && own.impact.contact == Contact::Released);
     let pulls =
-        pulls.map(|own| told(own.impact.end, format!("{} force turns to tension", own.element)));
-    let switchings = contacts::switchings(assembly, trajectory);
+        pulls.map(|own| event(own.impact.end, Event::Tension { element: own.element.clone() }));
+    let switchings = switchings(assembly, trajectory);
     let rest = switchings.get(LISTED..).unwrap_or(&[]);
-    let summary = rest.first().zip(rest.last()).map(|(first, last)| {
-        let until = quantity(last.0, "s");
-        told(first.0, format!("… {} more until {until}", rest.len()))
-    });
-    let listed = switchings.iter().take(LISTED).map(|(time, what)| told(*time, what.clone()));
+    let summary = rest
+        .first()
+        .zip(rest.last())
+        .map(|(first, last)| event(first.0, Event::More { count: rest.len(), until: last.0 }));
+    let listed = switchings.iter().take(LISTED).map(|(time, what)| event(*time, what.clone()));
     let mut events: Vec<EventReport> = pulls.chain(guards).chain(listed).chain(summary).collect();
     events.sort_by(|one, other| one.time.total_cmp(&other.time));
     events
+}
+
+/// What switches, with the time of each \[s\].
+fn switchings(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, Event)> {
+    let mut met: Vec<usize> = Vec::new();
+    let begins_struck =
+        |part: usize| trajectory.switches.iter().any(|own| own.part == part && own.time <= 0.0);
+    let first = trajectory.first_phases.iter().enumerate().map(|(part, phase)| (part, phase.0));
+    let lies = |&(part, phase): &(usize, usize)| phase > 0 && !begins_struck(part);
+    met.extend(first.filter(lies).map(|(part, _)| part));
+    let mut found = Vec::with_capacity(trajectory.switches.len());
+    for own in &trajectory.switches {
+        let again = met.contains(&own.part);
+        let at = assembly.primitives.iter().position(|primitive| primitive.name == own.name);
+        let what = match at.filter(|&at| is_contact(&assembly.primitives[at])) {
+            Some(at) => {
+                if !again {
+                    met.push(own.part);
+                }
+                of_contact(assembly, own, at, again)
+            }
+            None => Event::Phase { part: own.name.clone(), phase: own.what },
+        };
+        found.push((own.time, what));
+    }
+    found
+}
+
+/// What switches at the contact that is the primitive number `at`.
+fn of_contact(assembly: &Assembly, own: &Switch, at: usize, again: bool) -> Event {
+    let owner = assembly.owner(at);
+    // A contact that is all of an element goes by the element's name.
+    let is_connection = owner.is_some_and(|at| assembly.connections[at].name == own.name);
+    let name = if is_connection { &own.name } else { assembly.primitives[at].place() };
+    let contact = name.to_owned();
+    let impulse = Blow { impulse: own.impulse, lost: own.lost.max(0.0) };
+    if stays_closed(own) {
+        return if own.lost > 0.0 {
+            Event::Impact { contact, blow: impulse }
+        } else {
+            Event::PassesOn { contact, impulse: own.impulse }
+        };
+    }
+    let blow = (own.impulse > 0.0).then_some(impulse);
+    match owner.and_then(|at| sides(assembly, at)) {
+        // Where an impulse parts them again at once, they have met all the same.
+        Some(sides) if own.impulse > 0.0 || own.phase > 0 => Event::Meets { sides, again, blow },
+        Some(sides) => Event::Leaves { sides },
+        None if own.phase > 0 => Event::Closes { contact, again, blow },
+        None if own.impulse > 0.0 => Event::Impact { contact, blow: impulse },
+        None => Event::Opens { contact },
+    }
+}
+
+/// The node and the element between which this contact is, where an effect has put it there.
+fn sides(assembly: &Assembly, contact: usize) -> Option<[String; 2]> {
+    let pad = assembly.pad_behind(contact)?;
+    let mut ends = assembly.connections[contact].between.into_iter().map(NodeId::index);
+    let node = ends.find(|&end| pad.face != Some(end))?;
+    Some([&assembly.nodes[node].name, &assembly.connections[pad.element].name].map(String::clone))
 }

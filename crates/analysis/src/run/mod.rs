@@ -1,7 +1,6 @@
 //! From a compiled network to the report of its run: methods, budget, one attempt after the other.
 
 pub(crate) mod attempts;
-pub(crate) mod extremes;
 
 mod events;
 mod measured;
@@ -10,7 +9,7 @@ mod warnings;
 
 use std::sync::Arc;
 
-use dashpot_dae::{Budget, Direction, Guard, Method, MethodKind, Observer, Run, methods};
+use dashpot_dae::{Budget, Guard, Method, MethodKind, Observer, Run, methods};
 use dashpot_network::{Assembly, Network};
 
 use self::{attempts::Found, outcome::report};
@@ -19,7 +18,6 @@ use crate::{
     errors::{keep::keep, solved::Task},
     measures::selection::{Selected, select},
     memory,
-    wording::quantity,
 };
 
 /// Tolerance of a single solution whose error is not estimated, when none is given.
@@ -177,7 +175,7 @@ pub(crate) fn guards(
             known: assembly.system.outputs.iter().map(|output| output.name.to_owned()).collect(),
         })?;
         Ok(Guard {
-            name: condition(stop, assembly.system.outputs.at(output).unit),
+            name: stop.text(assembly.system.outputs.at(output).unit),
             output,
             level: stop.level,
             direction: stop.direction,
@@ -187,17 +185,6 @@ pub(crate) fn guards(
         })
     };
     settings.stops.iter().map(guard).collect()
-}
-
-/// What has happened when a run stops, in words; the level is in the SI unit `unit`.
-fn condition(stop: &Stop, unit: &str) -> String {
-    let way = match stop.direction {
-        Direction::Rising => "rose above",
-        Direction::Falling => "fell below",
-        Direction::Either => "reached",
-    };
-    let level = if stop.level == 0.0 { format!("0 {unit}") } else { quantity(stop.level, unit) };
-    format!("{} {way} {level}", stop.output)
 }
 
 /// The words of the effects that are on.

@@ -16,7 +16,7 @@ use crate::{
     errors::{refinement::Outcome, solved::Task},
     impact::{
         contacts::{self, meetings_after},
-        idle::idle_times,
+        sliders::idle_times,
     },
     memory::is_large,
 };

@@ -6,7 +6,7 @@ use dashpot_network::{Network, parameters::Dimension};
 use super::{Scale, Similarity, inventory::with_value, scale::similar_measure};
 use crate::{
     MeasureReport, MeasureWish, RunError, RunReport, SolveSettings, Stop,
-    measures::selection::select, report::difference::over, solve,
+    measures::selection::select, report::over, solve,
 };
 
 /// Differences below this part of a measure's size are those of rounding.

@@ -20,17 +20,14 @@ use crate::{
     },
 };
 
+mod forces;
 mod grazing;
-mod rest;
 mod signals;
-mod tension;
-mod twins;
 
+use forces::{only_at_rest, resting_from_switches};
 use grazing::Feels;
 pub(crate) use grazing::{Grazes, grazes};
-use rest::{only_at_rest, resting_from_switches};
-use signals::Signals;
-use twins::Twins;
+use signals::{Signals, Twins};
 
 /// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
 /// are 100 to 700, of whatever method, at tolerances from 1e-4 to 1e-10.

@@ -1,9 +1,15 @@
-//! Points of a sweep that are solved in full, each as a single run.
+//! Points of a sweep that are solved in full, each as a single run, and stamped points beside them.
+
+use std::ops::ControlFlow;
 
 use dashpot_dae::Silent;
 
-use super::{Column, Gap, Grid, Pose};
-use crate::{Warning, solve};
+use super::{
+    Column, Gap, Grid, Pose,
+    crew::share,
+    stamped::{Plan, Stamper},
+};
+use crate::{Warning, partial::spread, solve};
 
 /// How points are solved in full.
 #[derive(Clone, Copy)]
@@ -54,4 +60,71 @@ impl Full<'_> {
         }
         report.warnings
     }
+}
+
+/// At most so many points are solved both ways.
+const MOST_CHECKED: usize = 4;
+/// Stamped values may differ from full ones by this part of themselves, besides the errors of both.
+const AGREEMENT: f64 = 1e-9;
+
+/// Solves points spread over the grid both ways: those that were stamped, and the largest difference
+/// in parts of a value. `None` where they do not agree, or full runs are warned of something else.
+pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<(Vec<usize>, f64)> {
+    struct Both {
+        point: usize,
+        /// Whether it was stamped, and the largest difference; `None` where both do not agree.
+        found: Option<(bool, f64)>,
+    }
+    let all = spread(full.grid.len());
+    let wanted = all.len().min(MOST_CHECKED);
+    let picked = (0..wanted).map(|at| all[at * (all.len() - 1) / wanted.saturating_sub(1).max(1)]);
+    let mut rows: Vec<Both> = picked.map(|point| Both { point, found: None }).collect();
+    let both = |stamper: &mut Option<Box<dyn Stamper + '_>>, row: &mut Both| {
+        let count = full.columns.len();
+        let (mut values, mut errors) = (vec![0.0; count], vec![0.0; count]);
+        let Some(stamper) = stamper else { return };
+        let Ok(scene) = (full.pose)(&full.grid.places(row.point)) else {
+            row.found = Some((false, 0.0));
+            return;
+        };
+        if !plan.agrees(row.point, &scene) {
+            return;
+        }
+        let Some(notice) = stamper.write(row.point, &mut values, &mut errors) else {
+            row.found = Some((false, 0.0));
+            return;
+        };
+        let (mut right, mut bars) = (vec![f64::NAN; count], vec![f64::NAN; count]);
+        let warned = full.write(row.point, &mut right, &mut bars, &mut Vec::new());
+        let noticed = notice.warnings(plan.element());
+        if !(warned.len() == noticed.len()
+            && warned.iter().zip(&noticed).all(|own| own.0.is_like(own.1)))
+        {
+            return;
+        }
+        let mut largest = 0.0_f64;
+        for at in 0..count {
+            let (difference, size) = ((values[at] - right[at]).abs(), right[at].abs());
+            let bar = if bars[at].is_finite() { bars[at] } else { 0.0 };
+            let room = errors[at] + bar + AGREEMENT * size;
+            if difference.is_nan() || difference > room {
+                return;
+            }
+            if difference > 0.0 {
+                largest = largest.max(difference / size);
+            }
+        }
+        row.found = Some((true, largest));
+    };
+    share(&mut rows, threads, &|| plan.stamper(), &both, &mut |_, _| ControlFlow::Continue(()));
+    let mut largest = 0.0_f64;
+    let mut checked = Vec::new();
+    for row in rows {
+        let (is_stamped, difference) = row.found?;
+        largest = largest.max(difference);
+        if is_stamped {
+            checked.push(row.point);
+        }
+    }
+    Some((checked, largest))
 }

@@ -41,6 +41,16 @@ impl Grid {
         places
     }
 
+    /// The point at which each parameter takes the value at this position; `None` where one has no such
+    /// value.
+    pub fn point(&self, places: &[usize]) -> Option<usize> {
+        let is_one = places.len() == self.counts.len();
+        let mut pairs = places.iter().zip(&self.counts);
+        pairs
+            .try_fold(0, |point, (place, count)| (place < count).then_some(point * count + place))
+            .filter(|_| is_one)
+    }
+
     /// The point at which one parameter takes a value, and all others their first one.
     pub fn on_axis(&self, axis: usize, place: usize) -> usize {
         place * self.counts[axis + 1..].iter().product::<usize>()
@@ -69,6 +79,8 @@ mod tests {
         let grid = Grid::new(vec![2, 3]).unwrap();
         let all: Vec<Vec<usize>> = (0..grid.len()).map(|at| grid.places(at)).collect();
         assert_eq!(all, [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2]]);
+        assert!((0..grid.len()).all(|at| grid.point(&grid.places(at)) == Some(at)));
+        assert!(grid.point(&[2, 0]).is_none() && grid.point(&[1]).is_none());
         assert_eq!(grid.corners(), [0, 2, 3, 5]);
         assert_eq!((grid.on_axis(0, 1), grid.on_axis(1, 2)), (3, 2));
         assert!(Grid::new(vec![2, 0]).is_none() && Grid::new(vec![]).is_none());

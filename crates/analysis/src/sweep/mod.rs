@@ -9,10 +9,10 @@
 //!
 //! Points are shared among threads; the result is the same to the bit whatever their number.
 
+mod axes;
 mod bracket;
 mod columns;
 mod crew;
-mod error;
 mod full;
 mod grid;
 mod march;
@@ -22,30 +22,28 @@ mod report;
 mod stamped;
 mod sums;
 mod table;
-mod verify;
 mod warned;
 
 #[cfg(test)]
 mod tests;
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use dashpot_network::{Detail, Network};
 
 pub use self::{
+    axes::{Axis, Sweep, SweepRow, Swept, axis},
     columns::{columns, measure_named},
     crew::Watch,
-    error::SweepError,
     grid::Grid,
-    report::{Column, Gap, PartialOfSweep, SweepReport},
+    report::{Column, Gap, PartialOfSweep, SweepError, SweepReport},
     warned::SweepWarning,
 };
 use self::{
     crew::{hands, share},
-    full::Full,
+    full::{Full, check},
     neglect::decided,
     stamped::Plan,
-    verify::check,
     warned::Notice,
 };
 use crate::{SolveSettings, Warning};
@@ -103,33 +101,32 @@ pub fn sweep(
         posed.settings.accuracy.neglect_below = None;
         Ok(posed)
     };
-    let first = reduced(&grid.places(0)).map_err(SweepError::NotPosed)?;
     let full = Full { grid, pose: &reduced, columns };
-    let mut plan = Plan::of(grid, &reduced, &first, columns);
-    let (mut checked, mut largest_difference) = (Vec::new(), 0.0);
-    if let Some(own) = &plan {
-        let found = check(own, &full, threads);
-        match found {
-            Some((points, difference)) => (checked, largest_difference) = (points, difference),
-            None => plan = None,
-        }
+    let mut report = solved(&full, threads, watch)?;
+    if let Some((own, _)) = partial {
+        // As many threads would share the work in full.
+        let wall_in_full = own.wall_in_full / hands(threads, grid.len());
+        report.charge(PartialOfSweep { wall_in_full, ..own });
     }
+    report.wall = started.elapsed();
+    Ok(report)
+}
 
+/// Solves all points: by stamping where that agrees with full runs, else in full.
+fn solved(
+    full: &Full<'_>,
+    threads: usize,
+    watch: &mut Watch<'_>,
+) -> Result<SweepReport, SweepError> {
+    let &Full { grid, pose, columns } = full;
+    let first = pose(&grid.places(0)).map_err(SweepError::NotPosed)?;
+    let plan = Plan::of(grid, pose, &first, columns);
+    let found = plan.as_ref().and_then(|own| check(own, full, threads));
+    let plan = plan.filter(|_| found.is_some());
     let count = grid.len();
     let mut values = vec![f64::NAN; count * columns.len()];
     let mut errors = vec![f64::NAN; count * columns.len()];
-    let width = columns.len().max(1);
-    let places = values.chunks_mut(width).zip(errors.chunks_mut(width)).enumerate();
-    let mut rows: Vec<Row<'_>> = places
-        .map(|(point, (values, errors))| Row {
-            point,
-            values,
-            errors,
-            gaps: Vec::new(),
-            warnings: Vec::new(),
-            notice: None,
-        })
-        .collect();
+    let mut rows = rows(columns.len(), &mut values, &mut errors);
     let tool = || plan.as_ref().and_then(Plan::stamper);
     let is_whole = share(
         &mut rows,
@@ -148,23 +145,10 @@ pub fn sweep(
         return Err(SweepError::BrokenOff);
     }
     let stamped = rows.iter().filter(|row| row.notice.is_some()).count();
+    let (checked, largest_difference) = found.filter(|_| stamped > 0).unwrap_or_default();
     let gaps = rows.iter_mut().flat_map(|row| std::mem::take(&mut row.gaps)).collect();
     let warnings = warned::collect(&rows, plan.as_ref().map_or("", Plan::element));
     drop(rows);
-    let partial = partial.map(|(own, _)| PartialOfSweep {
-        // As many threads would share the work in full.
-        wall_in_full: own.wall_in_full / hands(threads, count),
-        ..own
-    });
-    if let Some(worst) = partial.as_ref().and_then(|own| own.worst.as_ref()) {
-        let moved = worst.most();
-        for (error, value) in errors.iter_mut().zip(&values) {
-            *error += moved * value.abs();
-        }
-    }
-    if stamped == 0 {
-        (checked, largest_difference) = (Vec::new(), 0.0);
-    }
     Ok(SweepReport {
         columns: columns.to_vec(),
         values,
@@ -174,7 +158,18 @@ pub fn sweep(
         stamped,
         checked,
         largest_difference,
-        partial,
-        wall: started.elapsed(),
+        partial: None,
+        wall: Duration::ZERO,
     })
+}
+
+/// The points, each with its place among the values of so many columns.
+fn rows<'r>(columns: usize, values: &'r mut [f64], errors: &'r mut [f64]) -> Vec<Row<'r>> {
+    let width = columns.max(1);
+    let places = values.chunks_mut(width).zip(errors.chunks_mut(width)).enumerate();
+    let row = |(point, (values, errors))| {
+        let (gaps, warnings, notice) = (Vec::new(), Vec::new(), None);
+        Row { point, values, errors, gaps, warnings, notice }
+    };
+    places.map(row).collect()
 }

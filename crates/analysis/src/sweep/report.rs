@@ -1,9 +1,14 @@
-//! What a sweep yields.
+//! What a sweep yields, and what can go wrong with it as a whole.
 
 use std::time::Duration;
 
+use thiserror::Error;
+
 use super::SweepWarning;
-use crate::partial::{Cost, Neglected, PutBack};
+use crate::{
+    RunError,
+    partial::{Cost, Neglected, PutBack},
+};
 
 /// What a sweep reports of each point.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -78,4 +83,42 @@ impl SweepReport {
     pub fn column(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
         self.values.iter().skip(column).step_by(self.columns.len().max(1)).copied()
     }
+
+    /// Widens the errors by the largest move that what was left out makes, and says what that was.
+    pub(super) fn charge(&mut self, partial: PartialOfSweep) {
+        if let Some(moved) = partial.worst.as_ref().map(Cost::most) {
+            for (error, value) in self.errors.iter_mut().zip(&self.values) {
+                *error += moved * value.abs();
+            }
+        }
+        self.partial = Some(partial);
+    }
+}
+
+/// Why there is no sweep.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SweepError {
+    /// A fault of the scene at the first point, or of what is asked of it.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The scene at the first point cannot be posed.
+    #[error("{0}")]
+    NotPosed(String),
+    /// An axis has no values, or there are too many points to count.
+    #[error("an axis has no values, or all together have too many points")]
+    NoPoints,
+    /// A measure that the scene does not have.
+    #[error("there is no measure `{key}`")]
+    NoMeasure {
+        /// What was asked for.
+        key: String,
+        /// What the scene reports.
+        known: Vec<String>,
+    },
+    /// The scene reports nothing by itself, and nothing is asked for.
+    #[error("the scene reports no measure by itself: name one")]
+    NoneReported,
+    /// The watcher broke it off.
+    #[error("the sweep was broken off")]
+    BrokenOff,
 }

@@ -10,13 +10,13 @@ use dashpot_network::{
 };
 
 use super::{
-    Drive, DriveKind, Vibration, VibrationError,
+    Drive, DriveKind, Vibration, VibrationError, VibrationWarning,
     curve::Curve,
     drive::Driven,
     linearity,
     observed::{Found, Observed},
 };
-use crate::{Solution, SolveSettings, solve_assembly, wording::quantity};
+use crate::{Solution, SolveSettings, solve_assembly};
 
 /// A contact counts as loose at rest where it carries less than this part of the largest force.
 const LOOSE: f64 = 1e-9;
@@ -28,6 +28,16 @@ pub enum LimitKind {
     Parting,
     /// An element reaches its stop where its deformation swings by more than it has left \[m\].
     Stop,
+}
+
+impl LimitKind {
+    /// SI unit of what is limited.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Parting => "N",
+            Self::Stop => "m",
+        }
+    }
 }
 
 /// A contact or stop of the network, which is as at rest in small oscillations.
@@ -197,51 +207,6 @@ impl Limit {
         };
         Some(Observed::output(&self.name, output, order))
     }
-
-    /// What happens where it swings by `amplitude`.
-    pub(super) fn warning(&self, frequency: f64, amplitude: f64) -> String {
-        let (name, frequency) = (&self.name, quantity(frequency, "Hz"));
-        match self.kind {
-            LimitKind::Parting => format!(
-                "`{name}` parts at {frequency}: its force would swing by {}, and only {} press it \
-                 together at rest; these amplitudes do not hold",
-                quantity(amplitude, "N"),
-                quantity(self.reserve, "N")
-            ),
-            LimitKind::Stop => format!(
-                "`{name}` is reached at {frequency}: the deformation would swing by {}, and {} are \
-                 left at rest; these amplitudes do not hold",
-                quantity(amplitude, "m"),
-                quantity(self.reserve, "m")
-            ),
-        }
-    }
-}
-
-impl Onset {
-    /// It in words; `drive` is what shakes the network.
-    pub(super) fn text(&self, drive: &Drive) -> String {
-        let what = match self.limit.kind {
-            LimitKind::Parting => "parts",
-            LimitKind::Stop => "is reached",
-        };
-        let omega = std::f64::consts::TAU * self.frequency;
-        let size = match drive.kind {
-            DriveKind::Load => quantity(self.amplitude, "N"),
-            DriveKind::Motion => format!(
-                "{} ({})",
-                quantity(self.amplitude, "m"),
-                quantity(self.amplitude * omega * omega, "m/s^2")
-            ),
-        };
-        format!(
-            "`{}` {what} first at {}, where `{}` swings by more than {size}; the ratios hold below \
-             that",
-            self.limit.name,
-            quantity(self.frequency, "Hz"),
-            drive.name
-        )
-    }
 }
 
 impl Vibration {
@@ -250,17 +215,21 @@ impl Vibration {
         &self.limits
     }
 
-    /// The limits that an oscillation of this amplitude exceeds, in words; `read` is what it is for one
-    /// unit of the drive.
+    /// The limits that an oscillation of this amplitude exceeds; `read` is what it is for one unit of the
+    /// drive.
     pub(super) fn exceeded(
         &self,
         read: impl Fn(&Observed) -> Option<Found>,
         frequency: f64,
         amplitude: f64,
-    ) -> Vec<String> {
+    ) -> Vec<VibrationWarning> {
         let over = |limit: &Limit| {
             let swing = read(&limit.observed(self, 0)?)?.value.norm() * amplitude;
-            (swing > limit.reserve).then(|| limit.warning(frequency, swing))
+            (swing > limit.reserve).then(|| VibrationWarning::Exceeded {
+                limit: limit.clone(),
+                frequency,
+                amplitude: swing,
+            })
         };
         self.limits.iter().filter_map(over).collect()
     }

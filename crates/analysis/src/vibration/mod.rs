@@ -33,13 +33,12 @@ mod contacts;
 mod curve;
 mod drive;
 mod error;
-mod extrema;
 mod linearity;
-mod near_pole;
 mod observed;
 mod resonance;
 mod steady;
 mod sweep;
+mod warning;
 
 #[cfg(test)]
 mod contact_tests;
@@ -60,6 +59,7 @@ pub use self::{
     resonance::Resonance,
     steady::{Steady, SteadyElement, SteadyNode, SteadySupport},
     sweep::{Sweep, SweepSettings, Transmission},
+    warning::VibrationWarning,
 };
 
 /// A sinusoidal quantity: `amplitude · cos(ωt + phase)` where the drive is `cos(ωt)`.

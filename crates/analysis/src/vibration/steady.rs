@@ -6,9 +6,10 @@ use nalgebra::Complex;
 use serde::Serialize;
 
 use super::{
-    Drive, DriveKind, Swing, Vibration, VibrationError,
+    Drive, DriveKind, Swing, Vibration, VibrationError, VibrationWarning,
     curve::Curve,
     observed::{Found, Observed, supports},
+    warning,
 };
 
 /// A network in steady oscillation under a drive of a given amplitude.
@@ -33,7 +34,8 @@ pub struct Steady {
     /// `None` where the force of the drive is not known.
     pub power: Option<f64>,
     /// What is wrong with the oscillation as a picture of the scene.
-    pub warnings: Vec<String>,
+    #[serde(flatten, serialize_with = "warning::serialize")]
+    pub warnings: Vec<VibrationWarning>,
 }
 
 /// The oscillation of a node.
@@ -140,7 +142,8 @@ impl Vibration {
             drive: self.drive.clone(),
             frequency,
             amplitude,
-            warnings: [self.exceeded(found, frequency, amplitude), warnings(&elements)].concat(),
+            warnings: [self.exceeded(found, frequency, amplitude), pressed_through(&elements)]
+                .concat(),
             nodes,
             elements,
             supports: held,
@@ -163,11 +166,10 @@ impl Vibration {
     }
 }
 
-fn warnings(elements: &[SteadyElement]) -> Vec<String> {
+/// Pads that would be pressed in by more than their thickness.
+fn pressed_through(elements: &[SteadyElement]) -> Vec<VibrationWarning> {
     let too_deep = elements
         .iter()
         .filter(|own| own.thickness.is_some_and(|thickness| own.deformation.amplitude > thickness));
-    too_deep
-        .map(|own| format!("`{}` would be pressed together by more than its thickness", own.name))
-        .collect()
+    too_deep.map(|own| VibrationWarning::PressedThrough { element: own.name.clone() }).collect()
 }

@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use super::{
-    Drive, DriveKind, Onset, Resonance, Swing, Vibration, VibrationError,
+    Drive, DriveKind, Onset, Resonance, Swing, Vibration, VibrationError, VibrationWarning,
     curve::Curve,
     observed::{Observed, selected, supports},
     resonance::resonances,
 };
-use dashpot_dae::frequency::{MOST_UNKNOWNS, poles};
+use dashpot_dae::frequency::poles;
 use dashpot_network::NodeId;
 
 /// Peaks are sought so far beyond the range, lest their flanks be cut off.
@@ -57,7 +57,7 @@ pub struct Sweep {
     /// Where each contact parts and each stop is reached first, at its smallest drive.
     pub onsets: Vec<Onset>,
     /// What should be known about it.
-    pub notes: Vec<String>,
+    pub notes: Vec<VibrationWarning>,
 }
 
 /// What arrives at a node or support: `X/X_drive` of displacements, velocities or accelerations
@@ -96,14 +96,16 @@ impl Vibration {
         let frequencies = frequencies(range, settings.points)?;
         let mut notes = Vec::new();
         if poles.is_none() {
-            notes.push(format!(
-                "the network has more than {MOST_UNKNOWNS} unknowns: resonances that are very \
-                 narrow may be missed"
-            ));
+            notes.push(VibrationWarning::ManyUnknowns);
         }
         let poles = poles.unwrap_or_default();
         let onsets = self.onsets(range, &poles);
-        notes.extend(onsets.iter().map(|own| own.text(&self.drive)));
+        notes.extend(
+            onsets.iter().map(|own| VibrationWarning::Onset {
+                onset: own.clone(),
+                drive: self.drive.clone(),
+            }),
+        );
         let slowest = poles.iter().map(|own| own.0.hypot(own.1)).fold(TAU * range[0], f64::min);
         let transmission = |observed: &Observed| {
             let [low, high] = [TAU * range[0] / BEYOND, TAU * range[1] * BEYOND];

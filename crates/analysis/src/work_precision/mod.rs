@@ -33,7 +33,6 @@ mod deviation;
 mod happenings;
 mod point;
 mod report;
-mod slips;
 mod states;
 mod timing;
 mod truth;

@@ -6,7 +6,7 @@ use dashpot_dae::{Method, Run, SolveError, Statistics};
 use dashpot_network::Assembly;
 
 use super::{
-    CostFailure, CostPoint, CostReport, Ladder, declines, slips::slips, timing, truth::Judge,
+    CostFailure, CostPoint, CostReport, Ladder, declines, deviation::slips, timing, truth::Judge,
     watch::Watch,
 };
 use crate::{

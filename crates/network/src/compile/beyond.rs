@@ -38,8 +38,8 @@ pub struct HeldTable {
 }
 
 impl HeldTable {
-    /// What it does, and what to write instead; `show` writes quantities.
-    pub fn told(&self, show: impl Fn(f64, Dimension) -> String) -> [String; 2] {
+    /// What it does; `show` writes quantities.
+    pub fn message(&self, show: impl Fn(f64, Dimension) -> String) -> String {
         let time = show(self.time, Dimension::TIME);
         let run = show(self.duration, Dimension::TIME);
         let value = show(self.value, self.dimension);
@@ -48,7 +48,7 @@ impl HeldTable {
             Dimension::LENGTH => format!("the table of the motion of `{}`", self.name),
             _ => format!("the table of the acceleration of `{}`", self.name),
         };
-        let message = match self.what {
+        match self.what {
             Unsaid::First => {
                 format!(
                     "{table} begins at {time} with {value}, which is held from the start of the run"
@@ -66,8 +66,12 @@ impl HeldTable {
                      held at {value}, so it stops dead"
                 )
             }
-        };
-        let help = match self.what {
+        }
+    }
+
+    /// What to write instead.
+    pub fn help(&self) -> &'static str {
+        match self.what {
             Unsaid::Stops(_) => {
                 "let the motion come to rest, or the run end with it; `outside = \"hold\"` says that it \
                  is meant"
@@ -75,8 +79,7 @@ impl HeldTable {
             _ => {
                 "write `outside = \"zero\"` for zero there, or `outside = \"hold\"` if that is meant"
             }
-        };
-        [message, help.to_owned()]
+        }
     }
 }
 

@@ -3,13 +3,13 @@
 use dashpot_rheology::spectra::{
     InvalidSpectrum, MOST_BRANCHES, Reduced, ReductionError, SMALLEST_ERROR, Spectrum, reduce,
 };
-use dashpot_units::format_short;
 
 use super::{
-    Composed,
+    Composed, CompositeNote,
+    note::{percent, time},
     spectrum::{Term, kelvin_chain},
 };
-use crate::parameters::{Dimension, InvalidParameter};
+use crate::parameters::InvalidParameter;
 
 /// What of a fibre's creep is to be kept: the range of time \[s\] and the greatest relative error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,20 +42,13 @@ impl Kept {
         Ok(Composed { model, note: Some(self.note(&reduced)), until: Some(self.to) })
     }
 
-    fn note(&self, reduced: &Reduced) -> String {
-        let count = reduced.branches.len();
-        let keep = if count == 1 { "element keeps" } else { "elements keep" };
-        let range = format!("from {} to {}", time(self.from), time(self.to));
-        let error = percent(reduced.error, f64::ceil);
-        let proof = match (count, reduced.is_fewest) {
-            (1, _) => String::new(),
-            (_, true) => {
-                let less = percent(reduced.one_less, f64::floor);
-                format!(" ({} cannot do better than {less})", count - 1)
-            }
-            (_, false) => " (whether fewer could is not proved)".to_owned(),
-        };
-        format!("{count} Kelvin {keep} the creep within {error} {range}{proof}")
+    fn note(&self, reduced: &Reduced) -> CompositeNote {
+        CompositeNote::CreepKept {
+            elements: reduced.branches.len(),
+            error: reduced.error,
+            range: [self.from, self.to],
+            one_less: reduced.is_fewest.then_some(reduced.one_less),
+        }
     }
 }
 
@@ -81,23 +74,6 @@ fn refused(reason: ReductionError) -> InvalidParameter {
 
 fn error_out_of_range(error: f64) -> InvalidParameter {
     InvalidParameter::new("error", "from 1e-6 % to below 100 %", format!("{} %", error * 100.0))
-}
-
-/// A positive number in percent with two significant digits, rounded as told.
-fn percent(number: f64, round: fn(f64) -> f64) -> String {
-    let percents = number * 100.0;
-    let power = percents.log10().floor() - 1.0;
-    // Numbers of two digits, like 0.1 %, must not move by rounding errors.
-    let digits = percents * 10.0_f64.powf(-power);
-    let nearest = digits.round();
-    let digits = if (digits - nearest).abs() < 1e-9 { nearest } else { round(digits) };
-    let rounded = format!("{:.1e}", digits * 10.0_f64.powf(power)).parse().unwrap_or(percents);
-    if power < -6.0 { format!("{rounded:e} %") } else { format!("{rounded} %") }
-}
-
-/// A time in a handy unit, with up to four significant digits.
-fn time(seconds: f64) -> String {
-    format_short(seconds, Dimension::TIME, 4)
 }
 
 #[cfg(test)]
@@ -146,7 +122,7 @@ mod tests {
             .map(|time| (model.creep(time) / spectrum.creep(time) - 1.0).abs())
             .fold(0.0, f64::max);
         assert!(worst <= fibre.error, "{worst}");
-        let note = composed.note.unwrap();
+        let note = composed.note.unwrap().to_string();
         let range = "from 10 µs to 100 ms (6 cannot do better than ";
         let kept = percent(worst, f64::ceil);
         let start = format!("7 Kelvin elements keep the creep within {kept} {range}");
@@ -163,7 +139,13 @@ mod tests {
             PowerLawFibre { shortest: time, longest, ..PowerLawFibre::sample() }.compose(),
         ];
         for composed in fibres.map(Result::unwrap) {
-            assert!(composed.note.unwrap().starts_with("1 Kelvin element keeps the creep within"));
+            assert!(
+                composed
+                    .note
+                    .unwrap()
+                    .to_string()
+                    .starts_with("1 Kelvin element keeps the creep within")
+            );
             let [element] = composed.model.branches() else { panic!("more than one element") };
             let laws: Vec<Law> = element.tree.branches().iter().map(leaf).collect();
             let [Law::Spring(stiffness), Law::Dashpot(damping)] = laws[..] else {
@@ -187,7 +169,7 @@ mod tests {
         let branches = vec![Retardation { time: 1.0, compliance: 1.0 }; 2];
         let reduced = Reduced { branches, error: 0.05, one_less: 0.0, is_fewest: false };
         assert_eq!(
-            kept.note(&reduced),
+            kept.note(&reduced).to_string(),
             "2 Kelvin elements keep the creep within 5 % from 1 s to 10 s (whether fewer could is not \
              proved)"
         );

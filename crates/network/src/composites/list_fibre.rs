@@ -81,7 +81,9 @@ mod tests {
         let composed = fibre.compose().unwrap();
         let count = composed.model.branches().len();
         assert!(count < 8, "{count} elements");
-        assert!(composed.note.unwrap().contains("Kelvin elements keep the creep within"));
+        assert!(
+            composed.note.unwrap().to_string().contains("Kelvin elements keep the creep within")
+        );
         let model = LinearModel::of(&composed.model, |part| primitive(part.as_ref()));
         for at in 0..=300 {
             let t = 10_f64.powf(-4.0 + 0.01 * f64::from(at));

@@ -5,6 +5,7 @@ mod fibre;
 mod kelvin_chain;
 mod list_fibre;
 mod log_normal_fibre;
+mod note;
 mod power_law_fibre;
 mod prony;
 mod spectrum;
@@ -13,6 +14,7 @@ pub use box_fibre::BoxFibre;
 pub use kelvin_chain::KelvinChain;
 pub use list_fibre::ListFibre;
 pub use log_normal_fibre::LogNormalFibre;
+pub use note::CompositeNote;
 pub use power_law_fibre::PowerLawFibre;
 pub use prony::Prony;
 
@@ -28,7 +30,7 @@ pub struct Composed {
     pub model: Model,
     /// What the reader of the description is told besides: an error that was reached, a range, an
     /// order that was changed; `None` where the model is just what was described.
-    pub note: Option<String>,
+    pub note: Option<CompositeNote>,
     /// Time up to which the model stands for its description \[s\]; `None` for any time.
     pub until: Option<f64>,
 }

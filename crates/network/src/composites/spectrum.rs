@@ -2,6 +2,7 @@
 
 use dashpot_rheology::{Branch, Tree};
 
+use super::CompositeNote;
 use crate::{
     Model,
     elements::{Dashpot, Spring},
@@ -40,10 +41,12 @@ pub(super) fn sorted(
 }
 
 /// What is said where the terms were not given in rising order of time.
-pub(super) fn order_note(given: &[Term], sorted: &[Term], first: &str) -> Option<String> {
-    let is_reordered = given != sorted;
-    is_reordered
-        .then(|| format!("the terms are taken in rising order of time: `{first}` is the fastest"))
+pub(super) fn order_note(
+    given: &[Term],
+    sorted: &[Term],
+    fastest: &'static str,
+) -> Option<CompositeNote> {
+    (given != sorted).then_some(CompositeNote::Reordered { fastest })
 }
 
 /// The number, or an error that blames the term from which it comes: zero, infinite and subnormal

@@ -67,7 +67,7 @@ fn parts_are_named_in_rising_order_of_time() {
     let prony = slowest_first.compose().unwrap();
     assert_eq!(names(&prony.model), ["maxwell-1", "maxwell-2"]);
     assert!(is_same(relaxance(&prony.model.branches()[0].tree, 1e9), 3e6 / (1.0 + 1e-6), 1));
-    assert!(prony.note.unwrap().contains("`maxwell-1` is the fastest"));
+    assert!(prony.note.unwrap().to_string().contains("`maxwell-1` is the fastest"));
     let chain = KelvinChain::sample().compose().unwrap();
     assert_eq!(names(&chain.model), ["kelvin-1", "kelvin-2"]);
 }

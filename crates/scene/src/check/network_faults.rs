@@ -73,8 +73,8 @@ pub(crate) fn note_held(reading: &Reading<'_>, held: &[HeldTable]) {
         let keys = ["force", "motion", "acceleration"];
         let value = entry.and_then(|entry| keys.iter().find_map(|key| value_of(entry, key)));
         let place = value.map(|item| item.place).or(entry.map(|entry| entry.key_place));
-        let [message, help] = own.told(|value, dimension| format_short(value, dimension, 4));
-        reading.faults.warning(place, Fault::odd(message, help));
+        let message = own.message(|value, dimension| format_short(value, dimension, 4));
+        reading.faults.warning(place, Fault::odd(message, own.help()));
     }
 }
 

@@ -14,7 +14,7 @@ use dashpot_network::{
 use super::{driven::Driven, network_faults::value_of};
 use crate::{
     diagnostics::fault::Fault,
-    models::notes::ModelNote,
+    models::notes::{ModelNote, Remark},
     sections::Reading,
     text::{
         document::{Content, Entry, Item},
@@ -105,13 +105,8 @@ pub(crate) fn weightless(network: &Network) -> Vec<ModelNote> {
     for (_, node) in network.nodes() {
         let Start::Drop(height) = node.start else { continue };
         if height > 0.0 && node.mass > 0.0 {
-            let height = format_short(height, Dimension::LENGTH, 4);
-            let text = format!(
-                "dropped from {height} with gravity off: it begins at touch with the speed of the \
-                 fall, weighs nothing, and never falls back on what it has left; `gravity = {{}}` \
-                 under [effects] gives it its weight"
-            );
-            notes.push(ModelNote { subject: format!("node `{}`", node.name), text, until: None });
+            let (subject, what) = (format!("node `{}`", node.name), Remark::Weightless(height));
+            notes.push(ModelNote { subject, what, until: None });
         }
     }
     notes
@@ -120,10 +115,9 @@ pub(crate) fn weightless(network: &Network) -> Vec<ModelNote> {
 /// That weight pulls away from the support, where it does.
 pub(crate) fn upward(network: &Network) -> Option<ModelNote> {
     let value = network.effects().iter().find_map(|own| own.gravity())?;
-    let shown = format_short(value, Dimension::ACCELERATION, 4);
     (value < 0.0).then(|| ModelNote {
         subject: "gravity".to_owned(),
-        text: format!("{shown} pulls away from the support; positive is towards it"),
+        what: Remark::Upward(value),
         until: None,
     })
 }

@@ -11,7 +11,7 @@ use dashpot_network::{
 };
 use dashpot_rheology::Tree;
 
-use super::{context::Context, forms::FormReader};
+use super::{context::Context, forms::FormReader, notes::Remark};
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::{form, parameters::KindReader},
@@ -39,7 +39,7 @@ pub(super) struct Made {
     /// The model, where it could be read.
     pub(super) model: Option<Model>,
     /// What is to be said about it, and the time up to which that holds.
-    pub(super) note: Option<(String, Option<f64>)>,
+    pub(super) note: Option<(Remark, Option<f64>)>,
     /// The size of the pad that it is.
     pub(super) extent: Extent,
 }
@@ -75,7 +75,8 @@ impl<'d> LawReader<'d> {
         {
             made.model = Some(model);
             let until = until.map(|time| time * context.times);
-            made.note = note.map(|note| (said_of(&note, context), until));
+            let factor = is_shift(context).then_some(context.times);
+            made.note = note.map(|note| (Remark::Composite { note, factor }, until));
         }
         if is_shift(context) {
             made.model = made.model.and_then(|model| self.shifted(&model, law, context));
@@ -126,13 +127,4 @@ fn extent_of(element: &dyn Element) -> Extent {
 #[expect(clippy::float_cmp, reason = "1 is the factor where there is no shift at all")]
 fn is_shift(context: Context) -> bool {
     context.times != 1.0
-}
-
-/// A note on a model as it was described, in a place where its times are shifted.
-fn said_of(note: &str, context: Context) -> String {
-    if is_shift(context) {
-        format!("{note}, before its times are multiplied by {:.3e}", context.times)
-    } else {
-        note.to_owned()
-    }
 }

@@ -4,7 +4,10 @@ use std::ops::Range;
 
 use dashpot_network::Model;
 
-use super::{ModelReader, notes::ModelNote};
+use super::{
+    ModelReader,
+    notes::{ModelNote, Remark},
+};
 use crate::{
     check::network_faults::value_of,
     diagnostics::{Checked, Diagnostics, fault::Fault},
@@ -112,7 +115,7 @@ pub fn read_named_model(
                 Found::Model(reference) => format!("{} `{name}`", reference.section.word()),
                 Found::Element(_) => format!("element `{name}`"),
             };
-            notes.push(ModelNote { subject, text: shared(&name), until: None });
+            notes.push(ModelNote { subject, what: Remark::SharedName(name.clone()), until: None });
         }
         let section = match found {
             Found::Model(reference) => reference.section.key(),
@@ -153,14 +156,6 @@ fn find<'d>(library: &'d Library, name: &str) -> Result<(Found<'d>, bool), Fault
         Fault::UnknownName { family, name: name.to_owned(), known }
     })?;
     Ok((first, all.next().is_some()))
-}
-
-/// What is said of a name that is that of several things.
-fn shared(name: &str) -> String {
-    format!(
-        "the name is also that of another; `models.{name}`, `materials.{name}` and \
-         `elements.{name}` tell them apart"
-    )
 }
 
 /// All names that lead to a model.

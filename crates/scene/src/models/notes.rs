@@ -1,16 +1,88 @@
-//! What is to be said about models, besides errors and warnings.
+//! What is to be said about models and scenes, besides errors and warnings.
 
-use std::cell::RefCell;
+use std::{cell::RefCell, fmt};
 
-/// A remark on a model: how near it comes to its description, by what its times were multiplied.
+use dashpot_network::{composites::CompositeNote, parameters::Dimension};
+use dashpot_units::format_short;
+
+/// A remark on a model or on a part of a scene, and what that is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelNote {
     /// What it is about: "model `felt`", "element `padding`".
     pub subject: String,
-    /// The remark, for instance "9 Kelvin elements keep the creep within 0.08 %".
-    pub text: String,
+    /// The remark.
+    pub what: Remark,
     /// Time up to which the model stands for its description \[s\]; `None` for any time.
     pub until: Option<f64>,
+}
+
+/// What is to be said about a model or a part of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Remark {
+    /// How near a model comes to its description.
+    Composite {
+        /// That.
+        note: CompositeNote,
+        /// By what its times are multiplied afterwards, where they are.
+        factor: Option<f64>,
+    },
+    /// The times of a model are multiplied.
+    Shift {
+        /// Word for what does so.
+        word: &'static str,
+        /// The factor.
+        factor: f64,
+    },
+    /// Several things have the name of the model.
+    SharedName(String),
+    /// A node is dropped from a height \[m\], and has no weight.
+    Weightless(f64),
+    /// Gravity \[m/s²\] pulls away from the support.
+    Upward(f64),
+}
+
+impl Remark {
+    /// What kind of remark it is, in one word that stays the same.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Composite { note, .. } => note.code(),
+            Self::Shift { .. } => "shift",
+            Self::SharedName(_) => "shared-name",
+            Self::Weightless(_) => "weightless",
+            Self::Upward(_) => "upward",
+        }
+    }
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Composite { note, factor: None } => write!(f, "{note}"),
+            Self::Composite { note, factor: Some(factor) } => {
+                write!(f, "{note}, before its times are multiplied by {factor:.3e}")
+            }
+            Self::Shift { word, factor } => {
+                write!(f, "`{word}` multiplies its times by {factor:.3e}")
+            }
+            Self::SharedName(name) => write!(
+                f,
+                "the name is also that of another; `models.{name}`, `materials.{name}` and \
+                 `elements.{name}` tell them apart"
+            ),
+            Self::Weightless(height) => write!(
+                f,
+                "dropped from {} with gravity off: it begins at touch with the speed of the fall, \
+                 weighs nothing, and never falls back on what it has left; `gravity = {{}}` under \
+                 [effects] gives it its weight",
+                format_short(*height, Dimension::LENGTH, 4)
+            ),
+            Self::Upward(acceleration) => write!(
+                f,
+                "{} pulls away from the support; positive is towards it",
+                format_short(*acceleration, Dimension::ACCELERATION, 4)
+            ),
+        }
+    }
 }
 
 /// Takes up notes while models are read; a model that is used again says the same only once.
@@ -19,13 +91,8 @@ pub(crate) struct Notes(RefCell<Vec<ModelNote>>);
 
 impl Notes {
     /// Adds a remark.
-    pub(crate) fn add(
-        &self,
-        subject: impl Into<String>,
-        text: impl Into<String>,
-        until: Option<f64>,
-    ) {
-        let note = ModelNote { subject: subject.into(), text: text.into(), until };
+    pub(crate) fn add(&self, subject: impl Into<String>, what: Remark, until: Option<f64>) {
+        let note = ModelNote { subject: subject.into(), what, until };
         let mut all = self.0.borrow_mut();
         if !all.contains(&note) {
             all.push(note);

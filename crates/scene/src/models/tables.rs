@@ -4,6 +4,7 @@ use super::{
     Descent, ModelReader,
     context::{Context, ContextReader, Shift, Site},
     naming::{Given, ReadBranch},
+    notes::Remark,
 };
 use crate::{
     diagnostics::fault::Fault,
@@ -30,8 +31,7 @@ impl<'d> ModelReader<'d> {
         let reader = ContextReader { library: self.library, faults: self.faults };
         let (context, shift) = reader.read(site, entries, entry);
         if let Some(Shift { word, factor }) = shift {
-            let text = format!("`{word}` multiplies its times by {factor:.3e}");
-            self.note(descent, given, (text, None));
+            self.note(descent, given, (Remark::Shift { word, factor }, None));
         }
         Some(Law { entry, context, given })
     }
@@ -81,14 +81,14 @@ impl<'d> ModelReader<'d> {
     }
 
     /// Notes something about the table that is being read.
-    fn note(&self, descent: &Descent, given: Given<'d>, (text, until): (String, Option<f64>)) {
+    fn note(&self, descent: &Descent, given: Given<'d>, (what, until): (Remark, Option<f64>)) {
         let Some(outer) = &descent.outer else { return };
         let inner = descent.open.last().map_or_else(|| outer.clone(), |own| self.called(*own));
         let subject = match given {
             Some((name, _)) => format!("{inner}, branch `{name}`"),
             None => inner,
         };
-        self.notes.add(subject, text, until);
+        self.notes.add(subject, what, until);
     }
 
     /// The one entry that says what the model is.

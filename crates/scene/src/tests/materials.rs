@@ -165,11 +165,11 @@ fn a_shift_multiplies_every_dashpot_below_it() {
     near("material = \"wax\", thickness = 1, area = 2", &[6.0, 10.0 * factor]);
     near(&format!("dashpot = 4, shift = {arrhenius}"), &[4.0 * factor]);
     let read = scene(&format!("{tables}{}", on_model("model = \"cold\"")));
-    let [ModelNote { subject, text, .. }] = read.notes.as_slice() else {
+    let [ModelNote { subject, what, .. }] = read.notes.as_slice() else {
         panic!("{:?}", read.notes)
     };
     assert_eq!(subject, "model `cold`");
-    assert_eq!(text, &format!("`arrhenius` multiplies its times by {factor:.3e}"));
+    assert_eq!(what.to_string(), format!("`arrhenius` multiplies its times by {factor:.3e}"));
 }
 
 #[test]
@@ -194,7 +194,10 @@ fn notes_of_composites_are_about_the_place_that_describes_them() {
     let shift = "shift = { wlf = { temperature = \"30 degC\", reference = \"20 degC\" } }";
     let shifted = tables.replace("prony", &format!("{shift}\nprony"));
     let notes = read_named_model(&shifted, "", &ReadOptions::default()).unwrap().value.notes;
-    assert!(notes[1].text.contains(", before its times are multiplied by "), "{notes:?}");
+    assert!(
+        notes[1].what.to_string().contains(", before its times are multiplied by "),
+        "{notes:?}"
+    );
 }
 
 #[test]

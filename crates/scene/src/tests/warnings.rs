@@ -226,7 +226,7 @@ fn a_drop_without_gravity_is_noted() {
     };
     let told = notes("");
     assert_eq!((told.len(), told[0].subject.as_str()), (1, "node `head`"));
-    has(&told[0].text, &["dropped from 1.5 m with gravity off", "weighs nothing"]);
+    has(&told[0].what.to_string(), &["dropped from 1.5 m with gravity off", "weighs nothing"]);
     assert!(notes("[effects]\ngravity = {}\n").is_empty());
 }
 
@@ -240,7 +240,10 @@ fn weight_away_from_the_support_is_noted() {
     };
     let told = notes("-1 g0");
     assert_eq!((told.len(), told[0].subject.as_str()), (1, "gravity"));
-    has(&told[0].text, &["-9.807 m/s^2 pulls away from the support; positive is towards it"]);
+    has(
+        &told[0].what.to_string(),
+        &["-9.807 m/s^2 pulls away from the support; positive is towards it"],
+    );
     assert!(notes("1 g0").is_empty());
 }
 

@@ -5,7 +5,7 @@ use dashpot_network::{Model, first_nonlinear, linear_model, parameters::WindowWi
 use dashpot_numerics::chebyshev;
 
 use super::Reading;
-use crate::{Note, Solution, impact::impulses};
+use crate::{Note, Solution, VelocityJump};
 
 /// Rounds of the iteration on one stretch. The error of round `n` is at most `(λ h)ⁿ/n!` of the
 /// solution, with the rate `λ` of the equations and the length `h ≤ 1/λ` of the stretch.
@@ -157,7 +157,7 @@ pub(super) fn largest_deformation(
     let span = solution.node_span(target, window)?;
     let jumps = solution.node_jumps(target);
     let mass = solution.body_mass(target);
-    let kicks = impulses::within(&jumps, span.window()).iter();
+    let kicks = VelocityJump::within(&jumps, span.window()).iter();
     let kicks: Vec<(f64, f64)> = kicks.map(|own| (own.time, own.impulse / mass)).collect();
     let deformation = oscillator.deformation(acceleration, &kicks, span.window());
     let deformation = deformation.ok_or(Note::TooStiff)?;

@@ -3,12 +3,15 @@
 use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{LONG, deforms};
-use crate::rheometer::{
-    FROM_THE_MODEL, Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
-    given::{self, check_end, points_used, setting},
-    history::{History, Instant},
-    rig::Control,
-    trial::Trial,
+use crate::{
+    Choice,
+    rheometer::{
+        FROM_THE_MODEL, Figure, Note, ProtocolKind, RheometerError, RheometerReport, Specimen,
+        given::{self, check_end, points_used, setting},
+        history::{History, Instant},
+        simulation::Control,
+        trial::Trial,
+    },
 };
 
 parameters! {
@@ -32,14 +35,14 @@ impl ProtocolKind for ConstantRate {
     fn test(
         &self,
         specimen: &Specimen,
-        methods: &[&str],
+        methods: &[Choice],
     ) -> Result<RheometerReport, RheometerError> {
         deforms(Self::KIND, specimen)?;
         let end = setting("end", "s", self.end, LONG * specimen.range_of_times().1);
         check_end(end.value, 0.0)?;
         let rate = setting("rate", "m/s", self.rate, given::USUAL_DEFORMATION / end.value);
         let history = History::ramp(rate.value, end.value);
-        let trial = Trial::new(specimen, Control::Deformation, history, self.points, methods)?;
+        let trial = Trial::new(specimen, Control::Deformation, history, self.points, methods);
         let mut report = trial.report(Self::KIND, vec![rate, end, points_used(self.points)]);
         for (name, at) in [
             ("force just after the start", Instant::after(0.0)),
@@ -49,11 +52,10 @@ impl ProtocolKind for ConstantRate {
             report.figures.push(figure);
         }
         if specimen.linear().maxwell().is_some_and(|form| form.dashpot() > 0.0) {
-            let note = "a dashpot beside all else: the force jumps as the motion begins";
-            report.notes.push(note.to_owned());
+            report.notes.push(Note::ForceJumps);
         }
         if specimen.linear().kelvin().is_none() {
-            report.notes.push("the model bears no force".to_owned());
+            report.notes.push(Note::NoForce);
         }
         Ok(report)
     }

@@ -3,12 +3,15 @@
 use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{LONG, bears_force, notes_under_force};
-use crate::rheometer::{
-    Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
-    given::{self, check_end, points_used, setting},
-    history::{History, Instant},
-    rig::Control,
-    trial::Trial,
+use crate::{
+    Choice,
+    rheometer::{
+        Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
+        given::{self, check_end, points_used, setting},
+        history::{History, Instant},
+        simulation::Control,
+        trial::Trial,
+    },
 };
 
 parameters! {
@@ -29,14 +32,14 @@ impl ProtocolKind for Creep {
     fn test(
         &self,
         specimen: &Specimen,
-        methods: &[&str],
+        methods: &[Choice],
     ) -> Result<RheometerReport, RheometerError> {
         bears_force(Self::KIND, specimen)?;
         let force = setting("force", "N", self.force, given::USUAL_FORCE);
         let end = setting("end", "s", self.end, LONG * specimen.range_of_times().1);
         check_end(end.value, 0.0)?;
         let history = History::step(force.value, 0.0, end.value);
-        let trial = Trial::new(specimen, Control::Force, history, self.points, methods)?;
+        let trial = Trial::new(specimen, Control::Force, history, self.points, methods);
         let mut report = trial.report(Self::KIND, vec![force, end, points_used(self.points)]);
         for (name, at) in [
             ("deformation at once", Instant::after(0.0)),

@@ -3,12 +3,15 @@
 use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{HELD, LONG, bears_force, notes_under_force};
-use crate::rheometer::{
-    Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
-    given::{self, check_end, points_used, setting},
-    history::{History, Instant},
-    rig::Control,
-    trial::Trial,
+use crate::{
+    Choice,
+    rheometer::{
+        Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
+        given::{self, check_end, points_used, setting},
+        history::{History, Instant},
+        simulation::Control,
+        trial::Trial,
+    },
 };
 
 parameters! {
@@ -34,7 +37,7 @@ impl ProtocolKind for CreepRecovery {
     fn test(
         &self,
         specimen: &Specimen,
-        methods: &[&str],
+        methods: &[Choice],
     ) -> Result<RheometerReport, RheometerError> {
         bears_force(Self::KIND, specimen)?;
         let force = setting("force", "N", self.force, given::USUAL_FORCE);
@@ -43,7 +46,7 @@ impl ProtocolKind for CreepRecovery {
         let end = setting("end", "s", self.end, chosen);
         check_end(end.value, hold.value)?;
         let history = History::pulse(force.value, 0.0, hold.value, end.value);
-        let trial = Trial::new(specimen, Control::Force, history, self.points, methods)?;
+        let trial = Trial::new(specimen, Control::Force, history, self.points, methods);
         let settings = vec![force, hold, end, points_used(self.points)];
         let mut report = trial.report(Self::KIND, settings);
         for (name, at) in [

@@ -3,12 +3,15 @@
 use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{HELD, LONG, bears_force, notes_under_force};
-use crate::rheometer::{
-    Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
-    given::{self, check_end, points_used, setting},
-    history::{History, Instant},
-    rig::Control,
-    trial::Trial,
+use crate::{
+    Choice,
+    rheometer::{
+        Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
+        given::{self, check_end, points_used, setting},
+        history::{History, Instant},
+        simulation::Control,
+        trial::Trial,
+    },
 };
 
 parameters! {
@@ -48,7 +51,7 @@ impl ProtocolKind for LoadHoldUnload {
     fn test(
         &self,
         specimen: &Specimen,
-        methods: &[&str],
+        methods: &[Choice],
     ) -> Result<RheometerReport, RheometerError> {
         bears_force(Self::KIND, specimen)?;
         let force = setting("force", "N", self.force, given::USUAL_FORCE);
@@ -59,10 +62,10 @@ impl ProtocolKind for LoadHoldUnload {
         let end = setting("end", "s", self.end, unloaded + LONG * specimen.range_of_times().1);
         check_end(end.value, unloaded)?;
         let history = History::pulse(force.value, rise.value, hold.value, end.value);
-        let trial = Trial::new(specimen, Control::Force, history, self.points, methods)?;
+        let trial = Trial::new(specimen, Control::Force, history, self.points, methods);
         let settings = vec![force, rise, hold, end, points_used(self.points)];
         let mut report = trial.report(Self::KIND, settings);
-        report.series.extend(trial.series_of_parts()?);
+        report.series.extend(trial.series_of_parts());
         let [held, unloaded, end] =
             [Instant::before(held), Instant::after(unloaded), Instant::before(end.value)];
         report.figures.extend(Self::figures(&trial, &report, [held, unloaded, end]));

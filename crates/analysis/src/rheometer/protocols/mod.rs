@@ -14,7 +14,7 @@ pub use load_hold_unload::LoadHoldUnload;
 pub use relaxation::Relaxation;
 pub use sweep::Sweep;
 
-use super::{RheometerError, Specimen};
+use super::{Note, RheometerError, Specimen};
 
 /// How many times the slowest time a test goes on after the last change.
 const LONG: f64 = 10.0;
@@ -40,18 +40,17 @@ fn deforms(protocol: &'static str, specimen: &Specimen) -> Result<(), RheometerE
 }
 
 /// What is special about the model under a force step.
-fn notes_under_force(specimen: &Specimen) -> Vec<String> {
+fn notes_under_force(specimen: &Specimen) -> Vec<Note> {
     let Some(form) = specimen.linear().kelvin() else { return Vec::new() };
     if specimen.linear().maxwell().is_none() {
-        return vec!["the model is rigid: nothing deforms".to_owned()];
+        return vec![Note::NothingDeforms];
     }
     let mut notes = Vec::new();
     if form.spring_compliance() == 0.0 {
-        notes
-            .push("no elasticity at once: the deformation does not jump with the force".to_owned());
+        notes.push(Note::NoInstantaneousDeformation);
     }
     if form.fluidity() > 0.0 {
-        notes.push("a liquid: it flows as long as a force is held, without bound".to_owned());
+        notes.push(Note::Flows);
     }
     notes
 }

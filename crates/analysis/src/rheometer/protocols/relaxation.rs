@@ -3,14 +3,16 @@
 use dashpot_network::{parameters, parameters::Kind as _};
 
 use super::{LONG, deforms};
-use crate::rheometer::{
-    FROM_THE_MODEL, Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
-    given::{self, check_end, points_used, setting},
-    history::{History, Instant},
-    rig::Control,
-    trial::Trial,
+use crate::{
+    Choice,
+    rheometer::{
+        FROM_THE_MODEL, Figure, Note, ProtocolKind, RheometerError, RheometerReport, Specimen,
+        given::{self, check_end, points_used, setting},
+        history::{History, Instant},
+        simulation::Control,
+        trial::Trial,
+    },
 };
-use crate::wording::quantity;
 
 /// Part of the model's fastest time that a step takes where it cannot be sudden.
 const QUICK: f64 = 0.01;
@@ -41,7 +43,7 @@ impl ProtocolKind for Relaxation {
     fn test(
         &self,
         specimen: &Specimen,
-        methods: &[&str],
+        methods: &[Choice],
     ) -> Result<RheometerReport, RheometerError> {
         deforms(Self::KIND, specimen)?;
         let is_blocked = specimen.linear().maxwell().is_some_and(|form| form.dashpot() > 0.0);
@@ -56,7 +58,7 @@ impl ProtocolKind for Relaxation {
         let end = setting("end", "s", self.end, rise.value + LONG * slowest);
         check_end(end.value, rise.value)?;
         let history = History::step(height.value, rise.value, end.value);
-        let trial = Trial::new(specimen, Control::Deformation, history, self.points, methods)?;
+        let trial = Trial::new(specimen, Control::Deformation, history, self.points, methods);
         let settings = vec![height, rise, end, points_used(self.points)];
         let mut report = trial.report(Self::KIND, settings);
         for (name, at) in [
@@ -67,16 +69,12 @@ impl ProtocolKind for Relaxation {
             report.figures.push(figure);
         }
         if rise.is_chosen && is_blocked {
-            report.notes.push(format!(
-                "a dashpot beside all else answers a sudden deformation with an infinite force: \
-                 the deformation rises within {} instead",
-                quantity(rise.value, "s")
-            ));
+            report.notes.push(Note::Rise(rise.value));
         }
         if specimen.linear().kelvin().is_none() {
-            report.notes.push("the model bears no force".to_owned());
+            report.notes.push(Note::NoForce);
         } else if specimen.linear().equilibrium_stiffness() == 0.0 {
-            report.notes.push("a liquid: the force relaxes to nothing".to_owned());
+            report.notes.push(Note::RelaxesToNothing);
         }
         Ok(report)
     }

@@ -10,15 +10,15 @@ use nalgebra::Complex;
 
 use super::deforms;
 use crate::{
-    Column,
+    Choice, Column,
     rheometer::{
-        FROM_THE_MODEL, Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
+        FROM_THE_MODEL, Figure, Note, ProtocolKind, RheometerError, RheometerReport, Specimen,
         frequency::Shaker,
         given::{self, points_used, setting},
-        peak::highest_loss_factor,
+        history::logarithmic,
         report::{Computation, Computed, Disagreement, Series},
-        schedule::logarithmic,
         shaking::{CAUTION, SEEDS, shaken},
+        specimen::highest_loss_factor,
     },
 };
 
@@ -50,7 +50,7 @@ impl ProtocolKind for Sweep {
     fn test(
         &self,
         specimen: &Specimen,
-        methods: &[&str],
+        methods: &[Choice],
     ) -> Result<RheometerReport, RheometerError> {
         deforms(Self::KIND, specimen)?;
         let (fastest, slowest) = specimen.range_of_times();
@@ -179,24 +179,20 @@ fn loss_factor(stiffness: Complex<f64>) -> f64 {
 /// Adds the highest loss factor and its frequency.
 fn add_peak(report: &mut RheometerReport, specimen: &Specimen) {
     let peak = highest_loss_factor(specimen);
-    let note = "the loss factor has no peak at a finite frequency";
     let figure = |name, unit, value: Option<f64>| {
-        Figure::of(name, unit, value.unwrap_or(f64::NAN)).noting(note)
+        Figure::of(name, unit, value.unwrap_or(f64::NAN)).noting(Note::NoLossPeak)
     };
     report.figures.push(figure("peak of the loss factor", "1", peak.map(|peak| peak.value)));
     report.figures.push(figure("frequency of the peak", "Hz", peak.map(|peak| peak.omega / TAU)));
     let linear = specimen.linear();
     if linear.kelvin().is_none() {
-        report.notes.push("the model bears no force".to_owned());
+        report.notes.push(Note::NoForce);
         return;
     }
     if linear.equilibrium_stiffness() == 0.0 {
-        let note = "a liquid: the loss factor grows without bound towards low frequencies";
-        report.notes.push(note.to_owned());
+        report.notes.push(Note::LiquidLoss);
     }
     if linear.maxwell().is_some_and(|form| form.dashpot() > 0.0) {
-        let note = "a dashpot beside all else: the loss factor grows without bound towards high \
-                    frequencies";
-        report.notes.push(note.to_owned());
+        report.notes.push(Note::DashpotLoss);
     }
 }

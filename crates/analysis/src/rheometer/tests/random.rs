@@ -49,7 +49,7 @@ fn the_model_object_and_the_network_agree() {
         let specimen = Specimen::new(&tree(&mut stream, 4)).unwrap();
         for kind in kinds {
             let test = protocol(kind, &[("points", 40.0)]).unwrap();
-            let report = test.run(&specimen, DEFAULT_METHODS).unwrap();
+            let report = test.run(&specimen, &default_methods()).unwrap();
             for series in &report.series {
                 for found in series.computed.iter().filter_map(|own| own.difference) {
                     let stated = found.stated.unwrap() + ROUNDING;

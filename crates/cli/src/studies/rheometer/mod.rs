@@ -4,7 +4,10 @@ mod asked;
 mod files;
 mod tables;
 
-use dashpot_analysis::rheometer::{RheometerReport, Series, Specimen, protocol};
+use dashpot_analysis::{
+    Choice,
+    rheometer::{Note, Obstacle, RheometerReport, Series, Specimen, protocol},
+};
 use dashpot_plot::Table;
 use serde::Serialize;
 
@@ -47,7 +50,8 @@ pub(crate) fn rheometer(
     let model = canonical_model(&operand)?;
     let units = Units { is_material: operand.is_material() };
     let specimen = Specimen::new(&model)?;
-    let methods: Vec<&str> = arguments.method.iter().map(String::as_str).collect();
+    let methods = arguments.method.iter().map(|own| Choice::named(own));
+    let methods = methods.collect::<Result<Vec<Choice>, _>>()?;
     let folder = Folder::wanted(arguments.out.as_deref(), files::names(&tests(arguments)))?;
     let given = given(arguments, units)?;
     let mut reports = Vec::new();
@@ -116,7 +120,8 @@ impl Study for Tested {
             text.heading(&format!("{}: {}", report.protocol, summary(report.protocol)));
             text.faint(&settings(&report.settings, *units));
             show(text, &figure_table(&report.figures[common.len()..], *units));
-            text.paragraphs(agreement(report).iter().chain(&report.notes));
+            let notes = report.notes.iter().map(Note::to_string);
+            text.paragraphs(agreement(report).into_iter().chain(notes));
             let series = files::series(report, *units).filter(|_| text.is_plotted(self.plot));
             if let Some(series) = series {
                 text.chart(&series.chart(), PLOT_HEIGHT);
@@ -155,9 +160,11 @@ fn test(report: &RheometerReport, units: Units) -> impl Serialize {
             unit: units.of(own.unit),
             model: own.model,
             computed: own.computed,
-            note: own.note,
+            note: own.note.as_ref().map(Note::to_string),
+            note_code: own.note.map(Note::code),
         })),
-        notes: &report.notes,
+        notes: list(report.notes.iter().map(Note::to_string)),
+        note_codes: list(report.notes.iter().copied().map(Note::code)),
     }
 }
 
@@ -173,7 +180,8 @@ fn answers(report: &RheometerReport, own: &Series, units: Units) -> impl Seriali
         model: &own.model,
         computed: list(computed.map(|(own, by)| object! {
             method: by.method,
-            obstacle: &by.obstacle,
+            obstacle: by.obstacle.as_ref().map(Obstacle::to_string),
+            obstacle_code: by.obstacle.as_ref().map(Obstacle::code),
             values: &own.values,
             difference: own.difference.map(|own| own.relative),
             stated: own.difference.and_then(|own| own.stated),

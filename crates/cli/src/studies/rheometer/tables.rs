@@ -99,7 +99,10 @@ pub(super) fn figure_table(figures: &[Figure], units: Units) -> Table {
 
 /// Figures that do not exist, and why.
 pub(super) fn missing(figures: &[Figure], units: Units) -> Vec<String> {
-    let told = |own: &Figure| Some(format!("no {}: {}", units.word(own.name), own.note?));
+    let told = |own: &Figure| {
+        let note = own.note?;
+        Some(format!("no {}: {note}", units.word(own.name)))
+    };
     figures.iter().filter_map(told).collect()
 }
 

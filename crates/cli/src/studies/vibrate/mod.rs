@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 
 use dashpot_analysis::vibration::{
     DriveKind, Resonance, Steady, Sweep, SweepSettings, Swing, Transmission, Vibration,
+    VibrationWarning,
 };
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::{VibrationCurve, VibrationSeries};
@@ -64,7 +65,7 @@ pub(crate) fn vibrate(
         _ => None,
     };
     for warning in steady.iter().flat_map(|own| &own.warnings) {
-        terminal.warn(warning);
+        terminal.warn(&warning.to_string());
     }
     let found = Shaken { scene, sweep, steady, plot: arguments.plot };
     emit(&found, arguments.json, folder, terminal)?;
@@ -111,7 +112,8 @@ impl Study for Shaken {
             text.paragraphs(steady_remarks(own));
         }
         text.table(&resonances(sweep));
-        text.paragraphs(remarks(sweep).iter().chain(&sweep.notes));
+        let notes = sweep.notes.iter().map(VibrationWarning::to_string);
+        text.paragraphs(remarks(sweep).into_iter().chain(notes));
         if self.steady.is_none() {
             let (content, left_out) = response(sweep, WIDTH - 2);
             text.table(&content);
@@ -137,7 +139,8 @@ impl Study for Shaken {
             frequencies: &sweep.frequencies,
             responses: list(sweep.transmissions.iter().map(response_object)),
             steady: &self.steady,
-            notes: &sweep.notes,
+            notes: list(sweep.notes.iter().map(VibrationWarning::to_string)),
+            note_codes: list(sweep.notes.iter().map(VibrationWarning::code)),
         }
     }
 

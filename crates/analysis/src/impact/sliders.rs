@@ -1,10 +1,13 @@
-//! Times over which the force of a slider follows from nothing.
+//! Dry sliders: times over which their force follows from nothing, and whether they do what sliders can.
+//!
+//! They hold no more than their force, and never give energy. Energy balances close around a slider whatever it
+//! does, so they cannot tell.
 
 use std::fmt;
 
 use dashpot_network::{IdleSlider, phases::Phase};
 
-use crate::{Solution, wording::quantity};
+use crate::{Ledger, Solution, wording::quantity};
 
 /// A time over which a slider is held by others while it slides neither way. Its force may be anything
 /// that it can hold, and what holds it bears the rest; the motion does not depend on it.
@@ -69,8 +72,102 @@ pub(crate) fn idle_times(solution: &Solution<'_>) -> Vec<Idle> {
     found
 }
 
+/// Part of the largest force by which a slider may hold more than it can, and of the energy turned over
+/// that sliders may give in jumps: as much as a method may lose of the energy.
+const MOST: f64 = Ledger::MOST_LOST;
+
+/// What no dry slider does.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SliderFault {
+    /// It bears more than the force at which it slides.
+    Overloaded {
+        /// Its name.
+        part: String,
+        /// When \[s\].
+        time: f64,
+        /// What it bears \[N\].
+        force: f64,
+        /// What it can bear \[N\].
+        capacity: f64,
+    },
+    /// It jumps against its own force.
+    JumpsBack {
+        /// Its name.
+        part: String,
+        /// When \[s\].
+        time: f64,
+        /// The energy that it gives \[J\].
+        energy: f64,
+    },
+}
+
+impl fmt::Display for SliderFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Overloaded { part, time, force, capacity } => write!(
+                f,
+                "at {} the slider `{part}` bears {}, and it can hold {}",
+                quantity(*time, "s"),
+                quantity(*force, "N"),
+                quantity(*capacity, "N")
+            ),
+            Self::JumpsBack { part, time, energy } => write!(
+                f,
+                "at {} the slider `{part}` jumps against its force and gives {}",
+                quantity(*time, "s"),
+                quantity(*energy, "J")
+            ),
+        }
+    }
+}
+
+/// The first thing that a slider does and cannot.
+pub(crate) fn slider_fault(solution: &Solution<'_>, energy: &Ledger) -> Option<SliderFault> {
+    let mut sliders = solution.assembly().primitives.iter().filter_map(|own| {
+        let capacity = own.element.phases()?.capacity()?;
+        (solution.keeps(own.force) && solution.keeps(own.deformation)).then_some((own, capacity))
+    });
+    let mut largest = None;
+    sliders.find_map(|(own, capacity)| {
+        let force = solution.glance(own.force);
+        let peak = force.absolute_maximum((force.start(), force.end()));
+        if peak.value.abs() > capacity * (1.0 + MOST) {
+            let largest = *largest.get_or_insert_with(|| largest_force(solution));
+            if peak.value.abs() > capacity + MOST * largest {
+                let (part, force) = (own.name.clone(), peak.value.abs());
+                return Some(SliderFault::Overloaded { part, time: peak.time, force, capacity });
+            }
+        }
+        let place = solution.glance(own.deformation);
+        let mut times: Vec<f64> =
+            solution.trajectory().switches.iter().map(|switch| switch.time).collect();
+        times.dedup();
+        times.into_iter().find_map(|time| {
+            let energy_given = -force.value(time) * (place.value(time) - place.left_value(time));
+            (energy_given > MOST * energy.turned_over).then(|| SliderFault::JumpsBack {
+                part: own.name.clone(),
+                time,
+                energy: energy_given,
+            })
+        })
+    })
+}
+
+/// The largest force in any element \[N\].
+fn largest_force(solution: &Solution<'_>) -> f64 {
+    let forces = solution.assembly().connections.iter().filter_map(|own| own.force);
+    let kept = forces.filter(|&force| solution.keeps(force));
+    kept.map(|force| {
+        let force = solution.glance(force);
+        force.absolute_maximum((force.start(), force.end())).value.abs()
+    })
+    .fold(0.0, f64::max)
+}
+
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use dashpot_dae::{Silent, Waveform};
     use dashpot_network::{
         Model, Network, Node,
@@ -79,7 +176,7 @@ mod tests {
     };
 
     use super::*;
-    use crate::{RunReport, SolveSettings, Warning, solve};
+    use crate::{RunReport, SolveSettings, Warning, energy::ledger::ledger, solve};
 
     fn solved(network: &Network, method: &str) -> RunReport {
         solve(network, &SolveSettings::lasting(2.0).by_name(method).unwrap(), &mut Silent).unwrap()
@@ -144,5 +241,27 @@ mod tests {
             let times = idle_times(&solution);
             assert!(times.iter().any(|own| (own.from - 1.0).abs() < 1e-3 && own.to > 1.999));
         }
+    }
+
+    #[test]
+    fn a_slider_that_bears_more_than_it_can_is_found() {
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", 1.0).moving(2.0));
+        let ground = network.ground();
+        network.connect("spring", head, ground, part(Spring { stiffness: 100.0 }));
+        network.connect("guard", head, ground, part(Friction { force: 3.0 }));
+        let mut report =
+            solve(&network, &SolveSettings::lasting(2.0).by_name("exact").unwrap(), &mut Silent)
+                .unwrap();
+        let energy = ledger(&report.solution(), 2.0);
+        assert_eq!(slider_fault(&report.solution(), &energy), None);
+        // The same motion, of a slider that can hold half as much.
+        let mut assembly = (*report.assembly).clone();
+        let own = assembly.primitives.iter_mut().find(|own| own.name == "guard.friction").unwrap();
+        own.element = Arc::new(Friction { force: 1.5 });
+        report.assembly = Arc::new(assembly);
+        let fault = slider_fault(&report.solution(), &energy).unwrap();
+        assert!(matches!(fault, SliderFault::Overloaded { capacity: 1.5, .. }), "{fault}");
+        assert!(fault.to_string().contains("bears 3.00 N, and it can hold 1.50 N"), "{fault}");
     }
 }
