@@ -1,6 +1,6 @@
 //! An impact that is to be solved, and what becomes known of it.
 
-use dashpot_dae::small::Square;
+use dashpot_numerics::small::Square;
 
 /// An impact, ready to be solved: `ż = A z` in any unit of time, and what is looked at.
 #[derive(Debug, Clone, Copy)]
