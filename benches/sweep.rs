@@ -19,7 +19,7 @@ use std::{hint::black_box, ops::ControlFlow, time::Instant};
 use dashpot::{
     analysis::{
         SolveSettings,
-        sweep::{Column, Grid, Posed, SweepReport, columns, sweep},
+        sweep::{Column, Grid, ScenePoint, SweepReport, columns, sweep},
     },
     network::{
         Network, Node,
@@ -102,7 +102,7 @@ fn scene_by_hand(impact: &Impact) -> f64 {
 fn ours(grid: &Grid, columns: &[Column], threads: usize) -> SweepReport {
     let pose = |places: &[usize]| {
         let network = network(2e7 * factor(places[0]), 4e3 * factor(places[1]));
-        Ok(Posed { network, settings: SolveSettings::lasting(0.02) })
+        Ok(ScenePoint { network, settings: SolveSettings::lasting(0.02) })
     };
     sweep(grid, &pose, columns, threads, &mut |_, _| ControlFlow::Continue(())).expect("a sweep")
 }
@@ -124,9 +124,10 @@ struct Contender<'c> {
 
 fn main() {
     let grid = Grid::new(vec![SIDE, SIDE]).expect("a grid");
-    let scene = Posed { network: impact::network(1, 1e4), settings: SolveSettings::lasting(0.02) };
+    let scene =
+        ScenePoint { network: impact::network(1, 1e4), settings: SolveSettings::lasting(0.02) };
     let asked = |keys: &[&str]| {
-        let keys: Vec<String> = keys.iter().map(|own| (*own).to_owned()).collect();
+        let keys: Vec<String> = keys.iter().map(|key| (*key).to_owned()).collect();
         columns(&scene, &keys).expect("measures").0
     };
     let peaks = asked(&["padding.peak-force", "padding.peak-deformation"]);
@@ -173,8 +174,8 @@ fn main() {
     }
     let found = ours(&grid, &severity, 1);
     println!(
-        "{} of {} points stamped; largest difference from full runs at {} points: {:.1e}",
-        found.stamped,
+        "{} of {} points instantiated; largest difference from full runs at {} points: {:.1e}",
+        found.instantiated,
         grid.len(),
         found.checked.len(),
         found.largest_difference

@@ -46,7 +46,7 @@ impl MeasureKind for MeanForce {
             return Err(Note::NoLength);
         }
         let jumps = VelocityJump::within(solution.element_jumps(target), span.window());
-        let sum: f64 = jumps.iter().map(|own| own.impulse).sum();
+        let sum: f64 = jumps.iter().map(|jump| jump.impulse).sum();
         // The exact method finds the speeds at which masses meet to rounding.
         let error = force.error.map(|_| 1e-12 * sum);
         Ok(Reading::integral(force, &span).plus(sum, sum.abs(), error).mean(&span))

@@ -13,7 +13,7 @@ use std::error::Error;
 use dashpot::{
     analysis::{
         SolveSettings,
-        sweep::{Posed, Sweep, axis},
+        sweep::{ScenePoint, Sweep, axis},
     },
     network::{
         Model, Network, Node,
@@ -23,13 +23,13 @@ use dashpot::{
 };
 
 /// 4 kg at 5 m/s on a spring beside a dashpot.
-fn scene(values: &[f64]) -> Result<Posed, String> {
+fn scene(values: &[f64]) -> Result<ScenePoint, String> {
     let &[stiffness, damping] = values else { return Err("two axes are wanted".to_owned()) };
     let mut network = Network::new();
     let head = network.add_node(Node::mass("head", 4.0).moving(5.0));
     let pad = Model::parallel([part(Spring { stiffness }), part(Dashpot { damping })]);
     network.connect("pad", head, network.ground(), pad);
-    Ok(Posed { network, settings: SolveSettings::lasting(0.1) })
+    Ok(ScenePoint { network, settings: SolveSettings::lasting(0.1) })
 }
 
 pub fn main() -> Result<(), Box<dyn Error>> {

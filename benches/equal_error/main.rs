@@ -76,10 +76,10 @@ fn table(problem: &Problem, machine: f64) -> Result<String, String> {
     let times = problem.times();
     let own: Vec<f64> = times.iter().map(|t| t / problem.end * problem.by_hand.end()).collect();
     let patience = Duration::from_secs_f64(problem.patience);
-    let (truth, doubt) = truth(problem, &times)?;
+    let (truth, threshold) = truth(problem, &times)?;
     let mut text = format!("**{}.**", problem.title);
-    if doubt > 0.0 {
-        let _ = write!(text, " The reference is itself known to {doubt:.0e}.");
+    if threshold > 0.0 {
+        let _ = write!(text, " The reference is itself known to {threshold:.0e}.");
     }
     text += "\n\n| |";
     for wanted in problem.wanted {
@@ -135,8 +135,8 @@ fn truth(problem: &Problem, times: &[f64]) -> Result<(Vec<f64>, f64), String> {
     }
     let finest = if problem.assembly.system.len() > LARGE { 1e-9 } else { 1e-11 };
     let (truth, other) = (solve("bdf", finest)?, solve("bdf", 10.0 * finest)?);
-    let doubt = error(&other, &truth);
-    Ok((truth, doubt))
+    let threshold = error(&other, &truth);
+    Ok((truth, threshold))
 }
 
 /// Everyone but the hand-written code of the first row.

@@ -71,7 +71,7 @@ pub(crate) fn climb(
             Err(reason) => end = reason,
         }
         let least = wanted.iter().copied().fold(f64::INFINITY, f64::min);
-        let is_done = rungs.iter().rev().take(2).filter(|own| own.error <= least).count() == 2;
+        let is_done = rungs.iter().rev().take(2).filter(|rung| rung.error <= least).count() == 2;
         if is_done || contender.is_exact {
             break;
         }

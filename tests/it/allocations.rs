@@ -16,7 +16,7 @@ use allocation_counter::measure;
 use dashpot::{
     analysis::{
         SolveSettings,
-        sweep::{Grid, Posed, columns, sweep},
+        sweep::{Grid, ScenePoint, columns, sweep},
     },
     dae::{Run, Silent, System, methods},
     network::{
@@ -78,7 +78,7 @@ fn so_does_one_with_sparse_matrices() {
 /// Allocations of a sweep of the reference over so many values of three of its numbers by one thread, and
 /// its points.
 fn swept(counts: [usize; 3]) -> (u64, usize) {
-    let posed = |places: &[usize]| {
+    let scene_point = |places: &[usize]| {
         let factor = |at: usize| 1.0 + 0.02 * places[at] as f64;
         let mut network = Network::new();
         let head = network.add_node(Node::mass("head", 10.0).moving(10.0 * factor(2)));
@@ -87,19 +87,19 @@ fn swept(counts: [usize; 3]) -> (u64, usize) {
             part(Dashpot { damping: 2e4 * factor(1) }),
         ]);
         network.connect("padding", head, network.ground(), pad).thickness = Some(0.02);
-        Ok(Posed { network, settings: SolveSettings::lasting(0.02) })
+        Ok(ScenePoint { network, settings: SolveSettings::lasting(0.02) })
     };
     let keys = ["peak-force", "peak-deformation", "energy"].map(|own| format!("padding.{own}"));
     let severity = "head.severity-index".to_owned();
     let keys: Vec<String> = keys.into_iter().chain([severity]).collect();
-    let columns = columns(&posed(&[0; 3]).unwrap(), &keys).unwrap().0;
+    let columns = columns(&scene_point(&[0; 3]).unwrap(), &keys).unwrap().0;
     let grid = Grid::new(counts.to_vec()).unwrap();
-    let mut stamped = 0;
+    let mut instantiated = 0;
     let counted = measure(|| {
         let watch = &mut |_, _| ControlFlow::Continue(());
-        stamped = sweep(&grid, &posed, &columns, 1, watch).unwrap().stamped;
+        instantiated = sweep(&grid, &scene_point, &columns, 1, watch).unwrap().instantiated;
     });
-    assert_eq!(stamped, grid.len());
+    assert_eq!(instantiated, grid.len());
     (counted.count_total, grid.len())
 }
 

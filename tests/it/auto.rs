@@ -30,7 +30,7 @@ fn measure<'r>(report: &'r RunReport, key: &str) -> &'r MeasureReport {
 
 /// Whether a run is as good as is wanted.
 fn reaches(report: &RunReport) -> bool {
-    report.measures.iter().all(|own| own.excess <= 1.0 && !own.is_undetermined)
+    report.measures.iter().all(|measure| measure.excess <= 1.0 && !measure.is_undetermined)
 }
 
 /// A mass against a spring without damping.
@@ -149,12 +149,14 @@ fn strong_dashpots_take_no_time() {
             let lost = measure(&auto, "d.energy");
             assert!((lost.value.unwrap() - 0.375).abs() <= lost.error.unwrap_or(1e-6), "{lost:?}");
             // Known to be left: from 1e16 N s/m on the bar of the impulse says nothing.
-            let known = |own: &&MeasureReport| damping < 1e16 || own.key != "d.impulse";
-            for own in auto.measures.iter().filter(known) {
-                let is_told = own.value.zip(own.error).is_some_and(|(value, error)| {
+            let known = |measure_report: &&MeasureReport| {
+                damping < 1e16 || measure_report.key != "d.impulse"
+            };
+            for measure in auto.measures.iter().filter(known) {
+                let is_told = measure.value.zip(measure.error).is_some_and(|(value, error)| {
                     error.is_finite() && error > value.abs() && error > 100.0
                 });
-                assert!(!is_told, "says nothing: {own:?}");
+                assert!(!is_told, "says nothing: {measure:?}");
             }
         }
     }
@@ -216,7 +218,7 @@ fn budget_ends_a_run_with_the_best_answer_so_far() {
     let told = part
         .warnings
         .iter()
-        .find(|own| own.to_string().contains("the accuracy wanted is not reached"));
+        .find(|warning| warning.to_string().contains("the accuracy wanted is not reached"));
     assert!(told.unwrap().to_string().contains("the budget of work is spent"), "{told:?}");
     let again = within(whole.solver.work / 2).unwrap();
     assert_eq!((again.measures, again.solver.work), (part.measures, part.solver.work));

@@ -91,7 +91,7 @@ fn full() {
     let path = std::env::var("DASHPOT_CAMPAIGN").expect("a file of scenes");
     let chosen = std::env::var("DASHPOT_METHODS");
     let methods: Vec<&str> =
-        chosen.as_ref().map_or(METHODS.to_vec(), |own| own.split(',').collect());
+        chosen.as_ref().map_or(METHODS.to_vec(), |chosen| chosen.split(',').collect());
     let tally = campaign(&path, |_| methods.clone());
     println!("{tally}");
     assert!(tally.is_good());

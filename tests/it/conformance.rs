@@ -187,7 +187,7 @@ fn parts(model: &Model) -> Vec<String> {
             parts.push(format!("{path} {} {:?}", element.kind(), element.values()));
         }
         let branches = tree.branches().iter().rev();
-        open.extend(branches.map(|own| (format!("{path}.{}", own.name), &own.tree)));
+        open.extend(branches.map(|branch| (format!("{path}.{}", branch.name), &branch.tree)));
     }
     parts
 }
@@ -220,14 +220,15 @@ fn composites_come_back_from_toml_as_the_models_that_they_describe() {
         let written = write_model(&composed.model);
         let law = written.trim_start_matches("{ ").trim_end_matches(" }");
         assert_eq!(parts(&model_of(law)), parts(&composed.model), "{law}");
-        for own in kind.parameters {
+        for parameter in kind.parameters {
             // A default in N/m is the same in Pa only where it is zero.
-            if let (ParameterKind::Quantity(dimension), Some(default)) = (own.kind, own.default)
+            if let (ParameterKind::Quantity(dimension), Some(default)) =
+                (parameter.kind, parameter.default)
                 && dimension.length == 0
                 && dimension.mass != 0
             {
                 let zero = dashpot::scene::units::parse_quantity(default).unwrap().value == 0.0;
-                assert!(zero, "{}.{} is {default} by default", kind.word, own.name);
+                assert!(zero, "{}.{} is {default} by default", kind.word, parameter.name);
             }
         }
     }

@@ -74,7 +74,7 @@ fn prony(spring: f64, pairs: &[f64]) -> LinearModel {
 fn maxwell(model: &LinearModel) -> Vec<f64> {
     let form = model.maxwell().unwrap();
     let elements = form.elements();
-    let pairs = elements.iter().flat_map(|own| [own.stiffness, own.damping]);
+    let pairs = elements.iter().flat_map(|element| [element.stiffness, element.damping]);
     [form.spring(), form.dashpot()].into_iter().chain(pairs).collect()
 }
 
@@ -82,7 +82,7 @@ fn maxwell(model: &LinearModel) -> Vec<f64> {
 fn kelvin(model: &LinearModel) -> Vec<f64> {
     let form = model.kelvin().unwrap();
     let elements = form.elements();
-    let pairs = elements.iter().flat_map(|own| [own.stiffness, own.damping]);
+    let pairs = elements.iter().flat_map(|element| [element.stiffness, element.damping]);
     [form.spring_compliance(), form.fluidity()].into_iter().chain(pairs).collect()
 }
 

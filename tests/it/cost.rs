@@ -21,7 +21,7 @@ fn scene(path: &str) -> Scene {
 /// What accuracy costs at these tolerances, without regard to time.
 fn cost(scene: &Scene, methods: &[&str], rtols: &[f64]) -> CostReport {
     let ladder = Ladder {
-        methods: methods.iter().map(|own| Choice::named(own).unwrap()).collect(),
+        methods: methods.iter().map(|method| Choice::named(method).unwrap()).collect(),
         rtols: rtols.to_vec(),
         repeats: Some(1),
         ..Ladder::default()
@@ -64,14 +64,17 @@ fn the_agreement_of_two_families_limits_what_is_said_of_a_nonlinear_scene() {
     for path in ["scenes/crash-mat.toml", "scenes/eps-helmet.toml"] {
         let report = cost(&scene(path), &["bdf", "esdirk34"], &[1e-5, 1e-11]);
         let truth = &report.truth;
-        assert_eq!(truth.witness.map(|own| own.0), Some("esdirk34"), "{path}");
+        assert_eq!(truth.witness.map(|witness| witness.0), Some("esdirk34"), "{path}");
         assert!(truth.why_not_exact.is_some() && report.auto == "bdf", "{path}: {}", report.auto);
         let agreement = truth.measure_agreement.unwrap();
         assert!(agreement > 0.0 && agreement < 1e-6, "{path}: {agreement:e}");
         assert!(truth.state_agreement.unwrap() < 1e-4, "{path}: {truth:?}");
-        let known = report.measures.iter().map(|own| own.known_within).fold(0.0, f64::max);
+        let known = report.measures.iter().map(|measure| measure.known_within).fold(0.0, f64::max);
         assert!((known - agreement).abs() <= 0.0, "{path}: {known:e} {agreement:e}");
-        assert!(report.points.iter().all(|own| own.worst(&report.asked) >= agreement), "{path}");
+        assert!(
+            report.points.iter().all(|point| point.worst(&report.asked) >= agreement),
+            "{path}"
+        );
     }
 }
 
@@ -97,10 +100,10 @@ fn a_method_that_loses_its_way_on_a_stiff_scene_is_listed() {
 fn events_of_a_scene_that_switches_are_met_the_better_the_tighter_the_tolerance() {
     let report = cost(&scene("scenes/thesis-stop.toml"), &["bdf"], &[1e-5, 1e-7, 1e-9]);
     let times: Vec<f64> =
-        report.points.iter().map(|own| own.events.deviation.unwrap().value).collect();
+        report.points.iter().map(|point| point.events.deviation.unwrap().value).collect();
     assert!(times[2] < times[1] && times[1] < times[0] && times[2] < 1e-7, "{times:?}");
-    assert!(report.points.iter().all(|own| own.events.missed + own.events.extra == 0));
-    let states: Vec<f64> = report.points.iter().map(|own| own.state.unwrap().value).collect();
+    assert!(report.points.iter().all(|point| point.events.missed + point.events.extra == 0));
+    let states: Vec<f64> = report.points.iter().map(|point| point.state.unwrap().value).collect();
     assert!(states[2] < 1e-2 * states[0], "{states:?}");
 }
 
@@ -114,9 +117,9 @@ fn the_command_prints_tables_that_fit_and_one_object_that_says_the_same() {
     let object = json(&[&arguments[..], &["--json"]].concat());
     let points = object["points"].as_array().unwrap();
     assert_eq!(points.len(), 10);
-    for point in points.iter().filter(|own| own["rtol"].is_f64()) {
+    for point in points.iter().filter(|point| point["rtol"].is_f64()) {
         let counts = ["accepted", "rejected", "rhs_calls", "jacobian_calls", "factorizations"];
-        let row: Vec<String> = counts.iter().map(|own| point[own].to_string()).collect();
+        let row: Vec<String> = counts.iter().map(|count| point[count].to_string()).collect();
         let is_row = |line: &str| {
             let words: Vec<&str> = line.split_whitespace().collect();
             words.len() > 7 && words[2..7] == row
@@ -138,8 +141,8 @@ fn the_command_prints_tables_that_fit_and_one_object_that_says_the_same() {
         for (measure, deviation) in report.measures.iter().zip(&own.measures) {
             let found = &point["measures"][&measure.key];
             for (name, value) in [
-                ("error", deviation.deviation.map(|own| own.value)),
-                ("known_within", deviation.deviation.map(|own| own.known_within)),
+                ("error", deviation.deviation.map(|deviation| deviation.value)),
+                ("known_within", deviation.deviation.map(|deviation| deviation.known_within)),
                 ("bar", deviation.bar),
             ] {
                 let (read, value) = (found[name].as_f64().unwrap(), value.unwrap());

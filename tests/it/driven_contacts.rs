@@ -25,7 +25,7 @@ fn value(report: &RunReport, key: &str) -> (f64, f64) {
 }
 
 /// A parcel on a bed that falls away under it and comes back.
-const SHAKEN: &str = "[nodes]\n\
+const PERTURBED: &str = "[nodes]\n\
     parcel = { mass = \"4 kg\" }\n\
     bed = { motion = { haversine = { peak = \"0.7 mm\", duration = \"21 ms\" } } }\n\
     [elements.cushion]\n\
@@ -47,10 +47,10 @@ fn parcel_that_a_bed_falls_away_from_meets_it_when_its_free_fall_does() {
         let time: f64 = 0.5 * (before + after);
         if 0.5 * GRAVITY * time * time < bed(time) { before = time } else { after = time }
     }
-    let accurate = run_at(SHAKEN, "esdirk34", Some(1e-9));
+    let accurate = run_at(PERTURBED, "esdirk34", Some(1e-9));
     let (peak, own) = value(&accurate, "parcel.peak-acceleration");
     for method in STEPPING {
-        let report = run(SHAKEN, method);
+        let report = run(PERTURBED, method);
         let met = report.events.iter().find(|event| event.what.code() == "meets").unwrap();
         assert!((met.time / after - 1.0).abs() < 1e-4, "{method}: {} of {after}", met.time);
         let (found, error) = value(&report, "parcel.peak-acceleration");
@@ -138,10 +138,8 @@ fn no_contact_that_pulls_is_taken_for_accurate() {
         let (found, error) = value(&report, "cushion.energy");
         assert!((found - energy).abs() <= error + 1e-7, "{method}: {found} {energy} by {error:e}");
         assert!(
-            report
-                .warnings
-                .iter()
-                .all(|own| !own.code().contains("pulls") && !own.to_string().contains("pulls")),
+            report.warnings.iter().all(|warning| !warning.code().contains("pulls")
+                && !warning.to_string().contains("pulls")),
             "{:?}",
             report.warnings
         );
@@ -216,7 +214,8 @@ fn mass_that_a_slider_holds_to_a_floor_slips_where_the_floor_starts_and_stops() 
         is_near(&report, "pad.energy", 18.0);
         is_near(&report, "box.peak-acceleration", 50.0);
         is_near(&report, "box.peak-displacement", 0.3);
-        let switches: Vec<&str> = report.trajectory.switches.iter().map(|own| own.what).collect();
+        let switches: Vec<&str> =
+            report.trajectory.switches.iter().map(|switch| switch.what).collect();
         let slips = ["sliding forward", "stuck", "sliding backward", "stuck"];
         assert_eq!(switches, slips, "{method}");
     }

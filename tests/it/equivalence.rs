@@ -130,7 +130,8 @@ fn padded_by(scene: &Scene, fill: impl FnOnce(&mut Network, [NodeId; 2])) -> Net
     for effect in old.effects() {
         network.add_shared_effect(effect.clone());
     }
-    let [a, b] = old.connections().iter().find(|own| own.name == "padding").unwrap().between;
+    let [a, b] =
+        old.connections().iter().find(|connection| connection.name == "padding").unwrap().between;
     fill(&mut network, [ids[a.index()], ids[b.index()]]);
     network
 }
@@ -138,7 +139,8 @@ fn padded_by(scene: &Scene, fill: impl FnOnce(&mut Network, [NodeId; 2])) -> Net
 /// The network of a scene with another model as its `padding`.
 fn padded(scene: &Scene, model: Model) -> Network {
     let mut network = scene.network.clone();
-    let at = network.connections().iter().position(|own| own.name == "padding").unwrap();
+    let at =
+        network.connections().iter().position(|connection| connection.name == "padding").unwrap();
     network.set_model(at, model);
     network
 }

@@ -29,7 +29,7 @@ fn said(output: &std::process::Output) -> String {
 
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap().map(|own| own.unwrap().file_name());
-    entries.map(|own| own.into_string().unwrap()).collect()
+    entries.map(|entry| entry.into_string().unwrap()).collect()
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn two_runs_with_one_folder_never_mix() {
             command.args(["run", text(scene), "--out", text(&results)]);
             command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
         });
-        let both = both.map(|own| own.wait_with_output().unwrap());
+        let both = both.map(|both| both.wait_with_output().unwrap());
         let done = [0, 1].map(|at: usize| code(&both[at]) == 0);
         assert!(done.contains(&true));
         for output in both.iter().filter(|own| code(own) != 0) {
@@ -164,7 +164,7 @@ fn a_run_that_is_killed_leaves_no_result_that_is_not_whole() {
     }
     let output = run(&arguments);
     assert_eq!(code(&output), 0, "{}", err(&output));
-    assert!(names(&results).iter().all(|own| !own.contains(".part")), "{:?}", names(&results));
+    assert!(names(&results).iter().all(|name| !name.contains(".part")), "{:?}", names(&results));
 }
 
 #[test]
@@ -315,6 +315,6 @@ fn results_stay_in_their_folder_whatever_the_names() {
         text(&results),
     ]);
     assert_eq!(code(&output), 0, "{}", err(&output));
-    assert!(names(&results).iter().any(|own| own.ends_with("%2Fpad.peak-force.svg")));
+    assert!(names(&results).iter().any(|name| name.ends_with("%2Fpad.peak-force.svg")));
     assert_eq!(names(folder.path()).len(), 2, "{:?}", names(folder.path()));
 }

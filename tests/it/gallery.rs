@@ -110,7 +110,7 @@ impl Solved {
     /// When the switching part `name` went into `phase` \[s\], in order.
     fn times(&self, name: &str, phase: &str) -> Vec<f64> {
         let switches = self.first().trajectory.switches.iter();
-        let own = switches.filter(|own| own.name == name && own.what == phase);
+        let own = switches.filter(|switch| switch.name == name && switch.what == phase);
         own.map(|own| own.time).collect()
     }
 

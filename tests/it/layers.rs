@@ -104,7 +104,7 @@ fn a_bar_is_the_chain_of_its_segments() {
     let warned = report
         .warnings
         .iter()
-        .any(|own| own.to_string().contains("`push` jumps at the face of `bar`"));
+        .any(|warning| warning.to_string().contains("`push` jumps at the face of `bar`"));
     assert!(warned, "{:?}", report.warnings);
 }
 
@@ -223,7 +223,7 @@ fn a_body_that_strikes_a_bar_makes_the_stress_of_its_speed() {
         let warned = report
             .warnings
             .iter()
-            .any(|own| own.to_string().contains("`hammer` strikes the layer"));
+            .any(|warning| warning.to_string().contains("`hammer` strikes the layer"));
         assert!(warned, "{:?}", report.warnings);
     }
 }
@@ -378,8 +378,8 @@ fn vibration_knows_the_masses_of_layers_and_refuses_what_switches() {
     );
     let by_hand = Vibration::new(&chain.network, 0.02, Some("ground")).unwrap();
     // Near the second of the three resonances, which a pad without mass does not have.
-    let head = |own: &Vibration| {
-        let steady = own.steady(700.0, 1e-3).unwrap();
+    let head = |vibration: &Vibration| {
+        let steady = vibration.steady(700.0, 1e-3).unwrap();
         steady.nodes.iter().find(|node| node.name == "head").unwrap().displacement.amplitude
     };
     let (found, expected) = (head(&vibration), head(&by_hand));
@@ -403,7 +403,7 @@ fn a_restitution_against_a_face_without_mass_is_warned_of() {
         assembly
             .warnings
             .iter()
-            .any(|own| own.to_string().contains("restitution 0.5 of `pad.contact`"))
+            .any(|warning| warning.to_string().contains("restitution 0.5 of `pad.contact`"))
     };
     assert!(said(""));
     assert!(!said("face.pad = { mass = 0.1 }"));

@@ -2,7 +2,7 @@
 //! their own; measured laws beyond their points, and pads that pull without an impactor.
 
 use dashpot::{
-    analysis::{RunReport, hopeless_measures, solve},
+    analysis::{RunReport, solve, undefined_measures},
     dae::Silent,
     scene::{ReadOptions, Scene, read},
 };
@@ -24,7 +24,7 @@ fn value(report: &RunReport, key: &str) -> f64 {
 }
 
 fn warned(report: &RunReport, part: &str) -> bool {
-    report.warnings.iter().any(|own| own.to_string().contains(part))
+    report.warnings.iter().any(|warning| warning.to_string().contains(part))
 }
 
 const MATERIALS: &str = r#"
@@ -80,7 +80,8 @@ fn pads_side_by_side_are_told_once() {
          parallel = [{{ {BOTTOM} }}, {{ dashpot = 10 }}] }}\n[measures]\n\
          cushion = [\"peak-stress\"]\n{RUN}"
     ));
-    let told = report.warnings.iter().filter(|own| own.to_string().contains("is pressed in by"));
+    let told =
+        report.warnings.iter().filter(|warning| warning.to_string().contains("is pressed in by"));
     assert_eq!(told.count(), 1, "{:?}", report.warnings);
     assert!(value(&report, "cushion.peak-stress") > 0.0);
 }
@@ -98,7 +99,7 @@ fn sizes_around_pads_in_a_row_are_theirs_together() {
     };
     let (warnings, thickness, area) = shown("");
     assert_eq!((warnings.as_str(), area), ("", Some(0.04)));
-    assert!(thickness.is_some_and(|own| (own - 0.06).abs() < 1e-15), "{thickness:?}");
+    assert!(thickness.is_some_and(|thickness| (thickness - 0.06).abs() < 1e-15), "{thickness:?}");
     assert_eq!(shown(", thickness = \"60 mm\", area = \"400 cm^2\"").0, "");
     for (sizes, expected) in [
         (", thickness = \"70 mm\"", "is 70 mm, but its parts together have 60 mm"),
@@ -154,7 +155,7 @@ fn measures_that_can_have_no_value_are_known_before() {
                 ground = [\"hic15\"]\nhead = [\"hic15\"]\npad = [\"peak-stress\", \"peak-strain\"]\n\
                 [run]\nduration = \"0.1 s\"\n";
     let scene = scene(text);
-    let found = hopeless_measures(&scene.assembly, &scene.settings("auto").unwrap()).unwrap();
+    let found = undefined_measures(&scene.assembly, &scene.settings("auto").unwrap()).unwrap();
     let mut keys: Vec<&str> = found.iter().map(|own| own.0.as_str()).collect();
     keys.sort_unstable();
     assert_eq!(keys, ["ground.hic15", "pad.peak-strain", "pad.peak-stress"]);

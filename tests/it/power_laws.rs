@@ -70,11 +70,11 @@ fn a_dashpot_that_is_steep_at_rest_behind_a_spring_is_within_its_bars_at_all_tol
                 {
                     let (found, bar) = value(&report, key);
                     let off = (found - truth[at]).abs();
-                    let doubt = 2.0 * (truth[at] - coarse[at]).abs() + 1e-12;
+                    let threshold = 2.0 * (truth[at] - coarse[at]).abs() + 1e-12;
                     let what = format!("{method} {rtol:?}, {spring} and {dashpot}: {key}");
                     assert!(
-                        off <= bar + doubt,
-                        "{what}: {off:e} beside a bar of {bar:e} ± {doubt:e}"
+                        off <= bar + threshold,
+                        "{what}: {off:e} beside a bar of {bar:e} ± {threshold:e}"
                     );
                 }
             }
@@ -135,12 +135,15 @@ const LOSSY: &str = "[nodes]\n\
 fn a_curve_of_unloading_is_taken_at_all_tolerances_where_balances_barely_tell_the_rate() {
     let finest = run(LOSSY, "bdf", Some(3e-11));
     for key in ["head.end-position", "head.end-velocity", "pad.energy-at-end"] {
-        let (truth, doubt) = value(&finest, key);
+        let (truth, threshold) = value(&finest, key);
         for method in STEPPING {
             for rtol in [None, Some(1e-5), Some(1e-6), Some(1e-7), Some(1e-8)] {
                 let (found, bar) = value(&run(LOSSY, method, rtol), key);
                 let off = (found - truth).abs();
-                assert!(off <= bar + doubt, "{method} {rtol:?}: {key} {found} ± {bar} for {truth}");
+                assert!(
+                    off <= bar + threshold,
+                    "{method} {rtol:?}: {key} {found} ± {bar} for {truth}"
+                );
             }
         }
     }

@@ -182,7 +182,7 @@ fn forces_balance_at_massless_nodes_and_energy_closes() {
         for (node, &(mass, _)) in recipe.nodes.iter().enumerate().filter(|(_, n)| n.0 == 0.0) {
             for (t, state) in times.iter().zip(states.chunks(system.len())) {
                 // Rounding of the rows shows as that of the products they sum up.
-                let (mut sum, mut doubt) = (mass, 0.0_f64);
+                let (mut sum, mut threshold) = (mass, 0.0_f64);
                 for (at, (element, force)) in recipe.elements.iter().zip(&forces).enumerate() {
                     let sign = f64::from(i8::from(element.1 == node) - i8::from(element.0 == node));
                     if sign == 0.0 {
@@ -191,11 +191,11 @@ fn forces_balance_at_massless_nodes_and_energy_closes() {
                     sum += sign * force.value(*t);
                     let output = system.outputs.at(assembly.connections[at].force.unwrap());
                     let products = output.scale * output.unknowns.magnitude_at(state);
-                    doubt += force.error.unwrap() + 32.0 * f64::EPSILON * products;
+                    threshold += force.error.unwrap() + 32.0 * f64::EPSILON * products;
                 }
                 assert!(
-                    sum.abs() <= doubt,
-                    "case {case}, n{node} at {t}: {sum:e} beyond {doubt:e}"
+                    sum.abs() <= threshold,
+                    "case {case}, n{node} at {t}: {sum:e} beyond {threshold:e}"
                 );
             }
         }
@@ -253,9 +253,9 @@ fn close_energy(
     duration: f64,
     signal: &dyn Fn(usize) -> dashpot::dae::Signal,
 ) {
-    let mut doubt = 0.0;
+    let mut threshold = 0.0;
     let mut square = |factor: f64, value: f64, error: Option<f64>| {
-        doubt += factor * (2.0 * value.abs() + error.unwrap()) * error.unwrap();
+        threshold += factor * (2.0 * value.abs() + error.unwrap()) * error.unwrap();
         factor * value * value
     };
     let start: f64 = recipe.nodes.iter().map(|(mass, v)| 0.5 * mass * v * v).sum();
@@ -283,8 +283,8 @@ fn close_energy(
         })
         .sum();
     let closure = (kinetic + rest - start).abs();
-    let allowed = doubt + 1e-12 * start;
-    assert!(allowed < 1e-3 * start, "case {case}: {doubt:e} of {start:e} says nothing");
+    let allowed = threshold + 1e-12 * start;
+    assert!(allowed < 1e-3 * start, "case {case}: {threshold:e} of {start:e} says nothing");
     assert!(
         closure <= allowed,
         "case {case}: closure {closure:e} of {start:e}, allowed {allowed:e}, {recipe:?}"

@@ -220,12 +220,12 @@ fn what_is_dropped_falls_in_the_laboratory_as_well() {
     let wish = "mass=1 kg, thickness=6 mm";
     let designed = json(&["groups", text(&path), "--lab", wish, "--out", &lab, "--json"]);
     let pairs = designed["laboratory"]["measures"].as_array().unwrap();
-    assert!(pairs.iter().any(|own| own["measure"] == "cushion.energy-at-end"));
-    for own in pairs {
-        let number = |own: &Value| own.as_f64().unwrap();
-        let [real, there] = [0, 1].map(|at| number(&own["values"][at]));
-        let apart = (there / number(&own["factor"]) / real - 1.0).abs();
-        assert!(apart < 1e-9, "{own}");
+    assert!(pairs.iter().any(|pair| pair["measure"] == "cushion.energy-at-end"));
+    for pair in pairs {
+        let number = |value: &Value| value.as_f64().unwrap();
+        let [real, there] = [0, 1].map(|at| number(&pair["values"][at]));
+        let apart = (there / number(&pair["factor"]) / real - 1.0).abs();
+        assert!(apart < 1e-9, "{pair}");
     }
     // Under the gravity of every place the fall takes longer, but the impact is in the run.
     let own = designed["laboratory"]["with_own_gravity"].as_array().unwrap();
@@ -263,11 +263,11 @@ duration = \"30 ms\"
     let path = file(&folder, "helmet.toml", helmet);
     let told = json(&["groups", text(&path), "--lab", "mass=1 kg", "--json"]);
     let pairs = told["laboratory"]["measures"].as_array().unwrap();
-    let energy = pairs.iter().find(|own| own["measure"] == "liner.energy").unwrap();
+    let energy = pairs.iter().find(|pair| pair["measure"] == "liner.energy").unwrap();
     assert_eq!(energy["values"], serde_json::json!([0.0, 0.0]));
     let groups = told["groups"].as_array().unwrap();
     let names: std::collections::BTreeSet<_> =
-        groups.iter().map(|own| own["parameter"].as_str().unwrap()).collect();
+        groups.iter().map(|group| group["parameter"].as_str().unwrap()).collect();
     assert_eq!(names.len(), groups.len());
 }
 
@@ -390,7 +390,7 @@ fn sizes_that_act_in_products_alone_make_no_groups() {
     let names = |scene: &str| {
         let told = json(&["groups", &scenes_file(scene), "--json"]);
         let groups = told["groups"].as_array().unwrap().iter();
-        groups.map(|own| own["parameter"].as_str().unwrap().to_owned()).collect::<Vec<String>>()
+        groups.map(|group| group["parameter"].as_str().unwrap().to_owned()).collect::<Vec<String>>()
     };
     let foam = names("eps-helmet");
     assert!(foam.contains(&"liner.eps.modulus*area".to_owned()), "{foam:?}");

@@ -150,7 +150,7 @@ fn measures_of_a_large_network_are_those_of_a_solution_kept_as_a_whole() {
     assert!(report.trajectory.digest().is_some());
     assert!(report.solver.why.contains("only what the measures need is kept"));
     let all = full(&assembly, duration, report.solver.rtol.unwrap());
-    let solution = Solution::new(&assembly, &all).doubting(report.solver.doubt);
+    let solution = Solution::new(&assembly, &all).doubting(report.solver.threshold);
     let value = |key: &str| report.measure(key).unwrap().value;
     assert_eq!(value("link0.peak-force"), PeakForce::default().read(&solution, 0).value);
     assert_eq!(value("link0.impulse"), Impulse::default().read(&solution, 0).value);

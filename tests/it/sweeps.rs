@@ -88,7 +88,7 @@ fn a_named_value_varies_wherever_its_name_stands() {
     let json = json(&["sweep", text(&path), "--vary", "K2=5..30 MN/m,4,log", "--json"]);
     assert_eq!(json["parameters"][0]["path"], "values.K2");
     assert_eq!(json["parameters"][0]["unit"], "N/m");
-    assert_eq!((json["points"].as_u64(), json["stamped"].as_u64()), (Some(4), Some(4)));
+    assert_eq!((json["points"].as_u64(), json["instantiated"].as_u64()), (Some(4), Some(4)));
     let forces = json["measures"][0]["values"].as_array().unwrap();
     assert_eq!(json["measures"][0]["key"], "padding.peak-force");
     assert!(forces.windows(2).all(|pair| pair[0].as_f64() < pair[1].as_f64()));
@@ -105,7 +105,7 @@ fn effects_and_other_measures_vary_too() {
         "head.hic15,mount.peak-force",
         "--json",
     ]);
-    assert_eq!(json["stamped"], 0);
+    assert_eq!(json["instantiated"], 0);
     let keys: Vec<&str> = json["measures"]
         .as_array()
         .unwrap()
@@ -142,7 +142,7 @@ fn what_matters_little_is_left_out_after_a_proof() {
     ]);
     assert_eq!(json["left_out"]["effects"][0], "gravity");
     assert_eq!(json["left_out"]["checked"], serde_json::json!([0, 4, 8]));
-    assert_eq!(json["stamped"], 9, "without gravity it is of the plain kind");
+    assert_eq!(json["instantiated"], 9, "without gravity it is of the plain kind");
     let moves = json["left_out"]["moves"].as_f64().unwrap();
     assert!(moves > 0.0 && moves <= 0.01);
     for at in 0..9 {
@@ -171,7 +171,7 @@ fn a_folder_holds_table_object_lines_and_maps() {
     );
     let shown = out(&done);
     assert!(shown.lines().all(|line| line.chars().count() <= 80), "{shown}");
-    assert!(shown.contains("20 points, stamped from one compiled form"), "{shown}");
+    assert!(shown.contains("20 points, instantiated from one compiled form"), "{shown}");
     // It may be written again, but not over what others have written.
     assert_eq!(code(&run(&arguments)), 0);
     std::fs::remove_file(folder.path().join("map/result.json")).unwrap();
@@ -263,7 +263,7 @@ fn what_a_run_is_warned_of_is_told_with_its_points() {
     assert!(said.contains(lasting), "{said}");
     assert!(said.contains("at 3 of 4 points"), "{said}");
     let table = out(&done);
-    let flags: Vec<&str> = records(&table).iter().map(|own| own[own.len() - 1]).collect();
+    let flags: Vec<&str> = records(&table).iter().map(|record| record[record.len() - 1]).collect();
     assert_eq!(flags, ["warnings", "1", "2", "2", "2"]);
     let json = json(&[&arguments[..], &["--json"]].concat());
     assert_eq!(json["warnings"][0]["points"], serde_json::json!([0]));
@@ -271,7 +271,7 @@ fn what_a_run_is_warned_of_is_told_with_its_points() {
     // Stamped points pull too, and are pressed through.
     let speeds = ["sweep", "reference", "--vary", "head.velocity=2,8,14 m/s", "--json"];
     let json = crate::cli::json(&speeds);
-    assert_eq!(json["stamped"], 3);
+    assert_eq!(json["instantiated"], 3);
     let told = |at: usize| json["warnings"][at]["text"].as_str().unwrap();
     assert!(told(0).ends_with("the padding is in tension: separation is off"), "{}", told(0));
     assert_eq!(json["warnings"][0]["points"], serde_json::json!([0, 1, 2]));
@@ -280,13 +280,13 @@ fn what_a_run_is_warned_of_is_told_with_its_points() {
 }
 
 #[test]
-fn a_method_may_be_chosen_and_only_exact_ones_are_stamped() {
+fn a_method_may_be_chosen_and_only_exact_ones_are_instantiated() {
     let by = |method: &str| {
         let vary = "head.velocity=8,12 m/s";
         json(&["sweep", "reference", "--vary", vary, "--method", method, "--json"])
     };
     let (exact, bdf) = (by("exact"), by("bdf"));
-    assert_eq!((exact["stamped"].as_u64(), bdf["stamped"].as_u64()), (Some(2), Some(0)));
+    assert_eq!((exact["instantiated"].as_u64(), bdf["instantiated"].as_u64()), (Some(2), Some(0)));
     for at in 0..2 {
         let of =
             |own: &serde_json::Value, what: &str| own["measures"][0][what][at].as_f64().unwrap();

@@ -77,8 +77,10 @@ fn a_table_that_ends_above_zero_holds_is_zero_or_is_refused() {
                 let found = report.measure("head.end-velocity").unwrap();
                 let (value, error) = (found.value.unwrap(), found.error.unwrap());
                 assert!((value - speed).abs() <= error + 1e-12, "{method}: {value} {error:e}");
-                let is_told =
-                    report.warnings.iter().any(|own| own.to_string().contains("which is held to"));
+                let is_told = report
+                    .warnings
+                    .iter()
+                    .any(|warning| warning.to_string().contains("which is held to"));
                 assert_eq!(is_told, warned, "{method}: {:?}", report.warnings);
             }
         }
@@ -179,7 +181,7 @@ fn sweeps_take_what_a_table_is_beyond_its_points() {
         let table = out(&swept);
         let rows = table.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
         let found: Vec<(f64, f64)> =
-            rows.map(|own| (own[1].parse().unwrap(), own[2].parse().unwrap())).collect();
+            rows.map(|row| (row[1].parse().unwrap(), row[2].parse().unwrap())).collect();
         assert_eq!(found.len(), 3, "{table}");
         for ((value, error), expected) in found.into_iter().zip([1.25, 5.0, last]) {
             assert!((value - expected).abs() <= error + 1e-12, "{outside}: {value} {error:e}");
@@ -225,7 +227,7 @@ fn what_is_still_falling_is_told_by_every_method() {
         for estimate in [true, false] {
             let settings = SolveSettings { estimate, ..scene.settings(method).unwrap() };
             let report = solve(&scene.network, &settings, &mut Silent).unwrap();
-            let told = report.warnings.iter().any(|own| own.code() == "still-falling");
+            let told = report.warnings.iter().any(|warning| warning.code() == "still-falling");
             assert!(told, "{method}: {:?}", report.warnings);
         }
     }
@@ -249,7 +251,7 @@ fn what_is_dropped_begins_in_the_air_only_where_it_falls_and_nothing_is_bonded_t
              [effects]\n{gravity}\n{separation}\n[run]\nduration = \"0.3 s\"\n"
         );
         let scene = read(&text, &ReadOptions::default()).unwrap().value;
-        let head = scene.assembly.nodes.iter().find(|own| own.name == "head").unwrap();
+        let head = scene.assembly.nodes.iter().find(|node| node.name == "head").unwrap();
         let fall = f64::sqrt(2.0 * height / g);
         assert!((head.fall - fall).abs() < 1e-15, "{gravity} {separation}: {}", head.fall);
         for (method, allowed) in [("exact", 0.0), ("bdf", 1e-6)] {

@@ -27,7 +27,8 @@ fn scenes() -> Vec<PathBuf> {
 fn fits(arguments: &[&str]) {
     let output = run(arguments);
     for line in out(&output).lines().chain(err(&output).lines()) {
-        let is_long = arguments.iter().any(|own| own.len() > 20 && line.contains(own));
+        let is_long =
+            arguments.iter().any(|argument| argument.len() > 20 && line.contains(argument));
         assert!(is_long || line.chars().count() <= WIDTH, "{arguments:?}: {line}");
     }
 }

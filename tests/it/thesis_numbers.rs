@@ -14,12 +14,13 @@ fn all() -> Recomputation {
 }
 
 fn number<'a>(all: &'a Recomputation, place: &str, what: &str) -> &'a Number {
-    let found = all.numbers.iter().find(|own| own.place == place && own.what.contains(what));
+    let found =
+        all.numbers.iter().find(|number| number.place == place && number.what.contains(what));
     found.unwrap_or_else(|| panic!("no number {place} {what}"))
 }
 
 fn claim<'a>(all: &'a Recomputation, words: &str) -> &'a Claim {
-    let found = all.claims.iter().find(|own| own.says.contains(words));
+    let found = all.claims.iter().find(|claim| claim.says.contains(words));
     found.unwrap_or_else(|| panic!("no claim `{words}`"))
 }
 
@@ -28,7 +29,7 @@ fn digits(what: &str, value: f64, printed: &str) {
 }
 
 fn only(cases: &[&str]) -> Verdict {
-    Verdict::HoldsOnlyFor(cases.iter().map(|own| (*own).to_owned()).collect())
+    Verdict::HoldsOnlyFor(cases.iter().map(|case| (*case).to_owned()).collect())
 }
 
 #[test]
@@ -204,8 +205,9 @@ fn the_poles_are_those_of_the_checked_page() {
     let poles = companion.complex_eigenvalues();
     for (real, imaginary) in [("-23.555", "0.0000"), ("-1.4715", "1.1679"), ("-0.15099", "1.3791")]
     {
-        let found =
-            poles.iter().any(|own| has_digits(own.re, real) && has_digits(own.im.abs(), imaginary));
+        let found = poles
+            .iter()
+            .any(|pole| has_digits(pole.re, real) && has_digits(pole.im.abs(), imaginary));
         assert!(found, "{real} ± {imaginary}i is not in {poles}");
     }
 }
@@ -256,7 +258,7 @@ fn the_thickness_limits_a_b_and_d() {
         [(Varied::A, 0), (Varied::B, 1), (Varied::C, 0), (Varied::D, 1), (Varied::C2, 1)]
     {
         let family = all.study.family(varied).unwrap();
-        let count = family.members.iter().filter(|own| own.exceeds()).count();
+        let count = family.members.iter().filter(|member| member.exceeds()).count();
         assert_eq!(count, beyond, "{varied:?}");
     }
 }
@@ -287,7 +289,7 @@ fn the_claims_of_chapters_5_and_6_get_the_verdicts_of_the_checked_page() {
     assert_eq!(verdict("one relaxation time"), Verdict::DoesNotHold);
     // At 10 ms it holds for b, c and d; at 1 ms it is reversed for a, b and d.
     let Verdict::HoldsOnlyFor(cases) = verdict("take up more energy early on") else { panic!() };
-    let at = |symbol: &str| cases.iter().find(|own| own.starts_with(symbol));
+    let at = |symbol: &str| cases.iter().find(|case| case.starts_with(symbol));
     for symbol in ["b", "c", "d"] {
         let own = at(symbol).unwrap();
         assert!(own == symbol || own.contains("10 ms"), "{cases:?}");
@@ -316,7 +318,10 @@ fn the_best_pulse_is_nearer_than_the_printed_one_and_its_kind_fits_badly() {
 fn every_misprint_that_is_shown_comes_out_right_by_the_correct_form_alone() {
     let all = all();
     assert!(all.misprints.len() >= 25, "{}", all.misprints.len());
-    let shown = all.misprints.iter().filter_map(|own| Some((own, own.demonstration.as_ref()?)));
+    let shown = all
+        .misprints
+        .iter()
+        .filter_map(|misprint| Some((misprint, misprint.demonstration.as_ref()?)));
     let mut count = 0;
     for (Misprint { place, .. }, own) in shown {
         let scale = own.truth.abs().max(1e-3);
@@ -333,16 +338,16 @@ fn every_misprint_that_is_shown_comes_out_right_by_the_correct_form_alone() {
 fn figures_stand_for_themselves() {
     let all = all();
     let figures = figures(&all.study).unwrap();
-    let numbers: Vec<usize> = figures.iter().map(|own| own.number).collect();
+    let numbers: Vec<usize> = figures.iter().map(|figure| figure.number).collect();
     let expected: Vec<usize> = [1, 2].into_iter().chain(4..=21).collect();
     assert_eq!(numbers, expected);
-    for own in figures.iter().filter(|own| (5..=20).contains(&own.number)) {
+    for own in figures.iter().filter(|figure| (5..=20).contains(&figure.number)) {
         let rows = own.columns[0].values.len();
         assert!(own.columns.iter().all(|column| column.values.len() == rows), "{}", own.number);
-        assert!(own.columns.iter().flat_map(|own| &own.values).all(|own| own.is_finite()));
+        assert!(own.columns.iter().flat_map(|column| &column.values).all(|own| own.is_finite()));
     }
     // Figure 18 ends where the energies of 10 ms are.
-    let energies = &figures.iter().find(|own| own.number == 18).unwrap().columns;
+    let energies = &figures.iter().find(|figure| figure.number == 18).unwrap().columns;
     let family = all.study.family(Varied::B).unwrap();
     for (column, exact) in energies[1..].iter().zip(family.each(|own| own.energy(5.0))) {
         assert!((column.values.last().unwrap() - exact).abs() < 1e-12);

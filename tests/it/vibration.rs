@@ -78,9 +78,10 @@ fn a_run_over_many_periods_ends_in_the_steady_state() {
         let vibration = Vibration::new(&network, 1.0, None).unwrap();
         let steady = vibration.steady(frequency, amplitude).unwrap();
         let node = |name: &str| {
-            steady.nodes.iter().find(|own| own.name == name).unwrap().acceleration.amplitude
+            steady.nodes.iter().find(|node| node.name == name).unwrap().acceleration.amplitude
         };
-        let element = |name: &str| steady.elements.iter().find(|own| own.name == name).unwrap();
+        let element =
+            |name: &str| steady.elements.iter().find(|element| element.name == name).unwrap();
         let isolator = element("isolator");
         let expected = [
             ("case", "peak-acceleration", node("case")),
@@ -93,7 +94,7 @@ fn a_run_over_many_periods_ends_in_the_steady_state() {
             let in_window = |own: &&dashpot::analysis::MeasureReport| {
                 own.target == target
                     && own.kind == kind
-                    && own.window.is_some_and(|own| (own.0 - begin).abs() < 1e-9)
+                    && own.window.is_some_and(|window| (window.0 - begin).abs() < 1e-9)
             };
             let own = report.measures.iter().find(in_window).unwrap();
             let (value, error) = (own.value.unwrap(), own.error.unwrap());
@@ -110,7 +111,7 @@ fn by_poles(receptance: &Receptance, omega: f64) -> ([f64; 2], f64) {
     for pole in receptance.poles() {
         let far = pole.at[0].hypot(omega - pole.at[1]);
         least = least.min(far / pole.at[0].hypot(pole.at[1]).max(f64::MIN_POSITIVE));
-        for (at, strength) in pole.strengths.iter().enumerate() {
+        for (at, strength) in pole.residues.iter().enumerate() {
             size += strength[0].hypot(strength[1]) / far.powi(i32::try_from(at).unwrap() + 1);
         }
     }
@@ -124,7 +125,7 @@ fn amplitudes_are_within_their_errors_of_what_poles_and_strengths_give() {
     for _ in 0..300 {
         let mut network = Recipe::draw(&mut dice, 8.0).build();
         let head =
-            network.nodes().map(|own| own.0).find(|id| network.node(*id).mass > 0.0).unwrap();
+            network.nodes().map(|node| node.0).find(|id| network.node(*id).mass > 0.0).unwrap();
         let ground = network.ground();
         let Ok(Response::Massive(receptance)) = network.driving_point(head, ground) else {
             continue;
@@ -135,12 +136,12 @@ fn amplitudes_are_within_their_errors_of_what_poles_and_strengths_give() {
         for _ in 0..6 {
             let omega = dice.decades(8.0);
             let Ok(steady) = vibration.steady(omega / TAU, 1.0) else { continue };
-            let own = steady.nodes.iter().find(|own| own.name == name).unwrap().displacement;
-            let ([re, im], doubt) = by_poles(&receptance, TAU * (omega / TAU));
+            let own = steady.nodes.iter().find(|node| node.name == name).unwrap().displacement;
+            let ([re, im], threshold) = by_poles(&receptance, TAU * (omega / TAU));
             let (x, y) = (own.amplitude * own.phase.cos(), own.amplitude * own.phase.sin());
             let off = (x - re).hypot(y - im);
             // The angle of a swing is rounded on its own.
-            let allowed = own.error + doubt + 4.0 * f64::EPSILON * own.amplitude;
+            let allowed = own.error + threshold + 4.0 * f64::EPSILON * own.amplitude;
             assert!(off <= allowed, "{network:?} {omega}: {off:e} > {allowed:e}");
             count += 1;
         }
@@ -248,7 +249,7 @@ fn json_has_the_steady_state_in_si_units() {
     assert_eq!(by_way["frequencies"].as_array().unwrap().len(), 200);
     let floor = |answer: &Value| {
         let nodes = answer["steady"]["nodes"].as_array().unwrap().clone();
-        let own = nodes.into_iter().find(|own| own["name"] == "floor").unwrap();
+        let own = nodes.into_iter().find(|node| node["name"] == "floor").unwrap();
         own["acceleration"]["amplitude"].as_f64().unwrap()
     };
     let by_acceleration = json(&[&at[..], &["0.5 g0"]].concat());

@@ -32,12 +32,12 @@ impl SystemSize {
             return Self { unknowns, modes: 1, entries: entries(&assembly.system), guards: 0 };
         };
         let first = phased.first(0.0).ok();
-        let system = first.as_ref().map_or(&assembly.system, |leg| leg.system.as_ref());
+        let system = first.as_ref().map_or(&assembly.system, |interval| interval.system.as_ref());
         Self {
             unknowns,
             modes: SystemReport::of(assembly).modes,
             entries: entries(system),
-            guards: first.as_ref().map_or(0, |leg| leg.guards.len()),
+            guards: first.as_ref().map_or(0, |interval| interval.guards.len()),
         }
     }
 }
@@ -95,7 +95,7 @@ pub fn contributions(
     let full = SystemSize::of(assembly);
     let is_partial = settings.accuracy.neglect_below.is_some();
     let report = is_partial.then(|| solve_partial(network, assembly, settings, observer).ok());
-    let partial = report.flatten().and_then(|own| own.partial);
+    let partial = report.flatten().and_then(|report| report.partial);
     let details: Vec<(Detail, Option<Influence>)> = Detail::all(network)
         .into_iter()
         .map(|detail| (detail, Influence::largest(detail.influences(&situation))))
@@ -118,7 +118,7 @@ pub fn contributions(
     for kind in EFFECTS {
         let is_own = |detail: &Detail| matches!(detail, Detail::Effect(at) if network.effects()[*at].kind() == kind.word);
         let before = all.len();
-        all.extend(details.iter().filter(|own| is_own(&own.0)).take(most).map(on));
+        all.extend(details.iter().filter(|detail| is_own(&detail.0)).take(most).map(on));
         if all.len() == before {
             all.extend(off(kind, network, &situation, (full, most)));
         }

@@ -87,7 +87,7 @@ pub(crate) fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64
     let found = parse_quantity(text).map_err(|error| wrong(error.to_string()))?;
     match found.dimension {
         Some(own) if own != expected => {
-            let unit = |own: Dimension| own.named().map_or("another unit", |own| own.1);
+            let unit = |dimension: Dimension| dimension.named().map_or("another unit", |own| own.1);
             Err(wrong(format!("`{text}` is in {}, where {} is wanted", unit(own), unit(expected))))
         }
         _ if found.angle == 0 => Ok(found.value),

@@ -5,10 +5,10 @@
 
 mod args;
 mod commands;
-mod entanglement;
 mod error;
 mod folder;
 mod input;
+mod non_identifiable;
 mod numbers;
 mod operand;
 mod output;

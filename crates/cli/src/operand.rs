@@ -133,8 +133,9 @@ fn tell_effects(named: &NamedModel, text: &str, options: &ReadOptions<'_>) {
     }
     // A text that is no scene as a whole has no effects either.
     let Ok(scene) = read_network(text, options) else { return };
-    let effects = scene.value.effects().iter().filter(|own| own.target() == Some(&named.name));
-    let kinds: Vec<&str> = effects.map(|own| own.kind()).collect();
+    let effects =
+        scene.value.effects().iter().filter(|effect| effect.target() == Some(&named.name));
+    let kinds: Vec<&str> = effects.map(|effect| effect.kind()).collect();
     if !kinds.is_empty() {
         let name = &named.name;
         remark(&format!("{name}: its model is taken without {}", kinds.join(", ")));

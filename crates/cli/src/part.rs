@@ -76,7 +76,7 @@ pub(crate) fn token() -> String {
 
 /// Whether `text` may be a [`token`].
 pub(crate) fn is_token(text: &str) -> bool {
-    text.len() == 16 && text.bytes().all(|own| own.is_ascii_hexdigit())
+    text.len() == 16 && text.bytes().all(|byte| byte.is_ascii_hexdigit())
 }
 
 /// The name of a part of the writer with this token.

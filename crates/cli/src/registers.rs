@@ -74,7 +74,7 @@ fn written<T, A>(kind: &Registered<T, A>, driven: Dimension) -> Entry {
 
 fn shift(kind: &Registered<f64>) -> Entry {
     let own = written(kind, Dimension::NUMBER);
-    Entry { example: own.example.map(|own| format!("shift = {{ {own} }}")), ..own }
+    Entry { example: own.example.map(|example| format!("shift = {{ {example} }}")), ..own }
 }
 
 fn effect(kind: &EffectEntry) -> Entry {
@@ -95,9 +95,10 @@ fn measure(kind: &MeasureEntry) -> Entry {
         measures::Family::Element => "of an element",
         measures::Family::Node => "of a node",
     };
-    let is_window = |own: &&Parameter| own.kind == ParameterKind::Window;
-    let window = if kind.parameters.iter().any(|own| is_window(&own)) { "; window" } else { "" };
-    let others = kind.parameters.iter().filter(|own| !is_window(own));
+    let is_window = |parameter: &&Parameter| parameter.kind == ParameterKind::Window;
+    let window =
+        if kind.parameters.iter().any(|parameter| is_window(&parameter)) { "; window" } else { "" };
+    let others = kind.parameters.iter().filter(|parameter| !is_window(parameter));
     let details = others.map(described).collect();
     let (name, summary) =
         (format!("{}{mark}", kind.word), format!("{of}: {}{window}", kind.summary));
@@ -111,9 +112,9 @@ fn described(parameter: &Parameter) -> String {
         _ => String::new(),
     };
     // The help of what follows from the model says how.
-    let default = parameter.default.filter(|own| *own != FROM_THE_MODEL);
+    let default = parameter.default.filter(|default| *default != FROM_THE_MODEL);
     let word = if parameter.follows { "left out:" } else { "default" };
-    let default = default.map(|own| format!(" ({word} {own})")).unwrap_or_default();
+    let default = default.map(|default| format!(" ({word} {default})")).unwrap_or_default();
     format!("{}: {}{choice}{default}", parameter.name, parameter.help)
 }
 

@@ -57,15 +57,15 @@ pub(crate) fn marked(tone: Tone, text: &str) -> String {
 pub(crate) fn shown(text: &str) -> String {
     let visible = visible(text);
     let mut shown = String::with_capacity(visible.len());
-    for own in visible.chars() {
-        match MARKS.iter().find(|(mark, _)| *mark == own) {
+    for char in visible.chars() {
+        match MARKS.iter().find(|(mark, _)| *mark == char) {
             Some((_, tone)) => {
                 let _ = write!(shown, "{}", tone.style());
             }
-            None if own == END => {
+            None if char == END => {
                 let _ = write!(shown, "{}", Tone::Heading.style().render_reset());
             }
-            None => shown.push(own),
+            None => shown.push(char),
         }
     }
     shown

@@ -25,7 +25,9 @@ pub(crate) const MOST_DRAWN: usize = 500;
 pub(crate) fn sketch(network: &Network, duration: f64) -> Sketch {
     let built = Built::of(network);
     let network = &built.network;
-    let used = |id: NodeId| network.connections().iter().any(|own| own.between.contains(&id));
+    let used = |id: NodeId| {
+        network.connections().iter().any(|connection| connection.between.contains(&id))
+    };
     // The ground is there even where nothing stands on it.
     let nodes: Vec<(NodeId, &Node)> =
         network.nodes().filter(|(id, _)| *id != network.ground() || used(*id)).collect();
@@ -42,9 +44,9 @@ pub(crate) fn sketch(network: &Network, duration: f64) -> Sketch {
     Sketch {
         links: links.collect(),
         nodes: nodes.iter().map(|(id, own)| node(&built, *id, own, duration)).collect(),
-        gravity: gravity.map(|own| SketchGravity {
-            label: constant(own.abs(), "m/s^2"),
-            pulls_back: own < 0.0,
+        gravity: gravity.map(|gravity| SketchGravity {
+            label: constant(gravity.abs(), "m/s^2"),
+            pulls_back: gravity < 0.0,
         }),
     }
 }
@@ -202,7 +204,7 @@ fn tree(model: &Tree<Arc<dyn Element>>, effect: Option<&'static str>) -> SketchT
     };
     match model {
         Tree::Part(part) => {
-            let drawn = effect.filter(|own| [Separation::KIND, Stop::KIND].contains(own));
+            let drawn = effect.filter(|effect| [Separation::KIND, Stop::KIND].contains(effect));
             let kind = match drawn {
                 Some(drawn) if part.kind() == Contact::KIND => drawn,
                 _ => part.kind(),

@@ -60,7 +60,7 @@ impl Budget {
 
     /// The work so far; 0 where nothing is counted.
     pub fn done(&self) -> u64 {
-        self.account.as_ref().map_or(0, |own| own.done.load(Relaxed))
+        self.account.as_ref().map_or(0, |account| account.done.load(Relaxed))
     }
 
     /// Whether no work is left.
@@ -70,19 +70,19 @@ impl Budget {
 
     /// Counts work and returns whether none is left.
     pub fn charge(&self, units: u64) -> bool {
-        self.account.as_ref().is_some_and(|own| {
-            if own.is_over() {
+        self.account.as_ref().is_some_and(|account| {
+            if account.is_over() {
                 return false;
             }
-            let done = own.done.fetch_add(units, Relaxed).saturating_add(units);
-            own.whole.charge(units) || done > own.limit
+            let done = account.done.fetch_add(units, Relaxed).saturating_add(units);
+            account.whole.charge(units) || done > account.limit
         })
     }
 
     /// Ends the account: the run is over, and to look at its solution counts no more.
     pub fn close(&self) {
-        if let Some(own) = &self.account {
-            own.is_over.store(true, Relaxed);
+        if let Some(account) = &self.account {
+            account.is_over.store(true, Relaxed);
         }
     }
 
@@ -115,7 +115,8 @@ impl Budget {
 
 impl Account {
     fn is_over(&self) -> bool {
-        self.is_over.load(Relaxed) || self.whole.account.as_ref().is_some_and(|own| own.is_over())
+        self.is_over.load(Relaxed)
+            || self.whole.account.as_ref().is_some_and(|account| account.is_over())
     }
 }
 

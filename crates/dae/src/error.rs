@@ -106,15 +106,15 @@ pub enum SolveError {
         /// Which parts, and why.
         reason: String,
     },
-    /// More legs than the limit were needed.
+    /// More intervals than the limit were needed.
     #[error(
-        "{parts} had switched {legs} times by {time:.6e} s: the run takes more than are followed"
+        "{parts} had switched {intervals} times by {time:.6e} s: the run takes more than are followed"
     )]
     TooManySwitches {
         /// Time reached \[s\].
         time: f64,
         /// The limit.
-        legs: usize,
+        intervals: usize,
         /// What switched last.
         parts: String,
     },

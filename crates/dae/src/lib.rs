@@ -35,7 +35,7 @@ pub use methods::{Method, MethodKind, derivatives};
 pub use outputs::{Output, Outputs};
 pub use run::{Keep, Observer, Part, Progress, Run, Silent};
 pub use signal::{Crossing, Extremum, Panel, Signal};
-pub use switching::{Flight, Leg, LegEnd, Switching};
+pub use switching::{IntervalEnd, ModeInterval, PredictedEvent, Switching};
 pub use system::{Input, Linear, System, Unknown, UnknownKind};
 pub use term::{Argument, Characteristic, Term};
 pub use trajectory::{Dense, Outcome, Statistics, Switch, Trajectory};

@@ -39,7 +39,7 @@ pub struct Output<'s> {
 /// ```
 #[derive(Clone, Default, PartialEq)]
 pub struct Outputs {
-    /// Shared by all copies: the legs of a run have the same ones.
+    /// Shared by all copies: the intervals of a run have the same ones.
     packed: Arc<Packed>,
 }
 
@@ -169,7 +169,8 @@ mod tests {
         outputs.push("b", "m", -1.0, &LinearForm::zero(), &first);
         outputs.push("µ.force", "N", 0.25, &second, &LinearForm::zero());
         outputs.shrink_to_fit();
-        let found: Vec<_> = outputs.iter().map(|own| (own.name, own.unit, own.scale)).collect();
+        let found: Vec<_> =
+            outputs.iter().map(|output| (output.name, output.unit, output.scale)).collect();
         assert_eq!(found, [("a.force", "N", 2.0), ("b", "m", -1.0), ("µ.force", "N", 0.25)]);
         assert_eq!(outputs.at(0).unknowns.to_form(), first);
         assert_eq!(outputs.at(0).inputs.to_form(), second);

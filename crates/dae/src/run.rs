@@ -30,8 +30,8 @@ pub enum Keep {
     #[default]
     Everything,
     /// A part of it, and a [`Digest`](crate::Digest) of the rest: memory grows with the unknowns of
-    /// the part times steps, and with all unknowns. Runs of several legs, and methods that take no
-    /// steps, keep everything.
+    /// the part times steps, and with all unknowns. Runs of several intervals, and methods that
+    /// take no steps, keep everything.
     Part(Arc<Part>),
 }
 

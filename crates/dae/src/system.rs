@@ -161,7 +161,7 @@ impl System {
             jacobian: CsrMatrix::zeros(0, 0),
             input_matrix: CsrMatrix::zeros(0, 0),
             inputs: self.inputs.clone(),
-            waveforms: self.waveforms.iter().map(|own| own.within(end)).collect(),
+            waveforms: self.waveforms.iter().map(|waveform| waveform.within(end)).collect(),
             terms: Vec::new(),
             initial: Vec::new(),
             outputs: self.outputs.clone(),

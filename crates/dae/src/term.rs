@@ -62,7 +62,7 @@ impl Term {
         let mut columns: Vec<usize> = self
             .arguments
             .iter()
-            .flat_map(|own| own.unknowns.terms().iter().map(|term| term.0))
+            .flat_map(|argument| argument.unknowns.terms().iter().map(|term| term.0))
             .collect();
         columns.sort_unstable();
         columns.dedup();

@@ -77,7 +77,7 @@ pub trait Dense: Debug + Send + Sync {
     fn signal(&self, system: &System, output: usize) -> Signal;
 
     /// All unknowns, dimensionless, at each of the dimensionless `times` (rising, within the run):
-    /// one row of `n` values after another. Empty for a run of several legs, each of which has
+    /// one row of `n` values after another. Empty for a run of several intervals, each of which has
     /// unknowns of its own, and where only a part is kept.
     fn sample(&self, system: &System, times: &[f64]) -> Vec<f64>;
 
@@ -91,8 +91,8 @@ pub trait Dense: Debug + Send + Sync {
         None
     }
 
-    /// How much longer a run of several legs would have to be for a switching that may have come before its
-    /// end, by the error of the method, to be seen \[s\].
+    /// How much longer a run of several intervals would have to be for a switching that may have
+    /// come before its end, by the error of the method, to be seen \[s\].
     fn margin(&self) -> Option<f64> {
         None
     }

@@ -219,12 +219,12 @@ impl Assembly {
 
     /// What effects have put at the element of this position.
     pub fn pad(&self, element: usize) -> Option<&PadOutputs> {
-        self.pads.iter().find(|own| own.element == element)
+        self.pads.iter().find(|pad| pad.element == element)
     }
 
     /// The element whose face the connection of this position links, and what else is there.
     pub fn pad_behind(&self, contact: usize) -> Option<&PadOutputs> {
-        self.pads.iter().find(|own| own.contact == Some(contact))
+        self.pads.iter().find(|pad| pad.contact == Some(contact))
     }
 
     /// Position of the connection of the given name.
@@ -234,7 +234,8 @@ impl Assembly {
 
     /// Position of the connection that the primitive of this position is part of.
     pub fn owner(&self, primitive: usize) -> Option<usize> {
-        let at = self.connections.partition_point(|own| own.primitives.end <= primitive);
+        let at =
+            self.connections.partition_point(|connection| connection.primitives.end <= primitive);
         (at < self.connections.len()).then_some(at)
     }
 

@@ -30,7 +30,7 @@ pub use assembly::{
 };
 pub use compile::{
     HeldTable, Unsaid,
-    blueprint::{Blueprint, Stamp},
+    parametric::{Instance, ParametricSystem},
     phased::{IdleSlider, PhasedNetwork, PhasedPart},
 };
 pub use effects::Effect;

@@ -33,7 +33,7 @@ pub fn is_linear(model: &Model) -> bool {
 
 /// The first element of a model that is no linear spring, dashpot or rigid link.
 pub fn first_nonlinear(model: &Model) -> Option<&Arc<dyn Element>> {
-    model.leaves().find(|own| matches!(own.law(), Law::Nonlinear { .. } | Law::Phased))
+    model.leaves().find(|leaf| matches!(leaf.law(), Law::Nonlinear { .. } | Law::Phased))
 }
 
 /// An element as a part of a linear model. One that is not [linear](is_linear) has no linear model;
@@ -49,7 +49,7 @@ pub fn primitive(element: &dyn Element) -> Primitive {
 
 /// The elements of a canonical network.
 pub fn model_of(tree: &Tree<Primitive>) -> Model {
-    tree.map(|own| match *own {
+    tree.map(|tree| match *tree {
         Primitive::Spring(stiffness) => part(Spring { stiffness }),
         Primitive::Dashpot(damping) => part(Dashpot { damping }),
         Primitive::Rigid => part(Rigid),

@@ -335,12 +335,12 @@ impl Network {
 
     /// What effects have put at the element of this position; see [`with_effects`](Self::with_effects).
     pub fn pad(&self, element: usize) -> Option<&PadOutputs> {
-        self.pads.iter().find(|own| own.element == element)
+        self.pads.iter().find(|pad| pad.element == element)
     }
 
     /// The same, to be put there.
     pub(crate) fn pad_mut(&mut self, element: usize) -> &mut PadOutputs {
-        let at = self.pads.iter().position(|own| own.element == element).unwrap_or_else(|| {
+        let at = self.pads.iter().position(|pad| pad.element == element).unwrap_or_else(|| {
             self.pads.push(PadOutputs { element, face: None, contact: None, stop: None });
             self.pads.len() - 1
         });

@@ -164,7 +164,7 @@ pub fn converted(model: &LinearModel, target: &Target) -> Result<Tree<Primitive>
         return Err(Unfit::OtherShape { wanted, found });
     }
     let value = |path: &[&'static str], role| {
-        let slot = slots.paths.iter().find(|own| own.0 == path).map_or(Slot::Single, |own| own.1);
+        let slot = slots.paths.iter().find(|own| own.0 == path).map_or(Slot::Single, |path| path.1);
         let (spring, dashpot) = match slot {
             Slot::Single => (constants.spring, constants.dashpot),
             Slot::Element(at) => constants.elements[at],

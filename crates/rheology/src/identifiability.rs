@@ -51,7 +51,7 @@ pub fn entangled<P>(tree: &Tree<P>, leaf: impl Fn(&P) -> Primitive) -> Vec<Entan
     }
     let parts = tree.parts().into_iter().map(|(path, part)| (path, leaf(part)));
     let paths: Vec<String> =
-        parts.filter(|own| is_parameter(own.1)).map(|(path, _)| path).collect();
+        parts.filter(|part| is_parameter(part.1)).map(|(path, _)| path).collect();
     whole.groups.iter().map(|group| group.told(&paths, &leaf)).collect()
 }
 
@@ -132,8 +132,8 @@ fn constants(part: Primitive) -> Constants {
 
 fn composed<'t, P>(node: &'t Tree<P>, mut parts: Vec<Seen<'t, P>>) -> Seen<'t, P> {
     let in_series = node.is_series();
-    let start = parts.first().map_or(0, |own| own.parameters.start);
-    let parameters = start..parts.last().map_or(start, |own| own.parameters.end);
+    let start = parts.first().map_or(0, |part| part.parameters.start);
+    let parameters = start..parts.last().map_or(start, |part| part.parameters.end);
     // In a series what bears nothing decides alone and what is rigid does not matter; in parallel
     // it is the other way round.
     let (alone, neutral) = if in_series {
@@ -147,7 +147,7 @@ fn composed<'t, P>(node: &'t Tree<P>, mut parts: Vec<Seen<'t, P>>) -> Seen<'t, P
         branches,
         is_hidden,
     };
-    if parts.iter().any(|own| own.constants == alone) {
+    if parts.iter().any(|part| part.constants == alone) {
         let hidden =
             (!parameters.is_empty()).then(|| group((0..parts.len()).collect(), &parts, true));
         return Seen { constants: alone, parameters, groups: hidden.into_iter().collect() };
@@ -162,7 +162,7 @@ fn composed<'t, P>(node: &'t Tree<P>, mut parts: Vec<Seen<'t, P>>) -> Seen<'t, P
         (0..parts.len()).filter(|&at| adds(parts[at].constants, which)).collect()
     });
     let [yields_at_once, flows] = [0, 1].map(|which| sharing[which].is_empty() != in_series);
-    let is_neutral = parts.iter().all(|own| own.constants == neutral);
+    let is_neutral = parts.iter().all(|part| part.constants == neutral);
     let constants = if is_neutral { neutral } else { Constants::Some { yields_at_once, flows } };
     let mut groups: Vec<Vec<usize>> = sharing.into_iter().filter(|own| own.len() > 1).collect();
     if let [first, second] = &groups[..]
@@ -179,7 +179,7 @@ fn composed<'t, P>(node: &'t Tree<P>, mut parts: Vec<Seen<'t, P>>) -> Seen<'t, P
     }
     let own: Vec<Group<'t, P>> =
         groups.into_iter().map(|branches| group(branches, &parts, false)).collect();
-    let inner = parts.into_iter().flat_map(|own| own.groups);
+    let inner = parts.into_iter().flat_map(|part| part.groups);
     Seen { constants, parameters, groups: inner.chain(own).collect() }
 }
 
@@ -192,7 +192,9 @@ mod tests {
     fn told(tree: &Tree<Primitive>) -> Vec<(Vec<String>, Vec<String>)> {
         let groups = entangled(tree, |&part| part).into_iter();
         groups
-            .map(|own| (own.parameters, own.combinations.into_iter().map(|it| it.0).collect()))
+            .map(|group| {
+                (group.parameters, group.combinations.into_iter().map(|it| it.0).collect())
+            })
             .collect()
     }
 

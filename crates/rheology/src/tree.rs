@@ -110,7 +110,8 @@ impl<P> Tree<P> {
         if let Self::Part(part) = self {
             return leaf(part);
         }
-        let parts = self.branches().iter().map(|own| own.tree.fold_with(leaf, compose)).collect();
+        let parts =
+            self.branches().iter().map(|branch| branch.tree.fold_with(leaf, compose)).collect();
         compose(self, parts)
     }
 
@@ -146,14 +147,14 @@ impl<P> Tree<P> {
 
     /// How many parts and compositions there are.
     pub fn size(&self) -> usize {
-        1 + self.branches().iter().map(|own| own.tree.size()).sum::<usize>()
+        1 + self.branches().iter().map(|branch| branch.tree.size()).sum::<usize>()
     }
 
     /// Whether compositions stand within each other on more than this many levels.
     pub fn is_deeper_than(&self, levels: usize) -> bool {
         !self.branches().is_empty()
             && (levels == 0
-                || self.branches().iter().any(|own| own.tree.is_deeper_than(levels - 1)))
+                || self.branches().iter().any(|branch| branch.tree.is_deeper_than(levels - 1)))
     }
 
     /// All parts in the order in which [`fold`](Self::fold) meets them.
@@ -163,7 +164,7 @@ impl<P> Tree<P> {
             loop {
                 match open.pop()? {
                     Self::Part(part) => return Some(part),
-                    tree => open.extend(tree.branches().iter().rev().map(|own| &own.tree)),
+                    tree => open.extend(tree.branches().iter().rev().map(|branch| &branch.tree)),
                 }
             }
         })
@@ -183,8 +184,8 @@ impl<P> Tree<P> {
             return;
         }
         let separator = if path.is_empty() { "" } else { "." };
-        for own in self.branches() {
-            own.tree.collect_parts(format!("{path}{separator}{}", own.name), parts);
+        for branch in self.branches() {
+            branch.tree.collect_parts(format!("{path}{separator}{}", branch.name), parts);
         }
     }
 }

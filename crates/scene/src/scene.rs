@@ -242,7 +242,8 @@ struct Parts<'d> {
 
 impl<'d> Parts<'d> {
     fn read(library: &'d Library, faults: &'d Faults) -> Self {
-        let is_stranger = |own: &&Entry| !SECTIONS.contains(&own.key.as_str()) && !faults.damaged();
+        let is_stranger =
+            |entry: &&Entry| !SECTIONS.contains(&entry.key.as_str()) && !faults.damaged();
         for entry in library.sections().iter().filter(is_stranger) {
             let fault = unknown_key(entry, "the scene", SECTIONS.to_vec());
             faults.error(entry.key_place, fault.with_any_help(home_of(&entry.key)));

@@ -54,7 +54,12 @@ impl Impact {
         let signal = |name: &str| {
             let none = || RunError::UnknownOutput {
                 output: name.to_owned(),
-                known: assembly.system.outputs.iter().map(|own| own.name.to_owned()).collect(),
+                known: assembly
+                    .system
+                    .outputs
+                    .iter()
+                    .map(|output| output.name.to_owned())
+                    .collect(),
             };
             assembly.output(name).map(|at| trajectory.signal(&assembly.system, at)).ok_or_else(none)
         };

@@ -276,9 +276,13 @@ fn appendix_d() -> Vec<Misprint> {
 
 /// The misprints as a table.
 pub fn misprint_table(all: &[Misprint]) -> Table {
-    let row = |own: &Misprint| {
-        let mut cells = vec![own.place.to_owned(), own.printed.to_owned(), own.correct.to_owned()];
-        if let Some(shown) = &own.demonstration {
+    let row = |misprint: &Misprint| {
+        let mut cells = vec![
+            misprint.place.to_owned(),
+            misprint.printed.to_owned(),
+            misprint.correct.to_owned(),
+        ];
+        if let Some(shown) = &misprint.demonstration {
             let values = [shown.printed, shown.correct, shown.truth];
             cells.push(shown.what.to_owned());
             // What is zero but for rounding is zero.

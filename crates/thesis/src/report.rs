@@ -48,13 +48,14 @@ impl Recomputation {
     /// What came out, in a few lines.
     pub fn summary(&self) -> Vec<String> {
         let count = |of: fn(&NumberVerdict) -> bool| {
-            self.numbers.iter().filter(|own| of(&own.verdict)).count()
+            self.numbers.iter().filter(|number| of(&number.verdict)).count()
         };
         let judged = self.numbers.len() - count(|own| matches!(own, NumberVerdict::Given));
         let right = count(|own| matches!(own, NumberVerdict::Right | NumberVerdict::Rounded));
         let cut = count(|own| matches!(own, NumberVerdict::Truncated));
-        let holding =
-            |of: fn(&Verdict) -> bool| self.claims.iter().filter(|own| of(&own.verdict)).count();
+        let holding = |of: fn(&Verdict) -> bool| {
+            self.claims.iter().filter(|claim| of(&claim.verdict)).count()
+        };
         let hold = holding(|own| matches!(own, Verdict::Holds));
         let partly = holding(|own| matches!(own, Verdict::HoldsOnlyFor(_)));
         vec![
@@ -84,9 +85,9 @@ impl Recomputation {
 
     /// The claims with their verdicts and findings.
     pub fn claim_table(&self) -> Table {
-        let row = |own: &Claim| {
-            let says = own.says.to_owned();
-            vec![own.place.to_owned(), says, own.verdict.text(), own.finding.clone()]
+        let row = |claim: &Claim| {
+            let says = claim.says.to_owned();
+            vec![claim.place.to_owned(), says, claim.verdict.text(), claim.finding.clone()]
         };
         Table::new(
             "Claims beside the exact impact",
@@ -106,9 +107,9 @@ impl Recomputation {
         let mut tables = self.number_tables().to_vec();
         tables.extend([misprint_table(&self.misprints), self.claim_table(), equations]);
         tables.extend(self.family_tables());
-        let evidence = self.claims.iter().flat_map(|own| {
-            own.evidence.iter().map(|table| Table {
-                caption: format!("{} ({}): {}", own.place, own.verdict.text(), table.caption),
+        let evidence = self.claims.iter().flat_map(|claim| {
+            claim.evidence.iter().map(|table| Table {
+                caption: format!("{} ({}): {}", claim.place, claim.verdict.text(), table.caption),
                 ..table.clone()
             })
         });
@@ -134,23 +135,29 @@ impl Recomputation {
         }
         text += &section(&misprint_table(&self.misprints), 2);
         text += "\n## Claims beside the exact impact\n";
-        for own in &self.claims {
+        for claim in &self.claims {
             let _ = writeln!(
                 text,
                 "\n### {}: {}\n\n**{}.** {}",
-                own.place,
-                own.says,
-                capital(&own.verdict.text()),
-                own.finding
+                claim.place,
+                claim.says,
+                capital(&claim.verdict.text()),
+                claim.finding
             );
-            own.evidence.iter().for_each(|table| text += &section(table, 4));
+            claim.evidence.iter().for_each(|table| text += &section(table, 4));
         }
         let _ = writeln!(text, "\n## {FIGURE_3}\n\n```text\n{}\n```", EQUATIONS.join("\n"));
         text += "\n## Families of the figures\n";
         self.family_tables().iter().for_each(|table| text += &section(table, 3));
         text += "\n## Figures\n";
-        for own in figures {
-            let _ = writeln!(text, "\n![Figure {}. {}]({}.svg)", own.number, own.title, own.stem());
+        for figure in figures {
+            let _ = writeln!(
+                text,
+                "\n![Figure {}. {}]({}.svg)",
+                figure.number,
+                figure.title,
+                figure.stem()
+            );
         }
         text
     }
@@ -166,7 +173,7 @@ fn section(table: &Table, level: usize) -> String {
     let columns = table.rows.iter().map(Vec::len).fold(table.header.len(), usize::max);
     let line = |cells: &[String]| {
         let cell =
-            |at: usize| cells.get(at).map_or_else(String::new, |own| own.replace('|', "\\|"));
+            |at: usize| cells.get(at).map_or_else(String::new, |cell| cell.replace('|', "\\|"));
         let cells: Vec<String> = (0..columns).map(cell).collect();
         format!("| {} |\n", cells.join(" | "))
     };

@@ -179,7 +179,7 @@ impl Study {
 
     /// The family of a parameter.
     pub fn family(&self, varied: Varied) -> Option<&Family> {
-        self.families().find(|own| own.varied == varied)
+        self.families().find(|family| family.varied == varied)
     }
 
     /// The largest change of the energy at a time \[s\] over the family of each group, relative to its
@@ -201,7 +201,7 @@ impl Study {
 impl Family {
     /// What a quantity is of each member.
     pub fn each(&self, of: impl Fn(&Impact) -> f64) -> Vec<f64> {
-        self.members.iter().map(|own| of(&own.impact)).collect()
+        self.members.iter().map(|member| of(&member.impact)).collect()
     }
 
     /// The table that belongs to the figures: padding, q and measures of each member.
@@ -224,7 +224,7 @@ impl Family {
         Table::new(
             format!("The family of {symbol}, all else at base"),
             &header,
-            self.members.iter().map(|own| own.row(self.varied)),
+            self.members.iter().map(|member| member.row(self.varied)),
         )
     }
 }

@@ -43,7 +43,7 @@ const OTHER: &[Kind] = &[
     other("hysteretic foam", nonlinear::hysteretic_foam),
     other("bouncing", switching::bouncing),
     other("hunt-crossley", nonlinear::hunt_crossley),
-    other("shaken", switching::shaken),
+    other("shaken", switching::perturbed),
     other("rate spring", nonlinear::rate_spring),
     other("power dashpot", nonlinear::power_dashpot),
 ];

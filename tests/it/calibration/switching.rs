@@ -117,7 +117,7 @@ pub(super) fn bouncing(dice: &mut Dice) -> String {
 }
 
 /// A parcel on a bed that is shaken hard enough to throw it off.
-pub(super) fn shaken(dice: &mut Dice) -> String {
+pub(super) fn perturbed(dice: &mut Dice) -> String {
     let g = 9.806_65;
     let (mass, stiffness) = (3.0 * dice.decades(2.0), 1e5 * dice.decades(2.0));
     let scales = Scales { mass, stiffness, speed: 1.0 };

@@ -17,7 +17,7 @@ use super::{
 
 /// Steps that a method may take for one scene, with all its solutions.
 const PATIENCE: usize = 200_000;
-/// How many times the doubt about the truth an error must be to be known.
+/// How many times the threshold about the truth an error must be to be known.
 const KNOWN: f64 = 10.0;
 /// Doubt about the truth that does not matter, in parts of the largest measure of the same unit.
 const ROUNDING: f64 = 1e-11;
@@ -98,23 +98,23 @@ impl Case {
 pub(super) fn beside(truth: &Truth, report: &RunReport) -> Option<Judged> {
     let mut judged = Judged::default();
     for found in &report.measures {
-        let &(value, doubt) = truth.get(&found.key).expect("the same measures");
+        let &(value, threshold) = truth.get(&found.key).expect("the same measures");
         let alike = report.measures.iter().filter(|other| other.unit == found.unit);
         let scale = alike.map(|other| other.size).fold(0.0, f64::max);
         let (bars, ratio) = match (value, found.value) {
             (Some(truth), Some(value)) => {
                 let gap = (truth - value).abs();
                 let bar = found.error.expect("every value has a bar");
-                let is_certain = gap + doubt <= bar || gap - doubt > bar;
-                if !is_certain && doubt > ROUNDING * scale {
+                let is_certain = gap + threshold <= bar || gap - threshold > bar;
+                if !is_certain && threshold > ROUNDING * scale {
                     return None;
                 }
-                let bars = if gap > doubt { (gap - doubt) / bar } else { 0.0 };
-                (bars, (gap > KNOWN * doubt).then(|| bar / gap))
+                let bars = if gap > threshold { (gap - threshold) / bar } else { 0.0 };
+                (bars, (gap > KNOWN * threshold).then(|| bar / gap))
             }
             (None, None) => continue,
             // A contact in forces that are rounding, of which nobody can say whether there is one.
-            (Some(truth), None) if truth.abs() <= doubt => return None,
+            (Some(truth), None) if truth.abs() <= threshold => return None,
             _ if found.error.is_some_and(f64::is_infinite) => (0.0, None),
             _ => (f64::INFINITY, None),
         };

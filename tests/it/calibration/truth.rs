@@ -43,8 +43,8 @@ pub(super) fn truth(drawn: &Drawn) -> Option<Truth> {
     };
     if let Ok(exact) = run(&settings) {
         let own = |measure: &MeasureReport| {
-            let doubt = measure.value.map_or(0.0, |_| measure.error.unwrap_or(f64::INFINITY));
-            (measure.key.clone(), (measure.value, doubt))
+            let threshold = measure.value.map_or(0.0, |_| measure.error.unwrap_or(f64::INFINITY));
+            (measure.key.clone(), (measure.value, threshold))
         };
         return Some(exact.measures.iter().map(own).collect());
     }

@@ -7,7 +7,7 @@ pub(super) struct Entry {
     /// Its seed and kind.
     pub(super) name: String,
     pub(super) text: String,
-    /// Measures: key, value, and the doubt about it.
+    /// Measures: key, value, and the threshold about it.
     pub(super) values: Vec<(String, f64, f64)>,
 }
 
@@ -20,18 +20,18 @@ impl Entry {
             let (text, values) = rest.split_once("---\n").expect("values");
             let mut wishes: BTreeMap<&str, Vec<String>> = BTreeMap::new();
             let values = values.lines().map(|line| {
-                let [key, value, doubt] = *line.split(' ').collect::<Vec<_>>() else {
+                let [key, value, threshold] = *line.split(' ').collect::<Vec<_>>() else {
                     panic!("{name}: {line}")
                 };
                 if key.ends_with("@impact") || key.ends_with("contact-time") {
-                    return (key.to_owned(), value.parse().unwrap(), doubt.parse().unwrap());
+                    return (key.to_owned(), value.parse().unwrap(), threshold.parse().unwrap());
                 }
                 let (key, cap) = key.split_once('@').unwrap_or((key, ""));
                 let (of, kind) = key.rsplit_once('.').expect("a kind");
                 let cap = if cap.is_empty() { String::new() } else { format!(", cap = {cap}") };
                 let wish = format!("{{ kind = \"{kind}\", window = \"run\"{cap} }}");
                 wishes.entry(of).or_default().push(wish);
-                (key.to_owned(), value.parse().unwrap(), doubt.parse().unwrap())
+                (key.to_owned(), value.parse().unwrap(), threshold.parse().unwrap())
             });
             let values = values.collect();
             let wishes = wishes.iter().map(|(of, own)| format!("{of} = [{}]\n", own.join(", ")));

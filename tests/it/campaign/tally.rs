@@ -39,7 +39,7 @@ fn find<'a>(report: &'a RunReport, key: &str) -> Option<&'a MeasureReport> {
 impl Tally {
     pub(super) fn add(&mut self, name: &str, entry: &Entry, report: &RunReport) {
         self.runs += 1;
-        for (key, truth, doubt) in &entry.values {
+        for (key, truth, threshold) in &entry.values {
             let Some(found) = find(report, key) else {
                 self.failed.push(format!("{name}: no {key}"));
                 continue;
@@ -49,10 +49,11 @@ impl Tally {
                 continue;
             };
             self.values += 1;
-            let alike = report.measures.iter().filter(|own| own.unit == found.unit);
-            let size = alike.map(|own| own.size).fold(0.0, f64::max);
-            let gap = (value - truth).abs() - 3.0 * doubt - ROUNDING * size;
-            let line = || format!("{name}: {key} = {value:e} ± {bar:.1e}, {truth:e} ± {doubt:.0e}");
+            let alike = report.measures.iter().filter(|measure| measure.unit == found.unit);
+            let size = alike.map(|alike| alike.size).fold(0.0, f64::max);
+            let gap = (value - truth).abs() - 3.0 * threshold - ROUNDING * size;
+            let line =
+                || format!("{name}: {key} = {value:e} ± {bar:.1e}, {truth:e} ± {threshold:.0e}");
             if gap > FARTHEST * bar {
                 self.beyond_three.push(line());
             } else if gap > bar {

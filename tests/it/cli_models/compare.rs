@@ -74,8 +74,8 @@ fn a_tree_its_forms_and_a_bridge_are_the_same_pairwise() {
     }
     let measures = answer["impact"]["measures"].as_array().unwrap();
     assert!(measures.len() >= 8);
-    for own in measures {
-        assert!(own["difference"].as_f64().unwrap() < 1e-10, "{own}");
+    for measure in measures {
+        assert!(measure["difference"].as_f64().unwrap() < 1e-10, "{measure}");
     }
     let answer = compared(&bridge, &kelvin, &["--impact", "reference:padding"]);
     for own in answer["impact"]["measures"].as_array().unwrap() {
@@ -87,11 +87,11 @@ fn a_tree_its_forms_and_a_bridge_are_the_same_pairwise() {
 fn constants_are_listed_in_the_units_that_they_have() {
     let answer = compared("reference:padding", "reference-stiff:padding", &[]);
     let constants = |at: usize| answer["forms"][at]["constants"].as_array().unwrap().clone();
-    let value = |own: &Value| own["value"][0].as_f64().unwrap();
+    let value = |value: &Value| value["value"][0].as_f64().unwrap();
     let find = |at: usize, part: &str| {
         constants(at)
             .into_iter()
-            .find(|own| own["part"] == part)
+            .find(|constant| constant["part"] == part)
             .unwrap_or_else(|| panic!("{part}"))
     };
     // The Kelvin form is the pad itself.

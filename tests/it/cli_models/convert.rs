@@ -356,7 +356,7 @@ fn converting_again_changes_nothing_but_the_last_digits() {
             assert_eq!(content.matches("round trip").count(), 1, "{content}");
             let found = read_named_model(&content, "valox-pad", &ReadOptions::default());
             let model = found.unwrap().value.model;
-            let paths = model.parts().into_iter().map(|own| own.0).collect();
+            let paths = model.parts().into_iter().map(|part| part.0).collect();
             seen.push((paths, constants(&model.parts())));
             word = format!("{}:valox-pad", text(&path));
         }

@@ -134,10 +134,15 @@ fn spectra_are_positive() {
         let (maxwell, kelvin) = (model.maxwell().unwrap(), model.kelvin().unwrap());
         assert!(maxwell.spring() >= 0.0 && maxwell.dashpot() >= 0.0, "{name}");
         assert!(kelvin.spring_compliance() >= 0.0 && kelvin.fluidity() >= 0.0, "{name}");
-        let lines = maxwell.elements().into_iter().map(|own| [own.stiffness, own.damping]);
-        let more = kelvin.elements().into_iter().map(|own| [own.stiffness, own.damping]);
+        let lines =
+            maxwell.elements().into_iter().map(|element| [element.stiffness, element.damping]);
+        let more =
+            kelvin.elements().into_iter().map(|element| [element.stiffness, element.damping]);
         for constants in lines.chain(more) {
-            assert!(constants.iter().all(|&own| own > 0.0 && own.is_finite()), "{name}");
+            assert!(
+                constants.iter().all(|&constant| constant > 0.0 && constant.is_finite()),
+                "{name}"
+            );
         }
     }
 }

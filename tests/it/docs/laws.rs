@@ -44,7 +44,7 @@ impl Laws {
         let told = description(&source, &type_of(kind));
         let mut wanted = vec![" # Limits", " # References"];
         // A key that says it all has no unit and no range.
-        let has_numbers = parameters.iter().any(|own| own.kind != ParameterKind::Flag);
+        let has_numbers = parameters.iter().any(|parameter| parameter.kind != ParameterKind::Flag);
         let columns = |line: &&str| {
             ["symbol", "field", "unit", "range"].iter().all(|column| line.contains(column))
         };

@@ -66,15 +66,16 @@ impl Kinds {
         self.parameters(own.word, own.parameters, amplitude);
     }
 
-    fn measure(&mut self, own: &MeasureEntry) {
-        let family = match own.about.family {
+    fn measure(&mut self, measure_entry: &MeasureEntry) {
+        let family = match measure_entry.about.family {
             Family::Element => "an element",
             Family::Node => "a node",
         };
-        let always = if own.about.by_default { "yes" } else { "" };
-        let cells = [family, own.about.unit, always, own.summary].map(str::to_owned);
-        self.row(&[[code(own.word)].as_slice(), &cells].concat());
-        self.parameters(own.word, own.parameters, None);
+        let always = if measure_entry.about.by_default { "yes" } else { "" };
+        let cells =
+            [family, measure_entry.about.unit, always, measure_entry.summary].map(str::to_owned);
+        self.row(&[[code(measure_entry.word)].as_slice(), &cells].concat());
+        self.parameters(measure_entry.word, measure_entry.parameters, None);
     }
 
     fn row(&mut self, cells: &[String]) {
@@ -89,12 +90,13 @@ impl Kinds {
         amplitude: Option<Dimension>,
     ) {
         self.words.push(kind);
-        for own in parameters {
-            let is_own =
-                |known: &(Parameter, Option<Dimension>, _)| (known.0, known.1) == (*own, amplitude);
+        for parameter in parameters {
+            let is_own = |known: &(Parameter, Option<Dimension>, _)| {
+                (known.0, known.1) == (*parameter, amplitude)
+            };
             match self.parameters.iter_mut().find(|known| is_own(known)) {
                 Some((.., kinds)) => kinds.push(kind),
-                None => self.parameters.push((*own, amplitude, vec![kind])),
+                None => self.parameters.push((*parameter, amplitude, vec![kind])),
             }
         }
     }

@@ -30,7 +30,7 @@ fn packages() -> BTreeMap<String, BTreeSet<String>> {
     let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
     let nodes = metadata["resolve"]["nodes"].as_array().unwrap();
     let dependencies: BTreeMap<&str, &Value> =
-        nodes.iter().map(|own| (own["id"].as_str().unwrap(), &own["deps"])).collect();
+        nodes.iter().map(|node| (node["id"].as_str().unwrap(), &node["deps"])).collect();
     let mut open = vec![metadata["resolve"]["root"].as_str().unwrap()];
     let mut found = BTreeSet::new();
     while let Some(id) = open.pop() {
@@ -46,7 +46,7 @@ fn packages() -> BTreeMap<String, BTreeSet<String>> {
     }
     let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     let packages = metadata["packages"].as_array().unwrap().iter();
-    for own in packages.filter(|own| found.contains(own["id"].as_str().unwrap())) {
+    for own in packages.filter(|package| found.contains(package["id"].as_str().unwrap())) {
         // Those of the workspace have no source.
         if own["source"].is_null() {
             continue;

@@ -153,7 +153,7 @@ fn starts_at(report: &RunReport, output: &str, expected: f64) {
 
 #[test]
 fn an_impactor_meets_an_undeformed_pad_on_a_panel_that_has_sagged() {
-    let sag = 3.0 * G / MOUNT;
+    let static_equilibrium = 3.0 * G / MOUNT;
     for pad in [MAXWELL, BURGERS, KELVIN_VOIGT] {
         let glued = run(&struck_panel("velocity = 2", pad, ""), "exact");
         for at in ["head", "panel"] {
@@ -161,8 +161,8 @@ fn an_impactor_meets_an_undeformed_pad_on_a_panel_that_has_sagged() {
                 struck_panel("velocity = 2", pad, &format!("separation.pad = {{ at = \"{at}\" }}"));
             for method in ["exact", "bdf", "esdirk34"] {
                 let report = run(&text, method);
-                starts_at(&report, "head.position", sag);
-                starts_at(&report, "panel.position", sag);
+                starts_at(&report, "head.position", static_equilibrium);
+                starts_at(&report, "panel.position", static_equilibrium);
                 starts_at(&report, "pad.deformation", 0.0);
                 // As long as it pushes, a pad does not know that it could part.
                 for measure in ["pad.peak-force", "pad.contact-time", "head.peak-acceleration"] {
@@ -177,17 +177,17 @@ fn an_impactor_meets_an_undeformed_pad_on_a_panel_that_has_sagged() {
         }
     }
     let foam = run(&struck_panel("velocity = 2", FOAM, ""), "bdf");
-    starts_at(&foam, "head.position", sag);
+    starts_at(&foam, "head.position", static_equilibrium);
     starts_at(&foam, "pad.deformation", 0.0);
 }
 
 #[test]
 fn what_is_dropped_falls_its_height_to_what_has_sagged() {
-    let (sag, height) = (3.0 * G / MOUNT, 0.002);
+    let (static_equilibrium, height) = (3.0 * G / MOUNT, 0.002);
     for pad in [MAXWELL, KELVIN_VOIGT] {
         let text = struck_panel("drop = 0.002", pad, "separation.pad = {}");
         let report = run(&text, "exact");
-        starts_at(&report, "head.position", sag - height);
+        starts_at(&report, "head.position", static_equilibrium - height);
         let touch = report.trajectory.switches.first().unwrap().time;
         assert!((touch - (2.0 * height / G).sqrt()).abs() <= 1e-12, "touches at {touch}");
     }
@@ -196,9 +196,9 @@ fn what_is_dropped_falls_its_height_to_what_has_sagged() {
 #[test]
 fn a_panel_that_is_struck_without_a_pad_has_sagged_all_the_same() {
     let report = run(&struck_panel("velocity = 2", "contact = { gap = 0.001 }", ""), "exact");
-    let sag = 3.0 * G / MOUNT;
-    starts_at(&report, "head.position", sag);
+    let static_equilibrium = 3.0 * G / MOUNT;
+    starts_at(&report, "head.position", static_equilibrium);
     let report = run(&struck_panel("velocity = 2", "contact = {}", ""), "exact");
-    starts_at(&report, "head.position", sag);
-    starts_at(&report, "panel.position", sag);
+    starts_at(&report, "head.position", static_equilibrium);
+    starts_at(&report, "panel.position", static_equilibrium);
 }

@@ -102,14 +102,14 @@ fn what_bounces_to_rest_under_friction_has_a_known_error_by_the_exact_method() {
         solve(&scene.network, &settings, &mut Silent).unwrap()
     };
     let (exact, stepping) = (run("exact", None), run("bdf", Some(1e-11)));
-    let impacts = exact.trajectory.switches.iter().filter(|own| own.impulse > 0.0).count();
+    let impacts = exact.trajectory.switches.iter().filter(|switch| switch.impulse > 0.0).count();
     assert!(impacts >= 10, "{impacts}");
-    for own in &exact.measures {
-        let other = stepping.measure(&own.key).unwrap();
-        let errors = own.error.unwrap() + other.error.unwrap();
-        let gap = (own.value.unwrap() - other.value.unwrap()).abs();
-        assert!(gap <= errors, "{}: {gap:e} of {errors:e}", own.key);
-        assert!(own.error.unwrap() <= 1e-4 * own.size.max(1.0), "{}", own.key);
+    for measure in &exact.measures {
+        let other = stepping.measure(&measure.key).unwrap();
+        let errors = measure.error.unwrap() + other.error.unwrap();
+        let gap = (measure.value.unwrap() - other.value.unwrap()).abs();
+        assert!(gap <= errors, "{}: {gap:e} of {errors:e}", measure.key);
+        assert!(measure.error.unwrap() <= 1e-4 * measure.size.max(1.0), "{}", measure.key);
     }
 }
 

@@ -12,8 +12,8 @@ impl Trial<'_> {
     pub(super) fn switches(&self, part: &str, what: Option<&str>) -> Vec<&Switch> {
         let switches = self.report.trajectory.switches.iter();
         switches
-            .filter(|own| belongs_to(&own.name, part))
-            .filter(|own| what.is_none_or(|what| own.what == what))
+            .filter(|switch| belongs_to(&switch.name, part))
+            .filter(|switch| what.is_none_or(|what| switch.what == what))
             .collect()
     }
 
@@ -26,10 +26,12 @@ impl Trial<'_> {
     }
 
     /// How well the instant of a switching is known: an error of what is watched, over its slope.
-    fn time_error(&self, own: &Switch) -> f64 {
+    fn time_error(&self, switch: &Switch) -> f64 {
         let primitives = &self.report.assembly.primitives;
-        let Some(part) = primitives.iter().find(|part| part.name == own.name) else { return 0.0 };
-        let watched = match own.what {
+        let Some(part) = primitives.iter().find(|part| part.name == switch.name) else {
+            return 0.0;
+        };
+        let watched = match switch.what {
             "open" | "sliding forward" | "sliding backward" => part.force,
             "stuck" => part.rate.unwrap_or(part.deformation),
             _ => part.deformation,
@@ -38,8 +40,8 @@ impl Trial<'_> {
         // A gap is a small difference of the ways of its sides.
         let way = if watched == part.deformation { self.longest_way() } else { 0.0 };
         let error = self.error(signal.error, signal.bound().max(way));
-        let late = if self.is_exact() { 0.0 } else { self.error(None, own.time) };
-        late + within(signal, own.time, error)
+        let late = if self.is_exact() { 0.0 } else { self.error(None, switch.time) };
+        late + within(signal, switch.time, error)
     }
 
     fn longest_way(&self) -> f64 {
@@ -50,8 +52,8 @@ impl Trial<'_> {
     /// By how much all is shifted in time at `time`: by the errors of the switchings until then.
     fn shift(&self, time: f64) -> f64 {
         let switches = self.report.trajectory.switches.iter();
-        let until = switches.filter(|own| own.time > 0.0 && own.time <= time);
-        until.map(|own| self.time_error(own)).sum()
+        let until = switches.filter(|switch| switch.time > 0.0 && switch.time <= time);
+        until.map(|until| self.time_error(until)).sum()
     }
 
     /// The time of the switching number `nth` (from 1) of a part into a phase, held against the case.
@@ -66,37 +68,37 @@ impl Trial<'_> {
     }
 
     /// The time of a switching, held against the case.
-    pub(super) fn instant(&self, own: &Switch, quantity: &str) -> f64 {
-        self.late_instant(own, quantity, 0.0)
+    pub(super) fn instant(&self, switch: &Switch, quantity: &str) -> f64 {
+        self.late_instant(switch, quantity, 0.0)
     }
 
     /// The same of one that may be `late` \[s\] for a reason of its own.
-    pub(super) fn late_instant(&self, own: &Switch, quantity: &str, late: f64) -> f64 {
-        let name = format!("time of {} {} ({quantity})", own.name, own.what);
-        self.within(&name, own.time, self.case.get(quantity), late + self.shift(own.time));
-        own.time
+    pub(super) fn late_instant(&self, switch: &Switch, quantity: &str, late: f64) -> f64 {
+        let name = format!("time of {} {} ({quantity})", switch.name, switch.what);
+        self.within(&name, switch.time, self.case.get(quantity), late + self.shift(switch.time));
+        switch.time
     }
 
     /// The time at which a series of ever shorter flights ends, of which a run leaves out those that
     /// cannot be told from rest: at most as long as the last two together.
-    pub(super) fn rests(&self, own: &Switch, quantity: &str) {
-        let impacts = self.impacts(&own.name);
+    pub(super) fn rests(&self, switch: &Switch, quantity: &str) {
+        let impacts = self.impacts(&switch.name);
         let times: Vec<f64> =
-            impacts.iter().map(|own| own.time).filter(|time| *time < own.time).collect();
+            impacts.iter().map(|impact| impact.time).filter(|time| *time < switch.time).collect();
         let [.., before, last] = times[..] else { panic!("{times:?}") };
-        let (first, second) = (last - before, own.time - last);
+        let (first, second) = (last - before, switch.time - last);
         // The flights are a geometric series.
         let left = second * second / (first - second);
         let slack = 0.02 * left;
-        self.late_instant(&Switch { time: own.time + left, ..own.clone() }, quantity, slack);
+        self.late_instant(&Switch { time: switch.time + left, ..switch.clone() }, quantity, slack);
         if self.is_exact() {
-            assert!(left < 1e-6 * own.time, "{left:e} s are left out");
+            assert!(left < 1e-6 * switch.time, "{left:e} s are left out");
         }
     }
 
     /// The impacts of a part.
     pub(super) fn impacts(&self, part: &str) -> Vec<&Switch> {
-        self.switches(part, None).into_iter().filter(|own| own.impulse > 0.0).collect()
+        self.switches(part, None).into_iter().filter(|switch| switch.impulse > 0.0).collect()
     }
 
     /// The time of the impact number `nth` (from 1) of a part, held against the case.
@@ -177,7 +179,8 @@ impl Trial<'_> {
     /// A measure within so many of the errors that it states.
     pub(super) fn measure_within(&self, bars: f64, key: &str, quantity: &str) {
         let Some(own) = self.report.measure(key) else {
-            let known: Vec<&str> = self.report.measures.iter().map(|own| &*own.key).collect();
+            let known: Vec<&str> =
+                self.report.measures.iter().map(|measure| &*measure.key).collect();
             panic!("no {key} in {known:?}")
         };
         let (Some(value), Some(error)) = (own.value, own.error) else {

@@ -58,7 +58,8 @@ fn a_plastic_touch_joins_head_and_face_until_f1_is_zero() {
                 trial.peak("pad.force", (start, last), &format!("peak-F2-{touch}"));
                 let pull = format!("largest-pull-of-pad-{touch}");
                 if case.find(&pull).is_some() {
-                    let until = trial.impacts("pad.contact").get(touch).map_or(end, |own| own.time);
+                    let until =
+                        trial.impacts("pad.contact").get(touch).map_or(end, |impact| impact.time);
                     trial.trough("pad.force", (last, until), &pull);
                 }
                 start = last;

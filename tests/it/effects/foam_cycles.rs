@@ -120,7 +120,7 @@ fn press(points: &[(f64, f64)], claim: impl Fn(&RunReport)) {
 }
 
 fn times(report: &RunReport, what: &str) -> usize {
-    report.trajectory.switches.iter().filter(|own| own.what == what).count()
+    report.trajectory.switches.iter().filter(|switch| switch.what == what).count()
 }
 
 #[test]
@@ -179,8 +179,8 @@ fn a_mass_bounces_on_foam_that_keeps_a_set() {
         let near = allowed(&report);
         let solution = report.solution();
         let signal = |output| solution.signal(report.assembly.output(output).expect(output));
-        let slack = report.trajectory.switches.iter().filter(|own| own.what == "slack");
-        let slack: Vec<f64> = slack.map(|own| own.time).collect();
+        let slack = report.trajectory.switches.iter().filter(|switch| switch.what == "slack");
+        let slack: Vec<f64> = slack.map(|slack| slack.time).collect();
         assert!(slack.len() >= 3, "{method}: {slack:?}");
         let mut from = 0.0;
         for &time in &slack {
@@ -194,10 +194,8 @@ fn a_mass_bounces_on_foam_that_keeps_a_set() {
         let all = lost(deepest);
         assert!((taken / all - 1.0).abs() <= near, "{method}: {taken} J, not {all}");
         assert!(
-            report
-                .warnings
-                .iter()
-                .all(|own| !own.code().contains("pulls") && !own.to_string().contains("pulls")),
+            report.warnings.iter().all(|warning| !warning.code().contains("pulls")
+                && !warning.to_string().contains("pulls")),
             "{:?}",
             report.warnings
         );
@@ -254,10 +252,8 @@ fn a_face_with_mass_parts_from_its_node_before_what_never_pulls() {
         let least = report.solution().signal(contact).minimum((0.0, report.trajectory.t_end));
         assert!(least.value >= -1e-3, "{least:?}");
         assert!(
-            report
-                .warnings
-                .iter()
-                .all(|own| !own.code().contains("pulls") && !own.to_string().contains("pulls")),
+            report.warnings.iter().all(|warning| !warning.code().contains("pulls")
+                && !warning.to_string().contains("pulls")),
             "{:?}",
             report.warnings
         );
@@ -298,7 +294,7 @@ fn a_rate_spring_is_let_go_of_without_small_steps() {
         let report = run(&impact(pad, "separation.pad = {}", "60 ms"), method);
         let steps = report.trajectory.statistics.accepted;
         assert!(steps < 600, "{method}: {steps} steps");
-        assert!(report.measures.iter().all(|own| own.error.is_some()), "{method}");
+        assert!(report.measures.iter().all(|measure| measure.error.is_some()), "{method}");
         assert!(report.warnings.is_empty(), "{method}: {:?}", report.warnings);
     }
 }
@@ -314,14 +310,12 @@ fn a_stop_that_is_met_at_the_peak_within_rounding_does_not_pull() {
                 let report = run(&impact("spring = 1e6", &stop, "20 ms"), method);
                 let warnings = &report.warnings;
                 assert!(
-                    warnings
-                        .iter()
-                        .all(|own| !own.code().contains("pulls")
-                            && !own.to_string().contains("pulls")),
+                    warnings.iter().all(|warning| !warning.code().contains("pulls")
+                        && !warning.to_string().contains("pulls")),
                     "{warnings:?}"
                 );
                 let notes = report.measures.iter().filter_map(MeasureReport::note);
-                let notes: Vec<String> = notes.filter(|own| own.contains("pulls")).collect();
+                let notes: Vec<String> = notes.filter(|note| note.contains("pulls")).collect();
                 assert!(notes.is_empty(), "{method} {own} {part:e}: {notes:?}");
             }
         }

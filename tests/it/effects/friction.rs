@@ -244,8 +244,8 @@ fn a_motion_may_jump_where_no_contact_jumps_with_it() {
     for method in ALL {
         let jumped = run(&text(ends, 0.0), method);
         let opened = |report: &dashpot::analysis::RunReport| {
-            let parted = report.trajectory.switches.iter().find(|own| own.what == "open");
-            parted.map(|own| own.time)
+            let parted = report.trajectory.switches.iter().find(|switch| switch.what == "open");
+            parted.map(|parted| parted.time)
         };
         // The limit of shorter and shorter rises, whose difference halves with them.
         let near = |rise: f64| {

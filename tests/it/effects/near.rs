@@ -174,7 +174,7 @@ fn separation_without_which_a_padding_would_pull_is_not_left_out() {
     let partial = found.partial.as_ref().unwrap();
     assert!(partial.left_out.iter().all(|own| own.effect != "separation.pad"), "{partial:?}");
     assert!(
-        found.warnings.iter().all(|own| !own.to_string().contains("separation is off")),
+        found.warnings.iter().all(|warning| !warning.to_string().contains("separation is off")),
         "{found:?}"
     );
 }

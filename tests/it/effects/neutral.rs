@@ -205,7 +205,7 @@ fn a_load_of_zero_and_a_motion_of_zero_are_none() {
             }
             (value, _) => value,
         };
-        let kinds = kind.parameters.iter().map(|own| own.kind);
+        let kinds = kind.parameters.iter().map(|parameter| parameter.kind);
         let values: Vec<Value> = (kind.sample)().into_iter().zip(kinds).map(none).collect();
         assert_ne!(values, (kind.sample)(), "{} has no size", kind.word);
         let line = |driven| write_kind(kind.word, kind.parameters, &values, driven);

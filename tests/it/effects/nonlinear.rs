@@ -144,17 +144,17 @@ fn a_bumper_is_met_behind_its_gap_and_gives_back_more_of_a_lower_speed() {
     // What hits at a fifth of the speed for which the restitution of d = 5 is told has d = 1.
     let [slow, fast] = ["1", "5"].map(|d| Case::of(&format!("hunt-crossley-d-{d}")));
     let (gap, at) = (0.004, slow.get("peak-deformation"));
-    let flight = gap / slow.param("V");
+    let predicted = gap / slow.param("V");
     let pad = format!(
         "bumper = {{ force = {:?}, at = {at:?}, restitution = {:?}, speed = {:?}, exponent = <n>, gap = {gap:?} }}",
         slow.param("k") * at.powf(slow.param("n")),
         fast.get("restitution"),
         5.0 * slow.param("V"),
     );
-    let end = flight + 1.2 * slow.get("release.time");
+    let end = predicted + 1.2 * slow.get("release.time");
     judge(slow, STEPPING, &scene(&pad, false, end), |trial| {
         let touch = trial.switches("pad", Some("engaged"))[0].time;
-        trial.number("touch", touch, flight, end);
+        trial.number("touch", touch, predicted, end);
         let release = trial.switches("pad", Some("free"))[0].time;
         trial.value("head.velocity", release, Side::After, "release.velocity");
         trial.measure("pad.peak-force", "peak-force");

@@ -24,7 +24,7 @@ fn order(recipe: &Recipe) -> usize {
     let count = recipe.nodes.len();
     let is_massless = |at: usize| at < count && recipe.nodes[at].0 == 0.0;
     let mut group: Vec<usize> = (0..count).collect();
-    let dashpots = || recipe.elements.iter().filter(|own| !own.2);
+    let dashpots = || recipe.elements.iter().filter(|element| !element.2);
     for _ in 0..count {
         for &(a, b, ..) in dashpots() {
             if is_massless(a) && is_massless(b) {

@@ -106,8 +106,8 @@ impl Hanging {
         // The rate of a deformation has the velocities at both ends, and the rate of a velocity the
         // deformations of the springs at the mass.
         let ends = |link: &Link| 1 + usize::from(link.behind.is_some());
-        let springs: usize = self.links.iter().filter(|own| own.has_spring).map(ends).sum();
-        let places = self.links.iter().filter(|own| !own.has_spring).count();
+        let springs: usize = self.links.iter().filter(|link| link.has_spring).map(ends).sum();
+        let places = self.links.iter().filter(|link| !link.has_spring).count();
         2 * springs + places + velocities
     }
 
@@ -122,7 +122,7 @@ impl Hanging {
         assert!(system.terms.is_empty(), "{:?}", system.terms);
         // Guards belong to what switches, besides those that a scene asks for.
         assert!(assembly.switching.is_none());
-        let parts = |own: &Link| usize::from(own.has_spring) + usize::from(own.has_dashpot);
+        let parts = |link: &Link| usize::from(link.has_spring) + usize::from(link.has_dashpot);
         assert_eq!(assembly.primitives.len(), self.links.iter().map(parts).sum::<usize>());
         assert_eq!((assembly.nodes.len(), assembly.connections.len()), (count + 1, count));
         assert!(assembly.drives.is_empty(), "{:?}", assembly.drives);
@@ -223,11 +223,11 @@ impl All {
     }
 
     fn counts(&self) -> Vec<usize> {
-        self.effects.iter().map(|own| own.2.load(Relaxed)).collect()
+        self.effects.iter().map(|effect| effect.2.load(Relaxed)).collect()
     }
 
     fn add_to(&self, network: &mut Network) {
-        self.effects.iter().for_each(|own| network.add_shared_effect(Arc::clone(&own.1)));
+        self.effects.iter().for_each(|effect| network.add_shared_effect(Arc::clone(&effect.1)));
     }
 }
 

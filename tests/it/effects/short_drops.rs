@@ -32,7 +32,8 @@ fn balls_touch_the_floor_when_they_have_fallen_however_long_the_run_is() {
             for method in ALL {
                 let floor = format!("contact = {{ gap = {height}, restitution = 0.5 }}");
                 let report = solved(duration, &floor, method);
-                let first = report.trajectory.switches.first().map_or(f64::NAN, |own| own.time);
+                let first =
+                    report.trajectory.switches.first().map_or(f64::NAN, |switch| switch.time);
                 let error = first / (2.0 * height / GRAVITY).sqrt() - 1.0;
                 // 1000 times the tolerance that accuracies of 0.1 % take at most.
                 assert!(error.abs() < 1e-2, "{method}, {height} m in {duration} s: {error:e}");
@@ -56,7 +57,7 @@ fn balls_that_lose_nothing_are_where_they_should_be_after_thousands_of_bounces()
         let rounding = 4.0 * f64::EPSILON * GRAVITY * duration;
         let bound = own.error.unwrap();
         assert!(difference <= bound + rounding, "{height} m: {difference:e}, not {bound:e}");
-        // Shaken digits of the speed shift every later bounce.
+        // Perturbed digits of the speed shift every later bounce.
         assert!(bound <= 1e-4 * GRAVITY * fall, "{height} m: {bound:e}");
     }
 }

@@ -58,8 +58,8 @@ fn difference(pad: &Pad, order: &[usize], method: &str) -> f64 {
     let found = solution.signal(output);
     let times = (1..40).map(|at| duration * f64::from(at) / 40.0);
     let places: Vec<[f64; 2]> = times.map(|time| [found.value(time), motion.place(time)]).collect();
-    let largest = places.iter().map(|own| own[1].abs()).fold(0.0, f64::max);
-    places.iter().map(|own| (own[0] - own[1]).abs()).fold(0.0, f64::max) / largest
+    let largest = places.iter().map(|place| place[1].abs()).fold(0.0, f64::max);
+    places.iter().map(|place| (place[0] - place[1]).abs()).fold(0.0, f64::max) / largest
 }
 
 #[test]

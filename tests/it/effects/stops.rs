@@ -134,9 +134,12 @@ fn a_head_that_comes_back_to_a_pad_still_at_its_stop_is_thrown_back_by_the_stop(
         }
         for method in ALL {
             let report = run(&text, method);
-            let on_stop =
-                report.trajectory.switches.iter().filter(|own| own.name.starts_with("pad.stop"));
-            let found: Vec<_> = on_stop.filter(|own| own.impulse > 0.0).collect();
+            let on_stop = report
+                .trajectory
+                .switches
+                .iter()
+                .filter(|switch| switch.name.starts_with("pad.stop"));
+            let found: Vec<_> = on_stop.filter(|on_stop| on_stop.impulse > 0.0).collect();
             let near = report.solver.rtol.map_or(1e-11, |rtol| 1e4 * rtol);
             for (&(time, impulse), own) in hits.iter().zip(&found) {
                 assert!(

@@ -76,15 +76,13 @@ fn a_mass_leaves_with_the_root_of_the_ratio_of_both_areas() {
             let lost = report.energy.total_dissipated() / (energy * (1.0 - part_given_back()));
             assert!((lost - 1.0).abs() <= near.max(1e-6), "{method}: {lost}");
             assert!(report.energy.closure().abs() <= near.max(1e-6), "{method}");
-            let beyond =
-                report.warnings.iter().any(|own| own.to_string().contains("beyond its last point"));
+            let beyond = report
+                .warnings
+                .iter()
+                .any(|warning| warning.to_string().contains("beyond its last point"));
             assert_eq!(beyond, depth > Y, "{:?}", report.warnings);
-            assert!(
-                report
-                    .warnings
-                    .iter()
-                    .all(|own| !own.code().contains("pulls") && !own.to_string().contains("pulls"))
-            );
+            assert!(report.warnings.iter().all(|warning| !warning.code().contains("pulls")
+                && !warning.to_string().contains("pulls")));
         }
     }
 }

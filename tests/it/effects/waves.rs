@@ -58,8 +58,8 @@ fn the_front_arrives_at_the_time_of_the_continuum_and_doubles_at_the_free_end() 
         .assembly
         .nodes
         .iter()
-        .filter(|own| own.mass > 0.0)
-        .map(|own| own.name.as_str())
+        .filter(|node| node.mass > 0.0)
+        .map(|node| node.name.as_str())
         .collect();
     // The front of a chain is as wide as the cube root of the segments that it has passed, and is at
     // half its height where that of the continuum is: Airy's integral is 1/3 there.
@@ -141,7 +141,7 @@ fn transmissibility_of_two_masses_in_a_row() {
             close(ratio, swing.amplitude, quantity("transmissibility"));
             close(ratio, swing.phase, quantity("phase"));
         }
-        let lower = found.elements.iter().find(|own| own.name == "lower").unwrap();
+        let lower = found.elements.iter().find(|element| element.name == "lower").unwrap();
         close(
             ratio,
             lower.deformation.amplitude,

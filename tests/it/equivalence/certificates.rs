@@ -123,9 +123,13 @@ fn a_billionth_in_a_mode_that_no_impact_sees_makes_another_model() {
         assert!(worst.omega < 1e-3 && worst.time > 1.0 && worst.creep > 1e-12, "{worst:?}");
         for (one, other) in before.iter().zip(measured(&second)) {
             let gap = (one.value.unwrap() - other.value.unwrap()).abs();
-            let doubt = one.error.unwrap() + other.error.unwrap();
+            let threshold = one.error.unwrap() + other.error.unwrap();
             // The bound of `exact`: what it says of all digits that it has.
-            assert!(gap <= doubt && doubt < 1e-11 * one.size, "{}: {gap:e} of {doubt:e}", one.key);
+            assert!(
+                gap <= threshold && threshold < 1e-11 * one.size,
+                "{}: {gap:e} of {threshold:e}",
+                one.key
+            );
         }
     }
 }
@@ -182,7 +186,8 @@ fn a_comparison_lists_stiffnesses_of_maxwell_and_compliances_of_kelvin_elements(
     let element = &found.kelvin.unwrap().modes[0];
     assert!((element.time.first / 2e-4 - 1.0).abs() < 1e-14, "{element:?}");
     assert!((element.strength.first / 5e-8 - 1.0).abs() < 1e-14, "{element:?}");
-    let stiffnesses: f64 = found.maxwell.unwrap().modes.iter().map(|own| own.strength.first).sum();
+    let stiffnesses: f64 =
+        found.maxwell.unwrap().modes.iter().map(|mode| mode.strength.first).sum();
     assert!((stiffnesses / 2e7 - 1.0).abs() < 1e-14, "{stiffnesses}");
 }
 

@@ -28,7 +28,9 @@ fn pairs<'r>(
     one: &'r RunReport,
     other: &'r RunReport,
 ) -> impl Iterator<Item = (&'r MeasureReport, &'r MeasureReport)> {
-    one.measures.iter().filter_map(|own| other.measure(&own.key).map(|other| (own, other)))
+    one.measures
+        .iter()
+        .filter_map(|measure| other.measure(&measure.key).map(|other| (measure, other)))
 }
 
 #[track_caller]
@@ -61,7 +63,9 @@ fn forms_of_the_thesis_pad(scene: &Scene) -> Vec<(&'static str, Network)> {
     let constants = |spring, dashpot| SpringDashpot { spring, dashpot };
     let burgers = Burgers { maxwell: constants(2e7, 6e3), kelvin: constants(2e7, 4e3) };
     let two = burgers.to_two_maxwell().unwrap();
-    let element = |own: SpringDashpot| Tree::series(pair(own.spring, own.dashpot));
+    let element = |spring_dashpot: SpringDashpot| {
+        Tree::series(pair(spring_dashpot.spring, spring_dashpot.dashpot))
+    };
     let two = Tree::parallel([two.slow, two.fast].map(element));
     let form = |form| padded(scene, model_of(&canonical(&own, form)));
     vec![

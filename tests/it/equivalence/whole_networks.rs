@@ -110,7 +110,7 @@ fn poles_of_the_reference_impact_are_those_of_the_thesis() {
     let groups = crate::independent::Groups::printed(0.2);
     let found = receptance(&crate::thesis::from_groups(&groups), ["head", "ground"]);
     let poles: Vec<[f64; 2]> =
-        found.poles().iter().map(|own| own.at).filter(|at| at[0] < 0.0).collect();
+        found.poles().iter().map(|pole| pole.at).filter(|at| at[0] < 0.0).collect();
     let printed = [[-23.555, 0.0], [-1.4715, 1.1679], [-0.15099, 1.3791]];
     assert_eq!(poles.len(), 5, "{poles:?}");
     for [re, im] in poles {

@@ -39,11 +39,15 @@ fn a_force_that_comes_to_nothing_is_not_said_to_push_until_the_end() {
             _ => false,
         };
         assert!(is_covered, "{method}: {time:?}");
-        let told = |what: &str| report.warnings.iter().any(|own| own.to_string().contains(what));
+        let told =
+            |what: &str| report.warnings.iter().any(|warning| warning.to_string().contains(what));
         assert!(told("whether the impact ends there is open"), "{method}: {:?}", report.warnings);
         assert!(!told("still in contact at the end"), "{method}: {:?}", report.warnings);
         // All that does not hang on it is as good as it was.
-        let missed = report.measures.iter().filter(|own| own.value.is_some() && own.excess > 1.0);
+        let missed = report
+            .measures
+            .iter()
+            .filter(|measure| measure.value.is_some() && measure.excess > 1.0);
         assert_eq!(missed.count(), 0, "{method}");
     }
 }

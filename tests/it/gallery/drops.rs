@@ -78,7 +78,7 @@ fn a_ball_bounces_at_the_times_of_the_series_and_rests_at_its_limit() {
     let touch = |n: i32| fall * (1.0 + 2.0 * e * (1.0 - e.powi(n)) / (1.0 - e));
     let found: Vec<f64> = {
         let switches = solved.first().trajectory.switches.iter();
-        switches.filter(|own| own.impulse > 0.0).map(|own| own.time).collect()
+        switches.filter(|switch| switch.impulse > 0.0).map(|switch| switch.time).collect()
     };
     for (n, time) in (0..15).zip(&found) {
         close("touch", *time, touch(n), 1e-9);

@@ -59,9 +59,9 @@ fn a_parcel_lifts_off_flies_and_meets_the_cushion_at_the_times_in_closed_form() 
     let (mass, k, c) = (12.0, 120e3, 480.0);
     let (amplitude, omega) = (5e-3, 9.0 * TAU);
     assert!(amplitude * omega * omega > G0, "the bed must shake with more than 1 g");
-    let sag = mass * G0 / k;
+    let static_equilibrium = mass * G0 / k;
     let deformation = solved.signal("cushion.deformation");
-    close("static sag, m g/k", deformation.value(0.0), sag, 1e-12);
+    close("static sag, m g/k", deformation.value(0.0), static_equilibrium, 1e-12);
     // The bed is at −A sin Ω t; y is how far the cushion is pressed in.
     let bed = |t: f64| -amplitude * (omega * t).sin();
     let way = Oscillator::new(
@@ -69,7 +69,7 @@ fn a_parcel_lifts_off_flies_and_meets_the_cushion_at_the_times_in_closed_form() 
         G0,
         [-amplitude * omega * omega, 0.0],
         omega,
-        [sag, amplitude * omega],
+        [static_equilibrium, amplitude * omega],
     );
     let push = |t: f64| k * way.at(t)[0] + c * way.at(t)[1];
     let first = (1..1000).map(|at| f64::from(at) * 1e-4).find(|&t| push(t) < 0.0).unwrap();

@@ -73,9 +73,9 @@ fn solved(case: &Case, method: &'static str) -> Attempt {
     let checks = trial.checks.take();
     if std::env::var_os("HARD_CASE").is_some() {
         println!("{} by {method} ({} steps in all):", case.name, limit.steps);
-        for own in &checks {
-            let (error, bar, allowed) = (own.error, own.bar, own.allowed);
-            println!("  {}: {error:.1e}, stated {bar:?}, allowed {allowed:.1e}", own.what);
+        for check in &checks {
+            let (error, bar, allowed) = (check.error, check.bar, check.allowed);
+            println!("  {}: {error:.1e}, stated {bar:?}, allowed {allowed:.1e}", check.what);
         }
         println!("  {:?}", report.warnings);
     }

@@ -252,28 +252,28 @@ fn a_byte_order_mark_is_accepted() {
 fn judge(section: &str, refusals: Vec<Refusal>) {
     let mut table = "| input | what is said |\n|---|---|\n".to_owned();
     let mut faults = Vec::new();
-    for own in refusals {
+    for refusal in refusals {
         let folder = TempDir::new().unwrap();
-        fs::write(folder.path().join("scene.toml"), &own.bytes).unwrap();
+        fs::write(folder.path().join("scene.toml"), &refusal.bytes).unwrap();
         let (code, said) = run(&folder);
         let mut missing = Vec::new();
         if code != Some(WRONG_INPUT) {
             missing.push(format!("exit code {code:?}"));
         }
-        let lost = own.wanted.iter().filter(|wanted| !said.contains(wanted.as_str()));
+        let lost = refusal.wanted.iter().filter(|wanted| !said.contains(wanted.as_str()));
         missing.extend(lost.map(|wanted| format!("no {wanted}")));
         if !said.contains("scene.toml") {
             missing.push("no file".to_owned());
         }
-        if own.has_line && !(said.contains("--> scene.toml:") && said.contains('^')) {
+        if refusal.has_line && !(said.contains("--> scene.toml:") && said.contains('^')) {
             missing.push("no line with a caret".to_owned());
         }
         let first = said.lines().find(|line| line.starts_with("error")).unwrap_or_default();
         let first = first.trim_start_matches("error: ");
-        writeln!(table, "| {} | {} |", own.name, first.replace('|', "\\|")).unwrap();
+        writeln!(table, "| {} | {} |", refusal.name, first.replace('|', "\\|")).unwrap();
         if !missing.is_empty() {
             let said: String = said.chars().take(1500).collect();
-            faults.push(format!("{}: {}\n{said}", own.name, missing.join(", ")));
+            faults.push(format!("{}: {}\n{said}", refusal.name, missing.join(", ")));
         }
     }
     faults.extend(page::hold(section, &table));

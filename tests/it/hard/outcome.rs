@@ -45,20 +45,21 @@ impl Outcome {
     pub(super) fn of_checks(checks: &[Check]) -> Self {
         let relative = |error: f64, scale: f64| if error > 0.0 { error / scale } else { 0.0 };
         let largest = |errors: &mut dyn Iterator<Item = f64>| errors.fold(0.0, f64::max);
-        let truth = largest(&mut checks.iter().map(|own| relative(own.error, own.scale)));
-        let stated =
-            largest(&mut checks.iter().map(|own| relative(own.bar.unwrap_or(0.0), own.scale)));
-        let open = largest(&mut checks.iter().map(|own| relative(own.open, own.scale)));
+        let truth = largest(&mut checks.iter().map(|check| relative(check.error, check.scale)));
+        let stated = largest(
+            &mut checks.iter().map(|check| relative(check.bar.unwrap_or(0.0), check.scale)),
+        );
+        let open = largest(&mut checks.iter().map(|check| relative(check.open, check.scale)));
         let errors = Errors { truth, open, stated };
-        let is_off = |own: &&Check| own.error.is_nan() || own.error > own.allowed;
-        let silent = checks.iter().filter(|own| !own.is_warned).find(is_off);
+        let is_off = |check: &&Check| check.error.is_nan() || check.error > check.allowed;
+        let silent = checks.iter().filter(|check| !check.is_warned).find(is_off);
         if let Some(check) = silent {
             return Self::Wrong(errors, check.what.clone());
         }
         if let Some(check) = checks.iter().find(is_off) {
             return Self::Warned(errors, check.what.clone());
         }
-        if checks.iter().any(|own| own.is_warned) {
+        if checks.iter().any(|check| check.is_warned) {
             Self::Rough(errors)
         } else {
             Self::Right(errors)

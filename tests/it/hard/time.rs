@@ -106,10 +106,10 @@ fn amplitude(speed: f64) -> Case {
     Case::new(format!("start speed of {speed:e} m/s"), "closed form", text, move |trial| {
         let (sine, cosine) = 10.0_f64.sin_cos();
         // The smallest numbers have few digits.
-        let doubt = 2e-322;
-        trial.measure_known("head.end-position", speed * 0.1 * sine, doubt);
-        trial.measure_known("head.end-velocity", speed * cosine, doubt);
-        trial.measure_known("pad.peak-force", speed * 10.0, doubt);
+        let threshold = 2e-322;
+        trial.measure_known("head.end-position", speed * 0.1 * sine, threshold);
+        trial.measure_known("head.end-velocity", speed * cosine, threshold);
+        trial.measure_known("pad.peak-force", speed * 10.0, threshold);
     })
 }
 
@@ -230,14 +230,16 @@ fn busy(samples: &str) -> String {
 /// All that a report says in numbers, bit by bit.
 fn bits(report: &RunReport) -> Vec<u64> {
     let mut all = Vec::new();
-    for own in &report.measures {
-        all.extend([own.value, own.time, own.error].map(|own| own.map_or(1, f64::to_bits)));
+    for measure in &report.measures {
+        all.extend(
+            [measure.value, measure.time, measure.error].map(|own| own.map_or(1, f64::to_bits)),
+        );
     }
     let outputs = 0..report.assembly.system.outputs.len();
     for output in outputs {
         let signal = report.trajectory.signal(&report.assembly.system, output);
         for panel in &signal.panels {
-            all.extend(panel.coefficients.iter().map(|own| own.to_bits()));
+            all.extend(panel.coefficients.iter().map(|coefficient| coefficient.to_bits()));
         }
     }
     all
@@ -262,8 +264,8 @@ fn again() -> Case {
         trial.holds("the same again", solved(&busy(""), method) == first);
         let threads: Vec<_> =
             (0..4).map(|_| thread::spawn(move || solved(&busy(""), method))).collect();
-        for own in threads {
-            trial.holds("the same in a thread", own.join().unwrap() == first);
+        for thread in threads {
+            trial.holds("the same in a thread", thread.join().unwrap() == first);
         }
     })
 }

@@ -64,16 +64,19 @@ impl<'a> Trial<'a> {
         self.measure_known(key, truth, 0.0);
     }
 
-    /// A measure whose true value is known to `doubt` only: a limit that is not quite reached, a printed
+    /// A measure whose true value is known to `threshold` only: a limit that is not quite reached, a printed
     /// number of few digits, a time that is rounded.
-    pub(super) fn measure_known(&self, key: &str, truth: f64, doubt: f64) {
+    pub(super) fn measure_known(&self, key: &str, truth: f64, threshold: f64) {
         let wanted = key.split_once('.').and_then(|(target, kind)| {
-            let is_whole = |own: &&MeasureReport| own.window_wish == Some(WindowWish::Run);
+            let is_whole = |measure_report: &&MeasureReport| {
+                measure_report.window_wish == Some(WindowWish::Run)
+            };
             let alike = self.report.measures.iter().filter(is_whole);
             alike.clone().find(|own| own.target == target && own.kind == kind)
         });
         let Some(own) = wanted.or_else(|| self.report.measure(key)) else {
-            let known: Vec<&str> = self.report.measures.iter().map(|own| &*own.key).collect();
+            let known: Vec<&str> =
+                self.report.measures.iter().map(|measure| &*measure.key).collect();
             panic!("no {key} in {known:?}")
         };
         let scale = own.size.abs().max(truth.abs());
@@ -86,12 +89,12 @@ impl<'a> Trial<'a> {
             || self.report.warnings.iter().map(ToString::to_string).any(names_it);
         let error = own.value.map_or(f64::INFINITY, |value| (value - truth).abs());
         // Not a number stays none.
-        let error = if error <= doubt { 0.0 } else { error - doubt };
+        let error = if error <= threshold { 0.0 } else { error - threshold };
         let wanted = if self.is_exact() { 0.0 } else { self.wish * scale };
         let allowed = own.error.unwrap_or(0.0).max(wanted) + ROUNDINGS * scale;
         let what =
             format!("{key} = {:?}, not {truth:e}; {}", own.value, own.note().unwrap_or_default());
-        self.add(Check { what, scale, error, open: doubt, bar: own.error, allowed, is_warned });
+        self.add(Check { what, scale, error, open: threshold, bar: own.error, allowed, is_warned });
     }
 
     /// Place and speed of a node at the end.
@@ -162,25 +165,31 @@ impl<'a> Trial<'a> {
 
     /// The switchings of a part, or of something in it.
     fn switches<'t>(&'t self, part: &'t str) -> impl Iterator<Item = &'t Switch> {
-        let belongs = move |own: &&Switch| {
-            own.name.strip_prefix(part).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        let belongs = move |switch: &&Switch| {
+            switch
+                .name
+                .strip_prefix(part)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
         };
         self.report.trajectory.switches.iter().filter(belongs)
     }
 
     /// How often a part goes into a phase.
     pub(super) fn switched(&self, part: &str, phase: &str) -> usize {
-        self.switches(part).filter(|own| own.what == phase).count()
+        self.switches(part).filter(|switch| switch.what == phase).count()
     }
 
     /// The impacts of a part.
     pub(super) fn impacts(&self, part: &str) -> usize {
-        self.switches(part).filter(|own| own.impulse > 0.0).count()
+        self.switches(part).filter(|switch| switch.impulse > 0.0).count()
     }
 
     /// The times at which a part goes into a phase.
     pub(super) fn times(&self, part: &str, phase: &str) -> Vec<f64> {
-        self.switches(part).filter(|own| own.what == phase).map(|own| own.time).collect()
+        self.switches(part)
+            .filter(|switch| switch.what == phase)
+            .map(|switch| switch.time)
+            .collect()
     }
 
     /// That the energy at the end is that of the start, within what the ledger states.

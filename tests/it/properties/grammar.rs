@@ -46,24 +46,26 @@ fn kind<T, A>(own: &Registered<T, A>) -> Kind {
     Kind { word, parameters, values, is_per_element: false, driven: Dimension::FORCE }
 }
 
-fn form(own: &Form) -> String {
+fn form(form: &Form) -> String {
     let mut leaves = Vec::new();
     let mut leaf = |path: &[&'static str], role: Role| {
         let value = if matches!(role, Role::Spring) { "2 kN/m" } else { "3 N s/m" };
-        leaves.push(format!("{}.{} = \"{value}\"", own.word, path.join(".")));
+        leaves.push(format!("{}.{} = \"{value}\"", form.word, path.join(".")));
         Ok::<_, Infallible>(())
     };
-    assert!(build(own.parts, own.in_series, &mut leaf).is_ok());
+    assert!(build(form.parts, form.in_series, &mut leaf).is_ok());
     leaves.join(", ")
 }
 
 impl Words {
     fn all() -> Self {
-        let effect =
-            |own: &EffectEntry| Kind { is_per_element: own.about.is_per_element, ..kind(own) };
-        let measure = |own: &MeasureEntry| {
-            let is_per_element = matches!(own.about.family, Family::Element);
-            Kind { is_per_element, ..kind(own) }
+        let effect = |effect_entry: &EffectEntry| Kind {
+            is_per_element: effect_entry.about.is_per_element,
+            ..kind(effect_entry)
+        };
+        let measure = |measure_entry: &MeasureEntry| {
+            let is_per_element = matches!(measure_entry.about.family, Family::Element);
+            Kind { is_per_element, ..kind(measure_entry) }
         };
         let composite = COMPOSITES.iter().map(|own| Kind { driven: own.about, ..kind(own) });
         Self {
@@ -165,8 +167,11 @@ fn beside() -> impl Strategy<Value = String> {
 }
 
 fn node(words: &Words) -> impl Strategy<Value = String> + use<> {
-    let motions =
-        words.waveforms.iter().cloned().map(|own| Kind { driven: Dimension::LENGTH, ..own });
+    let motions = words
+        .waveforms
+        .iter()
+        .cloned()
+        .map(|waveform| Kind { driven: Dimension::LENGTH, ..waveform });
     let motion = one_of(&motions.collect::<Vec<_>>());
     prop_oneof![
         3 => (quantity("kg", -6.0..6.0), quantity("m/s", -3.0..3.0))

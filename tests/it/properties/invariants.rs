@@ -7,20 +7,20 @@ use dashpot::{
 
 /// The first invariant that a report breaks; one that determines nothing promises none.
 pub(super) fn broken(report: &RunReport) -> Option<String> {
-    let is_open = |own: &MeasureReport| own.is_undetermined;
+    let is_open = |measure_report: &MeasureReport| measure_report.is_undetermined;
     if !report.measures.is_empty() && report.measures.iter().all(is_open) {
         return None;
     }
-    let doubt = doubt(report);
+    let threshold = threshold(report);
     energy(report)
-        .or_else(|| momentum(report, doubt))
-        .or_else(|| pulls(report, doubt))
-        .or_else(|| given_back(report, doubt))
+        .or_else(|| momentum(report, threshold))
+        .or_else(|| pulls(report, threshold))
+        .or_else(|| given_back(report, threshold))
         .map(|what| format!("by {}: {what}", report.solver.method))
 }
 
 /// The relative error that the report itself admits: that of its measures, and of its energy.
-fn doubt(report: &RunReport) -> f64 {
+fn threshold(report: &RunReport) -> f64 {
     let measures = report.worst_relative_error().filter(|error| error.is_finite());
     measures.unwrap_or(0.0).max(report.energy.closure().abs()).max(1e-9)
 }
@@ -35,7 +35,7 @@ fn energy(report: &RunReport) -> Option<String> {
 }
 
 /// Each free mass changes its momentum by the impulses of all forces and impacts.
-fn momentum(report: &RunReport, doubt: f64) -> Option<String> {
+fn momentum(report: &RunReport, threshold: f64) -> Option<String> {
     let (assembly, solution) = (&report.assembly, report.solution());
     let whole = (0.0, solution.end());
     let largest = assembly
@@ -67,7 +67,9 @@ fn momentum(report: &RunReport, doubt: f64) -> Option<String> {
                 for primitive in &assembly.primitives[connection.primitives.clone()] {
                     let switches = report.trajectory.switches.iter();
                     // Speeds are reported from after the impacts at the start.
-                    for own in switches.filter(|own| own.time > 0.0 && own.name == primitive.name) {
+                    for own in
+                        switches.filter(|switch| switch.time > 0.0 && switch.name == primitive.name)
+                    {
                         push(sign * own.impulse, own.impulse);
                     }
                 }
@@ -80,7 +82,7 @@ fn momentum(report: &RunReport, doubt: f64) -> Option<String> {
             push(force.integral(whole), force.integral_of(whole, &[0.0], f64::abs));
         }
         let off = (gained - sum).abs();
-        let allowed = 10.0 * doubt * size + rounding;
+        let allowed = 10.0 * threshold * size + rounding;
         (off > allowed).then(|| {
             format!("{} gains {gained:e} N s of {sum:e}, {off:e} > {allowed:e}", node.name)
         })
@@ -88,12 +90,12 @@ fn momentum(report: &RunReport, doubt: f64) -> Option<String> {
 }
 
 /// What cannot pull does not.
-fn pulls(report: &RunReport, doubt: f64) -> Option<String> {
+fn pulls(report: &RunReport, threshold: f64) -> Option<String> {
     let (assembly, solution) = (&report.assembly, report.solution());
     assembly.connections.iter().filter(|connection| connection.never_pulls).find_map(|connection| {
         let force = solution.signal(connection.force?);
         let least = force.minimum((0.0, solution.end())).value;
-        let allowed = 10.0 * doubt * largest_force(&solution);
+        let allowed = 10.0 * threshold * largest_force(&solution);
         (least < -allowed).then(|| format!("{} pulls with {least:e} N", connection.name))
     })
 }
@@ -105,7 +107,7 @@ fn largest_force(solution: &Solution<'_>) -> f64 {
 }
 
 /// No dashpot and no friction gives energy back, in no part of the run.
-fn given_back(report: &RunReport, doubt: f64) -> Option<String> {
+fn given_back(report: &RunReport, threshold: f64) -> Option<String> {
     const PARTS: u32 = 16;
     let (assembly, solution) = (&report.assembly, report.solution());
     assembly.primitives.iter().find_map(|primitive| {
@@ -122,7 +124,7 @@ fn given_back(report: &RunReport, doubt: f64) -> Option<String> {
         (0..PARTS).find_map(|part| {
             let at = |part: u32| solution.end() * f64::from(part) / f64::from(PARTS);
             let work = force.integral_of_product(&rate, (at(part), at(part + 1)));
-            let allowed = 10.0 * doubt * report.energy.turned_over;
+            let allowed = 10.0 * threshold * report.energy.turned_over;
             (work < -allowed).then(|| format!("{} gives back {:e} J", primitive.name, -work))
         })
     })

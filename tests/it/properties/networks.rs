@@ -457,7 +457,7 @@ impl Law {
         let spring = |k: f64| format!("spring = {}", si(k, "N/m"));
         let dashpot = |c: f64| format!("dashpot = {}", si(c, "N s/m"));
         let tree = |word: &str, parts: &[String]| {
-            let parts: Vec<String> = parts.iter().map(|own| format!("{{ {own} }}")).collect();
+            let parts: Vec<String> = parts.iter().map(|part| format!("{{ {part} }}")).collect();
             format!("{word} = [{}]", parts.join(", "))
         };
         let row = |parts: &[String]| tree("series", parts);

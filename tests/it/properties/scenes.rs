@@ -75,8 +75,8 @@ fn placed(diagnostics: &Diagnostics) -> Result<(), String> {
 fn refused_by_name(network: &Network) -> Result<(), String> {
     let Err(errors) = network.compile(1.0) else { return Ok(()) };
     let nodes = network.nodes().map(|(_, node)| node.name.as_str());
-    let elements = network.connections().iter().map(|own| own.name.as_str());
-    let loads = network.loads().iter().map(|own| own.name.as_str());
+    let elements = network.connections().iter().map(|connection| connection.name.as_str());
+    let loads = network.loads().iter().map(|load| load.name.as_str());
     let names: Vec<&str> = nodes.chain(elements).chain(loads).collect();
     for error in &errors.0 {
         let text = error.to_string();
@@ -92,7 +92,8 @@ fn written_again(network: &Network) -> Result<(), String> {
     let mut text = String::from(
         "[nodes]\na = { mass = 1, velocity = 1 }\nb = { mass = 1 }\n[run]\nduration = 1\n[models]\n",
     );
-    let models: Vec<&Model> = network.connections().iter().map(|own| &own.model).collect();
+    let models: Vec<&Model> =
+        network.connections().iter().map(|connection| &connection.model).collect();
     for (at, model) in models.iter().enumerate() {
         writeln!(text, "m{at} = {}", write_model(model)).map_err(|error| error.to_string())?;
     }

@@ -45,7 +45,7 @@ const OPEN: &[&str] = &["contact-time", "severity-index", "hic"];
 /// What is said where two reports tell different things, although neither says that it might.
 /// `bars` is how many times their errors they may differ by.
 pub(super) fn disagreement(one: &RunReport, other: &RunReport, bars: f64) -> Option<String> {
-    one.measures.iter().filter(|own| !OPEN.contains(&own.kind)).find_map(|first| {
+    one.measures.iter().filter(|measure| !OPEN.contains(&measure.kind)).find_map(|first| {
         let second = other.measure(&first.key)?;
         (sums_apart(first, second, 1.0) > bars).then(|| {
             format!(
@@ -70,14 +70,14 @@ pub(crate) fn apart(
     other: &RunReport,
     factor: impl Fn(&str) -> f64,
 ) -> Vec<(String, f64)> {
-    let own = one.measures.iter().filter(|own| !OPEN.contains(&own.kind));
+    let own = one.measures.iter().filter(|measure| !OPEN.contains(&measure.kind));
     let pairs = own.filter_map(|first| Some((first, other.measure(&first.key)?)));
     let apart = |(first, second): (&MeasureReport, &MeasureReport)| {
         let factor = factor(first.unit);
         // What is nothing beside others of its unit is made of their rounding.
-        let values = one.measures.iter().filter(|own| own.unit == first.unit);
+        let values = one.measures.iter().filter(|measure| measure.unit == first.unit);
         let largest =
-            values.filter_map(|own| own.value).fold(0.0, |most: f64, own| most.max(own.abs()));
+            values.filter_map(|value| value.value).fold(0.0, |most: f64, own| most.max(own.abs()));
         let is_nothing = |own: Option<f64>, factor: f64| {
             own.is_none_or(|own| factor * own.abs() <= ROUNDING * ROUNDING * largest)
         };
@@ -91,8 +91,9 @@ pub(crate) fn apart(
 /// The distance of two values in sums of their errors, less what rounding makes; infinite where only one
 /// of them has a value, and nothing where one says that it is not known.
 fn sums_apart(one: &MeasureReport, other: &MeasureReport, factor: f64) -> f64 {
-    let is_open =
-        |own: &MeasureReport| own.is_undetermined || own.error.is_some_and(f64::is_infinite);
+    let is_open = |measure_report: &MeasureReport| {
+        measure_report.is_undetermined || measure_report.error.is_some_and(f64::is_infinite)
+    };
     if is_open(one) || is_open(other) {
         return 0.0;
     }

@@ -66,7 +66,7 @@ fn spent() -> f64 {
     const TICKS: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11);
-    fields.take(2).filter_map(|own| own.parse::<f64>().ok()).sum::<f64>() / TICKS
+    fields.take(2).filter_map(|field| field.parse::<f64>().ok()).sum::<f64>() / TICKS
 }
 
 /// Measures one size, in a process of its own, as memory is that of all that a process has done.

@@ -90,7 +90,7 @@ impl Tally {
         let mut is_solved = false;
         let mut first: Option<(Way, Option<RunReport>)> = None;
         for Otherwise { name, as_it_is, way, units } in ways(at) {
-            if first.as_ref().is_none_or(|own| own.0 != as_it_is) {
+            if first.as_ref().is_none_or(|first| first.0 != as_it_is) {
                 first = Some((as_it_is, report(drawn, as_it_is)));
             }
             let Some((_, one)) = &first else { continue };

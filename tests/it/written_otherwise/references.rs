@@ -16,7 +16,7 @@ struct Referred {
 
 impl Referred {
     fn get(&self, name: &str) -> f64 {
-        self.values.iter().find(|own| own.0 == name).unwrap().1
+        self.values.iter().find(|value| value.0 == name).unwrap().1
     }
 
     fn with(&self, name: &str, value: f64) -> Self {
@@ -39,18 +39,18 @@ impl Referred {
 fn referred() -> Vec<Referred> {
     let mut kinds = Vec::new();
     for kind in ELEMENTS {
-        let names = kind.parameters.iter().map(|own| own.name);
+        let names = kind.parameters.iter().map(|parameter| parameter.name);
         if !names.clone().any(|name| name == "at") {
             continue;
         }
         let values = (kind.sample)();
-        let numbers = values.iter().map(|own| own.number().unwrap());
+        let numbers = values.iter().map(|value| value.number().unwrap());
         let own = Referred { kind: kind.word, values: names.zip(numbers).collect() };
         let exponents: &[f64] =
             if kind.word == "power-dashpot" { &[0.5, 3.0] } else { &[1.5, 2.0] };
         kinds.extend(exponents.iter().map(|&exponent| own.with("exponent", exponent)));
     }
-    let mut names: Vec<&str> = kinds.iter().map(|own| own.kind).collect();
+    let mut names: Vec<&str> = kinds.iter().map(|kind| kind.kind).collect();
     names.dedup();
     assert_eq!(names, ["power-spring", "rate-spring", "power-dashpot", "hunt-crossley", "bumper"]);
     kinds
@@ -88,7 +88,8 @@ type Number<'a> = (&'a str, Option<f64>, f64);
 fn numbers(report: &Result<RunReport, String>) -> Result<Vec<Number<'_>>, &String> {
     let report = report.as_ref()?;
     let numbers = report.measures.iter();
-    let numbers = numbers.map(|own| (own.key.as_str(), own.value, own.error.unwrap_or(0.0)));
+    let numbers =
+        numbers.map(|number| (number.key.as_str(), number.value, number.error.unwrap_or(0.0)));
     Ok(numbers.collect())
 }
 

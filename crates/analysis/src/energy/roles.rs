@@ -47,7 +47,7 @@ pub(crate) fn stored(
     deformation: f64,
 ) -> f64 {
     let phased = assembly.switching.as_deref();
-    match phased.and_then(|own| Some((own, own.part_named(&primitive.name)?))) {
+    match phased.and_then(|phased| Some((phased, phased.part_named(&primitive.name)?))) {
         Some((own, part)) if primitive.element.law() == Law::Phased => {
             own.stored(part, phase_at(trajectory, own, part, time), deformation)
         }
@@ -56,13 +56,19 @@ pub(crate) fn stored(
 }
 
 /// The phase of a part just before `time` \[s\].
-fn phase_at(trajectory: &Trajectory, own: &PhasedNetwork, part: usize, time: f64) -> Phase {
+fn phase_at(
+    trajectory: &Trajectory,
+    phased_network: &PhasedNetwork,
+    part: usize,
+    time: f64,
+) -> Phase {
     let first = trajectory.first_phases.get(part);
     let first = first.map(|&(index, memory)| Phase { index, memory });
-    let mut before = trajectory.switches.iter().filter(|own| own.part == part && own.time < time);
+    let mut before =
+        trajectory.switches.iter().filter(|switch| switch.part == part && switch.time < time);
     let last = before.next_back().map(|own| Phase { index: own.phase, memory: own.memory });
     last.or(first)
-        .or_else(|| own.first_phases().get(part).copied())
+        .or_else(|| phased_network.first_phases().get(part).copied())
         .unwrap_or(Phase { index: 0, memory: 0.0 })
 }
 
@@ -76,6 +82,6 @@ pub(crate) fn lost_in_impacts(
         return 0.0;
     }
     let switches = trajectory.switches.iter();
-    let own = switches.filter(|own| own.impulse > 0.0 && own.name == primitive.name);
+    let own = switches.filter(|switch| switch.impulse > 0.0 && switch.name == primitive.name);
     own.filter(|own| window.0 <= own.time && own.time <= window.1).map(|own| own.lost).sum()
 }

@@ -48,9 +48,9 @@ pub(crate) fn keep_also(keep: &Keep, outputs: &BTreeSet<usize>) -> Keep {
 fn products(assembly: &Assembly) -> Option<Vec<[usize; 2]>> {
     let parts = assembly.primitives.iter();
     let parts = parts
-        .filter(|own| Accounts::of(own.element.as_ref()).dissipates && does_work(own))
-        .map(|own| Some([own.force, own.rate?]));
-    let drives = assembly.drives.iter().map(|own| Some([own.force, own.velocity?]));
+        .filter(|part| Accounts::of(part.element.as_ref()).dissipates && does_work(part))
+        .map(|part| Some([part.force, part.rate?]));
+    let drives = assembly.drives.iter().map(|drive| Some([drive.force, drive.velocity?]));
     parts.chain(drives).collect()
 }
 
@@ -60,8 +60,8 @@ fn jumps(assembly: &Assembly) -> Vec<usize> {
         return Vec::new();
     }
     let springs = assembly.primitives.iter();
-    let springs = springs.filter(|own| Accounts::of(own.element.as_ref()).stores);
-    springs.map(|own| own.deformation).collect()
+    let springs = springs.filter(|spring| Accounts::of(spring.element.as_ref()).stores);
+    springs.map(|spring| spring.deformation).collect()
 }
 
 fn outputs(assembly: &Assembly, selected: &[Selected]) -> BTreeSet<usize> {
@@ -75,7 +75,7 @@ fn outputs(assembly: &Assembly, selected: &[Selected]) -> BTreeSet<usize> {
             }
         }
     }
-    let pads = || assembly.connections.iter().filter(|own| !own.segments.is_empty());
+    let pads = || assembly.connections.iter().filter(|connection| !connection.segments.is_empty());
     let all_pads = pads().count() <= MOST_PADS;
     for (at, own) in assembly.connections.iter().enumerate() {
         let is_pad = all_pads && !own.segments.is_empty();
@@ -94,14 +94,18 @@ fn outputs(assembly: &Assembly, selected: &[Selected]) -> BTreeSet<usize> {
     found
 }
 
-fn of_element(assembly: &Assembly, own: &ConnectionOutputs) -> Vec<usize> {
-    let mut found = vec![own.deformation];
-    found.extend([own.force, own.transmitted, own.rate].into_iter().flatten());
-    for segment in &own.segments {
+fn of_element(assembly: &Assembly, connection_outputs: &ConnectionOutputs) -> Vec<usize> {
+    let mut found = vec![connection_outputs.deformation];
+    found.extend(
+        [connection_outputs.force, connection_outputs.transmitted, connection_outputs.rate]
+            .into_iter()
+            .flatten(),
+    );
+    for segment in &connection_outputs.segments {
         found.push(segment.deformation);
         found.extend(segment.force);
     }
-    for part in assembly.primitives.get(own.primitives.clone()).unwrap_or_default() {
+    for part in assembly.primitives.get(connection_outputs.primitives.clone()).unwrap_or_default() {
         found.extend([part.force, part.deformation]);
         found.extend(part.rate);
     }

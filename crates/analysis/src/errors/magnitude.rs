@@ -41,7 +41,7 @@ pub(crate) fn is_open(
     wish: f64,
     largest: impl FnOnce() -> f64,
 ) -> bool {
-    let Some((value, error)) = reading.value.zip(error.filter(|own| own.is_finite())) else {
+    let Some((value, error)) = reading.value.zip(error.filter(|error| error.is_finite())) else {
         return false;
     };
     error > value.abs() && error > wish * reading.size && error > FAR_BEYOND * largest()

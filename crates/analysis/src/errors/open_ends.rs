@@ -7,7 +7,7 @@ use crate::{
         accuracy::excess,
         solved::{Solved, Task},
     },
-    solution::{doubt_at, grazes},
+    solution::{threshold_at, undecided_releases},
 };
 
 /// An impact that may end where its force comes within its error of zero and pushes on.
@@ -35,12 +35,12 @@ impl OpenEnd {
         errors: &mut [Option<f64>],
     ) -> Option<Self> {
         let (finest, others) = solved.split_last()?;
-        let ends = grazes(
+        let ends = undecided_releases(
             &finest.as_read(task.assembly),
-            &|| others.iter().map(|own| own.as_read(task.assembly)).collect(),
-            doubt_at(Some(finest.rtol)),
+            &|| others.iter().map(|other| other.as_read(task.assembly)).collect(),
+            threshold_at(Some(finest.rtol)),
         );
-        let time = ends.iter().map(|own| own.1).reduce(f64::min)?;
+        let time = ends.iter().map(|end| end.1).reduce(f64::min)?;
         let earlier = task.read(&mut finest.as_read(task.assembly).ending(ends));
         let (mut measures, mut undecided, mut most) = (Vec::new(), Vec::new(), 0.0_f64);
         for (at, ((error, own), other)) in
@@ -82,7 +82,7 @@ pub(crate) fn cover_switching(
         return;
     }
     let longer = finest.trajectory.dense.margin();
-    let last = finest.trajectory.switches.last().map(|own| t_end - own.time);
+    let last = finest.trajectory.switches.last().map(|switch| t_end - switch.time);
     let shorter = last.filter(|since| *since <= OF_INSTANTS * finest.rtol * t_end);
     let shorter = shorter.map(|since| -AMPLE * since.max(4.0 * f64::EPSILON * t_end));
     for change in longer.into_iter().chain(shorter) {

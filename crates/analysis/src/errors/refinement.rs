@@ -16,7 +16,7 @@ use crate::{
         solved::{Solved, Task},
     },
     measures::selection::Selected,
-    solution::doubt_at,
+    solution::threshold_at,
 };
 
 /// At how many tolerances in a row a run may find no way on from one and the same instant before none is
@@ -186,11 +186,11 @@ impl Task<'_> {
 
     /// Reads solutions again with the doubts about their contact forces that all of them together
     /// leave.
-    fn settle_doubts(&self, solved: &mut [Solved]) {
-        let doubts = doubts(solved);
-        for (solved, doubt) in solved.iter_mut().zip(doubts) {
-            if solved.doubt.to_bits() != doubt.to_bits() {
-                solved.doubt = doubt;
+    fn settle_undecided(&self, solved: &mut [Solved]) {
+        let thresholds = thresholds(solved);
+        for (solved, threshold) in solved.iter_mut().zip(thresholds) {
+            if solved.threshold.to_bits() != threshold.to_bits() {
+                solved.threshold = threshold;
                 let readings = self.read(&mut solved.as_read(self.assembly));
                 solved.readings = readings;
             }
@@ -258,7 +258,7 @@ impl Task<'_> {
     /// make it so.
     fn is_done(&self, run: &Run, descent: &mut Descent) -> bool {
         descent.obstacle = None;
-        self.settle_doubts(&mut descent.last);
+        self.settle_undecided(&mut descent.last);
         let bars = self.bars(run, &descent.last);
         let Some(finest) = descent.last.last_mut() else { return false };
         self.settle_zeros(finest, &bars.errors);
@@ -362,7 +362,7 @@ impl Task<'_> {
 fn one_too_many(before: &[Solved], next: &Solved) -> Option<SolveError> {
     let others = before.iter().rev().take(SOLUTIONS - 1).map(|own| &own.trajectory);
     let trajectory = &next.trajectory;
-    let bytes = others.chain([trajectory]).map(|own| own.dense.bytes()).sum();
+    let bytes = others.chain([trajectory]).map(|other| other.dense.bytes()).sum();
     let (time, steps) = (trajectory.t_end, trajectory.statistics.accepted);
     let error = SolveError::TooLarge { method: trajectory.method, time, steps, bytes };
     (bytes > MOST_KEPT).then_some(error)
@@ -389,14 +389,14 @@ fn tolerances(finest: Option<f64>) -> Vec<f64> {
 /// all agree on it, it is not in doubt however shallow. Where they do not, and it is not negligible,
 /// it is left open: all but the finest solution are read as if there were no doubt, so that what hangs
 /// on it shows in the error.
-fn doubts(solved: &[Solved]) -> Vec<f64> {
+fn thresholds(solved: &[Solved]) -> Vec<f64> {
     /// How much deeper one pull may be than another that is the same.
     const SAME: f64 = 1.5;
     /// Part of the largest force up to which a pull is none.
     const NEGLIGIBLE: f64 = 1e-10;
-    let mut doubts: Vec<f64> = solved.iter().map(|own| doubt_at(Some(own.rtol))).collect();
-    let Some((finest, others)) = solved.split_last() else { return doubts };
-    let own_doubt = doubt_at(Some(finest.rtol));
+    let mut thresholds: Vec<f64> = solved.iter().map(|own| threshold_at(Some(own.rtol))).collect();
+    let Some((finest, others)) = solved.split_last() else { return thresholds };
+    let own_threshold = threshold_at(Some(finest.rtol));
     let (mut least, mut is_open) = (f64::INFINITY, false);
     for (at, fine) in finest.pulls.iter().enumerate() {
         let Some(fine) = *fine else { continue };
@@ -404,16 +404,16 @@ fn doubts(solved: &[Solved]) -> Vec<f64> {
         let pulls = others.iter().map(|other| other.pulls.get(at).copied().flatten());
         match pulls.map(|pull| pull.filter(is_same)).collect::<Option<Vec<f64>>>() {
             Some(pulls) => least = least.min(0.5 * pulls.into_iter().fold(fine, f64::min)),
-            None => is_open |= fine > NEGLIGIBLE && fine < own_doubt.min(least),
+            None => is_open |= fine > NEGLIGIBLE && fine < own_threshold.min(least),
         }
     }
-    for doubt in &mut doubts {
-        *doubt = doubt.min(least);
+    for threshold in &mut thresholds {
+        *threshold = threshold.min(least);
     }
-    if is_open && let Some((_, others)) = doubts.split_last_mut() {
+    if is_open && let Some((_, others)) = thresholds.split_last_mut() {
         others.fill(0.0);
     }
-    doubts
+    thresholds
 }
 
 /// Whether another tolerance would change nothing about the error.

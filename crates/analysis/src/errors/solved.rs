@@ -11,7 +11,7 @@ use crate::{
     errors::keep::keep_also,
     impact::sliders::slider_fault,
     measures::selection::Selected,
-    solution::{Known, doubt_at},
+    solution::{Known, threshold_at},
 };
 
 /// Work of reading a panel of a signal.
@@ -30,7 +30,7 @@ pub(crate) struct Task<'a> {
 pub(crate) struct Solved {
     pub(crate) rtol: f64,
     /// Part of the largest contact force below which a pull counts as an error of the method.
-    pub(crate) doubt: f64,
+    pub(crate) threshold: f64,
     /// The most that a contact pulls with, in parts of what it pushes with.
     pub(crate) tension: f64,
     /// How deep each contact force first pulls.
@@ -45,7 +45,7 @@ pub(crate) struct Solved {
 impl Solved {
     /// The solution as the measures have been read off it.
     pub(crate) fn as_read<'a>(&'a self, assembly: &'a Assembly) -> Solution<'a> {
-        Solution::new(assembly, &self.trajectory).doubting(self.doubt)
+        Solution::new(assembly, &self.trajectory).doubting(self.threshold)
     }
 
     /// What is to be said of a solution in which so much energy is missing, or too much, that nothing of it
@@ -102,12 +102,12 @@ impl Task<'_> {
             None => self.method.integrate(&self.assembly.system, run, observer)?,
             Some(phased) => switching::integrate(self.method, phased.as_ref(), run, observer)?,
         };
-        let doubt = doubt_at((!self.method.is_exact()).then_some(run.rtol));
-        let mut solution = Solution::new(self.assembly, &trajectory).doubting(doubt);
+        let threshold = threshold_at((!self.method.is_exact()).then_some(run.rtol));
+        let mut solution = Solution::new(self.assembly, &trajectory).doubting(threshold);
         let readings = self.read_under(&mut solution, observer)?;
-        let pulls = if doubt > 0.0 { solution.first_pulls() } else { Vec::new() };
-        let tension = if doubt > 0.0 { solution.tension() } else { None };
-        let tension = tension.map_or(0.0, |own| own.part);
+        let pulls = if threshold > 0.0 { solution.first_pulls() } else { Vec::new() };
+        let tension = if threshold > 0.0 { solution.tension() } else { None };
+        let tension = tension.map_or(0.0, |tension| tension.part);
         let energy = ledger(&solution, solution.end());
         run.budget.charge(solution.panels() * READING);
         if self.method.is_exact() && run.budget.is_spent() {
@@ -118,7 +118,10 @@ impl Task<'_> {
         let missing = solution.missing();
         let known = Some(solution.known()).filter(|_| self.is_single());
         let rtol = run.rtol;
-        Ok((Solved { rtol, doubt, tension, pulls, trajectory, readings, energy, known }, missing))
+        Ok((
+            Solved { rtol, threshold, tension, pulls, trajectory, readings, energy, known },
+            missing,
+        ))
     }
 
     /// The measures of a solution, whose signals may not be made before. The observer is told of each.

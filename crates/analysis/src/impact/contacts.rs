@@ -56,10 +56,10 @@ fn separates(assembly: &Assembly, at: usize) -> bool {
 /// whether it pushes or pulls.
 fn is_slider(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
     let parts = parts(assembly, connection);
-    let slides = |own: &PrimitiveOutputs| {
-        own.element.law() == Law::Phased
-            && !is_contact(own)
-            && !Accounts::of(own.element.as_ref()).stores
+    let slides = |primitive_outputs: &PrimitiveOutputs| {
+        primitive_outputs.element.law() == Law::Phased
+            && !is_contact(primitive_outputs)
+            && !Accounts::of(primitive_outputs.element.as_ref()).stores
     };
     !parts.is_empty() && parts.iter().all(slides)
 }
@@ -71,8 +71,8 @@ pub(crate) fn is_glued(assembly: &Assembly, at: usize) -> bool {
 }
 
 /// Whether an impulse acts in a contact that was closed and stays so.
-pub(crate) fn stays_closed(own: &Switch) -> bool {
-    own.time > 0.0 && own.phase > 0 && own.what == IMPACT
+pub(crate) fn stays_closed(switch: &Switch) -> bool {
+    switch.time > 0.0 && switch.phase > 0 && switch.what == IMPACT
 }
 
 /// Free masses that nothing but one contact touches, where it is open at the end of a run: the
@@ -98,7 +98,7 @@ pub(crate) fn left_for_good<'a>(
     };
     let left = assembly.connections.iter().enumerate().filter_map(|(at, connection)| {
         let node = connection.between.map(NodeId::index).into_iter().find(is_alone)?;
-        let own = parts(assembly, connection).iter().filter(|own| is_contact(own));
+        let own = parts(assembly, connection).iter().filter(|part| is_contact(part));
         let mut switched = own.filter_map(|own| last.get(own.name.as_str()));
         let opened = switched.next_back().filter(|switch| switch.phase == 0)?;
         let pad = assembly.pad_behind(at);
@@ -130,11 +130,11 @@ pub(crate) fn meetings_after(
     };
     let mut was_open: HashMap<usize, bool> = HashMap::new();
     let mut count = 0;
-    for own in &trajectory.switches {
-        let Some(is_open) = opens(own, own.phase, own.memory) else { continue };
-        let before = was_open.insert(own.part, is_open).unwrap_or(!is_open);
-        let meets = if own.impulse > 0.0 { !stays_closed(own) } else { before && !is_open };
-        count += usize::from(meets && own.time > time);
+    for switch in &trajectory.switches {
+        let Some(is_open) = opens(switch, switch.phase, switch.memory) else { continue };
+        let before = was_open.insert(switch.part, is_open).unwrap_or(!is_open);
+        let meets = if switch.impulse > 0.0 { !stays_closed(switch) } else { before && !is_open };
+        count += usize::from(meets && switch.time > time);
     }
     count
 }

@@ -145,16 +145,17 @@ impl Struck<'_> {
         let fall = |level: f64| self.padding.first_crossing(level, window, Some(false));
         let most = most.max(self.padding.maximum(within(window)).value - rest);
         let fallen = fall(rest).or_else(|| fall(rest + SLIGHT * most));
-        let fallen = fallen.map(|own| {
+        let fallen = fallen.map(|fallen| {
             let shift = |error: f64| {
-                (error / own.slope.abs()).min(self.run_end) + 4.0 * f64::EPSILON * own.time
+                (error / fallen.slope.abs()).min(self.run_end) + 4.0 * f64::EPSILON * fallen.time
             };
-            Impact { end: own.time, end_error: self.padding.error.map(shift), ..last }
+            Impact { end: fallen.time, end_error: self.padding.error.map(shift), ..last }
         });
         let run = Impact { start: last.end, end: self.run_end, end_error: Some(0.0), ..last };
         let run = Impact { contact: Contact::Lasting, ..run };
         let rested = Some(Impact::of_push(self.padding, run, NO_PULL));
-        let rested = rested.filter(|own| own.contact == Contact::Parted && own.end <= until);
+        let rested =
+            rested.filter(|rested| rested.contact == Contact::Parted && rested.end <= until);
         let earlier = |one: Impact, other: Impact| if other.end < one.end { other } else { one };
         Some(fallen.into_iter().chain(rested).reduce(earlier).unwrap_or(run))
     }

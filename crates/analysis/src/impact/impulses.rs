@@ -36,7 +36,7 @@ pub(crate) fn by_connection(
     assembly: &Assembly,
     trajectory: &Trajectory,
 ) -> Vec<Vec<VelocityJump>> {
-    let mut impacts = trajectory.switches.iter().filter(|own| own.impulse > 0.0).peekable();
+    let mut impacts = trajectory.switches.iter().filter(|switch| switch.impulse > 0.0).peekable();
     if impacts.peek().is_none() {
         return Vec::new();
     }
@@ -47,9 +47,13 @@ pub(crate) fn by_connection(
             owner.insert(&primitive.name, at);
         }
     }
-    for own in impacts {
-        if let Some(&at) = owner.get(own.name.as_str()) {
-            found[at].push(VelocityJump { time: own.time, impulse: own.impulse, lost: own.lost });
+    for impact in impacts {
+        if let Some(&at) = owner.get(impact.name.as_str()) {
+            found[at].push(VelocityJump {
+                time: impact.time,
+                impulse: impact.impulse,
+                lost: impact.lost,
+            });
         }
     }
     found
@@ -72,15 +76,17 @@ pub(crate) fn on_body(
             (false, true) => 1.0,
             _ => continue,
         };
-        signed.extend(blows.iter().map(|own| VelocityJump { impulse: sign * own.impulse, ..*own }));
+        signed.extend(
+            blows.iter().map(|blow| VelocityJump { impulse: sign * blow.impulse, ..*blow }),
+        );
     }
     signed.sort_by(|one, other| one.time.total_cmp(&other.time));
     let same = |one: &VelocityJump, other: &VelocityJump| one.time.total_cmp(&other.time).is_eq();
     let sums = signed.chunk_by(same).filter_map(|blows| {
         let first = blows.first()?;
-        let impulse: f64 = blows.iter().map(|own| own.impulse).sum();
-        let size: f64 = blows.iter().map(|own| own.impulse.abs()).sum();
-        let lost = blows.iter().map(|own| own.lost).sum();
+        let impulse: f64 = blows.iter().map(|blow| blow.impulse).sum();
+        let size: f64 = blows.iter().map(|blow| blow.impulse.abs()).sum();
+        let lost = blows.iter().map(|blow| blow.lost).sum();
         (impulse.abs() > PASSED_ON * size).then_some(VelocityJump {
             time: first.time,
             impulse,

@@ -42,7 +42,7 @@ pub(crate) fn idle_times(solution: &Solution<'_>) -> Vec<Idle> {
         assembly
             .primitives
             .iter()
-            .any(|own| own.element.phases().is_some_and(|own| own.capacity().is_some()))
+            .any(|primitive| primitive.element.phases().is_some_and(|own| own.capacity().is_some()))
     };
     let Some(network) = assembly.switching.as_ref().filter(|_| has_sliders()) else {
         return Vec::new();
@@ -123,9 +123,10 @@ impl fmt::Display for SliderFault {
 
 /// The first thing that a slider does and cannot.
 pub(crate) fn slider_fault(solution: &Solution<'_>, energy: &Ledger) -> Option<SliderFault> {
-    let mut sliders = solution.assembly().primitives.iter().filter_map(|own| {
-        let capacity = own.element.phases()?.capacity()?;
-        (solution.keeps(own.force) && solution.keeps(own.deformation)).then_some((own, capacity))
+    let mut sliders = solution.assembly().primitives.iter().filter_map(|primitive| {
+        let capacity = primitive.element.phases()?.capacity()?;
+        (solution.keeps(primitive.force) && solution.keeps(primitive.deformation))
+            .then_some((primitive, capacity))
     });
     let mut largest = None;
     sliders.find_map(|(own, capacity)| {
@@ -155,7 +156,7 @@ pub(crate) fn slider_fault(solution: &Solution<'_>, energy: &Ledger) -> Option<S
 
 /// The largest force in any element \[N\].
 fn largest_force(solution: &Solution<'_>) -> f64 {
-    let forces = solution.assembly().connections.iter().filter_map(|own| own.force);
+    let forces = solution.assembly().connections.iter().filter_map(|connection| connection.force);
     let kept = forces.filter(|&force| solution.keeps(force));
     kept.map(|force| {
         let force = solution.glance(force);
@@ -239,7 +240,7 @@ mod tests {
             let place = solution.signal(solution.assembly().node("head").unwrap().position);
             assert!((place.value(2.0) - 1.5).abs() < 1e-3, "{}", place.value(2.0));
             let times = idle_times(&solution);
-            assert!(times.iter().any(|own| (own.from - 1.0).abs() < 1e-3 && own.to > 1.999));
+            assert!(times.iter().any(|time| (time.from - 1.0).abs() < 1e-3 && time.to > 1.999));
         }
     }
 
@@ -257,7 +258,11 @@ mod tests {
         assert_eq!(slider_fault(&report.solution(), &energy), None);
         // The same motion, of a slider that can hold half as much.
         let mut assembly = (*report.assembly).clone();
-        let own = assembly.primitives.iter_mut().find(|own| own.name == "guard.friction").unwrap();
+        let own = assembly
+            .primitives
+            .iter_mut()
+            .find(|primitive| primitive.name == "guard.friction")
+            .unwrap();
         own.element = Arc::new(Friction { force: 1.5 });
         report.assembly = Arc::new(assembly);
         let fault = slider_fault(&report.solution(), &energy).unwrap();

@@ -89,8 +89,8 @@ fn work(solution: &Solution<'_>, (target, force): (usize, &Signal), span: &Span)
     let area = |signal: &Signal| signal.area_bound(window);
     let noise = force.noise * area(&rate) + rate.noise * area(force);
     let jumps = VelocityJump::within(solution.element_jumps(target), window);
-    let lost: f64 = jumps.iter().map(|own| own.lost).sum();
-    let push: f64 = jumps.iter().map(|own| own.impulse).sum();
+    let lost: f64 = jumps.iter().map(|jump| jump.lost).sum();
+    let push: f64 = jumps.iter().map(|jump| jump.impulse).sum();
     // What is lost changes with the speeds by no more than the impulse.
     let of_approach = if lost == 0.0 { None } else { solution.approach(connection).error };
     let error_of_lost = of_approach.map(|error| push * error);

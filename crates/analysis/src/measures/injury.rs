@@ -72,7 +72,7 @@ impl MeasureKind for SeverityIndex {
         }
         let unit = solution.body_mass(target) * STANDARD_GRAVITY;
         let jumps = VelocityJump::within(&jumps, span.window());
-        let sum = jumps.iter().map(|own| own.impulse.abs() / unit).sum();
+        let sum = jumps.iter().map(|jump| jump.impulse.abs() / unit).sum();
         let error = solution.velocity_error(target).map(|error| 2.0 * error / STANDARD_GRAVITY);
         let error = error.map(|each| jumps.iter().map(|_| each).sum());
         Ok(reading.plus(sum, sum, error))
@@ -125,7 +125,7 @@ impl MeasureKind for Hic {
         let is_at_end = found.interval.1 >= span.to;
         let last = if is_at_end { acceleration.left_value(span.to).abs() } else { 0.0 };
         let error = acceleration.error.zip(span.to_error).map(|(error, shift)| {
-            growth * (error * length + last * shift) + found.doubt + 1e-13 * found.value
+            growth * (error * length + last * shift) + found.threshold + 1e-13 * found.value
         });
         let reading = Reading::over(&span, found.value, error).changing(growth * last);
         Ok(Reading { window: Some(found.interval), ..reading })

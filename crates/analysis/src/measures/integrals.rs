@@ -25,7 +25,7 @@ impl MeasureKind for Impulse {
         let span = solution.element_span(target, self.window)?;
         let connection = &solution.assembly().connections[target];
         let jumps = VelocityJump::within(solution.element_jumps(target), span.window());
-        let sum: f64 = jumps.iter().map(|own| own.impulse).sum();
+        let sum: f64 = jumps.iter().map(|jump| jump.impulse).sum();
         // An impulse is the lighter side's mass times no more than twice the speed of approach.
         let mass = connection.between.map(|end| {
             let at = end.index();
@@ -65,8 +65,8 @@ impl MeasureKind for AverageDeceleration {
         }
         let jumps = VelocityJump::within(&jumps, span.window());
         let mass = solution.body_mass(target);
-        let jump: f64 = jumps.iter().map(|own| own.impulse / mass).sum();
-        let size: f64 = jumps.iter().map(|own| own.impulse.abs() / mass).sum();
+        let jump: f64 = jumps.iter().map(|jump| jump.impulse / mass).sum();
+        let size: f64 = jumps.iter().map(|jump| jump.impulse.abs() / mass).sum();
         let error = solution.velocity_error(target).map(|error| 2.0 * error);
         let error = error.map(|each| jumps.iter().map(|_| each).sum());
         let mean = Reading::integral(acceleration, &span).plus(jump, size, error).mean(&span);

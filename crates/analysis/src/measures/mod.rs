@@ -75,7 +75,7 @@ impl Needs {
             }
             Self::Area => {
                 let segments = &assembly.connections[target].segments;
-                segments.iter().all(|own| own.area.is_none()).then_some(Note::NoArea)
+                segments.iter().all(|segment| segment.area.is_none()).then_some(Note::NoArea)
             }
         }
     }
@@ -143,7 +143,9 @@ pub trait MeasureKind: Kind + Default {
     /// another scale has otherwise: itself, or for a kind with a fixed time one of another kind. `None`
     /// where no kind has its time for a parameter.
     fn general(&self) -> Option<Arc<dyn Measure>> {
-        Self::from_values(&self.values()).ok().map(|own| Arc::new(own) as Arc<dyn Measure>)
+        Self::from_values(&self.values())
+            .ok()
+            .map(|from_value| Arc::new(from_value) as Arc<dyn Measure>)
     }
 
     /// Reads the measure off `solution` for the element or node number `target`.
@@ -250,8 +252,9 @@ pub static MEASURES: &[MeasureEntry] = &[
 /// The measures of a family that every run reports, with or without an impactor, in the order of
 /// the register.
 pub fn by_default(family: Family, has_impactor: bool) -> Vec<Arc<dyn Measure>> {
-    let is_reported =
-        |own: &MeasureTraits| if has_impactor { own.by_default } else { own.without_impactor };
+    let is_reported = |measure_traits: &MeasureTraits| {
+        if has_impactor { measure_traits.by_default } else { measure_traits.without_impactor }
+    };
     let all = MEASURES.iter().map(|own| own.about);
     all.filter(|own| own.family == family && is_reported(own)).map(|own| (own.default)()).collect()
 }

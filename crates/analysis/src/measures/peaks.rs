@@ -94,7 +94,7 @@ impl MeasureKind for PeakRate {
         // At a jump the rates on both sides count, also that before the span.
         let jumps = VelocityJump::within(solution.element_jumps(target), (span.from, span.from));
         let before =
-            jumps.first().map_or(0.0, |own| solution.approach_before(connection, own.time).abs());
+            jumps.first().map_or(0.0, |jump| solution.approach_before(connection, jump.time).abs());
         if reading.value.is_none_or(|value| value >= before) {
             return Ok(reading);
         }

@@ -31,7 +31,7 @@ impl MeasureKind for PeakStress {
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let connection = &solution.assembly().connections[target];
         let segments = connection.segments.iter();
-        let with_area = segments.filter_map(|own| Some((own, own.area?)));
+        let with_area = segments.filter_map(|segment| Some((segment, segment.area?)));
         if with_area.clone().next().is_none() {
             return Err(Note::NoArea);
         }
@@ -73,7 +73,8 @@ impl MeasureKind for PeakStrain {
         }
         let span = solution.element_span(target, self.window)?;
         let segments = connection.segments.iter();
-        let deformations = segments.map(|own| (own, own.deformation, own.thickness));
+        let deformations =
+            segments.map(|segment| (segment, segment.deformation, segment.thickness));
         let reading =
             largest(solution, &span, deformations, Note::InElongation).ok_or(Note::NoThickness)?;
         // The note is on the largest strain, unless that is one in elongation.

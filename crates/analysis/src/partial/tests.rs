@@ -65,7 +65,7 @@ fn put_back(partial: &Partial) -> Vec<&str> {
 }
 
 fn values(report: &RunReport) -> Vec<Option<u64>> {
-    report.measures.iter().map(|own| own.value.map(f64::to_bits)).collect()
+    report.measures.iter().map(|measure| measure.value.map(f64::to_bits)).collect()
 }
 
 /// The measure that differs the most between two runs, and by how much.

@@ -79,8 +79,8 @@ impl Candidate {
 }
 
 impl From<Candidate> for Neglected {
-    fn from(own: Candidate) -> Self {
-        Self { effect: own.name, influence: own.influence, alone: own.alone }
+    fn from(candidate: Candidate) -> Self {
+        Self { effect: candidate.name, influence: candidate.influence, alone: candidate.alone }
     }
 }
 
@@ -145,13 +145,14 @@ impl<'n> Trial<'n> {
 
 /// The first element that pulls in the reduced run, where it parts in the full one.
 fn pulls(full: &RunReport, reduced: &RunReport) -> Option<Why> {
-    let parts =
-        |element: &str| full.contacts.iter().any(|own| own.element == element && !own.is_glued);
-    let pulling = reduced.contacts.iter().find(|own| {
-        own.is_glued
-            && own.impact.contact == Contact::Released
-            && own.impact.end < reduced.trajectory.t_end
-            && parts(&own.element)
+    let parts = |element: &str| {
+        full.contacts.iter().any(|contact| contact.element == element && !contact.is_glued)
+    };
+    let pulling = reduced.contacts.iter().find(|contact| {
+        contact.is_glued
+            && contact.impact.contact == Contact::Released
+            && contact.impact.end < reduced.trajectory.t_end
+            && parts(&contact.element)
     })?;
     Some(Why::Pulls { element: pulling.element.clone(), time: pulling.impact.end })
 }
@@ -188,7 +189,7 @@ pub(super) fn settle(
 ) -> Result<Vec<Reduced>, RunError> {
     let mut first = true;
     'again: while !candidates.is_empty() {
-        let details: Vec<Detail> = candidates.iter().map(|own| own.detail).collect();
+        let details: Vec<Detail> = candidates.iter().map(|candidate| candidate.detail).collect();
         let mut passed = Vec::new();
         for trial in &mut *trials {
             let why = match trial.without(&details, observer)? {
@@ -233,17 +234,17 @@ fn apart(
 ) -> Result<(), RunError> {
     let mut failed = Vec::new();
     let mut kept = Vec::new();
-    for mut own in candidates.drain(..) {
-        match trial.without(&[own.detail], observer)? {
+    for mut candidate in candidates.drain(..) {
+        match trial.without(&[candidate.detail], observer)? {
             Ok((_, _, comparison)) => {
                 let is_within = comparison.is_within(bound);
-                own.alone = comparison.worst().cloned();
-                match own.alone.clone().filter(|_| !is_within) {
-                    Some(cost) => failed.push((cost.most(), own.put_back(Why::Moves(cost)))),
-                    None => kept.push(own),
+                candidate.alone = comparison.worst().cloned();
+                match candidate.alone.clone().filter(|_| !is_within) {
+                    Some(cost) => failed.push((cost.most(), candidate.put_back(Why::Moves(cost)))),
+                    None => kept.push(candidate),
                 }
             }
-            Err(why) => failed.push((f64::INFINITY, own.put_back(why))),
+            Err(why) => failed.push((f64::INFINITY, candidate.put_back(why))),
         }
     }
     failed.sort_by(|one, other| other.0.total_cmp(&one.0));

@@ -136,7 +136,7 @@ impl fmt::Display for Blow {
 
 impl fmt::Display for Event {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let told = |blow: &Option<Blow>| blow.map_or(String::new(), |own| format!(": {own}"));
+        let told = |blow: &Option<Blow>| blow.map_or(String::new(), |blow| format!(": {blow}"));
         let again = |again: &bool| if *again { " again" } else { "" };
         match self {
             Self::Condition { stop, unit } => write!(f, "{}", stop.text(unit)),

@@ -63,7 +63,7 @@ pub struct SolverReport {
     /// Its relative tolerance; `None` for a method that has none.
     pub rtol: Option<f64>,
     /// The part of the largest contact force below which a pull counts as an error of the method.
-    pub doubt: f64,
+    pub threshold: f64,
     /// Work done for the solution that is reported.
     pub statistics: Statistics,
     /// Further solutions, from which the errors come.
@@ -191,7 +191,7 @@ impl RunReport {
 
     /// The solution, for further measures, series and plots.
     pub fn solution(&self) -> Solution<'_> {
-        Solution::new(&self.assembly, &self.trajectory).doubting(self.solver.doubt)
+        Solution::new(&self.assembly, &self.trajectory).doubting(self.solver.threshold)
     }
 
     /// Kinetic energy of the impactors at the start \[J\]; 0 without any, and for those that are

@@ -277,7 +277,7 @@ fn listed(entries: &[String]) -> String {
 }
 
 fn quoted(names: &[String]) -> String {
-    listed(&names.iter().map(|own| format!("`{own}`")).collect::<Vec<_>>())
+    listed(&names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>())
 }
 
 fn why(obstacle: Option<&SolveError>) -> String {

@@ -29,7 +29,8 @@ impl Shaker {
         let assembly = network.compile(time)?;
         let force = assembly.connections.first().and_then(|connection| connection.force);
         let force = force.ok_or(Obstacle::Undetermined)?;
-        let amplitude = assembly.system.waveforms.first().map_or(0.0, |own| own.pieces()[0].sine);
+        let amplitude =
+            assembly.system.waveforms.first().map_or(0.0, |waveform| waveform.pieces()[0].sine);
         Ok(Self { system: assembly.system, force, amplitude })
     }
 
@@ -47,7 +48,7 @@ impl Shaker {
         let system = &self.system;
         let s = Complex::new(0.0, omega * system.time_scale);
         let inputs: Vec<Complex<f64>> =
-            system.inputs.iter().map(|own| s.powu(own.derivative) * self.amplitude).collect();
+            system.inputs.iter().map(|input| s.powu(input.derivative) * self.amplitude).collect();
         let count = system.len();
         let mut matrix = DMatrix::<Complex<f64>>::zeros(count, count);
         for (row, column, value) in system.jacobian.triplet_iter() {

@@ -200,6 +200,6 @@ mod tests {
     fn nothing_differs_from_nothing_by_nothing() {
         let track = Track { values: vec![Some(0.0)], error: None };
         let series = series("force", "N", &[1.0], vec![0.0], [&track]);
-        assert_eq!(series.computed[0].difference.map(|own| own.relative), Some(0.0));
+        assert_eq!(series.computed[0].difference.map(|difference| difference.relative), Some(0.0));
     }
 }

@@ -105,7 +105,8 @@ fn tracks(
     let network = seed.map_or_else(|| rig.network(), |seed| rig.shaken(seed).network());
     let network = network.ok_or(Obstacle::ChangesAtOnce)?;
     let mut assembly = network.compile(reach)?;
-    let numbers: Option<Vec<usize>> = rig.outputs.iter().map(|own| assembly.output(own)).collect();
+    let numbers: Option<Vec<usize>> =
+        rig.outputs.iter().map(|output| assembly.output(output)).collect();
     let numbers = numbers.ok_or(Obstacle::Undetermined)?;
     if let Some(seed) = seed {
         shake(&mut assembly.system, seed);
@@ -129,7 +130,8 @@ fn check_width(system: &System, reach: f64) -> Result<(), Obstacle> {
     let end = reach / system.time_scale;
     let width = fastest * end;
     let is_sloped = |own: &Waveform, time: f64| own.piece_at(time).derivative(1, time) != 0.0;
-    let is_line = |own: &Waveform| [0.0, 0.5 * end].iter().any(|&time| is_sloped(own, time));
+    let is_line =
+        |waveform: &Waveform| [0.0, 0.5 * end].iter().any(|&time| is_sloped(waveform, time));
     let is_together = is_coupled || system.waveforms.iter().any(is_line);
     if is_together && system.len() > FEW && width > WIDE {
         return Err(Obstacle::TooWide { unknowns: system.len(), decades: width.log10() });

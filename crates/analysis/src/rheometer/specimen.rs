@@ -98,9 +98,9 @@ impl Specimen {
         let delayed: Vec<Model> = form
             .elements()
             .iter()
-            .map(|own| {
-                let spring = part(Spring { stiffness: own.stiffness });
-                Model::parallel([spring, part(Dashpot { damping: own.damping })])
+            .map(|element| {
+                let spring = part(Spring { stiffness: element.stiffness });
+                Model::parallel([spring, part(Dashpot { damping: element.damping })])
             })
             .collect();
         if !delayed.is_empty() {
@@ -133,16 +133,21 @@ impl Specimen {
         let is_positive = |value: f64| value.is_finite() && value > 0.0;
         let maxwell = self.linear.maxwell().is_none_or(|form| {
             let elements = form.elements();
-            let mut all = elements
-                .iter()
-                .flat_map(|own| [own.stiffness, own.damping, own.relaxation_time, own.rate.high()]);
+            let mut all = elements.iter().flat_map(|element| {
+                [element.stiffness, element.damping, element.relaxation_time, element.rate.high()]
+            });
             is_good(form.spring()) && is_good(form.dashpot()) && all.all(is_positive)
         });
         maxwell
             && self.linear.kelvin().is_none_or(|form| {
                 let elements = form.elements();
-                let mut all = elements.iter().flat_map(|own| {
-                    [own.compliance, own.damping, own.retardation_time, own.rate.high()]
+                let mut all = elements.iter().flat_map(|element| {
+                    [
+                        element.compliance,
+                        element.damping,
+                        element.retardation_time,
+                        element.rate.high(),
+                    ]
                 });
                 is_good(form.spring_compliance())
                     && is_good(form.fluidity())

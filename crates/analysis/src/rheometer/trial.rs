@@ -66,7 +66,7 @@ impl<'a> Trial<'a> {
     /// The answer over time.
     pub(super) fn series(&self) -> Series {
         let model = self.instants.iter().map(|&at| self.answer(at)).collect();
-        let tracks = self.simulations.iter().filter_map(|own| own.tracks.first());
+        let tracks = self.simulations.iter().filter_map(|simulation| simulation.tracks.first());
         let (name, unit) = match self.control {
             Control::Force => ("deformation", "m"),
             Control::Deformation => ("force", "N"),
@@ -87,7 +87,7 @@ impl<'a> Trial<'a> {
         }
         let of = |name: &'static str, value: fn(&Parts) -> f64| {
             let track = names.iter().position(|&known| known == name);
-            let tracks = simulations.iter().filter_map(|own| own.tracks.get(track?));
+            let tracks = simulations.iter().filter_map(|simulation| simulation.tracks.get(track?));
             series(name, "m", &self.times, parts.iter().map(value).collect(), tracks)
         };
         vec![
@@ -104,10 +104,10 @@ impl<'a> Trial<'a> {
             Control::Deformation => ("deformation", "m"),
         };
         let values = self.instants.iter().map(|&at| self.history.value(at)).collect();
-        let computation = |own: &Simulation| Computation {
-            method: own.method,
-            reach: own.reach,
-            obstacle: own.obstacle.clone(),
+        let computation = |simulation: &Simulation| Computation {
+            method: simulation.method,
+            reach: simulation.reach,
+            obstacle: simulation.obstacle.clone(),
         };
         RheometerReport {
             protocol,

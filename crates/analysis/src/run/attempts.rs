@@ -17,7 +17,7 @@ use crate::{
 const FURTHER: u64 = 4;
 /// Work of a method with steps where there are more oscillations than `exact` follows: enough where they are
 /// not excited.
-pub(crate) const HOPELESS: u64 = 2_000_000;
+pub(crate) const UNDEFINED: u64 = 2_000_000;
 /// Work of a method after one that has failed, or as much as that: some seconds.
 const AFTER_ANOTHER: u64 = 200_000_000;
 /// Such work that is always granted: some tenths of a second.
@@ -116,7 +116,7 @@ pub(crate) fn improved(
 ) -> Found {
     // Of second order, the last resort would take too long for what is asked here.
     let last_resort = methods::TrBdf2.name();
-    for other in others.into_iter().rev().filter(|own| own.name() != last_resort) {
+    for other in others.into_iter().rev().filter(|other| other.name() != last_resort) {
         let before = Task { method: found.method.as_ref(), ..*task };
         let is_stuck = found.method.is_exact() || found.outcome.obstacle.is_some();
         if !is_stuck || before.suffices(&found.outcome) {

@@ -30,10 +30,11 @@ pub(super) fn collect(
         Some(EventReport { time: event.time, what, stops: guard.stops })
     });
     let event = |time: f64, what: Event| EventReport { time, what, stops: false };
+    let pulls = contacts
+        .iter()
+        .filter(|contact| contact.is_glued && contact.impact.contact == Contact::Released);
     let pulls =
-        contacts.iter().filter(|own| own.is_glued && own.impact.contact == Contact::Released);
-    let pulls =
-        pulls.map(|own| event(own.impact.end, Event::Tension { element: own.element.clone() }));
+        pulls.map(|pull| event(pull.impact.end, Event::Tension { element: pull.element.clone() }));
     let switchings = switchings(assembly, trajectory);
     let rest = switchings.get(LISTED..).unwrap_or(&[]);
     let summary = rest
@@ -49,51 +50,54 @@ pub(super) fn collect(
 /// What switches, with the time of each \[s\].
 fn switchings(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, Event)> {
     let mut met: Vec<usize> = Vec::new();
-    let begins_struck =
-        |part: usize| trajectory.switches.iter().any(|own| own.part == part && own.time <= 0.0);
+    let begins_struck = |part: usize| {
+        trajectory.switches.iter().any(|switch| switch.part == part && switch.time <= 0.0)
+    };
     let first = trajectory.first_phases.iter().enumerate().map(|(part, phase)| (part, phase.0));
     let lies = |&(part, phase): &(usize, usize)| phase > 0 && !begins_struck(part);
     met.extend(first.filter(lies).map(|(part, _)| part));
     let mut found = Vec::with_capacity(trajectory.switches.len());
-    for own in &trajectory.switches {
-        let again = met.contains(&own.part);
-        let at = assembly.primitives.iter().position(|primitive| primitive.name == own.name);
+    for switch in &trajectory.switches {
+        let again = met.contains(&switch.part);
+        let at = assembly.primitives.iter().position(|primitive| primitive.name == switch.name);
         let what = match at.filter(|&at| is_contact(&assembly.primitives[at])) {
             Some(at) => {
                 if !again {
-                    met.push(own.part);
+                    met.push(switch.part);
                 }
-                of_contact(assembly, own, at, again)
+                of_contact(assembly, switch, at, again)
             }
-            None => Event::Phase { part: own.name.clone(), phase: own.what },
+            None => Event::Phase { part: switch.name.clone(), phase: switch.what },
         };
-        found.push((own.time, what));
+        found.push((switch.time, what));
     }
     found
 }
 
 /// What switches at the contact that is the primitive number `at`.
-fn of_contact(assembly: &Assembly, own: &Switch, at: usize, again: bool) -> Event {
+fn of_contact(assembly: &Assembly, switch: &Switch, at: usize, again: bool) -> Event {
     let owner = assembly.owner(at);
     // A contact that is all of an element goes by the element's name.
-    let is_connection = owner.is_some_and(|at| assembly.connections[at].name == own.name);
-    let name = if is_connection { &own.name } else { assembly.primitives[at].place() };
+    let is_connection = owner.is_some_and(|at| assembly.connections[at].name == switch.name);
+    let name = if is_connection { &switch.name } else { assembly.primitives[at].place() };
     let contact = name.to_owned();
-    let impulse = Blow { impulse: own.impulse, lost: own.lost.max(0.0) };
-    if stays_closed(own) {
-        return if own.lost > 0.0 {
+    let impulse = Blow { impulse: switch.impulse, lost: switch.lost.max(0.0) };
+    if stays_closed(switch) {
+        return if switch.lost > 0.0 {
             Event::Impact { contact, blow: impulse }
         } else {
-            Event::PassesOn { contact, impulse: own.impulse }
+            Event::PassesOn { contact, impulse: switch.impulse }
         };
     }
-    let blow = (own.impulse > 0.0).then_some(impulse);
+    let blow = (switch.impulse > 0.0).then_some(impulse);
     match owner.and_then(|at| sides(assembly, at)) {
         // Where an impulse parts them again at once, they have met all the same.
-        Some(sides) if own.impulse > 0.0 || own.phase > 0 => Event::Meets { sides, again, blow },
+        Some(sides) if switch.impulse > 0.0 || switch.phase > 0 => {
+            Event::Meets { sides, again, blow }
+        }
         Some(sides) => Event::Leaves { sides },
-        None if own.phase > 0 => Event::Closes { contact, again, blow },
-        None if own.impulse > 0.0 => Event::Impact { contact, blow: impulse },
+        None if switch.phase > 0 => Event::Closes { contact, again, blow },
+        None if switch.impulse > 0.0 => Event::Impact { contact, blow: impulse },
         None => Event::Opens { contact },
     }
 }

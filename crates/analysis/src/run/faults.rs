@@ -79,7 +79,8 @@ fn by_faulty(factor: f64) -> Result<RunReport, RunError> {
     let assembly = Arc::new(struck(2e3).compile(settings.duration).unwrap());
     let run = Run::to(settings.duration);
     let selected = select(&assembly, &[]).unwrap();
-    let dashpot = assembly.primitives.iter().find(|own| own.element.kind() == "dashpot").unwrap();
+    let dashpot =
+        assembly.primitives.iter().find(|primitive| primitive.element.kind() == "dashpot").unwrap();
     let faulty = Faulty { output: dashpot.force, factor };
     let task =
         Task { assembly: &assembly, settings: &settings, selected: &selected, method: &faulty };
@@ -89,7 +90,13 @@ fn by_faulty(factor: f64) -> Result<RunReport, RunError> {
 
 #[test]
 fn small_fault_is_a_warning_that_names_time_and_element() {
-    assert!(by_faulty(1.0).unwrap().warnings.iter().all(|own| own.code() != "energy-not-closed"));
+    assert!(
+        by_faulty(1.0)
+            .unwrap()
+            .warnings
+            .iter()
+            .all(|warning| warning.code() != "energy-not-closed")
+    );
     let report = by_faulty(1.005).unwrap();
     let closes = |own: &String| own.contains("does not close");
     let warning = report.warnings.iter().map(Warning::to_string).find(closes).unwrap();

@@ -69,7 +69,7 @@ fn measure_report(
 /// The report without its value, where that hangs on what is not followed beyond the time `cut` \[s\], or
 /// the error of what is `open` says so.
 fn as_far_as_known(report: MeasureReport, open: Option<f64>, cut: Option<f64>) -> MeasureReport {
-    let until = report.window.map(|own| own.1).or(report.time);
+    let until = report.window.map(|window| window.1).or(report.time);
     match (cut, open) {
         // What reaches to the end of a part of the run hangs on the rest of it.
         (Some(end), _) if until.is_none_or(|until| until >= end) => {
@@ -101,7 +101,8 @@ fn without_idle_forces(
         return report;
     }
     let connections = &solution.assembly().connections;
-    let Some(at) = connections.iter().position(|own| own.name == report.target) else {
+    let Some(at) = connections.iter().position(|connection| connection.name == report.target)
+    else {
         return report;
     };
     let impact = solution.element_impact(at);
@@ -110,9 +111,9 @@ fn without_idle_forces(
         Some(WindowWish::Times(from, to)) => (from, to),
         _ => (0.0, solution.end()),
     });
-    let hangs = times.iter().find(|own| {
-        let span = (own.from.max(window.0), own.to.min(window.1));
-        span.0 < span.1 && own.changes(&report, solution, &connections[at], span)
+    let hangs = times.iter().find(|time| {
+        let span = (time.from.max(window.0), time.to.min(window.1));
+        span.0 < span.1 && time.changes(&report, solution, &connections[at], span)
     });
     let Some(idle) = hangs else { return report };
     report.undetermined(Note::IdleSlider(idle.from, idle.to))
@@ -157,8 +158,8 @@ impl Idle {
 
     /// The force \[N\] that those of these parts which are idle are taken to have.
     fn taken(&self, solution: &Solution<'_>, parts: &[PrimitiveOutputs]) -> f64 {
-        let idle = parts.iter().filter(|own| self.slider.sliders.contains(&own.name));
-        let idle = idle.filter(|own| solution.keeps(own.force));
-        idle.map(|own| solution.signal(own.force).value(0.5 * (self.from + self.to))).sum()
+        let idle = parts.iter().filter(|part| self.slider.sliders.contains(&part.name));
+        let idle = idle.filter(|idle| solution.keeps(idle.force));
+        idle.map(|idle| solution.signal(idle.force).value(0.5 * (self.from + self.to))).sum()
     }
 }

@@ -49,13 +49,13 @@ pub fn solve_assembly(
     };
     let is_free = matches!(settings.method, Choice::Auto);
     let first = choose(&settings.method, assembly, &run);
-    let is_exact = first.as_ref().is_ok_and(|own| own.0.is_exact());
+    let is_exact = first.as_ref().is_ok_and(|first| first.0.is_exact());
     let reach = if is_exact { None } else { reach(&settings.method, assembly, &run) };
     // Each attempt is by a method of its own.
     let task = Task { assembly, settings, selected: &selected, method: &methods::Auto };
     let found = first.and_then(|first| {
         let mut others = if is_free { attempts::others(first.0.as_ref()) } else { Vec::new() };
-        let most = if reach.is_some() { attempts::HOPELESS } else { u64::MAX };
+        let most = if reach.is_some() { attempts::UNDEFINED } else { u64::MAX };
         let found = attempts::first_that_solves(&task, &run, (first, most), &mut others, observer)?;
         Ok(attempts::improved(&task, &run, found, others, observer))
     });
@@ -112,15 +112,15 @@ pub fn reported_measures(
 /// # Errors
 ///
 /// [`RunError::UnknownTarget`] for measures of what does not exist.
-pub fn hopeless_measures(
+pub fn undefined_measures(
     assembly: &Assembly,
     settings: &SolveSettings,
 ) -> Result<Vec<(String, Note)>, RunError> {
     let selected = select(assembly, &settings.measures)?;
-    let hopeless = selected.into_iter().filter_map(|own| {
+    let undefined = selected.into_iter().filter_map(|own| {
         own.measure.needs().lacking(assembly, own.target).map(|why| (own.key, why))
     });
-    Ok(hopeless.collect())
+    Ok(undefined.collect())
 }
 
 /// The method that `auto` chooses for a run of `duration` \[s\], and why.

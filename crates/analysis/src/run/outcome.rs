@@ -108,7 +108,7 @@ fn solver_report(task: &Task<'_>, outcome: &Outcome) -> SolverReport {
         method: solved.trajectory.method,
         why: String::new(),
         rtol: (!task.method.is_exact()).then_some(solved.rtol),
-        doubt: solved.doubt,
+        threshold: solved.threshold,
         statistics: solved.trajectory.statistics,
         solves_for_error: outcome.solves_for_error,
         wall_for_error: outcome.wall_for_error,

@@ -81,7 +81,8 @@ fn pulling(findings: &Findings<'_>) -> Vec<Warning> {
     let is_glued = |element: &&str| {
         assembly.position(element).is_some_and(|at| contacts::is_glued(assembly, at))
     };
-    let contacts = findings.contacts.iter().map(|own| (own.element.as_str(), own.impact));
+    let contacts =
+        findings.contacts.iter().map(|contact| (contact.element.as_str(), contact.impact));
     let warning = |(element, impact): (&str, Impact)| {
         since(&impact).map(|since| Warning::Pulls { element: element.to_owned(), since })
     };
@@ -110,14 +111,17 @@ fn pads<'a>(findings: &'a Findings<'a>) -> impl Iterator<Item = (&'a str, Impact
 /// what they touch are pads of which only that is not said.
 fn heads_without_a_pad(findings: &Findings<'_>) -> BTreeSet<NodeId> {
     let assembly = findings.solution.assembly();
-    let injuries = findings.measures.iter().filter(|own| INJURIES.contains(&own.kind));
-    let targets: BTreeSet<&str> = injuries.map(|own| own.target.as_str()).collect();
+    let injuries = findings.measures.iter().filter(|measure| INJURIES.contains(&measure.kind));
+    let targets: BTreeSet<&str> = injuries.map(|injury| injury.target.as_str()).collect();
     if targets.is_empty() || assembly.has_impactor() {
         return BTreeSet::new();
     }
     let is_head = |end: &NodeId| targets.contains(assembly.nodes[end.index()].name.as_str());
     let ends = |is_pad: bool| {
-        let own = assembly.connections.iter().filter(move |own| own.thickness.is_some() == is_pad);
+        let own = assembly
+            .connections
+            .iter()
+            .filter(move |connection| connection.thickness.is_some() == is_pad);
         own.flat_map(|own| own.between)
     };
     let mut heads: BTreeSet<NodeId> = ends(false).filter(is_head).collect();
@@ -130,7 +134,7 @@ fn heads_without_a_pad(findings: &Findings<'_>) -> BTreeSet<NodeId> {
 /// Layers that are pressed in by more than their thickness, while the pad as a whole is not.
 fn crushed_layers(findings: &Findings<'_>) -> Vec<Warning> {
     let solution = findings.solution;
-    let strains = findings.measures.iter().filter(|own| own.kind == PeakStrain::KIND);
+    let strains = findings.measures.iter().filter(|measure| measure.kind == PeakStrain::KIND);
     let crushed = strains.filter_map(|own| {
         let connection = solution.assembly().connection(&own.target)?;
         let (strain, time) = own.value.zip(own.time)?;
@@ -176,17 +180,24 @@ fn still_falling(solution: &Solution<'_>) -> Vec<Warning> {
     let end = solution.end();
     let falling = impactors.filter(|node| node.fall > end);
     falling
-        .map(|own| Warning::StillFalling { node: own.name.clone(), end, fall: own.fall })
+        .map(|falling| Warning::StillFalling {
+            node: falling.name.clone(),
+            end,
+            fall: falling.fall,
+        })
         .collect()
 }
 
 fn still_in_contact(findings: &Findings<'_>) -> Vec<Warning> {
     // Whether it is may be open.
-    let is_known = findings.open_end.is_none_or(|own| own.undecided.is_empty());
+    let is_known = findings.open_end.is_none_or(|open_end| open_end.undecided.is_empty());
     let contacts = findings.contacts.iter().filter(|_| is_known);
     let lasting = contacts.filter(|contact| contact.impact.contact == Contact::Lasting);
     lasting
-        .map(|own| Warning::StillInContact { element: own.element.clone(), end: own.impact.end })
+        .map(|lasting| Warning::StillInContact {
+            element: lasting.element.clone(),
+            end: lasting.impact.end,
+        })
         .collect()
 }
 
@@ -208,9 +219,10 @@ fn open_end(findings: &Findings<'_>) -> Option<Warning> {
 /// Peaks of forces and accelerations that lie outside the impact, and above those within.
 fn harder_outside(findings: &Findings<'_>) -> Option<Warning> {
     let solution = findings.solution;
-    let has_ended = |own: &&MeasureReport| {
-        let is_of_impact = own.window_wish == Some(WindowWish::Impact);
-        is_of_impact && own.window.is_some_and(|(from, to)| from > 0.0 || to < solution.end())
+    let has_ended = |measure_report: &&MeasureReport| {
+        let is_of_impact = measure_report.window_wish == Some(WindowWish::Impact);
+        is_of_impact
+            && measure_report.window.is_some_and(|(from, to)| from > 0.0 || to < solution.end())
     };
     let of_impact = findings.measures.iter().filter(has_ended);
     let harder: Vec<Harder> = of_impact
@@ -243,7 +255,7 @@ fn peak_of_run(solution: &Solution<'_>, measure: &MeasureReport) -> Option<Readi
             Some(PeakForce { window }.read(solution, at))
         }
         PeakAcceleration::KIND => {
-            let at = assembly.nodes.iter().position(|own| own.name == measure.target)?;
+            let at = assembly.nodes.iter().position(|node| node.name == measure.target)?;
             solution.keeps(assembly.nodes[at].acceleration?).then_some(())?;
             Some(PeakAcceleration { window }.read(solution, at))
         }
@@ -267,8 +279,8 @@ fn accuracy(findings: &Findings<'_>) -> Vec<Warning> {
     let mut warnings = Vec::new();
     warnings.extend(unknown_errors(findings));
     let keys = |is_meant: fn(&MeasureReport) -> bool| {
-        let meant = findings.measures.iter().filter(|own| is_meant(own));
-        let keys: Vec<String> = meant.map(|own| own.key.clone()).collect();
+        let meant = findings.measures.iter().filter(|measure| is_meant(measure));
+        let keys: Vec<String> = meant.map(|meant| meant.key.clone()).collect();
         (!keys.is_empty()).then_some(keys)
     };
     let undecided = keys(|own| own.error.is_some_and(f64::is_infinite));
@@ -292,7 +304,7 @@ fn accuracy(findings: &Findings<'_>) -> Vec<Warning> {
 
 /// That nothing is known of any error.
 fn unknown_errors(findings: &Findings<'_>) -> Option<Warning> {
-    let mut valued = findings.measures.iter().filter(|own| own.value.is_some()).peekable();
+    let mut valued = findings.measures.iter().filter(|measure| measure.value.is_some()).peekable();
     valued.peek().filter(|_| findings.estimate)?;
     let is_none = valued.all(|own| own.error.is_none());
     is_none.then(|| Warning::ErrorsUnknown { obstacle: findings.obstacle.cloned() })
@@ -330,13 +342,18 @@ impl Through {
 
 /// Pads that are pressed in by more than their thickness, and of those within a pad the worst one.
 pub(crate) fn pressed_through(solution: &Solution<'_>) -> Vec<Warning> {
-    let of_connection = |own: &ConnectionOutputs| {
-        let whole = own
-            .thickness
-            .and_then(|thickness| Through::of(solution, &own.name, own.deformation, thickness));
-        let parts = own.segments.iter().filter(|part| {
+    let of_connection = |connection_outputs: &ConnectionOutputs| {
+        let whole = connection_outputs.thickness.and_then(|thickness| {
+            Through::of(
+                solution,
+                &connection_outputs.name,
+                connection_outputs.deformation,
+                thickness,
+            )
+        });
+        let parts = connection_outputs.segments.iter().filter(|part| {
             // What is as thick as the whole lies between the same ends.
-            own.thickness.is_none_or(|whole| part.thickness < (1.0 - SAME) * whole)
+            connection_outputs.thickness.is_none_or(|whole| part.thickness < (1.0 - SAME) * whole)
         });
         let parts: Vec<Through> = parts
             .filter_map(|part: &SegmentOutputs| match &part.place {
@@ -358,8 +375,8 @@ pub(crate) fn pressed_through(solution: &Solution<'_>) -> Vec<Warning> {
 /// furthest on either side.
 pub(crate) fn beyond_measured(solution: &Solution<'_>) -> Vec<Warning> {
     let assembly = solution.assembly();
-    let of_connection = |own: &ConnectionOutputs| {
-        let parts = assembly.primitives.get(own.primitives.clone()).unwrap_or(&[]);
+    let of_connection = |connection_outputs: &ConnectionOutputs| {
+        let parts = assembly.primitives.get(connection_outputs.primitives.clone()).unwrap_or(&[]);
         let beyond: Vec<Beyond> =
             parts.iter().flat_map(|part| Beyond::of(solution, part)).collect();
         let furthest = |is_pressed: bool| {

@@ -131,7 +131,7 @@ impl Similarity {
         }
         let pair = |group: &Group| {
             let quantity = other.quantity(&group.quantity.name);
-            let value = quantity.map_or(0.0, |own| own.value);
+            let value = quantity.map_or(0.0, |quantity| quantity.value);
             let unit = groups.basis.product(&units, group.quantity.dimension);
             let value = match unit {
                 Some(unit) if value != 0.0 => value / unit,
@@ -164,9 +164,9 @@ impl Similarity {
     pub fn differs_in_effects(&self) -> bool {
         let effects = self.networks.iter().flat_map(Network::effects);
         let names: Vec<String> = effects
-            .map(|own| match own.target() {
-                Some(target) => format!("`{}.{target}", own.kind()),
-                None => format!("`{}", own.kind()),
+            .map(|effect| match effect.target() {
+                Some(target) => format!("`{}.{target}", effect.kind()),
+                None => format!("`{}", effect.kind()),
             })
             .collect();
         let is_of_effect = |line: &String| names.iter().any(|name| line.starts_with(name.as_str()));
@@ -175,7 +175,7 @@ impl Similarity {
 
     /// The groups that differ.
     pub fn different(&self) -> impl Iterator<Item = &GroupPair> {
-        self.groups.iter().filter(|own| own.is_apart(self.within))
+        self.groups.iter().filter(|group| group.is_apart(self.within))
     }
 }
 
@@ -199,15 +199,15 @@ fn differences(first: &Inventory, second: &Inventory) -> Vec<String> {
 }
 
 /// What one has and the other has not; of a thing and what it says, the thing alone.
-fn alone<'i>(own: &'i Inventory, other: &'i Inventory) -> impl Iterator<Item = String> + 'i {
+fn alone<'i>(inventory: &'i Inventory, other: &'i Inventory) -> impl Iterator<Item = String> + 'i {
     let is_new = |name: &str| other.quantity(name).is_none() && !other.structure.contains_key(name);
     let is_part = move |name: &str| {
         name.match_indices('.')
-            .any(|(at, _)| own.structure.contains_key(&name[..at]) && is_new(&name[..at]))
+            .any(|(at, _)| inventory.structure.contains_key(&name[..at]) && is_new(&name[..at]))
     };
-    let words = own.structure.iter().map(|(name, word)| (name.as_str(), word.as_str()));
-    let numbers = own.quantities.iter().map(|own| (own.name.as_str(), ""));
-    let new = words.chain(numbers).filter(move |own| is_new(own.0) && !is_part(own.0));
+    let words = inventory.structure.iter().map(|(name, word)| (name.as_str(), word.as_str()));
+    let numbers = inventory.quantities.iter().map(|quantity| (quantity.name.as_str(), ""));
+    let new = words.chain(numbers).filter(move |word| is_new(word.0) && !is_part(word.0));
     new.map(|(name, word)| match word {
         "" | "on" => format!("`{name}`"),
         word => format!("`{name}` ({word})"),

@@ -72,13 +72,13 @@ impl Groups {
             let is_unit = quantity.value != 0.0 && quantity.dimension != Dimension::NUMBER;
             if is_unit && basis.take(quantity.dimension) {
                 let symbol = SYMBOLS.iter().find(|own| own.0 == quantity.dimension);
-                let symbol = symbol.map_or("q", |own| own.1);
+                let symbol = symbol.map_or("q", |symbol| symbol.1);
                 references.push(Reference { symbol, quantity: quantity.clone() });
             }
         }
         let mut groups = Self { references, groups: Vec::new(), basis };
         for quantity in inventory.quantities {
-            if groups.references.iter().any(|own| own.quantity.name == quantity.name) {
+            if groups.references.iter().any(|reference| reference.quantity.name == quantity.name) {
                 continue;
             }
             let (value, formula) = (groups.number(&quantity), groups.formula(&quantity));
@@ -94,13 +94,14 @@ impl Groups {
 
     /// The group of this parameter.
     pub fn group(&self, name: &str) -> Option<&Group> {
-        self.groups.iter().find(|own| own.quantity.name == name)
+        self.groups.iter().find(|group| group.quantity.name == name)
     }
 
     /// The product of powers of the references that has a dimension. Zero values alone have
     /// dimensions that the references do not make up; they have none.
     pub fn unit(&self, dimension: Dimension) -> Option<f64> {
-        let values: Vec<f64> = self.references.iter().map(|own| own.quantity.value.abs()).collect();
+        let values: Vec<f64> =
+            self.references.iter().map(|reference| reference.quantity.value.abs()).collect();
         self.basis.product(&values, dimension)
     }
 
@@ -114,11 +115,15 @@ impl Groups {
     fn formula(&self, quantity: &Quantity) -> String {
         let mut text = quantity.name.clone();
         let Some(exponents) = self.basis.exponents(quantity.dimension) else { return text };
-        let powers = || self.references.iter().map(|own| own.symbol).zip(&exponents);
-        let above: Vec<String> =
-            powers().filter(|own| *own.1 < 0.0).map(|own| raised(own.0, -own.1)).collect();
-        let below: Vec<String> =
-            powers().filter(|own| *own.1 > 0.0).map(|own| raised(own.0, *own.1)).collect();
+        let powers = || self.references.iter().map(|reference| reference.symbol).zip(&exponents);
+        let above: Vec<String> = powers()
+            .filter(|power| *power.1 < 0.0)
+            .map(|power| raised(power.0, -power.1))
+            .collect();
+        let below: Vec<String> = powers()
+            .filter(|power| *power.1 > 0.0)
+            .map(|power| raised(power.0, *power.1))
+            .collect();
         if !above.is_empty() {
             let _ = write!(text, " {}", above.join(" "));
         }
@@ -158,11 +163,13 @@ fn candidates<'i>(network: &Network, inventory: &'i Inventory) -> Vec<&'i Quanti
     let impactor = network.nodes().find(|(_, node)| node.start != Start::Rest && node.mass > 0.0);
     if let Some((id, node)) = impactor {
         names.extend([format!("{}.mass", node.name), format!("{}.velocity", node.name)]);
-        let struck = network.connections().iter().filter(|own| own.between.contains(&id));
-        names.extend(struck.map(|own| format!("{}.thickness", own.name)));
+        let struck =
+            network.connections().iter().filter(|connection| connection.between.contains(&id));
+        names.extend(struck.map(|struck| format!("{}.thickness", struck.name)));
     }
-    let of_dimension =
-        |dimension| inventory.quantities.iter().filter(move |own| own.dimension == dimension);
+    let of_dimension = |dimension| {
+        inventory.quantities.iter().filter(move |quantity| quantity.dimension == dimension)
+    };
     let named = names.iter().filter_map(|name| inventory.quantity(name));
     let thick = of_dimension(Dimension::LENGTH).filter(|own| own.name.ends_with(".thickness"));
     named

@@ -46,14 +46,14 @@ impl Inventory {
 
     /// The parameter of this name.
     pub fn quantity(&self, name: &str) -> Option<&Quantity> {
-        self.quantities.iter().find(|own| own.name == name)
+        self.quantities.iter().find(|quantity| quantity.name == name)
     }
 
     /// The names of all that there is.
     pub(super) fn names(&self) -> Vec<&str> {
         let words = self.structure.keys().map(String::as_str);
         let mut names: Vec<&str> =
-            self.quantities.iter().map(|own| own.name.as_str()).chain(words).collect();
+            self.quantities.iter().map(|quantity| quantity.name.as_str()).chain(words).collect();
         names.sort_unstable();
         names
     }

@@ -72,7 +72,7 @@ impl Laboratory {
                     dimension: quantity.dimension,
                 });
             }
-            let values: Vec<f64> = factors.iter().map(|own| own.1).collect();
+            let values: Vec<f64> = factors.iter().map(|factor| factor.1).collect();
             if let Some(follows) = basis.product(&values, quantity.dimension) {
                 if (factor / follows - 1.0).abs() > SAME {
                     return Err(SimilarityError::Contradiction {
@@ -102,7 +102,7 @@ impl Laboratory {
             scale,
             chosen,
             kept,
-            gravity: gravity.map(|own| [own, own * scale.of(Dimension::ACCELERATION)]),
+            gravity: gravity.map(|gravity| [gravity, gravity * scale.of(Dimension::ACCELERATION)]),
         })
     }
 
@@ -141,13 +141,13 @@ fn named<'q>(
             "thickness" => (Dimension::LENGTH, ".thickness"),
             _ => return None,
         };
-        let mut all = groups.references.iter().map(|own| &own.quantity);
+        let mut all = groups.references.iter().map(|reference| &reference.quantity);
         all.find(|own| own.dimension == dimension && own.name.ends_with(ending))
     };
     reference(name).or_else(|| inventory.quantity(name)).ok_or_else(|| {
         let short = ["mass", "speed", "thickness"].into_iter();
-        let short = short.filter(|own| reference(own).is_some()).map(str::to_owned);
-        let own = inventory.quantities.iter().map(|own| own.name.clone());
+        let short = short.filter(|short| reference(short).is_some()).map(str::to_owned);
+        let own = inventory.quantities.iter().map(|quantity| quantity.name.clone());
         SimilarityError::UnknownQuantity {
             name: name.to_owned(),
             known: short.chain(own).collect(),

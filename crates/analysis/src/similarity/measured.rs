@@ -42,7 +42,7 @@ impl Measured {
     /// Whether errors alone, or rounding, may part the two.
     pub fn is_within_errors(&self) -> bool {
         let is_known = self.apart.zip(self.error).is_some_and(|(apart, error)| apart <= error);
-        is_known || self.of_size.is_some_and(|own| own <= ROUNDING)
+        is_known || self.of_size.is_some_and(|of_size| of_size <= ROUNDING)
     }
 }
 
@@ -169,25 +169,29 @@ fn side_by_side(
     Ok(pairs.collect())
 }
 
-fn pair(own: &MeasureReport, opposite: &MeasureReport, factor: f64) -> Measured {
+fn pair(measure_report: &MeasureReport, opposite: &MeasureReport, factor: f64) -> Measured {
     let second = opposite.value.map(|value| value / factor);
-    let both = own.value.zip(second);
+    let both = measure_report.value.zip(second);
     let larger = both.map_or(0.0, |(one, other)| one.abs().max(other.abs()));
     let difference = both.map(|(one, other)| (one - other).abs());
-    let errors = own.error.zip(opposite.error).map(|(one, other)| one + other / factor);
+    let errors = measure_report.error.zip(opposite.error).map(|(one, other)| one + other / factor);
     Measured {
-        key: own.key.clone(),
-        unit: own.unit,
-        values: [own.value, second],
-        apart: difference.map(|own| over(own, larger)),
-        error: errors.map(|own| over(own, larger)),
-        of_size: difference.map(|by| over(by, own.size.max(opposite.size / factor))),
-        noise: [noise(own), noise(opposite) / factor],
+        key: measure_report.key.clone(),
+        unit: measure_report.unit,
+        values: [measure_report.value, second],
+        apart: difference.map(|difference| over(difference, larger)),
+        error: errors.map(|error| over(error, larger)),
+        of_size: difference.map(|by| over(by, measure_report.size.max(opposite.size / factor))),
+        noise: [noise(measure_report), noise(opposite) / factor],
         factor,
     }
 }
 
 /// What of a measure cannot be told from zero.
-fn noise(own: &MeasureReport) -> f64 {
-    own.error.filter(|error| error.is_finite()).unwrap_or(0.0).max(VANISHING * own.size)
+fn noise(measure_report: &MeasureReport) -> f64 {
+    measure_report
+        .error
+        .filter(|error| error.is_finite())
+        .unwrap_or(0.0)
+        .max(VANISHING * measure_report.size)
 }

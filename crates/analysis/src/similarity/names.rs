@@ -16,8 +16,13 @@ pub(super) fn renamed(
     network: &Network,
     like: &Network,
 ) -> Result<Option<Network>, InvalidParameter> {
-    let counts = |own: &Network| {
-        [own.nodes().count(), own.connections().len(), own.loads().len(), own.effects().len()]
+    let counts = |network: &Network| {
+        [
+            network.nodes().count(),
+            network.connections().len(),
+            network.loads().len(),
+            network.effects().len(),
+        ]
     };
     if counts(network) != counts(like) {
         return Ok(None);

@@ -60,7 +60,7 @@ impl Scale {
         let mut basis = Basis::default();
         let mut values = Vec::new();
         let open = [Dimension::MASS, Dimension::LENGTH, Dimension::TIME, Dimension::TEMPERATURE];
-        let all = factors.iter().copied().chain(open.map(|own| (own, 1.0)));
+        let all = factors.iter().copied().chain(open.map(|open| (open, 1.0)));
         for (dimension, factor) in all {
             if basis.take(dimension) {
                 values.push(factor);

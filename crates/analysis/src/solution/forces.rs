@@ -12,7 +12,7 @@ use super::{Solution, contacts};
 pub(super) fn only_at_rest(mut signal: Signal, switches: &[Switch]) -> Signal {
     let mut last: Option<(f64, bool)> = None;
     for panel in &mut signal.panels {
-        let is_zero = panel.coefficients.iter().all(|own| *own == 0.0);
+        let is_zero = panel.coefficients.iter().all(|coefficient| *coefficient == 0.0);
         let is_switched = |from: f64| is_within(switches, (from, panel.end));
         let by_rounding = is_zero && last.is_some_and(|(from, acts)| acts && !is_switched(from));
         if by_rounding {
@@ -25,8 +25,8 @@ pub(super) fn only_at_rest(mut signal: Signal, switches: &[Switch]) -> Signal {
 
 /// Whether anything switches between two times; `switches` are in order of time.
 fn is_within(switches: &[Switch], (from, to): (f64, f64)) -> bool {
-    let next = switches.partition_point(|own| own.time <= from);
-    switches.get(next).is_some_and(|own| own.time < to)
+    let next = switches.partition_point(|switch| switch.time <= from);
+    switches.get(next).is_some_and(|switch| switch.time < to)
 }
 
 /// Roundings of the terms of a sum, in parts of its noise, that may be left where they cancel.
@@ -38,7 +38,8 @@ pub(super) fn resting_from_switches(mut sum: Signal, switches: &[Switch]) -> Sig
     let floor = LEFT * sum.noise;
     let (mut before, mut rests) = (f64::INFINITY, false);
     for panel in &mut sum.panels {
-        let is_faint = panel.coefficients.iter().map(|own| own.abs()).sum::<f64>() <= floor;
+        let is_faint =
+            panel.coefficients.iter().map(|coefficient| coefficient.abs()).sum::<f64>() <= floor;
         let is_switched = || is_within(switches, (before, panel.end));
         rests = is_faint && (rests || is_switched());
         before = panel.start;
@@ -79,7 +80,7 @@ impl Solution<'_> {
             Some((at, force.maximum(window).value, least, force.noise))
         });
         let extremes: Vec<_> = extremes.collect();
-        let floor = FAINT * extremes.iter().map(|own| own.1).fold(0.0, f64::max);
+        let floor = FAINT * extremes.iter().map(|extreme| extreme.1).fold(0.0, f64::max);
         let pulling = extremes.into_iter().filter(|(.., least, noise)| -least.value > *noise);
         let tensions = pulling.map(|(connection, most, least, _)| Tension {
             connection,
@@ -117,7 +118,7 @@ mod tests {
 
     fn rests(values: &[f64], switches: &[Switch]) -> Vec<bool> {
         let found = only_at_rest(signal(values), switches);
-        found.panels.iter().map(|own| own.coefficients == [0.0]).collect()
+        found.panels.iter().map(|panel| panel.coefficients == [0.0]).collect()
     }
 
     #[test]
@@ -128,7 +129,7 @@ mod tests {
         };
         let rests = |values: &[f64], switches: &[Switch]| -> Vec<bool> {
             let found = resting_from_switches(sum(values), switches);
-            found.panels.iter().map(|own| own.coefficients == [0.0]).collect()
+            found.panels.iter().map(|panel| panel.coefficients == [0.0]).collect()
         };
         let values = [1.0, 1e-15, -2e-15, 1.0, 1e-15];
         assert_eq!(rests(&values, &[switch(1.0)]), [false, true, true, false, false]);

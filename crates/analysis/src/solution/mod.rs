@@ -25,8 +25,8 @@ mod grazing;
 mod signals;
 
 use forces::{only_at_rest, resting_from_switches};
-use grazing::Feels;
-pub(crate) use grazing::{Grazes, grazes};
+use grazing::ForceOf;
+pub(crate) use grazing::{UndecidedReleases, undecided_releases};
 use signals::{Signals, Twins};
 
 /// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
@@ -34,12 +34,12 @@ use signals::{Signals, Twins};
 const ERRORS_PER_TOLERANCE: f64 = 1e3;
 /// Part of the largest force beyond which a pull is one at any tolerance; finer solutions tell
 /// where it was an error.
-const MOST_DOUBT: f64 = 1e-2;
+const LARGEST_THRESHOLD: f64 = 1e-2;
 
 /// The part of the largest force below which a pull may be an error of a method of this relative
 /// tolerance; 0 for a method that has none.
-pub fn doubt_at(rtol: Option<f64>) -> f64 {
-    rtol.map_or(0.0, |rtol| (ERRORS_PER_TOLERANCE * rtol).min(MOST_DOUBT))
+pub fn threshold_at(rtol: Option<f64>) -> f64 {
+    rtol.map_or(0.0, |rtol| (ERRORS_PER_TOLERANCE * rtol).min(LARGEST_THRESHOLD))
 }
 
 /// An assembly and a trajectory of it, with the signals that were asked for.
@@ -50,8 +50,8 @@ pub struct Solution<'a> {
     known: Known,
     missing: RefCell<BTreeSet<usize>>,
     has_impactor: Vec<bool>,
-    doubt: f64,
-    ends: Grazes,
+    threshold: f64,
+    ends: UndecidedReleases,
 }
 
 /// What has been found in a solution so far.
@@ -93,8 +93,8 @@ impl<'a> Solution<'a> {
             known: Known::nothing(assembly),
             missing: RefCell::default(),
             has_impactor: bodies::with_impactor(assembly),
-            doubt: 0.0,
-            ends: Grazes::new(),
+            threshold: 0.0,
+            ends: UndecidedReleases::new(),
         }
     }
 
@@ -109,11 +109,11 @@ impl<'a> Solution<'a> {
         self.known
     }
 
-    /// The same solution of whose contact forces pulls below the part `doubt` of the largest
-    /// magnitude count as errors of the method; see [`doubt_at`].
+    /// The same solution of whose contact forces pulls below the part `threshold` of the largest
+    /// magnitude count as errors of the method; see [`threshold_at`].
     #[must_use]
-    pub fn doubting(self, doubt: f64) -> Self {
-        Self { doubt, ..self }
+    pub fn doubting(self, threshold: f64) -> Self {
+        Self { threshold, ..self }
     }
 
     /// The network's equations.
@@ -210,7 +210,9 @@ impl<'a> Solution<'a> {
         let [a, b] = ends.map(|end| {
             let of_body = || self.members().nodes(self.assembly, self.assembly.nodes[end].body);
             match of_body().find(|node| !node.free) {
-                Some(held) => held.velocity.map_or(0.0, |own| self.signal(own).value(0.0)),
+                Some(held) => {
+                    held.velocity.map_or(0.0, |velocity| self.signal(velocity).value(0.0))
+                }
                 None => of_body().find_map(|node| node.start_velocity).unwrap_or(0.0),
             }
         });
@@ -239,9 +241,11 @@ impl<'a> Solution<'a> {
             }
             Box::new(match connection.force {
                 Some(force) if self.touches_impactor(connection) => {
-                    let (blows, doubt) = (self.element_jumps(element), self.doubt_of(connection));
-                    let impact = Impact::of_contact(self.signal(force), blows, self.end(), doubt);
-                    self.ended(impact, Feels::Element(element))
+                    let (blows, threshold) =
+                        (self.element_jumps(element), self.threshold_of(connection));
+                    let impact =
+                        Impact::of_contact(self.signal(force), blows, self.end(), threshold);
+                    self.ended(impact, ForceOf::Element(element))
                 }
                 _ if connection.is_rigid => self.node_impact(connection.between[0].index()),
                 _ => self.scene_impact(),
@@ -266,10 +270,10 @@ impl<'a> Solution<'a> {
         **self.known.body_impacts[body].get_or_init(|| {
             let own = match self.push_on(body) {
                 Some(force) => {
-                    let doubt = self.doubt_of_body(body);
+                    let threshold = self.threshold_of_body(body);
                     let blows = self.body_jumps(body);
-                    let impact = Impact::of_contact(&force, &blows, self.end(), doubt);
-                    self.ended(impact, Feels::Body(body))
+                    let impact = Impact::of_contact(&force, &blows, self.end(), threshold);
+                    self.ended(impact, ForceOf::Body(body))
                 }
                 None => Impact::unloaded(self.end()),
             };
@@ -406,7 +410,10 @@ impl<'a> Solution<'a> {
 
     /// The sum of the forces \[N\] that the elements put on a body; `None` if nothing touches it.
     fn force_on(&self, body: usize) -> Option<Signal> {
-        let pushing = self.members().connections(self.assembly, body).filter(|own| own.1 != 0.0);
+        let pushing = self
+            .members()
+            .connections(self.assembly, body)
+            .filter(|connection| connection.1 != 0.0);
         let forces = pushing.filter_map(|(own, sign)| Some((self.glance(own.force?), sign)));
         forces.fold(None, |sum: Option<Signal>, (force, sign)| {
             Some(sum.map_or_else(|| force.scaled(sign), |sum| sum.plus(&force, sign)))
@@ -415,17 +422,17 @@ impl<'a> Solution<'a> {
 
     /// The impact of the force of a connection of this trajectory.
     pub(crate) fn impact_of(&self, connection: &ConnectionOutputs, force: &Signal) -> Impact {
-        Impact::of_force(force, self.end(), self.doubt_of(connection))
+        Impact::of_force(force, self.end(), self.threshold_of(connection))
     }
 
     /// The part of its largest magnitude below which a pull of a connection counts as none.
-    fn doubt_of(&self, connection: &ConnectionOutputs) -> f64 {
-        if connection.never_pulls { NO_PULL } else { self.doubt }
+    fn threshold_of(&self, connection: &ConnectionOutputs) -> f64 {
+        if connection.never_pulls { NO_PULL } else { self.threshold }
     }
 
     /// The same for the force on a body, which never pulls if all that it meets lies on one side of
     /// it and does not.
-    fn doubt_of_body(&self, body: usize) -> f64 {
+    fn threshold_of_body(&self, body: usize) -> f64 {
         let mut touching = self.members().connections(self.assembly, body);
         let mut side = 0.0;
         let is_one_sided = touching.all(|(own, sign)| {
@@ -433,7 +440,7 @@ impl<'a> Solution<'a> {
             side = if sign == 0.0 { side } else { sign };
             sign == 0.0 || own.never_pulls && is_same
         });
-        if is_one_sided { NO_PULL } else { self.doubt }
+        if is_one_sided { NO_PULL } else { self.threshold }
     }
 
     /// The impact of the scene: from the first contact of any impactor until the last one is let

@@ -2,7 +2,7 @@
 
 use std::{num::NonZero, ops::ControlFlow};
 
-use super::{Column, Grid, Posed, SweepError, SweepReport, Watch, columns, sweep};
+use super::{Column, Grid, ScenePoint, SweepError, SweepReport, Watch, columns, sweep};
 
 /// A parameter and the values that it takes.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +23,7 @@ pub fn axis(name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> A
 /// # Examples
 ///
 /// ```
-/// use dashpot_analysis::{SolveSettings, sweep::{Posed, Sweep, axis}};
+/// use dashpot_analysis::{SolveSettings, sweep::{ScenePoint, Sweep, axis}};
 /// use dashpot_network::{Network, Node, elements::Spring, part};
 ///
 /// let swept = Sweep::over(axis("K", [1e4, 4e4])).and(axis("m", [1.0, 4.0])).solve(
@@ -33,7 +33,7 @@ pub fn axis(name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> A
 ///         let mut network = Network::new();
 ///         let head = network.add_node(Node::mass("head", mass).moving(2.0));
 ///         network.connect("pad", head, network.ground(), part(Spring { stiffness }));
-///         Ok(Posed { network, settings: SolveSettings::lasting(0.1) })
+///         Ok(ScenePoint { network, settings: SolveSettings::lasting(0.1) })
 ///     },
 /// )?;
 /// // V √(K m)
@@ -70,7 +70,7 @@ impl Sweep {
     pub fn solve(
         self,
         measures: &[&str],
-        pose: impl Fn(&[f64]) -> Result<Posed, String> + Sync,
+        pose: impl Fn(&[f64]) -> Result<ScenePoint, String> + Sync,
     ) -> Result<Swept, SweepError> {
         self.watched(measures, pose, &mut |_, _| ControlFlow::Continue(()))
     }
@@ -83,22 +83,22 @@ impl Sweep {
     pub fn watched(
         self,
         measures: &[&str],
-        pose: impl Fn(&[f64]) -> Result<Posed, String> + Sync,
+        pose: impl Fn(&[f64]) -> Result<ScenePoint, String> + Sync,
         watch: &mut Watch<'_>,
     ) -> Result<Swept, SweepError> {
-        let counts = self.axes.iter().map(|own| own.values.len()).collect();
+        let counts = self.axes.iter().map(|axis| axis.values.len()).collect();
         let grid = Grid::new(counts).ok_or(SweepError::NoPoints)?;
-        let posed = |places: &[usize]| pose(&self.values(places));
-        let first = posed(&grid.places(0)).map_err(SweepError::NotPosed)?;
-        let keys: Vec<String> = measures.iter().map(|&own| own.to_owned()).collect();
+        let scene_point = |places: &[usize]| pose(&self.values(places));
+        let first = scene_point(&grid.places(0)).map_err(SweepError::NotPosed)?;
+        let keys: Vec<String> = measures.iter().map(|&measure| measure.to_owned()).collect();
         let (columns, wishes) = columns(&first, &keys)?;
-        let posed = |places: &[usize]| {
-            let mut posed = posed(places)?;
-            posed.settings.measures.clone_from(&wishes);
-            Ok(posed)
+        let scene_point = |places: &[usize]| {
+            let mut scene_point = scene_point(places)?;
+            scene_point.settings.measures.clone_from(&wishes);
+            Ok(scene_point)
         };
         let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
-        let report = sweep(&grid, &posed, &columns, threads, watch)?;
+        let report = sweep(&grid, &scene_point, &columns, threads, watch)?;
         Ok(Swept { sweep: self, grid, report })
     }
 
@@ -169,7 +169,7 @@ impl SweepRow<'_> {
     }
 
     fn of(&self, key: &str, numbers: &[f64]) -> Option<f64> {
-        let at = self.columns.iter().position(|own| own.key == key && !own.is_share)?;
-        numbers.get(at).copied().filter(|own| !own.is_nan())
+        let at = self.columns.iter().position(|column| column.key == key && !column.is_share)?;
+        numbers.get(at).copied().filter(|number| !number.is_nan())
     }
 }

@@ -136,7 +136,7 @@ impl<const N: usize> Step<'_, N> {
     /// Where a function that changes its sign passes zero, from its values and slopes at both ends.
     fn first_guess(&self, value: [f64; 2], slope: [f64; 2]) -> f64 {
         let length = self.length;
-        let slope = slope.map(|own| own * length);
+        let slope = slope.map(|slope| slope * length);
         let [first, last] = value;
         // The cubic through both, and its rate, on 0…1.
         let (b, c, d) = (

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use dashpot_network::parameters::{Kind as _, registered};
 
-use super::{Column, Posed, SweepError};
+use super::{Column, ScenePoint, SweepError};
 use crate::{
     MeasureWish, RunError,
     measures::{
@@ -26,7 +26,7 @@ pub fn measure_named(word: &str) -> Option<Arc<dyn Measure>> {
 ///
 /// A measure that the scene does not have, and faults of the scene.
 pub fn columns(
-    scene: &Posed,
+    scene: &ScenePoint,
     keys: &[String],
 ) -> Result<(Vec<Column>, Vec<MeasureWish>), SweepError> {
     let assembly = scene.network.compile(scene.settings.duration).map_err(RunError::from)?;
@@ -42,7 +42,7 @@ pub fn columns(
         wishes.push(wish);
     }
     let selected = select(&assembly, &wishes)?;
-    let is_wanted = |own: &&Selected| keys.is_empty() || keys.contains(&own.key);
+    let is_wanted = |selected: &&Selected| keys.is_empty() || keys.contains(&selected.key);
     let mut columns: Vec<Column> = selected
         .iter()
         .filter(is_wanted)
@@ -61,7 +61,7 @@ pub fn columns(
     let elements = (0..assembly.connections.len()).filter(|at| is_about(*at));
     for connection in elements.map(|at| &assembly.connections[at]) {
         let key = format!("{}.{}", connection.name, PeakDeformation::KIND);
-        let is_known = columns.iter().any(|own| own.is_share && own.key == key);
+        let is_known = columns.iter().any(|column| column.is_share && column.key == key);
         if connection.thickness.is_none() || is_known {
             continue;
         }

@@ -1,4 +1,4 @@
-//! Points of a sweep that are solved in full, each as a single run, and stamped points beside them.
+//! Points of a sweep that are solved in full, each as a single run, and instantiated points beside them.
 
 use std::ops::ControlFlow;
 
@@ -6,8 +6,8 @@ use dashpot_dae::Silent;
 
 use super::{
     Column, Gap, Grid, Pose,
-    crew::share,
-    stamped::{Plan, Stamper},
+    instantiated::{Plan, Stamper},
+    parallel::share,
 };
 use crate::{Warning, partial::spread, solve};
 
@@ -31,8 +31,9 @@ impl Full<'_> {
     ) -> Vec<Warning> {
         values.fill(f64::NAN);
         errors.fill(f64::NAN);
-        let solved = (self.pose)(&self.grid.places(point)).and_then(|posed| {
-            solve(&posed.network, &posed.settings, &mut Silent).map_err(|error| error.to_string())
+        let solved = (self.pose)(&self.grid.places(point)).and_then(|scene_point| {
+            solve(&scene_point.network, &scene_point.settings, &mut Silent)
+                .map_err(|error| error.to_string())
         });
         let report = match solved {
             Ok(report) => report,
@@ -67,12 +68,12 @@ const MOST_CHECKED: usize = 4;
 /// Stamped values may differ from full ones by this part of themselves, besides the errors of both.
 const AGREEMENT: f64 = 1e-9;
 
-/// Solves points spread over the grid both ways: those that were stamped, and the largest difference
+/// Solves points spread over the grid both ways: those that were instantiated, and the largest difference
 /// in parts of a value. `None` where they do not agree, or full runs are warned of something else.
 pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<(Vec<usize>, f64)> {
     struct Both {
         point: usize,
-        /// Whether it was stamped, and the largest difference; `None` where both do not agree.
+        /// Whether it was instantiated, and the largest difference; `None` where both do not agree.
         found: Option<(bool, f64)>,
     }
     let all = spread(full.grid.len());
@@ -120,9 +121,9 @@ pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<
     let mut largest = 0.0_f64;
     let mut checked = Vec::new();
     for row in rows {
-        let (is_stamped, difference) = row.found?;
+        let (is_instantiated, difference) = row.found?;
         largest = largest.max(difference);
-        if is_stamped {
+        if is_instantiated {
             checked.push(row.point);
         }
     }

@@ -62,7 +62,7 @@ impl Grid {
         for (axis, count) in self.counts.iter().enumerate() {
             let last = self.on_axis(axis, count - 1);
             if last > 0 {
-                corners.extend(corners.clone().into_iter().map(|own| own + last));
+                corners.extend(corners.clone().into_iter().map(|corner| corner + last));
             }
         }
         corners.sort_unstable();

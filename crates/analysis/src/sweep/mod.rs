@@ -1,7 +1,7 @@
 //! Families of scenes: measures over a grid of parameters.
 //!
 //! A sweep is given its scenes by a closure, which poses the scene at any point of a [`Grid`]. Scenes
-//! of springs, dashpots and masses that one impactor strikes are *stamped*: the form is compiled once,
+//! of springs, dashpots and masses that one impactor strikes are *instantiated*: the form is compiled once,
 //! their numbers are read along the axes of the grid only, and every point is solved from them by the
 //! powers of one small matrix exponential, without allocating anything. What is reported that way is
 //! compared with full runs at points spread over the grid. All other scenes, and points whose impact
@@ -12,14 +12,14 @@
 mod axes;
 mod bracket;
 mod columns;
-mod crew;
 mod full;
 mod grid;
-mod march;
+mod instantiated;
 mod neglect;
-mod posed;
+mod parallel;
+mod propagate;
 mod report;
-mod stamped;
+mod scene_point;
 mod sums;
 mod table;
 mod warned;
@@ -34,23 +34,23 @@ use dashpot_network::{Detail, Network};
 pub use self::{
     axes::{Axis, Sweep, SweepRow, Swept, axis},
     columns::{columns, measure_named},
-    crew::Watch,
     grid::Grid,
+    parallel::Watch,
     report::{Column, Gap, PartialOfSweep, SweepError, SweepReport},
     warned::SweepWarning,
 };
 use self::{
-    crew::{hands, share},
     full::{Full, check},
+    instantiated::Plan,
     neglect::decided,
-    stamped::Plan,
+    parallel::{share, workers},
     warned::Notice,
 };
 use crate::{SolveSettings, Warning};
 
 /// A scene at a point.
 #[derive(Debug, Clone)]
-pub struct Posed {
+pub struct ScenePoint {
     /// Nodes, elements, loads and effects.
     pub network: Network,
     /// What is asked of its run.
@@ -58,7 +58,7 @@ pub struct Posed {
 }
 
 /// Poses the scene where each parameter takes the value at this position, or says why there is none.
-pub type Pose<'p> = dyn Fn(&[usize]) -> Result<Posed, String> + Sync + 'p;
+pub type Pose<'p> = dyn Fn(&[usize]) -> Result<ScenePoint, String> + Sync + 'p;
 
 /// One point and its place in the result.
 struct Row<'r> {
@@ -68,7 +68,7 @@ struct Row<'r> {
     gaps: Vec<Gap>,
     /// What a full run is warned of.
     warnings: Vec<Warning>,
-    /// What is to be said of a point that was stamped.
+    /// What is to be said of a point that was instantiated.
     notice: Option<Notice>,
 }
 
@@ -92,27 +92,27 @@ pub fn sweep(
     let started = Instant::now();
     let first = pose(&grid.places(0)).map_err(SweepError::NotPosed)?;
     let partial = decided(grid, pose, &first)?;
-    let details: &[Detail] = partial.as_ref().map_or(&[], |own| &own.1);
+    let details: &[Detail] = partial.as_ref().map_or(&[], |partial| &partial.1);
     let reduced = |places: &[usize]| {
-        let mut posed = pose(places)?;
+        let mut scene_point = pose(places)?;
         if !details.is_empty() {
-            posed.network = posed.network.without(details);
+            scene_point.network = scene_point.network.without(details);
         }
-        posed.settings.accuracy.neglect_below = None;
-        Ok(posed)
+        scene_point.settings.accuracy.neglect_below = None;
+        Ok(scene_point)
     };
     let full = Full { grid, pose: &reduced, columns };
     let mut report = solved(&full, threads, watch)?;
     if let Some((own, _)) = partial {
         // As many threads would share the work in full.
-        let wall_in_full = own.wall_in_full / hands(threads, grid.len());
+        let wall_in_full = own.wall_in_full / workers(threads, grid.len());
         report.charge(PartialOfSweep { wall_in_full, ..own });
     }
     report.wall = started.elapsed();
     Ok(report)
 }
 
-/// Solves all points: by stamping where that agrees with full runs, else in full.
+/// Solves all points: by instantiating where that agrees with full runs, else in full.
 fn solved(
     full: &Full<'_>,
     threads: usize,
@@ -121,7 +121,7 @@ fn solved(
     let &Full { grid, pose, columns } = full;
     let first = pose(&grid.places(0)).map_err(SweepError::NotPosed)?;
     let plan = Plan::of(grid, pose, &first, columns);
-    let found = plan.as_ref().and_then(|own| check(own, full, threads));
+    let found = plan.as_ref().and_then(|plan| check(plan, full, threads));
     let plan = plan.filter(|_| found.is_some());
     let count = grid.len();
     let mut values = vec![f64::NAN; count * columns.len()];
@@ -134,7 +134,8 @@ fn solved(
         &tool,
         &|stamper, row| {
             let stamper = stamper.as_mut();
-            row.notice = stamper.and_then(|own| own.write(row.point, row.values, row.errors));
+            row.notice =
+                stamper.and_then(|stamper| stamper.write(row.point, row.values, row.errors));
             if row.notice.is_none() {
                 row.warnings = full.write(row.point, row.values, row.errors, &mut row.gaps);
             }
@@ -144,8 +145,8 @@ fn solved(
     if !is_whole {
         return Err(SweepError::BrokenOff);
     }
-    let stamped = rows.iter().filter(|row| row.notice.is_some()).count();
-    let (checked, largest_difference) = found.filter(|_| stamped > 0).unwrap_or_default();
+    let instantiated = rows.iter().filter(|row| row.notice.is_some()).count();
+    let (checked, largest_difference) = found.filter(|_| instantiated > 0).unwrap_or_default();
     let gaps = rows.iter_mut().flat_map(|row| std::mem::take(&mut row.gaps)).collect();
     let warnings = warned::collect(&rows, plan.as_ref().map_or("", Plan::element));
     drop(rows);
@@ -155,7 +156,7 @@ fn solved(
         errors,
         gaps,
         warnings,
-        stamped,
+        instantiated,
         checked,
         largest_difference,
         partial: None,

@@ -46,9 +46,9 @@ pub struct SweepReport {
     pub gaps: Vec<Gap>,
     /// What runs are warned of, one for each kind.
     pub warnings: Vec<SweepWarning>,
-    /// How many points were stamped; all others were solved in full.
-    pub stamped: usize,
-    /// The stamped points that were solved in full as well.
+    /// How many points were instantiated; all others were solved in full.
+    pub instantiated: usize,
+    /// The instantiated points that were solved in full as well.
     pub checked: Vec<usize>,
     /// The largest difference there, in parts of the value.
     pub largest_difference: f64,
@@ -101,7 +101,7 @@ pub enum SweepError {
     /// A fault of the scene at the first point, or of what is asked of it.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The scene at the first point cannot be posed.
+    /// The scene at the first point cannot be scene_point.
     #[error("{0}")]
     NotPosed(String),
     /// An axis has no values, or there are too many points to count.

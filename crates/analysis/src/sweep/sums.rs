@@ -5,7 +5,7 @@ use dashpot_numerics::{
     small::{Square, apply, apply_left, dot},
 };
 
-use super::posed::{Figure, Impact, Posed, Wanted};
+use super::scene_point::{Figure, Impact, ScenePoint, Wanted};
 
 /// Terms of the series of a force within a step.
 const TERMS: usize = 24;
@@ -17,7 +17,7 @@ const ENDS: usize = 12;
 const QUADRATURE: f64 = 1e-9;
 
 /// The integrals so far.
-pub(super) struct Sums<const N: usize> {
+pub(super) struct Integrals<const N: usize> {
     wanted: Wanted,
     step: f64,
     /// Places on 0…1 and weights of both rules.
@@ -90,12 +90,18 @@ impl Amounts {
     }
 }
 
-impl<const N: usize> Sums<N> {
-    pub(super) fn new(posed: &Posed<'_, N>, wanted: Wanted, step: f64, speed: &[f64; N]) -> Self {
+impl<const N: usize> Integrals<N> {
+    pub(super) fn new(
+        scene_point: &ScenePoint<'_, N>,
+        wanted: Wanted,
+        step: f64,
+        speed: &[f64; N],
+    ) -> Self {
         let rule = GaussLegendre::on_unit();
-        let force_terms = terms(posed.force, posed.matrix);
+        let force_terms = terms(scene_point.force, scene_point.matrix);
         let needs_speed = wanted.work || wanted.work_at_end;
-        let speed_terms = if needs_speed { terms(speed, posed.matrix) } else { [[0.0; N]; TERMS] };
+        let speed_terms =
+            if needs_speed { terms(speed, scene_point.matrix) } else { [[0.0; N]; TERMS] };
         Self {
             wanted,
             step,
@@ -111,7 +117,7 @@ impl<const N: usize> Sums<N> {
             speed_terms,
             sure: Amounts::default(),
             last: Amounts::default(),
-            before: *posed.start,
+            before: *scene_point.start,
             whole: [0.0; 2],
         }
     }
@@ -121,12 +127,12 @@ impl<const N: usize> Sums<N> {
     /// the last step is one of the first two.
     pub(super) fn add(
         &mut self,
-        posed: &Posed<'_, N>,
+        scene_point: &ScenePoint<'_, N>,
         z: &[f64; N],
         at: u32,
         until: Option<f64>,
     ) -> Option<()> {
-        let floor = -1e-9 * dot(&posed.force.map(f64::abs), &z.map(f64::abs));
+        let floor = -1e-9 * dot(&scene_point.force.map(f64::abs), &z.map(f64::abs));
         let amounts = match until {
             None if at > 0 => {
                 let seen = (&apply(&self.force_at, z), &apply(&self.speed_at, z));

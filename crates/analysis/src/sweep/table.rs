@@ -1,6 +1,6 @@
 //! The numbers of a network at every point of a grid, from those along its axes.
 
-use dashpot_network::{Blueprint, Network};
+use dashpot_network::{Network, ParametricSystem};
 
 use super::{Grid, Pose};
 
@@ -19,7 +19,7 @@ struct Axis {
     values: Vec<Option<Vec<f64>>>,
 }
 
-/// The numbers of a [`Blueprint`], and the thickness \[m\] of the element that is struck behind them.
+/// The numbers of a [`ParametricSystem`], and the thickness \[m\] of the element that is struck behind them.
 #[derive(Debug, Clone)]
 pub(super) struct Table {
     base: Vec<f64>,
@@ -32,15 +32,15 @@ impl Table {
     /// Reads the networks along each axis of the grid. `None` where the first one is of another form, or
     /// the scenes differ in more than their networks.
     pub(super) fn of(
-        blueprint: &Blueprint,
+        parametric: &ParametricSystem,
         grid: &Grid,
         pose: &Pose<'_>,
         duration: f64,
     ) -> Option<Self> {
         let read = |point: usize| {
-            let posed = pose(&grid.places(point)).ok()?;
-            let is_same = posed.settings.duration.to_bits() == duration.to_bits();
-            is_same.then(|| numbers(blueprint, &posed.network)).flatten()
+            let scene_point = pose(&grid.places(point)).ok()?;
+            let is_same = scene_point.settings.duration.to_bits() == duration.to_bits();
+            is_same.then(|| numbers(parametric, &scene_point.network)).flatten()
         };
         let base = read(0)?;
         let mut axes = Vec::with_capacity(grid.counts().len());
@@ -92,12 +92,12 @@ impl Table {
     /// Whether the numbers at a point are those of its network.
     pub(super) fn agrees(
         &self,
-        blueprint: &Blueprint,
+        parametric: &ParametricSystem,
         places: &[usize],
         network: &Network,
     ) -> bool {
         let mut own = vec![0.0; self.len()];
-        match (numbers(blueprint, network), self.write(places, &mut own)) {
+        match (numbers(parametric, network), self.write(places, &mut own)) {
             (Some(right), true) => own.iter().zip(right).all(|(own, right)| {
                 (own - right).abs() <= ROUNDINGS * right.abs() || own.is_nan() && right.is_nan()
             }),
@@ -106,8 +106,8 @@ impl Table {
     }
 }
 
-fn numbers(blueprint: &Blueprint, network: &Network) -> Option<Vec<f64>> {
-    let mut numbers = blueprint.numbers(network)?;
-    numbers.push(network.connections()[blueprint.element()].thickness.unwrap_or(f64::NAN));
+fn numbers(parametric: &ParametricSystem, network: &Network) -> Option<Vec<f64>> {
+    let mut numbers = parametric.numbers(network)?;
+    numbers.push(network.connections()[parametric.element()].thickness.unwrap_or(f64::NAN));
     Some(numbers)
 }

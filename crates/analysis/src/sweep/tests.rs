@@ -68,15 +68,15 @@ fn pad(shape: usize, random: &mut Random) -> dashpot_network::Model {
     }
 }
 
-fn posed(network: Network) -> Posed {
-    Posed { network, settings: SolveSettings::lasting(0.04) }
+fn scene_point(network: Network) -> ScenePoint {
+    ScenePoint { network, settings: SolveSettings::lasting(0.04) }
 }
 
 fn swept(networks: &[Network], keys: &[&str], threads: usize) -> SweepReport {
-    let keys: Vec<String> = keys.iter().map(|own| (*own).to_owned()).collect();
-    let (columns, wishes) = columns(&posed(networks[0].clone()), &keys).unwrap();
+    let keys: Vec<String> = keys.iter().map(|key| (*key).to_owned()).collect();
+    let (columns, wishes) = columns(&scene_point(networks[0].clone()), &keys).unwrap();
     let pose = |places: &[usize]| {
-        let mut own = posed(networks[places[0]].clone());
+        let mut own = scene_point(networks[places[0]].clone());
         own.settings.measures.clone_from(&wishes);
         Ok(own)
     };
@@ -86,8 +86,8 @@ fn swept(networks: &[Network], keys: &[&str], threads: usize) -> SweepReport {
 
 /// What a sweep is warned of at a point, but for numbers.
 fn warned_at(found: &SweepReport, point: usize) -> Vec<String> {
-    let here = found.warnings.iter().filter(|own| own.points.contains(&point));
-    sorted(here.map(|own| kind(&own.warning)))
+    let here = found.warnings.iter().filter(|warning| warning.points.contains(&point));
+    sorted(here.map(|here| kind(&here.warning)))
 }
 
 fn kind(warning: &Warning) -> String {
@@ -101,7 +101,7 @@ fn sorted(all: impl Iterator<Item = String>) -> Vec<String> {
 }
 
 #[test]
-fn stamped_values_are_those_of_full_runs_within_their_errors() {
+fn instantiated_values_are_those_of_full_runs_within_their_errors() {
     let mut random = Random(7);
     for shape in 0..4 {
         let networks: Vec<Network> = (0..60)
@@ -111,7 +111,7 @@ fn stamped_values_are_those_of_full_runs_within_their_errors() {
             })
             .collect();
         let found = swept(&networks, &[], 2);
-        assert!(found.stamped >= 50, "{shape}: {} of 60", found.stamped);
+        assert!(found.instantiated >= 50, "{shape}: {} of 60", found.instantiated);
         let width = found.columns.len();
         for (at, network) in networks.iter().enumerate() {
             let full = solve(network, &SolveSettings::lasting(0.04), &mut Silent).unwrap();
@@ -142,14 +142,19 @@ fn stamped_values_are_those_of_full_runs_within_their_errors() {
 fn the_result_is_the_same_to_the_bit_by_any_number_of_threads() {
     let mut random = Random(3);
     let networks: Vec<Network> = (0..200).map(|_| struck(pad(0, &mut random), 1e4)).collect();
-    let bits = |own: &SweepReport| -> Vec<u64> {
-        own.values.iter().chain(&own.errors).map(|own| own.to_bits()).collect()
+    let bits = |sweep_report: &SweepReport| -> Vec<u64> {
+        sweep_report
+            .values
+            .iter()
+            .chain(&sweep_report.errors)
+            .map(|value| value.to_bits())
+            .collect()
     };
     let alone = swept(&networks, &[], 1);
     for threads in [2, 5] {
         let other = swept(&networks, &[], threads);
         assert_eq!(bits(&other), bits(&alone));
-        assert_eq!((other.stamped, other.gaps), (alone.stamped, alone.gaps.clone()));
+        assert_eq!((other.instantiated, other.gaps), (alone.instantiated, alone.gaps.clone()));
     }
 }
 
@@ -159,19 +164,19 @@ fn scenes_of_another_kind_are_solved_in_full() {
     let mut network = struck(pad(0, &mut random), 1e4);
     network.add_effect(Gravity { acceleration: 9.81, start: GravityStart::Unloaded });
     let found = swept(&vec![network; 3], &["padding.peak-force"], 1);
-    assert_eq!((found.stamped, found.checked.len()), (0, 0));
+    assert_eq!((found.instantiated, found.checked.len()), (0, 0));
     assert!(found.column(0).all(|own| own > 1e4));
     // A force that decays for ever is not one that ends.
     let mut lasting = Network::new();
     let head = lasting.add_node(Node::mass("head", 10.0).moving(10.0));
     lasting.connect("padding", head, lasting.ground(), dashpot(4e3));
     let found = swept(&[lasting.clone(), lasting], &["padding.peak-force"], 1);
-    assert_eq!(found.stamped, 0);
+    assert_eq!(found.instantiated, 0);
     assert!(found.column(0).all(|own| (own / 4e4 - 1.0).abs() < 1e-9));
 }
 
 #[test]
-fn stamped_points_are_warned_of_what_full_ones_are() {
+fn instantiated_points_are_warned_of_what_full_ones_are() {
     // The head of 10 kg throws the light plate off; what stops both comes after the impact.
     let struck_twice = |(mass, damping): (f64, f64)| {
         let mut network = Network::new();
@@ -190,13 +195,19 @@ fn stamped_points_are_warned_of_what_full_ones_are() {
         let full = solve(network, &SolveSettings::lasting(0.04), &mut Silent).unwrap();
         assert_eq!(warned_at(&found, at), sorted(full.warnings.iter().map(kind)));
     }
-    let harder =
-        found.warnings.iter().find(|own| own.warning.to_string().contains("harder blow")).unwrap();
+    let harder = found
+        .warnings
+        .iter()
+        .find(|warning| warning.warning.to_string().contains("harder blow"))
+        .unwrap();
     assert_eq!(harder.points, [0, 1]);
-    let pulls =
-        found.warnings.iter().find(|own| own.warning.to_string().contains("in tension")).unwrap();
+    let pulls = found
+        .warnings
+        .iter()
+        .find(|warning| warning.warning.to_string().contains("in tension"))
+        .unwrap();
     assert_eq!(pulls.points, [0, 1, 2, 3]);
-    assert_eq!(found.stamped, 2, "{:?}", found.warnings);
+    assert_eq!(found.instantiated, 2, "{:?}", found.warnings);
 }
 
 #[test]
@@ -204,9 +215,9 @@ fn a_run_that_ends_in_contact_is_warned_of() {
     let mut random = Random(5);
     let network = struck(pad(0, &mut random), 1e4);
     let (columns, wishes) =
-        columns(&posed(network.clone()), &["padding.peak-force".to_owned()]).unwrap();
+        columns(&scene_point(network.clone()), &["padding.peak-force".to_owned()]).unwrap();
     let pose = |places: &[usize]| {
-        let mut own = posed(network.clone());
+        let mut own = scene_point(network.clone());
         own.settings.duration = [1e-3, 2e-3, 0.03, 0.04][places[0]];
         own.settings.measures.clone_from(&wishes);
         Ok(own)
@@ -216,7 +227,7 @@ fn a_run_that_ends_in_contact_is_warned_of() {
     let lasting = found
         .warnings
         .iter()
-        .find(|own| own.warning.to_string().contains("still in contact"))
+        .find(|warning| warning.warning.to_string().contains("still in contact"))
         .unwrap();
     assert_eq!(lasting.points, [0, 1]);
     assert!(lasting.warning.to_string().contains("at 1.00 ms"), "{}", lasting.warning);
@@ -236,8 +247,11 @@ fn another_padding_is_watched_too() {
         networks.push(network);
     }
     let found = swept(&networks, &["padding.peak-force"], 1);
-    let pressed =
-        found.warnings.iter().find(|own| own.warning.to_string().contains("pressed in")).unwrap();
+    let pressed = found
+        .warnings
+        .iter()
+        .find(|warning| warning.warning.to_string().contains("pressed in"))
+        .unwrap();
     assert!(pressed.warning.to_string().contains("below"));
     assert_eq!(pressed.points, [0]);
 }
@@ -245,7 +259,7 @@ fn another_padding_is_watched_too() {
 #[test]
 fn a_measure_that_is_not_known_is_named_with_those_that_are() {
     let mut random = Random(1);
-    let scene = posed(struck(pad(0, &mut random), 1e4));
+    let scene = scene_point(struck(pad(0, &mut random), 1e4));
     let fault = columns(&scene, &["padding.peak-forse".to_owned()]).unwrap_err();
     let SweepError::NoMeasure { known, .. } = &fault else { panic!("{fault}") };
     assert!(known.contains(&"padding.peak-force".to_owned()), "{fault}");
@@ -258,10 +272,11 @@ fn a_measure_that_is_not_known_is_named_with_those_that_are() {
 fn points_that_fail_are_gaps_and_the_others_stand() {
     let mut random = Random(1);
     let network = struck(pad(0, &mut random), 1e4);
-    let (columns, _) = columns(&posed(network.clone()), &["padding.energy".to_owned()]).unwrap();
+    let (columns, _) =
+        columns(&scene_point(network.clone()), &["padding.energy".to_owned()]).unwrap();
     let pose = |places: &[usize]| match places[0] {
         2 => Err("no such scene".to_owned()),
-        _ => Ok(posed(network.clone())),
+        _ => Ok(scene_point(network.clone())),
     };
     let grid = Grid::new(vec![5]).unwrap();
     let found = sweep(&grid, &pose, &columns, 1, &mut |_, _| ControlFlow::Continue(())).unwrap();

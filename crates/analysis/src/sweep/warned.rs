@@ -12,7 +12,7 @@ pub struct SweepWarning {
     pub points: Vec<usize>,
 }
 
-/// What is to be said of a stamped impact.
+/// What is to be said of a instantiated impact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Notice {
     /// From when on \[s\] the element pulls.

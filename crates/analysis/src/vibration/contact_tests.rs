@@ -82,7 +82,7 @@ fn a_mass_parts_where_it_is_shaken_with_more_than_its_weight() {
             sweep
                 .notes
                 .iter()
-                .any(|own| own.to_string().contains("`pad.contact` parts first at 30.7 Hz"))
+                .any(|note| note.to_string().contains("`pad.contact` parts first at 30.7 Hz"))
         );
         // At any one frequency, just below and just above.
         for r in [0.4, 1.0, 2.5] {
@@ -93,7 +93,7 @@ fn a_mass_parts_where_it_is_shaken_with_more_than_its_weight() {
                 let said = steady
                     .warnings
                     .iter()
-                    .any(|own| own.to_string().contains("`pad.contact` parts at"));
+                    .any(|warning| warning.to_string().contains("`pad.contact` parts at"));
                 assert_eq!(said, warned, "{r} {:?}", steady.warnings);
             }
         }
@@ -125,7 +125,7 @@ fn the_force_on_a_face_with_mass_is_that_in_front_of_it() {
     assert!((vibration.limits()[0].reserve / (MASS * G) - 1.0).abs() < 1e-12);
     let omega = 0.3 * natural();
     let ratio = vibration.steady(omega / TAU, 1.0).unwrap();
-    let device = ratio.nodes.iter().find(|own| own.name == "device").unwrap();
+    let device = ratio.nodes.iter().find(|node| node.name == "device").unwrap();
     let most = G / device.acceleration.amplitude;
     for (part, warned) in [(0.999_999, false), (1.000_001, true)] {
         let steady = vibration.steady(omega / TAU, part * most).unwrap();
@@ -135,15 +135,15 @@ fn the_force_on_a_face_with_mass_is_that_in_front_of_it() {
 
 #[test]
 fn a_stop_has_left_what_the_weight_has_not_taken() {
-    let sag = MASS * G / STIFFNESS;
+    let static_equilibrium = MASS * G / STIFFNESS;
     let mut network = heavy(standing(Waveform::constant(0.0)), GravityStart::Equilibrium);
     network.add_effect(stop(0.004));
     let vibration = Vibration::new(&network, 1.0, None).unwrap();
     let [limit] = vibration.limits() else { panic!("{:?}", vibration.limits()) };
     assert_eq!((limit.kind, limit.name.as_str()), (LimitKind::Stop, "pad.stop"));
-    assert!((limit.reserve / (0.004 - sag) - 1.0).abs() < 1e-12);
+    assert!((limit.reserve / (0.004 - static_equilibrium) - 1.0).abs() < 1e-12);
     let steady = |amplitude: f64| vibration.steady(natural() / TAU, amplitude).unwrap();
-    let pad = |own: &Steady| own.elements[0].deformation.amplitude;
+    let pad = |steady: &Steady| steady.elements[0].deformation.amplitude;
     let most = limit.reserve / pad(&steady(1.0));
     assert!(steady(0.999_999 * most).warnings.is_empty());
     let warnings = steady(1.000_001 * most).warnings;

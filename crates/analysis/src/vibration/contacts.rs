@@ -88,7 +88,7 @@ pub(super) fn closed(
     for (_, opening) in found {
         let (Opening::Separation(Separation { element, .. }) | Opening::Stop(Stop { element, .. })) =
             opening;
-        let named = |own: &Connection| own.name == *element;
+        let named = |connection: &Connection| connection.name == *element;
         let Some(element) = network.connections().iter().position(named) else { continue };
         let own = &network.connections()[element];
         let name = |at: Option<usize>| Some(whole.connections()[at?].name.as_str());
@@ -142,7 +142,7 @@ impl Rest {
         let own: Vec<_> = own.filter_map(|(at, own)| Some((at, own.gravity()?))).collect();
         let weights: Vec<Detail> = own.iter().map(|own| Detail::Effect(own.0)).collect();
         let mut still = still.without(&weights);
-        let ids: Vec<_> = still.nodes().map(|own| own.0).collect();
+        let ids: Vec<_> = still.nodes().map(|node| node.0).collect();
         ids.into_iter().for_each(|id| still.set_start(id, Start::Rest));
         for (_, acceleration) in own {
             still.add_effect(Gravity { acceleration, start: GravityStart::Equilibrium });
@@ -173,7 +173,7 @@ fn parting(
     let assembly = rest.assembly();
     let force = |at: usize| rest.signal(at).value(0.0);
     let reserve = contact_force(assembly, element, at_second).map_or(0.0, force);
-    let all = assembly.connections.iter().filter_map(|own| own.force);
+    let all = assembly.connections.iter().filter_map(|connection| connection.force);
     let largest = all.map(|at| force(at).abs()).fold(0.0, f64::max);
     let name = name.to_owned();
     if reserve > LOOSE * largest {

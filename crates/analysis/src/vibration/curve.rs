@@ -30,7 +30,9 @@ impl<'a> Curve<'a> {
 
     /// What is observed at the angular frequency `omega` \[rad/s\]; `None` where it cannot be told.
     pub(super) fn at(&self, omega: f64) -> Option<Found> {
-        let near = || self.near_poles.iter().filter_map(|own| Some((own, own.at(omega)?)));
+        let near = || {
+            self.near_poles.iter().filter_map(|near_pole| Some((near_pole, near_pole.at(omega)?)))
+        };
         // As it stands it is nothing but rounding so near to a pole.
         if let Some((_, found)) = near().find(|own| own.0.has_pole()) {
             return Some(found);
@@ -94,12 +96,12 @@ impl NearPole {
         poles: &[(f64, f64)],
         range: [f64; 2],
     ) -> Vec<Self> {
-        let largest = poles.iter().map(|own| own.0.hypot(own.1)).fold(0.0, f64::max);
+        let largest = poles.iter().map(|pole| pole.0.hypot(pole.1)).fold(0.0, f64::max);
         let mut looked_at: Vec<(Complex<f64>, f64)> = Vec::new();
         let mut found = Vec::new();
         let reach = 1.0 + WITHIN / APART;
         let is_near = |omega: f64| range[0] <= reach * omega && omega <= reach * range[1];
-        for &(omega, damping) in poles.iter().filter(|own| own.0 > 0.0 && is_near(own.0)) {
+        for &(omega, damping) in poles.iter().filter(|pole| pole.0 > 0.0 && is_near(pole.0)) {
             let centre = Complex::new(-damping, omega);
             let is_known = |own: &(Complex<f64>, f64)| (own.0 - centre).norm() <= own.1 / APART;
             if looked_at.iter().any(is_known) || is_clear(vibration, observed, omega) {
@@ -110,7 +112,7 @@ impl NearPole {
             let near = Self::around(vibration, observed, centre, radius);
             let shift = ROUNDINGS * f64::EPSILON * largest / radius;
             let near = near.and_then(|near| near.with_pole(count, shift));
-            found.extend(near.filter(|own| !own.has_pole() || damping <= UNDAMPED * omega));
+            found.extend(near.filter(|near| !near.has_pole() || damping <= UNDAMPED * omega));
         }
         found
     }
@@ -128,7 +130,7 @@ impl NearPole {
             observed.at(&vibration.at(rate)?, rate)
         };
         let values = (0..VALUES).map(value).collect::<Option<Vec<Found>>>()?;
-        let error = values.iter().map(|own| own.error).fold(0.0, f64::max);
+        let error = values.iter().map(|value| value.error).fold(0.0, f64::max);
         let coefficient = |power: usize| {
             let term = |(at, own): (usize, &Found)| own.value * turn(at * power % VALUES).conj();
             values.iter().enumerate().map(term).sum::<Complex<f64>>() / VALUES as f64
@@ -167,12 +169,12 @@ impl NearPole {
             (value * place + term, slope * place + value)
         });
         let mut error = self.error;
-        if let Some(own) = self.pole {
-            let away = place - own.at;
-            let part = own.strength / away;
+        if let Some(pole) = self.pole {
+            let away = place - pole.at;
+            let part = pole.strength / away;
             value += part;
             slope -= part / away;
-            error += (self.error + part.norm() * own.shift) / away.norm();
+            error += (self.error + part.norm() * pole.shift) / away.norm();
         }
         let slope = slope * Complex::i() / self.radius;
         let is_finite = value.re.is_finite() && value.im.is_finite();
@@ -196,7 +198,7 @@ fn is_clear(vibration: &Vibration, observed: &Observed, omega: f64) -> bool {
 /// The radius of a circle with one pole, or with several that are alike, well within and all others well
 /// outside, and how many are within; `None` where there is none.
 fn radius(centre: Complex<f64>, poles: &[(f64, f64)]) -> Option<(f64, usize)> {
-    let others = poles.iter().map(|own| (Complex::new(-own.1, own.0) - centre).norm());
+    let others = poles.iter().map(|pole| (Complex::new(-pole.1, pole.0) - centre).norm());
     // Beyond its own size there are the conjugate ones, and what is read at rest.
     let mut distances: Vec<f64> = others.chain([centre.norm()]).collect();
     distances.sort_by(f64::total_cmp);

@@ -46,7 +46,8 @@ pub fn drives(network: &Network) -> Vec<Drive> {
     });
     let held = |is_moved: bool| {
         network.nodes().filter(move |(id, node)| {
-            let is_used = network.connections().iter().any(|own| own.between.contains(id));
+            let is_used =
+                network.connections().iter().any(|connection| connection.between.contains(id));
             match node.support {
                 Support::Prescribed(_) => is_moved,
                 Support::Fixed => !is_moved && is_used,
@@ -105,7 +106,7 @@ impl Driven {
             value: duration,
         };
         let sine = Waveform::new(vec![wave]).filter(|_| duration > 0.0).ok_or(invalid)?;
-        let known = || drives(network).into_iter().map(|own| own.name).collect();
+        let known = || drives(network).into_iter().map(|drive| drive.name).collect();
         let unknown = || VibrationError::UnknownDrive { name: drive.name.clone(), known: known() };
         let node = network.node_named(&drive.node).ok_or_else(unknown)?;
         // Nodes that are rigidly linked move as one.
@@ -117,7 +118,7 @@ impl Driven {
         };
         let mut driven = Network::new();
         let ground = network.ground();
-        for (id, node) in network.nodes().filter(|own| own.0 != ground) {
+        for (id, node) in network.nodes().filter(|node| node.0 != ground) {
             let support = match &node.support {
                 Support::Free => Support::Free,
                 _ if is_moved(id) => Support::Prescribed(sine.clone()),
@@ -147,7 +148,7 @@ impl Driven {
                 driven.add_load(load.name.clone(), load.node, sine.clone());
             }
         }
-        network.effects().iter().for_each(|own| driven.add_shared_effect(own.clone()));
+        network.effects().iter().for_each(|effect| driven.add_shared_effect(effect.clone()));
         Ok(Self { network: driven, node: place(node) })
     }
 }

@@ -118,7 +118,7 @@ impl Vibration {
         let node = driven.node;
         if drive.kind == DriveKind::Load {
             let body = assembly.nodes[node.index()].body;
-            if assembly.nodes.iter().any(|own| own.body == body && !own.free) {
+            if assembly.nodes.iter().any(|node| node.body == body && !node.free) {
                 let (load, node) = (drive.name, drive.node);
                 return Err(VibrationError::LoadOnSupport { load, node });
             }
@@ -126,7 +126,8 @@ impl Vibration {
         // Motions and loads come before what effects bring, and one of them only is a sine.
         let sine = |own: &dashpot_dae::Waveform| own.pieces()[0].sine;
         let waveforms = &assembly.system.waveforms;
-        let waveform = waveforms.iter().position(|own| sine(own) != 0.0).unwrap_or(waveforms.len());
+        let waveform =
+            waveforms.iter().position(|waveform| sine(waveform) != 0.0).unwrap_or(waveforms.len());
         let unit = waveforms.get(waveform).map_or(0.0, sine);
         FrequencyResponse::new(&assembly.system, waveform, unit)?;
         Ok(Self { drive, network: driven.network, assembly, node, waveform, unit, limits })
@@ -145,6 +146,6 @@ impl Vibration {
     /// Whether a node, by its number, is moved or held, alone or with others.
     fn is_held(&self, node: usize) -> bool {
         let body = self.assembly.nodes[node].body;
-        self.assembly.nodes.iter().any(|own| own.body == body && !own.free)
+        self.assembly.nodes.iter().any(|node| node.body == body && !node.free)
     }
 }

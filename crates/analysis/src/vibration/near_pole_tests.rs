@@ -155,7 +155,7 @@ fn the_steady_state_where_a_mode_cancels_is_its_limit() {
     let pair = Pair::even(0.5, 200.0);
     let frequency = pair.against() / TAU;
     let steady = pair.vibration("ground").steady(frequency, 2.0).unwrap();
-    for node in steady.nodes.iter().filter(|own| own.name != "ground") {
+    for node in steady.nodes.iter().filter(|node| node.name != "ground") {
         let own = node.displacement;
         assert!((own.amplitude - 1.0).abs() <= own.error && own.error < 1e-12, "{node:?}");
     }

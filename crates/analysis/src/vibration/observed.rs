@@ -20,7 +20,7 @@ pub(super) struct Found {
 
 impl Found {
     /// Its relative error.
-    pub(super) fn doubt(&self) -> f64 {
+    pub(super) fn threshold(&self) -> f64 {
         self.error / self.value.norm()
     }
 

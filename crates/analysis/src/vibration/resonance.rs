@@ -91,7 +91,7 @@ pub(super) struct Probe {
     /// `d ln |T|² / d ln ω`.
     pub(super) rise: f64,
     /// Relative error of `T`.
-    pub(super) doubt: f64,
+    pub(super) threshold: f64,
 }
 
 /// Where something changes its sign.
@@ -119,7 +119,7 @@ impl Curve<'_> {
     pub(super) fn probe(&self, omega: f64) -> Option<Probe> {
         let found = self.at(omega)?;
         let level = 2.0 * found.value.norm().ln();
-        let probe = Probe { omega, level, rise: found.rise, doubt: found.doubt() };
+        let probe = Probe { omega, level, rise: found.rise, threshold: found.threshold() };
         (probe.level.is_finite() && probe.rise.is_finite()).then_some(probe)
     }
 
@@ -160,10 +160,10 @@ impl Curve<'_> {
                 places.extend(FROM_POLE.iter().flat_map(both));
             }
         }
-        places.retain(|own| (low..=high).contains(own));
+        places.retain(|place| (low..=high).contains(place));
         places.sort_by(f64::total_cmp);
         places.dedup();
-        let coarse: Vec<Probe> = places.iter().filter_map(|&own| self.probe(own)).collect();
+        let coarse: Vec<Probe> = places.iter().filter_map(|&place| self.probe(place)).collect();
         let mut fine = Vec::with_capacity(2 * coarse.len());
         for pair in coarse.windows(2) {
             fine.push(pair[0]);
@@ -171,7 +171,8 @@ impl Curve<'_> {
             // The left half is taken first, so that samples come in order.
             while let Some((left, right, halvings)) = open.pop() {
                 let middle = self.probe((left.omega * right.omega).sqrt());
-                let middle = middle.filter(|own| left.omega < own.omega && own.omega < right.omega);
+                let middle =
+                    middle.filter(|middle| left.omega < middle.omega && middle.omega < right.omega);
                 match middle {
                     Some(middle) if halvings > 0 && !is_smooth(&left, &middle, &right) => {
                         open.push((middle, right, halvings - 1));
@@ -225,15 +226,15 @@ impl Curve<'_> {
     fn turn(&self, left: Probe, right: Probe, is_peak: bool) -> Extremum {
         let root = self.root(left, right, |probe| probe.rise);
         let level = if is_peak { f64::INFINITY } else { f64::NEG_INFINITY };
-        let unknown = Probe { omega: root.omega, level, rise: 0.0, doubt: f64::INFINITY };
+        let unknown = Probe { omega: root.omega, level, rise: 0.0, threshold: f64::INFINITY };
         let probe = root.probe.unwrap_or(unknown);
-        if probe.doubt >= UNKNOWN {
+        if probe.threshold >= UNKNOWN {
             return Extremum { probe, width: root.width + self.shift(root.omega), is_peak };
         }
         // Where the response is off by its error, a turn is off by about that part of its breadth.
         let bend = (right.rise - left.rise).abs() / (right.omega - left.omega);
         let breadth = (root.omega / bend).sqrt().min(root.omega);
-        Extremum { probe, width: root.width + 4.0 * probe.doubt * breadth, is_peak }
+        Extremum { probe, width: root.width + 4.0 * probe.threshold * breadth, is_peak }
     }
 
     /// By how much an undamped pole, or a zero, near `omega` may be off \[rad/s\]: the shift that makes as
@@ -242,8 +243,8 @@ impl Curve<'_> {
         let mut distance = f64::EPSILON * omega;
         while distance < 0.1 * omega {
             let beside = [omega - distance, omega + distance].map(|own| self.probe(own));
-            let known = beside.into_iter().flatten().filter(|own| own.doubt < UNKNOWN);
-            let shifts = known.map(|own| 2.0 * own.doubt * omega / own.rise.abs());
+            let known = beside.into_iter().flatten().filter(|own| own.threshold < UNKNOWN);
+            let shifts = known.map(|known| 2.0 * known.threshold * omega / known.rise.abs());
             if let Some(shift) = shifts.reduce(f64::max) {
                 return shift;
             }
@@ -278,9 +279,9 @@ fn without_noise(mut all: Vec<Extremum>) -> Vec<Extremum> {
     while all.len() > 2 {
         let height = |at: usize| (all[at].probe.level - all[at + 1].probe.level).abs();
         let noise = |at: usize| {
-            let doubt = all[at].probe.doubt + all[at + 1].probe.doubt;
+            let threshold = all[at].probe.threshold + all[at + 1].probe.threshold;
             // What is not known at all is a resonance without damping.
-            if doubt < UNKNOWN { LEAST_HILL.max(16.0 * doubt) } else { LEAST_HILL }
+            if threshold < UNKNOWN { LEAST_HILL.max(16.0 * threshold) } else { LEAST_HILL }
         };
         let smallest = (0..all.len() - 1)
             .filter(|&at| height(at) <= noise(at))

@@ -93,7 +93,7 @@ impl Vibration {
         let found = |observed: &Observed| {
             let rate = Complex::new(0.0, omega);
             let direct = harmonic.as_ref().and_then(|harmonic| observed.at(harmonic, rate));
-            if direct.is_some_and(|own| own.is_clear()) {
+            if direct.is_some_and(|direct| direct.is_clear()) {
                 return direct;
             }
             let poles = poles.get_or_init(|| self.poles().unwrap_or_default());
@@ -105,7 +105,7 @@ impl Vibration {
             let rounding = found.error <= f64::EPSILON.sqrt();
             (is_known || rounding).then_some((found.value * amplitude, found.error * amplitude))
         };
-        let swing = |own: &Observed| read(own).map(|own| Swing::of(own.0, own.1));
+        let swing = |observed: &Observed| read(observed).map(|own| Swing::of(own.0, own.1));
         let mut nodes = Vec::new();
         for id in self.ids() {
             let is_moved = self.drive.kind == DriveKind::Motion && id == self.node;
@@ -159,7 +159,7 @@ impl Vibration {
                 format!("motion of {}", self.assembly.nodes[self.node.index()].name)
             }
         };
-        let own = self.assembly.drives.iter().find(|own| own.name == name)?;
+        let own = self.assembly.drives.iter().find(|drive| drive.name == name)?;
         let value = |output: usize| Some(read(&Observed::output(&name, output, 0))?.value);
         let (force, velocity) = (value(own.force)?, value(own.velocity?)?);
         Some(0.5 * (force * velocity.conj()).re)
@@ -168,8 +168,10 @@ impl Vibration {
 
 /// Pads that would be pressed in by more than their thickness.
 fn pressed_through(elements: &[SteadyElement]) -> Vec<VibrationWarning> {
-    let too_deep = elements
-        .iter()
-        .filter(|own| own.thickness.is_some_and(|thickness| own.deformation.amplitude > thickness));
-    too_deep.map(|own| VibrationWarning::PressedThrough { element: own.name.clone() }).collect()
+    let too_deep = elements.iter().filter(|element| {
+        element.thickness.is_some_and(|thickness| element.deformation.amplitude > thickness)
+    });
+    too_deep
+        .map(|too_deep| VibrationWarning::PressedThrough { element: too_deep.name.clone() })
+        .collect()
 }

@@ -79,7 +79,7 @@ impl Transmission {
     /// The largest error of a ratio, relative to it.
     pub fn worst_error(&self) -> f64 {
         let relative =
-            |own: &Swing| if own.amplitude > 0.0 { own.error / own.amplitude } else { 0.0 };
+            |swing: &Swing| if swing.amplitude > 0.0 { swing.error / swing.amplitude } else { 0.0 };
         self.swings.iter().flatten().map(relative).fold(0.0, f64::max)
     }
 }
@@ -100,13 +100,11 @@ impl Vibration {
         }
         let poles = poles.unwrap_or_default();
         let onsets = self.onsets(range, &poles);
-        notes.extend(
-            onsets.iter().map(|own| VibrationWarning::Onset {
-                onset: own.clone(),
-                drive: self.drive.clone(),
-            }),
-        );
-        let slowest = poles.iter().map(|own| own.0.hypot(own.1)).fold(TAU * range[0], f64::min);
+        notes.extend(onsets.iter().map(|onset| VibrationWarning::Onset {
+            onset: onset.clone(),
+            drive: self.drive.clone(),
+        }));
+        let slowest = poles.iter().map(|pole| pole.0.hypot(pole.1)).fold(TAU * range[0], f64::min);
         let transmission = |observed: &Observed| {
             let [low, high] = [TAU * range[0] / BEYOND, TAU * range[1] * BEYOND];
             let curve = Curve::new(self, observed, &poles, [low, high]);
@@ -115,7 +113,7 @@ impl Vibration {
                 name: self.name_of(&observed.name),
                 swings: frequencies
                     .iter()
-                    .map(|own| curve.swing(TAU * own).filter(Swing::is_known))
+                    .map(|frequency| curve.swing(TAU * frequency).filter(Swing::is_known))
                     .collect(),
                 resonances: resonances(&curve, &extrema, range),
                 at_rest: curve.at_rest(slowest),
@@ -159,9 +157,9 @@ impl Vibration {
     /// The natural frequencies and dampings, or the rates of decay, of the network \[rad/s\].
     pub(super) fn poles(&self) -> Option<Vec<(f64, f64)>> {
         let poles = poles(&self.assembly.system)?;
-        let largest = poles.iter().map(|own| own.norm()).fold(0.0, f64::max);
+        let largest = poles.iter().map(|pole| pole.norm()).fold(0.0, f64::max);
         let is_own = |own: &&nalgebra::Complex<f64>| own.im >= 0.0 && own.norm() > NOISE * largest;
-        Some(poles.iter().filter(is_own).map(|own| (own.im, own.re.abs())).collect())
+        Some(poles.iter().filter(is_own).map(|pole| (pole.im, pole.re.abs())).collect())
     }
 }
 
@@ -174,7 +172,8 @@ impl Swing {
 impl Curve<'_> {
     /// The limit of slow oscillation, below the angular frequency `slowest` \[rad/s\].
     fn at_rest(&self, slowest: f64) -> Option<Swing> {
-        let is_good = |own: &Swing| own.amplitude > 0.0 && own.error <= KNOWN * own.amplitude;
+        let is_good =
+            |swing: &Swing| swing.amplitude > 0.0 && swing.error <= KNOWN * swing.amplitude;
         if let Some(found) = self.swing(0.0).filter(is_good) {
             return Some(found);
         }
@@ -192,7 +191,8 @@ impl Curve<'_> {
 
 /// The range that is asked for \[Hz\], or one around all natural frequencies.
 fn range(settings: &SweepSettings, poles: &[(f64, f64)]) -> Result<[f64; 2], VibrationError> {
-    let swinging: Vec<f64> = poles.iter().map(|own| own.0 / TAU).filter(|own| *own > 0.0).collect();
+    let swinging: Vec<f64> =
+        poles.iter().map(|pole| pole.0 / TAU).filter(|own| *own > 0.0).collect();
     let chosen = if swinging.is_empty() {
         USUAL
     } else {
@@ -238,7 +238,7 @@ fn frequencies([low, high]: [f64; 2], points: usize) -> Result<Vec<f64>, Vibrati
 impl Vibration {
     /// All nodes of what was compiled.
     pub(super) fn ids(&self) -> impl Iterator<Item = NodeId> + '_ {
-        self.network.nodes().map(|own| own.0)
+        self.network.nodes().map(|node| node.0)
     }
 
     /// The name that the reader knows: the ground is another node where it moves.

@@ -210,9 +210,13 @@ fn a_resonance_far_narrower_than_the_spacing_is_found() {
     let vibration = shaken(&network);
     let sweep = vibration.sweep(&range(1.0, 1000.0, 5)).unwrap();
     for name in ["device", "whisker"] {
-        let of = sweep.transmissions.iter().find(|own| own.name == name).unwrap();
-        let near = |own: &&Resonance| (own.frequency * TAU / rate - 1.0).abs() < 0.01;
-        assert!(of.resonances.iter().any(|own| near(&own)), "{name}: {:?}", of.resonances);
+        let of = sweep.transmissions.iter().find(|transmission| transmission.name == name).unwrap();
+        let near = |resonance: &&Resonance| (resonance.frequency * TAU / rate - 1.0).abs() < 0.01;
+        assert!(
+            of.resonances.iter().any(|resonance| near(&resonance)),
+            "{name}: {:?}",
+            of.resonances
+        );
     }
 }
 
@@ -259,7 +263,7 @@ fn what_the_drive_puts_in_is_what_the_dashpots_turn_into_heat() {
             let amplitude = 0.003;
             let steady = vibration.steady(frequency, amplitude).unwrap();
             let lost = |name: &str, damping: f64| {
-                let own = steady.elements.iter().find(|own| own.name == name).unwrap();
+                let own = steady.elements.iter().find(|element| element.name == name).unwrap();
                 0.5 * damping * (TAU * frequency * own.deformation.amplitude).powi(2)
             };
             let heat = lost("pad", 30.0) + lost("mount", 80.0);
@@ -277,17 +281,17 @@ fn the_steady_state_at_one_frequency_is_the_sweep_times_the_amplitude() {
     let steady = vibration.steady(frequency, amplitude).unwrap();
     let sweep = vibration.sweep(&range(frequency, 100.0, 2)).unwrap();
     let ratio = sweep.transmissions[1].swings[0].unwrap();
-    let device = steady.nodes.iter().find(|own| own.name == "device").unwrap();
+    let device = steady.nodes.iter().find(|node| node.name == "device").unwrap();
     assert!((device.displacement.amplitude / (ratio.amplitude * amplitude) - 1.0).abs() < 1e-15);
     let omega = TAU * frequency;
     let expected = omega * omega * device.displacement.amplitude;
     assert!((device.acceleration.amplitude / expected - 1.0).abs() < 1e-15);
     // Newton's law: the only force on the device is that of the pad, which pushes it back.
-    let pad = steady.elements.iter().find(|own| own.name == "pad").unwrap();
+    let pad = steady.elements.iter().find(|element| element.name == "pad").unwrap();
     let force = C::from_polar(pad.force.unwrap().amplitude, pad.force.unwrap().phase);
     let acceleration = C::from_polar(device.acceleration.amplitude, device.acceleration.phase);
     close(-force, acceleration * MASS, 1e-12);
-    let moved = steady.nodes.iter().find(|own| own.name == "ground").unwrap();
+    let moved = steady.nodes.iter().find(|node| node.name == "ground").unwrap();
     assert!((moved.displacement.amplitude - amplitude).abs() < 1e-15 * amplitude);
     assert_eq!(steady.supports[0].name, "ground");
     assert!(steady.warnings.is_empty());
@@ -399,7 +403,7 @@ fn all_resonances_of_a_chain_are_found_down_to_the_faintest() {
     let places = 300_000;
     let ratio = (to / from).powf(1.0 / f64::from(places));
     let places: Vec<f64> = (0..=places).map(|at| from * ratio.powi(at)).collect();
-    let levels: Vec<f64> = places.iter().map(|own| level(*own)).collect();
+    let levels: Vec<f64> = places.iter().map(|place| level(*place)).collect();
     let tops: Vec<f64> = (1..places.len() - 1)
         .filter(|&at| levels[at] > levels[at - 1] && levels[at] >= levels[at + 1])
         .map(|at| places[at])

@@ -35,15 +35,16 @@ pub(super) fn known(
 ) -> Vec<f64> {
     let others: HashMap<&str, &MeasureReport> =
         witness.into_iter().flatten().map(|own| (own.key.as_str(), own)).collect();
-    let of = |own: &MeasureReport| {
+    let of = |measure_report: &MeasureReport| {
         let rounding = ROUNDINGS * f64::EPSILON;
-        let bound = own.error.filter(|error| is_bounded && error.is_finite());
-        let bound = bound.map(|error| if own.size > 0.0 { error / own.size } else { 0.0 });
+        let bound = measure_report.error.filter(|error| is_bounded && error.is_finite());
+        let bound = bound
+            .map(|error| if measure_report.size > 0.0 { error / measure_report.size } else { 0.0 });
         let agreement = || {
-            let other = others.get(own.key.as_str())?;
-            Some(apart(own, other)?.max(rounding))
+            let other = others.get(measure_report.key.as_str())?;
+            Some(apart(measure_report, other)?.max(rounding))
         };
-        match own.value {
+        match measure_report.value {
             None => 0.0,
             Some(_) => bound.or_else(agreement).unwrap_or(f64::INFINITY),
         }
@@ -76,7 +77,7 @@ const WRONG: f64 = 0.01;
 
 /// What is wrong about a solution beyond what it says itself.
 pub(super) fn slips(point: &CostPoint) -> Vec<Slip> {
-    let warned = point.measures.iter().any(|own| own.warned);
+    let warned = point.measures.iter().any(|measure| measure.warned);
     let slip = |subject, error, bar, warned| Slip {
         method: point.method,
         rtol: point.rtol,
@@ -86,11 +87,13 @@ pub(super) fn slips(point: &CostPoint) -> Vec<Slip> {
         warned,
     };
     // Of these a run states no error; a warning about any measure tells of them.
-    let is_wrong = |own: &Deviation| !warned && own.is_resolved() && own.value > WRONG;
+    let is_wrong =
+        |deviation: &Deviation| !warned && deviation.is_resolved() && deviation.value > WRONG;
     let state = point.state.filter(is_wrong);
-    let state = state.map(|own| slip(Subject::State, own.value, None, warned));
+    let state = state.map(|state| slip(Subject::State, state.value, None, warned));
     let events = error_of_events(point);
-    let events = events.filter(is_wrong).map(|own| slip(Subject::Events, own.value, None, warned));
+    let events =
+        events.filter(is_wrong).map(|event| slip(Subject::Events, event.value, None, warned));
     let measures = point.measures.iter().enumerate().filter_map(|(at, own)| {
         let deviation = own.deviation.filter(|deviation| is_untold(deviation, own))?;
         Some(slip(Subject::Measure(at), deviation.value, own.bar, own.warned))
@@ -105,13 +108,13 @@ fn error_of_events(point: &CostPoint) -> Option<Deviation> {
     if missed + extra == 0 {
         return deviation;
     }
-    let is_felt = point.state.is_none_or(|own| own.value > WRONG);
+    let is_felt = point.state.is_none_or(|state| state.value > WRONG);
     is_felt.then_some(Deviation { value: f64::INFINITY, known_within: 0.0 })
 }
 
 /// Whether an error is larger than its bar, more than the truth may be off.
-fn is_untold(deviation: &Deviation, own: &MeasureDeviation) -> bool {
-    match own.bar {
+fn is_untold(deviation: &Deviation, measure_deviation: &MeasureDeviation) -> bool {
+    match measure_deviation.bar {
         Some(bar) => deviation.value > bar + deviation.known_within,
         None => deviation.is_resolved() && deviation.value > WRONG,
     }
@@ -141,7 +144,7 @@ mod tests {
     }
 
     fn subjects(point: &CostPoint) -> Vec<Subject> {
-        slips(point).iter().map(|own| own.subject).collect()
+        slips(point).iter().map(|slip| slip.subject).collect()
     }
 
     #[test]

@@ -16,21 +16,21 @@ pub(super) struct Happening {
 /// What switches, what crosses a level that is watched, and glued contacts whose force turns.
 pub(super) fn happenings(report: &RunReport) -> Vec<Happening> {
     let trajectory = &report.trajectory;
-    let switches = trajectory.switches.iter().map(|own| Happening {
-        what: format!("{}: {}", own.name, own.what),
-        time: own.time,
+    let switches = trajectory.switches.iter().map(|switch| Happening {
+        what: format!("{}: {}", switch.name, switch.what),
+        time: switch.time,
         jumps: true,
     });
-    let crossings = trajectory.events.iter().map(|own| Happening {
-        what: format!("condition {}", own.guard),
-        time: own.time,
+    let crossings = trajectory.events.iter().map(|event| Happening {
+        what: format!("condition {}", event.guard),
+        time: event.time,
         jumps: false,
     });
     let released =
         |own: &&crate::ContactReport| own.is_glued && own.impact.contact == Contact::Released;
-    let releases = report.contacts.iter().filter(released).map(|own| Happening {
-        what: format!("{} turns to tension", own.element),
-        time: own.impact.end,
+    let releases = report.contacts.iter().filter(released).map(|contact| Happening {
+        what: format!("{} turns to tension", contact.element),
+        time: contact.impact.end,
         jumps: false,
     });
     switches.chain(crossings).chain(releases).collect()
@@ -59,7 +59,7 @@ pub(super) fn matched(truth: &[Happening], run: &[Happening]) -> Match {
     for kind in kinds {
         let of = |all: &[Happening]| -> Vec<(f64, bool)> {
             let same = all.iter().filter(|own| own.what == kind);
-            same.map(|own| (own.time, own.jumps)).collect()
+            same.map(|same| (same.time, same.jumps)).collect()
         };
         let (one, other) = (of(truth), of(run));
         for (at, (&(time, jumps), &(in_run, _))) in one.iter().zip(&other).enumerate() {

@@ -169,7 +169,7 @@ fn check(ladder: &Ladder) -> Result<(), RunError> {
     let invalid = |setting: &str, range, value| {
         Err(RunError::InvalidSetting { setting: setting.to_owned(), range, value })
     };
-    if let Some(&rtol) = ladder.rtols.iter().find(|own| !(1e-13..=1e-3).contains(*own)) {
+    if let Some(&rtol) = ladder.rtols.iter().find(|rtol| !(1e-13..=1e-3).contains(*rtol)) {
         return invalid("rtol", "from 1e-13 to 1e-3", rtol);
     }
     if ladder.rtols.is_empty() {

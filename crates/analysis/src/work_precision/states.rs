@@ -123,7 +123,7 @@ impl<'a> Probe<'a> {
                 let size = system.len();
                 let column = |&at: &usize| {
                     let scale = system.unknowns[at].scale;
-                    rows.iter().skip(at).step_by(size).map(|own| own * scale).collect()
+                    rows.iter().skip(at).step_by(size).map(|row| row * scale).collect()
                 };
                 (numbers.iter().map(column).collect(), vec![None; numbers.len()])
             }

@@ -35,7 +35,7 @@ fn settings() -> SolveSettings {
 }
 
 fn ladder(methods: &[&str]) -> Ladder {
-    let methods = methods.iter().map(|own| Choice::named(own).unwrap()).collect();
+    let methods = methods.iter().map(|method| Choice::named(method).unwrap()).collect();
     Ladder { methods, repeats: Some(1), ..Ladder::default() }
 }
 
@@ -45,9 +45,10 @@ fn report(network: &Network, ladder: &Ladder) -> CostReport {
 
 /// The relative errors of the peak force, by tolerance.
 fn of_peak_force(report: &CostReport, method: &str) -> Vec<f64> {
-    let at = report.measures.iter().position(|own| own.key == "padding.peak-force").unwrap();
-    let points = report.points.iter().filter(|own| own.method == method);
-    points.map(|own| own.measures[at].deviation.unwrap().value).collect()
+    let at =
+        report.measures.iter().position(|measure| measure.key == "padding.peak-force").unwrap();
+    let points = report.points.iter().filter(|point| point.method == method);
+    points.map(|point| point.measures[at].deviation.unwrap().value).collect()
 }
 
 #[test]
@@ -71,14 +72,14 @@ fn errors_are_the_distances_from_the_exact_solution() {
         }
         // Eight decades of tolerance, of which a method of low order gives its share only.
         assert!(errors[8] < 1e-4 * errors[0].max(errors[1]), "{method}: {errors:?}");
-        let state = |own: &&CostPoint| own.method == *method;
+        let state = |cost_point: &&CostPoint| cost_point.method == *method;
         let states: Vec<f64> =
-            report.points.iter().filter(state).map(|own| own.state.unwrap().value).collect();
+            report.points.iter().filter(state).map(|point| point.state.unwrap().value).collect();
         assert!(states[8] < 1e-4 * states[0].max(states[1]), "{method}: {states:?}");
     }
     let exact = report.points.last().unwrap();
     assert_eq!((exact.method, exact.rtol), ("exact", None));
-    let all = exact.measures.iter().filter_map(|own| own.deviation);
+    let all = exact.measures.iter().filter_map(|measure| measure.deviation);
     let worst = all
         .map(|own| (own.value, own.known_within))
         .fold((0.0_f64, 0.0_f64), |one, own| (one.0.max(own.0), one.1.max(own.1)));
@@ -93,7 +94,7 @@ fn counts_and_errors_repeat_to_the_bit() {
     let ladder = Ladder { rtols: vec![1e-4, 1e-7], ..ladder(&["bdf", "tsit45"]) };
     let all = || -> Vec<_> {
         let points = report(&network, &ladder).points.into_iter();
-        points.map(|own| (own.work, own.state, own.events, own.measures)).collect()
+        points.map(|point| (point.work, point.state, point.events, point.measures)).collect()
     };
     let once = all();
     assert_eq!(once, all());
@@ -113,10 +114,10 @@ fn without_an_exact_solution_two_families_agree_and_the_rest_is_judged_by_that()
     let agreement = truth.measure_agreement.unwrap();
     assert!(agreement > 0.0 && agreement < 1e-7, "{agreement:e}");
     // A tolerance at which a method fails is another matter.
-    let declined = report.failures.iter().filter(|own| own.rtol.is_none());
-    assert_eq!(declined.map(|own| own.method).collect::<Vec<_>>(), ["exact"]);
+    let declined = report.failures.iter().filter(|failure| failure.rtol.is_none());
+    assert_eq!(declined.map(|declined| declined.method).collect::<Vec<_>>(), ["exact"]);
     // Nothing is said to be better than the agreement.
-    let best = report.points.iter().map(|own| own.worst(&report.asked)).fold(1.0, f64::min);
+    let best = report.points.iter().map(|point| point.worst(&report.asked)).fold(1.0, f64::min);
     assert!(best >= agreement && best < 1e-6, "{best:e} {agreement:e}");
 }
 
@@ -126,7 +127,7 @@ fn a_solution_of_too_many_steps_ends_its_method_and_is_listed() {
     let ladder =
         Ladder { most_steps: 200, rtols: vec![1e-3, 1e-6, 1e-9, 1e-11], ..ladder(&["bdf"]) };
     let report = report(&network, &ladder);
-    let rtols: Vec<_> = report.points.iter().filter_map(|own| own.rtol).collect();
+    let rtols: Vec<_> = report.points.iter().filter_map(|point| point.rtol).collect();
     assert_eq!(rtols, [1e-3, 1e-6]);
     let [failure] = &report.failures[..] else { panic!("{:?}", report.failures) };
     assert_eq!((failure.rtol, failure.ends), (Some(1e-9), true));
@@ -142,7 +143,8 @@ fn more_work_than_there_may_be_is_left_out_and_listed() {
     let report = report(&network, &ladder(40_000));
     assert_eq!(report.truth.method, "exact");
     assert!(!report.points.is_empty());
-    let is_too_much = |own: &&CostFailure| matches!(own.error, RunError::TooMuchWork { .. });
+    let is_too_much =
+        |cost_failure: &&CostFailure| matches!(cost_failure.error, RunError::TooMuchWork { .. });
     let left_out: Vec<_> = report.failures.iter().filter(is_too_much).collect();
     assert!(!left_out.is_empty() && left_out.iter().all(|own| own.ends), "{:?}", report.failures);
     // Where the judges themselves are too much, there is nothing to compare with.
@@ -161,7 +163,7 @@ fn the_cheapest_is_the_quickest_that_is_good_enough() {
     let target = 1e-4;
     let cheapest = report.cheapest(target).unwrap().clone();
     assert!(cheapest.worst(&report.asked) <= target);
-    let coarser = report.points.iter().filter(|own| own.rtol > cheapest.rtol);
+    let coarser = report.points.iter().filter(|point| point.rtol > cheapest.rtol);
     assert!(coarser.clone().count() > 0);
     assert!(coarser.into_iter().all(|own| own.worst(&report.asked) > target));
     let ratio = report.next_digit(target).unwrap();

@@ -6,7 +6,7 @@ use dashpot_dae::{Method, Run, Silent, SolveError, Statistics, switching};
 use dashpot_network::Assembly;
 
 use super::Spread;
-use crate::{Solution, measures::selection::Selected, solution::doubt_at};
+use crate::{Solution, measures::selection::Selected, solution::threshold_at};
 
 /// Steps that all repeats of a solution take together, about.
 const STEPS: usize = 20_000;
@@ -41,8 +41,8 @@ pub(super) fn times(
             Some(phased) => switching::integrate(method, phased.as_ref(), run, &mut Silent)?,
         };
         integration.push(begin.elapsed().as_secs_f64());
-        let doubt = doubt_at((!method.is_exact()).then_some(run.rtol));
-        let solution = Solution::new(assembly, &trajectory).doubting(doubt);
+        let threshold = threshold_at((!method.is_exact()).then_some(run.rtol));
+        let solution = Solution::new(assembly, &trajectory).doubting(threshold);
         for entry in selected {
             black_box(entry.measure.read(&solution, entry.target));
         }

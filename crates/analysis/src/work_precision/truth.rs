@@ -102,15 +102,16 @@ impl<'a> Judge<'a> {
         };
         let probe = Probe::new(assembly, &select(assembly, &settings.measures)?);
         let happenings = happenings(&report);
-        let events: Vec<f64> = happenings.iter().map(|own| own.time).collect();
+        let events: Vec<f64> = happenings.iter().map(|happening| happening.time).collect();
         let states = probe.states(&report.trajectory, &events);
-        let witnessed = witness.as_ref().map(|own| matched(&happenings, &self::happenings(own)));
+        let witnessed =
+            witness.as_ref().map(|witness| matched(&happenings, &self::happenings(witness)));
         let witnessed = witnessed.unwrap_or_default();
         let state_agreement = witness
             .as_ref()
-            .and_then(|own| probe.difference(&states, &own.trajectory, &witnessed.jumps));
+            .and_then(|witness| probe.difference(&states, &witness.trajectory, &witnessed.jumps));
         let witness = witness.map(Told::from);
-        let others = witness.as_ref().map(|own| own.measures.as_slice());
+        let others = witness.as_ref().map(|witness| witness.measures.as_slice());
         let measures_known = known(&report.measures, others, family.is_none());
         Ok(Self {
             probe,
@@ -138,9 +139,10 @@ impl<'a> Judge<'a> {
             method: solver.method,
             rtol: solver.rtol,
             why_not_exact: self.why_not_exact.clone(),
-            witness: witness.and_then(|own| Some((own.solver.method, own.solver.rtol?))),
+            witness: witness
+                .and_then(|witness| Some((witness.solver.method, witness.solver.rtol?))),
             state_agreement: self.state_agreement,
-            event_agreement: self.witnessed.apart.map(|own| self.relative(own)),
+            event_agreement: self.witnessed.apart.map(|apart| self.relative(apart)),
             measure_agreement: apart.reduce(f64::max),
         }
     }
@@ -192,7 +194,7 @@ impl<'a> Judge<'a> {
         let state = self.probe.difference(&self.states, &run.trajectory, &own.jumps);
         let known_within = self.states.bound.or(self.state_agreement).unwrap_or(f64::INFINITY);
         let state = state.map(|value| Deviation { value, known_within });
-        let known_within = self.witnessed.apart.map_or(f64::INFINITY, |own| self.relative(own));
+        let known_within = self.witnessed.apart.map_or(f64::INFINITY, |apart| self.relative(apart));
         let deviation =
             own.apart.map(|apart| Deviation { value: self.relative(apart), known_within });
         let events = Timing { deviation, missed: own.missed, extra: own.extra };

@@ -50,6 +50,8 @@ pub(super) fn forms() -> PossibleValuesParser {
 }
 
 pub(super) fn test_names() -> PossibleValuesParser {
-    let value = |own: &ProtocolEntry| PossibleValue::new(own.word).help(own.summary);
+    let value = |protocol_entry: &ProtocolEntry| {
+        PossibleValue::new(protocol_entry.word).help(protocol_entry.summary)
+    };
     PossibleValuesParser::new(PROTOCOLS.iter().map(value))
 }

@@ -30,7 +30,7 @@ pub(crate) struct SweepArguments {
     /// Measures, such as padding.peak-force [default: all that the scene reports].
     #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
     pub(crate) measure: Vec<String>,
-    /// Method for all points [default: the scene's, if it names one, else auto]; points are stamped by
+    /// Method for all points [default: the scene's, if it names one, else auto]; points are instantiated by
     /// auto and exact only.
     #[arg(long, value_name = "NAME", value_parser = method_names())]
     pub(crate) method: Option<String>,

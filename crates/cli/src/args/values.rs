@@ -21,7 +21,7 @@ pub(super) fn within(text: &str) -> Result<f64, String> {
 pub(super) fn share(text: &str) -> Result<f64, String> {
     use dashpot_network::parameters::Dimension;
     let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
-    let is_number = quantity.dimension.is_none_or(|own| own == Dimension::NUMBER);
+    let is_number = quantity.dimension.is_none_or(|dimension| dimension == Dimension::NUMBER);
     let value = quantity.value;
     // A bare number of this size may be meant in percent.
     let is_doubtful = quantity.dimension.is_none()
@@ -57,7 +57,7 @@ pub(super) fn budget(text: &str) -> Result<u64, String> {
 pub(super) fn frequency(text: &str) -> Result<f64, String> {
     use dashpot_network::parameters::Dimension;
     let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
-    let is_frequency = quantity.dimension.is_none_or(|own| own == Dimension::FREQUENCY);
+    let is_frequency = quantity.dimension.is_none_or(|dimension| dimension == Dimension::FREQUENCY);
     if quantity.angle != 0 {
         let frequency = quantity.value / std::f64::consts::TAU;
         Err(format!("that is an angular frequency; write \"{frequency:.6} Hz\""))

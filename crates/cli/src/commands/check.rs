@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use dashpot_analysis::{Choice, Note, RunError, hopeless_measures, reported_measures};
+use dashpot_analysis::{Choice, Note, RunError, reported_measures, undefined_measures};
 use dashpot_dae::Run;
 use dashpot_scene::Scene;
 
 use crate::{
     args::CheckArguments,
-    entanglement::notes,
     error::{CliError, Status},
     input::read_scene,
+    non_identifiable::notes,
     terminal::{Terminal, WIDTH, print, remark},
     text::hanging,
 };
@@ -40,7 +40,7 @@ fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
     can_run(&scene)?;
-    hopeless(&scene)?.iter().for_each(|text| terminal.warn(text));
+    undefined(&scene)?.iter().for_each(|text| terminal.warn(text));
     notes(&scene).iter().for_each(|text| remark(text));
     let system = &scene.assembly.system;
     let nodes = scene.network.nodes().count() - 1;
@@ -49,7 +49,7 @@ fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<
         (true, count) => format!("linear with {count} algebraic"),
         (false, count) => format!("not linear, {count} algebraic"),
     };
-    let parts = scene.assembly.switching.as_ref().map_or(0, |own| own.parts().len());
+    let parts = scene.assembly.switching.as_ref().map_or(0, |switching| switching.parts().len());
     let structure = if parts > 0 {
         format!("{structure} at first; {} that can switch", counted(parts, "part"))
     } else {
@@ -77,9 +77,9 @@ fn can_run(scene: &Scene) -> Result<(), CliError> {
 }
 
 /// What is to be said about measures that can have no value.
-pub(crate) fn hopeless(scene: &Scene) -> Result<Vec<String>, CliError> {
+pub(crate) fn undefined(scene: &Scene) -> Result<Vec<String>, CliError> {
     let Some(method) = scene.run.methods.first() else { return Ok(Vec::new()) };
-    let found = hopeless_measures(&scene.assembly, &scene.settings(method)?)?;
+    let found = undefined_measures(&scene.assembly, &scene.settings(method)?)?;
     let text = |(key, why): &(String, Note)| format!("`{key}` can have no value: {why}");
     Ok(found.iter().map(text).collect())
 }

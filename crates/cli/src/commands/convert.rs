@@ -76,7 +76,7 @@ pub(crate) fn convert(
 /// The largest relative difference of a constant that rounding to doubles left.
 fn round_trip(comparison: &Equivalence) -> f64 {
     let forms = comparison.maxwell.iter().chain(&comparison.kelvin);
-    forms.map(|own| own.largest).fold(0.0, f64::max)
+    forms.map(|form| form.largest).fold(0.0, f64::max)
 }
 
 fn said(error: f64) -> String {

@@ -9,7 +9,7 @@ mod man;
 mod new;
 mod schema;
 
-pub(crate) use check::{check, hopeless};
+pub(crate) use check::{check, undefined};
 pub(crate) use completions::completions;
 pub(crate) use convert::convert;
 pub(crate) use explain::explain;

@@ -99,7 +99,7 @@ impl List {
 
     /// Whether the file of this name in the folder is a result.
     pub(super) fn has(&self, folder: &Path, name: &str) -> bool {
-        let mut listed = self.files.iter().filter(|own| own.0 == name).peekable();
+        let mut listed = self.files.iter().filter(|file| file.0 == name).peekable();
         let path = folder.join(name);
         let is_file = || matches!(metadata(&path), Ok(Some(own)) if own.is_file());
         if listed.peek().is_none() || !is_file() {
@@ -140,5 +140,5 @@ pub(super) fn is_name(name: &str) -> bool {
     is_one
         && !name.starts_with('.')
         && !name.contains(['\n', '\r', '\\'])
-        && ending.is_some_and(|own| ENDINGS.contains(&own))
+        && ending.is_some_and(|ending| ENDINGS.contains(&ending))
 }

@@ -84,9 +84,9 @@ impl<'f> Staged<'f> {
 
     /// Lists the new files beside the old ones: whatever is found in the places from now on is known.
     pub(super) fn announce(&mut self) -> Result<(), CliError> {
-        let names = self.parts.iter().map(|own| own.0.clone());
+        let names = self.parts.iter().map(|part| part.0.clone());
         refuse_foreign(&self.folder.path, &self.old, names)?;
-        let new = self.parts.iter().map(|own| (own.0.clone(), own.1));
+        let new = self.parts.iter().map(|part| (part.0.clone(), part.1));
         let files = self.old.files.iter().cloned().chain(new).collect();
         let list = List { files, at_work: Some(self.token.clone()), is_there: true };
         list.write(&self.folder.path, &self.token)?;
@@ -113,8 +113,8 @@ impl<'f> Staged<'f> {
 
     /// Files of earlier results that are not among the new ones.
     fn stale(&self) -> Vec<String> {
-        let is_new = |name: &str| self.parts.iter().any(|own| own.0 == name);
-        let old = self.old.files.iter().map(|own| &own.0);
+        let is_new = |name: &str| self.parts.iter().any(|part| part.0 == name);
+        let old = self.old.files.iter().map(|file| &file.0);
         let mut left: Vec<String> = old
             .filter(|name| !is_new(name) && self.old.has(&self.folder.path, name))
             .cloned()

@@ -26,7 +26,8 @@ const PLACE: usize = 13;
 
 /// Recomputes the thesis.
 pub(crate) fn thesis(arguments: &ThesisArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let figures = figure_stems().flat_map(|own| [format!("{own}.svg"), format!("{own}.csv")]);
+    let figures = figure_stems()
+        .flat_map(|figure_stem| [format!("{figure_stem}.svg"), format!("{figure_stem}.csv")]);
     let names = figures.chain([PAGE, MARKDOWN].map(str::to_owned));
     let folder = Folder::wanted(arguments.out.as_deref(), names)?;
     emit(&Recomputation::new()?, arguments.json, folder, terminal)?;
@@ -37,7 +38,7 @@ impl Study for Recomputation {
     fn text(&self, text: &mut Text) {
         self.summary().iter().for_each(|own| text.words(own));
         text.heading("Numbers of the text, without those that are given");
-        for own in self.numbers.iter().filter(|own| own.verdict != NumberVerdict::Given) {
+        for own in self.numbers.iter().filter(|number| number.verdict != NumberVerdict::Given) {
             let Number { place, what, printed, recomputed, verdict, .. } = own;
             let verdict = verdict.text();
             let words = format!("{what}: printed {printed}, recomputed {recomputed}: {verdict}");
@@ -54,15 +55,15 @@ impl Study for Recomputation {
         object! {
             dashpot: VERSION,
             summary: self.summary(),
-            numbers: list(self.numbers.iter().map(|own| object! {
-                place: own.place, what: own.what, printed: own.printed, value: own.value,
-                verdict: own.verdict.text(),
+            numbers: list(self.numbers.iter().map(|number| object! {
+                place: number.place, what: number.what, printed: number.printed, value: number.value,
+                verdict: number.verdict.text(),
             })),
             misprints: list(self.misprints.iter().map(misprint)),
             claims: list(self.claims.iter().map(claim)),
-            families: list(self.study.families().map(|own| object! {
-                parameter: own.varied.symbol(),
-                members: list(own.members.iter().map(member)),
+            families: list(self.study.families().map(|family| object! {
+                parameter: family.varied.symbol(),
+                members: list(family.members.iter().map(member)),
             })),
         }
     }
@@ -70,60 +71,61 @@ impl Study for Recomputation {
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
         let figures = figures(&self.study)?;
         let mut drawings = Vec::new();
-        for own in &figures {
-            let svg = svg(own)?;
-            files.add(format!("{}.svg", own.stem()), &svg)?;
-            let caption = format!("Figure {}. {}", own.number, own.title);
+        for figure in &figures {
+            let svg = svg(figure)?;
+            files.add(format!("{}.svg", figure.stem()), &svg)?;
+            let caption = format!("Figure {}. {}", figure.number, figure.title);
             drawings.push(ReportFigure { caption, svg });
-            if own.columns.is_empty() {
+            if figure.columns.is_empty() {
                 continue;
             }
-            let header = own.columns.iter().map(|own| own.name.clone());
-            let count = own.columns.iter().map(|own| own.values.len()).max().unwrap_or(0);
+            let header = figure.columns.iter().map(|column| column.name.clone());
+            let count = figure.columns.iter().map(|column| column.values.len()).max().unwrap_or(0);
             // A zero has no sign.
-            let value =
-                |row: usize| own.columns.iter().map(move |own| Some(own.values.get(row)? + 0.0));
+            let value = |row: usize| {
+                figure.columns.iter().map(move |column| Some(column.values.get(row)? + 0.0))
+            };
             let rows = (0..count).map(|row| list(value(row)));
-            files.add_with(format!("{}.csv", own.stem()), |out| csv(out, header, rows))?;
+            files.add_with(format!("{}.csv", figure.stem()), |out| csv(out, header, rows))?;
         }
         files.add(MARKDOWN, self.markdown(&figures))?;
         files.add(PAGE, self.page(drawings).html())
     }
 }
 
-fn misprint(own: &Misprint) -> impl Serialize {
-    let shown = own.demonstration.as_ref().map(|own| object! {
-        what: own.what, printed_form: own.printed, correct_form: own.correct, expected: own.truth,
+fn misprint(misprint: &Misprint) -> impl Serialize {
+    let shown = misprint.demonstration.as_ref().map(|demonstration| object! {
+        what: demonstration.what, printed_form: demonstration.printed, correct_form: demonstration.correct, expected: demonstration.truth,
     });
-    object! { place: own.place, printed: own.printed, correct: own.correct, shown_by: shown }
+    object! { place: misprint.place, printed: misprint.printed, correct: misprint.correct, shown_by: shown }
 }
 
-fn claim(own: &Claim) -> impl Serialize {
-    let (verdict, cases) = match &own.verdict {
+fn claim(claim: &Claim) -> impl Serialize {
+    let (verdict, cases) = match &claim.verdict {
         Verdict::Holds => ("holds", &[][..]),
         Verdict::DoesNotHold => ("does not hold", &[][..]),
         Verdict::HoldsOnlyFor(cases) => ("holds in part", &cases[..]),
     };
-    let evidence = own.evidence.iter();
+    let evidence = claim.evidence.iter();
     let evidence =
         list(evidence.map(|Table { caption, header, rows }| object! { caption, header, rows }));
-    object! { place: own.place, claim: own.says, verdict, cases, finding: &own.finding, evidence }
+    object! { place: claim.place, claim: claim.says, verdict, cases, finding: &claim.finding, evidence }
 }
 
-fn member(own: &Member) -> impl Serialize {
-    let pad = own.impact.groups.padding(&Scales::CHAPTER_4);
+fn member(member: &Member) -> impl Serialize {
+    let pad = member.impact.groups.padding(&Scales::CHAPTER_4);
     let point = |Extremum { time, value }| object! { value, time };
     object! {
-        value: own.value,
-        k1: pad.map(|own| own.k1),
-        c1: pad.map(|own| own.c1),
-        k2: pad.map(|own| own.k2),
-        c2: pad.map(|own| own.c2),
-        q: own.impact.groups.q(),
-        peak_force: point(own.impact.peak()),
-        largest_deformation: point(own.impact.deepest()),
-        release: own.impact.release(),
-        exceeds_thickness: own.exceeds(),
+        value: member.value,
+        k1: pad.map(|pad| pad.k1),
+        c1: pad.map(|pad| pad.c1),
+        k2: pad.map(|pad| pad.k2),
+        c2: pad.map(|pad| pad.c2),
+        q: member.impact.groups.q(),
+        peak_force: point(member.impact.peak()),
+        largest_deformation: point(member.impact.deepest()),
+        release: member.impact.release(),
+        exceeds_thickness: member.exceeds(),
     }
 }
 

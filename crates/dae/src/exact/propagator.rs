@@ -25,7 +25,7 @@ pub(super) struct Grid {
 
 /// Appends to `out`, for each time of the grid, the first `units.len()` entries of `D z(t)`, where
 /// `ż = matrix · z` and `z(0) = state`.
-pub(super) fn march(
+pub(super) fn propagate(
     matrix: &DMatrix<f64>,
     state: &[f64],
     units: &[f64],
@@ -34,14 +34,14 @@ pub(super) fn march(
 ) {
     match matrix.nrows() {
         0 => {}
-        1 | 2 => march_fixed::<2>(matrix, state, units, grid, out),
-        3 | 4 => march_fixed::<4>(matrix, state, units, grid, out),
-        5 | 6 => march_fixed::<6>(matrix, state, units, grid, out),
-        7 | 8 => march_fixed::<8>(matrix, state, units, grid, out),
-        9 | 10 => march_fixed::<10>(matrix, state, units, grid, out),
-        11 | 12 => march_fixed::<12>(matrix, state, units, grid, out),
-        13..=16 => march_fixed::<16>(matrix, state, units, grid, out),
-        _ => march_any(matrix, state, units, grid, out),
+        1 | 2 => propagate_fixed::<2>(matrix, state, units, grid, out),
+        3 | 4 => propagate_fixed::<4>(matrix, state, units, grid, out),
+        5 | 6 => propagate_fixed::<6>(matrix, state, units, grid, out),
+        7 | 8 => propagate_fixed::<8>(matrix, state, units, grid, out),
+        9 | 10 => propagate_fixed::<10>(matrix, state, units, grid, out),
+        11 | 12 => propagate_fixed::<12>(matrix, state, units, grid, out),
+        13..=16 => propagate_fixed::<16>(matrix, state, units, grid, out),
+        _ => propagate_any(matrix, state, units, grid, out),
     }
 }
 
@@ -49,12 +49,12 @@ pub(super) fn march(
 pub(super) fn advance(matrix: &DMatrix<f64>, state: &[f64], time: f64) -> Vec<f64> {
     let mut end = Vec::with_capacity(state.len());
     let ones = vec![1.0; state.len()];
-    march(matrix, state, &ones, Grid { first: time, step: 0.0, count: 1 }, &mut end);
+    propagate(matrix, state, &ones, Grid { first: time, step: 0.0, count: 1 }, &mut end);
     end
 }
 
 /// With sizes that the compiler knows; four states at a time, which do not wait for one another.
-fn march_fixed<const N: usize>(
+fn propagate_fixed<const N: usize>(
     matrix: &DMatrix<f64>,
     state: &[f64],
     units: &[f64],
@@ -116,7 +116,13 @@ fn apply_four<const N: usize>(matrix: &Square<N>, vectors: &[[f64; N]; 4]) -> [[
     sums
 }
 
-fn march_any(matrix: &DMatrix<f64>, state: &[f64], units: &[f64], grid: Grid, out: &mut Vec<f64>) {
+fn propagate_any(
+    matrix: &DMatrix<f64>,
+    state: &[f64],
+    units: &[f64],
+    grid: Grid,
+    out: &mut Vec<f64>,
+) {
     let mut z = DVector::from_column_slice(state);
     if grid.first != 0.0 {
         z = exponential(matrix, grid.first) * z;
@@ -196,7 +202,7 @@ mod tests {
             let state = vec![1.0; size];
             let grid = Grid { first: 0.25, step: 0.125, count: 11 };
             let mut out = Vec::new();
-            march(&matrix, &state, &vec![1.0; size], grid, &mut out);
+            propagate(&matrix, &state, &vec![1.0; size], grid, &mut out);
             let last = exponential(&matrix, 1.5) * DVector::from_column_slice(&state);
             for (got, expected) in out[10 * size..].iter().zip(last.iter()) {
                 assert!((got - expected).abs() < 1e-14, "size {size}");

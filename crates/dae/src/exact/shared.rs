@@ -1,4 +1,4 @@
-//! What the solutions of many legs have alike.
+//! What the solutions of many intervals have alike.
 
 use std::sync::Arc;
 

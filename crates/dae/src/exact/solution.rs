@@ -11,7 +11,7 @@ use super::{
     modal_row::{ModalRow, coordinates_at},
     modes::Modes,
     panels::{Piece, Quality, interpolate},
-    propagator::{Grid, advance, drifts, march},
+    propagator::{Grid, advance, drifts, propagate},
     shared::{Form, Shared},
 };
 use crate::{Budget, Dense, Panel, Signal, System};
@@ -150,7 +150,7 @@ impl Solution {
     pub(crate) fn radians_beyond(&self, end: f64, lifetimes: f64) -> f64 {
         let Modal { form, spans } = self.modal();
         let moving =
-            form.modes.blocks.iter().filter(|own| spans.iter().any(|at| own.moves(&at.start)));
+            form.modes.blocks.iter().filter(|block| spans.iter().any(|at| block.moves(&at.start)));
         moving.map(|block| radians(block, end, lifetimes)).sum()
     }
 
@@ -192,7 +192,7 @@ impl Solution {
     ///
     /// Each step adds an error of its own; one of a velocity moves all positions after it, so that in
     /// free motion the errors add up twice.
-    fn can_march(&self) -> bool {
+    fn can_propagate(&self) -> bool {
         let system = &self.system;
         let reach = system.norm() * system.end();
         system.spans.len() <= FEW_SPANS
@@ -221,7 +221,7 @@ impl Solution {
             if until > done {
                 let first = time(done) - span.start;
                 let part = Grid { first, step: grid.step, count: until - done };
-                march(&system.matrix, &state, units, part, &mut values);
+                propagate(&system.matrix, &state, units, part, &mut values);
                 done = until;
             }
             if let Some(next) = system.spans.get(at + 1) {
@@ -272,7 +272,7 @@ impl Dense for Solution {
         match uniform(times) {
             // One state is wanted where equations change: as exactly as the signals are. That at the
             // start is given.
-            Some(grid) if (grid.count > 1 || grid.first == 0.0) && self.can_march() => {
+            Some(grid) if (grid.count > 1 || grid.first == 0.0) && self.can_propagate() => {
                 self.by_propagator(grid)
             }
             _ => self.by_modes(times),

@@ -118,7 +118,7 @@ impl<'s> FrequencyResponse<'s> {
             }
         }
         let slope = refined(&matrix, &factors, &slope);
-        let doubt = doubts(&matrix, &state, &right, &size);
+        let threshold = thresholds(&matrix, &state, &right, &size);
         let is_finite =
             |all: &[Complex<f64>]| all.iter().all(|z| z.re.is_finite() && z.im.is_finite());
         (is_finite(&state) && is_finite(&slope)).then_some(Harmonic {
@@ -128,7 +128,7 @@ impl<'s> FrequencyResponse<'s> {
             inputs,
             input_slopes,
             factors,
-            doubt,
+            threshold,
         })
     }
 
@@ -178,7 +178,7 @@ pub struct Harmonic<'s> {
     input_slopes: Vec<Complex<f64>>,
     factors: Factors,
     /// By how much each equation may be missed.
-    doubt: Vec<f64>,
+    threshold: Vec<f64>,
 }
 
 impl Harmonic<'_> {
@@ -209,8 +209,11 @@ impl Harmonic<'_> {
             }
         }
         self.factors.solve_transposed(&mut adjoint);
-        let passed: f64 =
-            adjoint.iter().zip(&self.doubt).map(|(own, doubt)| own.norm() * doubt).sum();
+        let passed: f64 = adjoint
+            .iter()
+            .zip(&self.threshold)
+            .map(|(own, threshold)| own.norm() * threshold)
+            .sum();
         Amplitude {
             value,
             slope: slope * Complex::new(0.0, self.system.time_scale),
@@ -250,7 +253,7 @@ fn refined(matrix: &Entries, factors: &Factors, right: &[Complex<f64>]) -> Vec<C
 }
 
 /// By how much each equation is missed, and may be with its coefficients rounded otherwise.
-fn doubts(
+fn thresholds(
     matrix: &Entries,
     state: &[Complex<f64>],
     right: &[Complex<f64>],

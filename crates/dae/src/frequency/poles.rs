@@ -26,9 +26,12 @@ pub fn poles(system: &System) -> Option<Vec<Complex<f64>>> {
     let found = THRESHOLDS.iter().find_map(|&threshold| {
         Schur::try_new(matrix.clone(), threshold * f64::EPSILON, 100 + 60 * size)
     })?;
-    let poles: Vec<Complex<f64>> =
-        found.complex_eigenvalues().iter().map(|own| own / system.time_scale).collect();
-    poles.iter().all(|own| own.re.is_finite() && own.im.is_finite()).then_some(poles)
+    let poles: Vec<Complex<f64>> = found
+        .complex_eigenvalues()
+        .iter()
+        .map(|complex_eigenvalue| complex_eigenvalue / system.time_scale)
+        .collect();
+    poles.iter().all(|pole| pole.re.is_finite() && pole.im.is_finite()).then_some(poles)
 }
 
 /// The matrix of the differential unknowns alone.

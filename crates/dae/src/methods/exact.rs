@@ -250,7 +250,9 @@ impl Method for Exact {
                 let mut part = share * run.t_end;
                 let (mut found, mut stop) = search(&solution, system, &run.guards, part);
                 // What is far away lies in the rounding of a polynomial that reaches there.
-                while let Some(near) = stop.filter(|own| 0.0 < own.time && own.time < NEAR * part) {
+                while let Some(near) =
+                    stop.filter(|stop| 0.0 < stop.time && stop.time < NEAR * part)
+                {
                     part = BEYOND * near.time;
                     let again = search(&solution, system, &run.guards, part);
                     if again.1.is_none() {

@@ -69,12 +69,13 @@ impl Pieces {
         let (kept, stream) = match &run.keep {
             Keep::Everything => (None, None),
             Keep::Part(part) => {
-                let guards = run.guards.iter().flat_map(|own| [Some(own.output), own.rate_of]);
+                let guards =
+                    run.guards.iter().flat_map(|guard| [Some(guard.output), guard.rate_of]);
                 let watched = guards.flatten();
                 let outputs = part.outputs.iter().copied().chain(watched);
                 let forms = outputs.filter_map(|at| system.outputs.get(at));
                 let mut kept: Vec<usize> =
-                    forms.flat_map(|own| own.unknowns.terms()).map(|term| term.0).collect();
+                    forms.flat_map(|form| form.unknowns.terms()).map(|term| term.0).collect();
                 kept.sort_unstable();
                 kept.dedup();
                 (Some(kept), Some(Box::new(Stream::new(system, part, run.rtol))))
@@ -267,7 +268,7 @@ impl Dense for Pieces {
     }
 
     fn keeps(&self, system: &System, output: usize) -> bool {
-        system.outputs.get(output).is_some_and(|own| self.places(own).is_some())
+        system.outputs.get(output).is_some_and(|output| self.places(output).is_some())
     }
 
     fn digest(&self) -> Option<&Digest> {

@@ -10,9 +10,9 @@ use crate::{
 
 /// A problem with two more outputs: the sum of all unknowns, and the difference of the first two with
 /// all driving functions in it.
-fn problem(own: Problem) -> Problem {
-    let mut own = own;
-    let system = &mut own.system;
+fn problem(problem: Problem) -> Problem {
+    let mut problem = problem;
+    let system = &mut problem.system;
     let form = |count: usize, sign: f64| {
         let term = |at: usize| (at, if at % 2 == 1 { sign } else { 1.0 });
         LinearForm::sum((0..count).map(term).collect())
@@ -21,7 +21,7 @@ fn problem(own: Problem) -> Problem {
     let sum = form(system.unknowns.len(), 1.0);
     system.outputs.push("sum", "m", 0.25, &sum, &LinearForm::zero());
     system.outputs.push("driven", "m", 0.25, &form(2, -1.0), &inputs);
-    own
+    problem
 }
 
 fn problems() -> Vec<Problem> {
@@ -47,13 +47,18 @@ fn products(own: &Problem) -> Vec<[usize; 2]> {
 
 #[test]
 fn kept_outputs_are_those_of_a_full_run_to_the_bit() {
-    for own in problems() {
+    for problem in problems() {
         for method in methods() {
             let part = Part { outputs: vec![1], ..Part::default() };
-            let [all, some] = both(&*method, &own, &part, &[]);
-            assert_eq!(all.signal(&own.system, 1), some.signal(&own.system, 1), "{}", own.name);
+            let [all, some] = both(&*method, &problem, &part, &[]);
+            assert_eq!(
+                all.signal(&problem.system, 1),
+                some.signal(&problem.system, 1),
+                "{}",
+                problem.name
+            );
             assert_eq!(all.statistics.accepted, some.statistics.accepted);
-            assert!(some.keeps(&own.system, 1) && all.keeps(&own.system, 0));
+            assert!(some.keeps(&problem.system, 1) && all.keeps(&problem.system, 0));
         }
     }
 }
@@ -85,11 +90,11 @@ fn rows_hold_what_is_kept_only() {
 
 #[test]
 fn ends_and_products_are_those_of_the_full_run() {
-    for own in problems() {
+    for problem in problems() {
         for method in methods() {
-            let part = Part { products: products(&own), ..Part::default() };
-            let [all, some] = both(&*method, &own, &part, &[]);
-            assert_digest(&own, &all, &some, &part);
+            let part = Part { products: products(&problem), ..Part::default() };
+            let [all, some] = both(&*method, &problem, &part, &[]);
+            assert_digest(&problem, &all, &some, &part);
         }
     }
 }
@@ -117,8 +122,8 @@ fn ends_and_products_reach_to_a_stop_within_a_step() {
 }
 
 /// Compares within the roundings of sums over all steps.
-fn assert_digest(own: &Problem, all: &Trajectory, some: &Trajectory, part: &Part) {
-    let system = &own.system;
+fn assert_digest(problem: &Problem, all: &Trajectory, some: &Trajectory, part: &Part) {
+    let system = &problem.system;
     let digest = some.digest().expect("a digest");
     assert!(all.digest().is_none());
     assert_eq!(all.t_end.to_bits(), some.t_end.to_bits());
@@ -127,9 +132,9 @@ fn assert_digest(own: &Problem, all: &Trajectory, some: &Trajectory, part: &Part
         let signal = all.signal(system, output);
         let rounding = 64.0 * f64::EPSILON * signal.bound();
         let [first, last] = digest.ends(system, output);
-        assert!((first - signal.value(0.0)).abs() <= rounding, "{}: {first}", own.name);
+        assert!((first - signal.value(0.0)).abs() <= rounding, "{}: {first}", problem.name);
         let expected = signal.left_value(all.t_end);
-        assert!((last - expected).abs() <= rounding, "{}: {last} {expected}", own.name);
+        assert!((last - expected).abs() <= rounding, "{}: {last} {expected}", problem.name);
     }
     for (product, pair) in digest.products.iter().zip(&part.products) {
         let [a, b] = pair.map(|output| all.signal(system, output));
@@ -139,7 +144,7 @@ fn assert_digest(own: &Problem, all: &Trajectory, some: &Trajectory, part: &Part
         let noise = (a.noise * b.bound() + b.noise * a.bound()) * all.t_end;
         let difference = (product.total - expected).abs();
         let most = 1e-13 * size + noise;
-        assert!(difference <= most, "{} {pair:?}: {difference:e} of {size:e}", own.name);
+        assert!(difference <= most, "{} {pair:?}: {difference:e} of {size:e}", problem.name);
         assert!(product.largest >= product.total && product.largest <= size + noise);
     }
 }

@@ -136,7 +136,7 @@ fn bridge(panels: &mut [Panel], roundings: &[f64], is_known: &[bool]) {
         let run = is_known[from..].iter().position(|known| *known);
         let to = run.map_or(panels.len(), |length| from + length);
         let before = panels[..from].last().map(|own| (own.end, own.value(own.end)));
-        let behind = panels.get(to).map(|own| (own.start, own.value(own.start)));
+        let behind = panels.get(to).map(|panel| (panel.start, panel.value(panel.start)));
         let ends = before.or(behind).zip(behind.or(before));
         for (panel, rounding) in panels[from..to].iter_mut().zip(&roundings[from..to]) {
             let Some(((start, first), (end, last))) = ends else { continue };

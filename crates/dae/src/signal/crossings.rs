@@ -171,7 +171,7 @@ impl Point {
 
 /// A stay on the level.
 #[derive(Debug, Clone, Copy)]
-struct Stay {
+struct Dwell {
     /// Its point farthest to the other side.
     deepest: Point,
     /// Where the sign changed last.
@@ -186,7 +186,7 @@ struct Follower {
     last: Option<Point>,
     /// The side on which the signal was last.
     side: Option<bool>,
-    stay: Option<Stay>,
+    dwell: Option<Dwell>,
 }
 
 impl Follower {
@@ -200,34 +200,34 @@ impl Follower {
         let Some(side) = point.side() else {
             let came_from = self.side?;
             let passage = if changes { root() } else { point.time };
-            let stay = self.stay.get_or_insert(Stay { deepest: point, passage, rests: false });
+            let dwell = self.dwell.get_or_insert(Dwell { deepest: point, passage, rests: false });
             if changes || point.gap == 0.0 {
-                stay.passage = passage;
+                dwell.passage = passage;
             }
             let depth = |point: Point| if came_from { -point.gap } else { point.gap };
-            if depth(point) > depth(stay.deepest) {
-                stay.deepest = point;
+            if depth(point) > depth(dwell.deepest) {
+                dwell.deepest = point;
             }
             return None;
         };
         let came_from = self.side.replace(side);
-        let stay = self.stay.take();
-        match (came_from, stay) {
+        let dwell = self.dwell.take();
+        match (came_from, dwell) {
             (None, _) => None,
-            (Some(before), Some(stay)) if before == side => {
-                (!stay.rests).then_some((stay.deepest.time, None))
+            (Some(before), Some(dwell)) if before == side => {
+                (!dwell.rests).then_some((dwell.deepest.time, None))
             }
             (Some(before), None) if before == side => None,
-            (Some(_), Some(stay)) if !changes => Some((stay.passage, Some(side))),
+            (Some(_), Some(dwell)) if !changes => Some((dwell.passage, Some(side))),
             (Some(_), _) => Some((root(), Some(side))),
         }
     }
 
     /// Notes that the signal was on the level for a whole panel that ended at `end`.
     fn rest(&mut self, end: f64) {
-        if let Some(stay) = &mut self.stay {
-            stay.rests = true;
-            stay.passage = end;
+        if let Some(dwell) = &mut self.dwell {
+            dwell.rests = true;
+            dwell.passage = end;
         }
     }
 }

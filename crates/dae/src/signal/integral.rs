@@ -73,7 +73,7 @@ impl Signal {
         let mut sum = Accumulator::default();
         for panel in self.panels_in(window) {
             let coefficients = &panel.coefficients;
-            let middle = coefficients.first().map_or(0.0, |own| own.abs());
+            let middle = coefficients.first().map_or(0.0, |coefficient| coefficient.abs());
             let variation = chebyshev::variation(coefficients);
             sum.add(if middle > variation {
                 panel.integral().abs()

@@ -1,8 +1,8 @@
-//! The solutions of all legs as one.
+//! The solutions of all intervals as one.
 
 use crate::{Dense, Panel, Signal, System};
 
-/// One leg that has been solved.
+/// One interval that has been solved.
 #[derive(Debug)]
 pub(super) struct Solved {
     /// When it began \[s\].
@@ -15,17 +15,17 @@ pub(super) struct Solved {
     pub(super) dense: Box<dyn Dense>,
 }
 
-/// All legs in order of time.
+/// All intervals in order of time.
 #[derive(Debug, Default)]
 pub(super) struct Chain {
-    pub(super) legs: Vec<Solved>,
-    /// The legs of a second solution whose states were shaken, where one was asked for.
+    pub(super) intervals: Vec<Solved>,
+    /// The intervals of a second solution whose states were shaken, where one was asked for.
     pub(super) doubled: Option<Vec<Solved>>,
     /// See [`Dense::margin`].
     pub(super) margin: Option<f64>,
 }
 
-/// Legs beyond which what makes further signals of a leg quicker takes too much memory.
+/// Intervals beyond which what makes further signals of an interval quicker takes too much memory.
 const MANY: usize = 1000;
 /// Places within a panel at which two solutions are compared.
 const INSIDE: [f64; 3] = [-0.9, 0.0, 0.9];
@@ -33,36 +33,42 @@ const INSIDE: [f64; 3] = [-0.9, 0.0, 0.9];
 const CAUTION: f64 = 8.0;
 
 impl Dense for Chain {
-    /// The signals of the legs, one behind the other.
+    /// The signals of the intervals, one behind the other.
     ///
-    /// Each leg bounds its own error, to which comes what the rounding of times does to a value. What
-    /// the errors before it do to it is estimated from a second solution whose states were shaken: eight times the largest difference of both, leg by leg,
-    /// is added. Where the second one has no value, no error is stated.
+    /// Each interval bounds its own error, to which comes what the rounding of times does to a
+    /// value. What the errors before it do to it is estimated from a second solution whose states
+    /// were shaken: eight times the largest difference of both, interval by interval, is added.
+    /// Where the second one has no value, no error is stated.
     fn signal(&self, _system: &System, output: usize) -> Signal {
         let mut panels: Vec<Panel> = Vec::new();
         let (mut error, mut noise) = (Some(0.0_f64), 0.0_f64);
         let mut difference = Some(0.0_f64);
-        let alone = self.legs.len() == 1;
-        for (at, leg) in self.legs.iter().enumerate() {
-            let own = self.told(leg, output);
+        let alone = self.intervals.len() == 1;
+        for (at, interval) in self.intervals.iter().enumerate() {
+            let own = self.told(interval, output);
             noise = noise.max(own.noise);
             let timed = own.error.map(|error| {
-                // A leg bounds its error in its own time, which begins at a rounded one.
-                if alone { error } else { error + f64::EPSILON * leg.end * steepest(&own) }
+                // An interval bounds its error in its own time, which begins at a rounded one.
+                if alone { error } else { error + f64::EPSILON * interval.end * steepest(&own) }
             });
             error = error.zip(timed).map(|(most, own)| most.max(own));
             if !alone && error.is_some() {
                 let between = self.difference(at, output, &own);
                 difference = difference.zip(between).map(|(most, own)| most.max(own));
             }
-            // What drives may jump where the leg ends, and nothing else has the new value yet.
-            let ends = own.panels.iter().rposition(|panel| leg.start + panel.start < leg.end);
+            // What drives may jump where the interval ends, and nothing else has the new value yet.
+            let ends =
+                own.panels.iter().rposition(|panel| interval.start + panel.start < interval.end);
             let last = ends.unwrap_or(0);
             let within = own.panels.into_iter().take(last + 1);
             panels.extend(within.enumerate().map(|(at, panel)| Panel {
-                // The sums may be rounded beyond the end of the leg.
-                start: (leg.start + panel.start).min(leg.end),
-                end: if at == last { leg.end } else { (leg.start + panel.end).min(leg.end) },
+                // The sums may be rounded beyond the end of the interval.
+                start: (interval.start + panel.start).min(interval.end),
+                end: if at == last {
+                    interval.end
+                } else {
+                    (interval.start + panel.end).min(interval.end)
+                },
                 coefficients: panel.coefficients,
             }));
         }
@@ -79,8 +85,8 @@ impl Dense for Chain {
     }
 
     fn bytes(&self) -> usize {
-        let all = self.legs.iter().chain(self.doubled.iter().flatten());
-        all.map(|leg| leg.dense.bytes()).sum()
+        let all = self.intervals.iter().chain(self.doubled.iter().flatten());
+        all.map(|interval| interval.dense.bytes()).sum()
     }
 }
 
@@ -98,30 +104,30 @@ fn steepest(signal: &Signal) -> f64 {
 }
 
 impl Chain {
-    /// An output in one leg.
-    fn told(&self, leg: &Solved, output: usize) -> Signal {
-        let signal = leg.dense.signal(&leg.system, output);
-        if self.legs.len() > MANY {
-            leg.dense.forget();
+    /// An output in one interval.
+    fn told(&self, interval: &Solved, output: usize) -> Signal {
+        let signal = interval.dense.signal(&interval.system, output);
+        if self.intervals.len() > MANY {
+            interval.dense.forget();
         }
         signal
     }
 
-    /// The largest difference of an output between a leg and the second solution. As long as both go
-    /// through the same legs, time counts from the start of each and from that of the run; where one of
-    /// them has come to rest after fewer bounces, from that of the run only.
-    fn difference(&self, leg: usize, output: usize, own: &Signal) -> Option<f64> {
+    /// The largest difference of an output between an interval and the second solution. As long as
+    /// both go through the same intervals, time counts from the start of each and from that of the
+    /// run; where one of them has come to rest after fewer bounces, from that of the run only.
+    fn difference(&self, interval: usize, output: usize, own: &Signal) -> Option<f64> {
         let doubled = self.doubled.as_ref().filter(|all| !all.is_empty())?;
-        let one = &self.legs[leg];
+        let one = &self.intervals[interval];
         // Inside of panels only: where an input jumps, both may jump a rounding apart.
         let mut places = own
             .panels
             .iter()
             .flat_map(|panel| INSIDE.map(|x| panel.time(x)).map(|t| (t, panel.value(t))));
-        let all = doubled.len() == self.legs.len();
-        if let Some(other) = doubled.get(leg).filter(|other| is_same(one, other, all)) {
+        let all = doubled.len() == self.intervals.len();
+        if let Some(other) = doubled.get(interval).filter(|other| is_same(one, other, all)) {
             let double = self.told(other, output);
-            // A leg that ends earlier by a rounding is not followed beyond its end.
+            // An interval that ends earlier by a rounding is not followed beyond its end.
             let end = double.end();
             let shift = one.start - other.start;
             let differences = places.flat_map(|(t, value)| {
@@ -144,8 +150,8 @@ impl Chain {
     }
 }
 
-/// Whether a leg and one of the second solution are the same part of the run. They are by their place
-/// among the legs, and where there are not as many also by their times.
+/// Whether an interval and one of the second solution are the same part of the run. They are by
+/// their place among the intervals, and where there are not as many also by their times.
 fn is_same(one: &Solved, other: &Solved, as_many: bool) -> bool {
     let alike = one.phases.iter().zip(&other.phases).all(|(a, b)| a.0 == b.0);
     let apart = (one.start - other.start).abs().max((one.end - other.end).abs());

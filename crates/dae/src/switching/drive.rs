@@ -1,24 +1,24 @@
-//! From leg to leg.
+//! From interval to interval.
 
 use std::{ops::ControlFlow, time::Instant};
 
 use dashpot_numerics::Twofold;
 
 use super::{
-    Leg, LegEnd, Switching,
+    IntervalEnd, ModeInterval, Switching,
     chain::{Chain, Solved},
-    flight::follow,
+    perturbed::{Afterwards, Perturbed},
     precision::{margin, smaller_sizes},
-    shaken::{Afterwards, Shaken},
+    predicted::follow,
 };
 use crate::{
     Event, Keep, Method, Observer, Outcome, Progress, Run, Shared, SolveError, Statistics, Switch,
     Trajectory, pieces::MOST_BYTES,
 };
 
-/// Most legs of a run.
-const MOST_LEGS: usize = 200_000;
-/// Most legs that begin at one instant: more are a sign that no phases hold there.
+/// Most intervals of a run.
+const MOST_INTERVALS: usize = 200_000;
+/// Most intervals that begin at one instant: more are a sign that no phases hold there.
 const MOST_AT_ONCE: usize = 64;
 /// Errors of stepping methods at events, in parts of their tolerance.
 const ERRORS_PER_TOLERANCE: f64 = 1e2;
@@ -28,16 +28,16 @@ const LARGEST_ERROR: f64 = 0.1;
 /// Roundings of a method that has no other error.
 const ROUNDINGS: f64 = 1e3;
 
-/// Solves a run leg by leg with one method.
+/// Solves a run interval by interval with one method.
 ///
-/// A method without an error of its own solves a run of several legs twice, the second time with the
-/// state at the end of each leg shaken in its last digits: by what comes of that the errors of its
-/// signals are estimated.
+/// A method without an error of its own solves a run of several intervals twice, the second time
+/// with the state at the end of each interval shaken in its last digits: by what comes of that the
+/// errors of its signals are estimated.
 ///
 /// # Errors
 ///
-/// What the method says of a leg; [`SolveError::Switching`] where no leg can follow, or too many do at one instant;
-/// [`SolveError::TooManySwitches`] where too many do in all.
+/// What the method says of an interval; [`SolveError::Switching`] where no interval can follow, or
+/// too many do at one instant; [`SolveError::TooManySwitches`] where too many do in all.
 pub fn integrate(
     method: &dyn Method,
     switching: &dyn Switching,
@@ -45,26 +45,27 @@ pub fn integrate(
     observer: &mut dyn Observer,
 ) -> Result<Trajectory, SolveError> {
     let begin = Instant::now();
-    let doubt = if method.is_exact() {
+    let threshold = if method.is_exact() {
         ROUNDINGS * f64::EPSILON
     } else {
         (ERRORS_PER_TOLERANCE * run.rtol).min(LARGEST_ERROR)
     };
     let mut shared = Shared::default();
     let Solution { mut chain, name, t_end, first_phases, mut found } =
-        solve(method, switching, run, (doubt, MOST_LEGS), &mut shared, observer)?;
-    if method.is_exact() && chain.legs.len() > 1 {
-        let shaken = Shaken { inner: switching };
+        solve(method, switching, run, (threshold, MOST_INTERVALS), &mut shared, observer)?;
+    if method.is_exact() && chain.intervals.len() > 1 {
+        let perturbed = Perturbed { inner: switching };
         let unwatched = Run { guards: Vec::new(), t_end, ..run.clone() };
-        let limits = (doubt, Shaken::most_legs(chain.legs.len()));
+        let limits = (threshold, Perturbed::most_intervals(chain.intervals.len()));
         let end = Progress { time: t_end, steps: found.statistics.accepted };
         let mut afterwards = Afterwards { end, observer };
-        chain.doubled =
-            Some(match solve(method, &shaken, &unwatched, limits, &mut shared, &mut afterwards) {
-                Ok(other) => other.chain.legs,
+        chain.doubled = Some(
+            match solve(method, &perturbed, &unwatched, limits, &mut shared, &mut afterwards) {
+                Ok(other) => other.chain.intervals,
                 Err(error @ SolveError::Cancelled { .. }) => return Err(error),
                 Err(_) => Vec::new(),
-            });
+            },
+        );
     }
     found.statistics.wall = begin.elapsed();
     let outcome = found.outcome.map_or(Outcome::Finished, |guard| Outcome::Stopped { guard });
@@ -80,7 +81,7 @@ pub fn integrate(
     })
 }
 
-/// All legs of a run.
+/// All intervals of a run.
 struct Solution {
     chain: Chain,
     name: &'static str,
@@ -93,38 +94,38 @@ fn solve(
     method: &dyn Method,
     switching: &dyn Switching,
     run: &Run,
-    (doubt, most_legs): (f64, usize),
+    (threshold, most_intervals): (f64, usize),
     shared: &mut Shared,
     observer: &mut dyn Observer,
 ) -> Result<Solution, SolveError> {
-    let mut leg = switching.first(doubt)?;
-    let first_phases = leg.phases.clone();
+    let mut interval = switching.first(threshold)?;
+    let first_phases = interval.phases.clone();
     let mut drive =
         Drive { start: Twofold::ZERO, steps: 0, run, observer, chain: Chain::default() };
-    let mut found = Found { switches: leg.switches.clone(), ..Found::default() };
+    let mut found = Found { switches: interval.switches.clone(), ..Found::default() };
     let (mut at_once, mut bytes) = (0, 0);
     loop {
         let start = drive.start.high();
-        let (mut trajectory, reached) = drive.leg(method, &leg, &mut found)?;
+        let (mut trajectory, reached) = drive.interval(method, &interval, &mut found)?;
         let t_end = reached.high();
-        let goes_on = found.goes_on(&leg, &trajectory, t_end, run);
+        let goes_on = found.goes_on(&interval, &trajectory, t_end, run);
         if trajectory.outcome == Outcome::Finished && !goes_on && !method.is_exact() {
-            drive.chain.margin = margin(&leg, trajectory.dense.as_ref(), run, doubt);
+            drive.chain.margin = margin(&interval, trajectory.dense.as_ref(), run, threshold);
         }
-        let length = trajectory.t_end / leg.system.time_scale;
-        let state = trajectory.dense.sample(&leg.system, &[length]);
+        let length = trajectory.t_end / interval.system.time_scale;
+        let state = trajectory.dense.sample(&interval.system, &[length]);
         let at_end =
-            |event: &&Event| event.time >= trajectory.t_end && event.guard < leg.guards.len();
+            |event: &&Event| event.time >= trajectory.t_end && event.guard < interval.guards.len();
         let fired: Vec<usize> =
             trajectory.events.iter().filter(at_end).map(|event| event.guard).collect();
         let name = trajectory.method;
         trajectory.dense.share(shared);
         bytes += trajectory.dense.bytes();
-        drive.chain.legs.push(Solved {
+        drive.chain.intervals.push(Solved {
             start,
             end: t_end,
-            phases: leg.phases.clone(),
-            system: leg.system.reporting(length),
+            phases: interval.phases.clone(),
+            system: interval.system.reporting(length),
             dense: trajectory.dense,
         });
         if bytes > MOST_BYTES {
@@ -142,23 +143,34 @@ fn solve(
         if at_once > MOST_AT_ONCE {
             return Err(found.endless(t_end));
         }
-        if drive.chain.legs.len() >= most_legs {
+        if drive.chain.intervals.len() >= most_intervals {
             let parts = found.last_parts();
-            return Err(SolveError::TooManySwitches { time: t_end, legs: most_legs, parts });
+            return Err(SolveError::TooManySwitches {
+                time: t_end,
+                intervals: most_intervals,
+                parts,
+            });
         }
-        let end = LegEnd { leg: &leg, time: t_end, length, state: &state, fired: &fired, doubt };
-        leg = switching.next(&end)?;
-        found.switches.extend(leg.switches.iter().cloned());
+        let end = IntervalEnd {
+            interval: &interval,
+            time: t_end,
+            length,
+            state: &state,
+            fired: &fired,
+            threshold,
+        };
+        interval = switching.next(&end)?;
+        found.switches.extend(interval.switches.iter().cloned());
         drive.start = reached;
     }
 }
 
 /// Where a run is.
 struct Drive<'r> {
-    /// Start of the leg \[s\], the sum of all legs before: rounded, it would shift every leg of many short
-    /// ones the same way.
+    /// Start of the interval \[s\], the sum of all intervals before: rounded, it would shift every
+    /// interval of many short ones the same way.
     start: Twofold,
-    /// Steps of the legs before.
+    /// Steps of the intervals before.
     steps: usize,
     run: &'r Run,
     observer: &'r mut dyn Observer,
@@ -175,10 +187,16 @@ struct Found {
 }
 
 impl Found {
-    /// Whether another leg follows the one of this `trajectory`, which ends at `t_end` in the run; takes
-    /// down the run's own guard that has ended it.
-    fn goes_on(&mut self, leg: &Leg, trajectory: &Trajectory, t_end: f64, run: &Run) -> bool {
-        let own = leg.guards.len();
+    /// Whether another interval follows the one of this `trajectory`, which ends at `t_end` in the
+    /// run; takes down the run's own guard that has ended it.
+    fn goes_on(
+        &mut self,
+        interval: &ModeInterval,
+        trajectory: &Trajectory,
+        t_end: f64,
+        run: &Run,
+    ) -> bool {
+        let own = interval.guards.len();
         self.outcome = match trajectory.outcome {
             Outcome::Finished => None,
             Outcome::Stopped { guard } if guard >= own => Some(guard - own),
@@ -206,7 +224,7 @@ impl Found {
     /// The names of what switched last.
     fn last_parts(&self) -> String {
         let mut names: Vec<String> =
-            self.switches.iter().rev().take(4).map(|own| format!("`{}`", own.name)).collect();
+            self.switches.iter().rev().take(4).map(|switch| format!("`{}`", switch.name)).collect();
         names.sort();
         names.dedup();
         names.join(", ")
@@ -214,32 +232,32 @@ impl Found {
 }
 
 impl Drive<'_> {
-    /// Solves one leg; returns it and the time of its end in the run.
-    fn leg(
+    /// Solves one interval; returns it and the time of its end in the run.
+    fn interval(
         &mut self,
         method: &dyn Method,
-        leg: &Leg,
+        interval: &ModeInterval,
         found: &mut Found,
     ) -> Result<(Trajectory, Twofold), SolveError> {
-        let own = leg.guards.len();
-        let last = leg.until.map_or(self.run.t_end, |own| own.min(self.run.t_end));
+        let own = interval.guards.len();
+        let last = interval.until.map_or(self.run.t_end, |until| until.min(self.run.t_end));
         let run = Run {
             t_end: (Twofold::from(last) - self.start).high(),
             rtol: self.run.rtol,
             nominal: Vec::new(),
-            guards: leg.guards.iter().chain(&self.run.guards).cloned().collect(),
+            guards: interval.guards.iter().chain(&self.run.guards).cloned().collect(),
             keep: Keep::Everything,
             budget: self.run.budget.clone(),
         };
         let mut shifted =
             Shifted { start: self.start.high(), steps: self.steps, observer: &mut *self.observer };
-        let followed = match leg.flight {
-            Some(flight) => follow(leg, flight, method, &run, &mut shifted)?,
+        let followed = match interval.predicted {
+            Some(predicted) => follow(interval, predicted, method, &run, &mut shifted)?,
             None => None,
         };
         let trajectory = match followed {
             Some(trajectory) => trajectory,
-            None => solve_to_size(leg, method, run, &mut shifted)?,
+            None => solve_to_size(interval, method, run, &mut shifted)?,
         };
         let finished = trajectory.outcome == Outcome::Finished;
         let t_end = if finished { last.into() } else { self.start + trajectory.t_end };
@@ -255,23 +273,23 @@ impl Drive<'_> {
     }
 }
 
-/// Solves a leg as often as it takes for what its guards watch to be followed to its own size. A finer
-/// solution that fails leaves the one before.
+/// Solves an interval as often as it takes for what its guards watch to be followed to its own
+/// size. A finer solution that fails leaves the one before.
 fn solve_to_size(
-    leg: &Leg,
+    interval: &ModeInterval,
     method: &dyn Method,
     mut run: Run,
     observer: &mut Shifted<'_>,
 ) -> Result<Trajectory, SolveError> {
-    let mut found = method.integrate(&leg.system, &run, observer)?;
+    let mut found = method.integrate(&interval.system, &run, observer)?;
     if method.is_exact() {
         return Ok(found);
     }
-    while let Some(sizes) = smaller_sizes(leg, &run, &found) {
+    while let Some(sizes) = smaller_sizes(interval, &run, &found) {
         observer.steps += found.statistics.accepted;
         run.nominal = sizes;
         let work = found.statistics;
-        match method.integrate(&leg.system, &run, observer) {
+        match method.integrate(&interval.system, &run, observer) {
             Ok(finer) => found = finer,
             Err(error @ SolveError::Cancelled { .. }) => return Err(error),
             Err(_) => break,

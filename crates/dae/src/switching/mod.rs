@@ -1,44 +1,45 @@
-//! Runs whose equations change: legs of one system each, joined at switchings.
+//! Runs whose equations change: mode intervals of one system each, joined at switchings.
 //!
-//! One layer serves every method. A leg is a [`System`] with guards that end it; whoever knows what
-//! the equations stand for says which leg follows ([`Switching`]). Outputs have the same numbers in
-//! all legs, so that a run of many legs still yields each of them as one [`Signal`](crate::Signal).
+//! One layer serves every method. An interval is a [`System`] with guards that end it; whoever
+//! knows what the equations stand for says which interval follows ([`Switching`]). Outputs have the
+//! same numbers in all intervals, so that a run of many intervals still yields each of them as one
+//! [`Signal`](crate::Signal).
 
 mod chain;
 mod drive;
-mod flight;
+mod perturbed;
 mod precision;
-mod shaken;
+mod predicted;
 
 use std::{fmt::Debug, sync::Arc};
 
 use crate::{Guard, SolveError, Switch, System};
 
 pub use drive::integrate;
-pub use flight::Flight;
+pub use predicted::PredictedEvent;
 
 /// A part of a run with one set of equations.
 #[derive(Debug, Clone)]
-pub struct Leg {
-    /// The equations, with time counted from the leg's start, and their initial values.
+pub struct ModeInterval {
+    /// The equations, with time counted from the interval's start, and their initial values.
     pub system: Arc<System>,
     /// The phase of each switching part: its number, and what it remembers.
     pub phases: Vec<(usize, f64)>,
-    /// What ends the leg.
+    /// What ends the interval.
     pub guards: Vec<Guard>,
-    /// What switched as the leg began.
+    /// What switched as the interval began.
     pub switches: Vec<Switch>,
-    /// The guard that ends the leg, where that is known already: no method need look for it.
-    pub flight: Option<Flight>,
-    /// The time in the run \[s\] at which the leg ends, whatever its guards say.
+    /// The guard that ends the interval, where that is known already: no method need look for it.
+    pub predicted: Option<PredictedEvent>,
+    /// The time in the run \[s\] at which the interval ends, whatever its guards say.
     pub until: Option<f64>,
 }
 
-/// The end of a leg at guards, or at the time at which it had to end.
+/// The end of an interval at guards, or at the time at which it had to end.
 #[derive(Debug, Clone, Copy)]
-pub struct LegEnd<'a> {
-    /// The leg.
-    pub leg: &'a Leg,
+pub struct IntervalEnd<'a> {
+    /// The interval.
+    pub interval: &'a ModeInterval,
     /// Time of its end in the run \[s\].
     pub time: f64,
     /// How long it lasted, in units of its system's time.
@@ -49,24 +50,24 @@ pub struct LegEnd<'a> {
     pub fired: &'a [usize],
     /// Size of the error of a quantity in parts of its terms: what is smaller cannot be told from
     /// zero.
-    pub doubt: f64,
+    pub threshold: f64,
 }
 
-/// Knows the legs of a run.
+/// Knows the intervals of a run.
 pub trait Switching: Debug + Send + Sync {
-    /// The leg with which a run begins. `doubt` is as in [`LegEnd::doubt`].
+    /// The interval with which a run begins. `threshold` is as in [`IntervalEnd::threshold`].
     ///
     /// # Errors
     ///
-    /// [`SolveError::Switching`] where no leg is possible.
-    fn first(&self, doubt: f64) -> Result<Leg, SolveError>;
+    /// [`SolveError::Switching`] where no interval is possible.
+    fn first(&self, threshold: f64) -> Result<ModeInterval, SolveError>;
 
-    /// The leg that follows.
+    /// The interval that follows.
     ///
     /// # Errors
     ///
-    /// [`SolveError::Switching`] where no leg is possible.
-    fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError>;
+    /// [`SolveError::Switching`] where no interval is possible.
+    fn next(&self, end: &IntervalEnd<'_>) -> Result<ModeInterval, SolveError>;
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
-//! How well a leg is known where its guards look: what may have switched before a run ends, and sizes of
-//! unknowns in legs that see little of them.
+//! How well an interval is known where its guards look: what may have switched before a run ends,
+//! and sizes of unknowns in intervals that see little of them.
 //!
 //! Scales are made for a whole run: what a weight could do in all of it may be 10⁹ times what a gap leaves
 //! it. A method that follows places to its tolerance of such a scale knows nothing of when the gap closes.
-//! A leg in which a guard's output stays that small is solved once more, with sizes of its own.
+//! An interval in which a guard's output stays that small is solved once more, with sizes of its
+//! own.
 
-use super::Leg;
+use super::ModeInterval;
 use crate::{Dense, Direction, Guard, Run, System, Trajectory, UnknownKind, pieces::ROUNDING};
 
 /// An output that has strayed from its level by less than this part of what tolerances are made for is
@@ -21,11 +22,16 @@ const AMPLE: f64 = 2.0;
 /// Longest margin in parts of the run: what takes longer rests, or settles on its level.
 const LONGEST_MARGIN: f64 = 0.05;
 
-/// How much longer the last `leg` would have to be for outputs on their way out to be seen beyond the levels
-/// of their guards, if by the error of the method they may be there before its end \[s\]. `doubt` is as in
-/// [`LegEnd::doubt`](super::LegEnd::doubt).
-pub(super) fn margin(leg: &Leg, dense: &dyn Dense, run: &Run, doubt: f64) -> Option<f64> {
-    let system = leg.system.as_ref();
+/// How much longer the last `interval` would have to be for outputs on their way out to be seen beyond the levels
+/// of their guards, if by the error of the method they may be there before its end \[s\]. `threshold` is as in
+/// [`IntervalEnd::threshold`](super::IntervalEnd::threshold).
+pub(super) fn margin(
+    interval: &ModeInterval,
+    dense: &dyn Dense,
+    run: &Run,
+    threshold: f64,
+) -> Option<f64> {
+    let system = interval.system.as_ref();
     let of_guard = |guard: &Guard| {
         let outward = match guard.direction {
             Direction::Rising => 1.0,
@@ -38,18 +44,24 @@ pub(super) fn margin(leg: &Leg, dense: &dyn Dense, run: &Run, doubt: f64) -> Opt
         let speed = outward * last.slope(last.end);
         let largest = signal.noise / (ROUNDING * f64::EPSILON);
         let span = AMPLE * (left.max(0.0) + AMPLE * run.rtol * largest) / speed;
-        let is_near = speed > 0.0 && left <= doubt * largest && span <= LONGEST_MARGIN * run.t_end;
+        let is_near =
+            speed > 0.0 && left <= threshold * largest && span <= LONGEST_MARGIN * run.t_end;
         is_near.then_some(span)
     };
-    leg.guards.iter().filter_map(of_guard).reduce(f64::max)
+    interval.guards.iter().filter_map(of_guard).reduce(f64::max)
 }
 
-/// The sizes with which a leg is to be solved again; `None` where those of the `run` have done.
-pub(super) fn smaller_sizes(leg: &Leg, run: &Run, trajectory: &Trajectory) -> Option<Vec<f64>> {
-    let system = leg.system.as_ref();
+/// The sizes with which an interval is to be solved again; `None` where those of the `run` have
+/// done.
+pub(super) fn smaller_sizes(
+    interval: &ModeInterval,
+    run: &Run,
+    trajectory: &Trajectory,
+) -> Option<Vec<f64>> {
+    let system = interval.system.as_ref();
     let before = |unknown: usize| run.nominal.get(unknown).copied().unwrap_or(1.0);
     let mut found: Option<Vec<f64>> = None;
-    for guard in &leg.guards {
+    for guard in &interval.guards {
         let output = system.outputs.at(guard.output);
         let scale = output.scale.abs();
         let terms = || output.unknowns.terms().map(|(at, factor)| (at, scale * factor.abs()));

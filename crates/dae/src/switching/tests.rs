@@ -2,7 +2,7 @@
 
 use std::{ops::ControlFlow, sync::Arc};
 
-use super::{Leg, LegEnd, Switch, Switching, integrate};
+use super::{IntervalEnd, ModeInterval, Switch, Switching, integrate};
 use crate::{
     Direction, Event, Guard, Method, Observer, Outcome, Progress, Run, Silent, SolveError,
     methods::{all, by_name},
@@ -20,7 +20,7 @@ const NAMES: [&str; 2] = ["floor", "ceiling"];
 const SPEED: f64 = 0.5;
 
 impl Walls {
-    fn leg(state: [f64; 2], switches: Vec<Switch>) -> Leg {
+    fn interval(state: [f64; 2], switches: Vec<Switch>) -> ModeInterval {
         let mut system = problems::free_motion().system;
         system.initial = state.to_vec();
         let scale = system.outputs.at(0).scale;
@@ -34,23 +34,23 @@ impl Walls {
             rate_of: None,
         };
         let guards = [(0, Direction::Falling), (1, Direction::Rising)].map(guard).to_vec();
-        Leg {
+        ModeInterval {
             system: Arc::new(system),
             phases: vec![(0, 0.0)],
             guards,
             switches,
-            flight: None,
+            predicted: None,
             until: None,
         }
     }
 }
 
 impl Switching for Walls {
-    fn first(&self, _doubt: f64) -> Result<Leg, SolveError> {
-        Ok(Self::leg([0.25, -SPEED], Vec::new()))
+    fn first(&self, _threshold: f64) -> Result<ModeInterval, SolveError> {
+        Ok(Self::interval([0.25, -SPEED], Vec::new()))
     }
 
-    fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError> {
+    fn next(&self, end: &IntervalEnd<'_>) -> Result<ModeInterval, SolveError> {
         let wall = end.fired[0];
         let place = if wall == 0 { 0.0 } else { 1.0 };
         let switch = Switch {
@@ -64,7 +64,7 @@ impl Switching for Walls {
             lost: 0.0,
             worked: 0.0,
         };
-        Ok(Self::leg([place, -self.restitution * end.state[1]], vec![switch]))
+        Ok(Self::interval([place, -self.restitution * end.state[1]], vec![switch]))
     }
 }
 
@@ -73,11 +73,11 @@ impl Switching for Walls {
 struct Sticky;
 
 impl Switching for Sticky {
-    fn first(&self, doubt: f64) -> Result<Leg, SolveError> {
-        Walls { restitution: 1.0 }.first(doubt)
+    fn first(&self, threshold: f64) -> Result<ModeInterval, SolveError> {
+        Walls { restitution: 1.0 }.first(threshold)
     }
 
-    fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError> {
+    fn next(&self, end: &IntervalEnd<'_>) -> Result<ModeInterval, SolveError> {
         Walls { restitution: -1.0 }.next(end)
     }
 }
@@ -121,7 +121,7 @@ fn a_body_between_walls_hits_them_at_the_times_of_the_closed_form() {
             let error = switch.time / scale() / time - 1.0;
             assert!(error.abs() < 1e-12, "{}: {error:e}", method.name());
         }
-        let parts: Vec<usize> = found.switches.iter().map(|own| own.part).take(4).collect();
+        let parts: Vec<usize> = found.switches.iter().map(|switch| switch.part).take(4).collect();
         assert_eq!(parts, [0, 1, 0, 1]);
         assert_eq!(found.outcome, Outcome::Finished);
         assert_eq!(found.t_end, run.t_end);
@@ -145,7 +145,7 @@ fn exact_states_an_error_that_covers_the_closed_form_through_all_legs() {
     let system = problems::free_motion().system;
     let position = found.signal(&system, 0);
     let error = position.error.expect("a bound");
-    // 64 roundings of each leg's state, which shift the legs after it.
+    // 64 roundings of each interval's state, which shift the intervals after it.
     assert!(error < 1e-11, "{error:e}");
     let (mut before, mut place, mut speed) = (0.0, 0.25, -SPEED);
     for hit in hits(restitution).take_while(|&time| time < 20.0) {
@@ -244,9 +244,9 @@ fn progress_never_goes_back_and_steps_are_counted_over_all_legs() {
         for pair in told.windows(2) {
             assert!(pair[0].steps <= pair[1].steps, "{}: {pair:?}", method.name());
         }
-        // A leg may be told beyond its end, up to the step that finds it.
-        let legs = told.iter().map(|own| own.time).fold(0.0, f64::max);
-        assert!(legs <= run.t_end * (1.0 + 1e-12), "{}: {legs}", method.name());
+        // An interval may be told beyond its end, up to the step that finds it.
+        let intervals = told.iter().map(|own| own.time).fold(0.0, f64::max);
+        assert!(intervals <= run.t_end * (1.0 + 1e-12), "{}: {intervals}", method.name());
     }
     let mut watching = Watching(Vec::new(), 2);
     let bdf = by_name("bdf").unwrap();
@@ -285,7 +285,7 @@ fn more_legs_than_are_followed_are_an_error_of_its_own() {
     let run = Run::to(1e6 * scale());
     let walls = Walls { restitution: 1.0 };
     let error = integrate(&*exact, &walls, &run, &mut Silent).unwrap_err();
-    let SolveError::TooManySwitches { legs, parts, .. } = &error else { panic!("{error}") };
-    assert_eq!(*legs, 200_000);
+    let SolveError::TooManySwitches { intervals, parts, .. } = &error else { panic!("{error}") };
+    assert_eq!(*intervals, 200_000);
     assert_eq!(parts, "`ceiling`, `floor`");
 }

@@ -91,7 +91,7 @@ impl Waveform {
     #[must_use]
     pub fn in_units(&self, time: f64, value: f64) -> Self {
         let pieces = self.pieces.iter().map(|piece| piece.in_units(time, value)).collect();
-        let scaled = |own: Given| Given { from: own.from / time, to: own.to / time, ..own };
+        let scaled = |given: Given| Given { from: given.from / time, to: given.to / time, ..given };
         Self { pieces, given: self.given.map(scaled) }
     }
 
@@ -111,7 +111,7 @@ impl Waveform {
             whole.value += reached;
             pieces.push(whole);
         }
-        let given = self.given.map(|own| Given { integrals: own.integrals + 1, ..own });
+        let given = self.given.map(|given| Given { integrals: given.integrals + 1, ..given });
         Self::new(pieces).map(|own| Self { given, ..own })
     }
 
@@ -120,8 +120,11 @@ impl Waveform {
     pub fn since(&self, start: f64) -> Self {
         let first = self.pieces.partition_point(|piece| piece.start <= start).saturating_sub(1);
         let shifted = |piece: &Piece| Piece { start: piece.start - start, ..*piece };
-        let given =
-            self.given.map(|own| Given { from: own.from - start, to: own.to - start, ..own });
+        let given = self.given.map(|given| Given {
+            from: given.from - start,
+            to: given.to - start,
+            ..given
+        });
         Self { pieces: self.pieces[first..].iter().map(shifted).collect(), given }
     }
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::{
     Parts,
-    acting::contact_force,
     bodies::Role,
+    incidence::contact_force,
     row::{Row, RowSum},
 };
 use crate::{Network, Support};
@@ -53,7 +53,7 @@ impl Accelerometers {
 impl Shared {
     fn of(network: &Network, parts: &Parts<'_>, body: usize) -> Self {
         let (mut weight, mut inertia) = (RowSum::default(), RowSum::default());
-        for drive in parts.acting.drives(parts.drives, body) {
+        for drive in parts.incidence.drives(parts.drives, body) {
             match &drive.force {
                 Some(force) if drive.is_body_force => weight.add(1.0, force),
                 Some(_) => {}
@@ -66,7 +66,7 @@ impl Shared {
             contact: if is_free { contact_force(parts, body) } else { Row::default() },
             weight: weight.total(),
             inertia: inertia.total(),
-            heavy: nodes.filter(|own| own.mass > 0.0).count(),
+            heavy: nodes.filter(|node| node.mass > 0.0).count(),
         }
     }
 
@@ -84,7 +84,7 @@ impl Shared {
         } else if body.whole_mass > 0.0 {
             sum.add(1.0 / body.whole_mass, &self.inertia);
         }
-        let own = parts.acting.drives_at(parts.drives, node).filter(|own| own.is_body_force);
+        let own = parts.incidence.drives_at(parts.drives, node).filter(|own| own.is_body_force);
         own.filter_map(|own| own.force.as_ref()).for_each(|force| sum.add(-1.0 / mass, force));
         sum.total()
     }

@@ -211,7 +211,7 @@ impl Load<'_> {
             add(spring.ends[1], force);
         }
         self.free.iter().for_each(|&body| add(body, self.weights[body]));
-        let most = sums.iter().map(|own| own.1).fold(0.0, f64::max);
+        let most = sums.iter().map(|sum| sum.1).fold(0.0, f64::max);
         let is_unbalanced = |&&body: &&usize| {
             let (sum, size) = sums[body];
             sum.is_nan() || sum.abs() > UNBALANCED * size.max(f64::EPSILON * most)
@@ -257,11 +257,11 @@ fn next_by_touch(
     values: &[f64],
     is_placed: &[bool],
 ) -> Option<(usize, f64)> {
-    let reaches = |own: &Touch| {
-        let [a, b] = own.ends;
+    let reaches = |touch: &Touch| {
+        let [a, b] = touch.ends;
         match [is_placed[a], is_placed[b]] {
-            [false, true] => Some((a, true, values[b] + own.distance)),
-            [true, false] => Some((b, false, values[a] - own.distance)),
+            [false, true] => Some((a, true, values[b] + touch.distance)),
+            [true, false] => Some((b, false, values[a] - touch.distance)),
             _ => None,
         }
     };
@@ -269,7 +269,7 @@ fn next_by_touch(
     let goes_up = bodies.all[body].velocity < 0.0;
     let places = |is_below: bool| {
         let of_body = touches.iter().filter_map(reaches).filter(move |own| own.0 == body);
-        let places = of_body.filter(move |own| own.1 == is_below).map(|own| own.2);
+        let places = of_body.filter(move |of_body| of_body.1 == is_below).map(|of_body| of_body.2);
         // The nearest of them.
         places.reduce(if is_below { f64::min } else { f64::max })
     };

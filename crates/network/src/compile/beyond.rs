@@ -89,7 +89,7 @@ impl HeldTable {
 ///
 /// Tables that must not be used beyond their points, in a run that is longer.
 pub(super) fn held(network: &Network, duration: f64) -> Result<Vec<HeldTable>, NetworkErrors> {
-    let loads = network.loads.iter().map(|own| (&own.name, Dimension::FORCE, &own.force));
+    let loads = network.loads.iter().map(|load| (&load.name, Dimension::FORCE, &load.force));
     let motions = network.nodes.iter().filter_map(|node| match &node.support {
         Support::Prescribed(motion) => Some((&node.name, Dimension::LENGTH, motion)),
         _ => None,

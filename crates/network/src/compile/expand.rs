@@ -76,7 +76,9 @@ impl Primitive {
     /// Whether the slope of its law over the rate may vanish.
     pub(crate) fn may_be_flat(&self) -> bool {
         let at_rest = self.element.reflected(0.0, 1.0);
-        self.is_nonlinear() && self.slopes()[1] > 0.0 && at_rest.is_none_or(|own| own[1] < 0.0)
+        self.is_nonlinear()
+            && self.slopes()[1] > 0.0
+            && at_rest.is_none_or(|at_rest| at_rest[1] < 0.0)
     }
 
     /// Whether the law is not linear.
@@ -150,7 +152,7 @@ impl Expansion {
 
     /// The same expansion for runs of this size.
     pub(crate) fn of_size(mut self, size: Size) -> Self {
-        for primitive in self.primitives.iter_mut().filter(|own| own.is_nonlinear()) {
+        for primitive in self.primitives.iter_mut().filter(|primitive| primitive.is_nonlinear()) {
             primitive.law = size.law(primitive.element.as_ref());
         }
         self.size = Some(size);
@@ -178,7 +180,7 @@ impl Expansion {
                 PhaseLaw::Force(force) => {
                     primitive.law = Law::Spring(0.0);
                     // The part of it that is its own is what its law says.
-                    primitive.push = force / primitive.share.map_or(1.0, |own| own.part);
+                    primitive.push = force / primitive.share.map_or(1.0, |share| share.part);
                 }
                 PhaseLaw::Element(element) => {
                     primitive.law = match &self.size {

@@ -57,7 +57,7 @@ impl<'c> Search<'c, '_> {
     fn path(&self) -> String {
         match self.names[..] {
             [first, .., last]
-                if self.names.iter().map(|own| own.len()).sum::<usize>() > LONGEST_PATH =>
+                if self.names.iter().map(|name| name.len()).sum::<usize>() > LONGEST_PATH =>
             {
                 format!("{first}.….{last}")
             }

@@ -26,8 +26,8 @@ const LEAST: f64 = 1e-8;
 /// The dashpots \[N s/m\] that primitives get so that massless nodes find their rates.
 pub(super) fn least_dashpots(expansion: &Expansion, bodies: &Bodies) -> BTreeMap<usize, f64> {
     let all = || expansion.primitives.iter().enumerate();
-    let ends = |own: &Primitive| own.ends.map(|joint| bodies.of_joint[joint]);
-    let least = |own: &Primitive| LEAST * own.slopes()[1];
+    let ends = |primitive: &Primitive| primitive.ends.map(|joint| bodies.of_joint[joint]);
+    let least = |primitive: &Primitive| LEAST * primitive.slopes()[1];
     let flat = || all().filter(|own| own.1.may_be_flat());
     let largest = flat().map(|own| least(own.1)).fold(0.0, f64::max);
     if largest == 0.0 {
@@ -45,8 +45,8 @@ pub(super) fn least_dashpots(expansion: &Expansion, bodies: &Bodies) -> BTreeMap
         let [a, b] = ends(own);
         groups.join(a, b);
     }
-    let mut is_needed = |own: &Primitive| {
-        let [a, b] = ends(own);
+    let mut is_needed = |primitive: &Primitive| {
+        let [a, b] = ends(primitive);
         groups.of(a) != groups.of(b)
     };
     flat().filter(|own| is_needed(own.1)).map(|(at, own)| (at, least(own))).collect()

@@ -8,23 +8,22 @@
 //! in SI; `system` rounds them and makes them dimensionless.
 
 mod accelerometers;
-mod acting;
 mod balance;
 mod beyond;
-pub(crate) mod blueprint;
 pub(crate) mod bodies;
-mod carry;
+mod constraint_forces;
 mod dashpots;
 pub(crate) mod expand;
+mod incidence;
 mod inner_pads;
 mod laws;
 mod mesh;
 mod motion;
 mod outputs;
+pub(crate) mod parametric;
 pub(crate) mod phased;
 mod pushes;
 mod rates;
-mod reactions;
 mod review;
 mod row;
 mod scales;
@@ -36,6 +35,7 @@ mod speeds;
 mod springs;
 mod structure;
 mod system;
+mod transfer;
 mod tree;
 mod unknowns;
 pub(crate) mod validate;
@@ -49,10 +49,9 @@ use dashpot_dae::Waveform;
 
 pub use self::beyond::{HeldTable, Unsaid};
 use self::{
-    acting::Acting,
     bodies::{Bodies, Role, joint_name},
-    carry::Carry,
     expand::Expansion,
+    incidence::Incidence,
     motion::Motion,
     outputs::Outputs,
     row::{Row, RowSum, Rows},
@@ -60,6 +59,7 @@ use self::{
     size::Size,
     structure::Structure,
     system::Scaling,
+    transfer::Transfer,
     unknowns::{Inputs, Places},
 };
 use crate::{Assembly, Network, NetworkErrors, Source, Support, effects, layers};
@@ -89,7 +89,7 @@ struct Parts<'a> {
     motion: &'a Motion,
     places: &'a Places,
     drives: &'a [Drive],
-    acting: &'a Acting,
+    incidence: &'a Incidence,
     /// How far each joint is from the place of its body.
     offsets: &'a Rows,
     /// Own mass of each joint \[kg\].
@@ -99,7 +99,7 @@ struct Parts<'a> {
 /// A compiled network, with what leads from it to its other phases.
 struct Compiled {
     assembly: Assembly,
-    carry: Option<Carry>,
+    transfer: Option<Transfer>,
     /// See [`Structure::kinks`].
     kinks: Vec<f64>,
 }
@@ -157,7 +157,7 @@ impl Network {
         let mut sizes = Drives::default();
         let motions = self.motions(&bodies, duration, &mut inputs, &mut sizes);
         let drives = self.drives(&bodies, &motions, duration, &mut inputs, &mut sizes);
-        for primitive in expansion.primitives.iter().filter(|own| own.push != 0.0) {
+        for primitive in expansion.primitives.iter().filter(|primitive| primitive.push != 0.0) {
             let ends = primitive.ends.map(|joint| bodies.of_joint[joint]);
             let largest = primitive.push.abs();
             let impulse = largest * duration;
@@ -226,7 +226,7 @@ impl Network {
             motion: &motion,
             places: &places,
             drives: &drives,
-            acting: &Acting::of(expansion, &drives),
+            incidence: &Incidence::of(expansion, &drives),
             offsets: &offsets,
             masses: &masses,
         };
@@ -234,7 +234,7 @@ impl Network {
             Outputs::of(self, &parts, &scaling)?;
         system.outputs = list;
         let warnings = review::warnings(self, &parts);
-        let carry = expansion.switches.then(|| Carry::of(&parts, &inputs, &system, duration));
+        let transfer = expansion.switches.then(|| Transfer::of(&parts, &inputs, &system, duration));
         let assembly = Assembly {
             system,
             nodes,
@@ -246,7 +246,7 @@ impl Network {
             held: Vec::new(),
             switching: None,
         };
-        Ok(Compiled { assembly, carry, kinks: structure.kinks })
+        Ok(Compiled { assembly, transfer, kinks: structure.kinks })
     }
 
     /// The given displacements of bodies as rows.

@@ -5,10 +5,10 @@ use std::{collections::BTreeMap, sync::Arc};
 use super::{
     Drive, Parts,
     accelerometers::Accelerometers,
-    acting::contact_force,
     bodies::start_velocity,
+    constraint_forces::rigid_forces,
     expand::Shape,
-    reactions::rigid_forces,
+    incidence::contact_force,
     row::{Combination, Row, RowSum},
     segments::Listed,
     system::Scaling,
@@ -115,10 +115,10 @@ impl<'s> Outputs<'s> {
         network: &Network,
         parts: &Parts<'_>,
     ) -> Result<(), NetworkError> {
-        let reactions = rigid_forces(network, parts);
+        let constraint_forces = rigid_forces(network, parts);
         let primitives = &parts.expansion.primitives;
         let whole = |at: usize| match primitives[at].law {
-            Law::Rigid => reactions.get(&at).cloned(),
+            Law::Rigid => constraint_forces.get(&at).cloned(),
             _ => Some(parts.motion.force.row(at)),
         };
         let force = |at: usize| match primitives[at].share {
@@ -130,7 +130,7 @@ impl<'s> Outputs<'s> {
             let mut listed = Listed::new();
             for at in shapes.iter().filter_map(Shape::leaf) {
                 let place = self.primitives.len();
-                self.add_primitive(parts, &reactions, at)?;
+                self.add_primitive(parts, &constraint_forces, at)?;
                 if self.primitives.len() > place {
                     listed.insert(at, place);
                 }
@@ -194,7 +194,7 @@ impl<'s> Outputs<'s> {
     fn add_primitive(
         &mut self,
         parts: &Parts<'_>,
-        reactions: &BTreeMap<usize, Row>,
+        constraint_forces: &BTreeMap<usize, Row>,
         at: usize,
     ) -> Result<(), NetworkError> {
         let own = &parts.expansion.primitives[at];
@@ -212,7 +212,7 @@ impl<'s> Outputs<'s> {
         }
         let name = &own.name;
         let force = match primitive.law {
-            Law::Rigid => reactions
+            Law::Rigid => constraint_forces
                 .get(&at)
                 .cloned()
                 .ok_or_else(|| NetworkError::UndeterminedForce { element: name.clone() })?,
@@ -300,7 +300,9 @@ fn deformation(parts: &Parts<'_>, at: usize) -> Row {
 fn held_force(parts: &Parts<'_>, drive: &Drive) -> Row {
     let mut sum = RowSum::from(&drive.inertia);
     sum.add(-1.0, &contact_force(parts, drive.body));
-    for other in parts.acting.drives(parts.drives, drive.body).filter(|own| own.is_body_force) {
+    for other in
+        parts.incidence.drives(parts.drives, drive.body).filter(|drive| drive.is_body_force)
+    {
         if let Some(weight) = &other.force {
             sum.add(-1.0, weight);
         }

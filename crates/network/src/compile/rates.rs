@@ -146,7 +146,10 @@ impl ForceRate {
     /// Of the law of `primitive`, among whose neighbours there are sliders that slip.
     pub(super) fn of(expansion: &Expansion, primitive: usize) -> Self {
         let own = &expansion.primitives[primitive];
-        let sliders = expansion.primitives.iter().filter_map(|own| own.origin.phases()?.capacity());
+        let sliders = expansion
+            .primitives
+            .iter()
+            .filter_map(|primitive| primitive.origin.phases()?.capacity());
         let most = sliders.fold(0.0, f64::max);
         let force = |deformation: f64| own.element.force(deformation, 0.0).abs();
         let [stiffness, _] = own.slopes();

@@ -49,14 +49,15 @@ pub(super) fn warnings(network: &Network, parts: &Parts<'_>) -> Vec<NetworkWarni
 fn shared_contacts(parts: &Parts<'_>) -> Vec<NetworkWarning> {
     let mut last: HashMap<([usize; 2], u64), &Primitive> = HashMap::new();
     let mut warnings = Vec::new();
-    for own in &parts.expansion.primitives {
-        let ends = own.ends.map(|joint| parts.bodies.of_joint[joint]);
-        let Some(level) = own.origin.phases().and_then(closing_level) else { continue };
+    for primitive in &parts.expansion.primitives {
+        let ends = primitive.ends.map(|joint| parts.bodies.of_joint[joint]);
+        let Some(level) = primitive.origin.phases().and_then(closing_level) else { continue };
         if ends[0] == ends[1] {
             continue;
         }
-        if let Some(one) = last.insert((ends, level.to_bits()), own) {
-            let elements = [one, own].map(|own| place(&own.name, own.origin.kind()).to_owned());
+        if let Some(one) = last.insert((ends, level.to_bits()), primitive) {
+            let elements =
+                [one, primitive].map(|own| place(&own.name, own.origin.kind()).to_owned());
             warnings.push(NetworkWarning::SharedContacts { elements });
         }
     }
@@ -64,11 +65,11 @@ fn shared_contacts(parts: &Parts<'_>) -> Vec<NetworkWarning> {
 }
 
 /// The deformation \[m\] at which a rigid contact closes.
-fn closing_level(own: &dyn Phases) -> Option<f64> {
-    if !super::phased::is_contact(own) {
+fn closing_level(phases: &dyn Phases) -> Option<f64> {
+    if !super::phased::is_contact(phases) {
         return None;
     }
-    (0..own.names().len()).find_map(|index| match own.law(Phase { index, memory: 0.0 }) {
+    (0..phases.names().len()).find_map(|index| match phases.law(Phase { index, memory: 0.0 }) {
         PhaseLaw::Held(level) => Some(level),
         _ => None,
     })
@@ -103,8 +104,9 @@ fn ahead(
 fn idle_restitutions(network: &Network, parts: &Parts<'_>) -> Vec<NetworkWarning> {
     let mut groups = Groups::new(parts.expansion.joints);
     // What is between two contacts moves with what it touches, and is struck with it.
-    let passes = |own: &&Primitive| {
-        own.is_link || own.origin.phases().is_some_and(|phases| phases.restitution() == 0.0)
+    let passes = |primitive: &&Primitive| {
+        primitive.is_link
+            || primitive.origin.phases().is_some_and(|phases| phases.restitution() == 0.0)
     };
     for primitive in parts.expansion.primitives.iter().filter(passes) {
         groups.join(primitive.ends[0], primitive.ends[1]);
@@ -140,7 +142,7 @@ fn direction(parts: &Parts<'_>) -> Option<bool> {
 /// The joints that rigid links make one body of.
 fn links(parts: &Parts<'_>) -> Groups {
     let mut groups = Groups::new(parts.expansion.joints);
-    for link in parts.expansion.primitives.iter().filter(|own| own.is_link) {
+    for link in parts.expansion.primitives.iter().filter(|primitive| primitive.is_link) {
         groups.join(link.ends[0], link.ends[1]);
     }
     groups

@@ -50,12 +50,14 @@ impl Outputs<'_> {
         }
         for (at, (&branch, pieces)) in branches.iter().zip(&connection.pieces).enumerate() {
             let in_row = connection.model.branches().get(at).filter(|_| branch != 0);
-            let path = in_row
-                .map_or(connection.name.clone(), |own| format!("{}.{}", connection.name, own.name));
+            let path = in_row.map_or(connection.name.clone(), |in_row| {
+                format!("{}.{}", connection.name, in_row.name)
+            });
             let of_pieces: Vec<(usize, String)> = match &shapes[branch] {
                 Shape::Series(children) if pieces.len() > 1 => {
-                    let tree = in_row.map_or(&connection.model, |own| &own.tree);
-                    let names = tree.branches().iter().map(|own| format!("{path}.{}", own.name));
+                    let tree = in_row.map_or(&connection.model, |in_row| &in_row.tree);
+                    let names =
+                        tree.branches().iter().map(|branch| format!("{path}.{}", branch.name));
                     children.iter().copied().zip(names).collect()
                 }
                 _ => vec![(branch, path)],

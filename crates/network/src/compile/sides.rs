@@ -141,8 +141,9 @@ impl Forest {
                 if let (Some(before), Some(behind)) = (&up[next], &behind) {
                     up[next] = Some(before.plus(behind));
                 }
-                behind =
-                    Some(behind.map_or_else(|| down[next].clone(), |own| down[next].plus(&own)));
+                behind = Some(
+                    behind.map_or_else(|| down[next].clone(), |behind| down[next].plus(&behind)),
+                );
             }
         }
         up
@@ -168,7 +169,7 @@ mod tests {
         loop {
             let others = links.iter().enumerate().filter(|own| own.0 != cut).map(|own| own.1);
             let next: Vec<usize> = others
-                .filter(|own| own.iter().any(|at| reached.contains(at)))
+                .filter(|other| other.iter().any(|at| reached.contains(at)))
                 .flatten()
                 .copied()
                 .collect();

@@ -45,7 +45,8 @@ impl Size {
         for load in &network.loads {
             size.push(network.nodes[load.node.0].mass, &load.force, duration);
         }
-        for (node, weight) in network.effects.iter().flat_map(|own| own.body_forces(network)) {
+        for (node, weight) in network.effects.iter().flat_map(|effect| effect.body_forces(network))
+        {
             size.push(network.nodes[node.0].mass, &weight, duration);
         }
         let is_driven =
@@ -89,7 +90,7 @@ impl Size {
             own(stiffness, force / depth),
             own(damping, (element.force(origin + depth, rate) - force) / rate),
         ];
-        if slopes.iter().all(|own| own.is_normal() || *own <= 0.0) {
+        if slopes.iter().all(|slope| slope.is_normal() || *slope <= 0.0) {
             Law::Nonlinear { stiffness: slopes[0], damping: slopes[1] }
         } else {
             law

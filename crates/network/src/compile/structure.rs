@@ -183,7 +183,7 @@ impl Structure {
             let kink = || kinks(motion, duration).next().map(|time| ("has a kink", time));
             if let Some((fault, time)) = jump.or_else(kink) {
                 let nodes = || body.joints.iter().filter_map(|&joint| network.nodes.get(joint));
-                let heavy = nodes().find(|own| own.mass > 0.0).map(|own| own.name.clone());
+                let heavy = nodes().find(|node| node.mass > 0.0).map(|node| node.name.clone());
                 let node = network.nodes[node].name.clone();
                 let heavy = heavy.unwrap_or_else(|| node.clone());
                 errors.push(NetworkError::MotionOfMass { node, heavy, fault, time });
@@ -261,12 +261,15 @@ pub(super) fn jumps(network: &Network, motion: &Waveform, duration: f64) -> Vec<
 /// Whether what is given the motion of a body has mass, or is linked to one by what never gives way.
 fn bears_mass(network: &Network, expansion: &Expansion, body: &Body) -> bool {
     let mut groups = Groups::new(expansion.joints);
-    for part in expansion.primitives.iter().filter(|own| own.law == Law::Rigid && !own.is_phased())
+    for part in expansion
+        .primitives
+        .iter()
+        .filter(|primitive| primitive.law == Law::Rigid && !primitive.is_phased())
     {
         groups.join(part.ends[0], part.ends[1]);
     }
     let nodes = || body.joints.iter().filter_map(|&at| Some((at, network.nodes.get(at)?)));
-    let heavy = nodes().filter(|(_, own)| own.mass > 0.0).map(|own| own.0);
+    let heavy = nodes().filter(|(_, own)| own.mass > 0.0).map(|node| node.0);
     let heavy: BTreeSet<usize> = heavy.map(|at| groups.of(at)).collect();
     let mut given = nodes().filter(|(_, own)| own.support != Support::Free);
     given.any(|(at, _)| heavy.contains(&groups.of(at)))

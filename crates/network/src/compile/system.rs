@@ -33,7 +33,7 @@ impl Scaling {
     pub(super) fn of(places: &Places, inputs: &Inputs, scales: &Scales, duration: f64) -> Self {
         let Scales { time, lift, .. } = *scales;
         let columns = places.drafts.iter().map(|draft| draft.scale).collect();
-        let input_columns = inputs.columns(time, duration).into_iter().map(|own| own * lift);
+        let input_columns = inputs.columns(time, duration).into_iter().map(|column| column * lift);
         Self { columns, input_columns: input_columns.collect(), time, lift }
     }
 

@@ -103,7 +103,7 @@ fn ties(structure: &Structure) -> Vec<Tie> {
     let mut numbers: BTreeMap<[usize; 2], usize> = BTreeMap::new();
     let springs = structure.springs.iter().map(|edge| (edge.ends, edge.constant, 0.0));
     let dashpots = structure.dashpots.iter().map(|edge| (edge.ends, 0.0, edge.constant));
-    for (ends, stiffness, damping) in springs.chain(dashpots).filter(|own| is_open(own.0)) {
+    for (ends, stiffness, damping) in springs.chain(dashpots).filter(|spring| is_open(spring.0)) {
         let pair = [ends[0].min(ends[1]), ends[0].max(ends[1])];
         let at = *numbers.entry(pair).or_insert(ties.len());
         if at == ties.len() {

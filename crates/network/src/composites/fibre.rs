@@ -37,7 +37,7 @@ impl Kept {
         self.validate()?;
         let reduced = reduce(spectrum, [self.from, self.to], self.error).map_err(refused)?;
         let terms: Vec<Term> =
-            reduced.branches.iter().map(|own| (own.time, own.compliance)).collect();
+            reduced.branches.iter().map(|branch| (branch.time, branch.compliance)).collect();
         let model = kelvin_chain("compliance", &terms)?;
         Ok(Composed { model, note: Some(self.note(&reduced)), until: Some(self.to) })
     }

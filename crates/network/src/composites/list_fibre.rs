@@ -87,7 +87,7 @@ mod tests {
         let model = LinearModel::of(&composed.model, |part| primitive(part.as_ref()));
         for at in 0..=300 {
             let t = 10_f64.powf(-4.0 + 0.01 * f64::from(at));
-            let exact: f64 = terms.iter().map(|own| -own.1 * (-t / own.0).exp_m1()).sum();
+            let exact: f64 = terms.iter().map(|term| -term.1 * (-t / term.0).exp_m1()).sum();
             assert!((model.creep(t) / exact - 1.0).abs() <= 1e-3, "{t}");
         }
     }

@@ -123,7 +123,8 @@ fn every_kind_composes_its_sample() {
         let (one, other) = (kind.example().unwrap(), kind.example().unwrap());
         assert_eq!(format!("{one:?}"), format!("{other:?}"), "{}", kind.word);
         assert!(relaxance(&one.model, 1.0) > 0.0, "{}", kind.word);
-        let has_table = kind.parameters.iter().any(|own| own.kind == ParameterKind::TimeTable);
+        let has_table =
+            kind.parameters.iter().any(|parameter| parameter.kind == ParameterKind::TimeTable);
         assert!(kind.about != Dimension::NUMBER || !has_table, "{}", kind.word);
         assert!((kind.make)(&[]).is_err(), "{}", kind.word);
     }

@@ -90,7 +90,7 @@ impl Receptance {
         for (i, (a, side)) in all.iter().enumerate() {
             for (j, (b, other)) in all.iter().enumerate().skip(i + 1) {
                 let gap = (a.at - b.at).size() / a.at.size();
-                let is_group = a.strengths.len() > 1 || b.strengths.len() > 1;
+                let is_group = a.residues.len() > 1 || b.residues.len() > 1;
                 if (side != other && gap <= SAME) || (is_group && gap <= NEAR) {
                     groups.join(i, j);
                 }
@@ -103,9 +103,9 @@ impl Receptance {
         for [ours, theirs] in &members {
             worst = worst.max(match (&ours[..], &theirs[..]) {
                 ([], []) => 0.0,
-                ([a], [b]) if a.strengths.len() == 1 && b.strengths.len() == 1 => {
+                ([a], [b]) if a.residues.len() == 1 && b.residues.len() == 1 => {
                     let pole = (a.at - b.at).size() / a.at.size();
-                    let (a, b) = (a.strengths[0], b.strengths[0]);
+                    let (a, b) = (a.residues[0], b.residues[0]);
                     pole.max((a - b).size() / a.size())
                 }
                 ([], _) | (_, []) => f64::INFINITY,
@@ -125,7 +125,7 @@ impl Receptance {
             .fold(f64::INFINITY, f64::min);
         let [a, b] = [self, other].map(|receptance| {
             let term = receptance.terms.iter().find(|term| term.at.size() <= 0.0);
-            match term.map(|term| &term.strengths[..]) {
+            match term.map(|term| &term.residues[..]) {
                 Some([double, simple]) => (*double, *simple),
                 Some([simple]) => (Complex::zero(), *simple),
                 _ => (Complex::zero(), Complex::zero()),
@@ -152,7 +152,7 @@ fn group_difference(ours: &[&Term], theirs: &[&Term]) -> f64 {
         .map(|term| (term.at - about).size() + reach(term))
         .fold(0.0, f64::max);
     let scale = width.max(about.re.high().abs()).max(NARROW * about.size());
-    let count = ours.iter().chain(theirs).map(|term| term.strengths.len()).sum();
+    let count = ours.iter().chain(theirs).map(|term| term.residues.len()).sum();
     let moments = |terms: &[&Term]| {
         let mut sums = vec![Complex::zero(); count];
         for term in terms {

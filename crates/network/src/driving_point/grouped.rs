@@ -28,7 +28,7 @@ pub(super) struct Grouped {
 impl Grouped {
     /// Of terms no further than `width` \[1/s\] from the centre, for times up to `longest` \[s\].
     pub(super) fn of(terms: &[&Term], about: Complex, width: f64, longest: f64) -> Self {
-        let order = terms.iter().map(|term| term.strengths.len()).sum();
+        let order = terms.iter().map(|term| term.residues.len()).sum();
         let mut start = vec![Complex::zero(); order];
         let mut spread = vec![Complex::one()];
         for term in terms {
@@ -158,17 +158,17 @@ mod tests {
     fn poles_apart_move_by_their_exponentials_over_short_and_long_times() {
         let at = |im: f64| Complex::new(-1e-3, im);
         let poles = [at(100.0), at(100.5), at(99.25)];
-        let strengths = [1.0, -0.5, 2.0];
+        let residues = [1.0, -0.5, 2.0];
         let terms: Vec<Term> = poles
             .iter()
-            .zip(strengths)
+            .zip(residues)
             .map(|(&pole, own)| Term::simple(pole, Complex::new(own, 0.0)))
             .collect();
         let all: Vec<&Term> = terms.iter().collect();
         let grouped = Grouped::of(&all, poles[0], 0.75, 1e3);
         for t in [0.0, 0.3, 2.6, 2.7, 31.4, 314.0, 999.0] {
             let [re, im] = grouped.at(t).rounded();
-            let expected = strengths
+            let expected = residues
                 .iter()
                 .zip([0.0, 0.5, -0.75])
                 .map(|(own, apart)| [own * (apart * t).cos(), own * (apart * t).sin()])
@@ -185,7 +185,7 @@ mod tests {
         let term = Term {
             at: Complex::new(-2.0, 0.0),
             spread: vec![Complex::zero(); 3],
-            strengths: [6.0, 5.0, 7.0].map(|own| Complex::new(own, 0.0)).to_vec(),
+            residues: [6.0, 5.0, 7.0].map(|own| Complex::new(own, 0.0)).to_vec(),
             count: 3,
             error: 0.0,
         };
@@ -201,7 +201,7 @@ mod tests {
         let term = Term {
             at: Complex::new(-1.0, 0.0),
             spread: vec![Complex::new(1e-4, 0.0), Complex::zero()],
-            strengths: vec![Complex::new(1.0, 0.0), Complex::new(0.5, 0.0)],
+            residues: vec![Complex::new(1.0, 0.0), Complex::new(0.5, 0.0)],
             count: 2,
             error: 0.0,
         };

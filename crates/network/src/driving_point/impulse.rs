@@ -46,7 +46,7 @@ pub(super) struct Largest {
 pub(super) fn worst(a: &Receptance, b: &Receptance) -> Largest {
     let (motions, end) = motions(a, b, horizon);
     let course = Course::of(a, b, &motions);
-    let fastest = motions.iter().map(|own| own.speed).fold(0.0, f64::max);
+    let fastest = motions.iter().map(|motion| motion.speed).fold(0.0, f64::max);
     let mut search = Search::new(&course);
     let until = if motions.is_empty() { end } else { search.run(START / fastest, end) };
     let is_over = until >= end && motions.iter().all(is_passing);
@@ -72,7 +72,9 @@ fn is_passing(motion: &Motion) -> bool {
 
 /// Up to when motions are looked at \[s\].
 fn horizon(motions: &[Motion]) -> f64 {
-    let own = |own: &Motion| if is_passing(own) { own.life() } else { PERIODS * TAU / own.speed };
+    let own = |motion: &Motion| {
+        if is_passing(motion) { motion.life() } else { PERIODS * TAU / motion.speed }
+    };
     motions.iter().map(own).fold(0.0, f64::max)
 }
 
@@ -128,13 +130,13 @@ impl<'a> Course<'a> {
     fn of(a: &Receptance, b: &Receptance, motions: &'a [Motion]) -> Self {
         let [first, second] = [a, b].map(|own| {
             let term = own.terms.iter().find(|term| term.at.size() <= 0.0);
-            match term.map(|term| &term.strengths[..]) {
+            match term.map(|term| &term.residues[..]) {
                 Some([double, simple]) => [simple.re, double.re],
                 Some([simple]) => [simple.re, 0.0.into()],
                 _ => [0.0.into(), 0.0.into()],
             }
         });
-        let slowest = motions.iter().map(|own| own.speed).fold(f64::INFINITY, f64::min);
+        let slowest = motions.iter().map(|motion| motion.speed).fold(f64::INFINITY, f64::min);
         Self {
             motions,
             rest: first.map(Twofold::high),
@@ -155,7 +157,7 @@ impl<'a> Course<'a> {
             change_noise: ROUNDING * rounding + self.rest_noise,
             ..Point::default()
         };
-        for motion in self.motions.iter().filter(|own| !own.is_dead(t)) {
+        for motion in self.motions.iter().filter(|motion| !motion.is_dead(t)) {
             let own = motion.at(t);
             first += own.first.re;
             change += own.change.re;

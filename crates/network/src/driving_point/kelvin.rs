@@ -32,7 +32,7 @@ struct Mode {
     /// How many modes of the circuit have this rate.
     count: usize,
     /// Relative difference of the strength between two runs.
-    doubt: f64,
+    threshold: f64,
 }
 
 impl Mode {
@@ -58,7 +58,7 @@ pub(super) fn response(circuit: &Circuit) -> Result<Massless, DrivingPointError>
     let is_hidden = hidden(circuit, &modes, time, total(&modes, compliance, fluidity))?;
     // Very weak modes that are seen count after all.
     let shown = modes.iter().zip(&is_hidden).filter(|own| !*own.1);
-    let error = shown.map(|own| own.0.doubt).fold(error, f64::max);
+    let error = shown.map(|shown| shown.0.threshold).fold(error, f64::max);
     let mut kept = Vec::new();
     let mut cancelled = Vec::new();
     let at_rest = scaled.creeping_parts();
@@ -159,7 +159,7 @@ fn modes(circuit: &Circuit, time: i32) -> Result<Vec<Mode>, DrivingPointError> {
         }
         shift(&mut rate, -time);
         shift(&mut strength, -force - time);
-        modes.push(Mode { rate, strength, count: 1, doubt: 0.0 });
+        modes.push(Mode { rate, strength, count: 1, threshold: 0.0 });
     }
     modes.sort_by(|a, b| a.rate.high().total_cmp(&b.rate.high()));
     Ok(modes)
@@ -199,11 +199,11 @@ fn difference(a: &[Mode], b: &[Mode], merged: &mut [Mode], total: f64) -> f64 {
         for (a, b) in a[at..at + mode.count].iter().zip(&b[at..at + mode.count]) {
             worst = worst.max(((a.rate - b.rate) / b.rate).high().abs());
         }
-        let doubt = ((sum(a) - sum(b)) / mode.strength).high().abs();
+        let threshold = ((sum(a) - sum(b)) / mode.strength).high().abs();
         if mode.compliance() > DOUBTFUL * total {
-            worst = worst.max(doubt);
+            worst = worst.max(threshold);
         }
-        mode.doubt = doubt;
+        mode.threshold = threshold;
         at += mode.count;
     }
     worst

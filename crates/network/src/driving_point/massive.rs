@@ -35,13 +35,13 @@ pub(super) fn response(circuit: &Circuit) -> Result<Receptance, DrivingPointErro
     let mut kept: Vec<Term> = rest.term.into_iter().collect();
     let mut cancelled = Vec::new();
     let at_rest = scaled.creeping_parts() + scaled.free_parts();
-    let seen: usize = kept.iter().map(|term| term.strengths.len()).sum();
+    let seen: usize = kept.iter().map(|term| term.residues.len()).sum();
     if seen < at_rest {
         cancelled.push(Hidden { rate: [0.0, 0.0], count: at_rest - seen });
     }
     let mut error = difference.max(faint);
     for (term, is_hidden) in found.into_iter().zip(is_hidden) {
-        let seen = if is_hidden { 0 } else { term.strengths.len() };
+        let seen = if is_hidden { 0 } else { term.residues.len() };
         if seen < term.count {
             cancelled.push(Hidden { rate: term.at.rounded(), count: term.count - seen });
         }
@@ -74,7 +74,7 @@ fn at_rest(scaled: &Circuit, force: i32) -> Option<Term> {
     let (double, simple) = (Complex::new(origin.double, 0.0), Complex::new(origin.simple, 0.0));
     let mut term = Term::simple(Complex::zero(), simple);
     if double.size() > 0.0 {
-        term.strengths = vec![double, simple];
+        term.residues = vec![double, simple];
         term.spread = vec![Complex::zero(); 2];
     } else if simple.size() <= 0.0 {
         return None;
@@ -121,7 +121,7 @@ fn run(circuit: &Circuit, time: i32) -> Result<Vec<Term>, DrivingPointError> {
     let mut found = terms(&scaled, &modes(&scaled, &poles));
     found.iter_mut().for_each(|term| term.scale(time, force));
     let is_finite = |value: &Complex| value.size().is_finite();
-    if !found.iter().all(|term| is_finite(&term.at) && term.strengths.iter().all(is_finite)) {
+    if !found.iter().all(|term| is_finite(&term.at) && term.residues.iter().all(is_finite)) {
         return Err(DrivingPointError::NoConvergence);
     }
     found.sort_by(|a, b| {
@@ -136,14 +136,14 @@ fn counterpart<'a>(term: &Term, others: &'a [Term]) -> Option<&'a Term> {
     let distance = |other: &Term| (other.at - term.at).size();
     others
         .iter()
-        .filter(|other| other.strengths.len() == term.strengths.len())
+        .filter(|other| other.residues.len() == term.residues.len())
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }
 
 /// Relative difference of the strengths of two terms.
-fn strengths_apart(a: &Term, b: &Term) -> f64 {
-    let change: Vec<Complex> = a.strengths.iter().zip(&b.strengths).map(|(a, b)| *a - *b).collect();
-    Term { strengths: change, ..a.clone() }.compliance() / a.compliance()
+fn residue_difference(a: &Term, b: &Term) -> f64 {
+    let change: Vec<Complex> = a.residues.iter().zip(&b.residues).map(|(a, b)| *a - *b).collect();
+    Term { residues: change, ..a.clone() }.compliance() / a.compliance()
 }
 
 fn difference(terms: &[Term], others: &[Term], total: f64) -> f64 {
@@ -155,7 +155,7 @@ fn difference(terms: &[Term], others: &[Term], total: f64) -> f64 {
         let Some(other) = counterpart(term, others) else { return f64::INFINITY };
         worst = worst.max((other.at - term.at).size() / term.at.size());
         if term.compliance() > DOUBTFUL * total {
-            worst = worst.max(strengths_apart(term, other));
+            worst = worst.max(residue_difference(term, other));
         }
     }
     worst
@@ -182,12 +182,12 @@ fn hidden(
         for &at in &doubtful {
             hidden[at] |= [&others, &turned].into_iter().any(|others| {
                 let other = counterpart(&found[at], others);
-                other.is_none_or(|other| strengths_apart(&found[at], other) > 0.5)
+                other.is_none_or(|other| residue_difference(&found[at], other) > 0.5)
             });
         }
     }
     let seen = doubtful.into_iter().filter(|&at| !hidden[at]);
     let faint = seen.filter_map(|at| Some((at, counterpart(&found[at], &turned)?)));
-    let error = faint.map(|(at, other)| strengths_apart(&found[at], other)).fold(0.0, f64::max);
+    let error = faint.map(|(at, other)| residue_difference(&found[at], other)).fold(0.0, f64::max);
     Ok((hidden, error))
 }

@@ -33,7 +33,7 @@ pub(super) struct Motion {
 }
 
 enum Kind {
-    Single { strengths: [Double<f64>; 2], change: Double<f64>, apart: Double<f64> },
+    Single { residues: [Double<f64>; 2], change: Double<f64>, apart: Double<f64> },
     Group([Option<Grouped>; 2]),
 }
 
@@ -60,7 +60,7 @@ impl Motion {
         let [re, im] = self.pole;
         let own = Double::from_polar(self.weight * (re * t).exp(), im * t);
         match &self.kind {
-            Kind::Single { strengths: [first, second], change, apart } => {
+            Kind::Single { residues: [first, second], change, apart } => {
                 let path = *apart * t;
                 let away = if path.norm() < 1.0 {
                     own * grown(path)
@@ -103,15 +103,15 @@ impl<'a> Bunch<'a> {
     /// What it moves like up to the time that `until` makes of it.
     fn motion(&self, until: impl Fn(&Motion) -> f64) -> Option<Motion> {
         let about = self.terms().next()?.at;
-        let order = |side: &Vec<&Term>| side.iter().map(|term| term.strengths.len()).sum::<usize>();
+        let order = |side: &Vec<&Term>| side.iter().map(|term| term.residues.len()).sum::<usize>();
         let order = order(&self.sides[0]).max(order(&self.sides[1]));
         let width = self.terms().map(|term| (term.at - about).size() + reach(term));
         let width = width.fold(0.0, f64::max);
-        let is_single = |side: &Vec<&Term>| side.iter().all(|term| term.strengths.len() == 1);
+        let is_single = |side: &Vec<&Term>| side.iter().all(|term| term.residues.len() == 1);
         let is_single =
             self.sides.iter().all(|side| side.len() < 2) && self.sides.iter().all(is_single);
         let strength =
-            |at: usize| self.sides[at].first().map_or(Complex::zero(), |a| a.strengths[0]);
+            |at: usize| self.sides[at].first().map_or(Complex::zero(), |a| a.residues[0]);
         let apart = match (&self.sides[0][..], &self.sides[1][..]) {
             ([a], [b]) => b.at - a.at,
             _ => Complex::zero(),
@@ -128,7 +128,7 @@ impl<'a> Bunch<'a> {
             },
             order,
             kind: Kind::Single {
-                strengths: [0, 1].map(|at| double(strength(at))),
+                residues: [0, 1].map(|at| double(strength(at))),
                 change: double(strength(0) - strength(1)),
                 apart: double(apart),
             },
@@ -172,7 +172,7 @@ fn bunches<'a>(a: &'a Receptance, b: &'a Receptance) -> Vec<Bunch<'a>> {
             if gap > NEAR {
                 continue;
             }
-            if first.strengths.len() > 1 || second.strengths.len() > 1 {
+            if first.residues.len() > 1 || second.residues.len() > 1 {
                 groups.join(i, j);
             } else if sign(first) == sign(second) {
                 pairs.push((gap, i, j));

@@ -30,7 +30,7 @@ pub struct Pole {
     pub spread: Vec<[f64; 2]>,
     /// Coefficients of `N`, the constant first: for a simple pole its residue, for poles that
     /// coincide the Laurent coefficients, the one of `1/(s − p)^order` first.
-    pub strengths: Vec<[f64; 2]>,
+    pub residues: Vec<[f64; 2]>,
 }
 
 impl Receptance {
@@ -44,9 +44,9 @@ impl Receptance {
         let rounded = |values: &[Complex]| values.iter().map(|value| value.rounded()).collect();
         let pole = |term: &Term| Pole {
             at: term.at.rounded(),
-            order: term.strengths.len(),
+            order: term.residues.len(),
             spread: rounded(&term.spread),
-            strengths: rounded(&term.strengths),
+            residues: rounded(&term.residues),
         };
         self.terms.iter().map(pole).collect()
     }

@@ -17,7 +17,7 @@ const MOST_VALUES: usize = 5_000_000;
 
 /// A time that was looked at.
 #[derive(Debug, Clone, Copy, Default)]
-struct Look {
+struct Admissibility {
     t: f64,
     heights: [f64; 2],
     apart: f64,
@@ -42,7 +42,7 @@ impl Crest {
 /// Where the largest difference is.
 #[derive(Debug, Clone, Copy, Default)]
 struct Top {
-    ends: [Look; 2],
+    ends: [Admissibility; 2],
     at: f64,
     estimate: f64,
 }
@@ -50,7 +50,7 @@ struct Top {
 pub(super) struct Search<'a> {
     course: &'a Course<'a>,
     /// The last three looks.
-    looks: Vec<Look>,
+    looks: Vec<Admissibility>,
     crest: Crest,
     /// The largest difference that was seen.
     seen: f64,
@@ -131,7 +131,7 @@ impl<'a> Search<'a> {
         self.crest = self.crest.larger(own);
         let apart = point.apart(self.crest.height);
         self.seen = self.seen.max(apart);
-        let look = Look { t, heights: point.heights, apart, crest: self.crest };
+        let look = Admissibility { t, heights: point.heights, apart, crest: self.crest };
         match self.looks[..] {
             [.., before, own] if own.apart >= before.apart && own.apart >= apart => {
                 let places = [before, own, look].map(|look| (look.t, look.apart));
@@ -146,9 +146,15 @@ impl<'a> Search<'a> {
         self.looks.push(look);
     }
 
-    fn take(&mut self, low: Look, own: Look, high: Look, estimate: f64) {
+    fn take(
+        &mut self,
+        low: Admissibility,
+        admissibility: Admissibility,
+        high: Admissibility,
+        estimate: f64,
+    ) {
         if estimate > self.top.estimate {
-            self.top = Top { ends: [low, high], at: own.t, estimate };
+            self.top = Top { ends: [low, high], at: admissibility.t, estimate };
         }
     }
 

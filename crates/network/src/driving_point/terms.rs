@@ -10,12 +10,12 @@ use super::{
 use crate::compile::bodies::Groups;
 
 /// `N(s − p)/D(s − p)`: `D` is monic of degree `strengths.len()` and `spread` has its other
-/// coefficients, the constant first; `strengths` are those of `N`.
+/// coefficients, the constant first; `residues` are those of `N`.
 #[derive(Debug, Clone)]
 pub(super) struct Term {
     pub(super) at: Complex,
     pub(super) spread: Vec<Complex>,
-    pub(super) strengths: Vec<Complex>,
+    pub(super) residues: Vec<Complex>,
     /// How many poles of the circuit it stands for.
     pub(super) count: usize,
     /// Bound on its relative error, from the condition of its poles.
@@ -35,7 +35,7 @@ const ROUNDING: f64 = 1e-31;
 impl Term {
     /// `strength/(s − p)`.
     pub(super) fn simple(at: Complex, strength: Complex) -> Self {
-        Self { at, spread: vec![Complex::zero()], strengths: vec![strength], count: 1, error: 0.0 }
+        Self { at, spread: vec![Complex::zero()], residues: vec![strength], count: 1, error: 0.0 }
     }
 
     /// Its value at a rate.
@@ -44,7 +44,7 @@ impl Term {
         let horner = |start: Complex, coefficients: &[Complex]| {
             coefficients.iter().rev().fold(start, |sum, &c| sum * t + c)
         };
-        horner(Complex::zero(), &self.strengths).over(horner(Complex::one(), &self.spread))
+        horner(Complex::zero(), &self.residues).over(horner(Complex::one(), &self.spread))
     }
 
     /// Size of its strengths in units of a compliance.
@@ -54,18 +54,18 @@ impl Term {
 
     /// Size of its strengths as a compliance at a distance from the pole.
     pub(super) fn compliance_at(&self, size: f64) -> f64 {
-        let order = self.strengths.len();
+        let order = self.residues.len();
         let part = |(k, n): (usize, &Complex)| n.size() / size.powi(power(order - k));
-        self.strengths.iter().enumerate().map(part).fold(0.0, f64::max)
+        self.residues.iter().enumerate().map(part).fold(0.0, f64::max)
     }
 
     /// The moments `Σ residue·(pole − p)^k` about a point, `k < count`.
     pub(super) fn moments(&self, about: Complex, count: usize) -> Vec<Complex> {
-        let order = self.strengths.len();
+        let order = self.residues.len();
         // Division of N by D in powers of 1/t about the own centre.
         let mut own = Vec::with_capacity(count);
         for k in 0..count {
-            let mut rest = if k < order { self.strengths[order - 1 - k] } else { Complex::zero() };
+            let mut rest = if k < order { self.residues[order - 1 - k] } else { Complex::zero() };
             for (j, &moment) in own.iter().enumerate() {
                 let drop = k - j;
                 if drop <= order {
@@ -93,7 +93,7 @@ impl Term {
 
     /// The same term in units of time and of compliance that are powers of two.
     pub(super) fn scale(&mut self, time: i32, force: i32) {
-        let order = power(self.strengths.len());
+        let order = power(self.residues.len());
         let times = |value: &mut Complex, exponent: i32| {
             shift(&mut value.re, exponent);
             shift(&mut value.im, exponent);
@@ -102,7 +102,7 @@ impl Term {
         for (k, value) in self.spread.iter_mut().enumerate() {
             times(value, -time * (order - power(k)));
         }
-        for (k, value) in self.strengths.iter_mut().enumerate() {
+        for (k, value) in self.residues.iter_mut().enumerate() {
             times(value, -time * (order - power(k)) - force);
         }
     }
@@ -112,7 +112,7 @@ impl Term {
         Self {
             at: self.at.conjugate(),
             spread: all(&self.spread),
-            strengths: all(&self.strengths),
+            residues: all(&self.residues),
             ..*self
         }
     }
@@ -226,10 +226,10 @@ fn together(circuit: &Circuit, poles: &[Complex], others: &[Complex], is_real: b
     let strength = |i: usize| {
         (i + 1..seen).fold(moments[seen - 1 - i], |sum, j| sum + spread[j] * moments[j - i - 1])
     };
-    let strengths = (0..seen).map(strength).collect();
+    let residues = (0..seen).map(strength).collect();
     let truncation = ratio.powi(power(points.len()) - power(order));
     let rounding = ROUNDING * (size / radius).powi(power(order));
-    Term { at, spread, strengths, count: order, error: truncation + rounding }
+    Term { at, spread, residues, count: order, error: truncation + rounding }
 }
 
 /// Points on the unit circle, as many as a convergence by `ratio` for each asks for; a power of

@@ -102,7 +102,7 @@ impl Effect for Face {
             return Ok(());
         }
         let pad = network.pad(connection_of(network, Self::KIND, &self.element)?);
-        if let Some((face, contact)) = pad.and_then(|own| own.face.zip(own.contact)) {
+        if let Some((face, contact)) = pad.and_then(|pad| pad.face.zip(pad.contact)) {
             let [from, to] = network.connections[contact].between;
             let body = if from.0 == face { to } else { from };
             return self.weigh(network, NodeId(face), body);

@@ -77,7 +77,10 @@ impl Effect for Gravity {
             return vec![Influence::new(formula, value)];
         }
         let network = situation.network;
-        let drive = network.connections().iter().map(|own| situation.drive_without_weight(own));
+        let drive = network
+            .connections()
+            .iter()
+            .map(|connection| situation.drive_without_weight(connection));
         let drive = drive.fold(0.0, f64::max);
         let weight = network.nodes().map(|(_, node)| node.mass * g).sum::<f64>();
         if drive > 0.0 && drive.is_finite() {

@@ -109,8 +109,8 @@ pub struct EffectTraits {
 pub type EffectEntry = Registered<Arc<dyn Effect>, EffectTraits>;
 
 const fn effect<E: EffectKind>() -> EffectEntry {
-    let would_be = |own: &Situation<'_>| {
-        E::would_be(own).into_iter().map(|own| Arc::new(own) as Arc<dyn Effect>).collect()
+    let would_be = |situation: &Situation<'_>| {
+        E::would_be(situation).into_iter().map(|own| Arc::new(own) as Arc<dyn Effect>).collect()
     };
     let about = EffectTraits { is_per_element: E::PER_ELEMENT, would_be };
     Registered::new::<E>(|values| Ok(Arc::new(E::from_values(values)?)), about)
@@ -123,7 +123,7 @@ pub static EFFECTS: &[EffectEntry] =
 /// Whether [`rewrite`] puts anything into a network.
 pub(crate) fn rewrites(network: &Network) -> bool {
     network.effects.iter().any(|effect| effect.rewrites())
-        || network.connections.iter().any(|own| own.layers.is_some())
+        || network.connections.iter().any(|connection| connection.layers.is_some())
 }
 
 /// Puts into a network the masses of its layers and all that its effects are made of, in the order

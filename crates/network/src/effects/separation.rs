@@ -62,8 +62,8 @@ impl Separation {
 
     /// Whether the element's face has mass.
     fn has_heavy_face(&self, network: &Network) -> bool {
-        let mut faces = network.effects.iter().filter_map(|own| own.of_kind::<Face>());
-        faces.any(|own| own.element == self.element && own.mass > 0.0)
+        let mut faces = network.effects.iter().filter_map(|effect| effect.of_kind::<Face>());
+        faces.any(|face| face.element == self.element && face.mass > 0.0)
     }
 }
 
@@ -88,10 +88,10 @@ impl Effect for Separation {
     fn leave(&self, network: &mut Network) {
         let Some(at) = &self.at else { return };
         // The face stays where it is: without a place of its own it would be on the other side.
-        for own in &mut network.effects {
-            let face = own.of_kind::<Face>().filter(|face| face.element == self.element);
+        for effect in &mut network.effects {
+            let face = effect.of_kind::<Face>().filter(|face| face.element == self.element);
             if let Some(face) = face.filter(|face| face.at.is_none()) {
-                *own = Arc::new(Face { at: Some(at.clone()), ..face.clone() });
+                *effect = Arc::new(Face { at: Some(at.clone()), ..face.clone() });
             }
         }
     }

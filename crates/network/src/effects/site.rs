@@ -27,7 +27,7 @@ pub(super) fn connection_of(
     effect: &'static str,
     element: &str,
 ) -> Result<usize, NetworkError> {
-    let found = network.connections.iter().position(|own| own.name == element);
+    let found = network.connections.iter().position(|connection| connection.name == element);
     found.ok_or_else(|| NetworkError::NoElement { effect, element: element.to_owned() })
 }
 

@@ -157,6 +157,6 @@ impl EffectKind for Stop {
             damping: 0.0,
         };
         let pads = situation.struck().filter(|own| own.thickness.is_some());
-        pads.map(|own| on(&own.name)).collect()
+        pads.map(|pad| on(&pad.name)).collect()
     }
 }

@@ -260,12 +260,12 @@ fn dropped(effects: Vec<Arc<dyn Effect>>) -> [f64; 2] {
     }
     let assembly = network.compile(0.01).unwrap();
     let phased = assembly.switching.clone().unwrap();
-    let leg = dashpot_dae::Switching::first(phased.as_ref(), 1e-12).unwrap();
+    let interval = dashpot_dae::Switching::first(phased.as_ref(), 1e-12).unwrap();
     ["head.position", "head.velocity"].map(|name| {
-        let output = leg.system.outputs.at(assembly.output(name).unwrap());
-        let mut inputs = vec![0.0; leg.system.inputs.len()];
-        leg.system.inputs_at(0.0, 0.0, &mut inputs);
-        output.scale * (output.unknowns.at(&leg.system.initial) + output.inputs.at(&inputs))
+        let output = interval.system.outputs.at(assembly.output(name).unwrap());
+        let mut inputs = vec![0.0; interval.system.inputs.len()];
+        interval.system.inputs_at(0.0, 0.0, &mut inputs);
+        output.scale * (output.unknowns.at(&interval.system.initial) + output.inputs.at(&inputs))
     })
 }
 

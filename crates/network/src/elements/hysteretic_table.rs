@@ -175,7 +175,7 @@ fn check_order(points: &[(f64, f64)]) -> Result<(), InvalidParameter> {
     if points.len() < 2 {
         return invalid("two points or more", format!("{}", points.len()));
     }
-    if let Some(point) = points.iter().find(|own| !own.0.is_finite() || !own.1.is_finite()) {
+    if let Some(point) = points.iter().find(|point| !point.0.is_finite() || !point.1.is_finite()) {
         return invalid("finite", format!("{point:?}"));
     }
     for pair in points.windows(2) {
@@ -238,8 +238,9 @@ impl Hysteresis for HystereticTable {
             return 0.0;
         }
         let between = |at: &f64| *at > from && *at < deformation;
-        let mut bends: Vec<f64> = self.loading_points().iter().map(|own| own.0).collect();
-        bends.extend(self.0.factor.points().iter().map(|own| own.0 * deepest));
+        let mut bends: Vec<f64> =
+            self.loading_points().iter().map(|loading_point| loading_point.0).collect();
+        bends.extend(self.0.factor.points().iter().map(|point| point.0 * deepest));
         bends.retain(between);
         bends.extend([from, deformation]);
         bends.sort_by(f64::total_cmp);

@@ -38,7 +38,7 @@ impl MonotoneCurve {
 
     /// Whether its slopes and areas fit into double precision.
     pub(super) fn is_finite(&self) -> bool {
-        self.slopes.iter().chain(&self.areas).all(|own| own.is_finite())
+        self.slopes.iter().chain(&self.areas).all(|slope| slope.is_finite())
     }
 
     /// The value at `x`.

@@ -86,7 +86,7 @@ pub(super) fn check(name: &'static str, points: &[(f64, f64)]) -> Result<(), Inv
     if points.len() < 2 {
         return Err(invalid("two points or more", format!("{}", points.len())));
     }
-    if let Some(point) = points.iter().find(|own| !own.0.is_finite() || !own.1.is_finite()) {
+    if let Some(point) = points.iter().find(|point| !point.0.is_finite() || !point.1.is_finite()) {
         return Err(invalid("finite", format!("{point:?}")));
     }
     for pair in points.windows(2) {
@@ -103,7 +103,7 @@ pub(super) fn check(name: &'static str, points: &[(f64, f64)]) -> Result<(), Inv
     if points[points.len() - 1].1 <= points[0].1 {
         return Err(invalid("of forces that rise", format!("{:?} everywhere", points[0].1)));
     }
-    if points.iter().any(|own| own.0.abs() <= 0.0 && own.1.abs() <= 0.0) {
+    if points.iter().any(|point| point.0.abs() <= 0.0 && point.1.abs() <= 0.0) {
         Ok(())
     } else {
         let range = "a curve through [0, 0], given as one of its points";
@@ -130,7 +130,7 @@ impl Element for TableSpring {
     }
 
     fn measured(&self) -> Option<(f64, f64)> {
-        Some(self.curve.ends().map(|own| own.0).into())
+        Some(self.curve.ends().map(|end| end.0).into())
     }
 }
 

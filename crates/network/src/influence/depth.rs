@@ -18,7 +18,7 @@ const FIRST: f64 = 1e-6;
 /// where it is linear, or is no spring-like parts side by side, so that its stiffness has to tell.
 pub(super) fn at_energy(model: &Model, energy: f64) -> Option<f64> {
     let parts = side_by_side(model)?;
-    let force = |at: f64| parts.iter().map(|own| own.force(at, 0.0)).sum::<f64>();
+    let force = |at: f64| parts.iter().map(|part| part.force(at, 0.0)).sum::<f64>();
     let taken = |depth: f64| integral(force, 0.0, depth);
     let mut high = FIRST;
     for _ in 0..DOUBLINGS {
@@ -51,7 +51,7 @@ fn side_by_side(model: &Model) -> Option<Vec<&dyn Element>> {
             (!node.is_series()).then_some(all)
         },
     )?;
-    parts.iter().any(|own| !matches!(own.law(), Law::Spring(_))).then_some(parts)
+    parts.iter().any(|part| !matches!(part.law(), Law::Spring(_))).then_some(parts)
 }
 
 #[cfg(test)]

@@ -23,7 +23,9 @@ impl Detail {
     /// All details of a network, effects first.
     pub fn all(network: &Network) -> Vec<Self> {
         let effects = (0..network.effects.len()).map(Self::Effect);
-        let layered = |own: &Connection| own.layers.as_ref().is_some_and(|own| own.mass() > 0.0);
+        let layered = |connection: &Connection| {
+            connection.layers.as_ref().is_some_and(|own| own.mass() > 0.0)
+        };
         let layers = network.connections.iter().enumerate().filter(|(_, own)| layered(own));
         let supported = network.nodes().map(|(id, _)| id).filter(|&id| is_supported(network, id));
         effects
@@ -73,12 +75,12 @@ impl Network {
                 Detail::Effect(at) => self.effects[at].leave(&mut network),
                 Detail::Inertia(at) => {
                     let layers = network.connections[at].layers.iter_mut();
-                    layers.flat_map(|own| &mut own.all).for_each(|layer| layer.density = 0.0);
+                    layers.flat_map(|layer| &mut layer.all).for_each(|layer| layer.density = 0.0);
                 }
                 Detail::Compliance(id) => {
                     let holds = |own: &&mut Connection| is_held_by(self, own, id);
-                    if let Some(own) = network.connections.iter_mut().find(holds) {
-                        own.model = part(Rigid);
+                    if let Some(connection) = network.connections.iter_mut().find(holds) {
+                        connection.model = part(Rigid);
                     }
                 }
             }
@@ -93,15 +95,15 @@ impl Network {
 }
 
 /// Whether a connection holds a node at a fixed one.
-fn is_held_by(network: &Network, own: &Connection, id: NodeId) -> bool {
+fn is_held_by(network: &Network, connection: &Connection, id: NodeId) -> bool {
     let is_fixed = |end: NodeId| network.node(end).support == Support::Fixed;
-    let [a, b] = own.between;
+    let [a, b] = connection.between;
     (a == id && is_fixed(b)) || (b == id && is_fixed(a))
 }
 
 /// The connections that hold a node at fixed ones.
 fn supports(network: &Network, id: NodeId) -> impl Iterator<Item = &Connection> {
-    network.connections.iter().filter(move |own| is_held_by(network, own, id))
+    network.connections.iter().filter(move |connection| is_held_by(network, connection, id))
 }
 
 /// Whether a node is a mass that springs hold at a fixed node, and nothing more is made of those.
@@ -109,9 +111,11 @@ fn is_supported(network: &Network, id: NodeId) -> bool {
     let node = network.node(id);
     let is_mass = node.support == Support::Free && node.mass > 0.0 && !node.is_impactor();
     let is_loaded = network.loads.iter().any(|load| load.node == id);
-    let is_plain = |own: &Connection| {
-        let targeted = |effect: &dyn effects::Effect| effect.target() == Some(own.name.as_str());
-        own.layers.is_none() && !network.effects.iter().any(|effect| targeted(effect.as_ref()))
+    let is_plain = |connection: &Connection| {
+        let targeted =
+            |effect: &dyn effects::Effect| effect.target() == Some(connection.name.as_str());
+        connection.layers.is_none()
+            && !network.effects.iter().any(|effect| targeted(effect.as_ref()))
     };
     is_mass
         && !is_loaded
@@ -140,7 +144,8 @@ fn compliance(situation: &Situation<'_>, id: NodeId) -> Vec<Influence> {
         return Vec::new();
     }
     let mass = network.node(id).mass;
-    let at_impact = |own: &Connection| Stiffness::of(&own.model, passage.recip()).size();
+    let at_impact =
+        |connection: &Connection| Stiffness::of(&connection.model, passage.recip()).size();
     let held: f64 = supports(network, id).map(at_impact).sum();
     let (gamma, held) = (impact.mass / mass, passage * passage * held / mass);
     let formula = "γ/(1 + J² |K3*|/m3)";

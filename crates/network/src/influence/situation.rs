@@ -82,7 +82,7 @@ impl<'n> Situation<'n> {
         let is_rewritten = effects::rewrite(&mut rewritten).is_ok();
         let rewritten = if is_rewritten { &rewritten } else { network };
         let loads = network.loads.iter().map(|load| load.force.bound(duration));
-        let body_forces = network.effects.iter().flat_map(|own| own.body_forces(network));
+        let body_forces = network.effects.iter().flat_map(|effect| effect.body_forces(network));
         let body_forces = body_forces.map(|(_, force)| force.bound(duration));
         let motions = network.nodes.iter().filter_map(|node| match &node.support {
             Support::Prescribed(motion) => Some(motion.bound(duration)),
@@ -166,9 +166,9 @@ fn impact(network: &Network) -> Option<ImpactScales> {
         (network.node(node).mass, start_velocity(network, network.node(node).start).abs());
     let struck = struck_by(network, node);
     let connections = || struck.iter().map(|&at| &network.connections[at]);
-    let models: Vec<&Model> = connections().map(|own| &own.model).collect();
+    let models: Vec<&Model> = connections().map(|connection| &connection.model).collect();
     let omega = frequency(&models, mass)?;
-    let thickness = connections().filter_map(|own| own.thickness).reduce(f64::min);
+    let thickness = connections().filter_map(|connection| connection.thickness).reduce(f64::min);
     let stiffness = mass * omega * omega;
     Some(ImpactScales { node, mass, speed, struck, stiffness, thickness })
 }
@@ -176,7 +176,8 @@ fn impact(network: &Network) -> Option<ImpactScales> {
 /// Whether a mass falls before it touches: it is dropped, gravity pulls it towards the support, and
 /// it is joined to nothing but by contacts.
 fn falls(network: &Network, node: NodeId) -> bool {
-    let pulls = network.effects.iter().find_map(|own| own.gravity()).is_some_and(|own| own > 0.0);
+    let pulls =
+        network.effects.iter().find_map(|effect| effect.gravity()).is_some_and(|own| own > 0.0);
     let is_dropped = matches!(network.node(node).start, Start::Drop(_));
     pulls
         && is_dropped

@@ -46,7 +46,7 @@ fn numbers(network: &Network) -> Vec<(String, f64)> {
     let all = Detail::all(network).into_iter();
     let with_name = |detail: Detail| {
         let influences = detail.influences(&situation).into_iter();
-        influences.map(move |own| (detail.name(network), own.value)).collect::<Vec<_>>()
+        influences.map(move |influence| (detail.name(network), influence.value)).collect::<Vec<_>>()
     };
     all.flat_map(with_name).collect()
 }

@@ -45,8 +45,8 @@ fn blow(
     let body = ends[at];
     let speed = start_velocity(network, body.start) - start_velocity(network, ends[1 - at].start);
     // A mass of the face itself blunts what comes.
-    let mut faces = network.effects.iter().filter_map(|own| own.of_kind::<Face>());
-    let is_faced = faces.any(|own| own.element == connection.name);
+    let mut faces = network.effects.iter().filter_map(|effect| effect.of_kind::<Face>());
+    let is_faced = faces.any(|face| face.element == connection.name);
     if is_faced || body.mass <= 0.0 || speed == 0.0 {
         return None;
     }

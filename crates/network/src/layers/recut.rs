@@ -30,7 +30,7 @@ pub fn recut(network: &Network) -> Option<Recut> {
         let Some(layers) = &connection.layers else { continue };
         let counts = layers.segments(struck_mass(network, connection)).ok()?;
         let (own, least) =
-            (counts.iter().sum::<usize>(), counts.iter().filter(|own| **own > 0).count());
+            (counts.iter().sum::<usize>(), counts.iter().filter(|count| **count > 0).count());
         if own > 0 {
             found.push((at, own, least));
         }

@@ -113,7 +113,7 @@ impl Phases for Slice {
     }
 
     fn first(&self, deformation: f64) -> Phase {
-        let whole = self.of.phases().map(|own| own.first(self.count * deformation));
+        let whole = self.of.phases().map(|phase| phase.first(self.count * deformation));
         let whole = whole.unwrap_or(Phase { index: 0, memory: 0.0 });
         Phase { memory: whole.memory / self.count, ..whole }
     }

@@ -39,7 +39,7 @@ impl Stiffness {
             Law::Nonlinear { stiffness, damping } => {
                 Self { storage: stiffness, loss: loss(damping) }
             }
-            Law::Phased => match element.phases().map(|own| own.law(own.first(0.0))) {
+            Law::Phased => match element.phases().map(|phase| phase.law(phase.first(0.0))) {
                 // What switches has phases that do not switch.
                 Some(PhaseLaw::Element(own)) if own.law() != Law::Phased => {
                     Self::of_element(own.as_ref(), omega)
@@ -78,6 +78,6 @@ impl Stiffness {
 
     /// That of several in series.
     pub(super) fn in_series(parts: &[Self]) -> Self {
-        parts.iter().map(|own| own.inverse()).fold(Self::NONE, Self::plus).inverse()
+        parts.iter().map(|part| part.inverse()).fold(Self::NONE, Self::plus).inverse()
     }
 }

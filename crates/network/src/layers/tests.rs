@@ -99,7 +99,7 @@ fn the_chain_has_the_dispersion_that_the_accuracy_is_chosen_by() {
     // sin(jπ(i − ½)/n) at the centres of the segments.
     let count = 9;
     let Cut { masses, models, .. } = cut(&pad(vec![elastic()], Resolution::Segments(9)), &[count]);
-    let stiffness: Vec<f64> = models.iter().map(|own| Stiffness::of(own, 1.0).size()).collect();
+    let stiffness: Vec<f64> = models.iter().map(|model| Stiffness::of(model, 1.0).size()).collect();
     assert_eq!((masses.len(), stiffness.len()), (count, count + 1));
     close(masses.iter().sum(), elastic().mass(), EPSILON);
     close(1.0 / stiffness.iter().map(|own| 1.0 / own).sum::<f64>(), 1e6, EPSILON);
@@ -184,7 +184,7 @@ fn masses_stand_between_the_branches_of_a_series() {
     assert_eq!(network.connections()[0].thickness, Some(0.03));
     resolve(&mut network).unwrap();
     let pad = &network.connections()[0];
-    let names: Vec<&str> = pad.model.branches().iter().map(|own| own.name.as_str()).collect();
+    let names: Vec<&str> = pad.model.branches().iter().map(|branch| branch.name.as_str()).collect();
     assert_eq!(names, ["front", "1-2", "2-3", "3-4", "4-5", "back"]);
     let nodes: Vec<&Node> = pad.through.iter().map(|id| network.node(*id)).collect();
     let names: Vec<&str> = nodes.iter().map(|node| node.name.as_str()).collect();
@@ -195,14 +195,15 @@ fn masses_stand_between_the_branches_of_a_series() {
     let halves = [Stiffness::of(&pad.model.branches()[2].tree, 1.0).size(), {
         Stiffness::of(&pad.model.branches()[3].tree, 1.0).size()
     }];
-    assert!(halves.iter().any(|own| (own - stiffness).abs() < EPSILON * stiffness), "{halves:?}");
+    assert!(halves.iter().any(|half| (half - stiffness).abs() < EPSILON * stiffness), "{halves:?}");
 }
 
 #[test]
 fn a_pad_reports_the_force_on_its_face() {
     let network = network(pad(vec![elastic()], Resolution::Segments(4)));
     let assembly = network.compile(0.02).unwrap();
-    let names: Vec<&str> = assembly.connections.iter().map(|own| own.name.as_str()).collect();
+    let names: Vec<&str> =
+        assembly.connections.iter().map(|connection| connection.name.as_str()).collect();
     assert_eq!(names, ["pad"]);
     assert_eq!(assembly.connections[0].primitives, 0..5);
     assert_eq!(assembly.system.states(), 10);

@@ -22,7 +22,7 @@ pub trait Described: Debug + Send + Sync {
 
     /// The value of the parameter of this name.
     fn value(&self, name: &str) -> Option<Value> {
-        let at = self.parameters().iter().position(|own| own.name == name)?;
+        let at = self.parameters().iter().position(|parameter| parameter.name == name)?;
         self.values().into_iter().nth(at)
     }
 
@@ -87,7 +87,7 @@ pub fn registered<'e, T, A>(
     entries: &'e [Registered<T, A>],
     word: &str,
 ) -> Option<&'e Registered<T, A>> {
-    entries.iter().find(|own| own.word == word)
+    entries.iter().find(|entry| entry.word == word)
 }
 
 impl<T, A: Copy> Registered<T, A> {
@@ -99,7 +99,7 @@ impl<T, A: Copy> Registered<T, A> {
             parameters: K::PARAMETERS,
             make,
             sample: || K::sample().values(),
-            again: |values| K::from_values(values).map(|own| own.values()),
+            again: |values| K::from_values(values).map(|from_value| from_value.values()),
             about,
         }
     }

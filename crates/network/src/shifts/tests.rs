@@ -151,8 +151,9 @@ fn laws(model: &Model) -> Vec<(String, Law)> {
     while let Some((name, tree)) = pending.pop() {
         match tree {
             Tree::Part(element) => laws.push((name, element.law())),
-            tree => pending
-                .extend(tree.branches().iter().rev().map(|own| (own.name.clone(), &own.tree))),
+            tree => pending.extend(
+                tree.branches().iter().rev().map(|branch| (branch.name.clone(), &branch.tree)),
+            ),
         }
     }
     laws

@@ -57,16 +57,16 @@ impl Recognized {
             motion.pieces().iter().map(second_derivative).collect::<Option<Vec<Piece>>>()?;
         let is_of = |own: &Self| {
             let again = (own.make)(&own.values).ok();
-            let again = again.and_then(|own| own.integral()).and_then(|own| own.integral());
+            let again = again.and_then(|again| again.integral()).and_then(|own| own.integral());
             again.is_some_and(|again| is_same(motion, &again))
         };
         // What lies before t = 0 is not kept by the motion.
         let quiet = Piece { start: before(pieces.first()?.start), ..Piece::default() };
         let with_quiet = std::iter::once(quiet).chain(pieces.iter().copied()).collect();
         let given = motion.given().map(|own| Given { integrals: 0, ..own });
-        let as_given = |own: Waveform| match given {
-            Some(given) => own.given_at(given),
-            None => own,
+        let as_given = |waveform: Waveform| match given {
+            Some(given) => waveform.given_at(given),
+            None => waveform,
         };
         let acceleration = [Waveform::new(pieces), Waveform::new(with_quiet)];
         acceleration.into_iter().flatten().filter_map(|own| Self::of(&as_given(own))).find(is_of)
@@ -97,19 +97,19 @@ fn of_kind<W: WaveformKind>(waveform: &Waveform, kind: &W) -> Option<Recognized>
 }
 
 /// The second derivative of a piece; `None` where its frequency is swept.
-fn second_derivative(own: &Piece) -> Option<Piece> {
-    if own.is_swept() {
+fn second_derivative(piece: &Piece) -> Option<Piece> {
+    if piece.is_swept() {
         return None;
     }
-    let factor = -own.omega * own.omega;
+    let factor = -piece.omega * piece.omega;
     let wave = |amplitude: f64| if amplitude == 0.0 { 0.0 } else { factor * amplitude };
     Some(Piece {
-        start: own.start,
-        value: own.curvature,
-        slope: own.jerk,
-        sine: wave(own.sine),
-        cosine: wave(own.cosine),
-        omega: own.omega,
+        start: piece.start,
+        value: piece.curvature,
+        slope: piece.jerk,
+        sine: wave(piece.sine),
+        cosine: wave(piece.cosine),
+        omega: piece.omega,
         ..Piece::default()
     })
 }
@@ -117,8 +117,8 @@ fn second_derivative(own: &Piece) -> Option<Piece> {
 /// Straight lines and jumps as a table.
 fn line(waveform: &Waveform) -> Option<Recognized> {
     let pieces = waveform.pieces();
-    let is_straight = |own: &Piece| {
-        !own.is_wave() && own.curvature == 0.0 && own.jerk == 0.0 && own.cosine == 0.0
+    let is_straight = |piece: &Piece| {
+        !piece.is_wave() && piece.curvature == 0.0 && piece.jerk == 0.0 && piece.cosine == 0.0
     };
     let (first, last) = (pieces.first()?, pieces.last()?);
     if !pieces.iter().all(is_straight) || first.slope != 0.0 || last.slope != 0.0 {
@@ -141,7 +141,7 @@ fn line(waveform: &Waveform) -> Option<Recognized> {
     };
     let table = Table { points, outside };
     let again = table.waveform().ok()?;
-    let ends = pieces.iter().skip(1).map(|own| own.start);
+    let ends = pieces.iter().skip(1).map(|piece| piece.start);
     let close = |t: f64| (waveform.value(t) - again.value(t)).abs() <= 1e-12 * size;
     ends.chain([0.0]).all(close).then(|| Recognized::named(&table))
 }
@@ -171,14 +171,14 @@ fn haversine(waveform: &Waveform) -> Option<Haversine> {
 fn is_same(one: &Waveform, other: &Waveform) -> bool {
     let (first, second) = (one.pieces(), other.pieces());
     // Rounding is that of the largest of each kind of number.
-    let numbers = |own: &Piece| {
+    let numbers = |piece: &Piece| {
         [
-            [own.value, own.sine, own.cosine].map(f64::abs).into_iter().fold(0.0, f64::max),
-            own.slope.abs(),
-            own.curvature.abs(),
-            own.jerk.abs(),
-            own.omega.abs(),
-            own.sweep.abs(),
+            [piece.value, piece.sine, piece.cosine].map(f64::abs).into_iter().fold(0.0, f64::max),
+            piece.slope.abs(),
+            piece.curvature.abs(),
+            piece.jerk.abs(),
+            piece.omega.abs(),
+            piece.sweep.abs(),
         ]
     };
     let mut sizes = [0.0_f64; 6];

@@ -83,7 +83,7 @@ impl WaveformKind for Trapezoid {
         parts.push(Piece { start, ..Piece::default() });
         let lengths = [("rise", self.rise), ("hold", self.hold), ("fall", self.fall)];
         let shortest =
-            lengths.into_iter().filter(|own| own.1 > 0.0).min_by(|a, b| a.1.total_cmp(&b.1));
+            lengths.into_iter().filter(|length| length.1 > 0.0).min_by(|a, b| a.1.total_cmp(&b.1));
         let (name, length) = shortest.unwrap_or(("hold", self.hold));
         pieces(name, length, parts)
     }

@@ -33,7 +33,7 @@ impl Figure for DeformationTime {
         let kinds = [RunMarkerKind::DeepestPoint, RunMarkerKind::TensionStart];
         Chart {
             title: self.title().into(),
-            note: note(runs, &both(&left_out, widest.map(|own| gaps(own, y)))),
+            note: note(runs, &both(&left_out, widest.map(|widest| gaps(widest, y)))),
             x_label: x.label("time"),
             y_label: y.label("deformation"),
             markers: markers(runs, &shown, &kinds, (Of::Time, x), (Of::Deformation, y)),
@@ -49,11 +49,11 @@ impl Figure for DeformationTime {
 fn cut_off(runs: &[RunSeries], all: &mut [Quantity]) -> Option<f64> {
     let is_contact = |quantity: &Quantity| {
         let elements = runs.iter().flat_map(|run| &run.elements);
-        elements.filter(|own| own.name == quantity.name).any(|own| own.is_contact)
+        elements.filter(|element| element.name == quantity.name).any(|element| element.is_contact)
     };
     let deforming = all.iter().filter(|own| !is_contact(own));
     let sizes = deforming.flat_map(|own| own.curves.iter().flatten()).map(|point| point.1.abs());
-    let widest = WIDEST * sizes.filter(|own| own.is_finite()).fold(0.0, f64::max);
+    let widest = WIDEST * sizes.filter(|siz| siz.is_finite()).fold(0.0, f64::max);
     if widest <= 0.0 {
         return None;
     }
@@ -93,7 +93,7 @@ mod tests {
         }
         let chart = DeformationTime.chart(&runs);
         let shown = chart.series[1].points.iter().map(|point| point.1);
-        let lowest = shown.clone().filter(|own| own.is_finite()).fold(0.0, f64::min);
+        let lowest = shown.clone().filter(|shown| shown.is_finite()).fold(0.0, f64::min);
         assert!(lowest < 0.0 && lowest >= -500.0 * deepest, "{lowest}");
         assert!(shown.clone().any(f64::is_nan));
         assert!(chart.note.contains("gaps wider than 8.75 mm are cut off"), "{}", chart.note);

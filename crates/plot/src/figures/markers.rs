@@ -211,7 +211,7 @@ mod tests {
     fn what_happens_at_one_place_is_told_in_one_text_and_elsewhere_in_its_own() {
         let mut runs = runs();
         let labels = |runs: &[RunSeries]| -> Vec<String> {
-            ForceDeformation.chart(runs).markers.into_iter().map(|own| own.label).collect()
+            ForceDeformation.chart(runs).markers.into_iter().map(|marker| marker.label).collect()
         };
         runs[0].markers = vec![
             marker(RunMarkerKind::PeakForce, 1e-3, "peak 38 kN"),
@@ -237,7 +237,7 @@ mod tests {
         };
         runs[0].markers = vec![on_contact, marker(RunMarkerKind::PeakForce, 1e-3, "peak 38 kN")];
         let chart = ForceDeformation.chart(&runs);
-        let labels: Vec<&str> = chart.markers.iter().map(|own| own.label.as_str()).collect();
+        let labels: Vec<&str> = chart.markers.iter().map(|marker| marker.label.as_str()).collect();
         assert_eq!(labels, ["peak 38 kN at 1 ms"]);
     }
 }

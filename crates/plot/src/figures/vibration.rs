@@ -78,9 +78,10 @@ impl VibrationSeries {
     }
 
     fn series(&self, values: impl Fn(&VibrationCurve) -> Vec<f64>) -> Vec<Series> {
-        let one = |own: &VibrationCurve| {
-            let points = own.frequency.iter().copied().zip(values(own)).collect();
-            Series::new(own.name.clone(), points)
+        let one = |vibration_curve: &VibrationCurve| {
+            let points =
+                vibration_curve.frequency.iter().copied().zip(values(vibration_curve)).collect();
+            Series::new(vibration_curve.name.clone(), points)
         };
         self.shown().map(one).collect()
     }
@@ -130,7 +131,7 @@ mod tests {
     #[test]
     fn the_phase_runs_on_over_half_a_turn() {
         let chart = series().phase_chart();
-        let phase: Vec<f64> = chart.series[0].points.iter().map(|own| own.1).collect();
+        let phase: Vec<f64> = chart.series[0].points.iter().map(|point| point.1).collect();
         assert_eq!(phase, [0.0, -90.0, -181.0]);
         assert_eq!(unbroken(&[170.0, f64::NAN, -170.0])[2..], [190.0]);
     }

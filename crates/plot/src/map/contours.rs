@@ -23,10 +23,10 @@ pub(super) fn contours(values: &[f64], columns: usize, level: f64) -> Vec<Vec<(f
             let (i, j) = (column - 1, row - 1);
             let at = |column: usize, row: usize| values[row * columns + column];
             let corners = [at(i, j), at(column, j), at(column, row), at(i, row)];
-            if corners.iter().any(|own| !own.is_finite()) {
+            if corners.iter().any(|corner| !corner.is_finite()) {
                 continue;
             }
-            let above = corners.map(|own| own >= level);
+            let above = corners.map(|corner| corner >= level);
             // The four sides in turn, each between the corner of its number and the next one.
             let sides = [(i, j, false), (column, j, true), (i, row, false), (i, j, true)];
             let crossed: Vec<Crossing> =
@@ -63,11 +63,11 @@ pub(super) fn contours(values: &[f64], columns: usize, level: f64) -> Vec<Vec<(f
 fn traced(mut links: BTreeMap<Crossing, Vec<Crossing>>) -> Vec<Vec<Crossing>> {
     let mut paths = Vec::new();
     let ends: Vec<Crossing> =
-        links.iter().filter(|own| own.1.len() == 1).map(|own| *own.0).collect();
+        links.iter().filter(|link| link.1.len() == 1).map(|link| *link.0).collect();
     for start in ends {
         paths.extend(trace(&mut links, start));
     }
-    while let Some(start) = links.iter().find(|own| !own.1.is_empty()).map(|own| *own.0) {
+    while let Some(start) = links.iter().find(|link| !link.1.is_empty()).map(|link| *link.0) {
         paths.extend(trace(&mut links, start));
     }
     paths

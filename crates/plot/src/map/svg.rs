@@ -31,7 +31,7 @@ impl Map {
         let widest = |axis: &Axis| {
             let widths = axis.ticks().iter();
             widths
-                .map(|own| text_width(&axis.tick_label(*own), theme::TICK_SIZE))
+                .map(|width| text_width(&axis.tick_label(*width), theme::TICK_SIZE))
                 .fold(0.0, f64::max)
         };
         let left = theme::MARGIN + 1.5 * theme::LABEL_SIZE + widest(&y) + 12.0;
@@ -62,7 +62,7 @@ impl Map {
     }
 
     fn finite(&self) -> impl Iterator<Item = f64> + '_ {
-        self.values.iter().copied().filter(|own| own.is_finite())
+        self.values.iter().copied().filter(|value| value.is_finite())
     }
 
     /// One rectangle for each point, up to half-way to its neighbours.
@@ -112,24 +112,24 @@ impl Map {
         );
         let mut texts = Vec::new();
         let (x0, y0) = (self.x.first().copied(), self.y.first().copied());
-        for &own in frame.x.ticks() {
-            let (at, _) = frame.at(own, y0.unwrap_or(1.0));
+        for &tick in frame.x.ticks() {
+            let (at, _) = frame.at(tick, y0.unwrap_or(1.0));
             draw_path(svg, &[(at, bottom), (at, bottom + theme::MINOR_LENGTH)]);
             texts.push(text(
                 (at, bottom + 18.0),
                 "middle",
                 theme::TICK_SIZE,
-                &frame.x.tick_label(own),
+                &frame.x.tick_label(tick),
             ));
         }
-        for &own in frame.y.ticks() {
-            let (_, at) = frame.at(x0.unwrap_or(1.0), own);
+        for &tick in frame.y.ticks() {
+            let (_, at) = frame.at(x0.unwrap_or(1.0), tick);
             draw_path(svg, &[(left - theme::MINOR_LENGTH, at), (left, at)]);
             texts.push(text(
                 (left - 8.0, at + 4.5),
                 "end",
                 theme::TICK_SIZE,
-                &frame.y.tick_label(own),
+                &frame.y.tick_label(tick),
             ));
         }
         svg.push_str("</g>\n");
@@ -145,7 +145,7 @@ impl Map {
         let y_label = clip_width(&frame.y.title(&self.y_label), theme::LABEL_SIZE, bottom - top);
         texts.push(upright(theme::MARGIN + theme::LABEL_SIZE, 0.5 * (top + bottom), &y_label));
         let _ = writeln!(svg, "<g class=\"texts\" fill=\"{}\">", theme::INK.hex());
-        texts.iter().for_each(|own| svg.push_str(own));
+        texts.iter().for_each(|text| svg.push_str(text));
         svg.push_str("</g>\n");
     }
 
@@ -164,10 +164,10 @@ impl Map {
         }
         svg.push_str("</g>\n");
         let _ = writeln!(svg, "<g class=\"texts\" fill=\"{}\">", theme::INK.hex());
-        for &own in values.ticks() {
-            let at = frame.bottom - values.fraction(own) * height;
+        for &tick in values.ticks() {
+            let at = frame.bottom - values.fraction(tick) * height;
             let place = (left + BAR + 6.0, at + 4.5);
-            svg.push_str(&text(place, "start", theme::TICK_SIZE, &values.tick_label(own)));
+            svg.push_str(&text(place, "start", theme::TICK_SIZE, &values.tick_label(tick)));
         }
         let label = clip_width(&values.title(&self.value_label), theme::LABEL_SIZE, height);
         let at = theme::CHART_WIDTH - theme::MARGIN;

@@ -19,16 +19,16 @@ fn parts(own: SpringDashpot) -> [LinearModel; 2] {
     [Spring(own.spring).into(), Dashpot(own.dashpot).into()]
 }
 
-fn series(own: SpringDashpot) -> LinearModel {
-    LinearModel::series(&parts(own))
+fn series(spring_dashpot: SpringDashpot) -> LinearModel {
+    LinearModel::series(&parts(spring_dashpot))
 }
 
-fn of_burgers(own: Burgers) -> LinearModel {
-    LinearModel::series(&[series(own.maxwell), LinearModel::parallel(&parts(own.kelvin))])
+fn of_burgers(burgers: Burgers) -> LinearModel {
+    LinearModel::series(&[series(burgers.maxwell), LinearModel::parallel(&parts(burgers.kelvin))])
 }
 
-fn of_two(own: TwoMaxwell) -> LinearModel {
-    LinearModel::parallel(&[series(own.slow), series(own.fast)])
+fn of_two(two_maxwell: TwoMaxwell) -> LinearModel {
+    LinearModel::parallel(&[series(two_maxwell.slow), series(two_maxwell.fast)])
 }
 
 fn near(found: SpringDashpot, expected: SpringDashpot, tolerance: f64) -> bool {
@@ -36,10 +36,10 @@ fn near(found: SpringDashpot, expected: SpringDashpot, tolerance: f64) -> bool {
         && (found.dashpot / expected.dashpot - 1.0).abs() <= tolerance
 }
 
-fn burgers_of(own: TwoMaxwell) -> Burgers {
-    match own.to_burgers().unwrap() {
+fn burgers_of(two_maxwell: TwoMaxwell) -> Burgers {
+    match two_maxwell.to_burgers().unwrap() {
         Equivalent::Burgers(burgers) => burgers,
-        Equivalent::Maxwell(one) => panic!("{own:?} is one element, {one:?}"),
+        Equivalent::Maxwell(one) => panic!("{two_maxwell:?} is one element, {one:?}"),
     }
 }
 

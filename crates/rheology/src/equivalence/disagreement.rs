@@ -59,10 +59,10 @@ impl Disagreement {
 /// Places on a logarithmic scale, from far below to far beyond what `place` makes of all rates and
 /// of those at which a single spring and a single dashpot are as stiff as something else.
 fn places(forms: [&Fractions; 2], place: fn(f64) -> f64) -> Vec<f64> {
-    let lines = || forms.into_iter().flat_map(|own| &own.lines);
+    let lines = || forms.into_iter().flat_map(|form| &form.lines);
     let mut all: Vec<f64> = lines().map(|line| line.rate.high()).collect();
-    for own in forms {
-        let (at_zero, constant) = (own.at_zero.high(), own.constant.high());
+    for form in forms {
+        let (at_zero, constant) = (form.at_zero.high(), form.constant.high());
         all.extend(forms.map(|other| at_zero / other.constant.high()));
         all.extend(lines().map(|line| at_zero * (line.rate / line.strength).high()));
         all.extend(lines().map(|line| line.strength.high() / constant));
@@ -135,7 +135,7 @@ fn difference(
     pairs: &[Aligned<'_>],
     omega: f64,
 ) -> Complex<f64> {
-    let alone = |own: &Line| share(own.rate.high(), omega) * own.strength.high();
+    let alone = |line: &Line| share(line.rate.high(), omega) * line.strength.high();
     let singles = Complex::new(
         (first.at_zero - second.at_zero).high(),
         (first.constant - second.constant).high() * omega,
@@ -158,8 +158,8 @@ fn difference(
 
 /// `J₁(t) − J₂(t)` of two Kelvin forms, mode by mode.
 fn creep_difference(first: &Fractions, second: &Fractions, pairs: &[Aligned<'_>], t: f64) -> f64 {
-    let yielded = |own: &Line| -(-own.rate.high() * t).exp_m1();
-    let compliance = |own: &Line| own.strength / own.rate;
+    let yielded = |line: &Line| -(-line.rate.high() * t).exp_m1();
+    let compliance = |line: &Line| line.strength / line.rate;
     let singles =
         (first.constant - second.constant).high() + (first.at_zero - second.at_zero).high() * t;
     pairs.iter().fold(singles, |sum, pair| {

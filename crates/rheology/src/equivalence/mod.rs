@@ -90,17 +90,17 @@ pub fn compare(first: &LinearModel, second: &LinearModel) -> Equivalence {
     let maxwell = first.maxwell().zip(second.maxwell());
     let kelvin = first.kelvin().zip(second.kelvin());
     let compared = |within: f64| {
-        let near = |own: &Fractions| own.together(within);
+        let near = |fractions: &Fractions| fractions.together(within);
         let maxwell = maxwell.map(|(a, b)| forms(&near(&a.0), &near(&b.0), |line| line.strength));
         let kelvin =
             kelvin.map(|(a, b)| forms(&near(&a.0), &near(&b.0), |line| line.strength / line.rate));
-        let is_close = |own: &FormComparison| own.largest <= SAME_WITHIN;
+        let is_close = |form_comparison: &FormComparison| form_comparison.largest <= SAME_WITHIN;
         (maxwell.iter().chain(&kelvin).any(is_close), maxwell, kelvin)
     };
     // One by one; else what rounding may have rearranged among neighbours counts as a whole.
     let one_by_one = compared(0.0);
     let together = if one_by_one.0 { None } else { Some(compared(TOGETHER_WITHIN)) };
-    let (is_same, maxwell, kelvin) = together.filter(|own| own.0).unwrap_or(one_by_one);
+    let (is_same, maxwell, kelvin) = together.filter(|together| together.0).unwrap_or(one_by_one);
     Equivalence { is_same, maxwell, kelvin, worst: Disagreement::of(first, second) }
 }
 

@@ -63,7 +63,9 @@ fn the_worst_disagreement_is_that_of_a_fine_scan() {
         let place = 10_f64.powf(-12.0 + f64::from(at) * 1e-3);
         let apart = (first.storage(place.recip()) - second.storage(place.recip()))
             .hypot(first.loss(place.recip()) - second.loss(place.recip()));
-        let size = |own: &LinearModel| own.storage(place.recip()).hypot(own.loss(place.recip()));
+        let size = |linear_model: &LinearModel| {
+            linear_model.storage(place.recip()).hypot(linear_model.loss(place.recip()))
+        };
         stiffness = stiffness.max(apart / size(&first).max(size(&second)));
         let [a, b] = [&first, &second].map(|own| own.creep(place));
         creep = creep.max((a - b).abs() / a.max(b));
@@ -184,7 +186,9 @@ fn a_narrow_disagreement_between_wide_models_is_found() {
         let second = all(Some(at));
         let worst = compare(&first, &second).worst.unwrap();
         let apart = |omega: f64| {
-            let size = |own: &LinearModel| own.storage(omega).hypot(own.loss(omega));
+            let size = |linear_model: &LinearModel| {
+                linear_model.storage(omega).hypot(linear_model.loss(omega))
+            };
             let gap = (first.storage(omega) - second.storage(omega))
                 .hypot(first.loss(omega) - second.loss(omega));
             gap / size(&first).max(size(&second))
@@ -216,8 +220,8 @@ proptest! {
         scale in -12.0..-3.0_f64,
     ) {
         let epsilon = 10_f64.powf(scale);
-        let of = |size: f64| powers.iter().map(move |own| {
-            (10_f64.powf(own.0) * (1.0 + size * own.2), 10_f64.powf(own.1) * (1.0 + size * own.3))
+        let of = |size: f64| powers.iter().map(move |power| {
+            (10_f64.powf(power.0) * (1.0 + size * power.2), 10_f64.powf(power.1) * (1.0 + size * power.3))
         }).collect::<Vec<_>>();
         let comparison = compare(&prony(&of(0.0)), &prony(&of(epsilon)));
         let largest = comparison.maxwell.as_ref().unwrap().largest;

@@ -116,7 +116,7 @@ impl LinearModel {
             (Some(form), None) => Maxwell(form.0.clone()),
             (None, None) => Maxwell(Fractions::default()),
         };
-        let mut merged: Vec<Merged> = parts.iter().flat_map(|own| own.merged.clone()).collect();
+        let mut merged: Vec<Merged> = parts.iter().flat_map(|part| part.merged.clone()).collect();
         let whole = Half::composed(parts.iter().map(half).collect(), in_series, &mut merged);
         Self::finished(whole, merged)
     }

@@ -57,7 +57,7 @@ impl Derivatives {
             all
         };
         let singles = [(fractions.at_zero, at_zero), (fractions.constant, constant)];
-        let singles = singles.into_iter().filter(|own| own.0.high() > 0.0);
+        let singles = singles.into_iter().filter(|single| single.0.high() > 0.0);
         let lines = fractions.lines.iter().zip(lines).flat_map(|(line, [rate, strength])| {
             [dense(line.rate, rate), dense(line.strength, strength)]
         });
@@ -94,7 +94,7 @@ impl Half {
 
     fn composed(in_series: bool, parts: Vec<Self>) -> Self {
         let parts: Option<Vec<Derived>> =
-            parts.into_iter().map(|own| own.form(in_series)).collect();
+            parts.into_iter().map(|part| part.form(in_series)).collect();
         match (parts, in_series) {
             (Some(parts), true) => Self::Kelvin(Derived::sum(&parts)),
             (Some(parts), false) => Self::Maxwell(Derived::sum(&parts)),
@@ -107,7 +107,7 @@ impl Half {
 impl Derived {
     /// The sum of `parts`, with the same modes merged as without derivatives.
     fn sum(parts: &[Self]) -> Self {
-        let all: Vec<&Fractions> = parts.iter().map(|own| &own.fractions).collect();
+        let all: Vec<&Fractions> = parts.iter().map(|part| &part.fractions).collect();
         let fractions = Fractions::sum(&all, &mut Vec::new());
         let groups = Fractions::groups(&all);
         let lines = fractions.lines.iter().zip(&groups).map(|(whole, group)| {
@@ -122,7 +122,7 @@ impl Derived {
             });
             [total(rates), total(group.iter().map(|own| (1.0, &slopes(own)[1])))]
         });
-        let row = |pick: fn(&Self) -> &Row| total(parts.iter().map(|own| (1.0, pick(own))));
+        let row = |pick: fn(&Self) -> &Row| total(parts.iter().map(|part| (1.0, pick(part))));
         let lines = lines.collect();
         Self {
             lines,
@@ -146,7 +146,7 @@ impl Derived {
                 }))
                 .collect();
         let lines = fractions.lines.iter().map(|line| {
-            let apart: Vec<f64> = poles.iter().map(|own| (line.rate - own.0).high()).collect();
+            let apart: Vec<f64> = poles.iter().map(|pole| (line.rate - pole.0).high()).collect();
             let slope = (line.rate * line.strength).recip().high();
             // −dF/F' without the part from the zero itself.
             let mut moved: Vec<(f64, &Row)> = vec![(-1.0 / slope, &self.constant)];
@@ -176,7 +176,7 @@ impl Derived {
         let lines = lines.collect();
         let square = |value: Twofold| -(value.high() * value.high());
         let constant = if fractions.constant.high() > 0.0 {
-            let strengths = self.lines.iter().map(|own| (1.0, &own[1]));
+            let strengths = self.lines.iter().map(|line| (1.0, &line[1]));
             let sum = total([(1.0, &self.at_zero)].into_iter().chain(strengths));
             total([(square(fractions.constant), &sum)])
         } else {

@@ -117,16 +117,23 @@ impl LinearModel {
         let (word, singles, pairs, in_series) = match form {
             Canonical::Maxwell => {
                 let form = self.maxwell()?;
-                let pairs =
-                    form.elements().iter().map(|own| (own.stiffness, own.damping)).collect();
+                let pairs = form
+                    .elements()
+                    .iter()
+                    .map(|element| (element.stiffness, element.damping))
+                    .collect();
                 ("maxwell", [form.spring(), form.dashpot()], pairs, false)
             }
             Canonical::Kelvin => {
                 let form = self.kelvin()?;
-                let pairs: Vec<_> =
-                    form.elements().iter().map(|own| (own.stiffness, own.damping)).collect();
-                let inverse =
-                    |own: Twofold| if own.high() > 0.0 { own.recip().high() } else { 0.0 };
+                let pairs: Vec<_> = form
+                    .elements()
+                    .iter()
+                    .map(|element| (element.stiffness, element.damping))
+                    .collect();
+                let inverse = |twofold: Twofold| {
+                    if twofold.high() > 0.0 { twofold.recip().high() } else { 0.0 }
+                };
                 ("kelvin", [inverse(form.0.constant), inverse(form.0.at_zero)], pairs, true)
             }
         };

@@ -43,8 +43,8 @@ impl Fractions {
         });
         Self {
             lines: lines.collect(),
-            constant: parts.iter().map(|own| own.constant).sum(),
-            at_zero: parts.iter().map(|own| own.at_zero).sum(),
+            constant: parts.iter().map(|part| part.constant).sum(),
+            at_zero: parts.iter().map(|part| part.at_zero).sum(),
         }
     }
 
@@ -120,7 +120,7 @@ impl Fractions {
     /// Exponents of two in the middle of the rates and of the strengths, so that neither squares nor
     /// the second halves of numbers leave the range of doubles.
     fn middle(&self) -> (f64, f64) {
-        let exponent = |own: Twofold| own.high().log2();
+        let exponent = |twofold: Twofold| twofold.high().log2();
         let middle = |all: &mut dyn Iterator<Item = f64>| {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             for own in all.filter(|own| own.is_finite()) {
@@ -132,7 +132,7 @@ impl Fractions {
         let strengths = || lines().map(|line| line.strength).chain([self.at_zero]).map(exponent);
         // Beyond the last pole, the zero is about where the constant is as large as a term.
         let constant = exponent(self.constant);
-        let last = strengths().map(|own| own - constant);
+        let last = strengths().map(|strength| strength - constant);
         let rate = middle(&mut lines().map(|line| exponent(line.rate)).chain(last));
         (rate, middle(&mut strengths().chain([constant + rate])))
     }

@@ -99,12 +99,15 @@ impl LinearModel {
     /// Whether all its constants, and all that follow from them, are within the range in which
     /// numbers have all their digits. Where they are not, nothing else here has a meaning.
     pub fn is_in_range(&self) -> bool {
-        let forms =
-            [self.maxwell.as_ref().map(|own| &own.0), self.kelvin.as_ref().map(|own| &own.0)];
+        let forms = [
+            self.maxwell.as_ref().map(|maxwell| &maxwell.0),
+            self.kelvin.as_ref().map(|kelvin| &kelvin.0),
+        ];
         forms.into_iter().flatten().all(|form| {
-            let is_normal = |own: Twofold| RANGE.contains(&own.high());
-            let is_single =
-                |own: Twofold| own.high() == 0.0 || (is_normal(own) && is_normal(own.recip()));
+            let is_normal = |twofold: Twofold| RANGE.contains(&twofold.high());
+            let is_single = |twofold: Twofold| {
+                twofold.high() == 0.0 || (is_normal(twofold) && is_normal(twofold.recip()))
+            };
             [form.constant, form.at_zero].into_iter().all(is_single)
                 && form.lines.iter().all(|line| {
                     let elements = [line.strength / line.rate, line.strength.recip()];

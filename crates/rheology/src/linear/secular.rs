@@ -70,7 +70,7 @@ impl Secular<'_> {
         let from = self.poles[at].rate;
         let half = ((next.rate - from) * 0.5).high();
         let terms =
-            self.poles.iter().map(|own| own.strength.high() / ((from - own.rate).high() + half));
+            self.poles.iter().map(|pole| pole.strength.high() / ((from - pole.rate).high() + half));
         self.constant.high() - terms.sum::<f64>() < 0.0
     }
 
@@ -84,7 +84,10 @@ impl Secular<'_> {
         });
         // Beyond the last pole, F(p + η) ≥ c − Σw/η.
         let limit = opposite.map_or_else(
-            || self.poles.iter().map(|own| own.strength.high()).sum::<f64>() / self.constant.high(),
+            || {
+                self.poles.iter().map(|pole| pole.strength.high()).sum::<f64>()
+                    / self.constant.high()
+            },
             |(_, gap)| 0.5 * gap,
         );
         View {

@@ -216,7 +216,7 @@ proptest! {
     fn constants_of_any_size_are_converted_right_or_not_at_all(
         powers in prop::array::uniform4(-170.0..170.0_f64),
     ) {
-        let [k2, c2, k1, c1] = powers.map(|own| 10_f64.powf(own));
+        let [k2, c2, k1, c1] = powers.map(|power| 10_f64.powf(power));
         let kelvin = Tree::parallel([Spring(k1).into(), Dashpot(c1).into()]);
         let burgers = Tree::series([Spring(k2).into(), Dashpot(c2).into(), kelvin]);
         let model = LinearModel::of(&burgers, |&part| part);
@@ -256,7 +256,7 @@ proptest! {
         let model = LinearModel::of(&tree, |&part| part);
         let (relaxance, retardance) = (&model.maxwell.as_ref().unwrap().0, &model.kelvin.as_ref().unwrap().0);
         let zero = Twofold::ZERO;
-        prop_assert!(relaxance.lines.iter().chain(&retardance.lines).all(|own| own.strength > zero));
+        prop_assert!(relaxance.lines.iter().chain(&retardance.lines).all(|line| line.strength > zero));
         // The slowest time of a solid is one of retardation, that of a liquid one of relaxation. A
         // very weak mode has its zero upon its pole, to all digits.
         let [slow, fast] =

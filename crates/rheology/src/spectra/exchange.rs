@@ -38,7 +38,10 @@ impl Levelled {
         let weaker = (times.len() as f64 / (times.len() as f64 + 1.0)).ln();
         let times = guess::resampled(&times, 1, 0.5);
         let strengths = guess::resampled(&strengths, 1, 0.5);
-        let terms = times.into_iter().zip(strengths.into_iter().map(|own| own + weaker)).collect();
+        let terms = times
+            .into_iter()
+            .zip(strengths.into_iter().map(|strength| strength + weaker))
+            .collect();
         Self { sum: Sum { terms }, places }.levelled(target)
     }
 

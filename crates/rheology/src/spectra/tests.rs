@@ -8,7 +8,7 @@ fn element(time: f64) -> Retardation {
 }
 
 fn creep(branches: &[Retardation], time: f64) -> f64 {
-    branches.iter().map(|own| own.compliance * -(-time / own.time).exp_m1()).sum()
+    branches.iter().map(|branch| branch.compliance * -(-time / branch.time).exp_m1()).sum()
 }
 
 /// Greatest deviation on a grid that has nothing to do with that of the reduction.
@@ -188,10 +188,15 @@ fn elements_are_positive_and_within_the_spectrum() {
     let (range, spectra) = three(8);
     for spectrum in &spectra[1..] {
         let reduced = reduce(spectrum.as_ref(), range, 1e-5).unwrap();
-        let times: Vec<f64> = reduced.branches.iter().map(|own| own.time).collect();
+        let times: Vec<f64> = reduced.branches.iter().map(|branch| branch.time).collect();
         assert!(times.is_sorted() && times[0] > range[0] && times[times.len() - 1] < range[1]);
-        assert!(reduced.branches.iter().all(|own| own.compliance > 0.0));
-        assert!(reduced.branches.iter().all(|own| own.stiffness() > 0.0 && own.damping() > 0.0));
+        assert!(reduced.branches.iter().all(|branch| branch.compliance > 0.0));
+        assert!(
+            reduced
+                .branches
+                .iter()
+                .all(|branch| branch.stiffness() > 0.0 && branch.damping() > 0.0)
+        );
     }
 }
 
@@ -233,7 +238,7 @@ fn a_list_comes_back_when_none_of_it_can_be_spared() {
     let list = List::new(doubled).unwrap();
     assert_eq!(list.branches().unwrap().len(), 3);
     let reduced = reduce(&list, [1e-5, 10.0], 1e-6).unwrap();
-    let expected = given.map(|own| Retardation { compliance: 2.0, ..own });
+    let expected = given.map(|given| Retardation { compliance: 2.0, ..given });
     assert_eq!(reduced.branches, expected);
     assert!(reduced.is_fewest && reduced.one_less > 1e-2, "{reduced:?}");
 }

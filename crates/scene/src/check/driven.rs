@@ -49,11 +49,11 @@ impl Driven<'_> {
     fn shakes(&self) -> bool {
         let pieces = self.waveform.pieces().iter();
         let mut signs = pieces.map(|piece| piece.derivative(2, piece.start));
-        signs.clone().any(|own| own > 0.0) && signs.any(|own| own < 0.0)
+        signs.clone().any(|sign| sign > 0.0) && signs.any(|sign| sign < 0.0)
     }
 
     /// Warns of an acceleration whose mean velocity is not zero.
-    fn drift(&self, reading: &Reading<'_>, own: &Entry, duration: f64) {
+    fn drift(&self, reading: &Reading<'_>, entry: &Entry, duration: f64) {
         let end = self.waveform.value(duration);
         let aside = (0..=POINTS).map(|at| {
             let share = f64::from(at) / f64::from(POINTS);
@@ -71,7 +71,7 @@ impl Driven<'_> {
             "the acceleration makes `{name}` drift away: {millimetres:.3} mm in {run}, at {speed} in \
              the mean"
         );
-        let help = match kind_of(own) {
+        let help = match kind_of(entry) {
             Kind::Sine => {
                 "a sine that is to shake about one place begins with its peak: \
                  `phase = \"90 deg\"`; or give its displacement as `motion`"
@@ -81,7 +81,7 @@ impl Driven<'_> {
                  give the displacement as `motion`"
             }
         };
-        reading.faults.warning(own.item.place, Fault::odd(message, help));
+        reading.faults.warning(entry.item.place, Fault::odd(message, help));
     }
 }
 
@@ -96,12 +96,12 @@ fn is_waveform(word: &str) -> bool {
     registered(WAVEFORMS, word).is_some()
 }
 
-fn kind_of(own: &Entry) -> Kind {
-    let kind = registered(WAVEFORMS, &own.key);
+fn kind_of(entry: &Entry) -> Kind {
+    let kind = registered(WAVEFORMS, &entry.key);
     let has = |wanted: ParameterKind| {
-        kind.is_some_and(|kind| kind.parameters.iter().any(|own| own.kind == wanted))
+        kind.is_some_and(|kind| kind.parameters.iter().any(|parameter| parameter.kind == wanted))
     };
-    match own.key.as_str() {
+    match entry.key.as_str() {
         _ if has(ParameterKind::TimeTable) => Kind::Table,
         "sine" => Kind::Sine,
         _ => Kind::Other,

@@ -45,11 +45,13 @@ pub(crate) fn note_errors(reading: &Reading<'_>, errors: &NetworkErrors) {
 /// Notes what is odd about a network, at the first element or node that each is about.
 pub(crate) fn note_warnings(reading: &Reading<'_>, warnings: &[NetworkWarning]) {
     let entries = Entries::of(reading);
-    for own in warnings {
-        let entry = own.names().into_iter().find_map(|name| entries.named(name));
+    for warning in warnings {
+        let entry = warning.names().into_iter().find_map(|name| entries.named(name));
         let between = entry.and_then(|entry| value_of(entry, "between"));
         let (mut place, mut help) = (entry.map(|entry| entry.key_place), None);
-        if let Some(between) = between.filter(|_| matches!(own, NetworkWarning::Reversed { .. })) {
+        if let Some(between) =
+            between.filter(|_| matches!(warning, NetworkWarning::Reversed { .. }))
+        {
             place = Some(between.place);
             if let Content::List(ends) = &between.value
                 && let [Some(from), Some(to)] = [0, 1].map(|at| ends.get(at).and_then(Item::text))
@@ -57,7 +59,7 @@ pub(crate) fn note_warnings(reading: &Reading<'_>, warnings: &[NetworkWarning]) 
                 help = Some(format!("write [\"{to}\", \"{from}\"]"));
             }
         }
-        reading.faults.warning(place, Fault::Odd { message: own.to_string(), help });
+        reading.faults.warning(place, Fault::Odd { message: warning.to_string(), help });
     }
 }
 

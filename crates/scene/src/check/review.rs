@@ -30,8 +30,8 @@ pub(crate) fn review(reading: &Reading<'_>, network: &Network, duration: f64) {
     still(reading, network);
     deep_stops(reading, network);
     let mut ends = vec![[0_usize; 2]; network.nodes().count()];
-    for own in network.connections() {
-        own.between.iter().enumerate().for_each(|(end, id)| ends[id.index()][end] += 1);
+    for connection in network.connections() {
+        connection.between.iter().enumerate().for_each(|(end, id)| ends[id.index()][end] += 1);
     }
     let entries: HashMap<&str, &Entry> =
         reading.section("nodes").iter().map(|own| (own.key.as_str(), own)).collect();
@@ -75,10 +75,10 @@ fn unused_values(reading: &Reading<'_>) {
 
 /// Warns of stops that are met only when the padding is used up.
 fn deep_stops(reading: &Reading<'_>, network: &Network) {
-    for stop in network.effects().iter().filter_map(|own| own.of_kind::<Stop>()) {
+    for stop in network.effects().iter().filter_map(|effect| effect.of_kind::<Stop>()) {
         let name = stop.element.as_str();
-        let element = network.connections().iter().find(|own| own.name == name);
-        let thickness = element.and_then(|own| own.thickness);
+        let element = network.connections().iter().find(|connection| connection.name == name);
+        let thickness = element.and_then(|element| element.thickness);
         let Some((at, thickness)) = stop.at.zip(thickness) else { continue };
         if at > thickness {
             let kind = reading.section("effects").iter().find(|own| own.key == Stop::KIND);
@@ -98,7 +98,7 @@ fn deep_stops(reading: &Reading<'_>, network: &Network) {
 
 /// What is left out of a drop where gravity is off.
 pub(crate) fn weightless(network: &Network) -> Vec<ModelNote> {
-    if network.effects().iter().any(|own| own.gravity().is_some()) {
+    if network.effects().iter().any(|effect| effect.gravity().is_some()) {
         return Vec::new();
     }
     let mut notes = Vec::new();
@@ -114,7 +114,7 @@ pub(crate) fn weightless(network: &Network) -> Vec<ModelNote> {
 
 /// That weight pulls away from the support, where it does.
 pub(crate) fn upward(network: &Network) -> Option<ModelNote> {
-    let value = network.effects().iter().find_map(|own| own.gravity())?;
+    let value = network.effects().iter().find_map(|effect| effect.gravity())?;
     (value < 0.0).then(|| ModelNote {
         subject: "gravity".to_owned(),
         what: Remark::Upward(value),
@@ -162,7 +162,7 @@ fn moving_away(reading: &Reading<'_>, entry: &Entry, node: &Node) {
 /// Warns of models that stand for their description only up to a time within the run.
 pub(crate) fn outlasted(reading: &Reading<'_>, notes: &[ModelNote], duration: f64) {
     let run = reading.section("run").iter().find(|own| own.key == "duration");
-    let place = run.map(|own| own.item.place);
+    let place = run.map(|run| run.item.place);
     for ModelNote { subject, until, .. } in notes {
         let Some(until) = until.filter(|until| *until < duration) else { continue };
         let [until, end] = [until, duration].map(|time| format_short(time, Dimension::TIME, 4));
@@ -197,7 +197,7 @@ impl<'n> Driving<'n> {
 /// Warns of rows of a file that have no influence.
 fn file(reading: &Reading<'_>, driven: &Item, waveform: &Waveform, duration: f64) {
     let table = driven.table().unwrap_or(&[]).iter().find(|own| is_table(&own.key));
-    let Some(named) = table.and_then(|own| file_named(&own.item)) else { return };
+    let Some(named) = table.and_then(|table| file_named(&table.item)) else { return };
     let count = waveform.breakpoints().count();
     let late = waveform.breakpoints().filter(|time| *time > duration).count();
     if late > 0 {
@@ -223,7 +223,7 @@ fn time_table(reading: &Reading<'_>, driven: &Item, duration: f64) {
     for own in driven.table().unwrap_or(&[]) {
         let kind = registered(WAVEFORMS, &own.key);
         let parameter = kind.and_then(|kind| {
-            kind.parameters.iter().find(|own| own.kind == ParameterKind::TimeTable)
+            kind.parameters.iter().find(|parameter| parameter.kind == ParameterKind::TimeTable)
         });
         let Some(parameter) = parameter else { continue };
         let item = value_of(own, parameter.name).unwrap_or(&own.item);

@@ -129,7 +129,7 @@ const MARGIN: usize = 20;
 
 /// So much of the text of a place that its line can be cut around the mark under it.
 fn marked(text: &str, room: usize) -> &str {
-    let end = text.char_indices().nth(room).map(|own| own.0);
+    let end = text.char_indices().nth(room).map(|char_index| char_index.0);
     end.filter(|_| !text.contains('\n')).map_or(text, |end| &text[..end])
 }
 

@@ -118,7 +118,10 @@ impl<'d> LawReader<'d> {
 /// The size of an element that has one.
 fn extent_of(element: &dyn Element) -> Extent {
     let [thickness, area] = SIZE.map(|key| {
-        element.parameters().iter().find(|own| is_size(own) && own.name == key)?;
+        element
+            .parameters()
+            .iter()
+            .find(|parameter| is_size(parameter) && parameter.name == key)?;
         element.value(key)?.number()
     });
     Extent { thickness, area, least: thickness.unwrap_or(0.0) }

@@ -280,14 +280,14 @@ impl<'d> ModelReader<'d> {
     /// Counts a model that is not composed of branches here, with the pad that it is.
     fn uncomposed(
         &self,
-        own: ReadBranch<'d>,
+        read_branch: ReadBranch<'d>,
         place: Place,
         descent: &mut Descent,
     ) -> Option<ReadBranch<'d>> {
-        let parts = own.model.as_ref().map_or(1, Model::size);
+        let parts = read_branch.model.as_ref().map_or(1, Model::size);
         self.count(parts as u64, place)?;
-        descent.pads.read(parts, own.extent);
-        Some(own)
+        descent.pads.read(parts, read_branch.extent);
+        Some(read_branch)
     }
 
     /// Looks ahead before a model is expanded; `None` where it has too many parts.

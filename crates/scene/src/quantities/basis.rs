@@ -126,9 +126,9 @@ impl Basis {
 
 /// Whether a kind may stand in a material: what acts across a gap is no material.
 pub(crate) fn fits_material(parameters: &[Parameter]) -> bool {
-    parameters.iter().all(|own| {
-        own.name != "gap"
-            && !matches!(own.kind, ParameterKind::Amplitude | ParameterKind::TimeTable)
+    parameters.iter().all(|parameter| {
+        parameter.name != "gap"
+            && !matches!(parameter.kind, ParameterKind::Amplitude | ParameterKind::TimeTable)
     })
 }
 

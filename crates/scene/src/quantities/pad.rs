@@ -58,23 +58,23 @@ impl EnclosingPad {
     }
 
     /// Notes where the size `own` of a part contradicts what stands around it.
-    pub(crate) fn check(&self, key: &'static str, own: Size, faults: &Faults) {
-        if own.value <= 0.0 {
+    pub(crate) fn check(&self, key: &'static str, size: Size, faults: &Faults) {
+        if size.value <= 0.0 {
             return;
         }
         if let Some(other) = self.beside(key)
-            && (own.value - other.value).abs() > SAME * other.value
+            && (size.value - other.value).abs() > SAME * other.value
         {
-            note(key, [own, other], "both are that of one pad: give it once", faults);
+            note(key, [size, other], "both are that of one pad: give it once", faults);
         }
         let Some(whole) = self.around.filter(|_| key == SIZE[0]) else { return };
-        let excess = own.value - whole.value;
+        let excess = size.value - whole.value;
         if self.in_row && excess > SAME * whole.value {
-            note(key, [own, whole], "a part in series is no thicker than the whole", faults);
+            note(key, [size, whole], "a part in series is no thicker than the whole", faults);
         } else if !self.in_row && excess.abs() > SAME * whole.value {
             let help = "what lies between the same ends has one thickness: correct one, or leave \
                         that of the element out";
-            note(key, [own, whole], help, faults);
+            note(key, [size, whole], help, faults);
         }
     }
 }
@@ -126,7 +126,7 @@ impl Extent {
             faults.warning(size.place, Fault::odd(message, help));
         };
         if let Some(size) = thickness {
-            let parts = self.thickness.filter(|own| differs(size, *own));
+            let parts = self.thickness.filter(|thickness| differs(size, *thickness));
             let least = Some(self.least).filter(|own| size.value < (1.0 - SAME) * own);
             if let Some(own) = parts.or(least) {
                 let why = "its parts together have";

@@ -56,7 +56,7 @@ const SLIPS: &[(&str, &str, Dimension)] =
 /// What is odd about a bare number of this dimension, in SI units, at the key `key`, where something is;
 /// it is called `subject`.
 pub(super) fn bare(key: &str, subject: &str, dimension: Dimension, value: f64) -> Option<Fault> {
-    let fits = |own: &&Usual| own.dimension == dimension && [key, ""].contains(&own.key);
+    let fits = |usual: &&Usual| usual.dimension == dimension && [key, ""].contains(&usual.key);
     USUAL.iter().find(fits).and_then(|usual| usual.fault(subject, value))
 }
 

@@ -231,7 +231,7 @@ impl<'d> Quantities<'d> {
     pub(crate) fn written(self, item: &Item) -> String {
         let known = self.values.get(item.text().map_or("", str::trim));
         let definition = known.and_then(|known| known.definition.as_ref());
-        definition.map_or_else(|| self.shown(item), |own| own.text.clone())
+        definition.map_or_else(|| self.shown(item), |definition| definition.text.clone())
     }
 
     /// `fault`, which is about `item`, with the definition of the name that stands there.
@@ -293,7 +293,7 @@ impl<'d> Quantities<'d> {
                     fault.with_help("a motion is a displacement: integrate the velocity")
                 }
                 Dimension::NUMBER if expected == Dimension::LENGTH && self.element.is_some() => {
-                    let help = self.element.map(|own| own.help(&shown(), quantity.value));
+                    let help = self.element.map(|element| element.help(&shown(), quantity.value));
                     fault.with_help(help.unwrap_or_default())
                 }
                 _ if found == in_model => fault.with_help(pad_in_material_help(in_model)),

@@ -44,7 +44,7 @@ impl Values {
     /// The parameters by their names.
     pub(super) fn parameters(self, all: &[Parameter]) -> Map<String, Value> {
         let known = all.iter().filter(|own| !(self.basis.is_material() && is_size(own)));
-        known.map(|own| (own.name.to_owned(), self.parameter(own))).collect()
+        known.map(|known| (known.name.to_owned(), self.parameter(known))).collect()
     }
 
     fn parameter(self, parameter: &Parameter) -> Value {
@@ -100,7 +100,7 @@ pub(super) fn table_or_file(table: &Value) -> Value {
         "units of time and value, where the header of the file does not say them",
     );
     let mut of_points = table["anyOf"].as_array().into_iter().flatten();
-    let outside = of_points.find_map(|own| own["properties"].get("outside")).cloned();
+    let outside = of_points.find_map(|of_point| of_point["properties"].get("outside")).cloned();
     let detailed = json!({
         "type": "object",
         "properties": {

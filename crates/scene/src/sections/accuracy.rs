@@ -73,15 +73,15 @@ fn read_target(
     found: &mut Vec<(String, f64)>,
 ) {
     let family = targets.family(target, place);
-    for own in measures {
-        let key = format!("{target}.{}", own.key);
-        match &own.item.value {
+    for measure in measures {
+        let key = format!("{target}.{}", measure.key);
+        match &measure.item.value {
             Content::Table(inner) if targets.is_made(&key) => {
-                read_target(reading, targets, (&key, own.key_place), inner, found);
+                read_target(reading, targets, (&key, measure.key_place), inner, found);
             }
             _ => {
-                check_measure(reading, &own.key, family, own);
-                found.extend(wish(reading, own).map(|wish| (key, wish)));
+                check_measure(reading, &measure.key, family, measure);
+                found.extend(wish(reading, measure).map(|wish| (key, wish)));
             }
         }
     }

@@ -72,7 +72,7 @@ impl Wanted<'_> {
                 reading.elements.keys().map(|name| (*name).to_owned()).collect();
             known.sort();
             let (family, name) = ("element", (*target).to_owned());
-            let is_parameter = kind.parameters.iter().any(|own| own.name == *target);
+            let is_parameter = kind.parameters.iter().any(|parameter| parameter.name == *target);
             let help = known.first().filter(|_| is_parameter);
             let help = help.map(|name| {
                 let example = entry.item.text().unwrap_or("…");
@@ -85,8 +85,9 @@ impl Wanted<'_> {
             return None;
         };
         let effect = self.read();
-        let nodes = kind.parameters.iter().filter(|own| own.kind == ParameterKind::Node);
-        for item in nodes.filter_map(|own| value_of(entry, own.name)) {
+        let nodes =
+            kind.parameters.iter().filter(|parameter| parameter.kind == ParameterKind::Node);
+        for item in nodes.filter_map(|node| value_of(entry, node.name)) {
             self.check_end(element, item);
         }
         effect
@@ -97,7 +98,10 @@ impl Wanted<'_> {
         let entry = self.reading.elements.get(self.target)?;
         let given = value_of(entry, "thickness");
         let thickness = given.and_then(|item| self.reading.quantities().peek(item));
-        Some(Target { name: self.target, thickness: thickness.filter(|own| *own > 0.0) })
+        Some(Target {
+            name: self.target,
+            thickness: thickness.filter(|thickness| *thickness > 0.0),
+        })
     }
 
     /// Notes a node that is no end of the element.

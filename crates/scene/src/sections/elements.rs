@@ -71,7 +71,7 @@ fn read_element<'d>(
     if !pads.is_empty() {
         extent.check(&format!("`{}`", entry.key), sizes, reading.faults);
     }
-    let [thickness, area] = sizes.map(|size| size.map(|own| own.value));
+    let [thickness, area] = sizes.map(|size| size.map(|size| size.value));
     let pad = network.connect(&*entry.key, from, to, model);
     pad.thickness = thickness.or(extent.thickness);
     pad.area = area.or(extent.area);

@@ -163,7 +163,7 @@ impl<'d> Reading<'d> {
         match &wanted.value {
             Content::Number(digits) => {
                 let number = digits.parse::<usize>().ok().and_then(|own| own.checked_sub(1));
-                let found = number.filter(|own| *own < csv.columns);
+                let found = number.filter(|number| *number < csv.columns);
                 if found.is_none() {
                     let (wanted_text, count) = (digits.to_string(), csv.columns);
                     let fault = CsvFault::NoColumn { wanted: wanted_text, count };

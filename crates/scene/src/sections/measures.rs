@@ -46,7 +46,7 @@ fn inner_targets<'d>(targets: &Targets<'_, 'd>, entry: &'d Entry) -> Vec<(String
     let is_target = |(name, own): &(String, &Entry)| {
         matches!(own.item.value, Content::List(_)) || targets.is_made(name)
     };
-    if entries.iter().any(|own| own.key == "kind") {
+    if entries.iter().any(|entry| entry.key == "kind") {
         return Vec::new();
     }
     let inner: Vec<_> = entries.iter().map(named).collect();
@@ -60,7 +60,9 @@ pub(super) fn measure_of(
     family: Option<Family>,
     place: Place,
 ) -> Option<&'static MeasureEntry> {
-    let fits = |own: &&MeasureEntry| family.is_none_or(|family| own.about.family == family);
+    let fits = |measure_entry: &&MeasureEntry| {
+        family.is_none_or(|family| measure_entry.about.family == family)
+    };
     let found = registered(MEASURES, word);
     if let Some(found) = found.filter(fits) {
         return Some(found);
@@ -101,7 +103,7 @@ fn read_wish<'d>(
             reader.defaults(measure, item.place)?
         }
         Content::Table(entries) => {
-            let Some(kind) = entries.iter().find(|own| own.key == "kind") else {
+            let Some(kind) = entries.iter().find(|entry| entry.key == "kind") else {
                 let (key, owner) = ("kind".to_owned(), format!("this measure of `{target}`"));
                 let example = "kind = \"severity-index\"".to_owned();
                 reading.faults.error(item.place, Fault::MissingKey { key, owner, example });
@@ -133,13 +135,13 @@ fn read_table<'d>(
     place: Place,
 ) -> Option<Arc<dyn Measure>> {
     let entries = item.table().unwrap_or(&[]);
-    let given = |key: &str| entries.iter().find(|own| own.key == key);
-    for own in kind.parameters.iter().filter(|own| own.kind == ParameterKind::Node) {
+    let given = |key: &str| entries.iter().find(|entry| entry.key == key);
+    for own in kind.parameters.iter().filter(|parameter| parameter.kind == ParameterKind::Node) {
         if let Some(entry) = given(own.name) {
             targets.node(&entry.item)?;
         }
     }
-    let is_model = |own: &Parameter| own.kind == ParameterKind::Model;
+    let is_model = |parameter: &Parameter| parameter.kind == ParameterKind::Model;
     let model = kind.parameters.iter().position(is_model);
     let entry = model.and_then(|at| given(kind.parameters[at].name));
     let (Some(at), Some(entry)) = (model, entry) else {
@@ -148,7 +150,7 @@ fn read_table<'d>(
     let called = format!("the model of `{}` of `{owner}`", kind.word);
     let model = models.given(&entry.item, called, entry.key_place)?;
     let others: Vec<Parameter> =
-        kind.parameters.iter().filter(|own| !is_model(own)).copied().collect();
+        kind.parameters.iter().filter(|parameter| !is_model(parameter)).copied().collect();
     let make = |values: &[Value]| {
         let mut values = values.to_vec();
         values.insert(at, Value::Model(ModelValue(model.clone())));

@@ -121,8 +121,8 @@ impl<'d> Reading<'d> {
         let known = || kinds.iter().map(|kind| kind.word).collect::<Vec<_>>();
         let owner_of = |key: &str| {
             let mut words =
-                entries.iter().filter_map(|own| kinds.iter().find(|kind| kind.word == own.key));
-            words.find(|kind| kind.parameters.iter().any(|own| own.name == key))
+                entries.iter().filter_map(|entry| kinds.iter().find(|kind| kind.word == entry.key));
+            words.find(|kind| kind.parameters.iter().any(|parameter| parameter.name == key))
         };
         let mut found = None;
         for own in entries {

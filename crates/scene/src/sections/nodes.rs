@@ -35,9 +35,9 @@ pub(crate) fn read_nodes(reading: &mut Reading<'_>, network: &mut Network) {
 fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
     let table = reading.table(entry, "node")?;
     let quantities = reading.quantities();
-    let mass = table.take("mass").map(|own| {
+    let mass = table.take("mass").map(|table| {
         let check = |mass| Range::NonNegative.check("mass", mass);
-        quantities.of("mass").read_checked(&own.item, Dimension::MASS, check)
+        quantities.of("mass").read_checked(&table.item, Dimension::MASS, check)
     });
     let velocity = table.take("velocity");
     let drop = table.take("drop");
@@ -45,11 +45,11 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         let fault = Fault::Exclusive { first: "velocity", second: "drop" };
         reading.faults.error(drop.key_place, fault);
     }
-    let velocity =
-        velocity.map(|own| quantities.read(&own.item, Dimension::VELOCITY).map(Start::Velocity));
-    let drop = drop.map(|own| {
+    let velocity = velocity
+        .map(|velocity| quantities.read(&velocity.item, Dimension::VELOCITY).map(Start::Velocity));
+    let drop = drop.map(|drop| {
         let check = |height| Range::NonNegative.check("drop", height);
-        let height = quantities.of("drop").read_checked(&own.item, Dimension::LENGTH, check);
+        let height = quantities.of("drop").read_checked(&drop.item, Dimension::LENGTH, check);
         height.map(Start::Drop)
     });
     let supports = ["fixed", "motion", "acceleration"].map(|key| (key, table.take(key)));
@@ -58,15 +58,15 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         reading.faults.error(entry.key_place, Fault::Exclusive { first, second });
     }
     let [fixed, motion, acceleration] = supports.map(|(_, entry)| entry);
-    let is_fixed = fixed.map(|own| {
-        let on = matches!(own.item.value, Content::Switch(true));
+    let is_fixed = fixed.map(|fixed| {
+        let on = matches!(fixed.item.value, Content::Switch(true));
         if !on {
-            wrong_type(&own.item, "`fixed`", "`true`, or left out", reading.faults);
+            wrong_type(&fixed.item, "`fixed`", "`true`, or left out", reading.faults);
         }
         on
     });
-    let motion = motion.map(|own| reading.waveform(own, Dimension::LENGTH));
-    let shaken = acceleration.map(|own| displacement(reading, own));
+    let motion = motion.map(|motion| reading.waveform(motion, Dimension::LENGTH));
+    let shaken = acceleration.map(|acceleration| displacement(reading, acceleration));
     table.finish();
     let support = match (is_fixed, motion.or(shaken)) {
         (Some(_), _) => Support::Fixed,

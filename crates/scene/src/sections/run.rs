@@ -77,15 +77,15 @@ pub(crate) fn read_run(reading: &Reading<'_>) -> (RunSettings, Vec<StopText>) {
         let check = |time| Range::NonNegative.check("duration", time);
         quantities.of("run.duration").read_checked(&own.item, Dimension::TIME, check)
     });
-    let samples = table.take("samples").and_then(|own| samples(reading, own));
-    let methods = table.take("methods").and_then(|own| methods_of(reading, own));
-    run.rtol = table.take("rtol").and_then(|own| {
-        quantities.read_checked(&own.item, Dimension::NUMBER, |rtol| {
+    let samples = table.take("samples").and_then(|table| samples(reading, table));
+    let methods = table.take("methods").and_then(|table| methods_of(reading, table));
+    run.rtol = table.take("rtol").and_then(|table| {
+        quantities.read_checked(&table.item, Dimension::NUMBER, |rtol| {
             let invalid = || InvalidParameter::new("rtol", "from 1e-13 to 1e-1", rtol);
             if (1e-13..=1e-1).contains(&rtol) { Ok(()) } else { Err(invalid()) }
         })
     });
-    let stops = table.take("stop").and_then(|own| list_of(&own.item, "`stop`", reading.faults));
+    let stops = table.take("stop").and_then(|table| list_of(&table.item, "`stop`", reading.faults));
     table.finish();
     let stops = stops.unwrap_or(&[]).iter().filter_map(|item| stop(reading, item)).collect();
     run.duration = duration.unwrap_or(run.duration);
@@ -125,7 +125,7 @@ fn methods_of(reading: &Reading<'_>, entry: &Entry) -> Option<Vec<String>> {
                 item.place,
                 Fault::UnknownWord { family: "a method".to_owned(), word, known },
             );
-        } else if methods.iter().any(|own| own == word) {
+        } else if methods.iter().any(|method| method == word) {
             reading.faults.error(item.place, Fault::DuplicateKey { key: word.to_owned() });
         } else {
             methods.push(word.to_owned());

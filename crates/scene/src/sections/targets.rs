@@ -60,7 +60,7 @@ impl<'r, 'd> Targets<'r, 'd> {
         let names = || {
             let network = self.network.with_effects().ok()?;
             let reading = self.reading;
-            let elements = network.connections().iter().map(|own| &own.name);
+            let elements = network.connections().iter().map(|connection| &connection.name);
             let elements = elements.filter(|name| !reading.elements.contains_key(name.as_str()));
             let nodes = network.nodes().map(|(_, own)| &own.name);
             let nodes = nodes.filter(|name| !reading.nodes.contains_key(name.as_str()));

@@ -58,7 +58,7 @@ fn layers_stand_in_series_each_with_its_own_size() {
         "series = [{ material = \"foam\", thickness = \"1 cm\", area = \"80 cm^2\" }, \
          { material = \"foam\", thickness = \"3 cm\", area = \"50 cm^2\", name = \"core\" }]",
     );
-    let names: Vec<&str> = layers.branches().iter().map(|own| own.name.as_str()).collect();
+    let names: Vec<&str> = layers.branches().iter().map(|branch| branch.name.as_str()).collect();
     assert_eq!(names, ["foam", "core"]);
     let [one, other] = [0.008 / 0.01, 0.005 / 0.03];
     same(&constants(&layers), &[2e6 * one, 5e3 * one, 2e6 * other, 5e3 * other]);
@@ -187,7 +187,8 @@ fn notes_of_composites_are_about_the_place_that_describes_them() {
     );
     let checked = read_text(&text).unwrap();
     assert!(checked.warnings.is_empty());
-    let subjects: Vec<&str> = checked.value.notes.iter().map(|own| own.subject.as_str()).collect();
+    let subjects: Vec<&str> =
+        checked.value.notes.iter().map(|note| note.subject.as_str()).collect();
     assert_eq!(subjects, ["model `felt`", "element `three`, branch `core`"]);
     let felt = read_named_model(&text, "felt", &ReadOptions::default()).unwrap().value;
     assert_eq!(felt.notes, checked.value.notes[..1]);

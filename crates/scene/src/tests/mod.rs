@@ -55,11 +55,18 @@ fn shape(model: &Model) -> Vec<String> {
 /// Everything in a network, as text.
 fn contents(network: &Network) -> Vec<String> {
     let nodes = network.nodes().map(|(id, node)| format!("{id:?} {node:?}"));
-    let elements = network.connections().iter().map(|own| {
-        format!("{} {:?} {:?} {:?}", own.name, own.between, own.thickness, shape(&own.model))
+    let elements = network.connections().iter().map(|connection| {
+        format!(
+            "{} {:?} {:?} {:?}",
+            connection.name,
+            connection.between,
+            connection.thickness,
+            shape(&connection.model)
+        )
     });
     let loads = network.loads().iter().map(|load| format!("{load:?}"));
-    let effects = network.effects().iter().map(|own| format!("{} {:?}", own.kind(), own.values()));
+    let effects =
+        network.effects().iter().map(|effect| format!("{} {:?}", effect.kind(), effect.values()));
     nodes.chain(elements).chain(loads).chain(effects).collect()
 }
 

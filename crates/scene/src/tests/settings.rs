@@ -106,7 +106,10 @@ fn measures_are_asked_of_what_effects_put_there() {
         format!("{}{effects}{rest}", on_model("spring = 1"))
     };
     let asked = |read: &crate::Scene| -> Vec<String> {
-        read.measures.iter().map(|own| format!("{}.{}", own.target, own.measure.kind())).collect()
+        read.measures
+            .iter()
+            .map(|measure| format!("{}.{}", measure.target, measure.measure.kind()))
+            .collect()
     };
     for stop in ["\"pad.stop\"", "pad.stop"] {
         let read = scene(&text(&format!(

@@ -126,7 +126,8 @@ impl Library {
             }
             next += 1;
         }
-        let known: Vec<&Values> = library.documents.iter().map(|own| &own.values).collect();
+        let known: Vec<&Values> =
+            library.documents.iter().map(|document| &document.values).collect();
         overrides.check(&known, faults);
         library
     }
@@ -175,7 +176,7 @@ impl Library {
 
     /// All entries at the top of the scene's own document.
     pub(crate) fn sections(&self) -> &[Entry] {
-        self.documents.first().and_then(|own| own.root.table()).unwrap_or(&[])
+        self.documents.first().and_then(|document| document.root.table()).unwrap_or(&[])
     }
 
     /// Reads quantities of a document.

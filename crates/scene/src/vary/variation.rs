@@ -118,7 +118,7 @@ impl<'t> Written<'t> {
         let text = text.trim();
         parse_quantity(text).map_err(|error| VariationFault::BadValue { error })?;
         // The longest beginning that is a number.
-        let borders = text.char_indices().map(|own| own.0).chain([text.len()]);
+        let borders = text.char_indices().map(|char_index| char_index.0).chain([text.len()]);
         let mut found =
             borders.filter_map(|at| Some((text[..at].trim().parse().ok()?, &text[at..])));
         let (number, unit) = found.next_back().unwrap_or((f64::NAN, text));
@@ -255,7 +255,7 @@ fn handy(number: f64) -> f64 {
 
 fn list<'t>(parts: &[&'t str]) -> Result<Numbers<'t>, VariationFault> {
     let written: Vec<Written<'t>> =
-        parts.iter().map(|own| Written::of(own)).collect::<Result<_, _>>()?;
+        parts.iter().map(|part| Written::of(part)).collect::<Result<_, _>>()?;
     let unit = written.iter().rev().map(|own| own.unit).find(|own| !own.is_empty());
     let unit = unit.unwrap_or("");
     let numbers = written.iter().map(|own| own.in_unit(unit)).collect::<Result<Vec<f64>, _>>()?;
@@ -263,8 +263,8 @@ fn list<'t>(parts: &[&'t str]) -> Result<Numbers<'t>, VariationFault> {
 }
 
 /// What is wrong with values of one dimension where another is wanted.
-pub(crate) fn other_dimension(text: &str, own: Dimension, wanted: Dimension) -> String {
-    format!("`{text}` is in {}, the value in the scene in {}", si_unit(own), si_unit(wanted))
+pub(crate) fn other_dimension(text: &str, dimension: Dimension, wanted: Dimension) -> String {
+    format!("`{text}` is in {}, the value in the scene in {}", si_unit(dimension), si_unit(wanted))
 }
 
 /// A value of a scene in words.

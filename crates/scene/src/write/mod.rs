@@ -101,14 +101,17 @@ pub(crate) fn law(model: &Model, basis: Basis, in_lines: bool) -> String {
         Tree::Parallel(branches) => ("parallel", branches),
     };
     let has_plain_names = has_plain_names(branches);
-    let branches = branches.iter().map(|own| {
-        let law = law(&own.tree, basis, false);
-        let name =
-            if has_plain_names { String::new() } else { format!(", name = {}", quoted(&own.name)) };
+    let branches = branches.iter().map(|branch| {
+        let law = law(&branch.tree, basis, false);
+        let name = if has_plain_names {
+            String::new()
+        } else {
+            format!(", name = {}", quoted(&branch.name))
+        };
         format!("{{ {law}{name} }}")
     });
     if in_lines {
-        let lines = branches.map(|own| format!("  {own},\n")).collect::<Vec<_>>();
+        let lines = branches.map(|branch| format!("  {branch},\n")).collect::<Vec<_>>();
         format!("{word} = [\n{}]", lines.concat())
     } else {
         format!("{word} = [{}]", branches.collect::<Vec<_>>().join(", "))
@@ -134,7 +137,7 @@ fn write_kind_in(
 ) -> String {
     let mut required = parameters.iter().zip(values).filter(|own| own.0.default.is_none());
     let others = parameters.iter().zip(values).filter(|own| own.0.default.is_some());
-    let is_alone = others.clone().all(|own| *own.1 == Value::LeftOut);
+    let is_alone = others.clone().all(|other| *other.1 == Value::LeftOut);
     // A model is a table itself, which would be read as that of the parameters.
     if let (Some((parameter, value)), None) = (required.next(), required.next())
         && is_alone
@@ -163,8 +166,13 @@ pub(crate) fn write_pairs(
     written.collect()
 }
 
-fn write_parameter(basis: Basis, own: &Parameter, value: &Value, driven: Dimension) -> String {
-    let (beside, dimension) = match own.kind {
+fn write_parameter(
+    basis: Basis,
+    parameter: &Parameter,
+    value: &Value,
+    driven: Dimension,
+) -> String {
+    let (beside, dimension) = match parameter.kind {
         ParameterKind::Quantity(dimension) => (Dimension::TIME, dimension),
         ParameterKind::TemperatureDifference => (Dimension::TIME, Dimension::TEMPERATURE),
         ParameterKind::Curve(first, second) => (first, second),

@@ -109,8 +109,8 @@ fn collect(item: &Item, comments: &mut Vec<String>) {
 }
 
 fn comments_beside(decor: Option<&Decor>) -> Vec<String> {
-    let text = |part: Option<&RawString>| part.and_then(|own| own.as_str().map(comments_in));
-    let parts = decor.map(|own| [text(own.prefix()), text(own.suffix())]);
+    let text = |part: Option<&RawString>| part.and_then(|part| part.as_str().map(comments_in));
+    let parts = decor.map(|decor| [text(decor.prefix()), text(decor.suffix())]);
     parts.into_iter().flatten().flatten().flatten().collect()
 }
 

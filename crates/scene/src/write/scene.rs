@@ -133,11 +133,11 @@ fn element(
     if let Some(layers) = &connection.layers {
         return layered(&connection.name, layers, materials, text);
     }
-    if let Some(own) = connection.thickness {
-        let _ = writeln!(text, "thickness = {}", said(own, Dimension::LENGTH));
+    if let Some(thickness) = connection.thickness {
+        let _ = writeln!(text, "thickness = {}", said(thickness, Dimension::LENGTH));
     }
-    if let Some(own) = connection.area {
-        let _ = writeln!(text, "area = {}", said(own, AREA));
+    if let Some(area) = connection.area {
+        let _ = writeln!(text, "area = {}", said(area, AREA));
     }
     let _ = writeln!(text, "{}", law(&connection.model, Basis::Model, true));
     Ok(())
@@ -238,7 +238,7 @@ fn settings(run: &RunSettings) -> String {
     if run.samples_given {
         let _ = writeln!(text, "samples = {}", run.samples);
     }
-    let methods: Vec<String> = run.methods.iter().map(|own| quoted(own)).collect();
+    let methods: Vec<String> = run.methods.iter().map(|method| quoted(method)).collect();
     let _ = writeln!(text, "methods = [{}]", methods.join(", "));
     if let Some(rtol) = run.rtol {
         let _ = writeln!(text, "rtol = {rtol:?}");
@@ -277,6 +277,6 @@ fn write_motion(motion: &Waveform) -> Option<String> {
     own.map(|own| format!("motion = {{ {own} }}")).or_else(acceleration)
 }
 
-fn written(own: &Recognized, driven: Dimension) -> String {
-    write_kind(own.word, own.parameters, &own.values, driven)
+fn written(recognized: &Recognized, driven: Dimension) -> String {
+    write_kind(recognized.word, recognized.parameters, &recognized.values, driven)
 }

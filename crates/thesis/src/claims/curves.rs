@@ -115,7 +115,7 @@ fn slopes(study: &Study) -> Claim {
     for family in &study.groups {
         let Some(ends) = ends(family) else { continue };
         let symbol = family.varied.symbol().to_owned();
-        let pairs = [ends.map(|own| own.slope(0.0)), ends.map(|own| slope_at(own, STRAIN))];
+        let pairs = [ends.map(|end| end.slope(0.0)), ends.map(|end| slope_at(end, STRAIN))];
         let is_same = pairs.iter().all(|[first, last]| (last / first - 1.0).abs() < SAME);
         cases.push((symbol.clone(), is_same));
         let cells = pairs
@@ -142,8 +142,8 @@ fn slopes(study: &Study) -> Claim {
 
 fn ends_of_c(study: &Study) -> String {
     let of_c = study.family(Varied::C).and_then(ends);
-    of_c.map_or_else(String::new, |own| {
-        let [first, last] = own.map(|impact| significant(impact.slope(0.0), 3));
+    of_c.map_or_else(String::new, |of_c| {
+        let [first, last] = of_c.map(|impact| significant(impact.slope(0.0), 3));
         format!("from {first} to {last}")
     })
 }
@@ -221,9 +221,9 @@ fn tension(study: &Study) -> Claim {
     for family in study.families() {
         let shares = family.each(|own| own.energy_after_release() / 0.5);
         let symbol = family.varied.symbol().to_owned();
-        cases.push((symbol.clone(), shares.iter().all(|own| *own < VERY_SMALL)));
+        cases.push((symbol.clone(), shares.iter().all(|share| *share < VERY_SMALL)));
         most = shares.iter().copied().fold(most, f64::max);
-        let cells = shares.iter().map(|own| change(*own).trim_start_matches('+').to_owned());
+        let cells = shares.iter().map(|share| change(*share).trim_start_matches('+').to_owned());
         rows.push(row([symbol].into_iter().chain(cells)));
     }
     let base = study.printed.energy_after_release() / 0.5;
@@ -269,7 +269,7 @@ fn late_maximum(study: &Study) -> Result<Claim, ThesisError> {
             }
             rows.push(maxima(name, &member.impact));
         }
-        let is_late = family.members.iter().all(|own| own.impact.deepest().time > 2.0);
+        let is_late = family.members.iter().all(|member| member.impact.deepest().time > 2.0);
         cases.push((family.varied.symbol().to_owned(), is_late));
     }
     let mut jump = Vec::new();

@@ -58,7 +58,7 @@ fn thickness(study: &Study) -> Result<Claim, ThesisError> {
         cases.push((symbol.clone(), limit.is_some()));
         rows.push(row([
             symbol,
-            limit.map_or_else(|| "none".to_owned(), |own| significant(own, 6)),
+            limit.map_or_else(|| "none".to_owned(), |limit| significant(limit, 6)),
             significant(low, 5),
             significant(high, 5),
             format!("{} at {}", significant(beyond[0], 4), short(ends[0], 4)),
@@ -108,7 +108,7 @@ fn validity() -> Result<Claim, ThesisError> {
             }
         }
     }
-    let within = cases.iter().filter(|own| own.1).count();
+    let within = cases.iter().filter(|case| case.1).count();
     let exists = Groups::PRINTED.ranges().c.map_or_else(String::new, |(low, high)| {
         let scales = Scales::CHAPTER_4;
         let stiffness = |c: f64| significant(c * scales.mass / scales.time().powi(2) / 1e6, 3);

@@ -42,7 +42,8 @@ pub enum Verdict {
 impl Verdict {
     /// The verdict over cases, each with whether it holds.
     pub fn of(cases: &[(String, bool)]) -> Self {
-        let good: Vec<String> = cases.iter().filter(|own| own.1).map(|own| own.0.clone()).collect();
+        let good: Vec<String> =
+            cases.iter().filter(|case| case.1).map(|case| case.0.clone()).collect();
         match good.len() {
             0 => Self::DoesNotHold,
             count if count == cases.len() => Self::Holds,

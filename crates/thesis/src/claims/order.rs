@@ -18,10 +18,11 @@ pub(super) fn claims(study: &Study) -> Vec<Claim> {
 fn size(study: &Study) -> Claim {
     let changes = study.energy_changes(0.01);
     let is_in = |relative: f64| (0.03..=0.07).contains(&relative);
-    let cases: Vec<_> = changes.iter().map(|own| (own.0.to_owned(), is_in(own.1))).collect();
+    let cases: Vec<_> =
+        changes.iter().map(|change| (change.0.to_owned(), is_in(change.1))).collect();
     let words: Vec<String> = changes
         .iter()
-        .map(|own| format!("{} % by {}", significant(100.0 * own.1, 2), own.0))
+        .map(|change| format!("{} % by {}", significant(100.0 * change.1, 2), change.0))
         .collect();
     let times = [0.001, 0.002, 0.004, 0.01];
     let rows = changes.iter().enumerate().map(|(at, own)| {
@@ -63,8 +64,11 @@ fn order(study: &Study) -> Claim {
     quantities.push(("peak force".to_owned(), Box::new(|own| own.peak().value)));
     let (mut cases, mut rows, mut words) = (Vec::new(), Vec::new(), Vec::new());
     for (name, of) in &quantities {
-        let mut each: Vec<(&str, f64)> =
-            study.groups.iter().map(|own| (own.varied.symbol(), elasticity(own, of))).collect();
+        let mut each: Vec<(&str, f64)> = study
+            .groups
+            .iter()
+            .map(|group| (group.varied.symbol(), elasticity(group, of)))
+            .collect();
         let texts: Vec<String> = each.iter().map(|own| significant(own.1, 2)).collect();
         each.sort_by(|one, other| other.1.abs().total_cmp(&one.1.abs()));
         let found: Vec<&str> = each.iter().map(|own| own.0).collect();

@@ -52,7 +52,7 @@ fn meaning(study: &Study) -> Claim {
         };
         let claimed = if wanted == Trend::Rises { "rises" } else { "falls" };
         cases.push((name.clone(), Trend::of(&values) == wanted));
-        let each = values.iter().map(|own| significant(own / unit, 4));
+        let each = values.iter().map(|value| significant(value / unit, 4));
         let each = each.collect::<Vec<_>>().join(", ");
         rows.push(row([name, claimed.to_owned(), found.to_owned(), each]));
     }
@@ -73,7 +73,7 @@ fn meaning(study: &Study) -> Claim {
 }
 
 fn conservative(study: &Study) -> Claim {
-    let nu = |own: &Impact| own.groups.d / own.groups.c;
+    let nu = |impact: &Impact| impact.groups.d / impact.groups.c;
     let rows = study.families().map(|family| {
         let each = family.each(nu).into_iter().map(|own| significant(own, 3));
         row([family.varied.symbol().to_owned()].into_iter().chain(each))
@@ -102,7 +102,8 @@ fn conservative(study: &Study) -> Claim {
 fn one_time() -> Result<Claim, ThesisError> {
     let TwoMaxwell { slow, fast } = burgers(Padding::CHAPTER_4).to_two_maxwell()?;
     let kelvin = burgers(Padding::CHAPTER_4).kelvin;
-    let milliseconds = |own: SpringDashpot| 1e3 * own.dashpot / own.spring;
+    let milliseconds =
+        |spring_dashpot: SpringDashpot| 1e3 * spring_dashpot.dashpot / spring_dashpot.spring;
     let times = [milliseconds(slow), milliseconds(fast), milliseconds(kelvin)];
     let is_one = times[..2].iter().all(|own| (own / times[2] - 1.0).abs() < SAME);
     let names = ["relaxation, slow", "relaxation, fast", "retardation, C1/K1"];
@@ -173,10 +174,11 @@ fn gravity(study: &Study) -> Result<Claim, ThesisError> {
         ("largest deformation", heavy.deepest().value / study.printed.deepest().value - 1.0),
         ("energy in 10 ms", heavy.energy(5.0) / study.printed.energy(5.0) - 1.0),
     ];
-    let cases: Vec<_> = changes.iter().map(|own| (own.0.to_owned(), own.1.abs() < 0.01)).collect();
+    let cases: Vec<_> =
+        changes.iter().map(|change| (change.0.to_owned(), change.1.abs() < 0.01)).collect();
     let words: Vec<String> = changes
         .iter()
-        .map(|own| format!("the {} by {} %", own.0, significant(100.0 * own.1, 2)))
+        .map(|change| format!("the {} by {} %", change.0, significant(100.0 * change.1, 2)))
         .collect();
     let rows = changes.iter().map(|own| row([own.0.to_owned(), change(own.1)]));
     Ok(Claim {

@@ -61,7 +61,7 @@ fn energy(study: &Study) -> Claim {
         .collect();
     let rows = times.iter().map(|time| {
         let values = [closed(*time), study.printed.energy(*time)];
-        row([time.to_string()].into_iter().chain(values.map(|own| significant(own, 5))))
+        row([time.to_string()].into_iter().chain(values.map(|value| significant(value, 5))))
     });
     let checks = Pulse::PRINTED.checks();
     Claim {
@@ -147,7 +147,7 @@ fn turning_time() -> Claim {
     let simple = pulse.approximate_turning_time();
     let part = pulse.constants().map_or(f64::NAN, |own| own.l3 / own.l4);
     let first = exact.first().copied().unwrap_or(f64::NAN);
-    let is_near = simple.is_some_and(|own| (own / first - 1.0).abs() < 10.0 * NEAR);
+    let is_near = simple.is_some_and(|simple| (simple / first - 1.0).abs() < 10.0 * NEAR);
     let cell = |own: Option<f64>| own.map_or_else(|| "none".to_owned(), |at| significant(at, 6));
     let rows = vec![
         row(["root of ξ′".to_owned(), cell(exact.first().copied())]),
@@ -187,7 +187,7 @@ fn graph() -> Claim {
         let shown: Vec<String> = times.iter().map(|at| significant(*at, 4)).collect();
         let shown = if shown.is_empty() { "none".to_owned() } else { shown.join(", ") };
         let numbers = [pulse.slope, pulse.decay, constants.theta, constants.psi];
-        let numbers = numbers.map(|own| significant(own, 3));
+        let numbers = numbers.map(|number| significant(number, 3));
         let cells = [name, what.to_owned()].into_iter().chain(numbers);
         rows.push(row(cells.chain([count.to_string(), shown])));
     }

@@ -83,7 +83,7 @@ fn peak(study: &Study, of: [(Varied, Trend); 4], says: &'static str) -> Claim {
         let peaks = family.each(|own| own.peak().value);
         cases.push((symbol.to_owned(), follows(&peaks, wish, true)));
         let kilonewtons: Vec<f64> =
-            peaks.iter().map(|own| own * Scales::CHAPTER_4.force() / 1e3).collect();
+            peaks.iter().map(|peak| peak * Scales::CHAPTER_4.force() / 1e3).collect();
         let changed = change(total(&peaks));
         words.push(format!("{} changes it by {changed}", range_of(symbol, family)));
         rows.push(row([
@@ -117,7 +117,7 @@ fn energy(study: &Study, of: [(Varied, Trend); 4], says: &'static str) -> Claim 
         let symbol = family.varied.symbol();
         let each = Mark::ALL.map(|mark| (mark, family.each(|own| mark.energy(own))));
         let good = each.iter().filter(|own| follows(&own.1, wish, false));
-        let good: Vec<String> = good.map(|own| own.0.text()).collect();
+        let good: Vec<String> = good.map(|good| good.0.text()).collect();
         if good.len() == each.len() {
             cases.push((symbol.to_owned(), true));
         } else if good.is_empty() {

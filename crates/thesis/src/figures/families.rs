@@ -74,7 +74,7 @@ pub(super) fn figures(study: &Study) -> Vec<Figure> {
     let curves: Vec<Vec<Vec<[f64; 4]>>> = study
         .groups
         .iter()
-        .map(|family| family.members.iter().map(|own| samples(&own.impact)).collect())
+        .map(|family| family.members.iter().map(|member| samples(&member.impact)).collect())
         .collect();
     let mut all = Vec::new();
     for (row, kind) in KINDS.into_iter().enumerate() {

@@ -49,21 +49,21 @@ pub(super) fn figure() -> Figure {
     let curve = |of: &dyn Fn(f64) -> f64| places.iter().map(|&z| (z, of(z))).collect::<Vec<_>>();
     let mut series = vec![Series::new("e^z", curve(&f64::exp))];
     let mut markers = Vec::new();
-    for own in graph_cases().into_iter().take(DRAWN) {
-        let Some(constants) = own.pulse.constants() else { continue };
+    for graph_case in graph_cases().into_iter().take(DRAWN) {
+        let Some(constants) = graph_case.pulse.constants() else { continue };
         let (theta, psi) = (constants.theta, constants.psi);
         let name = format!(
             "{}, {}: P = {}, m = {}, θ = {}, ψ = {}",
-            own.line,
-            own.what,
-            short(own.pulse.slope, 4),
-            short(own.pulse.decay, 4),
+            graph_case.line,
+            graph_case.what,
+            short(graph_case.pulse.slope, 4),
+            short(graph_case.pulse.decay, 4),
             significant(theta, 3),
             significant(psi, 3)
         );
         series.push(Series::new(name, curve(&|z| theta * z + psi)));
         for root in intersections(theta, psi) {
-            let time = root / (own.pulse.decay - constants.nu);
+            let time = root / (graph_case.pulse.decay - constants.nu);
             let label = format!("z = {}, τ* = {}", significant(root, 3), significant(time, 3));
             markers.push(Marker { x: root, y: root.exp(), label });
         }

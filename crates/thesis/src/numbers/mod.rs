@@ -226,10 +226,10 @@ fn chapter_4() -> Vec<Number> {
 fn chapter_5(study: &Study) -> Vec<Number> {
     let changes = study.energy_changes(0.01);
     let percent = |own: &f64| 100.0 * own;
-    let least = changes.iter().map(|own| percent(&own.1)).fold(f64::INFINITY, f64::min);
-    let most = changes.iter().map(|own| percent(&own.1)).fold(0.0, f64::max);
-    let within = changes.iter().filter(|own| (3.0..=7.0).contains(&percent(&own.1)));
-    let within: Vec<String> = within.map(|own| own.0.to_owned()).collect();
+    let least = changes.iter().map(|change| percent(&change.1)).fold(f64::INFINITY, f64::min);
+    let most = changes.iter().map(|change| percent(&change.1)).fold(0.0, f64::max);
+    let within = changes.iter().filter(|change| (3.0..=7.0).contains(&percent(&change.1)));
+    let within: Vec<String> = within.map(|within| within.0.to_owned()).collect();
     vec![
         Number {
             place: "V",
@@ -253,10 +253,10 @@ fn chapter_5(study: &Study) -> Vec<Number> {
 
 /// The numbers as a table.
 pub fn number_table(all: &[Number]) -> Table {
-    let row = |own: &Number| {
-        let printed = own.printed.to_owned();
-        let words = [own.place.to_owned(), own.what.to_owned(), printed];
-        words.into_iter().chain([own.recomputed.clone(), own.verdict.text()]).collect()
+    let row = |number: &Number| {
+        let printed = number.printed.to_owned();
+        let words = [number.place.to_owned(), number.what.to_owned(), printed];
+        words.into_iter().chain([number.recomputed.clone(), number.verdict.text()]).collect()
     };
     Table::new(
         "Numbers of the text",

@@ -165,12 +165,12 @@ impl Body {
         if self.guard > 0.0 {
             parts.push(format!("{{ friction = {:?} }}", self.guard));
         }
-        for own in &self.branches {
-            let mut slider = format!("{{ friction = {:?} }}", own.slider);
-            if own.beside > 0.0 {
-                slider = format!("{{ parallel = [{slider}, {{ spring = {:?} }}] }}", own.beside);
+        for branch in &self.branches {
+            let mut slider = format!("{{ friction = {:?} }}", branch.slider);
+            if branch.beside > 0.0 {
+                slider = format!("{{ parallel = [{slider}, {{ spring = {:?} }}] }}", branch.beside);
             }
-            parts.push(format!("{{ series = [{}, {slider}] }}", own.text));
+            parts.push(format!("{{ series = [{}, {slider}] }}", branch.text));
         }
         format!(
             "[nodes]\nhead = {{ mass = {:?}, velocity = {:?} }}\n[elements]\n\

@@ -62,7 +62,7 @@ impl Motion {
     /// The place of the mass \[m\].
     pub(super) fn place(&self, time: f64) -> f64 {
         let last = &self.spans[self.spans.len() - 1];
-        let own = self.spans.iter().find(|own| time < own.end).unwrap_or(last);
+        let own = self.spans.iter().find(|span| time < span.end).unwrap_or(last);
         own.place(time.min(own.end))
     }
 }
@@ -141,10 +141,10 @@ impl Pad {
             format!("{{ friction = {:?} }}", self.guard),
             format!("{{ dashpot = {:?} }}", self.damping),
         ];
-        parts.extend(self.branches.iter().map(|own| {
+        parts.extend(self.branches.iter().map(|branch| {
             format!(
                 "{{ series = [{{ spring = {:?} }}, {{ friction = {:?} }}] }}",
-                own.stiffness, own.force
+                branch.stiffness, branch.force
             )
         }));
         let parts: Vec<&str> = order.iter().map(|&at| parts[at].as_str()).collect();

@@ -61,15 +61,20 @@ fn jumps(assembly: &Assembly, digest: &Digest) -> f64 {
     if digest.jumps.is_empty() {
         return 0.0;
     }
-    let springs =
-        assembly.primitives.iter().filter(|own| Accounts::of(own.element.as_ref()).stores);
+    let springs = assembly
+        .primitives
+        .iter()
+        .filter(|primitive| Accounts::of(primitive.element.as_ref()).stores);
     let mut by_output: HashMap<usize, Vec<_>> = HashMap::new();
-    for own in springs {
-        by_output.entry(own.deformation).or_default().push(&own.element);
+    for spring in springs {
+        by_output.entry(spring.deformation).or_default().push(&spring.element);
     }
     let taken = digest.jumps.iter().map(|jump| {
         let springs = by_output.get(&jump.output).map_or(&[][..], Vec::as_slice);
-        springs.iter().map(|own| own.stored(jump.after) - own.stored(jump.before)).sum::<f64>()
+        springs
+            .iter()
+            .map(|spring| spring.stored(jump.after) - spring.stored(jump.before))
+            .sum::<f64>()
     });
     taken.sum()
 }

@@ -119,7 +119,7 @@ const IMPACTS: &str = "impacts of moving supports";
 /// work that moving supports do in impacts.
 fn at_impacts(solution: &Solution<'_>, window: (f64, f64)) -> (f64, f64) {
     let switches = solution.trajectory().switches.iter();
-    let own = switches.filter(|own| own.impulse > 0.0 && own.time <= window.1);
+    let own = switches.filter(|switch| switch.impulse > 0.0 && switch.time <= window.1);
     own.fold((0.0, 0.0), |(struck, worked), own| {
         let at_start = if own.time <= 0.0 { own.lost - own.worked } else { 0.0 };
         (struck + at_start, worked + own.worked)

@@ -81,8 +81,8 @@ pub fn energy_series(solution: &Solution<'_>, times: &[f64]) -> EnergySeries {
         let just_after = time * (1.0 + 1e-12);
         sum += steps(solution, 0..assembly.primitives.len(), (from, just_after));
         from = just_after;
-        let impacts = solution.trajectory().switches.iter().filter(|own| own.time <= time);
-        *work += sum + impacts.map(|own| own.worked).sum::<f64>();
+        let impacts = solution.trajectory().switches.iter().filter(|switch| switch.time <= time);
+        *work += sum + impacts.map(|impact| impact.worked).sum::<f64>();
     }
     series
 }

@@ -165,7 +165,7 @@ fn balance_closes_through_every_switch() {
 fn energies_add_up_at_all_times() {
     for (name, network, duration) in cases() {
         let report = run(&network, duration, "exact");
-        let switches = report.trajectory.switches.iter().map(|own| own.time);
+        let switches = report.trajectory.switches.iter().map(|switch| switch.time);
         let mut times: Vec<f64> =
             regular_times(duration, 101).into_iter().chain(switches).collect();
         times.sort_by(f64::total_cmp);
@@ -183,7 +183,7 @@ fn energies_add_up_at_all_times() {
 fn energy_of_a_ball_that_comes_to_rest_is_lost_in_its_impacts() {
     // 2 kg fall by 1 m under 10 m/s²; each impact takes 3/4 of what is left.
     let report = run(&ball(0.5), 2.0, "exact");
-    let lost: Vec<f64> = report.trajectory.switches.iter().map(|own| own.lost).collect();
+    let lost: Vec<f64> = report.trajectory.switches.iter().map(|switch| switch.lost).collect();
     for (at, lost) in lost.iter().enumerate().take(8) {
         let expected = 15.0 * 0.25_f64.powi(i32::try_from(at).unwrap());
         assert!((lost - expected).abs() <= 1e-9 * expected, "impact {at}: {lost}");

@@ -49,18 +49,20 @@ pub struct Impact {
 impl Impact {
     /// The impact of a contact force that exists from the start of a run of `run_end` \[s\].
     ///
-    /// The force pulls where it goes below zero by more than its noise and the part `doubt` of its
+    /// The force pulls where it goes below zero by more than its noise and the part `threshold` of its
     /// largest magnitude; the release is where it passes zero on the way there. With a doubt of
     /// [`NO_PULL`] it never does.
-    pub(crate) fn of_force(force: &Signal, run_end: f64, doubt: f64) -> Self {
+    pub(crate) fn of_force(force: &Signal, run_end: f64, threshold: f64) -> Self {
         let run =
             Self { start: 0.0, end: run_end, end_error: Some(0.0), contact: Contact::Lasting };
-        match begins(force, doubt) {
+        match begins(force, threshold) {
             None => Self { contact: Contact::Unloaded, ..run },
             Some(false) => Self { end: 0.0, contact: Contact::Pulling, ..run },
-            Some(true) => {
-                Self::of_push(force, Self { start: first_load(force).unwrap_or(0.0), ..run }, doubt)
-            }
+            Some(true) => Self::of_push(
+                force,
+                Self { start: first_load(force).unwrap_or(0.0), ..run },
+                threshold,
+            ),
         }
     }
 
@@ -69,11 +71,11 @@ impl Impact {
         force: &Signal,
         blows: &[VelocityJump],
         run_end: f64,
-        doubt: f64,
+        threshold: f64,
     ) -> Self {
         let Some(first) = first_felt(blows, force).filter(|blow| Self::begins_with(blow, force))
         else {
-            return Self::of_force(force, run_end, doubt);
+            return Self::of_force(force, run_end, threshold);
         };
         let run = Self {
             start: first.time,
@@ -83,7 +85,7 @@ impl Impact {
         };
         let stays = pushes(force).iter().any(|push| push.holds(first.time));
         if stays && force.departure(0.0, first.time) == Some(true) {
-            return Self::of_push(force, run, doubt);
+            return Self::of_push(force, run, threshold);
         }
         let end_error = force.error.map(|_| 4.0 * f64::EPSILON * first.time);
         Self { end: first.time, end_error, contact: Contact::Parted, ..run }
@@ -95,14 +97,15 @@ impl Impact {
     }
 
     /// The impact of a force that pushes first.
-    pub(crate) fn of_push(force: &Signal, run: Self, doubt: f64) -> Self {
+    pub(crate) fn of_push(force: &Signal, run: Self, threshold: f64) -> Self {
         let run_end = run.end;
         let parted = rest_after(force, run.start);
-        let released = release(force, run_end, doubt)
+        let released = release(force, run_end, threshold)
             .filter(|release| parted.is_none_or(|parted| release.time < parted));
         match (parted, released) {
             (Some(parted), None) => {
-                let slope = force.panels[..force.panels.partition_point(|own| own.end <= parted)]
+                let slope = force.panels
+                    [..force.panels.partition_point(|panel| panel.end <= parted)]
                     .last()
                     .map_or(0.0, |panel| panel.slope(parted).abs());
                 // A force that ends with a jump is ended by something else, found to rounding.
@@ -114,7 +117,7 @@ impl Impact {
                 Self { end: parted, end_error, contact: Contact::Parted, ..run }
             }
             (_, released) => match released {
-                None if ends_at_zero(force, run_end, doubt) => {
+                None if ends_at_zero(force, run_end, threshold) => {
                     Self { end_error: force.error.map(|_| 0.0), contact: Contact::Released, ..run }
                 }
                 None => run,
@@ -241,12 +244,12 @@ pub(crate) fn first_way(force: &Signal) -> Option<bool> {
 
 /// Which way a contact force first goes, `true` if it pushes; a pull that is slight beside the push that
 /// follows does not count.
-fn begins(force: &Signal, doubt: f64) -> Option<bool> {
+fn begins(force: &Signal, threshold: f64) -> Option<bool> {
     let most = force.maximum((0.0, force.end())).value;
-    if doubt >= NO_PULL {
+    if threshold >= NO_PULL {
         return (most > force.noise).then_some(true);
     }
-    let floor = (SLIGHT.max(doubt) * most).max(force.noise);
+    let floor = (SLIGHT.max(threshold) * most).max(force.noise);
     if most <= force.noise {
         return force.departure(0.0, 0.0);
     }
@@ -290,7 +293,7 @@ pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
     let mut open: Option<(f64, f64)> = None;
     for panel in &force.panels {
         if !rests(panel) {
-            let size: f64 = panel.coefficients.iter().map(|own| own.abs()).sum();
+            let size: f64 = panel.coefficients.iter().map(|coefficient| coefficient.abs()).sum();
             let (start, most) = open.unwrap_or((panel.start, 0.0));
             open = Some((start, most.max(size)));
         } else if panel.length() > 0.0
@@ -300,7 +303,7 @@ pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
             found.push(Push { start, end: Some(panel.start) });
         }
     }
-    if let Some((start, _)) = open.filter(|own| own.1 > floor) {
+    if let Some((start, _)) = open.filter(|open| open.1 > floor) {
         found.push(Push { start, end: None });
     }
     found
@@ -329,13 +332,13 @@ fn rest_after(force: &Signal, start: f64) -> Option<f64> {
 /// Whether the force is zero all over a panel, as it is by structure where a contact is open; a force
 /// that decays is not.
 fn rests(panel: &Panel) -> bool {
-    panel.coefficients.iter().all(|own| *own == 0.0)
+    panel.coefficients.iter().all(|coefficient| *coefficient == 0.0)
 }
 
 /// The last passage of zero before the force pulls for the first time.
-fn release(force: &Signal, run_end: f64, doubt: f64) -> Option<Crossing> {
+fn release(force: &Signal, run_end: f64, threshold: f64) -> Option<Crossing> {
     let window = (0.0, run_end);
-    let floor = if doubt > 0.0 { doubt * force.bound() } else { 0.0 };
+    let floor = if threshold > 0.0 { threshold * force.bound() } else { 0.0 };
     if floor <= force.noise {
         return force.first_crossing(0.0, window, Some(false));
     }
@@ -361,10 +364,10 @@ pub(crate) fn first_pull(force: &Signal, run_end: f64) -> Option<f64> {
 
 /// Whether the force is about to pass zero where the run ends, as it is when the run stops there; a
 /// force that decays towards zero would take longer.
-fn ends_at_zero(force: &Signal, run_end: f64, doubt: f64) -> bool {
+fn ends_at_zero(force: &Signal, run_end: f64, threshold: f64) -> bool {
     const SOON: f64 = 1e-9;
     let slope = force.slope(run_end);
-    let falls = slope < 0.0 && -slope * run_end > doubt.min(SLIGHT) * force.bound();
+    let falls = slope < 0.0 && -slope * run_end > threshold.min(SLIGHT) * force.bound();
     falls && force.left_value(run_end).abs() <= SOON * run_end * slope.abs()
 }
 

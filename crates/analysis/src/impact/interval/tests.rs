@@ -49,8 +49,8 @@ fn polygon(values: &[f64]) -> Signal {
 #[test]
 fn touch_of_rounding_before_the_push_is_none() {
     let force = polygon(&[0.0, 1e-15, 0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0]);
-    for doubt in [0.0, 1e-3, NO_PULL] {
-        let impact = Impact::of_force(&force, 8.0, doubt);
+    for threshold in [0.0, 1e-3, NO_PULL] {
+        let impact = Impact::of_force(&force, 8.0, threshold);
         assert_eq!((impact.start, impact.end), (4.0, 6.0));
         assert_eq!(impact.contact, Contact::Parted);
     }

@@ -45,7 +45,7 @@ impl Oscillator {
             spring: form.spring() / mass,
             dashpot: form.dashpot() / mass,
             elements: elements
-                .map(|own| (own.stiffness / mass, own.stiffness / own.damping))
+                .map(|element| (element.stiffness / mass, element.stiffness / element.damping))
                 .collect(),
         })
     }
@@ -60,7 +60,7 @@ impl Oscillator {
         window: (f64, f64),
     ) -> Option<Signal> {
         let (from, to) = window;
-        let stiffness = self.spring + self.elements.iter().map(|own| own.0).sum::<f64>();
+        let stiffness = self.spring + self.elements.iter().map(|element| element.0).sum::<f64>();
         let unit = if stiffness > 0.0 { stiffness.sqrt() } else { 1.0 };
         let rate = self.rate(unit);
         if (to - from) * rate > MOST_STRETCHES {
@@ -86,7 +86,7 @@ impl Oscillator {
                 at = next;
             }
         }
-        let magnitude = panels.iter().map(|own| chebyshev::bound(&own.coefficients));
+        let magnitude = panels.iter().map(|panel| chebyshev::bound(&panel.coefficients));
         let magnitude = magnitude.fold(0.0, f64::max);
         let noise = f64::EPSILON * (16.0 + stretches) * magnitude;
         // A passive model slows the mass down, so that an error ε of the acceleration can make a
@@ -99,7 +99,7 @@ impl Oscillator {
     fn rate(&self, unit: f64) -> f64 {
         let in_elements: f64 = self.elements.iter().map(|_| unit).sum();
         let of_force = self.spring / unit + self.dashpot + in_elements;
-        let of_elements = self.elements.iter().map(|own| own.0 / unit + own.1);
+        let of_elements = self.elements.iter().map(|element| element.0 / unit + element.1);
         of_elements.fold(unit.max(of_force), f64::max)
     }
 
@@ -133,7 +133,7 @@ impl Oscillator {
         let mut rates = vec![
             combined(&|k| unit * at(speed, k)),
             combined(&|k| {
-                let in_elements: f64 = forces.iter().map(|own| at(own, k)).sum();
+                let in_elements: f64 = forces.iter().map(|force| at(force, k)).sum();
                 let force = self.spring / unit * at(position, k) + self.dashpot * at(speed, k);
                 at(acceleration, k) - force - unit * in_elements
             }),
@@ -158,11 +158,11 @@ pub(super) fn largest_deformation(
     let jumps = solution.node_jumps(target);
     let mass = solution.body_mass(target);
     let kicks = VelocityJump::within(&jumps, span.window()).iter();
-    let kicks: Vec<(f64, f64)> = kicks.map(|own| (own.time, own.impulse / mass)).collect();
+    let kicks: Vec<(f64, f64)> = kicks.map(|kick| (kick.time, kick.impulse / mass)).collect();
     let deformation = oscillator.deformation(acceleration, &kicks, span.window());
     let deformation = deformation.ok_or(Note::TooStiff)?;
     let reading = Reading::peak(&deformation.scaled(factor), &span);
-    let is_rising = reading.value.is_some_and(|own| own > 0.0) && reading.time >= Some(span.to);
+    let is_rising = reading.value.is_some_and(|value| value > 0.0) && reading.time >= Some(span.to);
     Ok(reading.noting_if(is_rising, Note::StillRising))
 }
 

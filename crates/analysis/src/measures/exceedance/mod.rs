@@ -46,8 +46,8 @@ pub(crate) struct Level {
 impl Exceedance {
     /// Looks at a signal in a window.
     pub(crate) fn new(signal: &Signal, window: (f64, f64)) -> Self {
-        let turns = signal.extrema(window).into_iter().map(|own| own.time);
-        let zeros = signal.crossings(0.0, window).into_iter().map(|own| own.time);
+        let turns = signal.extrema(window).into_iter().map(|extremum| extremum.time);
+        let zeros = signal.crossings(0.0, window).into_iter().map(|crossing| crossing.time);
         let mut cuts: Vec<f64> = turns.chain(zeros).collect();
         cuts.sort_by(f64::total_cmp);
         let mut pieces = Vec::new();
@@ -101,7 +101,7 @@ impl Exceedance {
     fn stretches(&self, level: f64) -> Vec<(f64, f64)> {
         let mut stretches: Vec<(f64, f64)> = Vec::new();
         for piece in &self.pieces {
-            let [first, last] = piece.ends.map(|own| own.abs() >= level);
+            let [first, last] = piece.ends.map(|end| end.abs() >= level);
             let (start, end) = (piece.panel.start, piece.panel.end);
             let passage = || piece.panel.time(passage(piece, level));
             let (from, to) = match (first, last) {
@@ -129,7 +129,7 @@ fn passage(piece: &Piece, level: f64) -> f64 {
 }
 
 fn longest(stretches: &[(f64, f64)], counted: Counted) -> f64 {
-    let lengths = stretches.iter().map(|own| own.1 - own.0);
+    let lengths = stretches.iter().map(|stretch| stretch.1 - stretch.0);
     match counted {
         Counted::Together => lengths.sum(),
         Counted::AtOnce => lengths.fold(0.0, f64::max),

@@ -23,7 +23,7 @@ pub(crate) struct Optimum {
     /// Its interval \[s\].
     pub interval: (f64, f64),
     /// How much larger a maximum that was missed could be, beyond rounding.
-    pub doubt: f64,
+    pub threshold: f64,
 }
 
 /// Finds the largest head injury criterion of a signal over all intervals in the window that are
@@ -40,7 +40,7 @@ pub(crate) fn optimum(signal: &Signal, window: (f64, f64), cap: f64) -> Optimum 
     let mut search = Search {
         area: &area,
         cap,
-        best: Optimum { value: 0.0, interval: (window.0, window.0), doubt: 0.0 },
+        best: Optimum { value: 0.0, interval: (window.0, window.0), threshold: 0.0 },
         open: BinaryHeap::new(),
         visited: 0,
     };
@@ -150,7 +150,7 @@ impl Search<'_> {
             }
             self.visited += 1;
             if self.visited > MOST_BOXES {
-                self.best.doubt = candidate.bound - self.best.value;
+                self.best.threshold = candidate.bound - self.best.value;
                 break;
             }
             match candidate.family {

@@ -32,7 +32,7 @@ fn half_sine_has_its_closed_form() {
         let unit = 5.0_f64.powf(2.5) * 2.0;
         close(found.value / unit, 0.414_645_65, 1e-8);
         close((found.interval.1 - found.interval.0) / 2.0, 0.670_229_7, 1e-7);
-        assert!(found.doubt <= 0.0);
+        assert!(found.threshold <= 0.0);
     }
 }
 
@@ -104,7 +104,7 @@ fn best_of_many_peaks_is_found() {
         assert!(found.value >= best * (1.0 - 1e-12), "{} < {best}", found.value);
         assert!(found.value <= best * 1.01, "{} > {best}", found.value);
         assert!(found.interval.1 - found.interval.0 <= cap * (1.0 + 1e-12));
-        assert!(found.doubt <= 0.0, "cap {cap}: {}", found.doubt);
+        assert!(found.threshold <= 0.0, "cap {cap}: {}", found.threshold);
     }
 }
 
@@ -159,5 +159,5 @@ fn a_pulse_in_thousands_of_pieces_has_the_interval_that_it_has_in_one() {
     // Straight lines lie below the sine by up to (π/n)²/8 of it.
     close(found.value, 0.414_645_65, 1e-6);
     close(found.interval.1 - found.interval.0, 0.670_229_7, 1e-3);
-    assert!(found.doubt < 1e-6, "{}", found.doubt);
+    assert!(found.threshold < 1e-6, "{}", found.threshold);
 }

@@ -117,7 +117,7 @@ fn window_without_a_jump_has_finite_measures() {
     is(&report, "floor.impulse-2", 10.0);
     // The jump of speed, and then 10 m/s² at rest.
     let still = 1.0 - 0.2_f64.sqrt();
-    let index = report.measures.iter().rfind(|own| own.kind == "severity-index").unwrap();
+    let index = report.measures.iter().rfind(|measure| measure.kind == "severity-index").unwrap();
     close(index.value, (20.0_f64.sqrt() + 10.0 * still) / STANDARD_GRAVITY, 1e-12);
 }
 
@@ -151,7 +151,7 @@ fn kelvin_voigt_pad_lets_go_with_the_closed_restitution_after_a_flight() {
     is(&report, "head.average-deceleration", 10.0 * (1.0 + e) / contact);
     assert!(report.warnings.is_empty(), "{:?}", report.warnings);
     assert_eq!(report.contacts[0].impact.contact, crate::Contact::Parted);
-    let told: Vec<String> = report.events.iter().map(|own| own.what.to_string()).collect();
+    let told: Vec<String> = report.events.iter().map(|event| event.what.to_string()).collect();
     assert_eq!(told, ["touch closes", "touch opens"]);
 }
 
@@ -188,14 +188,15 @@ fn plastic_touch_of_a_face_with_mass_keeps_momentum() {
     is(&report, "head.end-velocity", -speed);
     is(&report, "pad.contact.impulse", 10.0 * (10.0 + speed));
     is(&report, "pad.contact.coefficient-of-restitution", 0.0);
-    let told: Vec<String> = report.events.iter().map(|own| own.what.to_string()).collect();
+    let told: Vec<String> = report.events.iter().map(|event| event.what.to_string()).collect();
     assert_eq!(told[0], "head meets the pad: impact of 9.09 N s, which loses 45.5 J");
     assert_eq!(told[1], "head leaves the pad");
     assert!(
         report
             .warnings
             .iter()
-            .all(|own| !own.code().contains("pulls") && !own.to_string().contains("pulls")),
+            .all(|warning| !warning.code().contains("pulls")
+                && !warning.to_string().contains("pulls")),
         "{:?}",
         report.warnings
     );
@@ -235,7 +236,8 @@ fn padding_is_pressed_through_all_bounces_of_its_face() {
     // The bounces take little of the time of a plastic touch.
     let time = value("pad.contact-time");
     assert!((time / pressed_for() - 1.0).abs() < 0.01, "{time}");
-    let after = report.energy_after_impact.as_ref().map(|own| own.time);
+    let after =
+        report.energy_after_impact.as_ref().map(|energy_after_impact| energy_after_impact.time);
     assert_eq!(after, measure(&report, "pad.contact-time").time);
 }
 

@@ -28,7 +28,7 @@ pub fn touching(solution: &Solution<'_>) -> Vec<(f64, f64)> {
     let assembly = solution.assembly();
     let parts = switching.parts();
     let counted = parts.iter().enumerate().filter_map(|(number, part)| {
-        let at = assembly.primitives.iter().position(|own| own.name == part.name)?;
+        let at = assembly.primitives.iter().position(|primitive| primitive.name == part.name)?;
         let phases = assembly.primitives[at].element.phases()?;
         let opens = (0..part.phases.len()).any(|index| is_open(phases, index, 0.0));
         // Where an effect has put a contact before a padding, that one tells.
@@ -49,7 +49,7 @@ fn closed(solution: &Solution<'_>, (number, phases): (usize, &dyn Phases)) -> Ve
     let (first, memory) = trajectory.first_phases.get(number).copied().unwrap_or_default();
     let mut spans = Vec::new();
     let mut since = (!is_open(phases, first, memory)).then_some(0.0);
-    for own in trajectory.switches.iter().filter(|own| own.part == number) {
+    for own in trajectory.switches.iter().filter(|switch| switch.part == number) {
         match (since, is_open(phases, own.phase, own.memory)) {
             (None, false) => since = Some(own.time),
             (None, true) => spans.push((own.time, own.time)),
@@ -95,10 +95,10 @@ pub fn excerpt(solution: &Solution<'_>) -> (f64, f64) {
 /// what it is at that end.
 fn stir(solution: &Solution<'_>, (outer, inner): (f64, f64)) -> Option<f64> {
     let connections = solution.assembly().connections.iter();
-    let forces: Vec<_> = connections.filter_map(|own| own.force).collect();
-    let forces: Vec<_> = forces.into_iter().map(|own| solution.signal(own)).collect();
-    let largest = forces.iter().map(|own| own.bound()).fold(0.0, f64::max);
-    let still: Vec<f64> = forces.iter().map(|own| own.value(outer)).collect();
+    let forces: Vec<_> = connections.filter_map(|connection| connection.force).collect();
+    let forces: Vec<_> = forces.into_iter().map(|force| solution.signal(force)).collect();
+    let largest = forces.iter().map(|force| force.bound()).fold(0.0, f64::max);
+    let still: Vec<f64> = forces.iter().map(|force| force.value(outer)).collect();
     let time = |look: usize| outer + (inner - outer) * look as f64 / LOOKS as f64;
     // The contact itself is not looked at: its force may begin with a jump.
     (1..LOOKS).map(time).find(|&time| {

@@ -240,7 +240,7 @@ impl<'r> Found<'r> {
     }
 
     fn is_cut(self) -> bool {
-        self.0.contacts.iter().any(|own| own.impact.contact == Contact::Lasting)
+        self.0.contacts.iter().any(|contact| contact.impact.contact == Contact::Lasting)
     }
 
     fn connections(self) -> &'r [ConnectionOutputs] {
@@ -349,19 +349,21 @@ impl<'r> Found<'r> {
         if run.energy.work_in.is_empty() {
             return Some(0.0);
         }
-        let sum = |own: &Ledger| match on {
-            None => own.total_work_in(),
+        let sum = |ledger: &Ledger| match on {
+            None => ledger.total_work_in(),
             Some(nodes) => {
                 let bodies: Vec<usize> = nodes.iter().map(|(_, node)| node.body).collect();
                 let drives = run.assembly.drives.iter();
-                let ours = drives.filter(|own| bodies.contains(&run.assembly.nodes[own.node].body));
-                let names: Vec<&str> = ours.map(|own| own.name.as_str()).collect();
-                let works = own.work_in.iter().filter(|own| names.contains(&own.0.as_str()));
-                works.map(|own| own.1).sum()
+                let ours =
+                    drives.filter(|drive| bodies.contains(&run.assembly.nodes[drive.node].body));
+                let names: Vec<&str> = ours.map(|our| our.name.as_str()).collect();
+                let works = ledger.work_in.iter().filter(|own| names.contains(&own.0.as_str()));
+                works.map(|work| work.1).sum()
             }
         };
         let ledgers = run.energy_after_impact.iter().chain([&run.energy]);
-        let known = ledgers.into_iter().find(|own| (own.time - until).abs() <= 1e-9 * own.time);
+        let known =
+            ledgers.into_iter().find(|ledger| (ledger.time - until).abs() <= 1e-9 * ledger.time);
         let work = known.map_or_else(|| sum(&ledger(&run.solution(), until)), sum);
         (!work.is_nan()).then_some(work)
     }
@@ -374,18 +376,18 @@ impl<'r> Found<'r> {
         let of = |contact: Contact| run.contacts.iter().find(|own| own.impact.contact == contact);
         if let Some(contact) = of(Contact::Lasting) {
             let time = run.measure(&format!("{}.{}", contact.element, ContactTime::KIND));
-            let is_open = time.and_then(|own| own.error).is_some_and(f64::is_infinite);
+            let is_open = time.and_then(|time| time.error).is_some_and(f64::is_infinite);
             return Some(Ending::Lasting { contact, is_open });
         }
-        if !run.contacts.iter().any(|own| own.impact.has_ended()) {
+        if !run.contacts.iter().any(|contact| contact.impact.has_ended()) {
             return of(Contact::Pulling).or_else(|| of(Contact::Unloaded)).map(Ending::Never);
         }
         let (measure, value) = self.largest(ContactTime::KIND)?;
-        let contact = run.contacts.iter().find(|own| own.element == measure.target);
-        let pulls = contact.is_some_and(|own| {
-            own.is_glued
-                && own.impact.contact == Contact::Released
-                && own.impact.end < run.trajectory.t_end
+        let contact = run.contacts.iter().find(|contact| contact.element == measure.target);
+        let pulls = contact.is_some_and(|contact| {
+            contact.is_glued
+                && contact.impact.contact == Contact::Released
+                && contact.impact.end < run.trajectory.t_end
         });
         let leaving = self.leaving(&measure.target);
         Some(Ending::Ended { measure, value, contact, pulls, leaving })
@@ -393,10 +395,10 @@ impl<'r> Found<'r> {
 
     fn opened(self) -> Option<Opened<'r>> {
         let assembly = &*self.0.assembly;
-        let mut opened = self.0.trajectory.switches.iter().filter(|own| own.what == "open");
+        let mut opened = self.0.trajectory.switches.iter().filter(|switch| switch.what == "open");
         let first = opened.next()?;
-        let times = 1 + opened.filter(|own| own.name == first.name).count();
-        let at = assembly.primitives.iter().position(|own| own.name == first.name)?;
+        let times = 1 + opened.filter(|opened| opened.name == first.name).count();
+        let at = assembly.primitives.iter().position(|primitive| primitive.name == first.name)?;
         let behind = assembly.owner(at).and_then(|own| assembly.pad_behind(own));
         let name = behind
             .map_or(assembly.primitives[at].place(), |pad| &assembly.connections[pad.element].name);
@@ -418,14 +420,15 @@ impl<'r> Found<'r> {
     }
 
     fn reached(self) -> Reached<'r> {
-        let valued = self.0.measures.iter().filter(|own| own.value.is_some());
+        let valued = self.0.measures.iter().filter(|measure| measure.value.is_some());
         let (known, unknown): (Vec<&MeasureReport>, Vec<_>) =
             valued.partition(|own| own.error.is_some());
-        let is_small = |own: &&MeasureReport| {
-            let is_rounding = own.error.is_some_and(|error| error <= ROUNDING * own.size);
-            own.is_next_to_nothing() && !is_rounding
+        let is_small = |measure_report: &&MeasureReport| {
+            let is_rounding =
+                measure_report.error.is_some_and(|error| error <= ROUNDING * measure_report.size);
+            measure_report.is_next_to_nothing() && !is_rounding
         };
-        let is_nothing = |own: &MeasureReport| own.value == Some(0.0);
+        let is_nothing = |measure_report: &MeasureReport| measure_report.value == Some(0.0);
         Reached {
             worst: self.0.worst_relative_error(),
             small: known.iter().copied().filter(is_small).collect(),

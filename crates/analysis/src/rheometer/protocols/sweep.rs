@@ -67,7 +67,8 @@ impl ProtocolKind for Sweep {
             Complex::new(linear.storage(omega), linear.loss(omega))
         };
         let model: Vec<Complex<f64>> = frequencies.iter().map(own).collect();
-        let factors = frequencies.iter().map(|own| linear.loss_factor(TAU * own)).collect();
+        let factors =
+            frequencies.iter().map(|frequency| linear.loss_factor(TAU * frequency)).collect();
         let mut report = RheometerReport {
             protocol: Self::KIND,
             settings: vec![from, to, points_used(self.points)],
@@ -100,7 +101,7 @@ fn compute(report: &mut RheometerReport, specimen: &Specimen, model: &[Complex<f
     let frequencies = &report.abscissa.values;
     let time = fastest.sqrt() * slowest.sqrt();
     let sweep = |shaker: &Shaker| -> Vec<Option<Complex<f64>>> {
-        frequencies.iter().map(|own| shaker.stiffness(TAU * own)).collect()
+        frequencies.iter().map(|frequency| shaker.stiffness(TAU * frequency)).collect()
     };
     let again = |seed: u64| {
         let shaker = Shaker::new(&shaken(specimen.model(), seed), time).ok()?;
@@ -115,9 +116,9 @@ fn compute(report: &mut RheometerReport, specimen: &Specimen, model: &[Complex<f
     let base: Vec<Complex<f64>> = found.iter().map(|own| own.unwrap_or_default()).collect();
     for (series, quantity) in report.series.iter_mut().zip(&QUANTITIES) {
         let moved = again.iter().filter_map(|own| quantity.largest(&base, own, frequencies));
-        let stated = moved.map(|own| CAUTION * own.relative).reduce(f64::max);
+        let stated = moved.map(|moved| CAUTION * moved.relative).reduce(f64::max);
         let difference = quantity.largest(model, &found, frequencies);
-        let difference = difference.map(|own| Disagreement { stated, ..own });
+        let difference = difference.map(|difference| Disagreement { stated, ..difference });
         let values = found.iter().map(|value| value.map(quantity.read)).collect();
         series.computed.push(Computed { values, difference });
     }

@@ -47,7 +47,8 @@ fn zener() -> Model {
 }
 
 fn run(model: &Model, kind: &str, given: &[(&str, f64)], methods: &[&str]) -> RheometerReport {
-    let methods: Vec<Choice> = methods.iter().map(|own| Choice::named(own).unwrap()).collect();
+    let methods: Vec<Choice> =
+        methods.iter().map(|method| Choice::named(method).unwrap()).collect();
     let specimen = Specimen::new(model).unwrap();
     protocol(kind, given).unwrap().run(&specimen, &methods).unwrap()
 }

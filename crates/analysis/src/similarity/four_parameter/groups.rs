@@ -156,7 +156,7 @@ impl FourParameterGroups {
             ("beta", self.beta, NOT_NEGATIVE, is_not_negative(self.beta)),
             ("gamma", self.gamma, POSITIVE, is_positive(self.gamma)),
         ];
-        if let Some(&(name, value, range, _)) = checks.iter().find(|own| !own.3) {
+        if let Some(&(name, value, range, _)) = checks.iter().find(|check| !check.3) {
             return Err(SimilarityError::GroupOutOfRange { name, value, range });
         }
         let q = self.q();

@@ -117,8 +117,17 @@ impl FourParameterImpact {
     pub fn with_groups(&self, groups: &FourParameterGroups) -> Result<Self, SimilarityError> {
         groups.validate()?;
         let (before, scales) = (self.groups(), self.scales());
-        let of_padding = |own: &FourParameterGroups| [own.a, own.b, own.c, own.d];
-        let of_support = |own: &FourParameterGroups| [own.alpha, own.beta, own.gamma];
+        let of_padding = |four_parameter_groups: &FourParameterGroups| {
+            [
+                four_parameter_groups.a,
+                four_parameter_groups.b,
+                four_parameter_groups.c,
+                four_parameter_groups.d,
+            ]
+        };
+        let of_support = |four_parameter_groups: &FourParameterGroups| {
+            [four_parameter_groups.alpha, four_parameter_groups.beta, four_parameter_groups.gamma]
+        };
         let mut again = self.clone();
         if of_padding(groups) != of_padding(&before) {
             let none = || {

@@ -29,7 +29,8 @@ pub(super) fn read(network: &Network) -> Result<FourParameterImpact, &'static st
         return Err("the impactor and the support are not both free masses");
     }
     let between = |ends: [NodeId; 2]| {
-        let mut found = network.connections().iter().filter(move |own| own.between == ends);
+        let mut found =
+            network.connections().iter().filter(move |connection| connection.between == ends);
         found.next().filter(|_| found.next().is_none())
     };
     let padding =

@@ -34,7 +34,7 @@ impl FourParameterGroups {
         let before = FourParameterImpact::of(network)?;
         let after = before.with_groups(self)?;
         let mut again = Network::new();
-        for (id, node) in network.nodes().filter(|own| own.0 != network.ground()) {
+        for (id, node) in network.nodes().filter(|node| node.0 != network.ground()) {
             let mut node = node.clone();
             if network.node(id).name == after.names[2] {
                 node.mass = after.support_mass;
@@ -71,7 +71,7 @@ impl FourParameterGroups {
                 again.add_shared_effect(Arc::clone(effect));
             }
         }
-        let has = |kind: &str| network.effects().iter().any(|own| own.kind() == kind);
+        let has = |kind: &str| network.effects().iter().any(|effect| effect.kind() == kind);
         if after.face_mass > 0.0 && !has(Face::KIND) {
             again.add_effect(face(&after.names[1], &after.names[0], after.face_mass));
         }

@@ -21,19 +21,20 @@ fn chapter_4() -> FourParameterImpact {
 }
 
 /// The largest force φ of the thesis' equations 2.20 to 2.22 by the classical Runge–Kutta method.
-fn largest_force(own: &FourParameterGroups) -> f64 {
+fn largest_force(four_parameter_groups: &FourParameterGroups) -> f64 {
     let rate = |[_, speed, eta, eta_rate, force, force_rate]: [f64; 6]| {
-        let zeta_rate = own.gravity - own.share * force;
-        let eta_curve = -own.alpha * eta_rate - own.beta * eta + own.gamma * force;
+        let zeta_rate = four_parameter_groups.gravity - four_parameter_groups.share * force;
+        let eta_curve = -four_parameter_groups.alpha * eta_rate - four_parameter_groups.beta * eta
+            + four_parameter_groups.gamma * force;
         let deformation_rate = speed - eta_rate;
-        let force_curve = -own.a * force_rate - own.b * force
-            + own.c * (zeta_rate - eta_curve)
-            + own.d * deformation_rate;
+        let force_curve = -four_parameter_groups.a * force_rate - four_parameter_groups.b * force
+            + four_parameter_groups.c * (zeta_rate - eta_curve)
+            + four_parameter_groups.d * deformation_rate;
         [speed, zeta_rate, eta_rate, eta_curve, force_rate, force_curve]
     };
     let step = 1e-3;
     let moved = |y: [f64; 6], k: [f64; 6], by: f64| std::array::from_fn(|at| y[at] + by * k[at]);
-    let mut y = [0.0, 1.0, 0.0, 0.0, 0.0, own.c];
+    let mut y = [0.0, 1.0, 0.0, 0.0, 0.0, four_parameter_groups.c];
     let mut largest = 0.0_f64;
     for _ in 0..3000 {
         let k1 = rate(y);
@@ -135,7 +136,7 @@ fn speed_at_touch_stays_under_another_gravity() {
     assert!((groups.gravity - 0.002).abs() < 1e-16);
     let start = |gravity: f64| {
         let again = groups.with("A", gravity).unwrap().put_into(&network).unwrap();
-        again.nodes().find(|own| own.1.name == "head").unwrap().1.start
+        again.nodes().find(|node| node.1.name == "head").unwrap().1.start
     };
     assert!(matches!(start(0.004), Start::Drop(height) if (height - 2.5).abs() < 1e-12));
     assert!(matches!(start(0.0), Start::Velocity(speed) if (speed - 10.0).abs() < 1e-12));

@@ -100,7 +100,7 @@ fn close(found: f64, expected: f64, relative: f64) {
 #[test]
 fn references_are_mass_speed_and_thickness_and_formulas_say_so() {
     let groups = Groups::of(&reference()).unwrap();
-    let symbols: Vec<&str> = groups.references.iter().map(|own| own.symbol).collect();
+    let symbols: Vec<&str> = groups.references.iter().map(|reference| reference.symbol).collect();
     assert_eq!(symbols, ["m", "V", "δ"]);
     let stiffness = groups.group("padding.1.spring").unwrap();
     assert_eq!(stiffness.formula, "padding.1.spring δ²/(m V²)");
@@ -134,7 +134,7 @@ fn rescaled_networks_are_similar_and_all_others_are_not() {
             let other = scaled(&network, &scale).unwrap();
             let found = Similarity::between(&network, &other, Similarity::WITHIN).unwrap();
             assert!(found.structure.is_empty(), "{:?}", found.structure);
-            let worst = found.groups.iter().map(|own| own.apart).fold(0.0, f64::max);
+            let worst = found.groups.iter().map(|group| group.apart).fold(0.0, f64::max);
             assert!(found.is_similar(), "{worst} at {scale:?}");
             for (found, own) in [
                 (found.scale.mass, scale.mass),
@@ -235,7 +235,7 @@ fn near_similar_scenes_differ_as_predicted() {
     let settings = SolveSettings::lasting(0.1).by_name("exact").unwrap();
     let pairs = measured(&first, &found.networks[1], &found.scale, &settings).unwrap();
     let ratio = |key: &str| {
-        let own = pairs.iter().find(|own| own.key == key).unwrap();
+        let own = pairs.iter().find(|pair| pair.key == key).unwrap();
         own.values[1].unwrap() / own.values[0].unwrap()
     };
     close(ratio("pad.peak-force"), 1.1, 1e-11);
@@ -245,7 +245,7 @@ fn near_similar_scenes_differ_as_predicted() {
     close(ratio("head.severity-index"), 1.1_f64.powf(1.5), 1e-10);
     let alone = alone(&first, &found, &settings).unwrap();
     assert_eq!(alone.len(), 1);
-    let force = alone[0].measures.iter().find(|own| own.key == "pad.peak-force").unwrap();
+    let force = alone[0].measures.iter().find(|measure| measure.key == "pad.peak-force").unwrap();
     close(force.apart.unwrap(), 0.1 / 1.1, 1e-11);
 }
 

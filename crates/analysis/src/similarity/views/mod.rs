@@ -19,7 +19,7 @@ use crate::measures::STANDARD_GRAVITY;
 /// gravity of 0, and no mass on a face one of 0. The same network where both have not as many nodes
 /// and elements.
 pub(super) fn completed(network: &Network, like: &Network) -> Result<Network, InvalidParameter> {
-    let counts = |own: &Network| (own.nodes().count(), own.connections().len());
+    let counts = |network: &Network| (network.nodes().count(), network.connections().len());
     if counts(network) != counts(like) {
         return Ok(network.clone());
     }
@@ -34,7 +34,7 @@ pub(super) fn completed(network: &Network, like: &Network) -> Result<Network, In
         let is_there = |own: &&Arc<dyn Effect>| {
             own.kind() == nothing.kind() && own.target() == nothing.target()
         };
-        if !network.effects().iter().any(|own| is_there(&own)) {
+        if !network.effects().iter().any(|effect| is_there(&effect)) {
             missing.push(nothing);
         }
     }
@@ -42,7 +42,7 @@ pub(super) fn completed(network: &Network, like: &Network) -> Result<Network, In
         return Ok(network.clone());
     }
     // A fall without gravity has the speed that it has under the standard one.
-    let is_free = network.effects().iter().all(|own| own.gravity().is_none());
+    let is_free = network.effects().iter().all(|effect| effect.gravity().is_none());
     let mut again = with_nodes(network, |node| match node.start {
         Start::Drop(_) if is_free => {
             Node { start: Start::Velocity(speed_of_fall(network, node.start)), ..node.clone() }
@@ -114,7 +114,8 @@ pub(super) fn sorted_like(network: &Network, like: &Network) -> Network {
 /// The network with the padding of the thesis in its own drawing; `None` where it is of another form.
 pub(super) fn drawn_as_burgers(network: &Network) -> Option<Network> {
     let impact = FourParameterImpact::of(network).ok()?;
-    let at = network.connections().iter().position(|own| own.name == impact.names[1])?;
+    let at =
+        network.connections().iter().position(|connection| connection.name == impact.names[1])?;
     let mut again = network.clone();
     again.set_model(at, impact.padding().model());
     Some(again)
@@ -134,7 +135,7 @@ fn sorted_model(model: &Model) -> Model {
             (key, Tree::Part(Arc::clone(element)))
         },
         |node, parts: Vec<(Key, Model)>| {
-            let names = node.branches().iter().map(|own| own.name.as_str());
+            let names = node.branches().iter().map(|branch| branch.name.as_str());
             let mut all: Vec<(Key, Branch<_>)> = names
                 .zip(parts)
                 .map(|(name, (key, tree))| (key, Branch::new(name, tree)))

@@ -114,7 +114,7 @@ fn the_scene_from_the_other_side_is_the_same() {
         assert!((one / two - 1.0).abs() < 1e-10, "{key}: {one} {two}");
     }
     let mut slower = Network::new();
-    for (id, node) in other.nodes().filter(|own| own.0 != other.ground()) {
+    for (id, node) in other.nodes().filter(|node| node.0 != other.ground()) {
         let _ = id;
         let start = if node.is_impactor() { Start::Velocity(-9.0) } else { node.start };
         slower.add_node(Node { start, ..node.clone() });

@@ -71,7 +71,7 @@ pub(super) fn walk(network: &Network, visit: &mut dyn Visit) -> Result<Network, 
 
 /// Lets fall what falls under gravity, from where it has its speed at touch.
 fn drop_again(network: &Network, again: &mut Network) {
-    let gravity = |own: &Network| own.effects().iter().find_map(|effect| effect.gravity());
+    let gravity = |network: &Network| network.effects().iter().find_map(|effect| effect.gravity());
     let (Some(_), Some(pull)) = (gravity(network), gravity(again).filter(|own| *own > 0.0)) else {
         return;
     };
@@ -139,14 +139,15 @@ fn walk_connection(
     if let Some(layers) = &connection.layers {
         let layers = walk_layers(name, layers, visit)?;
         let area = connection.area;
-        let area = area.map(|own| visit.size(AREA, own));
+        let area = area.map(|area| visit.size(AREA, area));
         again.connect_layers(name, from, to, layers).area = area;
         return Ok(());
     }
     let thickness = connection.thickness;
-    let thickness =
-        thickness.map(|own| visit.quantity(&format!("{name}.thickness"), Dimension::LENGTH, own));
-    let area = connection.area.map(|own| visit.size(AREA, own));
+    let thickness = thickness.map(|thickness| {
+        visit.quantity(&format!("{name}.thickness"), Dimension::LENGTH, thickness)
+    });
+    let area = connection.area.map(|area| visit.size(AREA, area));
     let model = match connection.thickness.zip(thickness) {
         Some((before, after)) => {
             walk_model(name, &connection.model, &mut Pad { visit, before, after })?
@@ -156,7 +157,7 @@ fn walk_connection(
     let mut pads = connection.pads.clone();
     for pad in &mut pads {
         pad.thickness = visit.size(Dimension::LENGTH, pad.thickness);
-        pad.area = pad.area.map(|own| visit.size(AREA, own));
+        pad.area = pad.area.map(|area| visit.size(AREA, area));
     }
     let connection = again.connect(name, from, to, model);
     (connection.thickness, connection.area, connection.pads) = (thickness, area, pads);
@@ -226,11 +227,11 @@ fn tell_shape(name: &str, model: &Model, visit: &mut dyn Visit) {
         if tree.branches().is_empty() {
             continue;
         }
-        let names: Vec<&str> = tree.branches().iter().map(|own| own.name.as_str()).collect();
+        let names: Vec<&str> = tree.branches().iter().map(|branch| branch.name.as_str()).collect();
         let word = if tree.is_series() { "series" } else { "parallel" };
         visit.word(&path, &format!("{word} of {}", names.join(", ")));
         let branches = tree.branches().iter();
-        left.extend(branches.map(|own| (format!("{path}.{}", own.name), &own.tree)));
+        left.extend(branches.map(|branch| (format!("{path}.{}", branch.name), &branch.tree)));
     }
 }
 
@@ -251,7 +252,10 @@ fn walk_element(
         _ => place,
     };
     let before = element.values();
-    let area = maker.parameters.iter().position(|own| own.kind == ParameterKind::Quantity(AREA));
+    let area = maker
+        .parameters
+        .iter()
+        .position(|parameter| parameter.kind == ParameterKind::Quantity(AREA));
     let after = match area.zip(area.and_then(|at| before.get(at))) {
         Some((at, Value::Number(area))) => {
             let after = visit.size(AREA, *area);

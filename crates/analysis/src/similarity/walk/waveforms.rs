@@ -108,7 +108,7 @@ pub(super) fn walk_waveform(
                 visit.quantity(&format!("{name}.{key}"), Dimension::TIME, value)
             };
             let (from, to) = (time("from", given.from), time("to", given.to));
-            again.map(|own| own.given_at(Given { from, to, ..given }))
+            again.map(|again| again.given_at(Given { from, to, ..given }))
         }
         None => again,
     };

@@ -13,14 +13,14 @@ const SAME: f64 = 1.5;
 const SLOW: f64 = 3.0;
 
 /// Where a force comes near zero without going on to pull: it turns back, or lingers.
-struct Lull {
+struct ForceMinimum {
     /// When it has come near \[s\].
     start: f64,
     /// When it is lowest or, while it falls, has taken too long \[s\].
     low: f64,
 }
 
-impl Lull {
+impl ForceMinimum {
     /// The first below the given level \[N\] in the window; `None` where the force passes zero at the end
     /// of the window.
     fn first(force: &Signal, window: (f64, f64), level: f64) -> Option<Self> {
@@ -28,7 +28,7 @@ impl Lull {
         let latest = fall.time + SLOW * level / fall.slope.abs();
         let turns = force.extrema((fall.time, latest.min(window.1)));
         // The first is where it falls below the level, the last where the window ends.
-        let low = turns.get(1).filter(|_| turns.len() > 2).map_or(latest, |own| own.time);
+        let low = turns.get(1).filter(|_| turns.len() > 2).map_or(latest, |turn| turn.time);
         (low < window.1).then_some(Self { start: fall.time, low })
     }
 }
@@ -40,22 +40,22 @@ fn earliest_end(forces: &[&Signal], window: (f64, f64), level: f64) -> Option<f6
     let (finest, others) = forces.split_last()?;
     let (mut window, mut level) = (window, level);
     while level > finest.noise {
-        let lull = Lull::first(finest, window, level)?;
-        let low = finest.value(lull.low);
+        let minimum = ForceMinimum::first(finest, window, level)?;
+        let low = finest.value(minimum.low);
         let agrees =
             |other: f64| low > 0.0 && low.max(other) <= SAME * low.min(other) && low < level;
-        if !others.iter().all(|other| agrees(other.value(lull.low))) {
-            let passage = finest.first_crossing(0.0, (lull.start, lull.low), Some(false));
-            return Some(passage.map_or(lull.start, |own| own.time));
+        if !others.iter().all(|other| agrees(other.value(minimum.low))) {
+            let passage = finest.first_crossing(0.0, (minimum.start, minimum.low), Some(false));
+            return Some(passage.map_or(minimum.start, |passage| passage.time));
         }
-        (window.0, level) = (lull.start, 0.5 * low);
+        (window.0, level) = (minimum.start, 0.5 * low);
     }
     None
 }
 
 /// Whose contact force it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Feels {
+pub(crate) enum ForceOf {
     /// The element of this number, which touches an impactor.
     Element(usize),
     /// The body of this number, to which an impactor belongs: the sum of all that acts on it.
@@ -63,84 +63,84 @@ pub(crate) enum Feels {
 }
 
 /// Impacts that may end at the time given \[s\], before they seem to.
-pub(crate) type Grazes = Vec<(Feels, f64)>;
+pub(crate) type UndecidedReleases = Vec<(ForceOf, f64)>;
 
 /// What a solution leaves open that `others`, which are coarser, do not agree on with it, where pulls below
-/// the part `doubt` of the largest force may be errors of it.
-pub(crate) fn grazes<'a>(
+/// the part `threshold` of the largest force may be errors of it.
+pub(crate) fn undecided_releases<'a>(
     finest: &Solution<'a>,
     make_others: &dyn Fn() -> Vec<Solution<'a>>,
-    doubt: f64,
-) -> Grazes {
+    threshold: f64,
+) -> UndecidedReleases {
     let others = OnceCell::new();
-    let in_doubt = |feels: Feels| {
-        let force = finest.contact_force(feels)?;
-        let window = finest.impact_felt(feels).pushing()?;
-        let level = doubt * force.bound();
+    let undecided = |force_of: ForceOf| {
+        let force = finest.contact_force(force_of)?;
+        let window = finest.impact_felt(force_of).pushing()?;
+        let level = threshold * force.bound();
         // Most forces go straight through zero, and nothing need be asked of the others.
-        Lull::first(&force, window, level)?;
+        ForceMinimum::first(&force, window, level)?;
         let others: Vec<Cow<'_, Signal>> = others
             .get_or_init(make_others)
             .iter()
-            .map(|own| own.contact_force(feels))
+            .map(|own| own.contact_force(force_of))
             .collect::<Option<_>>()?;
         let mut forces: Vec<&Signal> = others.iter().map(AsRef::as_ref).collect();
         forces.push(&force);
-        Some((feels, earliest_end(&forces, window, level)?))
+        Some((force_of, earliest_end(&forces, window, level)?))
     };
-    finest.contacts_felt().filter_map(in_doubt).collect()
+    finest.contacts_felt().filter_map(undecided).collect()
 }
 
 impl Solution<'_> {
     /// The same solution, whose impacts end at the given times.
     #[must_use]
-    pub(crate) fn ending(self, ends: Grazes) -> Self {
+    pub(crate) fn ending(self, ends: UndecidedReleases) -> Self {
         Self { ends, ..self }
     }
 
     /// An impact with the end that it has been given.
-    pub(super) fn ended(&self, impact: Impact, feels: Feels) -> Impact {
-        let given = self.ends.iter().find(|(own, _)| *own == feels);
+    pub(super) fn ended(&self, impact: Impact, force_of: ForceOf) -> Impact {
+        let given = self.ends.iter().find(|(own, _)| *own == force_of);
         given.map_or(impact, |&(_, time)| impact.ending(time))
     }
 
     /// How deep each contact force first pulls, in parts of its largest magnitude: those of the
     /// elements that touch an impactor and of the bodies with one. `None` where it never does.
     pub(crate) fn first_pulls(&self) -> Vec<Option<f64>> {
-        let pull = |feels: Feels| {
-            let never_pulls = match feels {
-                Feels::Element(at) => self.assembly.connections[at].never_pulls,
-                Feels::Body(body) => self.doubt_of_body(body) >= NO_PULL,
+        let pull = |force_of: ForceOf| {
+            let never_pulls = match force_of {
+                ForceOf::Element(at) => self.assembly.connections[at].never_pulls,
+                ForceOf::Body(body) => self.threshold_of_body(body) >= NO_PULL,
             };
             if never_pulls {
                 return None;
             }
-            first_pull(self.contact_force(feels)?.as_ref(), self.end())
+            first_pull(self.contact_force(force_of)?.as_ref(), self.end())
         };
         self.contacts_felt().map(pull).collect()
     }
 
     /// The contacts with impactors.
-    fn contacts_felt(&self) -> impl Iterator<Item = Feels> {
+    fn contacts_felt(&self) -> impl Iterator<Item = ForceOf> {
         let elements = self.assembly.connections.iter().enumerate();
         let touching = elements.filter(|(_, own)| self.touches_impactor(own));
         let bodies = (0..self.has_impactor.len()).filter(|&body| self.has_impactor[body]);
-        touching.map(|(at, _)| Feels::Element(at)).chain(bodies.map(Feels::Body))
+        touching.map(|(at, _)| ForceOf::Element(at)).chain(bodies.map(ForceOf::Body))
     }
 
-    fn contact_force(&self, feels: Feels) -> Option<Cow<'_, Signal>> {
-        match feels {
-            Feels::Element(at) => {
-                self.assembly.connections[at].force.map(|own| Cow::Borrowed(self.signal(own)))
+    fn contact_force(&self, force_of: ForceOf) -> Option<Cow<'_, Signal>> {
+        match force_of {
+            ForceOf::Element(at) => {
+                self.assembly.connections[at].force.map(|force| Cow::Borrowed(self.signal(force)))
             }
-            Feels::Body(body) => self.push_on(body).map(Cow::Owned),
+            ForceOf::Body(body) => self.push_on(body).map(Cow::Owned),
         }
     }
 
-    fn impact_felt(&self, feels: Feels) -> Impact {
-        match feels {
-            Feels::Element(at) => self.element_impact(at),
-            Feels::Body(body) => self.body_impact(body),
+    fn impact_felt(&self, force_of: ForceOf) -> Impact {
+        match force_of {
+            ForceOf::Element(at) => self.element_impact(at),
+            ForceOf::Body(body) => self.body_impact(body),
         }
     }
 }

@@ -46,7 +46,7 @@ impl Signals {
 
 /// Memory that a signal takes \[B\].
 fn bytes(signal: &Signal) -> usize {
-    let coefficients: usize = signal.panels.iter().map(|own| own.coefficients.len()).sum();
+    let coefficients: usize = signal.panels.iter().map(|panel| panel.coefficients.len()).sum();
     size_of::<Panel>() * signal.panels.len() + size_of::<f64>() * coefficients
 }
 
@@ -89,7 +89,7 @@ impl Solution<'_> {
 
     /// The signal of an output that is the same sum, where there is one at hand.
     fn same_as(&self, output: usize) -> Option<Arc<Signal>> {
-        // Each leg of a run that switches has equations of its own.
+        // Each interval of a run that switches has equations of its own.
         if self.assembly.switching.is_some() || !self.keeps(output) {
             return None;
         }
@@ -136,10 +136,10 @@ impl Twins {
     }
 }
 
-fn hash(own: &Output<'_>) -> u64 {
+fn hash(output: &Output<'_>) -> u64 {
     let mut hasher = DefaultHasher::new();
-    own.scale.to_bits().hash(&mut hasher);
-    for form in [own.unknowns, own.inputs] {
+    output.scale.to_bits().hash(&mut hasher);
+    for form in [output.unknowns, output.inputs] {
         for (variable, coefficient) in form.terms() {
             (variable, coefficient.to_bits()).hash(&mut hasher);
         }

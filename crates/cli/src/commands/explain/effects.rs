@@ -34,8 +34,10 @@ pub(super) fn section(text: &mut Text, rows: &[Contribution]) {
     more(text, rows.len());
     text.blank();
     for row in shown {
-        let number =
-            row.influence.as_ref().map(|own| format!("; {}", estimate(&own.formula, own.value)));
+        let number = row
+            .influence
+            .as_ref()
+            .map(|influence| format!("; {}", estimate(&influence.formula, influence.value)));
         let words = format!("{}{}", words(row), number.unwrap_or_default());
         text.labelled(&row.name, LABELS, &words);
     }
@@ -59,26 +61,26 @@ fn words(row: &Contribution) -> String {
 
 fn counts(rows: &[Contribution]) -> Table {
     let header = ["effect", "state", "unknowns", "modes", "entries", "guards", "number"];
-    let row = |own: &Contribution| {
-        let adds = |of: fn(&SystemSize) -> usize| match &own.sizes {
+    let row = |contribution: &Contribution| {
+        let adds = |of: fn(&SystemSize) -> usize| match &contribution.sizes {
             Some([with, without]) => change(of(with), of(without)),
             None => "–".to_owned(),
         };
-        let modes = match &own.sizes {
+        let modes = match &contribution.sizes {
             Some([with, without]) if with.modes > without.modes && without.modes > 0 => {
                 format!("×{}", with.modes / without.modes)
             }
             _ => "–".to_owned(),
         };
-        let state = match own.state {
+        let state = match contribution.state {
             EffectState::On => "on",
             EffectState::Off => "off",
             EffectState::LeftOut => "dropped",
             EffectState::PutBack => "put back",
         };
-        let number = own.influence.as_ref().map(|own| number(own.value));
+        let number = contribution.influence.as_ref().map(|influence| number(influence.value));
         vec![
-            own.name.clone(),
+            contribution.name.clone(),
             state.to_owned(),
             adds(|size| size.unknowns),
             modes,

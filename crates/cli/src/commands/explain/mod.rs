@@ -12,9 +12,9 @@ use dashpot_scene::Scene;
 
 use crate::{
     args::ExplainArguments,
-    entanglement::notes,
     error::{CliError, Status},
     input::{read_scene, title},
+    non_identifiable::notes,
     numbers::{constant, estimate, quantity},
     output::Text,
     part::write_drawing,
@@ -115,7 +115,10 @@ fn nodes(scene: &Scene) -> Table {
         vec![node.name.clone(), kind, start]
     };
     let network = &scene.network;
-    let is_used = network.connections().iter().any(|own| own.between.contains(&network.ground()));
+    let is_used = network
+        .connections()
+        .iter()
+        .any(|connection| connection.between.contains(&network.ground()));
     let ground = is_used.then(|| described(network.ground(), network.node(network.ground())));
     let others = network.nodes().filter(|(id, _)| *id != network.ground());
     rows("Nodes", others.map(|(id, node)| described(id, node)).chain(ground).collect())
@@ -124,7 +127,8 @@ fn nodes(scene: &Scene) -> Table {
 fn elements(scene: &Scene) -> Table {
     let described = scene.network.connections().iter().map(|connection| {
         let [from, to] = connection.between.map(|id| scene.network.node(id).name.as_str());
-        let thickness = connection.thickness.map(|own| format!("{} thick", constant(own, "m")));
+        let thickness =
+            connection.thickness.map(|thickness| format!("{} thick", constant(thickness, "m")));
         vec![connection.name.clone(), format!("{from} → {to}"), thickness.unwrap_or_default()]
     });
     rows("Elements", described.collect())
@@ -161,7 +165,7 @@ fn parts(scene: &Scene) -> Table {
             Law::Spring(_) | Law::Dashpot(_) => element(primitive.element.as_ref()),
             Law::Rigid | Law::Nonlinear { .. } | Law::Phased => primitive.element.kind().to_owned(),
         };
-        let phases = primitive.element.phases().map(|own| own.names().join(" / "));
+        let phases = primitive.element.phases().map(|phase| phase.names().join(" / "));
         vec![own, primitive.name.clone(), phases.unwrap_or_default()]
     });
     rows("Parts that take part", described.collect())

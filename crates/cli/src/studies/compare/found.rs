@@ -154,14 +154,14 @@ impl Comparison {
             compared,
             same: found.is_same,
             within: SAME_WITHIN,
-            largest_difference: forms.iter().map(|own| own.largest_difference).reduce(f64::min),
+            largest_difference: forms.iter().map(|form| form.largest_difference).reduce(f64::min),
             unit: units[0],
             forms,
-            worst: found.worst.map(|own| Worst {
-                frequency: Some(own.omega / std::f64::consts::TAU),
-                response: own.stiffness,
-                time: Some(own.time),
-                creep: Some(own.creep),
+            worst: found.worst.map(|worst| Worst {
+                frequency: Some(worst.omega / std::f64::consts::TAU),
+                response: worst.stiffness,
+                time: Some(worst.time),
+                creep: Some(worst.creep),
                 after_impulse: None,
                 is_growing: None,
                 until: None,
@@ -215,14 +215,18 @@ fn word(form: Canonical) -> &'static str {
 }
 
 /// The constants of a form as stiffnesses and dampings, those that both lack left out.
-fn constants(form: Canonical, own: &FormComparison, units: [&'static str; 2]) -> Vec<Constant> {
+fn constants(
+    form: Canonical,
+    form_comparison: &FormComparison,
+    units: [&'static str; 2],
+) -> Vec<Constant> {
     let is_kelvin = form == Canonical::Kelvin;
     let value = |own: f64| (own > 0.0).then(|| if is_kelvin { own.recip() } else { own });
     let values = |pair: &Pair| [pair.first, pair.second].map(value);
     let (spring, dashpot) = if is_kelvin {
-        (&own.at_short_times, &own.at_long_times)
+        (&form_comparison.at_short_times, &form_comparison.at_long_times)
     } else {
-        (&own.at_long_times, &own.at_short_times)
+        (&form_comparison.at_long_times, &form_comparison.at_short_times)
     };
     let single = |part: &str, pair: &Pair, unit| Constant {
         part: part.to_owned(),
@@ -232,14 +236,17 @@ fn constants(form: Canonical, own: &FormComparison, units: [&'static str; 2]) ->
         difference: pair.difference,
     };
     let singles = [single("spring", spring, units[0]), single("dashpot", dashpot, units[1])];
-    let modes = own.modes.iter().enumerate().map(|(at, ModePair { time, strength })| Constant {
-        part: format!("{}-{}", word(form), at + 1),
-        time: Some([time.first, time.second]),
-        value: values(strength),
-        unit: units[0],
-        difference: time.difference.max(strength.difference),
-    });
-    let is_there = |own: &Constant| own.value.iter().any(Option::is_some);
+    let modes =
+        form_comparison.modes.iter().enumerate().map(|(at, ModePair { time, strength })| {
+            Constant {
+                part: format!("{}-{}", word(form), at + 1),
+                time: Some([time.first, time.second]),
+                value: values(strength),
+                unit: units[0],
+                difference: time.difference.max(strength.difference),
+            }
+        });
+    let is_there = |constant: &Constant| constant.value.iter().any(Option::is_some);
     singles.into_iter().filter(is_there).chain(modes).collect()
 }
 
@@ -261,13 +268,13 @@ impl Form {
         } else {
             "Maxwell form: in parallel"
         };
-        let rows = self.constants.iter().map(|own| {
-            let time = own.time.map_or_else(String::new, times);
+        let rows = self.constants.iter().map(|constant| {
+            let time = constant.time.map_or_else(String::new, times);
             let value = |value: Option<f64>| {
-                value.map_or_else(|| "none".to_owned(), |it| quantity(it, own.unit, DIGITS))
+                value.map_or_else(|| "none".to_owned(), |it| quantity(it, constant.unit, DIGITS))
             };
-            let [first, second] = own.value.map(value);
-            vec![own.part.clone(), time, first, second, apart(own.difference)]
+            let [first, second] = constant.value.map(value);
+            vec![constant.part.clone(), time, first, second, apart(constant.difference)]
         });
         Table::new(caption, &["", "time", "first", "second", "difference"], rows)
     }

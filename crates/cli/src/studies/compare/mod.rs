@@ -19,9 +19,9 @@ use self::{
 };
 use crate::{
     args::CompareArguments,
-    entanglement::{combinations, groups},
     error::{CliError, Status},
     input::read_scene,
+    non_identifiable::{combinations, groups},
     operand::{Operand, Subject, canonical_model, parted},
     output::{Study, Text, emit},
     shown::Tone,
@@ -70,7 +70,7 @@ impl Study for Comparison {
         let small = self.map.as_ref().filter(|map| map.is_at_most(MOST_SHOWN)).map(Map::table);
         let impact = self.impact.as_ref().map(Impact::table);
         let tables = self.forms.iter().map(Form::table).chain(small).chain(impact);
-        tables.for_each(|own| text.table(&own));
+        tables.for_each(|table| text.table(&table));
     }
 
     fn object(&self) -> impl Serialize {
@@ -89,7 +89,7 @@ fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
         }
         return Ok(Comparison::of(words, is_material, &found));
     }
-    let receptance = |own: &Operand| match &own.subject {
+    let receptance = |operand: &Operand| match &operand.subject {
         Subject::Response(Response::Massive(receptance)) => Some(receptance.clone()),
         _ => None,
     };
@@ -126,7 +126,7 @@ fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
 /// What is known of one operand by itself.
 fn about(operand: &Operand) -> Result<About, CliError> {
     let linear = operand.linear()?;
-    let hidden = |own: &Hidden| Cancelled { pole: own.rate, count: own.count };
+    let hidden = |hidden: &Hidden| Cancelled { pole: hidden.rate, count: hidden.count };
     let mut cancelled: Vec<Cancelled> = match &operand.subject {
         Subject::Model(_) => Vec::new(),
         Subject::Response(Response::Massless(own)) => own.hidden.iter().map(hidden).collect(),
@@ -136,7 +136,8 @@ fn about(operand: &Operand) -> Result<About, CliError> {
     };
     let merged = linear.iter().flat_map(|own| own.merged().to_vec());
     cancelled.extend(
-        merged.map(|own| Cancelled { pole: [-own.time.recip(), 0.0], count: own.count - 1 }),
+        merged
+            .map(|merged| Cancelled { pole: [-merged.time.recip(), 0.0], count: merged.count - 1 }),
     );
     let tree = operand.model();
     let poles = match &operand.subject {
@@ -149,8 +150,8 @@ fn about(operand: &Operand) -> Result<About, CliError> {
         poles,
         elements: tree.map(|tree| tree.leaves().count()),
         least_elements: linear.as_ref().map(dashpot_rheology::LinearModel::least_elements),
-        maxwell_form: linear.as_ref().is_some_and(|own| own.maxwell().is_some()),
-        kelvin_form: linear.as_ref().is_some_and(|own| own.kelvin().is_some()),
+        maxwell_form: linear.as_ref().is_some_and(|linear| linear.maxwell().is_some()),
+        kelvin_form: linear.as_ref().is_some_and(|linear| linear.kelvin().is_some()),
         cancelled,
         entangled: tree.map(together).unwrap_or_default(),
     })
@@ -165,7 +166,7 @@ fn together(model: &Model) -> Vec<Together> {
 }
 
 fn map(first: &Model, second: &Model) -> Option<Map> {
-    let is_small = |own: &&Model| own.leaves().nth(MOST_MAPPED).is_none();
+    let is_small = |model: &&Model| model.leaves().nth(MOST_MAPPED).is_none();
     let of = |own: &Model| sensitivity(own, |element| primitive(element.as_ref()));
     let [first, second] = [first, second].map(|own| Some(own).filter(is_small).and_then(of));
     Some(Map::of(&first?.map_to(&second?)?))
@@ -182,7 +183,7 @@ fn same_impact(
     let checked = read_scene(Some(std::path::Path::new(path)), set)?;
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
-    let names = || scene.network.connections().iter().map(|own| own.name.clone());
+    let names = || scene.network.connections().iter().map(|connection| connection.name.clone());
     let element =
         if element.is_empty() { names().next().unwrap_or_default() } else { element.to_owned() };
     let at = names().position(|name| name == element).ok_or_else(|| CliError::UnknownElement {
@@ -200,14 +201,14 @@ fn same_impact(
     };
     let [first, second] = [run(&operands[0])?, run(&operands[1])?];
     let apart = differences(&first, &second);
-    let measures = first.measures.iter().filter_map(|own| {
-        let other = second.measures.iter().find(|other| other.key == own.key)?;
+    let measures = first.measures.iter().filter_map(|measure| {
+        let other = second.measures.iter().find(|other| other.key == measure.key)?;
         Some(Measured {
-            measure: own.key.clone(),
-            unit: own.unit,
-            value: [own.value, other.value],
-            error: [own.error, other.error],
-            difference: apart.iter().find(|known| known.key == own.key).map(|own| own.relative),
+            measure: measure.key.clone(),
+            unit: measure.unit,
+            value: [measure.value, other.value],
+            error: [measure.error, other.error],
+            difference: apart.iter().find(|known| known.key == measure.key).map(|own| own.relative),
         })
     });
     Ok(Impact {

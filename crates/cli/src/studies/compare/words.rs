@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::found::{About, Comparison, Worst};
 use crate::{
-    entanglement::sentence,
+    non_identifiable::sentence,
     numbers::{apart, bound, quantity, share},
 };
 
@@ -68,7 +68,7 @@ fn disagreement(worst: &Worst, is_same: bool) -> String {
             let _ = write!(line, "; after an impulse{aside} most {time}, by {}", share(size));
             if worst.is_growing == Some(true) {
                 line += " and growing";
-            } else if let Some(until) = worst.until.filter(|own| own.is_finite()) {
+            } else if let Some(until) = worst.until.filter(|until| until.is_finite()) {
                 let _ = write!(line, " (looked at up to {})", quantity(until, "s", 3));
             }
         }

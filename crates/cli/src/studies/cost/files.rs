@@ -32,7 +32,7 @@ pub(super) fn names() -> Vec<String> {
 fn series(report: &CostReport, title: &str, error: impl Fn(&CostPoint) -> f64) -> PrecisionSeries {
     let mut curves: Vec<PrecisionCurve> = Vec::new();
     for point in &report.points {
-        if curves.last().is_none_or(|own| own.name != point.method) {
+        if curves.last().is_none_or(|curve| curve.name != point.method) {
             let name = point.method.to_owned();
             curves.push(PrecisionCurve { name, ..PrecisionCurve::default() });
         }
@@ -50,7 +50,7 @@ fn series(report: &CostReport, title: &str, error: impl Fn(&CostPoint) -> f64) -
 fn figures(report: &CostReport) -> Result<Vec<(String, String)>, CliError> {
     let worst = match report.asked.as_slice() {
         [only] => {
-            let key = report.measures.get(*only).map_or("", |own| own.key.as_str());
+            let key = report.measures.get(*only).map_or("", |measure| measure.key.as_str());
             format!("What accuracy costs: {key}")
         }
         _ => "What accuracy costs: largest error of any measure".to_owned(),
@@ -90,7 +90,7 @@ fn page(costs: &Costs, figures: &[(String, String)]) -> Report {
         verdict: vec![answer(report, accuracies)],
         tables: vec![errors(report), cheapest(report, accuracies)],
         figures: std::iter::once(network).chain(charts).collect(),
-        details: details.filter(|own| !own.rows.is_empty()).collect(),
+        details: details.filter(|detail| !detail.rows.is_empty()).collect(),
         scene_text: scene.text.to_string(),
     }
 }
@@ -114,29 +114,30 @@ fn header(report: &CostReport) -> Vec<String> {
         "events missed [1]",
         "events extra [1]",
     ];
-    let measures = report.measures.iter().map(|own| own.key.as_str());
+    let measures = report.measures.iter().map(|measure| measure.key.as_str());
     let errors = ["state", "events"].into_iter().chain(measures).flat_map(|name| {
         [format!("error of {name} [1]"), format!("truth of {name} known within [1]")]
     });
     list(own.map(str::to_owned).into_iter().chain(errors))
 }
 
-fn row(own: &CostPoint) -> impl serde::Serialize {
-    let (time, work) = (&own.time, &own.work);
+fn row(cost_point: &CostPoint) -> impl serde::Serialize {
+    let (time, work) = (&cost_point.time, &cost_point.work);
     let counts = [
-        own.repeats,
+        cost_point.repeats,
         work.accepted,
         work.rejected,
         work.rhs_calls,
         work.jacobian_calls,
         work.factorizations,
         work.linear_solves,
-        own.events.missed,
-        own.events.extra,
+        cost_point.events.missed,
+        cost_point.events.extra,
     ];
-    let measures = own.measures.iter().map(|own| own.deviation);
-    let errors = [own.state, own.events.deviation].into_iter().chain(measures);
-    let errors = errors.flat_map(|own| [own.map(|own| own.value), own.map(|own| own.known_within)]);
-    let times = [time.median, time.lower, time.upper, own.integration.median];
-    (own.method, own.rtol, times, counts, list(errors))
+    let measures = cost_point.measures.iter().map(|measure| measure.deviation);
+    let errors = [cost_point.state, cost_point.events.deviation].into_iter().chain(measures);
+    let errors =
+        errors.flat_map(|error| [error.map(|own| own.value), error.map(|own| own.known_within)]);
+    let times = [time.median, time.lower, time.upper, cost_point.integration.median];
+    (cost_point.method, cost_point.rtol, times, counts, list(errors))
 }

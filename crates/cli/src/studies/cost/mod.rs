@@ -85,7 +85,7 @@ impl Study for Costs {
         for table in [errors(report), work(report), cheapest(report, accuracies)] {
             text.table(&table);
         }
-        for (heading, lines) in self.faults().into_iter().filter(|own| !own.1.is_empty()) {
+        for (heading, lines) in self.faults().into_iter().filter(|fault| !fault.1.is_empty()) {
             text.heading(heading);
             text.items(lines);
         }
@@ -128,13 +128,13 @@ fn subject(report: &CostReport, subject: Subject) -> &str {
     match subject {
         Subject::State => "state",
         Subject::Events => "events",
-        Subject::Measure(at) => report.measures.get(at).map_or("", |own| own.key.as_str()),
+        Subject::Measure(at) => report.measures.get(at).map_or("", |measure| measure.key.as_str()),
     }
 }
 
 /// A tolerance, or that there is none.
 fn tolerance(rtol: Option<f64>) -> String {
-    rtol.map_or("–".to_owned(), |own| format!("{own:e}"))
+    rtol.map_or("–".to_owned(), |rtol| format!("{rtol:e}"))
 }
 
 /// An accuracy as it is asked for: in percent, or where it is strict, as a power of ten.

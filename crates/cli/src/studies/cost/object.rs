@@ -11,9 +11,10 @@ use crate::output::{VERSION, list, object};
 /// All that was found, with the cheapest methods for each accuracy.
 pub(super) fn object(costs: &Costs) -> impl Serialize {
     let Costs { scene, report, accuracies } = costs;
-    let measures = report.measures.iter().map(|own| {
-        let (value, unit, size, known_within) = (own.value, own.unit, own.size, own.known_within);
-        (own.key.as_str(), object! { value, unit, size, known_within })
+    let measures = report.measures.iter().map(|measure| {
+        let (value, unit, size, known_within) =
+            (measure.value, measure.unit, measure.size, measure.known_within);
+        (measure.key.as_str(), object! { value, unit, size, known_within })
     });
     object! {
         dashpot: VERSION,
@@ -24,19 +25,19 @@ pub(super) fn object(costs: &Costs) -> impl Serialize {
         asked: list(report.asked.iter().map(|&at| subject(report, Subject::Measure(at)))),
         measures: measures.collect::<BTreeMap<_, _>>(),
         points: list(report.points.iter().map(|own| point(report, own))),
-        failures: list(report.failures.iter().map(|own| object! {
-            method: own.method,
-            rtol: own.rtol,
-            error: own.error.to_string(),
-            finer_tried: !own.ends,
+        failures: list(report.failures.iter().map(|failure| object! {
+            method: failure.method,
+            rtol: failure.rtol,
+            error: failure.error.to_string(),
+            finer_tried: !failure.ends,
         })),
-        silent: list(report.slips.iter().map(|own| object! {
-            method: own.method,
-            rtol: own.rtol,
-            what: subject(report, own.subject),
-            error: own.error,
-            bar: own.bar,
-            warned: own.warned,
+        silent: list(report.slips.iter().map(|slip| object! {
+            method: slip.method,
+            rtol: slip.rtol,
+            what: subject(report, slip.subject),
+            error: slip.error,
+            bar: slip.bar,
+            warned: slip.warned,
         })),
         cheapest: list(accuracies.iter().map(|&accuracy| cheapest(report, accuracy))),
     }
@@ -57,30 +58,30 @@ fn truth(report: &CostReport) -> impl Serialize {
     }
 }
 
-fn point(report: &CostReport, own: &CostPoint) -> impl Serialize {
-    let reached = own.measures.iter().map(|own| {
+fn point(report: &CostReport, cost_point: &CostPoint) -> impl Serialize {
+    let reached = cost_point.measures.iter().map(|measure| {
         object! {
-            error: own.deviation.map(|own| own.value),
-            known_within: own.deviation.map(|own| own.known_within),
-            bar: own.bar,
-            warned: own.warned,
+            error: measure.deviation.map(|deviation| deviation.value),
+            known_within: measure.deviation.map(|deviation| deviation.known_within),
+            bar: measure.bar,
+            warned: measure.warned,
         }
     });
-    let keys = report.measures.iter().map(|own| own.key.as_str());
+    let keys = report.measures.iter().map(|measure| measure.key.as_str());
     object! {
-        method: own.method,
-        rtol: own.rtol,
-        time_s: own.time,
-        integration_s: own.integration,
-        repeats: own.repeats,
-        accepted: own.work.accepted,
-        rejected: own.work.rejected,
-        rhs_calls: own.work.rhs_calls,
-        jacobian_calls: own.work.jacobian_calls,
-        factorizations: own.work.factorizations,
-        linear_solves: own.work.linear_solves,
-        state: own.state,
-        events: own.events,
+        method: cost_point.method,
+        rtol: cost_point.rtol,
+        time_s: cost_point.time,
+        integration_s: cost_point.integration,
+        repeats: cost_point.repeats,
+        accepted: cost_point.work.accepted,
+        rejected: cost_point.work.rejected,
+        rhs_calls: cost_point.work.rhs_calls,
+        jacobian_calls: cost_point.work.jacobian_calls,
+        factorizations: cost_point.work.factorizations,
+        linear_solves: cost_point.work.linear_solves,
+        state: cost_point.state,
+        events: cost_point.events,
         measures: keys.zip(reached).collect::<BTreeMap<_, _>>(),
     }
 }
@@ -90,9 +91,9 @@ fn cheapest(report: &CostReport, accuracy: f64) -> impl Serialize + use<> {
     let point = report.cheapest(accuracy);
     object! {
         accuracy,
-        method: point.map(|own| own.method),
-        rtol: point.and_then(|own| own.rtol),
-        time_s: point.map(|own| own.time.median),
+        method: point.map(|point| point.method),
+        rtol: point.and_then(|point| point.rtol),
+        time_s: point.map(|point| point.time.median),
         next_digit: report.next_digit(accuracy),
     }
 }

@@ -17,16 +17,16 @@ const AT_MOST: &str = "≤";
 
 /// Errors and times of all solutions.
 pub(super) fn errors(report: &CostReport) -> Table {
-    let row = |own: &CostPoint| {
-        let worst = own.worst_place(&report.asked);
-        let worst = worst.and_then(|at| own.measures.get(at)?.deviation);
+    let row = |cost_point: &CostPoint| {
+        let worst = cost_point.worst_place(&report.asked);
+        let worst = worst.and_then(|at| cost_point.measures.get(at)?.deviation);
         vec![
-            own.method.to_owned(),
-            tolerance(own.rtol),
-            time(own.time.median),
-            spread(own.time),
-            error(own.state),
-            events(&own.events),
+            cost_point.method.to_owned(),
+            tolerance(cost_point.rtol),
+            time(cost_point.time.median),
+            spread(cost_point.time),
+            error(cost_point.state),
+            events(&cost_point.events),
             error(worst),
         ]
     };
@@ -44,10 +44,10 @@ pub(super) fn errors(report: &CostReport) -> Table {
 
 /// The work of all solutions by steps.
 pub(super) fn work(report: &CostReport) -> Table {
-    let steps = report.points.iter().filter(|own| own.work.accepted > 0);
-    let row = |own: &CostPoint| {
-        let work = &own.work;
-        let mut row = vec![own.method.to_owned(), tolerance(own.rtol)];
+    let steps = report.points.iter().filter(|point| point.work.accepted > 0);
+    let row = |cost_point: &CostPoint| {
+        let work = &cost_point.work;
+        let mut row = vec![cost_point.method.to_owned(), tolerance(cost_point.rtol)];
         let counts = [
             work.accepted,
             work.rejected,
@@ -56,8 +56,8 @@ pub(super) fn work(report: &CostReport) -> Table {
             work.factorizations,
             work.linear_solves,
         ];
-        row.extend(counts.map(|own| own.to_string()));
-        row.push(time(own.integration.median));
+        row.extend(counts.map(|count| count.to_string()));
+        row.push(time(cost_point.integration.median));
         row
     };
     Table::new(
@@ -70,7 +70,7 @@ pub(super) fn work(report: &CostReport) -> Table {
 /// The cheapest method for each measure at these accuracies.
 pub(super) fn cheapest(report: &CostReport, accuracies: &[f64]) -> Table {
     let mut header = vec!["cheapest for".to_owned()];
-    header.extend(accuracies.iter().map(|own| wish(*own)));
+    header.extend(accuracies.iter().map(|accuracy| wish(*accuracy)));
     let cell = |places: &[usize], accuracy: f64| match report.cheapest_of(places, accuracy) {
         Some(own) => match own.rtol {
             Some(rtol) => format!("{} {rtol:e}", own.method),
@@ -79,10 +79,10 @@ pub(super) fn cheapest(report: &CostReport, accuracies: &[f64]) -> Table {
         None => NONE.to_owned(),
     };
     let with_value =
-        |own: &&usize| report.measures.get(**own).is_some_and(|own| own.value.is_some());
+        |own: &&usize| report.measures.get(**own).is_some_and(|measure| measure.value.is_some());
     let row = |&at: &usize| {
         let mut row = vec![subject(report, Subject::Measure(at)).to_owned()];
-        row.extend(accuracies.iter().map(|own| cell(&[at], *own)));
+        row.extend(accuracies.iter().map(|accuracy| cell(&[at], *accuracy)));
         row
     };
     let rows = report.asked.iter().filter(with_value).map(row).collect();
@@ -92,13 +92,14 @@ pub(super) fn cheapest(report: &CostReport, accuracies: &[f64]) -> Table {
 /// The error of every measure in every solution.
 pub(super) fn measures(report: &CostReport) -> Table {
     let mut header = vec!["measure".to_owned()];
-    header.extend(report.points.iter().map(|own| match own.rtol {
-        Some(rtol) => format!("{} {rtol:e}", own.method),
-        None => own.method.to_owned(),
+    header.extend(report.points.iter().map(|point| match point.rtol {
+        Some(rtol) => format!("{} {rtol:e}", point.method),
+        None => point.method.to_owned(),
     }));
     let row = |(at, own): (usize, &TrueMeasure)| {
         let mut row = vec![own.key.clone()];
-        let deviation = |point: &CostPoint| point.measures.get(at).and_then(|own| own.deviation);
+        let deviation =
+            |point: &CostPoint| point.measures.get(at).and_then(|measure| measure.deviation);
         row.extend(report.points.iter().map(|point| error(deviation(point))));
         row
     };
@@ -112,13 +113,13 @@ pub(super) fn time(seconds: f64) -> String {
 }
 
 /// The interquartile range in parts of the median.
-fn spread(own: Spread) -> String {
-    format!("{} %", significant((100.0 * own.relative()).ceil(), 2))
+fn spread(spread: Spread) -> String {
+    format!("{} %", significant((100.0 * spread.relative()).ceil(), 2))
 }
 
-fn events(own: &Timing) -> String {
-    match own.missed + own.extra {
-        0 => error(own.deviation),
+fn events(timing: &Timing) -> String {
+    match timing.missed + timing.extra {
+        0 => error(timing.deviation),
         count => format!("{count} differ"),
     }
 }

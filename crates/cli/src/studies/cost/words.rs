@@ -70,14 +70,14 @@ pub(super) fn truth(report: &CostReport) -> Vec<String> {
 /// Methods that decline, and solutions that failed; errors in the same words once.
 pub(super) fn failures(report: &CostReport) -> Vec<String> {
     let mut said: Vec<(&CostFailure, Vec<String>)> = Vec::new();
-    for own in &report.failures {
+    for failure in &report.failures {
         let is_same = |other: &CostFailure| {
-            let is_alike = other.error == own.error && own.rtol.is_some() && !own.ends;
-            other.method == own.method && is_alike
+            let is_alike = other.error == failure.error && failure.rtol.is_some() && !failure.ends;
+            other.method == failure.method && is_alike
         };
         match said.iter_mut().find(|(other, _)| is_same(other)) {
-            Some((_, rtols)) => rtols.push(tolerance(own.rtol)),
-            None => said.push((own, vec![tolerance(own.rtol)])),
+            Some((_, rtols)) => rtols.push(tolerance(failure.rtol)),
+            None => said.push((failure, vec![tolerance(failure.rtol)])),
         }
     }
     let sentence = |(own, rtols): (&CostFailure, Vec<String>)| {
@@ -95,16 +95,16 @@ pub(super) fn failures(report: &CostReport) -> Vec<String> {
 /// together.
 pub(super) fn slips(report: &CostReport) -> Vec<String> {
     let mut groups: Vec<Vec<&Slip>> = Vec::new();
-    for own in &report.slips {
+    for slip in &report.slips {
         let is_alike = |other: &Slip| {
-            other.method == own.method
-                && other.subject == own.subject
-                && other.warned == own.warned
-                && other.error.is_finite() == own.error.is_finite()
+            other.method == slip.method
+                && other.subject == slip.subject
+                && other.warned == slip.warned
+                && other.error.is_finite() == slip.error.is_finite()
         };
         match groups.iter_mut().find(|group| group.iter().all(|other| is_alike(other))) {
-            Some(group) => group.push(own),
-            None => groups.push(vec![own]),
+            Some(group) => group.push(slip),
+            None => groups.push(vec![slip]),
         }
     }
     let worst = |group: &[&Slip]| group.iter().map(|own| own.error).fold(0.0, f64::max);
@@ -125,7 +125,7 @@ fn together(report: &CostReport, group: &[&Slip]) -> String {
     let what = subject(report, own.subject);
     let mut rtols: Vec<f64> = group.iter().filter_map(|own| own.rtol).collect();
     rtols.sort_by(|one, other| other.total_cmp(one));
-    let rtols: Vec<String> = rtols.into_iter().map(|own| tolerance(Some(own))).collect();
+    let rtols: Vec<String> = rtols.into_iter().map(|rtol| tolerance(Some(rtol))).collect();
     let at = if own.rtol.is_some() { format!(" at {}", rtols.join(", ")) } else { String::new() };
     let most = if group.len() > 1 { "up to " } else { "" };
     let how = match (own.subject, own.bar) {

@@ -45,8 +45,8 @@ impl Test {
         let (similar, left_out) = similar_settings(&settings, &design.scale);
         let mut measures =
             opposed::cleared(measured(real, &design.network, &design.scale, &settings)?);
-        for own in &mut measures {
-            own.values[1] = own.values[1].map(|value| value * own.factor);
+        for measure in &mut measures {
+            measure.values[1] = measure.values[1].map(|value| value * measure.factor);
         }
         let mut with_own_gravity = Vec::new();
         if other_gravity(&design).is_some() {
@@ -122,9 +122,9 @@ impl Test {
 
     /// What the laboratory will read.
     fn predicted(&self) -> Table {
-        let row = |own: &Measured| {
-            let [one, other] = own.values.map(|value| opposed::shown(own, value));
-            vec![own.key.clone(), one, other, significant(own.factor.recip(), DIGITS)]
+        let row = |measured: &Measured| {
+            let [one, other] = measured.values.map(|value| opposed::shown(measured, value));
+            vec![measured.key.clone(), one, other, significant(measured.factor.recip(), DIGITS)]
         };
         let header = ["measure", "real", "laboratory", "and back"];
         Table::new("What the laboratory reads", &header, self.measures.iter().map(row))

@@ -73,7 +73,7 @@ pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<
         remark(&format!("wrote {}", path.display()));
     }
     emit(&told, arguments.json, None, terminal)?;
-    let is_other = told.pair.is_some_and(|own| !own.found.is_similar());
+    let is_other = told.pair.is_some_and(|pair| !pair.found.is_similar());
     Ok(if is_other { Status::NotSame } else { Status::Done })
 }
 
@@ -109,8 +109,10 @@ fn write(
         stops: settings.stops.clone(),
         ..scene.run.clone()
     };
-    let name =
-        arguments.first.as_deref().map_or("reference".to_owned(), |own| own.display().to_string());
+    let name = arguments
+        .first
+        .as_deref()
+        .map_or("reference".to_owned(), |first| first.display().to_string());
     let wish = if arguments.lab.is_empty() { &arguments.from } else { &arguments.lab };
     let comment = format!("Made from {name} for {}.", pairs(wish));
     let text = write_scene(title, &[comment], network, &run, &settings.measures)?;
@@ -147,9 +149,9 @@ impl Study for Told {
             scene: &self.scene,
             parameters: groups.groups.len() + groups.references.len(),
             rank: groups.rank(),
-            references: list(groups.references.iter().map(|own| quantity(own.symbol, &own.quantity))),
-            groups: list(groups.groups.iter().map(|own| object! {
-                parameter: &own.quantity.name, formula: &own.formula, value: own.value,
+            references: list(groups.references.iter().map(|reference| quantity(reference.symbol, &reference.quantity))),
+            groups: list(groups.groups.iter().map(|group| object! {
+                parameter: &group.quantity.name, formula: &group.formula, value: group.value,
             })),
             thesis: self.thesis.as_ref().map(Thesis::object),
             similarity: self.pair.as_ref().map(Pair::object),
@@ -161,15 +163,15 @@ impl Study for Told {
 impl Told {
     /// The groups that are not zero.
     fn table(&self) -> Table {
-        let rows = self.groups.groups.iter().filter(|own| own.value != 0.0);
-        let rows = rows.map(|own| vec![own.formula.clone(), significant(own.value, DIGITS)]);
+        let rows = self.groups.groups.iter().filter(|group| group.value != 0.0);
+        let rows = rows.map(|row| vec![row.formula.clone(), significant(row.value, DIGITS)]);
         Table::new("Independent groups", &["group", "value"], rows)
     }
 
     /// How many groups there are, and what they refer to.
     fn summary(&self) -> String {
         let Groups { groups, references, .. } = &self.groups;
-        let count = match groups.iter().filter(|own| own.value == 0.0).count() {
+        let count = match groups.iter().filter(|group| group.value == 0.0).count() {
             0 => format!("{} groups", groups.len()),
             zero => format!("{} groups, {zero} of them 0 and not shown", groups.len()),
         };
@@ -187,8 +189,8 @@ impl Told {
 }
 
 /// The object of a reference.
-fn quantity(symbol: &'static str, own: &Quantity) -> impl Serialize {
-    object! { symbol, name: &own.name, value: own.value, unit: si(own.dimension) }
+fn quantity(symbol: &'static str, quantity: &Quantity) -> impl Serialize {
+    object! { symbol, name: &quantity.name, value: quantity.value, unit: si(quantity.dimension) }
 }
 
 /// The SI unit of a dimension; that without a name is left out.

@@ -14,11 +14,11 @@ const MEASURED: usize = 5;
 
 /// The measures, where what cannot be told from zero is zero.
 pub(super) fn cleared(all: Vec<Measured>) -> Vec<Measured> {
-    let cleared = |mut own: Measured| {
-        for (value, noise) in own.values.iter_mut().zip(own.noise) {
+    let cleared = |mut measured: Measured| {
+        for (value, noise) in measured.values.iter_mut().zip(measured.noise) {
             *value = value.map(|value| if value.abs() <= noise { 0.0 } else { value });
         }
-        own
+        measured
     };
     list(all.into_iter().map(cleared))
 }
@@ -39,18 +39,18 @@ pub(super) fn objects(all: &[Measured]) -> impl Serialize {
 }
 
 /// A value of a measure.
-pub(super) fn shown(own: &Measured, value: Option<f64>) -> String {
-    value.map_or("–".to_owned(), |value| quantity(value, own.unit, MEASURED))
+pub(super) fn shown(measured: &Measured, value: Option<f64>) -> String {
+    value.map_or("–".to_owned(), |value| quantity(value, measured.unit, MEASURED))
 }
 
 /// The measures of both as a table.
 pub(super) fn table(caption: &str, [first, second]: [&str; 2], measures: &[Measured]) -> Table {
-    let row = |own: &Measured| {
-        let [one, other] = own.values.map(|value| shown(own, value));
-        let by = own.apart.map_or("–".to_owned(), |by| {
-            if own.is_within_errors() { "within the errors".to_owned() } else { apart(by) }
+    let row = |measured: &Measured| {
+        let [one, other] = measured.values.map(|value| shown(measured, value));
+        let by = measured.apart.map_or("–".to_owned(), |by| {
+            if measured.is_within_errors() { "within the errors".to_owned() } else { apart(by) }
         });
-        vec![own.key.clone(), one, other, by]
+        vec![measured.key.clone(), one, other, by]
     };
     let header = ["measure", first, second, "difference (of larger)"];
     Table::new(caption, &header, measures.iter().map(row))

@@ -54,8 +54,8 @@ impl Pair {
             measures = opposed::cleared(measured(one, other, &found.scale, &settings)?);
             if found.different().count() <= MOST_ALONE {
                 movers = alone(one, &found, &settings)?;
-                for own in &mut movers {
-                    own.measures = opposed::cleared(std::mem::take(&mut own.measures));
+                for mover in &mut movers {
+                    mover.measures = opposed::cleared(std::mem::take(&mut mover.measures));
                 }
             }
         }
@@ -117,9 +117,9 @@ impl Pair {
 
     /// The groups that differ.
     fn different(&self) -> Table {
-        let row = |own: &GroupPair| {
-            let [one, other] = own.values.map(|value| significant(value, DIGITS));
-            vec![own.formula.clone(), one, other, apart(own.apart)]
+        let row = |group_pair: &GroupPair| {
+            let [one, other] = group_pair.values.map(|value| significant(value, DIGITS));
+            vec![group_pair.formula.clone(), one, other, apart(group_pair.apart)]
         };
         let header = ["group", "first", "second", "difference"];
         Table::new("Groups that differ", &header, self.found.different().map(row))
@@ -128,10 +128,10 @@ impl Pair {
     /// The measure that each group by itself moves the most.
     fn movers(&self) -> Table {
         let row = |own: &Alone| {
-            let moved = own.measures.iter().filter(|own| !own.is_within_errors());
-            let moved = moved.filter_map(|own| Some((own.apart?, own)));
+            let moved = own.measures.iter().filter(|measure| !measure.is_within_errors());
+            let moved = moved.filter_map(|moved| Some((moved.apart?, moved)));
             let most = moved.max_by(|one, other| one.0.total_cmp(&other.0));
-            let most = most.filter(|own| own.0 > 0.0);
+            let most = most.filter(|most| most.0 > 0.0);
             let text = most
                 .map_or("nothing".to_owned(), |(by, own)| format!("{} by {}", own.key, apart(by)));
             vec![own.name.clone(), text]
@@ -145,5 +145,5 @@ impl Pair {
 fn other_pads([first, second]: &[Network; 2]) -> Vec<String> {
     let pairs = first.connections().iter().zip(second.connections());
     let differ = pairs.filter(|(one, other)| one.pads.len() != other.pads.len());
-    differ.map(|own| own.0.name.clone()).collect()
+    differ.map(|differ| differ.0.name.clone()).collect()
 }

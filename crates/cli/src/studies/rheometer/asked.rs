@@ -30,7 +30,8 @@ pub(super) fn summary(test: &str) -> &'static str {
 
 /// Whether a test has a parameter.
 pub(super) fn has_parameter(test: &str, name: &str) -> bool {
-    registered(PROTOCOLS, test).is_some_and(|own| own.parameters.iter().any(|own| own.name == name))
+    registered(PROTOCOLS, test)
+        .is_some_and(|own| own.parameters.iter().any(|parameter| parameter.name == name))
 }
 
 /// The parameters of `--with` in SI units; each must belong to one of the tests.

@@ -41,14 +41,14 @@ pub(super) fn series(report: &RheometerReport, units: Units) -> Option<Rheometer
     };
     let line = |at: f64, label: &str| RheometerLine { at, label: label.to_owned() };
     let lasting = report.figure("stays for good").and_then(|own| own.model);
-    let held = report.settings.iter().filter(|own| matches!(own.name, "hold" | "rise"));
-    let held: f64 = held.map(|own| own.value).sum();
+    let held = report.settings.iter().filter(|setting| matches!(setting.name, "hold" | "rise"));
+    let held: f64 = held.map(|held| held.value).sum();
     Some(RheometerSeries {
         title: report.protocol.to_owned(),
         measured,
         model,
         simulated,
-        levels: lasting.map(|own| line(own, "ε3, stays for good")).into_iter().collect(),
+        levels: lasting.map(|lasting| line(lasting, "ε3, stays for good")).into_iter().collect(),
         instants: (held > 0.0 && measured_under_force(measured))
             .then(|| line(held, "unloading"))
             .into_iter()
@@ -78,13 +78,13 @@ pub(super) fn write(files: &mut Staged<'_>, tested: &Tested) -> Result<(), CliEr
     }
     for report in &tested.reports {
         let columns = columns(report, tested.units);
-        let header = columns.iter().map(|own| own.0.clone());
+        let header = columns.iter().map(|column| column.0.clone());
         let value = |own: &(String, Vec<Option<f64>>), row: usize| {
             // A zero has no sign, and what is infinite no number.
             own.1.get(row).copied().flatten().filter(|own| own.is_finite()).map(|own| own + 0.0)
         };
         let rows = 0..report.abscissa.values.len();
-        let rows = rows.map(|row| list(columns.iter().map(|own| value(own, row))));
+        let rows = rows.map(|row| list(columns.iter().map(|column| value(column, row))));
         files.add_with(format!("{}.csv", report.protocol), |out| csv(out, header, rows))?;
         if let Some(series) = series(report, tested.units) {
             files.add(format!("{}.svg", report.protocol), series.chart().svg()?)?;
@@ -137,7 +137,7 @@ fn columns(report: &RheometerReport, units: Units) -> Vec<(String, Vec<Option<f6
     let header = |name: &str, unit| format!("{name} [{}]", units.of(unit));
     let all = |values: &[f64]| values.iter().copied().map(Some).collect();
     let given = [Some(&report.abscissa), report.drive.as_ref()].into_iter().flatten();
-    let given = given.map(|own| (header(&own.name, own.unit), all(&own.values)));
+    let given = given.map(|given| (header(&given.name, given.unit), all(&given.values)));
     let found = report.series.iter().flat_map(|series| {
         let computed = series.computed.iter().zip(&report.computations).map(|(own, by)| {
             let name = format!("{} by {}", series.name, by.method);

@@ -137,7 +137,7 @@ impl Study for Tested {
             material: self.units.is_material,
             relaxation_spectrum: relaxation,
             retardation_spectrum: retardation,
-            tests: list(self.reports.iter().map(|own| test(own, self.units))),
+            tests: list(self.reports.iter().map(|report| test(report, self.units))),
         }
     }
 
@@ -149,19 +149,19 @@ impl Study for Tested {
 fn test(report: &RheometerReport, units: Units) -> impl Serialize {
     object! {
         test: report.protocol,
-        settings: list(report.settings.iter().map(|own| object! {
-            name: own.name, unit: units.of(own.unit), value: own.value,
+        settings: list(report.settings.iter().map(|setting| object! {
+            name: setting.name, unit: units.of(setting.unit), value: setting.value,
         })),
         abscissa: column(&report.abscissa, units),
-        drive: report.drive.as_ref().map(|own| column(own, units)),
+        drive: report.drive.as_ref().map(|drive| column(drive, units)),
         series: list(report.series.iter().map(|own| answers(report, own, units))),
-        figures: list(report.figures.iter().map(|own| object! {
-            name: units.word(own.name),
-            unit: units.of(own.unit),
-            model: own.model,
-            computed: own.computed,
-            note: own.note.as_ref().map(Note::to_string),
-            note_code: own.note.map(Note::code),
+        figures: list(report.figures.iter().map(|figure| object! {
+            name: units.word(figure.name),
+            unit: units.of(figure.unit),
+            model: figure.model,
+            computed: figure.computed,
+            note: figure.note.as_ref().map(Note::to_string),
+            note_code: figure.note.map(Note::code),
         })),
         notes: list(report.notes.iter().map(Note::to_string)),
         note_codes: list(report.notes.iter().copied().map(Note::code)),
@@ -183,8 +183,8 @@ fn answers(report: &RheometerReport, own: &Series, units: Units) -> impl Seriali
             obstacle: by.obstacle.as_ref().map(Obstacle::to_string),
             obstacle_code: by.obstacle.as_ref().map(Obstacle::code),
             values: &own.values,
-            difference: own.difference.map(|own| own.relative),
-            stated: own.difference.and_then(|own| own.stated),
+            difference: own.difference.map(|difference| difference.relative),
+            stated: own.difference.and_then(|difference| difference.stated),
         })),
     }
 }

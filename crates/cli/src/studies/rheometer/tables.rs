@@ -65,8 +65,8 @@ pub(super) fn spectrum_table(specimen: &Specimen, units: Units) -> Table {
 /// What characterises the model: the figures that all its tests begin with.
 pub(super) fn characteristics(reports: &[RheometerReport]) -> &[Figure] {
     let Some((first, others)) = reports.split_first() else { return &[] };
-    let is_common = |own: &&Figure| {
-        own.computed.is_none() && others.iter().all(|other| other.figures.contains(own))
+    let is_common = |figure: &&Figure| {
+        figure.computed.is_none() && others.iter().all(|other| other.figures.contains(figure))
     };
     let count = first.figures.iter().take_while(is_common).count();
     // A single test has no others to tell its own figures by; those of a model are three.
@@ -77,7 +77,8 @@ pub(super) fn characteristics(reports: &[RheometerReport]) -> &[Figure] {
 /// left out.
 pub(super) fn figure_table(figures: &[Figure], units: Units) -> Table {
     let scale = |unit: &str| {
-        let same = figures.iter().filter(|own| own.unit == unit).filter_map(|own| own.model);
+        let same =
+            figures.iter().filter(|figure| figure.unit == unit).filter_map(|figure| figure.model);
         same.fold(0.0_f64, |scale, value| scale.max(value.abs()))
     };
     let value = |own: &Figure, value: Option<f64>| {
@@ -88,20 +89,19 @@ pub(super) fn figure_table(figures: &[Figure], units: Units) -> Table {
         };
         value.map_or_else(String::new, shown)
     };
-    let rows = figures
-        .iter()
-        .filter(|own| own.note.is_none())
-        .map(|own| vec![units.word(own.name), value(own, own.model), value(own, own.computed)]);
-    let is_computed = figures.iter().any(|own| own.computed.is_some());
+    let rows = figures.iter().filter(|figure| figure.note.is_none()).map(|figure| {
+        vec![units.word(figure.name), value(figure, figure.model), value(figure, figure.computed)]
+    });
+    let is_computed = figures.iter().any(|figure| figure.computed.is_some());
     let header = if is_computed { &["", "model", "network"][..] } else { &[] };
     Table::new("", header, rows)
 }
 
 /// Figures that do not exist, and why.
 pub(super) fn missing(figures: &[Figure], units: Units) -> Vec<String> {
-    let told = |own: &Figure| {
-        let note = own.note?;
-        Some(format!("no {}: {note}", units.word(own.name)))
+    let told = |figure: &Figure| {
+        let note = figure.note?;
+        Some(format!("no {}: {note}", units.word(figure.name)))
     };
     figures.iter().filter_map(told).collect()
 }
@@ -117,16 +117,16 @@ fn in_unit(value: f64, unit: &'static str, digits: usize) -> String {
 
 /// The parameters of a test in words.
 pub(super) fn settings(settings: &[Setting], units: Units) -> String {
-    let one = |own: &Setting| {
-        let unit = units.of(own.unit);
+    let one = |setting: &Setting| {
+        let unit = units.of(setting.unit);
         let value = if unit == STRAIN_RATE {
-            in_unit(own.value, unit, CHOSEN_DIGITS)
-        } else if own.is_chosen {
-            rounded(own.value, unit, CHOSEN_DIGITS)
+            in_unit(setting.value, unit, CHOSEN_DIGITS)
+        } else if setting.is_chosen {
+            rounded(setting.value, unit, CHOSEN_DIGITS)
         } else {
-            constant(own.value, unit)
+            constant(setting.value, unit)
         };
-        match own.name {
+        match setting.name {
             "points" => format!("{value} points"),
             name => format!("{} {value}", units.word(name)),
         }
@@ -137,10 +137,9 @@ pub(super) fn settings(settings: &[Setting], units: Units) -> String {
 /// How far the independent computations are from the model, in whole sentences.
 pub(super) fn agreement(report: &RheometerReport) -> Vec<String> {
     let of = |(at, by): (usize, &Computation)| {
-        let differences = report
-            .series
-            .iter()
-            .filter_map(|series| series.computed.get(at)?.difference.map(|own| (series.name, own)));
+        let differences = report.series.iter().filter_map(|series| {
+            series.computed.get(at)?.difference.map(|difference| (series.name, difference))
+        });
         let worst = differences.max_by(|a, b| a.1.relative.total_cmp(&b.1.relative));
         let place = if report.abscissa.unit == "Hz" { "Hz" } else { "s" };
         let found = worst.map_or_else(String::new, |(_, own)| {

@@ -15,8 +15,8 @@ const MOST_DECIMALS: usize = 2;
 
 /// What does the work from outside, where it is of one kind.
 fn work_of(drives: &[DriveOutputs]) -> String {
-    let first = drives.first().map(|own| own.source);
-    match first.filter(|first| drives.iter().all(|own| own.source == *first)) {
+    let first = drives.first().map(|drive| drive.source);
+    match first.filter(|first| drives.iter().all(|drive| drive.source == *first)) {
         Some(Source::Effect(word)) => format!("work of {word}"),
         Some(Source::Load) => "work of loads".to_owned(),
         Some(Source::Motion) => "work of motions".to_owned(),
@@ -27,7 +27,11 @@ fn work_of(drives: &[DriveOutputs]) -> String {
 /// Where the energy came from and where it is, at the end of the impact and of the run.
 pub(super) fn energy_table(run: &RunReport) -> Table {
     let mut ledgers: Vec<(&str, &Ledger)> = Vec::new();
-    if let Some(after) = run.energy_after_impact.as_ref().filter(|own| own.time < run.energy.time) {
+    if let Some(after) = run
+        .energy_after_impact
+        .as_ref()
+        .filter(|energy_after_impact| energy_after_impact.time < run.energy.time)
+    {
         ledgers.push(("end of impact", after));
     }
     ledgers.push(("end of run", &run.energy));

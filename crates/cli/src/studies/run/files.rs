@@ -6,7 +6,7 @@ use dashpot_analysis::{RunReport, regular_times, resolving_times, table_at, touc
 use dashpot_plot::{ReportFigure, figures::FIGURES};
 use dashpot_scene::RunSettings;
 
-use super::{Answer, as_run, page::page, series::curves_and_energies};
+use super::{Answer, page::page, resolved_scene, series::curves_and_energies};
 use crate::{
     error::CliError,
     folder::Staged,
@@ -33,7 +33,7 @@ pub(super) fn names() -> impl Iterator<Item = String> {
 
 /// Adds everything that an answer holds but the result.
 pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError> {
-    files.add(SCENE, as_run::text(&answer.scene, &answer.changes))?;
+    files.add(SCENE, resolved_scene::text(&answer.scene, &answer.changes))?;
     let network = &answer.scene.network;
     let is_drawn = network.connections().len() <= MOST_DRAWN;
     let (low, high) = POINTS;
@@ -77,7 +77,7 @@ fn sample_times(run: &RunReport, settings: &RunSettings) -> Vec<f64> {
 fn write_table(run: &RunReport, times: &[f64], out: &mut dyn Write) -> io::Result<()> {
     let at = |times: &[f64]| table_at(&run.assembly, &run.trajectory, times.to_vec());
     let columns = at(&[]).columns.into_iter();
-    let header = columns.map(|own| format!("{} [{}]", own.name, own.unit));
+    let header = columns.map(|column| format!("{} [{}]", column.name, column.unit));
     let rows = times.chunks(CHUNK).flat_map(|chunk| {
         let table = at(chunk);
         let row = |(row, time): (usize, &f64)| {

@@ -86,7 +86,7 @@ fn build(answer: &Answer, block: &Block<'_>) -> Table {
     }
     let differences = answer.differences();
     let apart: HashMap<&str, &Difference> =
-        differences.iter().map(|own| (own.key.as_str(), own)).collect();
+        differences.iter().map(|difference| (difference.key.as_str(), difference)).collect();
     let [all_runs, shown_runs] = [&answer.runs, block.runs]
         .map(|runs| runs.iter().map(RunReport::by_key).collect::<Vec<_>>());
     let kinds = Kinds::of(answer);
@@ -101,9 +101,9 @@ fn build(answer: &Answer, block: &Block<'_>) -> Table {
             let main = at == 0;
             let mut row = vec![if main { kinds.name(first) } else { String::new() }];
             for reading in &readings {
-                row.push(reading.map_or("–".to_owned(), |own| value(own, unit, &zeros)));
+                row.push(reading.map_or("–".to_owned(), |reading| value(reading, unit, &zeros)));
                 if block.errors {
-                    let text = |own: &MeasureReport| error(own, unit, &zeros);
+                    let text = |measure_report: &MeasureReport| error(measure_report, unit, &zeros);
                     row.push(reading.filter(|_| main).map_or(String::new(), text));
                 }
             }

@@ -1,12 +1,12 @@
 //! `dashpot run`.
 
-mod as_run;
 mod energy;
 mod files;
 mod measures;
 mod object;
 mod page;
 mod partial;
+mod resolved_scene;
 mod series;
 mod settings;
 mod solving;
@@ -28,16 +28,16 @@ use serde::Serialize;
 
 pub(crate) use self::measures::unit_of_kind;
 use self::{
-    as_run::Changes,
     energy::energy_table,
     measures::{measures_tables, notes},
+    resolved_scene::Changes,
     series::curves,
     solving::{reasons, solving_table},
     verdict::verdict,
 };
 use crate::{
     args::{RunArguments, Switch, When},
-    commands::hopeless,
+    commands::undefined,
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{read_scene, title},
@@ -89,7 +89,9 @@ impl Answer {
         let mut said: Vec<(String, Vec<&str>)> = Vec::new();
         let mut places: HashMap<String, usize> = HashMap::new();
         for run in &self.runs {
-            for warning in run.warnings.iter().filter(|own| is_meant(own)).map(Warning::to_string) {
+            for warning in
+                run.warnings.iter().filter(|warning| is_meant(warning)).map(Warning::to_string)
+            {
                 let place = *places.entry(warning).or_insert_with_key(|warning| {
                     said.push((warning.clone(), Vec::new()));
                     said.len() - 1
@@ -133,7 +135,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     terminal.diagnose(&checked.warnings);
     tell(&checked.value.notes);
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
-    if let Ok(texts) = hopeless(&checked.value) {
+    if let Ok(texts) = undefined(&checked.value) {
         texts.iter().for_each(|text| terminal.warn(text));
     }
     let answer = solve_all(checked.value, arguments, terminal)?;
@@ -159,7 +161,7 @@ fn tell_failures(answer: &Answer, terminal: Terminal) {
             continue;
         }
         let same = answer.failed.iter().filter(|(_, other)| other.to_string() == text);
-        let methods: Vec<&str> = same.map(|own| own.0).collect();
+        let methods: Vec<&str> = same.map(|same| same.0).collect();
         let is_all = methods.len() == answer.asked.len();
         let prefix = if is_all { String::new() } else { format!("{}: ", methods.join(", ")) };
         terminal.fail(&prefix, error);

@@ -25,7 +25,7 @@ pub(super) fn object(answer: &Answer) -> impl Serialize {
         failed: list(answer.failed.iter().map(|(method, error)| object! {
             method, error: error.to_string(),
         })),
-        difference: differences.map(|own| (own.key, own.relative)).collect::<Pairs<_, _>>(),
+        difference: differences.map(|difference| (difference.key, difference.relative)).collect::<Pairs<_, _>>(),
     }
 }
 
@@ -43,15 +43,15 @@ fn settings(answer: &Answer, asked: &SolveSettings) -> impl Serialize {
         estimate: asked.estimate,
         accuracy: [("default", asked.accuracy.default)].into_iter().chain(single).collect::<Pairs<_, _>>(),
         neglect_below: asked.accuracy.neglect_below,
-        stop: list(asked.stops.iter().map(|own| object! {
-            output: &own.output, level: own.level, direction: direction(own),
+        stop: list(asked.stops.iter().map(|stop| object! {
+            output: &stop.output, level: stop.level, direction: direction(stop),
         })),
         values: values.collect::<Pairs<_, _>>(),
     }
 }
 
 fn run(report: &RunReport, elapsed: Duration) -> impl Serialize {
-    let measures = report.measures.iter().map(|own| (&own.key, Measure(own)));
+    let measures = report.measures.iter().map(|measure| (&measure.key, Measure(measure)));
     object! {
         solver: solver(report, elapsed),
         system: &report.system,
@@ -90,7 +90,7 @@ fn solver(report: &RunReport, elapsed: Duration) -> impl Serialize {
 
 /// What was left out, and how far each measure is moved, relative.
 fn partial(partial: &Partial) -> impl Serialize {
-    let costs = partial.costs.iter().map(|own| (&own.measure, own.relative));
+    let costs = partial.costs.iter().map(|cost| (&cost.measure, cost.relative));
     object! {
         below: partial.bound,
         left_out: list(partial.left_out.iter().map(|own| object! {
@@ -108,16 +108,16 @@ fn partial(partial: &Partial) -> impl Serialize {
     }
 }
 
-fn put_back(own: &PutBack) -> impl Serialize {
-    let (moves, error) = match &own.why {
+fn put_back(put_back: &PutBack) -> impl Serialize {
+    let (moves, error) = match &put_back.why {
         Why::Moves(cost) => (Some(cost), None),
         Why::Fails(error) => (None, Some(error.to_string())),
         Why::Pulls { element, time } => {
             (None, Some(format!("`{element}` would go into tension at {time} s")))
         }
     };
-    let (formula, estimate) = (&own.influence.formula, own.influence.value);
-    object! { effect: &own.effect, formula, estimate, moves, error }
+    let (formula, estimate) = (&put_back.influence.formula, put_back.influence.value);
+    object! { effect: &put_back.effect, formula, estimate, moves, error }
 }
 
 /// The balance at the end of the run, and that at the end of the impact, where it ends within.

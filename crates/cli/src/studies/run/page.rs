@@ -3,9 +3,10 @@
 use dashpot_plot::{Report, ReportFigure, Table};
 
 use super::{
-    Answer, as_run,
+    Answer,
     energy::energy_table,
     measures::{measures_table, notes},
+    resolved_scene,
     settings::settings_table,
     solving::{reasons, solving_table},
     verdict::verdict,
@@ -34,6 +35,6 @@ pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
         tables,
         figures,
         details,
-        scene_text: as_run::text(&answer.scene, &answer.changes),
+        scene_text: resolved_scene::text(&answer.scene, &answer.changes),
     }
 }

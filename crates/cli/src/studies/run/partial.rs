@@ -60,9 +60,9 @@ fn moved(cost: &Cost) -> String {
     format!("`{}` moves by {size}", cost.measure)
 }
 
-fn verification(own: Verification) -> String {
-    match own.solves {
-        1 => format!("; checked by 1 further run in {}", duration(own.wall)),
-        solves => format!("; checked by {solves} further runs in {}", duration(own.wall)),
+fn verification(verification: Verification) -> String {
+    match verification.solves {
+        1 => format!("; checked by 1 further run in {}", duration(verification.wall)),
+        solves => format!("; checked by {solves} further runs in {}", duration(verification.wall)),
     }
 }

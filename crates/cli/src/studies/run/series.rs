@@ -39,7 +39,7 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
     let outputs = &report.assembly.system.outputs;
     let values = |output: Option<usize>| {
         let name = output.and_then(|at| outputs.get(at)).map(|output| output.name);
-        let column = name.and_then(|name| table.columns.iter().find(|own| own.name == name));
+        let column = name.and_then(|name| table.columns.iter().find(|column| column.name == name));
         column.map_or_else(Vec::new, |column| column.values.clone())
     };
     let connections = report.assembly.connections.iter();
@@ -74,7 +74,7 @@ fn times(report: &RunReport, window: (f64, f64), markers: &[RunMarker], count: u
     let window = (window.0, window.1.min(end));
     let mut times = resolving_times(window, &touching(&report.solution()), count);
     times.extend(markers.iter().map(|marker| marker.time));
-    let switches = report.trajectory.switches.iter().map(|own| own.time);
+    let switches = report.trajectory.switches.iter().map(|switch| switch.time);
     times.extend(switches.flat_map(|time| [time * (1.0 - JUMP), time]));
     times.retain(|time| (window.0..=window.1).contains(time));
     times.sort_by(f64::total_cmp);
@@ -94,8 +94,8 @@ fn is_contact(report: &RunReport, name: &str) -> bool {
 fn leave_out_repetitions(elements: &mut [ElementSeries]) {
     for at in 0..elements.len() {
         let (contact, others) = (&elements[at], &*elements);
-        let owner = others.iter().find(|own| {
-            let rest = contact.name.strip_prefix(own.name.as_str());
+        let owner = others.iter().find(|other| {
+            let rest = contact.name.strip_prefix(other.name.as_str());
             contact.is_contact && rest.is_some_and(|rest| rest.starts_with('.'))
         });
         let Some(owner) = owner else { continue };
@@ -260,7 +260,7 @@ mod tests {
             [run]\nduration = \"10 ms\"\n";
         let scene = read(pulled, &ReadOptions::default()).unwrap().value;
         let report = solve(&scene.network, &scene.settings("exact").unwrap(), &mut Silent).unwrap();
-        let labels: Vec<String> = markers(&report).into_iter().map(|own| own.label).collect();
-        assert!(labels.iter().any(|own| own == "peak −2.00 kN"), "{labels:?}");
+        let labels: Vec<String> = markers(&report).into_iter().map(|marker| marker.label).collect();
+        assert!(labels.iter().any(|label| label == "peak −2.00 kN"), "{labels:?}");
     }
 }

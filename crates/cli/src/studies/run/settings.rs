@@ -19,7 +19,7 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
         ("methods".to_owned(), methods.join(", ")),
         (
             "rtol".to_owned(),
-            asked.rtol.map_or("found by accuracy".to_owned(), |own| format!("{own:e}")),
+            asked.rtol.map_or("found by accuracy".to_owned(), |rtol| format!("{rtol:e}")),
         ),
         (
             "errors".to_owned(),
@@ -34,7 +34,12 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
             .iter()
             .map(|(key, own)| (format!("accuracy of {key}"), share(*own))),
     );
-    rows.extend(asked.accuracy.neglect_below.map(|own| ("neglect below".to_owned(), share(own))));
+    rows.extend(
+        asked
+            .accuracy
+            .neglect_below
+            .map(|neglect_below| ("neglect below".to_owned(), share(neglect_below))),
+    );
     rows.extend(
         asked.stops.iter().map(|stop| (format!("stop at {}", stop.output), stop_text(stop))),
     );

@@ -53,17 +53,17 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
         Some(whole) => [Some(whole_force(whole)), peak_force()],
         None => [peak_force(), None],
     };
-    let elsewhere = found.elsewhere.map(|own| {
-        let (element, time) = (own.element, quantity(own.peak.time, "s", TIME_DIGITS));
-        if own.peak.value.is_infinite() {
+    let elsewhere = found.elsewhere.map(|elsewhere| {
+        let (element, time) = (elsewhere.element, quantity(elsewhere.peak.time, "s", TIME_DIGITS));
+        if elsewhere.peak.value.is_infinite() {
             return format!("infinite in {element} at {time}, where the speed jumps");
         }
-        let when = match own.window {
-            Some((from, _)) if own.peak.time < from => ", before the impact",
-            Some((_, to)) if own.peak.time > to => ", after the impact",
+        let when = match elsewhere.window {
+            Some((from, _)) if elsewhere.peak.time < from => ", before the impact",
+            Some((_, to)) if elsewhere.peak.time > to => ", after the impact",
             _ => "",
         };
-        format!("{} in {element} at {time}{when}", quantity(own.peak.value, "N", TIME_DIGITS))
+        format!("{} in {element} at {time}{when}", quantity(elsewhere.peak.value, "N", TIME_DIGITS))
     });
     let lines = [
         ("stopped", stopped(run)),
@@ -71,9 +71,9 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
         ("of it", of_it),
         ("elsewhere", elsewhere),
         ("peak g", found.peak_acceleration.map(|peak| words.peak_g(peak))),
-        ("max. deflection", found.depth.map(|own| words.depth(own.peak, own.left))),
-        ("energy", found.energy.as_ref().map(|own| words.energy(own))),
-        ("contact", found.ending.as_ref().map(|own| words.ending(own))),
+        ("max. deflection", found.depth.map(|depth| words.depth(depth.peak, depth.left))),
+        ("energy", found.energy.as_ref().map(|energy| words.energy(energy))),
+        ("contact", found.ending.as_ref().map(|ending| words.ending(ending))),
         ("indices", indices(run)),
         ("left out", left_out(run)),
         ("put back", put_back(run)),
@@ -104,7 +104,8 @@ impl Words<'_> {
         let time = measure.time.filter(|_| !self.zeros.has(measure));
         let time = time.map(|time| format!(" at {}", quantity(time, "s", TIME_DIGITS)));
         // Which way it points, as in `in tension`; other notes stand below the table.
-        let notes: Vec<Note> = measure.notes.iter().filter(|own| own.is_place()).cloned().collect();
+        let notes: Vec<Note> =
+            measure.notes.iter().filter(|note| note.is_place()).cloned().collect();
         let note =
             if notes.is_empty() { String::new() } else { format!(" ({})", Note::joined(&notes)) };
         let time = time.unwrap_or_default();
@@ -151,10 +152,10 @@ impl Words<'_> {
         }
     }
 
-    fn energy(&self, own: &Absorbed<'_>) -> String {
-        let (value, name) = (own.value, &own.measure.target);
-        let amount = self.shown(own.measure, value);
-        let Some(supply) = &own.supply else { return format!("{name} absorbs {amount}") };
+    fn energy(&self, absorbed: &Absorbed<'_>) -> String {
+        let (value, name) = (absorbed.value, &absorbed.measure.target);
+        let amount = self.shown(absorbed.measure, value);
+        let Some(supply) = &absorbed.supply else { return format!("{name} absorbs {amount}") };
         let (kinetic, work) = (supply.kinetic, supply.work);
         if kinetic <= LITTLE * work {
             // What falls begins without energy, or with what little its layers hold at rest.
@@ -177,7 +178,7 @@ impl Words<'_> {
         let part = value / (kinetic + work.max(0.0));
         // What rests on springs at the start may be given to the pad as well.
         let is_told = part <= 1.0 + LITTLE && part.abs() > ZERO;
-        let part = if is_told && !self.zeros.has(own.measure) {
+        let part = if is_told && !self.zeros.has(absorbed.measure) {
             format!(" ({})", share(part))
         } else {
             String::new()
@@ -188,7 +189,8 @@ impl Words<'_> {
     fn ending(&self, ending: &Ending<'_>) -> String {
         match ending {
             Ending::NoImpactor(opened) => {
-                let opened = opened.map_or(String::new(), |own| format!("; {}", lets_go(own)));
+                let opened =
+                    opened.map_or(String::new(), |opened| format!("; {}", lets_go(opened)));
                 format!("no impactor: the measures are those of the whole run{opened}")
             }
             Ending::Lasting { contact, is_open } => {
@@ -207,15 +209,15 @@ impl Words<'_> {
             }
             Ending::Ended { measure, value, contact, pulls, leaving } => {
                 let pulls = if *pulls { GLUED } else { "" };
-                let leaving = leaving.map_or(String::new(), |own| {
+                let leaving = leaving.map_or(String::new(), |leaving| {
                     let error = self.run.worst_relative_error();
                     let digits = numbers::digits(1.0, error, TIME_DIGITS);
-                    let text = quantity(own.speed, "m/s", digits);
-                    let how = if own.returns { "rebounds" } else { "goes on" };
-                    let restitution = own.restitution.map_or(String::new(), |own| {
-                        format!(", coefficient of restitution {}", significant(own, digits))
+                    let text = quantity(leaving.speed, "m/s", digits);
+                    let how = if leaving.returns { "rebounds" } else { "goes on" };
+                    let restitution = leaving.restitution.map_or(String::new(), |restitution| {
+                        format!(", coefficient of restitution {}", significant(restitution, digits))
                     });
-                    format!("; {} {how} at {text}{restitution}", own.impactor)
+                    format!("; {} {how} at {text}{restitution}", leaving.impactor)
                 });
                 let again = contact.map_or(String::new(), again);
                 let time = self.shown(measure, *value);
@@ -265,15 +267,17 @@ impl Words<'_> {
 
     /// The figures that are not as good as the others.
     fn exceptions(&self, reached: &Reached<'_>) -> String {
-        let small = |own: &MeasureReport| {
-            let error = quantity(own.error.unwrap_or(0.0), own.unit, 2);
-            if self.zeros.has(own) {
-                format!("`{}` is zero within {error}", own.key)
+        let small = |measure_report: &MeasureReport| {
+            let error = quantity(measure_report.error.unwrap_or(0.0), measure_report.unit, 2);
+            if self.zeros.has(measure_report) {
+                format!("`{}` is zero within {error}", measure_report.key)
             } else {
-                format!("`{}` is known to ±{error} only", own.key)
+                format!("`{}` is known to ±{error} only", measure_report.key)
             }
         };
-        let unknown = |own: &MeasureReport| format!("the error of `{}` is not known", own.key);
+        let unknown = |measure_report: &MeasureReport| {
+            format!("the error of `{}` is not known", measure_report.key)
+        };
         named(&reached.small, &small) + &named(&reached.unknown, &unknown)
     }
 }
@@ -283,7 +287,7 @@ fn named(measures: &[&MeasureReport], text: &dyn Fn(&MeasureReport) -> String) -
     if measures.is_empty() {
         return String::new();
     }
-    let all: Vec<String> = measures.iter().take(NAMED).map(|own| text(own)).collect();
+    let all: Vec<String> = measures.iter().take(NAMED).map(|measure| text(measure)).collect();
     let more = measures.len().saturating_sub(NAMED);
     let more = if more > 0 { format!(", and so it is with {more} more") } else { String::new() };
     format!("{}{more}; ", all.join(", "))
@@ -294,13 +298,15 @@ fn infinite(word: &str, measure: &MeasureReport, time: f64) -> String {
     format!("infinite{word}{} at {time}, where the speed jumps", measure.target)
 }
 
-fn whole_force(own: WholeForce<'_>) -> String {
-    let (force, time) =
-        (quantity(own.peak.value, "N", TIME_DIGITS), quantity(own.peak.time, "s", TIME_DIGITS));
-    let place = if own.is_behind {
-        format!("behind {} with its stop", own.element)
+fn whole_force(whole_force: WholeForce<'_>) -> String {
+    let (force, time) = (
+        quantity(whole_force.peak.value, "N", TIME_DIGITS),
+        quantity(whole_force.peak.time, "s", TIME_DIGITS),
+    );
+    let place = if whole_force.is_behind {
+        format!("behind {} with its stop", whole_force.element)
     } else {
-        format!("in {}", own.element)
+        format!("in {}", whole_force.element)
     };
     format!("{force} {place} at {time}")
 }
@@ -311,9 +317,9 @@ fn stopped(run: &RunReport) -> Option<String> {
 }
 
 /// How often contacts let go in a run without impactors.
-fn lets_go(own: Opened<'_>) -> String {
-    let (name, time) = (own.name, quantity(own.time, "s", TIME_DIGITS));
-    match own.times {
+fn lets_go(opened: Opened<'_>) -> String {
+    let (name, time) = (opened.name, quantity(opened.time, "s", TIME_DIGITS));
+    match opened.times {
         1 => format!("{name} lets go at {time}"),
         times => format!("{name} lets go {times} times, first at {time}"),
     }
@@ -360,10 +366,11 @@ fn indices(run: &RunReport) -> Option<String> {
         let digits = numbers::digits(value, measure.error, DIGITS);
         // The field prints indices as plain numbers, of seconds and g.
         let number = Unit::plain("1").text(value, digits);
-        let found = measure.window.filter(|_| is_hic(measure.kind)).map_or(String::new(), |own| {
-            let [from, to] = [own.0, own.1].map(|time| quantity(time, "s", TIME_DIGITS));
-            format!(" (from {from} to {to})")
-        });
+        let found =
+            measure.window.filter(|_| is_hic(measure.kind)).map_or(String::new(), |window| {
+                let [from, to] = [window.0, window.1].map(|time| quantity(time, "s", TIME_DIGITS));
+                format!(" (from {from} to {to})")
+            });
         Some(format!("{name} {number}{found}"))
     });
     let texts: Vec<String> = texts.take(3).collect();
@@ -372,14 +379,14 @@ fn indices(run: &RunReport) -> Option<String> {
 
 /// That errors include what the segments of layers make of the figures.
 fn and_segments(run: &RunReport) -> String {
-    run.segmentation.as_ref().map_or(String::new(), |own| {
-        format!(" and {} segments of layers beside {}", own.segments, own.others)
+    run.segmentation.as_ref().map_or(String::new(), |segmentation| {
+        format!(" and {} segments of layers beside {}", segmentation.segments, segmentation.others)
     })
 }
 
 /// That errors include what was left out, where anything was.
 fn and_left_out(run: &RunReport) -> &'static str {
-    let is_less = run.partial.as_ref().is_some_and(|own| !own.left_out.is_empty());
+    let is_less = run.partial.as_ref().is_some_and(|partial| !partial.left_out.is_empty());
     if is_less { " and what was left out" } else { "" }
 }
 
@@ -389,7 +396,7 @@ fn next_digit(answer: &Answer, run: &RunReport) -> Option<String> {
     // The exact method has no tolerance, and no digit to gain.
     run.solver.rtol?;
     // No tolerance brings back what was left out.
-    if run.partial.as_ref().is_some_and(|own| !own.left_out.is_empty()) {
+    if run.partial.as_ref().is_some_and(|partial| !partial.left_out.is_empty()) {
         return None;
     }
     let wished = answer.asked.first().map_or(worst, |asked| asked.accuracy.default);

@@ -70,11 +70,11 @@ fn map_file(column: &Column) -> String {
 /// in addresses, so that different keys have different names.
 fn stem(column: &Column) -> String {
     let mut name = String::new();
-    for own in column.key.chars() {
-        if "/\\:*?\"<>|%".contains(own) {
-            let _ = write!(name, "%{:02X}", u32::from(own));
+    for char in column.key.chars() {
+        if "/\\:*?\"<>|%".contains(char) {
+            let _ = write!(name, "%{:02X}", u32::from(char));
         } else {
-            name.push(own);
+            name.push(char);
         }
     }
     name + if column.is_share { "-over-thickness" } else { "" }
@@ -109,14 +109,14 @@ pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
     let Swept { variations, report, .. } = swept;
     let own = variations.iter().enumerate();
     let own = own.map(|(at, own)| format!("{} [{}]", own.name, swept.unit(at)));
-    let found = report.columns.iter().flat_map(|own| {
-        let (name, unit) = (name(own), own.unit);
+    let found = report.columns.iter().flat_map(|column| {
+        let (name, unit) = (name(column), column.unit);
         [format!("{name} [{unit}]"), format!("error of {name} [{unit}]")]
     });
     let header = own.chain(found).chain([WARNINGS.to_owned()]);
     let width = report.columns.len();
     let points = report.values.chunks(width).zip(report.errors.chunks(width));
-    let mut warned = list(report.warnings.iter().map(|own| own.points.iter().peekable()));
+    let mut warned = list(report.warnings.iter().map(|warning| warning.points.iter().peekable()));
     let rows = points.enumerate().map(|(point, (values, errors))| {
         let places = swept.grid.places(point).into_iter();
         let own = places.zip(variations).map(|(place, own)| own.values[place]);
@@ -244,5 +244,5 @@ fn map(swept: &Swept, column: usize) -> Map {
 
 /// How many columns are shares of a thickness.
 fn shares(report: &SweepReport) -> usize {
-    report.columns.iter().filter(|own| own.is_share).count()
+    report.columns.iter().filter(|column| column.is_share).count()
 }

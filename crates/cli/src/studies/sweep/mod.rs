@@ -9,7 +9,7 @@ use std::{num::NonZero, thread::available_parallelism};
 use dashpot_analysis::{
     RunError,
     partial::Cost,
-    sweep::{Column, Grid, Pose, Posed, SweepReport, columns, sweep as solve},
+    sweep::{Column, Grid, Pose, ScenePoint, SweepReport, columns, sweep as solve},
 };
 use dashpot_scene::{Diagnostics, Scene, Tunables, Variation, read};
 use serde::Serialize;
@@ -53,7 +53,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let grid = Grid::new(variations.iter().map(Variation::len).collect())
         .filter(|grid| grid.len() <= MOST)
         .ok_or(CliError::TooManyPoints { most: MOST })?;
-    let posed = |scene: Scene| {
+    let scene_point = |scene: Scene| {
         let method = match (&arguments.method, &scene.run.methods[..]) {
             (Some(wanted), _) => wanted,
             (None, [only]) => only,
@@ -62,10 +62,10 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         let mut settings = scene.settings(method)?;
         settings.budget = arguments.budget.unwrap_or(settings.budget);
         settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
-        Ok::<_, RunError>(Posed { network: scene.network, settings })
+        Ok::<_, RunError>(ScenePoint { network: scene.network, settings })
     };
     let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
-    let (columns, wishes) = columns(&posed(scene.clone())?, &keys)?;
+    let (columns, wishes) = columns(&scene_point(scene.clone())?, &keys)?;
     let names = files::names(&variations, &columns);
     let folder = Folder::wanted(arguments.out.as_deref(), names)?;
     let pose = |places: &[usize]| {
@@ -74,9 +74,9 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
             let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
             messages.collect::<Vec<_>>().join("; ")
         })?;
-        let mut posed = posed(checked.value).map_err(|error| error.to_string())?;
-        posed.settings.measures.clone_from(&wishes);
-        Ok(posed)
+        let mut scene_point = scene_point(checked.value).map_err(|error| error.to_string())?;
+        scene_point.settings.measures.clone_from(&wishes);
+        Ok(scene_point)
     };
     let mut told = checked.warnings.list;
     let before = told.len();
@@ -93,7 +93,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let has_folder = folder.is_some();
     emit(&swept, arguments.json, folder, terminal)?;
     files::undrawn(&swept.variations).filter(|_| has_folder).into_iter().for_each(remark);
-    let failed = swept.report.gaps.iter().filter(|own| own.column.is_none()).count();
+    let failed = swept.report.gaps.iter().filter(|gap| gap.column.is_none()).count();
     Ok(if failed == swept.points() { Status::RunFailed } else { Status::Done })
 }
 
@@ -136,7 +136,7 @@ fn solved(
 impl Study for Swept {
     fn text(&self, text: &mut Text) {
         text.title(title(&self.scene));
-        self.in_words().iter().for_each(|own| text.faint(own));
+        self.in_words().iter().for_each(|in_word| text.faint(in_word));
         text.table(&summary(&self.report));
         text.paragraphs(remarks(self));
     }
@@ -178,24 +178,24 @@ impl Study for Swept {
                 errors: column(&report.errors, at),
             })),
             points: self.points(),
-            stamped: report.stamped,
+            instantiated: report.instantiated,
             checked: &report.checked,
             largest_difference: report.largest_difference,
-            gaps: list(report.gaps.iter().map(|own| object! {
-                point: own.point,
-                measure: own.column.map(|at| &report.columns[at].key),
-                reason: &own.reason,
+            gaps: list(report.gaps.iter().map(|gap| object! {
+                point: gap.point,
+                measure: gap.column.map(|at| &report.columns[at].key),
+                reason: &gap.reason,
             })),
-            warnings: list(report.warnings.iter().map(|own| object! {
-                text: own.warning.to_string(), code: own.warning.code(), points: &own.points,
+            warnings: list(report.warnings.iter().map(|warning| object! {
+                text: warning.warning.to_string(), code: warning.warning.code(), points: &warning.points,
             })),
-            left_out: report.partial.as_ref().map(|own| object! {
-                bound: own.bound,
-                effects: list(own.left_out.iter().map(|own| &own.effect)),
-                checked: &own.checked,
-                measure: own.worst.as_ref().map(|own| &own.measure),
-                moves: own.worst.as_ref().map(Cost::most).filter(|own| own.is_finite()),
-                solves: own.solves,
+            left_out: report.partial.as_ref().map(|partial| object! {
+                bound: partial.bound,
+                effects: list(partial.left_out.iter().map(|own| &own.effect)),
+                checked: &partial.checked,
+                measure: partial.worst.as_ref().map(|worst| &worst.measure),
+                moves: partial.worst.as_ref().map(Cost::most).filter(|own| own.is_finite()),
+                solves: partial.solves,
             }),
         }
     }

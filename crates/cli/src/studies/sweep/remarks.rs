@@ -35,12 +35,17 @@ fn counted(points: usize) -> String {
 }
 
 fn solved(report: &SweepReport, points: usize) -> String {
-    match (report.stamped, points - report.stamped) {
+    match (report.instantiated, points - report.instantiated) {
         (0, 1) => "1 point, solved in full".to_owned(),
         (0, full) => format!("{full} points, each solved in full"),
-        (stamped, 0) => format!("{}, stamped from one compiled form", counted(stamped)),
-        (stamped, full) => {
-            format!("{} stamped from one compiled form, {full} solved in full", counted(stamped))
+        (instantiated, 0) => {
+            format!("{}, instantiated from one compiled form", counted(instantiated))
+        }
+        (instantiated, full) => {
+            format!(
+                "{} instantiated from one compiled form, {full} solved in full",
+                counted(instantiated)
+            )
         }
     }
 }
@@ -58,8 +63,7 @@ fn warnings(swept: &Swept, report: &SweepReport, points: usize) -> Vec<String> {
         };
         format!("warning {}, {of}, first at {first}: {}", at + 1, own.warning)
     };
-    let is_known =
-        |own: &SweepWarning| matches!(&own.warning, Warning::Network(own) if known.contains(own));
+    let is_known = |sweep_warning: &SweepWarning| matches!(&sweep_warning.warning, Warning::Network(sweep_warning) if known.contains(sweep_warning));
     let new = report.warnings.iter().enumerate().filter(|own| !is_known(own.1));
     let mut all: Vec<String> = new.map(told).collect();
     let more = all.len().saturating_sub(MOST_WARNED);
@@ -70,8 +74,8 @@ fn warnings(swept: &Swept, report: &SweepReport, points: usize) -> Vec<String> {
     all
 }
 
-fn left_out(own: &PartialOfSweep, report: &SweepReport) -> Vec<String> {
-    let names: Vec<String> = own
+fn left_out(partial_of_sweep: &PartialOfSweep, report: &SweepReport) -> Vec<String> {
+    let names: Vec<String> = partial_of_sweep
         .left_out
         .iter()
         .map(|own| {
@@ -79,7 +83,7 @@ fn left_out(own: &PartialOfSweep, report: &SweepReport) -> Vec<String> {
             format!("{} ({estimate})", own.effect)
         })
         .collect();
-    let most = own.worst.as_ref().map_or(String::new(), |worst| {
+    let most = partial_of_sweep.worst.as_ref().map_or(String::new(), |worst| {
         format!("; `{}` moves by {}, the most of all", worst.measure, apart(worst.most()))
     });
     // Nothing is saved where nothing is left out.
@@ -89,15 +93,15 @@ fn left_out(own: &PartialOfSweep, report: &SweepReport) -> Vec<String> {
         format!(
             "; that took {} in all, where the sweep in full takes about {}",
             duration(report.wall),
-            duration(own.wall_in_full)
+            duration(partial_of_sweep.wall_in_full)
         )
     };
     let names = if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
-    let checked = counted(own.checked.len());
+    let checked = counted(partial_of_sweep.checked.len());
     let mut all = vec![format!(
         "left out everywhere: {names}{most}; solved with and without it at {checked}{saving}"
     )];
-    let back: Vec<&str> = own.put_back.iter().map(|own| own.effect.as_str()).collect();
+    let back: Vec<&str> = partial_of_sweep.put_back.iter().map(|own| own.effect.as_str()).collect();
     if !back.is_empty() {
         all.push(format!("put back, because it matters at one of them: {}", back.join(", ")));
     }
@@ -106,7 +110,7 @@ fn left_out(own: &PartialOfSweep, report: &SweepReport) -> Vec<String> {
 
 fn missing(report: &SweepReport, points: usize) -> Vec<String> {
     let mut all = Vec::new();
-    let failed: Vec<_> = report.gaps.iter().filter(|own| own.column.is_none()).collect();
+    let failed: Vec<_> = report.gaps.iter().filter(|gap| gap.column.is_none()).collect();
     if let Some(first) = failed.first() {
         let have = if failed.len() == 1 { "has" } else { "have" };
         all.push(format!(
@@ -116,11 +120,11 @@ fn missing(report: &SweepReport, points: usize) -> Vec<String> {
         ));
     }
     let mut told: Vec<(usize, &str, usize)> = Vec::new();
-    for own in &report.gaps {
-        let Some(column) = own.column else { continue };
-        match told.iter_mut().find(|known| (known.0, known.1) == (column, own.reason.as_str())) {
+    for gap in &report.gaps {
+        let Some(column) = gap.column else { continue };
+        match told.iter_mut().find(|known| (known.0, known.1) == (column, gap.reason.as_str())) {
             Some(known) => known.2 += 1,
-            None => told.push((column, &own.reason, 1)),
+            None => told.push((column, &gap.reason, 1)),
         }
     }
     for (column, reason, count) in told.into_iter().take(MOST_TOLD) {

@@ -21,7 +21,9 @@ impl Swept {
     pub(super) fn unit(&self, parameter: usize) -> String {
         let own = self.tunables.all()[self.matched[parameter]].dimension;
         let dimension = self.variations[parameter].dimension.or(own);
-        dimension.filter(|own| *own != Dimension::NUMBER).map_or("1".to_owned(), si_unit)
+        dimension
+            .filter(|dimension| *dimension != Dimension::NUMBER)
+            .map_or("1".to_owned(), si_unit)
     }
 
     /// The values of all parameters at a point.
@@ -77,9 +79,9 @@ pub(super) fn summary(report: &SweepReport) -> Table {
 }
 
 /// A value of a parameter to four digits.
-pub(super) fn shown(own: &Variation, at: usize) -> String {
-    let unit = Unit::new(&own.unit, 1.0);
-    let text = unit.text(own.numbers[at], 4);
+pub(super) fn shown(variation: &Variation, at: usize) -> String {
+    let unit = Unit::new(&variation.unit, 1.0);
+    let text = unit.text(variation.numbers[at], 4);
     let (number, rest) = text.split_once(' ').unwrap_or((&text, ""));
     let short = match number.split_once('.') {
         Some(_) if !number.contains('e') => number.trim_end_matches('0').trim_end_matches('.'),

@@ -117,7 +117,9 @@ impl Study for Shaken {
         if self.steady.is_none() {
             let (content, left_out) = response(sweep, WIDTH - 2);
             text.table(&content);
-            text.paragraphs(left_out.map(|own| format!("{own}; `--out` writes all of them")));
+            text.paragraphs(
+                left_out.map(|left_out| format!("{left_out}; `--out` writes all of them")),
+            );
         }
         if text.is_plotted(self.plot) {
             text.chart(&series(sweep).ratio_chart(), PLOT_HEIGHT);
@@ -155,8 +157,8 @@ impl Study for Shaken {
             let values = all.iter().flat_map(|own| {
                 let swing = own.swings[at];
                 // A zero has no sign.
-                let phase = swing.map(|own| degrees(own.phase) + 0.0);
-                [swing.map(|own| own.amplitude), phase, swing.map(|own| own.error)]
+                let phase = swing.map(|swing| degrees(swing.phase) + 0.0);
+                [swing.map(|swing| swing.amplitude), phase, swing.map(|swing| swing.error)]
             });
             list([Some(*frequency)].into_iter().chain(values))
         };
@@ -169,19 +171,20 @@ impl Study for Shaken {
     }
 }
 
-fn response_object(own: &Transmission) -> impl Serialize {
-    let all = |value: fn(Swing) -> f64| list(own.swings.iter().map(|own| own.map(value)));
-    let peak = |own: &Resonance| {
-        let Resonance { frequency, frequency_error, swing, band } = *own;
-        object! { frequency, frequency_error, response: swing, band, quality: own.quality() }
+fn response_object(transmission: &Transmission) -> impl Serialize {
+    let all =
+        |value: fn(Swing) -> f64| list(transmission.swings.iter().map(|swing| swing.map(value)));
+    let peak = |resonance: &Resonance| {
+        let Resonance { frequency, frequency_error, swing, band } = *resonance;
+        object! { frequency, frequency_error, response: swing, band, quality: resonance.quality() }
     };
     object! {
-        name: &own.name,
+        name: &transmission.name,
         ratio: all(|own| own.amplitude),
         phase: all(|own| own.phase),
         error: all(|own| own.error),
-        resonances: list(own.resonances.iter().map(peak)),
-        at_rest: own.at_rest,
+        resonances: list(transmission.resonances.iter().map(peak)),
+        at_rest: transmission.at_rest,
     }
 }
 
@@ -190,27 +193,29 @@ fn response_object(own: &Transmission) -> impl Serialize {
 fn series(sweep: &Sweep) -> VibrationSeries {
     VibrationSeries {
         title: format!("Response to {}", sweep.drive.name),
-        curves: sweep.transmissions.iter().map(|own| curve(sweep, own)).collect(),
+        curves: sweep.transmissions.iter().map(|transmission| curve(sweep, transmission)).collect(),
     }
 }
 
-fn curve(sweep: &Sweep, own: &Transmission) -> VibrationCurve {
+fn curve(sweep: &Sweep, transmission: &Transmission) -> VibrationCurve {
     let mut points: Vec<(f64, Option<Swing>)> =
-        sweep.frequencies.iter().copied().zip(own.swings.iter().copied()).collect();
-    points.extend(own.resonances.iter().map(|own| (own.frequency, own.swing)));
+        sweep.frequencies.iter().copied().zip(transmission.swings.iter().copied()).collect();
+    points.extend(
+        transmission.resonances.iter().map(|resonance| (resonance.frequency, resonance.swing)),
+    );
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
-    let peaks = own.resonances.iter().filter_map(|own| {
-        let height = own.swing?.amplitude;
+    let peaks = transmission.resonances.iter().filter_map(|resonance| {
+        let height = resonance.swing?.amplitude;
         let value = Unit::plain("1").number(height, DIGITS);
-        let label = format!("{value} at {}", quantity(own.frequency, "Hz", DIGITS));
-        Some((own.frequency, height, label))
+        let label = format!("{value} at {}", quantity(resonance.frequency, "Hz", DIGITS));
+        Some((resonance.frequency, height, label))
     });
     let value = |of: fn(Swing) -> f64| {
-        points.iter().map(|own| own.1.map_or(f64::NAN, of)).collect::<Vec<f64>>()
+        points.iter().map(|point| point.1.map_or(f64::NAN, of)).collect::<Vec<f64>>()
     };
     VibrationCurve {
-        name: own.name.clone(),
-        frequency: points.iter().map(|own| own.0).collect(),
+        name: transmission.name.clone(),
+        frequency: points.iter().map(|point| point.0).collect(),
         ratio: value(|own| own.amplitude),
         phase: value(|own| degrees(own.phase)),
         peaks: peaks.collect(),

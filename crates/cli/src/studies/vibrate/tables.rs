@@ -53,25 +53,26 @@ fn hertz(value: f64) -> String {
 
 fn watts(value: f64) -> String {
     let units = [("kW", 1e3), ("W", 1.0), ("mW", 1e-3)];
-    let (symbol, factor) = units.into_iter().find(|own| value >= own.1).unwrap_or(("µW", 1e-6));
+    let (symbol, factor) = units.into_iter().find(|unit| value >= unit.1).unwrap_or(("µW", 1e-6));
     Unit::new(symbol, factor).text(value, DIGITS)
 }
 
 /// The resonances of every response, up to a number of them.
 pub(super) fn resonances(sweep: &Sweep) -> Table {
     let rows = sweep.transmissions.iter().flat_map(|transmission| {
-        transmission.resonances.iter().map(|own| {
+        transmission.resonances.iter().map(|resonance| {
             let none = || NONE.to_owned();
             let swing = |text: fn(f64) -> String, value: fn(Swing) -> f64| {
-                own.swing.map_or_else(none, |own| text(value(own)))
+                resonance.swing.map_or_else(none, |swing| text(value(swing)))
             };
-            let band = own.band.map(|[low, high]| format!("{} to {}", hertz(low), hertz(high)));
+            let band =
+                resonance.band.map(|[low, high]| format!("{} to {}", hertz(low), hertz(high)));
             vec![
                 transmission.name.clone(),
-                hertz(own.frequency),
+                hertz(resonance.frequency),
                 swing(ratio, |own| own.amplitude),
                 swing(angle, |own| own.phase),
-                own.quality().map_or_else(none, ratio),
+                resonance.quality().map_or_else(none, ratio),
                 band.unwrap_or_else(none),
             ]
         })
@@ -105,8 +106,9 @@ pub(super) fn remarks(sweep: &Sweep) -> Vec<String> {
 
 /// The limits of slow oscillation; one that all have in common is said once.
 fn limits(all: &[Transmission]) -> String {
-    let text =
-        |own: &Transmission| own.at_rest.map_or("none".to_owned(), |own| ratio(own.amplitude));
+    let text = |transmission: &Transmission| {
+        transmission.at_rest.map_or("none".to_owned(), |at_rest| ratio(at_rest.amplitude))
+    };
     match all {
         [first, _, ..] if all.iter().all(|own| text(own) == text(first)) => {
             format!("{} of all", text(first))
@@ -161,29 +163,33 @@ pub(super) fn steady(steady: &Steady) -> Vec<Table> {
     let amplitude = quantity(steady.amplitude, unit, DIGITS);
     let name = &steady.drive.name;
     let caption = format!("Peaks at {} with {amplitude} of {name}", hertz(steady.frequency));
-    let nodes = steady.nodes.iter().map(|own| {
-        let acceleration = own.acceleration.amplitude;
+    let nodes = steady.nodes.iter().map(|node| {
+        let acceleration = node.acceleration.amplitude;
         vec![
-            own.name.clone(),
-            quantity(own.displacement.amplitude, "m", DIGITS),
+            node.name.clone(),
+            quantity(node.displacement.amplitude, "m", DIGITS),
             quantity(acceleration, "m/s^2", DIGITS),
             format!("{} g", ratio(acceleration / GRAVITY)),
-            angle(own.displacement.phase),
+            angle(node.displacement.phase),
         ]
     });
-    let elements = steady.elements.iter().map(|own| {
+    let elements = steady.elements.iter().map(|element| {
         let force =
-            |text: &dyn Fn(Swing) -> String| own.force.map_or_else(|| NONE.to_owned(), text);
+            |text: &dyn Fn(Swing) -> String| element.force.map_or_else(|| NONE.to_owned(), text);
         vec![
-            own.name.clone(),
+            element.name.clone(),
             force(&|own| quantity(own.amplitude, "N", DIGITS)),
             force(&|own| angle(own.phase)),
-            quantity(own.deformation.amplitude, "m", DIGITS),
-            angle(own.deformation.phase),
+            quantity(element.deformation.amplitude, "m", DIGITS),
+            angle(element.deformation.phase),
         ]
     });
-    let supports = steady.supports.iter().map(|own| {
-        vec![own.name.clone(), quantity(own.force.amplitude, "N", DIGITS), angle(own.force.phase)]
+    let supports = steady.supports.iter().map(|support| {
+        vec![
+            support.name.clone(),
+            quantity(support.force.amplitude, "N", DIGITS),
+            angle(support.force.phase),
+        ]
     });
     let header = ["node", "displacement", "acceleration", "", "phase °"];
     let nodes = Table::new(caption, &header, nodes);
@@ -195,9 +201,9 @@ pub(super) fn steady(steady: &Steady) -> Vec<Table> {
 
 /// What is to be known beside them.
 pub(super) fn steady_remarks(steady: &Steady) -> Vec<String> {
-    let power = steady.power.map(|own| {
+    let power = steady.power.map(|power| {
         // A power that only rounding makes is none.
-        format!("the drive puts in {} on average", watts(own.max(0.0)))
+        format!("the drive puts in {} on average", watts(power.max(0.0)))
     });
     let note = "weights and other constant forces come on top; elements pull as they push";
     power.into_iter().chain([note.to_owned()]).collect()

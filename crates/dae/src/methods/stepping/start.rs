@@ -145,7 +145,7 @@ pub(super) fn enter<M: Algebra>(
     }
     let swing = problem.eqn.system().shortest_swing((start, start + length));
     let longest =
-        swing.map_or(length, |own| length.min(OF_SWING * own * share(problem.rtol, order)));
+        swing.map_or(length, |swing| length.min(OF_SWING * swing * share(problem.rtol, order)));
     // Extreme slopes make the estimate zero, or no number.
     common.h = common.h.min(longest).max(smallest);
     Ok(common)

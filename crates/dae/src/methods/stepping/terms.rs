@@ -82,8 +82,9 @@ impl<'s> Terms<'s> {
             return None;
         }
         let arguments = system.terms.iter().flat_map(|term| &term.arguments);
-        let mut used: Vec<usize> =
-            arguments.flat_map(|own| own.inputs.terms().iter().map(|input| input.0)).collect();
+        let mut used: Vec<usize> = arguments
+            .flat_map(|argument| argument.inputs.terms().iter().map(|input| input.0))
+            .collect();
         used.sort_unstable();
         used.dedup();
         let inputs = RefCell::new(vec![0.0; system.inputs.len()]);
@@ -234,7 +235,7 @@ impl<'s> Terms<'s> {
 /// one may come more than once.
 pub(super) fn pattern(system: &System) -> impl Iterator<Item = (usize, usize)> {
     system.terms.iter().flat_map(|term| {
-        let unknowns = term.arguments.iter().flat_map(|own| own.unknowns.terms());
+        let unknowns = term.arguments.iter().flat_map(|argument| argument.unknowns.terms());
         unknowns.map(|&(column, _)| (term.row, column))
     })
 }

@@ -180,7 +180,8 @@ impl Walk<'_> {
             let least = absolute(output, balanced);
             *largest = largest.max(terms(&signal)).max(least);
             let mut noise = self.run.rtol * *largest;
-            if let Some(whole) = guard.rate_of.and_then(|own| self.system.outputs.get(own)) {
+            if let Some(whole) = guard.rate_of.and_then(|rate_of| self.system.outputs.get(rate_of))
+            {
                 let own = terms(&self.pieces.signal_from(self.system, whole, steps - 1));
                 let length = signal.panels.iter().map(|panel| panel.end - panel.start).sum::<f64>();
                 noise = noise.min(self.run.rtol * (own + absolute(whole, size)) / length);

@@ -3,10 +3,10 @@
 use dashpot_dae::{SolveError, Switch};
 
 use super::{
-    super::carry::State,
+    super::transfer::State,
     PhasedNetwork,
     impacts::{Meeting, Rebound},
-    judge::{Choice, Fault, Judge, Look, Verdict},
+    judge::{Admissibility, Choice, Fault, Judge, Verdict},
     search::Search,
 };
 use crate::phases::{Exit, Phase, Watched};
@@ -49,15 +49,16 @@ struct Instant<'a> {
     phases: &'a [Phase],
     /// For each part whether its deformation is at a level.
     touching: Vec<bool>,
-    /// Parts whose deformation has reached a level \[m\] by the event that ended the leg.
+    /// Parts whose deformation has reached a level \[m\] by the event that ended the interval.
     at_level: Vec<(usize, f64)>,
-    doubt: f64,
+    threshold: f64,
     ways: Vec<Way>,
 }
 
 /// Numbers of the searches in whose groups a part does not stay.
 fn at_fault(searches: &[Search], faults: &[Fault]) -> Vec<usize> {
-    let fails = |&at: &usize| faults.iter().any(|own| searches[at].group.parts.contains(&own.part));
+    let fails =
+        |&at: &usize| faults.iter().any(|fault| searches[at].group.parts.contains(&fault.part));
     (0..searches.len()).filter(fails).collect()
 }
 
@@ -77,9 +78,9 @@ impl PhasedNetwork {
         time: f64,
         phases: &[Phase],
         fired: &[(usize, usize)],
-        doubt: f64,
+        threshold: f64,
     ) -> Result<(Choice, Vec<Switch>), SolveError> {
-        let kept = self.kept(state, time, phases, fired, doubt);
+        let kept = self.kept(state, time, phases, fired, threshold);
         let left: Vec<(usize, usize)> =
             fired.iter().copied().filter(|own| !kept.contains(own)).collect();
         let touching = self.touching(state, phases, &left);
@@ -103,18 +104,19 @@ impl PhasedNetwork {
             .filter(|(_, exit)| exit.watched == Watched::Deformation)
             .map(|(part, exit)| (*part, exit.level))
             .collect();
-        let look = |options: &Vec<Phase>| Look {
-            doubt,
+        let look = |options: &Vec<Phase>| Admissibility {
+            threshold,
             graze: false,
             may_change: options.len() > 1,
             is_smooth: true,
             pace: None,
         };
-        let mut looks: Vec<Look> = options.iter().map(look).collect();
+        let mut looks: Vec<Admissibility> = options.iter().map(look).collect();
         let before = state.clone();
-        let instant = Instant { before, phases, touching, at_level, doubt, ways: ways().collect() };
+        let instant =
+            Instant { before, phases, touching, at_level, threshold, ways: ways().collect() };
         let groups = self.groups(&options).into_iter();
-        let mut searches: Vec<Search> = groups.map(|own| Search::new(own, &options)).collect();
+        let mut searches: Vec<Search> = groups.map(|group| Search::new(group, &options)).collect();
         for search in &mut searches {
             self.look(search, &instant, state, &mut looks);
         }
@@ -123,7 +125,7 @@ impl PhasedNetwork {
         loop {
             searches.iter().for_each(|search| search.enter(&mut tried));
             let size = (length, self.own_speed(state));
-            let all = searches.iter().flat_map(|own| &own.impacts);
+            let all = searches.iter().flat_map(|search| &search.impacts);
             let parted = all.filter(|own| own.pace.is_some()).map(|own| (own.part, own.sides));
             let parted: Vec<(usize, [usize; 2])> = parted.collect();
             let judge = Judge {
@@ -189,10 +191,10 @@ impl PhasedNetwork {
         search: &mut Search,
         instant: &Instant<'_>,
         state: &mut State,
-        looks: &mut [Look],
+        looks: &mut [Admissibility],
     ) {
         let Way { coarser, rebound, graze } = instant.ways[search.way];
-        let doubt = coarser * instant.doubt;
+        let threshold = coarser * instant.threshold;
         for &body in &search.group.bodies {
             for &joint in &self.apart.all[body].joints {
                 state.velocity[joint] = instant.before.velocity[joint];
@@ -203,13 +205,13 @@ impl PhasedNetwork {
             phases: instant.phases,
             touching: &instant.touching,
             at_level: &instant.at_level,
-            doubt,
+            threshold,
             rebound,
         };
         search.impacts = self.impacts(state, &meeting);
         let is_smooth = search.impacts.is_empty();
         for &part in &search.group.parts {
-            looks[part] = Look { doubt, graze, is_smooth, pace: None, ..looks[part] };
+            looks[part] = Admissibility { threshold, graze, is_smooth, pace: None, ..looks[part] };
         }
         for impact in &search.impacts {
             looks[impact.part].pace = impact.pace;
@@ -258,7 +260,7 @@ impl PhasedNetwork {
         };
         let mut options = Vec::new();
         let mut add = |phase: Phase| {
-            let is_new = options.iter().all(|own: &Phase| own.index != phase.index);
+            let is_new = options.iter().all(|option: &Phase| option.index != phase.index);
             if is_new {
                 options.push(phase);
             }
@@ -300,7 +302,7 @@ impl PhasedNetwork {
             .iter()
             .map(|node| super::super::bodies::start_velocity(&self.network, node.start).abs());
         let now = state.velocity.iter().map(|own| own.abs());
-        starts.chain(now).filter(|own| own.is_finite()).fold(0.0, f64::max)
+        starts.chain(now).filter(|start| start.is_finite()).fold(0.0, f64::max)
     }
 
     /// A length of the network's own \[m\]: the farthest place of a joint, or that a motion leads to.
@@ -310,7 +312,7 @@ impl PhasedNetwork {
             _ => None,
         });
         let places = state.position.iter().map(|own| own.abs());
-        motions.chain(places).filter(|own| own.is_finite()).fold(0.0, f64::max)
+        motions.chain(places).filter(|motion| motion.is_finite()).fold(0.0, f64::max)
     }
 
     fn switches(

@@ -23,7 +23,7 @@ impl PhasedNetwork {
     ) -> Vec<Fault> {
         let (unknowns, inputs) = (&motion.values[0], &motion.inputs[0]);
         let old = |primitive: usize| judge.state.deformation[primitive];
-        let new = |primitive: usize| mode.carry.deformation(primitive, unknowns, inputs);
+        let new = |primitive: usize| mode.transfer.deformation(primitive, unknowns, inputs);
         let rounding = GIVEN * judge.size.0;
         // By how much a spring's force jumps, the size of its force, and what rounding does to it.
         let jump = |at: usize| {
@@ -35,11 +35,11 @@ impl PhasedNetwork {
         let jumps = |part: usize, force: f64| {
             // A force that has reached its level may be as far beyond as the judge lets it be.
             let is_fired = judge.on_level.iter().any(|own| own.1 == Watched::Force);
-            let doubt = judge.looks[part].doubt;
-            let doubt = if is_fired { doubt.sqrt() } else { doubt };
-            mode.carry.balanced().iter().any(|&at| {
+            let threshold = judge.looks[part].threshold;
+            let threshold = if is_fired { threshold.sqrt() } else { threshold };
+            mode.transfer.balanced().iter().any(|&at| {
                 let (jump, size, near) = jump(at);
-                jump > doubt * size.max(force.abs()) + near
+                jump > threshold * size.max(force.abs()) + near
             })
         };
         let is_back = |part: &usize| match self.phases_of(self.parts[*part])?.law(phases[*part]) {

@@ -63,7 +63,7 @@ impl PhasedNetwork {
             is_face.then_some(Face { ends, rank: (is_open, other) })
         };
         let mut faces: Vec<Face> = self.parts.iter().zip(&self.first).filter_map(face).collect();
-        faces.sort_by_key(|own| own.rank);
+        faces.sort_by_key(|face| face.rank);
         faces
     }
 }

@@ -3,7 +3,7 @@
 use super::{
     super::{
         bodies::{Groups, Role, start_velocity},
-        carry::State,
+        transfer::State,
     },
     PhasedNetwork,
 };

@@ -1,7 +1,7 @@
 //! Impacts: what jumps where masses meet.
 
 use super::{
-    super::{bodies::Role, carry::State},
+    super::{bodies::Role, transfer::State},
     PhasedNetwork,
     groups::Group,
     is_contact,
@@ -28,7 +28,7 @@ pub(super) struct Impact {
 /// How fast sides part after an impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pace {
-    /// By less than the doubt: only where it is known when they come back, they part at all.
+    /// By less than the threshold: only where it is known when they come back, they part at all.
     Slow,
     /// By more, but when they come back may be known all the same.
     Fast,
@@ -41,7 +41,7 @@ pub(super) enum Pace {
 pub(super) enum Rebound {
     /// All but what comes back too often.
     All,
-    /// What is faster than the doubt.
+    /// What is faster than the threshold.
     Fast,
     /// Nothing.
     None,
@@ -56,10 +56,10 @@ pub(super) struct Meeting<'a> {
     pub(super) phases: &'a [Phase],
     /// For each part whether its deformation is at a level.
     pub(super) touching: &'a [bool],
-    /// Parts whose deformation has reached a level \[m\] by the event that ended the leg.
+    /// Parts whose deformation has reached a level \[m\] by the event that ended the interval.
     pub(super) at_level: &'a [(usize, f64)],
     /// Speeds of approach below this part of the speeds are none.
-    pub(super) doubt: f64,
+    pub(super) threshold: f64,
     /// What parts again.
     pub(super) rebound: Rebound,
 }
@@ -84,10 +84,10 @@ const SWEEPS: usize = 20_000;
 /// Speeds of rebound below this part of the network's own speeds are none: what bounces so slowly
 /// rests. It ends what would bounce infinitely often in a finite time.
 const RESTING: f64 = 1e-9;
-/// The same of what is followed without a method, in parts of the doubt, so that what is left out is no
-/// more than a method's tolerance.
+/// The same of what is followed without a method, in parts of the threshold, so that what is left
+/// out is no more than a method's tolerance.
 const FOLLOWED: f64 = 0.01;
-/// Speeds of rebound that can be told from none, in parts of the doubt.
+/// Speeds of rebound that can be told from none, in parts of the threshold.
 const TOLD: f64 = 4.0;
 
 /// How near to its level a deformation is at it, in parts of the lengths: roundings.
@@ -101,11 +101,11 @@ impl PhasedNetwork {
         let contacts = self.candidates(state, meeting);
         let scale = contacts
             .iter()
-            .flat_map(|own| own.ends)
+            .flat_map(|contact| contact.ends)
             .map(|body| self.velocity(state, body).abs())
             .fold(0.0, f64::max);
-        let noise = meeting.doubt.max(1e-14);
-        if contacts.iter().all(|own| own.approach <= noise * scale && !own.settles) {
+        let noise = meeting.threshold.max(1e-14);
+        if contacts.iter().all(|contact| contact.approach <= noise * scale && !contact.settles) {
             return Vec::new();
         }
         let before: Vec<f64> =
@@ -181,7 +181,7 @@ impl PhasedNetwork {
             .sum();
         let total: f64 = impulses.iter().sum();
         let mut met: Vec<Impact> = Vec::new();
-        for (own, &impulse) in pushes.filter(|own| *own.1 > 0.0) {
+        for (own, &impulse) in pushes.filter(|push| *push.1 > 0.0) {
             let share = impulse / total;
             let (lost, worked) = ((lost + work) * share, work * share);
             let own_impact =
@@ -237,19 +237,19 @@ impl PhasedNetwork {
             let is_above = |least: f64, speed: f64| restitution * approach > least * speed;
             let whole = speed.max(self.speed);
             // What loses nothing in impacts does not come to rest by them.
-            let told = if restitution < 1.0 { TOLD * meeting.doubt } else { 0.0 };
+            let told = if restitution < 1.0 { TOLD * meeting.threshold } else { 0.0 };
             let told = RESTING.max(told);
             let pace = match meeting.rebound {
                 Rebound::All if is_above(told, speed) => Some(Pace::Fast),
                 Rebound::Fast if is_above(told, speed) => Some(Pace::Told),
-                Rebound::All if is_above(FOLLOWED * meeting.doubt, whole) => Some(Pace::Slow),
+                Rebound::All if is_above(FOLLOWED * meeting.threshold, whole) => Some(Pace::Slow),
                 _ => None,
             };
             let restitution = if pace.is_some() { restitution } else { 0.0 };
             // What has reached its level by a motion away from it is there by the method's error.
             let settles = meeting.rebound == Rebound::None
                 && approach < 0.0
-                && -approach <= meeting.doubt.sqrt() * self.speed
+                && -approach <= meeting.threshold.sqrt() * self.speed
                 && meeting.at_level.iter().any(|own| own.0 == part);
             found.push(Candidate { part, ends, through, restitution, pace, approach, settles });
         }
@@ -296,8 +296,8 @@ impl PhasedNetwork {
     /// For each part whether it is at a level of its deformation at which a phase ends.
     ///
     /// What has not been reached and is nearer than rounding tells is taken to be there. It is not
-    /// looked for as far as the doubt: of two levels that follow each other closely, each has its own
-    /// instant, and two impacts one after the other are not two at once.
+    /// looked for as far as the threshold: of two levels that follow each other closely, each has
+    /// its own instant, and two impacts one after the other are not two at once.
     pub(super) fn touching(
         &self,
         state: &State,
@@ -328,13 +328,13 @@ impl PhasedNetwork {
 /// meet through both have one impact, and of the two it is what throws them back that stops them.
 fn one_of_each_chain(candidates: Vec<Candidate>) -> Vec<Candidate> {
     let mut kept: Vec<Candidate> = Vec::with_capacity(candidates.len());
-    for own in candidates {
+    for candidate in candidates {
         let is_of_chain = |other: &Candidate| {
-            other.through.contains(&own.part) && own.through.contains(&other.part)
+            other.through.contains(&candidate.part) && candidate.through.contains(&other.part)
         };
         match kept.iter_mut().find(|other| is_of_chain(other)) {
-            None => kept.push(own),
-            Some(other) if own.restitution > other.restitution => *other = own,
+            None => kept.push(candidate),
+            Some(other) if candidate.restitution > other.restitution => *other = candidate,
             Some(_) => {}
         }
     }

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use dashpot_dae::{Derivatives, Flight, Output, System, derivatives};
+use dashpot_dae::{Derivatives, Output, PredictedEvent, System, derivatives};
 
 use super::{
-    super::{bodies::Groups, carry::State},
+    super::{bodies::Groups, transfer::State},
     Mode, PhasedNetwork,
     impacts::Pace,
     moving,
@@ -20,10 +20,10 @@ pub(super) struct Choice {
     pub(super) phases: Vec<Phase>,
     pub(super) unknowns: Vec<f64>,
     /// The levels of the mode's guards: where rounding or the method's error has left a quantity on
-    /// the outer side of its level, that place is its level in this leg.
+    /// the outer side of its level, that place is its level in this interval.
     pub(super) levels: Vec<f64>,
     /// The exit that is reached next, if what has just parted comes back before it can be seen.
-    pub(super) flight: Option<Flight>,
+    pub(super) predicted: Option<PredictedEvent>,
 }
 
 /// A part that does not stay in the phase that is tried.
@@ -62,14 +62,14 @@ pub(super) struct Judge<'a> {
     pub(super) state: &'a State,
     /// The phases that end.
     pub(super) before: &'a [Phase],
-    /// What is at its level by the event that ended the leg, and that level.
+    /// What is at its level by the event that ended the interval, and that level.
     pub(super) on_level: &'a [(usize, Watched, f64)],
     /// Parts whose deformation has reached a level \[m\] by that event.
     pub(super) at_level: &'a [(usize, f64)],
     /// What is at its level by that event, but turns back before it is seen to leave it.
     pub(super) kept: &'a [(usize, Watched, f64)],
     /// How closely each part is looked at.
-    pub(super) looks: &'a [Look],
+    pub(super) looks: &'a [Admissibility],
     /// Parts by which impacts have let bodies part, and these bodies.
     pub(super) parted: &'a [(usize, [usize; 2])],
     /// A length \[m\] and a speed \[m/s\] of the network's own.
@@ -78,16 +78,16 @@ pub(super) struct Judge<'a> {
 
 /// How closely a part is looked at.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Look {
+pub(super) struct Admissibility {
     /// What is smaller than this part of its terms cannot be told from zero.
-    pub(super) doubt: f64,
+    pub(super) threshold: f64,
     /// Whether a way inwards counts that turns back before it can be told from the level.
     pub(super) graze: bool,
     /// Whether another phase is in reach.
     pub(super) may_change: bool,
     /// Whether no impact changes its speed. Then what is at its level, by the event that ended the
-    /// leg, and leaves it inwards again by the speed with which it came, is there by the method's
-    /// error: that speed is none.
+    /// interval, and leaves it inwards again by the speed with which it came, is there by the
+    /// method's error: that speed is none.
     pub(super) is_smooth: bool,
     /// How an impact in the part has let its sides part, if one has.
     pub(super) pace: Option<Pace>,
@@ -95,7 +95,8 @@ pub(super) struct Look {
 
 /// Derivatives that are looked at to see which way a quantity leaves its level.
 const ORDERS: usize = 6;
-/// What turns back before it is so far from its level is not seen to leave it, in parts of the doubt.
+/// What turns back before it is so far from its level is not seen to leave it, in parts of the
+/// threshold.
 const SEEN: f64 = 0.02;
 /// The same where it may be seen to be a force that something else leaves as it is.
 const TOLD: f64 = 1e-3;
@@ -113,7 +114,7 @@ impl PhasedNetwork {
             Ok(mode) => mode,
             Err(errors) => return Verdict::Refused(errors.to_string()),
         };
-        let unknowns = mode.carry.unknowns(judge.state);
+        let unknowns = mode.transfer.unknowns(judge.state);
         let system = mode.system_from(judge.time);
         let motion = match derivatives(&system, &unknowns, ORDERS + 1) {
             Ok(motion) => motion,
@@ -149,10 +150,10 @@ impl PhasedNetwork {
             let output = mode.system.outputs.at(output);
             own.is_some_and(|(_, height)| judge.is_followed(part, height, output))
         });
-        let next = flights.into_iter().flatten().map(|own| own.0);
-        let flight = next.min_by(|a, b| a.length.total_cmp(&b.length)).filter(|_| is_flying);
+        let next = flights.into_iter().flatten().map(|flight| flight.0);
+        let predicted = next.min_by(|a, b| a.length.total_cmp(&b.length)).filter(|_| is_flying);
         let phases = phases.to_vec();
-        let choice = Choice { mode, system, phases, unknowns, levels, flight };
+        let choice = Choice { mode, system, phases, unknowns, levels, predicted };
         Verdict::Holds(Box::new(choice), doubtful)
     }
 
@@ -170,8 +171,8 @@ impl PhasedNetwork {
         for &(part, level) in &held {
             let at = self.parts[part];
             let deformation = judge.state.deformation[at];
-            let near =
-                judge.looks[part].doubt.max(SAME) * (length + level.abs()).max(deformation.abs());
+            let near = judge.looks[part].threshold.max(SAME)
+                * (length + level.abs()).max(deformation.abs());
             let is_elsewhere =
                 (deformation - level).abs() > near && !judge.at_level.contains(&(part, level));
             if is_elsewhere {
@@ -200,8 +201,8 @@ impl PhasedNetwork {
             let sides = self.sides(at);
             let whole = joined.of(sides[0]);
             let (slowest, fastest) = span[whole];
-            let doubt = judge.looks[part].doubt;
-            let near = (doubt.max(SAME) * speed).max(doubt * self.speed);
+            let threshold = judge.looks[part].threshold;
+            let near = (threshold.max(SAME) * speed).max(threshold * self.speed);
             if fastest - slowest <= near {
                 continue;
             }
@@ -226,8 +227,8 @@ impl PhasedNetwork {
 }
 
 /// How far from its level what has terms of this size must come to be seen off it.
-pub(super) fn seen(doubt: f64, size: f64) -> f64 {
-    SEEN * doubt * size
+pub(super) fn seen(threshold: f64, size: f64) -> f64 {
+    SEEN * threshold * size
 }
 
 impl Mode {
@@ -241,7 +242,7 @@ impl Mode {
         }
         let mut system = System::clone(&self.system);
         let start = time / system.time_scale;
-        system.waveforms = system.waveforms.iter().map(|own| own.since(start)).collect();
+        system.waveforms = system.waveforms.iter().map(|waveform| waveform.since(start)).collect();
         Arc::new(system)
     }
 
@@ -263,11 +264,11 @@ impl Judge<'_> {
             let (value, size) = motion.output(output, 0);
             let outward = if exit.rising { 1.0 } else { -1.0 };
             let beyond = (outward * (value - exit.level)).max(0.0);
-            let doubt = self.looks[part].doubt;
+            let threshold = self.looks[part].threshold;
             let further = if self.is_again(part, phases[part], exit) {
-                beyond + doubt * (size + exit.level.abs())
+                beyond + threshold * (size + exit.level.abs())
             } else if self.is_kept(part, phases[part], exit) {
-                seen(doubt, size.max(output.scale.abs()) + exit.level.abs())
+                seen(threshold, size.max(output.scale.abs()) + exit.level.abs())
             } else {
                 0.0
             };
@@ -300,15 +301,15 @@ impl Judge<'_> {
         again: bool,
     ) -> Stay {
         let told = |stays: bool| if stays { Stay::Yes } else { Stay::No };
-        let Look { doubt, graze, may_change, .. } = self.looks[part];
+        let Admissibility { threshold, graze, may_change, .. } = self.looks[part];
         let inward = if exit.rising { -1.0 } else { 1.0 };
         let (value, size) = motion.output(output, 0);
         let gap = inward * (value - exit.level);
-        let noise = doubt * (size.max(output.scale.abs()) + exit.level.abs());
+        let noise = threshold * (size.max(output.scale.abs()) + exit.level.abs());
         // The method's error may leave it a little off the level that it has reached; what is farther
         // off has jumped there.
         let fired = self.on_level.contains(&(part, exit.watched, exit.level));
-        let is_reached = fired && gap.abs() <= doubt.sqrt() * (size + exit.level.abs());
+        let is_reached = fired && gap.abs() <= threshold.sqrt() * (size + exit.level.abs());
         if gap.abs() > noise && !is_reached {
             return told(gap > 0.0);
         }
@@ -329,7 +330,7 @@ impl Judge<'_> {
             let before = motion.output(output, order - 1).1;
             let size = own.max((before * motion.output(output, order + 1).1).sqrt());
             let is_none =
-                value.abs() <= doubt * size || (order == 1 && again && inward * value > 0.0);
+                value.abs() <= threshold * size || (order == 1 && again && inward * value > 0.0);
             if is_none { 0.0 } else { inward * value }
         };
         let Some(order) = (1..=ORDERS).find(|&order| derivative(order) != 0.0) else {
@@ -339,6 +340,6 @@ impl Judge<'_> {
         if first < 0.0 || graze || order > 1 || derivative(2) >= 0.0 {
             return told(first > 0.0 || self.kept.contains(&(part, exit.watched, exit.level)));
         }
-        told(first * first > 2.0 * seen(doubt, size + exit.level.abs()) * -derivative(2))
+        told(first * first > 2.0 * seen(threshold, size + exit.level.abs()) * -derivative(2))
     }
 }

@@ -2,7 +2,7 @@
 
 use dashpot_dae::derivatives;
 
-use super::{super::carry::State, PhasedNetwork, judge::seen};
+use super::{super::transfer::State, PhasedNetwork, judge::seen};
 use crate::phases::{Phase, Watched};
 
 impl PhasedNetwork {
@@ -17,7 +17,7 @@ impl PhasedNetwork {
         time: f64,
         phases: &[Phase],
         fired: &[(usize, usize)],
-        doubt: f64,
+        threshold: f64,
     ) -> Vec<(usize, usize)> {
         let Ok(mode) = self.mode(phases) else { return Vec::new() };
         let exit_of = |&(part, number): &(usize, usize)| mode.exits[part].get(number);
@@ -27,7 +27,7 @@ impl PhasedNetwork {
         if fired.iter().all(is_place) || !mode.system.is_linear() {
             return Vec::new();
         }
-        let unknowns = mode.carry.unknowns(state);
+        let unknowns = mode.transfer.unknowns(state);
         let Ok(motion) = derivatives(&mode.system_from(time), &unknowns, 2) else {
             return Vec::new();
         };
@@ -41,7 +41,8 @@ impl PhasedNetwork {
             let farthest = inward * (value - exit.level)
                 - if rate < 0.0 { rate * rate / (2.0 * bend.max(0.0)) } else { 0.0 };
             // What rests on the level, or goes on from it at no rate, is not decided here.
-            let is_near = farthest >= -seen(doubt, size.max(output.scale.abs()) + exit.level.abs());
+            let is_near =
+                farthest >= -seen(threshold, size.max(output.scale.abs()) + exit.level.abs());
             is_near && (rate > 0.0 || bend > 0.0)
         };
         fired.iter().copied().filter(|own| !is_place(own) && turns_back(own)).collect()

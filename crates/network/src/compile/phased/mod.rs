@@ -1,7 +1,7 @@
 //! Networks whose laws switch: one system for each combination of phases.
 //!
 //! Each combination is compiled as a network of its own when it is first met, and kept. The
-//! [state](super::carry) leads from one to the next: deformations, places and velocities, not
+//! [state](super::transfer) leads from one to the next: deformations, places and velocities, not
 //! unknowns.
 
 mod choice;
@@ -14,10 +14,10 @@ mod judge;
 mod jumps;
 mod kept;
 mod returns;
-mod sag;
 mod search;
 mod settle;
 mod start;
+mod static_equilibrium;
 
 use std::{
     collections::HashMap,
@@ -25,15 +25,17 @@ use std::{
     sync::{Arc, Mutex},
 };
 
-use dashpot_dae::{Direction, Guard, Leg, LegEnd, SolveError, Switch, Switching, System};
+use dashpot_dae::{
+    Direction, Guard, IntervalEnd, ModeInterval, SolveError, Switch, Switching, System,
+};
 
 pub use self::idle::IdleSlider;
 use self::judge::Choice;
 use super::{
     Compiled,
     bodies::{Bodies, Role},
-    carry::{Carry, State},
     expand::Expansion,
+    transfer::{State, Transfer},
 };
 use crate::{
     Assembly, Network, NetworkError, NetworkErrors, Support,
@@ -62,7 +64,7 @@ type Key = Vec<(usize, u64)>;
 /// One combination of phases.
 pub(super) struct Mode {
     pub(super) system: Arc<System>,
-    pub(super) carry: Carry,
+    pub(super) transfer: Transfer,
     /// For each part that switches its ways out.
     pub(super) exits: Vec<Vec<Exit>>,
     guards: Vec<Guard>,
@@ -184,7 +186,7 @@ impl PhasedNetwork {
     }
 
     fn build(&self, phases: &[Phase]) -> Result<Mode, NetworkErrors> {
-        let Compiled { assembly, carry, kinks } = self.compiled(phases)?;
+        let Compiled { assembly, transfer, kinks } = self.compiled(phases)?;
         let (mut guards, mut of_guard) = (Vec::new(), Vec::new());
         let exits: Vec<Vec<Exit>> = self
             .parts
@@ -194,7 +196,9 @@ impl PhasedNetwork {
             .collect();
         for (part, exits) in exits.iter().enumerate() {
             let name = &self.expansion.primitives[self.parts[part]].name;
-            let Some(outputs) = assembly.primitives.iter().find(|own| own.name == *name) else {
+            let Some(outputs) =
+                assembly.primitives.iter().find(|primitive| primitive.name == *name)
+            else {
                 continue;
             };
             for (at, exit) in exits.iter().enumerate() {
@@ -216,21 +220,22 @@ impl PhasedNetwork {
                 of_guard.push((part, at));
             }
         }
-        let carry = carry.unwrap_or_default();
-        Ok(Mode { system: Arc::new(assembly.system), carry, exits, guards, of_guard, kinks })
+        let transfer = transfer.unwrap_or_default();
+        Ok(Mode { system: Arc::new(assembly.system), transfer, exits, guards, of_guard, kinks })
     }
 
-    /// The leg that begins at `time` with these phases.
-    fn leg(time: f64, choice: Choice, switches: Vec<Switch>) -> Leg {
-        let Choice { mode, system, phases, unknowns, levels, flight } = choice;
+    /// The interval that begins at `time` with these phases.
+    fn interval(time: f64, choice: Choice, switches: Vec<Switch>) -> ModeInterval {
+        let Choice { mode, system, phases, unknowns, levels, predicted } = choice;
         let mut system = System::clone(&system);
         system.initial = unknowns;
         let until = mode.kinks.get(mode.kinks.partition_point(|&kink| kink <= time)).copied();
         if let Some(until) = until {
             let end = until / system.time_scale - time / system.time_scale;
-            system.waveforms = system.waveforms.iter().map(|own| own.until(end)).collect();
+            system.waveforms =
+                system.waveforms.iter().map(|waveform| waveform.until(end)).collect();
         }
-        Leg {
+        ModeInterval {
             system: Arc::new(system),
             phases: phases.iter().map(|phase| (phase.index, phase.memory)).collect(),
             guards: mode
@@ -240,7 +245,7 @@ impl PhasedNetwork {
                 .map(|(guard, level)| Guard { level, ..guard.clone() })
                 .collect(),
             switches,
-            flight,
+            predicted,
             until,
         }
     }
@@ -268,22 +273,22 @@ const MOST_KEPT: usize = 4096;
 
 /// Whether a part begins to hold where its deformation reaches a level, and pushes without limit
 /// then.
-pub(super) fn is_contact(own: &dyn Phases) -> bool {
-    (0..own.names().len()).any(|index| {
+pub(super) fn is_contact(phases: &dyn Phases) -> bool {
+    (0..phases.names().len()).any(|index| {
         let phase = Phase { index, memory: 0.0 };
-        matches!(own.law(phase), PhaseLaw::Held(_))
-            && own.exits(phase).iter().all(|exit| !exit.rising)
+        matches!(phases.law(phase), PhaseLaw::Held(_))
+            && phases.exits(phase).iter().all(|exit| !exit.rising)
     })
 }
 
 /// The first phase of a part in which it holds nothing and can move at this rate \[m/s\], or is about
 /// to.
-fn moving(own: &dyn Phases, phase: Phase, rate: f64) -> Option<usize> {
-    (0..own.names().len()).find(|&index| {
+fn moving(phases: &dyn Phases, phase: Phase, rate: f64) -> Option<usize> {
+    (0..phases.names().len()).find(|&index| {
         let phase = Phase { index, ..phase };
         let goes_on =
             |exit: &Exit| exit.watched != Watched::Rate || (rate < exit.level) == exit.rising;
-        !matches!(own.law(phase), PhaseLaw::Held(_)) && own.exits(phase).iter().all(goes_on)
+        !matches!(phases.law(phase), PhaseLaw::Held(_)) && phases.exits(phase).iter().all(goes_on)
     })
 }
 
@@ -297,36 +302,37 @@ impl fmt::Debug for PhasedNetwork {
 }
 
 impl Switching for PhasedNetwork {
-    fn first(&self, doubt: f64) -> Result<Leg, SolveError> {
-        let choose = |doubt: f64| {
+    fn first(&self, threshold: f64) -> Result<ModeInterval, SolveError> {
+        let choose = |threshold: f64| {
             let mut state = self.start.clone();
-            self.choose(&mut state, 0.0, &self.first, &[], doubt)
+            self.choose(&mut state, 0.0, &self.first, &[], threshold)
         };
         // The start has no error of the method. What parts at once by an impact is followed as at any
         // other instant.
-        let (choice, switches) = match choose(doubt.min(GIVEN)) {
+        let (choice, switches) = match choose(threshold.min(GIVEN)) {
             Ok(known) if known.1.iter().all(|own| own.impulse == 0.0) => known,
-            _ => choose(doubt)?,
+            _ => choose(threshold)?,
         };
         // Phases that hold from the start are no switchings.
-        let switches = switches.into_iter().filter(|own| own.impulse > 0.0).collect();
-        Ok(Self::leg(0.0, choice, switches))
+        let switches = switches.into_iter().filter(|switch| switch.impulse > 0.0).collect();
+        Ok(Self::interval(0.0, choice, switches))
     }
 
-    fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError> {
+    fn next(&self, end: &IntervalEnd<'_>) -> Result<ModeInterval, SolveError> {
         let phases: Vec<Phase> =
-            end.leg.phases.iter().map(|&(index, memory)| Phase { index, memory }).collect();
+            end.interval.phases.iter().map(|&(index, memory)| Phase { index, memory }).collect();
         let mode = self.mode(&phases).map_err(|errors| Self::failure(end.time, &errors))?;
-        let mut inputs = vec![0.0; end.leg.system.inputs.len()];
-        end.leg.system.inputs_at(end.length, end.length, &mut inputs);
-        let mut state = mode.carry.read(end.state, &inputs, &self.start);
-        if end.leg.until == Some(end.time) {
+        let mut inputs = vec![0.0; end.interval.system.inputs.len()];
+        end.interval.system.inputs_at(end.length, end.length, &mut inputs);
+        let mut state = mode.transfer.read(end.state, &inputs, &self.start);
+        if end.interval.until == Some(end.time) {
             self.go_on(&mut state, end.time);
         }
         let fired: Vec<(usize, usize)> =
             end.fired.iter().filter_map(|&guard| mode.of_guard.get(guard).copied()).collect();
-        let (choice, switches) = self.choose(&mut state, end.time, &phases, &fired, end.doubt)?;
-        Ok(Self::leg(end.time, choice, switches))
+        let (choice, switches) =
+            self.choose(&mut state, end.time, &phases, &fired, end.threshold)?;
+        Ok(Self::interval(end.time, choice, switches))
     }
 }
 

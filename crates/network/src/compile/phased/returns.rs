@@ -1,17 +1,17 @@
 //! What an impact has parted, and what is known of when it comes back.
 
-use dashpot_dae::{Derivatives, Flight, Guard, Output, System};
+use dashpot_dae::{Derivatives, Guard, Output, PredictedEvent, System};
 
 use super::{
     Mode,
     impacts::Pace,
-    judge::{Judge, Look, Stay},
+    judge::{Admissibility, Judge, Stay},
 };
 use crate::phases::{Exit, Watched};
 
 /// What comes back without having been farther from its level, in parts of its scale and of the root of
-/// the doubt, is not left to a method: that it follows places to its tolerance says little about when
-/// so low a flight ends.
+/// the threshold, is not left to a method: that it follows places to its tolerance says little
+/// about when so low a flight ends.
 const LOW: f64 = 0.1;
 /// Shortest flight in parts of the time of the run.
 const SHORT: f64 = 4.0 * f64::EPSILON;
@@ -25,22 +25,22 @@ impl Judge<'_> {
         system: &System,
         motion: &Derivatives,
         levels: &[f64],
-    ) -> Vec<Option<(Flight, f64)>> {
+    ) -> Vec<Option<(PredictedEvent, f64)>> {
         let none = || vec![None; levels.len()];
-        if self.looks.iter().all(|own| own.pace.is_none()) {
+        if self.looks.iter().all(|look| look.pace.is_none()) {
             return none();
         }
-        let flight = |(at, (guard, &level)): (usize, (&Guard, &f64))| {
+        let predicted = |(at, (guard, &level)): (usize, (&Guard, &f64))| {
             let (part, exit) = mode.of_guard[at];
-            let Look { doubt, pace, .. } = self.looks[part];
+            let Admissibility { threshold, pace, .. } = self.looks[part];
             let is_place = mode.exits[part][exit].watched == Watched::Deformation;
             // What has just parted is where it parted, whatever that is rounded to.
             let here = motion.output(mode.system.outputs.at(guard.output), 0).0;
             let level = if pace.is_some() { here } else { level };
             let guard = Guard { level, ..guard.clone() };
-            Flight::of(system, motion, (at, &guard), doubt).filter(|_| is_place)
+            PredictedEvent::of(system, motion, (at, &guard), threshold).filter(|_| is_place)
         };
-        mode.guards.iter().zip(levels).enumerate().map(flight).collect()
+        mode.guards.iter().zip(levels).enumerate().map(predicted).collect()
     }
 
     /// Whether a part whose sides an impact has parted stays in its phase, where it is told by when they
@@ -50,12 +50,12 @@ impl Judge<'_> {
         part: usize,
         exit: &Exit,
         output: Output<'_>,
-        flight: Option<(Flight, f64)>,
+        predicted: Option<(PredictedEvent, f64)>,
         time_scale: f64,
     ) -> Option<Stay> {
         let is_place = exit.watched == Watched::Deformation;
         let pace = self.looks[part].pace.filter(|_| is_place)?;
-        match flight {
+        match predicted {
             // Time does not tell it from none.
             Some((own, _)) if own.length * time_scale <= SHORT * self.time => Some(Stay::No),
             Some((_, height)) if self.is_followed(part, height, output) => Some(Stay::Yes),
@@ -67,8 +67,8 @@ impl Judge<'_> {
     /// Whether a part's sides have just parted, and come back from so near that they are followed without a
     /// method.
     pub(super) fn is_followed(&self, part: usize, height: f64, output: Output<'_>) -> bool {
-        let Look { doubt, pace, .. } = self.looks[part];
-        pace.is_some_and(|own| own != Pace::Told)
-            && height <= LOW * doubt.sqrt() * output.scale.abs()
+        let Admissibility { threshold, pace, .. } = self.looks[part];
+        pace.is_some_and(|pace| pace != Pace::Told)
+            && height <= LOW * threshold.sqrt() * output.scale.abs()
     }
 }

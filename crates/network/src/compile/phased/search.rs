@@ -70,7 +70,7 @@ impl Search {
         let all = counts.iter().fold(1_usize, |all, &count| all.saturating_mul(count));
         if self.nearest.is_none() && all > FEW {
             let own: Vec<&Fault> =
-                faults.iter().filter(|own| self.group.parts.contains(&own.part)).collect();
+                faults.iter().filter(|fault| self.group.parts.contains(&fault.part)).collect();
             let least = own.iter().min_by_key(|own| own.part).copied();
             let next = [self.changed(&own), self.changed(least.as_slice())];
             if let Some(next) = next.into_iter().find(|next| !self.tried.contains(next)) {

@@ -137,7 +137,7 @@ impl<'a> Settling<'a> {
     /// Deformation \[m\] at which a part closes, if it is a contact with a side that can follow at once.
     fn level(&self, part: usize) -> Option<f64> {
         let primitive = &self.expansion.primitives[self.parts[part]];
-        let own = primitive.origin.phases().filter(|own| is_contact(*own))?;
+        let own = primitive.origin.phases().filter(|phase| is_contact(*phase))?;
         let follows = primitive.ends.iter().any(|&joint| self.is_light(joint));
         let mut phases = (0..own.names().len()).map(|index| Phase { index, memory: 0.0 });
         let level = phases.find_map(|phase| match own.law(phase) {
@@ -247,7 +247,9 @@ impl<'a> Settling<'a> {
     /// Refuses jumps across a dashpot alone.
     fn check_dashpots(&self) -> Result<(), NetworkErrors> {
         let way = |joint: usize| self.after[joint] - self.before[joint];
-        for primitive in self.expansion.primitives.iter().filter(|own| own.slopes()[1] > 0.0) {
+        for primitive in
+            self.expansion.primitives.iter().filter(|primitive| primitive.slopes()[1] > 0.0)
+        {
             let [a, b] = primitive.ends;
             let is_moved = [a, b].into_iter().any(|joint| self.is_moved(joint));
             if is_moved && !self.is_light(a) && !self.is_light(b) && way(a) - way(b) != 0.0 {

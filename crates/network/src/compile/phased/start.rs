@@ -3,13 +3,13 @@
 use super::{
     super::{
         bodies::{Bodies, Body, Groups, Role, start_velocity},
-        carry::State,
         expand::Expansion,
         structure::Structure,
+        transfer::State,
     },
     is_contact, moving,
-    sag::Loads,
     settle::Settling,
+    static_equilibrium::Loads,
 };
 use crate::{
     Network, NetworkError, NetworkErrors, Start, Support,
@@ -149,7 +149,7 @@ pub(super) fn state(
             .filter_map(|&joint| network.nodes.get(joint))
             .find(|node| node.mass > 0.0)
             .map_or(0.0, |node| start_velocity(network, node.start));
-        let height = flight(network, expansion, body.joints.as_slice());
+        let height = predicted(network, expansion, body.joints.as_slice());
         for &joint in &body.joints {
             if let Some(given) = given {
                 position[joint] = position[given];
@@ -161,7 +161,7 @@ pub(super) fn state(
         }
     }
     let deformations = |position: &[f64]| -> Vec<f64> {
-        let ends = expansion.primitives.iter().map(|own| own.ends);
+        let ends = expansion.primitives.iter().map(|primitive| primitive.ends);
         ends.map(|[a, b]| position[a] - position[b]).collect()
     };
     let mut deformation = deformations(&position);
@@ -225,7 +225,7 @@ fn overlaps(
 ) -> Result<(), NetworkErrors> {
     let overlap = |&at: &usize| -> Option<NetworkError> {
         let primitive = &expansion.primitives[at];
-        let own = primitive.origin.phases().filter(|own| is_contact(*own))?;
+        let own = primitive.origin.phases().filter(|phase| is_contact(*phase))?;
         let level = (0..own.names().len()).find_map(|index| {
             match own.law(Phase { index, memory: 0.0 }) {
                 PhaseLaw::Held(level) => Some(level),
@@ -266,28 +266,28 @@ impl Network {
 /// How long \[s\] a body falls freely before it touches anything; 0 where it begins at touch.
 pub(super) fn time_of_fall(network: &Network, expansion: &Expansion, body: &Body) -> f64 {
     let pull = network.effects.iter().find_map(|effect| effect.gravity());
-    let height = flight(network, expansion, body.joints.as_slice());
+    let height = predicted(network, expansion, body.joints.as_slice());
     height.zip(pull).map_or(0.0, |(height, pull)| (2.0 * height / pull).sqrt())
 }
 
 /// The height \[m\] from which a body begins to fall freely: it is dropped, gravity pulls it towards
 /// the support, and only what never pulls touches it, each of them between it and something that does not begin
 /// with a speed. All others begin at touch, with the speed of the fall.
-pub(super) fn flight(network: &Network, expansion: &Expansion, joints: &[usize]) -> Option<f64> {
+pub(super) fn predicted(network: &Network, expansion: &Expansion, joints: &[usize]) -> Option<f64> {
     let gravity = network.effects.iter().find_map(|effect| effect.gravity())?;
     let mut nodes = joints.iter().filter_map(|&joint| network.nodes.get(joint));
     let height = nodes.find_map(|node| match node.start {
         Start::Drop(height) => Some(height),
         _ => None,
     })?;
-    let touching = expansion
-        .primitives
-        .iter()
-        .filter(|own| !own.is_link && own.ends.iter().any(|joint| joints.contains(joint)));
-    let mut contacts = touching.map(|own| {
-        let rests = network.nodes.get(own.ends[1]).is_none_or(|below| !below.is_impactor());
-        let parts = own.origin.never_pulls() || own.origin.phases().is_some_and(is_contact);
-        joints.contains(&own.ends[0]) && rests && parts
+    let touching = expansion.primitives.iter().filter(|primitive| {
+        !primitive.is_link && primitive.ends.iter().any(|joint| joints.contains(joint))
+    });
+    let mut contacts = touching.map(|touching| {
+        let rests = network.nodes.get(touching.ends[1]).is_none_or(|below| !below.is_impactor());
+        let parts =
+            touching.origin.never_pulls() || touching.origin.phases().is_some_and(is_contact);
+        joints.contains(&touching.ends[0]) && rests && parts
     });
     (gravity > 0.0 && contacts.all(|is_below| is_below)).then_some(height)
 }

@@ -1,6 +1,6 @@
 //! Units for amplitudes of any size, and unknowns that carry no offsets.
 
-use dashpot_dae::{LegEnd, Piece, Switching, System};
+use dashpot_dae::{IntervalEnd, Piece, Switching, System};
 
 use super::*;
 use crate::elements::Contact;
@@ -27,7 +27,7 @@ fn the_smallest_amplitudes_have_the_equations_of_all_others() {
         assert_eq!(own(&small), own(&usual), "{speed:e}");
         let start = small.initial.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
         assert!((0.1..10.0).contains(&start), "{speed:e}: {start}");
-        let output = small.outputs.iter().find(|own| own.name == "head.velocity").unwrap();
+        let output = small.outputs.iter().find(|output| output.name == "head.velocity").unwrap();
         let found = output.scale * output.unknowns.at(&small.initial);
         // The scale may have lost digits; the speed itself has hardly any.
         assert!((found / speed - 1.0).abs() < 1e-3, "{speed:e}: {found:e}");
@@ -45,7 +45,7 @@ fn a_force_is_as_large_as_its_impulse_makes_it() {
         let force = Waveform::new(vec![rest(0.0), pulse, rest(0.25 + length)]).unwrap();
         network.add_load("ram", head, force);
         let system = network.compile(1.0).unwrap().system;
-        system.unknowns.iter().find(|own| own.name == "velocity of head").unwrap().scale
+        system.unknowns.iter().find(|unknown| unknown.name == "velocity of head").unwrap().scale
     };
     for length in [1e-3, 1e-6, 1e-9] {
         assert!((scale(length) - 1.0).abs() < 1e-12, "1 N s on 1 kg, in {length:e} s");
@@ -63,19 +63,26 @@ fn the_spring_behind_a_closed_contact_is_an_unknown_without_offset() {
     network.connect("gap", head, body, Tree::series([gap, spring(1e13)]));
     let assembly = network.compile(1.0).unwrap();
     let switching = assembly.switching.unwrap();
-    let leg = switching.first(1e-12).unwrap();
-    let state: Vec<f64> = leg
+    let interval = switching.first(1e-12).unwrap();
+    let state: Vec<f64> = interval
         .system
         .unknowns
         .iter()
-        .zip(&leg.system.initial)
+        .zip(&interval.system.initial)
         .map(|(own, &value)| if own.name == "position of head" { 0.1 / own.scale } else { value })
         .collect();
-    let length = 0.1 / leg.system.time_scale;
-    let end = LegEnd { leg: &leg, time: 0.1, length, state: &state, fired: &[0], doubt: 1e-12 };
+    let length = 0.1 / interval.system.time_scale;
+    let end = IntervalEnd {
+        interval: &interval,
+        time: 0.1,
+        length,
+        state: &state,
+        fired: &[0],
+        threshold: 1e-12,
+    };
     let closed = switching.next(&end).unwrap().system;
     assert_eq!(closed.input_matrix.nnz(), 0, "no constant pushes");
-    let at = |name: &str| closed.unknowns.iter().position(|own| own.name == name).unwrap();
+    let at = |name: &str| closed.unknowns.iter().position(|unknown| unknown.name == name).unwrap();
     let between = at("position of body relative to head");
     assert_eq!(closed.initial[between].abs().to_bits(), 0, "nothing is compressed yet");
     let force = |name: &str, mass: f64| {

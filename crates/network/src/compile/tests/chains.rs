@@ -160,7 +160,8 @@ fn every_coefficient_of_a_mass_on_a_chain_is_right_to_its_last_digits() {
         let system = &assembly.system;
         let size = system.len();
         let scale = |at: usize| system.unknowns[at].scale;
-        let find = |name: &str| system.unknowns.iter().position(|own| own.name == name).unwrap();
+        let find =
+            |name: &str| system.unknowns.iter().position(|unknown| unknown.name == name).unwrap();
         let (place, speed) = (find("position of head"), find("velocity of head"));
         let single = |at: usize| {
             let mut row = vec![Twofold::ZERO; size];
@@ -232,9 +233,9 @@ fn the_exact_method_knows_its_error_where_a_chain_creeps() {
 fn resistance(model: &LinearModel, head: &Head, time: f64) -> f64 {
     let Head::Drawn = head else { return model.relaxation(time) };
     let form = model.maxwell().unwrap();
-    let delayed = form.elements().into_iter().map(|own| {
-        let rate = own.rate.high();
-        own.stiffness * -(-rate * time).exp_m1() / rate
+    let delayed = form.elements().into_iter().map(|element| {
+        let rate = element.rate.high();
+        element.stiffness * -(-rate * time).exp_m1() / rate
     });
     form.dashpot() + form.spring() * time + delayed.sum::<f64>()
 }

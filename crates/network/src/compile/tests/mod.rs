@@ -109,9 +109,9 @@ fn gravity_from_equilibrium_starts_in_balance() {
     network.add_effect(Gravity { acceleration: 9.806_65, start: GravityStart::Equilibrium });
     let assembly = network.compile(0.02).unwrap();
     assert!(at_start(&assembly, "padding.force").abs() < 1e-12);
-    let sag = 100.0 * 9.806_65 / 5e7;
-    assert!((at_start(&assembly, "panel.position") - sag).abs() < 1e-18);
-    assert!((at_start(&assembly, "head.position") - sag).abs() < 1e-18);
+    let static_equilibrium = 100.0 * 9.806_65 / 5e7;
+    assert!((at_start(&assembly, "panel.position") - static_equilibrium).abs() < 1e-18);
+    assert!((at_start(&assembly, "head.position") - static_equilibrium).abs() < 1e-18);
     assert!(rate_at_start(&assembly, "velocity of panel").abs() < 1e-12);
     assert!((rate_at_start(&assembly, "velocity of head") - 9.806_65).abs() < 1e-12);
 }

@@ -198,9 +198,9 @@ fn random_networks_differ_most_where_a_fine_grid_says_so() {
         }
         let motion = |t: f64| {
             let [a, b] = [&poles[0], &poles[1]].map(|poles| {
-                let all = poles.iter().map(|Pole { at: [re, im], strengths, .. }| {
-                    let simple = strengths[strengths.len() - 1];
-                    let free = if strengths.len() > 1 { strengths[0][0] * t } else { 0.0 };
+                let all = poles.iter().map(|Pole { at: [re, im], residues, .. }| {
+                    let simple = residues[residues.len() - 1];
+                    let free = if residues.len() > 1 { residues[0][0] * t } else { 0.0 };
                     let (sin, cos) = (im * t).sin_cos();
                     (re * t).exp() * (simple[0] * cos - simple[1] * sin) + free
                 });

@@ -21,7 +21,7 @@ fn a_mass_on_a_kelvin_voigt_element_below_critical_damping() {
     let poles = found.poles();
     assert_eq!(poles.len(), 2);
     assert_near(poles[1].at, [-0.25, omega], DOUBLES);
-    assert_near(poles[1].strengths[0], [0.0, -0.5 / omega], DOUBLES);
+    assert_near(poles[1].residues[0], [0.0, -0.5 / omega], DOUBLES);
     assert_near(poles[0].at, [-0.25, -omega], DOUBLES);
     assert!(found.error() < 1e-28 && found.hidden().is_empty());
 }
@@ -32,9 +32,9 @@ fn critical_damping_is_one_pole_of_order_two() {
     assert_eq!(poles.len(), 1);
     assert_eq!(poles[0].order, 2);
     assert_near(poles[0].at, [-1.0, 0.0], DOUBLES);
-    assert_near(poles[0].strengths[0], [1.0, 0.0], DOUBLES);
+    assert_near(poles[0].residues[0], [1.0, 0.0], DOUBLES);
     // 1/(s + 1)²: nothing else.
-    assert!(poles[0].strengths[1][0].abs() < 1e-25 && poles[0].spread[0][0].abs() < 1e-25);
+    assert!(poles[0].residues[1][0].abs() < 1e-25 && poles[0].spread[0][0].abs() < 1e-25);
 }
 
 #[test]
@@ -58,8 +58,8 @@ fn above_critical_damping_both_poles_are_real() {
     let poles = one_mass(kelvin(1.0, 1e8)).poles();
     assert_near(poles[0].at, [-1e-8 * (1.0 + 1e-16), 0.0], DOUBLES);
     assert_near(poles[1].at, [-1e8 * (1.0 - 1e-16), 0.0], DOUBLES);
-    assert_near(poles[0].strengths[0], [1e-8, 0.0], DOUBLES);
-    assert_near(poles[1].strengths[0], [-1e-8, 0.0], DOUBLES);
+    assert_near(poles[0].residues[0], [1e-8, 0.0], DOUBLES);
+    assert_near(poles[1].residues[0], [-1e-8, 0.0], DOUBLES);
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn an_undamped_mass_has_poles_on_the_axis() {
     let poles = one_mass(Tree::series([spring(1.0), spring(1e12)])).poles();
     let omega = 1.0 / (1.0 + 1e-12_f64).sqrt();
     assert_near(poles[1].at, [0.0, omega], DOUBLES);
-    assert_near(poles[1].strengths[0], [0.0, -0.5 / omega], DOUBLES);
+    assert_near(poles[1].residues[0], [0.0, -0.5 / omega], DOUBLES);
 }
 
 #[test]
@@ -79,8 +79,8 @@ fn a_triple_pole_stays_together() {
     let poles = found.poles();
     assert_eq!((poles.len(), poles[0].order), (1, 3));
     assert_near(poles[0].at, [-1.0, 0.0], DOUBLES);
-    assert_near(poles[0].strengths[0], [2.0, 0.0], 2.0 * DOUBLES);
-    assert_near(poles[0].strengths[1], [1.0, 0.0], 2.0 * DOUBLES);
+    assert_near(poles[0].residues[0], [2.0, 0.0], 2.0 * DOUBLES);
+    assert_near(poles[0].residues[1], [1.0, 0.0], 2.0 * DOUBLES);
     assert!(poles[0].spread.iter().all(|d| d[0].hypot(d[1]) < DOUBLES));
     assert!(found.error() < 1e-20);
 }
@@ -96,7 +96,7 @@ fn two_free_masses_drift_and_swing() {
     let between = massive(&network, nodes[1], nodes[2]);
     assert_eq!(between.poles().len(), 2);
     assert_near(between.poles()[1].at, [-damping, omega], DOUBLES);
-    assert_near(between.poles()[1].strengths[0], [0.0, -0.5 / (omega * reduced)], DOUBLES);
+    assert_near(between.poles()[1].residues[0], [0.0, -0.5 / (omega * reduced)], DOUBLES);
     // The pole at zero is counted: the motion of the whole does not show.
     assert!(between.hidden()[0].rate[0].abs() < f64::MIN_POSITIVE);
     assert_eq!(between.hidden()[0].count, 2);
@@ -104,11 +104,11 @@ fn two_free_masses_drift_and_swing() {
     let alone = massive(&network, nodes[1], nodes[0]);
     let poles = alone.poles();
     assert_eq!((poles[0].order, poles[0].at), (2, [0.0, 0.0]));
-    assert_near(poles[0].strengths[0], [1.0 / (m1 + m2), 0.0], DOUBLES);
-    assert!(poles[0].strengths[1][0].abs() < 1e-30);
+    assert_near(poles[0].residues[0], [1.0 / (m1 + m2), 0.0], DOUBLES);
+    assert!(poles[0].residues[1][0].abs() < 1e-30);
     let share = m2 / (m1 + m2);
     assert_near(
-        poles[2].strengths[0],
+        poles[2].residues[0],
         [0.0, -0.5 * share * share / (omega * reduced)],
         2.0 * DOUBLES,
     );
@@ -120,9 +120,9 @@ fn masses_tied_by_a_dashpot_creep_towards_each_other() {
     let (network, nodes) = network(&[1.0, 3.0], &[(1, 2, dashpot(1.5))]);
     let found = massive(&network, nodes[1], nodes[2]);
     let poles = found.poles();
-    assert_near(poles[0].strengths[0], [1.0 / 1.5, 0.0], DOUBLES);
+    assert_near(poles[0].residues[0], [1.0 / 1.5, 0.0], DOUBLES);
     assert_near(poles[1].at, [-2.0, 0.0], DOUBLES);
-    assert_near(poles[1].strengths[0], [-1.0 / 1.5, 0.0], DOUBLES);
+    assert_near(poles[1].residues[0], [-1.0 / 1.5, 0.0], DOUBLES);
 }
 
 #[test]
@@ -151,7 +151,7 @@ fn equal_oscillators_that_both_show_are_one_pole() {
     let found = massive(&apart, nodes[1], nodes[2]);
     assert_eq!(found.poles().len(), 2);
     assert_eq!(found.poles()[1].order, 1);
-    assert_near(found.poles()[1].strengths[0], [0.0, -0.5 / 0.5_f64.sqrt() * 2.0], DOUBLES);
+    assert_near(found.poles()[1].residues[0], [0.0, -0.5 / 0.5_f64.sqrt() * 2.0], DOUBLES);
     assert_eq!(found.hidden().iter().map(|hidden| hidden.count).sum::<usize>(), 2);
 }
 

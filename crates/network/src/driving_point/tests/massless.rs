@@ -102,14 +102,21 @@ fn a_faint_mode_that_the_constants_determine_is_kept() {
 
 #[test]
 fn star_and_delta_of_dashpots_respond_alike() {
-    let legs = [3.0, 5e4, 7e-3];
-    let sum: f64 = legs.iter().sum();
+    let intervals = [3.0, 5e4, 7e-3];
+    let sum: f64 = intervals.iter().sum();
     let rest =
         [(1, 2, spring(4.0)), (1, 3, spring(0.2)), (2, 0, kelvin(9.0, 2.0)), (3, 0, spring(1.5))];
-    let star = [(1, 4), (2, 4), (3, 4)].into_iter().zip(legs);
-    let star: Vec<_> =
-        rest.iter().cloned().chain(star.map(|((p, q), leg)| (p, q, dashpot(leg)))).collect();
-    let pairs = [(1, 2, legs[0] * legs[1]), (2, 3, legs[1] * legs[2]), (3, 1, legs[2] * legs[0])];
+    let star = [(1, 4), (2, 4), (3, 4)].into_iter().zip(intervals);
+    let star: Vec<_> = rest
+        .iter()
+        .cloned()
+        .chain(star.map(|((p, q), interval)| (p, q, dashpot(interval))))
+        .collect();
+    let pairs = [
+        (1, 2, intervals[0] * intervals[1]),
+        (2, 3, intervals[1] * intervals[2]),
+        (3, 1, intervals[2] * intervals[0]),
+    ];
     let delta: Vec<_> = rest
         .iter()
         .cloned()

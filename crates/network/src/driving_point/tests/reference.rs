@@ -72,7 +72,7 @@ fn assert_poles(found: &Receptance, lines: &[Line]) {
     let poles = found.poles();
     assert_eq!(poles.len(), lines.len(), "{poles:?}");
     for (pole, (at, residue)) in poles.iter().zip(lines) {
-        for (a, b) in [(pole.at, at), (pole.strengths[0], residue)] {
+        for (a, b) in [(pole.at, at), (pole.residues[0], residue)] {
             let change = (a[0] - b[0]).hypot(a[1] - b[1]);
             assert!(change <= DOUBLES * b[0].hypot(b[1]), "{pole:?} {at:?} {residue:?}");
         }

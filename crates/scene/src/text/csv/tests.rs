@@ -38,7 +38,7 @@ fn a_header_names_columns_and_units() {
     let csv = Csv::new("# measured\ntime [ms];\"head; force (kN)\"; state\n0;1;2\n").unwrap();
     let header = csv.header.as_ref().unwrap();
     let named = header.iter().map(Field::name_and_unit).collect::<Vec<_>>();
-    let named = named.iter().map(|(name, unit)| (*name, unit.as_ref().map(|own| own.text)));
+    let named = named.iter().map(|(name, unit)| (*name, unit.as_ref().map(|unit| unit.text)));
     let expected = [("time", Some("ms")), ("head; force", Some("kN")), ("state", None)];
     assert_eq!(named.collect::<Vec<_>>(), expected);
     assert_eq!(csv.columns, 3);

@@ -153,7 +153,7 @@ impl Tunables {
             [] => {
                 let known: Vec<String> = self.all.iter().map(|own| own.name.clone()).collect();
                 let near = self.akin(&wanted).or_else(|| {
-                    let paths = self.paths.iter().map(|own| own.0[1..].join("."));
+                    let paths = self.paths.iter().map(|path| path.0[1..].join("."));
                     let words: Vec<String> = known.iter().cloned().chain(paths).collect();
                     nearest(name, words.iter().map(String::as_str)).map(str::to_owned)
                 });
@@ -187,19 +187,19 @@ impl Tunables {
     /// bare ones where that has a unit other than that of SI, and two variations of one number.
     pub fn matched(&self, variations: &[Variation]) -> Result<Vec<usize>, TunableFault> {
         let mut found: Vec<usize> = Vec::with_capacity(variations.len());
-        for own in variations {
-            let at = self.find(&own.name)?;
-            if let (Some(given), Some(wanted)) = (own.dimension, self.all[at].dimension)
+        for variation in variations {
+            let at = self.find(&variation.name)?;
+            if let (Some(given), Some(wanted)) = (variation.dimension, self.all[at].dimension)
                 && given != wanted
             {
-                let reason = other_dimension(&own.text(0), given, wanted);
-                return Err(TunableFault::OtherDimension { name: own.name.clone(), reason });
+                let reason = other_dimension(&variation.text(0), given, wanted);
+                return Err(TunableFault::OtherDimension { name: variation.name.clone(), reason });
             }
-            if let Some(fault) = self.without_unit(at, own) {
+            if let Some(fault) = self.without_unit(at, variation) {
                 return Err(fault);
             }
             if let Some(before) = found.iter().position(|other| *other == at) {
-                let (first, second) = (variations[before].name.clone(), own.name.clone());
+                let (first, second) = (variations[before].name.clone(), variation.name.clone());
                 return Err(TunableFault::Twice { first, second });
             }
             found.push(at);
@@ -210,7 +210,7 @@ impl Tunables {
     /// What is wrong with a variation that has no unit, where the number has one.
     fn without_unit(&self, at: usize, variation: &Variation) -> Option<TunableFault> {
         let number = &self.all[at];
-        let dimension = number.dimension.filter(|own| *own != Dimension::NUMBER)?;
+        let dimension = number.dimension.filter(|dimension| *dimension != Dimension::NUMBER)?;
         let one = parse_quantity(&format!("1 {}", number.unit)).ok()?;
         #[expect(clippy::float_cmp, reason = "1 is the factor of SI units")]
         let is_si = one.value == 1.0;
@@ -229,7 +229,7 @@ impl Tunables {
     pub fn text_with(&self, values: &[(usize, String)]) -> String {
         let mut values: Vec<(&Range<usize>, &str)> =
             values.iter().map(|(at, value)| (&self.all[*at].span, value.as_str())).collect();
-        values.sort_by_key(|own| own.0.start);
+        values.sort_by_key(|value| value.0.start);
         let mut text = String::with_capacity(self.text.len() + 16 * values.len());
         let mut from = 0;
         for (span, value) in values {
@@ -250,11 +250,15 @@ impl Tunables {
 
     /// The numbers that a path leads to, rising.
     fn led_to(&self, wanted: &[&str]) -> Vec<usize> {
-        let whole = self.paths.iter().filter(|own| own.0[1..] == *wanted || own.0 == *wanted);
-        let mut found: Vec<usize> = whole.map(|own| own.1).collect();
+        let whole = self.paths.iter().filter(|path| path.0[1..] == *wanted || path.0 == *wanted);
+        let mut found: Vec<usize> = whole.map(|whole| whole.1).collect();
         if found.is_empty() {
-            found =
-                self.paths.iter().filter(|own| holds(&own.0, wanted)).map(|own| own.1).collect();
+            found = self
+                .paths
+                .iter()
+                .filter(|path| holds(&path.0, wanted))
+                .map(|path| path.1)
+                .collect();
         }
         found.sort_unstable();
         found.dedup();

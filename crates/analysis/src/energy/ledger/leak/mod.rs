@@ -97,7 +97,7 @@ fn times(solution: &Solution<'_>) -> Vec<f64> {
     let system = &solution.assembly().system;
     let jumps = system.breakpoints(end / system.time_scale).into_iter();
     let jumps = jumps.map(|time| time * system.time_scale);
-    let switches = solution.trajectory().switches.iter().map(|own| own.time);
+    let switches = solution.trajectory().switches.iter().map(|switch| switch.time);
     let regular = (0..=SLICES).map(|at| end * f64::from(at) / f64::from(SLICES));
     let within = |time: &f64| (0.0..=end).contains(time);
     let mut times: Vec<f64> = regular.chain(switches.chain(jumps).filter(within)).collect();

@@ -242,7 +242,8 @@ impl<'a> Parts<'a> {
         let owner = owners(assembly);
         for (cell, time) in self.instants() {
             let switches = solution.trajectory().switches.iter();
-            let own = switches.filter(|own| own.impulse > 0.0 && own.time.total_cmp(&time).is_eq());
+            let own = switches
+                .filter(|switch| switch.impulse > 0.0 && switch.time.total_cmp(&time).is_eq());
             for switch in own {
                 let Some(&at) = owner.get(switch.name.as_str()) else { continue };
                 self.add_to_element(at, cell, switch.worked - switch.lost);

@@ -79,7 +79,7 @@ fn times_after(from: f64, factor: f64) -> impl Fn(&mut Signal) + Send + Sync {
         let cut = |panel: &dashpot_dae::Panel| {
             let (start, end) = (panel.start, panel.end);
             let mut late = panel.part(start.max(from), end);
-            late.coefficients.iter_mut().for_each(|own| *own *= factor);
+            late.coefficients.iter_mut().for_each(|coefficient| *coefficient *= factor);
             match (end <= from, start >= from) {
                 (true, _) => vec![panel.clone()],
                 (_, true) => vec![late],
@@ -91,7 +91,7 @@ fn times_after(from: f64, factor: f64) -> impl Fn(&mut Signal) + Send + Sync {
 }
 
 fn case(name: &str) -> RunReport {
-    let (_, network, duration) = cases().into_iter().find(|own| own.0 == name).unwrap();
+    let (_, network, duration) = cases().into_iter().find(|case| case.0 == name).unwrap();
     run(&network, duration, "exact")
 }
 
@@ -126,7 +126,7 @@ fn dashpot_that_is_off_is_named() {
     let right = case("face that moves along");
     let mount = right.assembly.connection("mount").unwrap().primitives.clone();
     let mut parts = right.assembly.primitives[mount].iter();
-    let dashpot = parts.find(|own| own.element.kind() == "dashpot").unwrap();
+    let dashpot = parts.find(|part| part.element.kind() == "dashpot").unwrap();
     let name = right.assembly.system.outputs.at(dashpot.force).name.to_owned();
     let report = doctored(right, &name, times_after(0.008, 1.05));
     let leak = found(&report);

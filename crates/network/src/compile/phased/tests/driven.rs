@@ -36,7 +36,7 @@ fn what_lies_on_a_shaken_bed_lifts_off_where_the_bed_falls_faster() {
             [("exact", 1e-13), ("bdf", 1e-9), ("esdirk34", 1e-9), ("tr-bdf2", 1e-9)]
         {
             let solved = solve_by(method, &network, 0.4);
-            let is_open = |own: &&Switch| own.what == "open";
+            let is_open = |switch: &&Switch| switch.what == "open";
             let opened: Vec<&Switch> = solved.switches().iter().filter(is_open).collect();
             assert!(opened.len() >= 3, "{method}: {:?}", solved.switches());
             for own in opened {
@@ -44,7 +44,7 @@ fn what_lies_on_a_shaken_bed_lifts_off_where_the_bed_falls_faster() {
                 let off = turn.min(std::f64::consts::TAU - turn) / SHAKING;
                 assert!(off < tolerance, "{method}, phase {phase}: {off:e}");
             }
-            landings.push(solved.switches().iter().map(|own| own.time).collect::<Vec<_>>());
+            landings.push(solved.switches().iter().map(|switch| switch.time).collect::<Vec<_>>());
             let words: Vec<&str> = solved.what();
             assert!(words.windows(2).all(|pair| pair[0] != pair[1]), "{method}: {words:?}");
         }

@@ -37,7 +37,7 @@ fn equal_balls_pass_their_speed_on_and_keep_momentum_and_energy() {
             (0..balls).map(|at| dull.at(&format!("b{at}.velocity"), 0.5)).collect();
         let momentum: f64 = speeds.iter().sum();
         let energy: f64 = speeds.iter().map(|v| 0.5 * v * v).sum();
-        let lost: f64 = dull.switches().iter().map(|own| own.lost).sum();
+        let lost: f64 = dull.switches().iter().map(|switch| switch.lost).sum();
         // The first goes on with (1 − e)/2, and no other follows it fast enough to be slower.
         assert!((speeds[0] - 0.05).abs() < tolerance, "{method}: {speeds:?}");
         assert!((momentum - 1.0).abs() < tolerance, "{method}: {momentum}");
@@ -93,7 +93,7 @@ fn fifty_balls_that_land_at_one_instant_or_one_after_the_other_come_to_rest() {
     }
     let solved = solve_by("bdf", &rain(&stairs, 0.3), 0.3);
     for (at, height) in stairs.iter().enumerate() {
-        // Flight after flight: T (1 + e)/(1 − e) = 0.12 s at most.
+        // PredictedEvent after flight: T (1 + e)/(1 − e) = 0.12 s at most.
         let place = solved.at(&format!("b{at}.position"), 0.3);
         assert!((place - height).abs() < 1e-6, "{at}: {place} {height}");
     }

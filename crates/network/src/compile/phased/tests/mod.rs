@@ -67,7 +67,7 @@ impl Solved {
     }
 
     fn what(&self) -> Vec<&str> {
-        self.trajectory.switches.iter().map(|own| own.what).collect()
+        self.trajectory.switches.iter().map(|switch| switch.what).collect()
     }
 
     fn switches(&self) -> &[Switch] {
@@ -197,7 +197,7 @@ fn a_row_of_balls_passes_the_blow_on_at_one_instant() {
         let speed = solved.at(&format!("{ball}.velocity"), 0.2);
         assert!((speed - 1.0).abs() < 1e-13, "{ball}: {speed}");
     }
-    let lost: f64 = solved.switches().iter().map(|own| own.lost).sum();
+    let lost: f64 = solved.switches().iter().map(|switch| switch.lost).sum();
     assert!((lost - 3.0).abs() < 1e-13, "{lost}");
 }
 
@@ -216,7 +216,7 @@ fn a_wall_just_out_of_reach_is_not_touched_and_one_just_in_reach_reflects() {
     let missed = solve(&swinging(1.0 + 1e-12), 3.0);
     assert!(missed.switches().is_empty(), "{:?}", missed.switches());
     let touched = solve(&swinging(1.0 - 1e-12), 3.0);
-    let impacts: Vec<_> = touched.switches().iter().filter(|own| own.impulse > 0.0).collect();
+    let impacts: Vec<_> = touched.switches().iter().filter(|switch| switch.impulse > 0.0).collect();
     assert_eq!(impacts.len(), 1, "{:?}", touched.switches());
     // cos of the phase before the top is 1 − 1e-12, whose own rounding moves it by 1e-10.
     let early = quarter - impacts[0].time;

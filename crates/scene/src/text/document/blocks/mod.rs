@@ -34,7 +34,7 @@ pub(super) fn root(text: &str, builder: &mut Builder) -> Option<Item> {
             }
             section = Some(Section::headed(entries, text)?);
         } else {
-            section.as_mut().map_or(&mut top, |own| &mut own.entries).extend(entries);
+            section.as_mut().map_or(&mut top, |section| &mut section.entries).extend(entries);
         }
     }
     if let Some(section) = section {

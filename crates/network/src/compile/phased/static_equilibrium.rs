@@ -8,7 +8,7 @@ use super::{
         structure::Structure,
     },
     is_contact, moving,
-    start::flight,
+    start::predicted,
 };
 use crate::{
     Network, NetworkErrors,
@@ -58,7 +58,7 @@ impl Loads<'_> {
             .collect();
         let height = |joint: usize| {
             let own = &apart.all[apart.of_joint[joint]];
-            flight(network, self.expansion, &own.joints).unwrap_or(0.0)
+            predicted(network, self.expansion, &own.joints).unwrap_or(0.0)
         };
         let low: Vec<f64> = unloaded.iter().enumerate().map(|(at, own)| own + height(at)).collect();
         let touches = self.touches(&phases, &bodies, &low);
@@ -77,12 +77,12 @@ impl Loads<'_> {
         let slid = |(&at, &phase): (&usize, &Phase)| -> Phase {
             let primitive = &self.expansion.primitives[at];
             let ends = primitive.ends.map(|joint| &apart.all[apart.of_joint[joint]]);
-            let is_between = ends.iter().all(|own| !own.is_massless());
+            let is_between = ends.iter().all(|end| !end.is_massless());
             let rate = velocity[primitive.ends[0]] - velocity[primitive.ends[1]];
-            let own = primitive.origin.phases().filter(|own| !is_contact(*own));
+            let own = primitive.origin.phases().filter(|phase| !is_contact(*phase));
             let index = own
                 .filter(|own| matches!(own.law(phase), PhaseLaw::Held(_)))
-                .filter(|_| is_between && rate != 0.0 && ends.iter().any(|own| own.is_impactor))
+                .filter(|_| is_between && rate != 0.0 && ends.iter().any(|end| end.is_impactor))
                 .and_then(|own| moving(own, phase, rate));
             Phase { index: index.unwrap_or(phase.index), ..phase }
         };

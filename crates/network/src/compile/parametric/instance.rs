@@ -2,11 +2,11 @@
 
 use dashpot_numerics::small::Square;
 
-use super::{Blueprint, Eliminated};
+use super::{Eliminated, ParametricSystem};
 
 /// The system of one network: `ż = A z` in dimensionless time, padded with zeros to `N` unknowns.
 #[derive(Debug, Clone)]
-pub struct Stamp<const N: usize> {
+pub struct Instance<const N: usize> {
     /// `A` by its columns.
     pub matrix: Square<N>,
     /// The unknowns at the start.
@@ -21,16 +21,16 @@ pub struct Stamp<const N: usize> {
     weights: Vec<f64>,
 }
 
-impl Blueprint {
+impl ParametricSystem {
     /// Room for systems of this form; `None` where they have more than `N` unknowns.
-    pub fn stamp<const N: usize>(&self) -> Option<Stamp<N>> {
+    pub fn instance<const N: usize>(&self) -> Option<Instance<N>> {
         if self.states() > N {
             return None;
         }
         let links = self.eliminated.iter().map(|own| own.neighbours.len()).sum();
         let mut deformation = [0.0; N];
         self.deformation.iter().for_each(|&(at, sign)| deformation[at] = sign * self.scales[at]);
-        Some(Stamp {
+        Some(Instance {
             matrix: [[0.0; N]; N],
             start: [0.0; N],
             force: [0.0; N],
@@ -42,27 +42,27 @@ impl Blueprint {
         })
     }
 
-    /// Writes the system with these [`numbers`](Self::numbers) into a stamp. Nothing is allocated.
+    /// Writes the system with these [`numbers`](Self::numbers) into a instance. Nothing is allocated.
     ///
     /// # Panics
     ///
-    /// When the stamp or the numbers are those of another form.
-    pub fn fill<const N: usize>(&self, numbers: &[f64], stamp: &mut Stamp<N>) {
-        self.add_springs(numbers, stamp);
-        self.solve_dashpots(stamp);
-        self.add_dashpots(numbers, stamp);
+    /// When the instance or the numbers are those of another form.
+    pub fn fill<const N: usize>(&self, numbers: &[f64], instance: &mut Instance<N>) {
+        self.add_springs(numbers, instance);
+        self.solve_dashpots(instance);
+        self.add_dashpots(numbers, instance);
         for own in &self.placed {
-            let mut row = stamp.velocity[own.body];
+            let mut row = instance.velocity[own.body];
             if let Some(parent) = own.parent {
-                subtract(&mut row, &stamp.velocity[parent]);
+                subtract(&mut row, &instance.velocity[parent]);
             }
-            self.set_row(stamp, own.unknown, 1.0, &row);
+            self.set_row(instance, own.unknown, 1.0, &row);
         }
         for own in &self.weighed {
             let [mass, velocity] = own.numbers.map(|at| numbers[at]);
-            let row = stamp.net[own.body];
-            self.set_row(stamp, own.unknown, mass.recip(), &row);
-            stamp.start[own.unknown] = velocity / self.scales[own.unknown];
+            let row = instance.net[own.body];
+            self.set_row(instance, own.unknown, mass.recip(), &row);
+            instance.start[own.unknown] = velocity / self.scales[own.unknown];
         }
         let mut force = [0.0; N];
         for &at in &self.force {
@@ -70,91 +70,92 @@ impl Blueprint {
             let constant = numbers[part.number];
             if part.is_dashpot {
                 let [a, b] = part.ends;
-                add(&mut force, constant, &stamp.velocity[a]);
-                add(&mut force, -constant, &stamp.velocity[b]);
+                add(&mut force, constant, &instance.velocity[a]);
+                add(&mut force, -constant, &instance.velocity[b]);
             } else {
                 part.deformation.iter().for_each(|&(at, sign)| force[at] += constant * sign);
             }
         }
-        for ((own, value), scale) in stamp.force.iter_mut().zip(force).zip(&self.scales) {
+        for ((own, value), scale) in instance.force.iter_mut().zip(force).zip(&self.scales) {
             *own = value * scale;
         }
     }
 
-    fn add_springs<const N: usize>(&self, numbers: &[f64], stamp: &mut Stamp<N>) {
-        stamp.net.fill([0.0; N]);
-        stamp.conductance.fill(0.0);
-        stamp.velocity.fill([0.0; N]);
+    fn add_springs<const N: usize>(&self, numbers: &[f64], instance: &mut Instance<N>) {
+        instance.net.fill([0.0; N]);
+        instance.conductance.fill(0.0);
+        instance.velocity.fill([0.0; N]);
         for own in &self.weighed {
-            stamp.velocity[own.body][own.unknown] = 1.0;
+            instance.velocity[own.body][own.unknown] = 1.0;
         }
         for part in &self.parts {
             let (constant, [a, b]) = (numbers[part.number], part.ends);
             if part.is_dashpot {
-                stamp.conductance[a * self.bodies + b] += constant;
-                stamp.conductance[b * self.bodies + a] += constant;
+                instance.conductance[a * self.bodies + b] += constant;
+                instance.conductance[b * self.bodies + a] += constant;
             } else {
                 for &(at, sign) in &part.deformation {
-                    stamp.net[a][at] -= constant * sign;
-                    stamp.net[b][at] += constant * sign;
+                    instance.net[a][at] -= constant * sign;
+                    instance.net[b][at] += constant * sign;
                 }
             }
         }
     }
 
     /// The velocities of the massless bodies.
-    fn solve_dashpots<const N: usize>(&self, stamp: &mut Stamp<N>) {
+    fn solve_dashpots<const N: usize>(&self, instance: &mut Instance<N>) {
         let count = self.bodies;
         let mut first = 0;
         for Eliminated { body, neighbours } in &self.eliminated {
             let star = body * count;
-            let total: f64 = neighbours.iter().map(|own| stamp.conductance[star + own.0]).sum();
-            let load = stamp.net[*body];
+            let total: f64 =
+                neighbours.iter().map(|neighbour| instance.conductance[star + neighbour.0]).sum();
+            let load = instance.net[*body];
             for (at, &(other, waits)) in neighbours.iter().enumerate() {
-                let weight = stamp.conductance[star + other] / total;
-                stamp.weights[first + at] = weight;
+                let weight = instance.conductance[star + other] / total;
+                instance.weights[first + at] = weight;
                 if waits {
-                    add(&mut stamp.net[other], weight, &load);
+                    add(&mut instance.net[other], weight, &load);
                 }
                 for &(next, _) in &neighbours[at + 1..] {
-                    let link = weight * stamp.conductance[star + next];
-                    stamp.conductance[other * count + next] += link;
-                    stamp.conductance[next * count + other] += link;
+                    let link = weight * instance.conductance[star + next];
+                    instance.conductance[other * count + next] += link;
+                    instance.conductance[next * count + other] += link;
                 }
             }
             first += neighbours.len();
-            add(&mut stamp.velocity[*body], total.recip(), &load);
+            add(&mut instance.velocity[*body], total.recip(), &load);
         }
         for Eliminated { body, neighbours } in self.eliminated.iter().rev() {
             first -= neighbours.len();
-            let mut sum = stamp.velocity[*body];
+            let mut sum = instance.velocity[*body];
             for (at, &(other, _)) in neighbours.iter().enumerate() {
-                add(&mut sum, stamp.weights[first + at], &stamp.velocity[other]);
+                add(&mut sum, instance.weights[first + at], &instance.velocity[other]);
             }
-            stamp.velocity[*body] = sum;
+            instance.velocity[*body] = sum;
         }
     }
 
     /// What the dashpots do to the masses.
-    fn add_dashpots<const N: usize>(&self, numbers: &[f64], stamp: &mut Stamp<N>) {
+    fn add_dashpots<const N: usize>(&self, numbers: &[f64], instance: &mut Instance<N>) {
         for part in self.parts.iter().filter(|part| part.is_dashpot) {
             let (constant, [a, b]) = (numbers[part.number], part.ends);
-            let mut rate = stamp.velocity[a];
-            subtract(&mut rate, &stamp.velocity[b]);
-            add(&mut stamp.net[a], -constant, &rate);
-            add(&mut stamp.net[b], constant, &rate);
+            let mut rate = instance.velocity[a];
+            subtract(&mut rate, &instance.velocity[b]);
+            add(&mut instance.net[a], -constant, &rate);
+            add(&mut instance.net[b], constant, &rate);
         }
     }
 
     fn set_row<const N: usize>(
         &self,
-        stamp: &mut Stamp<N>,
+        instance: &mut Instance<N>,
         unknown: usize,
         factor: f64,
         row: &[f64; N],
     ) {
         let factor = factor * self.time / self.scales[unknown];
-        let columns = stamp.matrix.iter_mut().zip(row).zip(&self.scales);
+        let columns = instance.matrix.iter_mut().zip(row).zip(&self.scales);
         columns.for_each(|((column, value), scale)| column[unknown] = value * scale * factor);
     }
 }

@@ -1,16 +1,16 @@
-//! Networks of one form whose numbers differ: compiled once, and stamped with the numbers of each.
+//! Networks of one form whose numbers differ: compiled once, and instantiated with the numbers of each.
 //!
 //! The form is taken from the same graph and the same choice of unknowns as in a compilation. What is
 //! left to do for other numbers is to add up forces and to eliminate massless bodies in an order that
 //! is known: star–mesh with positive numbers only, as in [`mesh`](super::mesh), but in single digits.
 
 mod fingerprint;
+mod instance;
 mod reading;
-mod stamp;
 
 use std::collections::BTreeMap;
 
-pub use self::stamp::Stamp;
+pub use self::instance::Instance;
 use self::{
     fingerprint::{Fingerprint, fingerprint},
     reading::{difference, force_parts, order},
@@ -66,7 +66,7 @@ struct Weighed {
 /// It covers networks that are linear and at rest but for one impactor, which touches a single
 /// element: no loads, effects, layers or given motions, and no place that springs alone hold.
 #[derive(Debug, Clone)]
-pub struct Blueprint {
+pub struct ParametricSystem {
     fingerprint: Fingerprint,
     bodies: usize,
     parts: Vec<Part>,
@@ -88,7 +88,7 @@ pub struct Blueprint {
     numbers: usize,
 }
 
-impl Blueprint {
+impl ParametricSystem {
     /// The form of a network for runs of about `duration` \[s\]; `None` where it is of another kind, or
     /// cannot be compiled.
     pub fn of(network: &Network, duration: f64) -> Option<Self> {
@@ -242,7 +242,7 @@ impl Blueprint {
             let Role::Mass(mass) = body.role else { return None };
             numbers.extend([mass, body.velocity]);
         }
-        let is_usable = numbers.iter().all(|own| own.is_finite());
+        let is_usable = numbers.iter().all(|number| number.is_finite());
         (is_usable && numbers.len() == self.numbers).then_some(numbers)
     }
 }

@@ -59,13 +59,13 @@ impl Changes {
         if !self.methods.is_empty() {
             options.push(format!("--method {}", self.methods.join(",")));
         }
-        options.extend(self.accuracy.map(|own| format!("--accuracy {own:?}")));
-        options.extend(self.neglect.map(|own| format!("--neglect {own:?}")));
-        options.extend(self.rtol.map(|own| format!("--rtol {own:?}")));
+        options.extend(self.accuracy.map(|accuracy| format!("--accuracy {accuracy:?}")));
+        options.extend(self.neglect.map(|neglect| format!("--neglect {neglect:?}")));
+        options.extend(self.rtol.map(|rtol| format!("--rtol {rtol:?}")));
         if self.unestimated {
             options.push("--estimate off".to_owned());
         }
-        options.extend(self.budget.map(|own| format!("--budget {own}")));
+        options.extend(self.budget.map(|budget| format!("--budget {budget}")));
         options.join(" ")
     }
 }
@@ -142,7 +142,7 @@ fn number(value: f64) -> Option<Value> {
 /// Replaces a value that is there; what stands around it is kept.
 fn replace(document: &mut DocumentMut, section: &str, key: &str, value: &Value) -> bool {
     let section = document.get_mut(section).and_then(Item::as_table_like_mut);
-    let old = section.and_then(|own| own.get_mut(key)).and_then(Item::as_value_mut);
+    let old = section.and_then(|section| section.get_mut(key)).and_then(Item::as_value_mut);
     let Some(old) = old else { return false };
     let decor = old.decor().clone();
     *old = value.clone();
@@ -168,7 +168,7 @@ mod tests {
         head = { mass = \"5 kg\", velocity = \"6 m/s\" }\n[elements]\n\
         pad = { between = [\"head\", \"ground\"], spring = \"K\" }\n[run]\nduration = \"40 ms\"\n";
 
-    fn as_run(scene: &str, changes: &Changes) -> String {
+    fn resolved_scene(scene: &str, changes: &Changes) -> String {
         let options = ReadOptions { set: &changes.set, ..ReadOptions::default() };
         text(&read(scene, &options).unwrap().value, changes)
     }
@@ -186,7 +186,7 @@ mod tests {
             neglect: Some(5e-3),
             ..Changes::default()
         };
-        let text = as_run(&SCENE.replace("K = '", "  K='"), &changes);
+        let text = resolved_scene(&SCENE.replace("K = '", "  K='"), &changes);
         let first: Vec<&str> = text.lines().take(2).collect();
         let comment = "# as run with --set \"K=80 kN/m\" --method exact,bdf --accuracy 0.0001 --neglect 0.005";
         assert_eq!(first, ["#:schema ./scene.schema.json", comment]);
@@ -203,14 +203,14 @@ mod tests {
         let changes = Changes { unestimated: true, rtol: Some(1e-6), ..Changes::default() };
         let inline = SCENE.replace("[run]\nduration = \"40 ms\"\n", "");
         let inline = format!("run = {{ duration = \"40 ms\" }}\n{inline}");
-        let text = as_run(&inline, &changes);
+        let text = resolved_scene(&inline, &changes);
         assert!(text.contains("add: --rtol 1e-6 --estimate off\n"), "{text}");
         assert!(text.ends_with(&inline));
     }
 
     #[test]
     fn nothing_changes_where_nothing_was_asked() {
-        assert_eq!(as_run(SCENE, &Changes::default()), SCENE);
+        assert_eq!(resolved_scene(SCENE, &Changes::default()), SCENE);
         let changes = Changes { set: set_k("1 N/m"), ..Changes::default() };
         assert_eq!(changes.told().as_deref(), Some("with K = 1 N/m"));
     }

@@ -61,10 +61,10 @@ fn listed(all: &[String]) -> String {
 pub(crate) fn notes(scene: &Scene) -> Vec<String> {
     let made = scene.notes.iter().map(|note| format!("{}: {}", note.subject, note.what));
     let connections = scene.network.connections().iter();
-    let entangled = connections.flat_map(|own| {
-        groups(&own.model).into_iter().map(|group| {
+    let entangled = connections.flat_map(|connection| {
+        groups(&connection.model).into_iter().map(|group| {
             let text = sentence(&group.parameters, &combinations(&group));
-            format!("element `{}`: {text}", own.name)
+            format!("element `{}`: {text}", connection.name)
         })
     });
     made.chain(entangled).collect()

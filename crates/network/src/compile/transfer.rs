@@ -51,7 +51,7 @@ enum Origin {
 
 /// The way between the unknowns of a phase and the state.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Carry {
+pub(super) struct Transfer {
     deformation: Vec<Reading>,
     position: Vec<Reading>,
     velocity: Vec<Option<Reading>>,
@@ -61,7 +61,7 @@ pub(super) struct Carry {
     balanced: Vec<usize>,
 }
 
-impl Carry {
+impl Transfer {
     pub(super) fn of(parts: &Parts<'_>, inputs: &Inputs, system: &System, duration: f64) -> Self {
         let columns: Vec<f64> = system.unknowns.iter().map(|unknown| unknown.scale).collect();
         let input_columns = inputs.columns(system.time_scale, duration);
@@ -109,7 +109,7 @@ impl Carry {
     /// The state where the unknowns are `y` and the inputs `w`; velocities that the phase does not
     /// know stay as they were.
     pub(super) fn read(&self, y: &[f64], w: &[f64], before: &State) -> State {
-        let at = |own: &Reading| own.unknowns.at(y) + own.inputs.at(w);
+        let at = |reading: &Reading| reading.unknowns.at(y) + reading.inputs.at(w);
         let velocities = self.velocity.iter().zip(&before.velocity);
         State {
             deformation: self.deformation.iter().map(at).collect(),
@@ -134,13 +134,16 @@ impl Carry {
 
 fn balanced(parts: &Parts<'_>) -> Vec<usize> {
     let primitives = parts.expansion.primitives.iter();
-    let mut sliders = primitives.filter_map(|own| own.origin.phases()?.capacity());
+    let mut sliders = primitives.filter_map(|primitive| primitive.origin.phases()?.capacity());
     if sliders.next().is_none() {
         return Vec::new();
     }
     let follows = |body: usize| parts.structure.algebraic_cluster(body).is_some();
     let springs = parts.structure.springs.iter();
-    springs.filter(|own| own.ends.into_iter().any(follows)).map(|own| own.primitive).collect()
+    springs
+        .filter(|spring| spring.ends.into_iter().any(follows))
+        .map(|spring| spring.primitive)
+        .collect()
 }
 
 fn origins(parts: &Parts<'_>, system: &System) -> Vec<Origin> {
@@ -166,7 +169,7 @@ fn origins(parts: &Parts<'_>, system: &System) -> Vec<Origin> {
                 let other = parts.bodies.all[parent].joints[0];
                 let between = Origin::Between([first, other], offset(first) - offset(other));
                 let along = parts.places.along[at];
-                along.map_or(between, |own| Origin::Along(own.primitive, own.sign))
+                along.map_or(between, |along| Origin::Along(along.primitive, along.sign))
             }
         };
     }

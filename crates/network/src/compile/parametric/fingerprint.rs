@@ -18,7 +18,7 @@ pub(super) struct Fingerprint {
 /// The form of a network; `None` where it has anything but springs, dashpots and rigid links between
 /// free and fixed nodes, or is not valid.
 pub(super) fn fingerprint(network: &Network, expansion: &Expansion) -> Option<Fingerprint> {
-    let is_plain = network.connections.iter().all(|own| own.layers.is_none());
+    let is_plain = network.connections.iter().all(|connection| connection.layers.is_none());
     if !is_plain || !validate::faults(network, expansion).is_empty() {
         return None;
     }
@@ -28,7 +28,8 @@ pub(super) fn fingerprint(network: &Network, expansion: &Expansion) -> Option<Fi
         Law::Rigid => Some(2),
         _ => None,
     };
-    let parts = expansion.primitives.iter().map(|own| Some((own.ends, word(own.law)?)));
+    let parts =
+        expansion.primitives.iter().map(|primitive| Some((primitive.ends, word(primitive.law)?)));
     let roles = network.nodes.iter().map(|node| match node.support {
         Support::Free => Some(u8::from(node.mass > 0.0) + 2 * u8::from(node.is_impactor())),
         Support::Fixed => Some(4),
@@ -37,7 +38,11 @@ pub(super) fn fingerprint(network: &Network, expansion: &Expansion) -> Option<Fi
     Some(Fingerprint {
         parts: parts.collect::<Option<_>>()?,
         roles: roles.collect::<Option<_>>()?,
-        of_joint: network.connections.iter().flat_map(|own| own.between.map(|end| end.0)).collect(),
-        names: network.connections.iter().map(|own| own.name.clone()).collect(),
+        of_joint: network
+            .connections
+            .iter()
+            .flat_map(|connection| connection.between.map(|end| end.0))
+            .collect(),
+        names: network.connections.iter().map(|connection| connection.name.clone()).collect(),
     })
 }

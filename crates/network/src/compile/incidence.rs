@@ -10,7 +10,7 @@ use super::{
 
 /// The primitives at each joint and the drives of each body.
 #[derive(Debug)]
-pub(super) struct Acting {
+pub(super) struct Incidence {
     /// Where the primitives of each joint end in `primitives`.
     ends: Vec<usize>,
     /// Primitives, each with the sign of its force on the joint.
@@ -20,10 +20,10 @@ pub(super) struct Acting {
     by_node: BTreeMap<usize, Vec<usize>>,
 }
 
-impl Acting {
+impl Incidence {
     pub(super) fn of(expansion: &Expansion, drives: &[Drive]) -> Self {
         let mut ends = vec![0; expansion.joints];
-        for joint in expansion.primitives.iter().flat_map(|own| own.ends) {
+        for joint in expansion.primitives.iter().flat_map(|primitive| primitive.ends) {
             ends[joint] += 1;
         }
         let mut sum = 0;
@@ -77,7 +77,7 @@ impl Acting {
 pub(super) fn contact_force(parts: &Parts<'_>, body: usize) -> Row {
     let mut sum = RowSum::default();
     add_forces(parts, &parts.bodies.all[body].joints, 1.0, &mut sum);
-    for drive in parts.acting.drives(parts.drives, body).filter(|drive| !drive.is_body_force) {
+    for drive in parts.incidence.drives(parts.drives, body).filter(|drive| !drive.is_body_force) {
         if let Some(force) = &drive.force {
             sum.add(1.0, force);
         }
@@ -87,7 +87,7 @@ pub(super) fn contact_force(parts: &Parts<'_>, body: usize) -> Row {
 
 /// Adds `sign` times the forces of springs and dashpots on these joints.
 pub(super) fn add_forces(parts: &Parts<'_>, joints: &[usize], sign: f64, sum: &mut RowSum) {
-    for &(primitive, own) in joints.iter().flat_map(|&joint| parts.acting.at_joint(joint)) {
+    for &(primitive, own) in joints.iter().flat_map(|&joint| parts.incidence.at_joint(joint)) {
         if let Some(force) = parts.motion.force.get(primitive) {
             sum.add(sign * own, &force);
         }

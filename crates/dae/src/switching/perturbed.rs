@@ -2,46 +2,47 @@
 
 use std::ops::ControlFlow;
 
-use super::{Leg, LegEnd, Switching};
+use super::{IntervalEnd, ModeInterval, Switching};
 use crate::{Observer, Progress, SolveError};
 
-/// By how many roundings a state is shaken: more than a leg's own errors leave in it.
+/// By how many roundings a state is shaken: more than an interval's own errors leave in it.
 const SHAKES: f64 = 64.0;
-/// Part of its state that a leg must have changed to be shaken by so much; one that changes less is shaken by
-/// less in proportion. What is thrown back from so near that its way out and back is less than a rounding
-/// would else never come to rest.
+/// Part of its state that an interval must have changed to be shaken by so much; one that changes
+/// less is shaken by less in proportion. What is thrown back from so near that its way out and back
+/// is less than a rounding would else never come to rest.
 const CHANGE: f64 = 1e-4;
-/// Most legs that a shaken run may have for each leg of the run, and beyond: with more it is another run.
-const LEGS: usize = 2;
-const MORE_LEGS: usize = 64;
+/// Most intervals that a shaken run may have for each interval of the run, and beyond: with more it
+/// is another run.
+const INTERVALS: usize = 2;
+const MORE_INTERVALS: usize = 64;
 
-/// The same legs, each of which begins where the one before ended but for its last digits.
+/// The same intervals, each of which begins where the one before ended but for its last digits.
 #[derive(Debug)]
-pub(super) struct Shaken<'s> {
+pub(super) struct Perturbed<'s> {
     pub(super) inner: &'s dyn Switching,
 }
 
-impl Shaken<'_> {
-    /// Most legs of the shaken run where there are so many in the run.
-    pub(super) fn most_legs(legs: usize) -> usize {
-        LEGS * legs + MORE_LEGS
+impl Perturbed<'_> {
+    /// Most intervals of the shaken run where there are so many in the run.
+    pub(super) fn most_intervals(intervals: usize) -> usize {
+        INTERVALS * intervals + MORE_INTERVALS
     }
 }
 
-impl Switching for Shaken<'_> {
-    fn first(&self, doubt: f64) -> Result<Leg, SolveError> {
-        self.inner.first(doubt)
+impl Switching for Perturbed<'_> {
+    fn first(&self, threshold: f64) -> Result<ModeInterval, SolveError> {
+        self.inner.first(threshold)
     }
 
-    fn next(&self, end: &LegEnd<'_>) -> Result<Leg, SolveError> {
-        let part = (change(&end.leg.system.initial, end.state) / CHANGE).min(1.0);
+    fn next(&self, end: &IntervalEnd<'_>) -> Result<ModeInterval, SolveError> {
+        let part = (change(&end.interval.system.initial, end.state) / CHANGE).min(1.0);
         let shake = |(at, value): (usize, &f64)| {
             // The signs follow the places, so that a run repeats to the bit.
             let sign = if (at * at + at / 2).is_multiple_of(3) { 1.0 } else { -1.0 };
             value * (1.0 + sign * SHAKES * f64::EPSILON * part)
         };
         let state: Vec<f64> = end.state.iter().enumerate().map(shake).collect();
-        self.inner.next(&LegEnd { state: &state, ..*end })
+        self.inner.next(&IntervalEnd { state: &state, ..*end })
     }
 }
 
@@ -59,8 +60,8 @@ impl Observer for Afterwards<'_> {
     }
 }
 
-/// The largest part by which a leg has changed any of its values; of small ones, in parts of the largest, or
-/// of their scale.
+/// The largest part by which an interval has changed any of its values; of small ones, in parts of
+/// the largest, or of their scale.
 fn change(start: &[f64], end: &[f64]) -> f64 {
     let floor = end.iter().fold(0.0_f64, |most, value| most.max(value.abs())).min(1.0);
     let parts = start.iter().zip(end).map(|(start, end)| {

@@ -15,8 +15,8 @@ use dashpot_numerics::{
 
 use super::{
     bracket::{Flank, Step},
-    posed::{Figure, Impact, Posed, Wanted},
-    sums::Sums,
+    scene_point::{Figure, Impact, ScenePoint, Wanted},
+    sums::Integrals,
 };
 
 /// A step is so long, in units of the shortest time of the system, where only peaks are looked for …
@@ -53,16 +53,16 @@ impl Peak {
     }
 }
 
-impl<const N: usize> Posed<'_, N> {
+impl<const N: usize> ScenePoint<'_, N> {
     /// Solves the impact. `None` where it is not of the plain kind: the force does not push from the
     /// start, or does not fall through zero within the run, or comes near to zero before, or one of
     /// both turns twice within a step where it is largest, or comes near to its peak once more after the
     /// impact, or the system is too stiff.
     pub(super) fn solve(&self, wanted: Wanted) -> Option<Impact> {
-        let mut march = March::new(self, wanted)?;
-        while march.start() < self.end {
-            if let ControlFlow::Break(time) = march.advance()? {
-                return march.impact(time);
+        let mut propagate = Propagation::new(self, wanted)?;
+        while propagate.start() < self.end {
+            if let ControlFlow::Break(time) = propagate.advance()? {
+                return propagate.impact(time);
             }
         }
         None
@@ -70,8 +70,8 @@ impl<const N: usize> Posed<'_, N> {
 }
 
 /// A solution on its way from node to node.
-struct March<'p, const N: usize> {
-    posed: &'p Posed<'p, N>,
+struct Propagation<'p, const N: usize> {
+    scene_point: &'p ScenePoint<'p, N>,
     wanted: Wanted,
     /// How fast the system changes, and the step that suits it.
     rate: f64,
@@ -79,7 +79,7 @@ struct March<'p, const N: usize> {
     carry: Square<N>,
     /// Force and deformation with two rates each, over the states.
     looks: [[f64; 6]; N],
-    sums: Option<Sums<N>>,
+    sums: Option<Integrals<N>>,
     /// Steps done, the state there, and what is seen.
     at: u32,
     z: [f64; N],
@@ -95,44 +95,44 @@ struct March<'p, const N: usize> {
     fall: f64,
 }
 
-impl<'p, const N: usize> March<'p, N> {
-    fn new(posed: &'p Posed<'p, N>, wanted: Wanted) -> Option<Self> {
-        let powers = Powers::of(*posed.matrix);
+impl<'p, const N: usize> Propagation<'p, N> {
+    fn new(scene_point: &'p ScenePoint<'p, N>, wanted: Wanted) -> Option<Self> {
+        let powers = Powers::of(*scene_point.matrix);
         let rate = powers.rate();
         let integrates = wanted.work || wanted.work_at_end || wanted.power.is_some();
         let longest = if integrates { FINE } else { COARSE } / rate;
-        let step = longest.min(posed.end / FEWEST);
-        if !(step > 0.0 && posed.end / step <= MOST) {
+        let step = longest.min(scene_point.end / FEWEST);
+        if !(step > 0.0 && scene_point.end / step <= MOST) {
             return None;
         }
-        let rates = |row: &[f64; N]| apply_left(row, posed.matrix);
-        let (force_rate, speed) = (rates(posed.force), rates(posed.deformation));
+        let rates = |row: &[f64; N]| apply_left(row, scene_point.matrix);
+        let (force_rate, speed) = (rates(scene_point.force), rates(scene_point.deformation));
         let (force_bend, bend) = (rates(&force_rate), rates(&speed));
         let mut looks = [[0.0; 6]; N];
         for (at, look) in looks.iter_mut().enumerate() {
-            let force = [posed.force[at], force_rate[at], force_bend[at]];
-            let depth = [posed.deformation[at], speed[at], bend[at]];
+            let force = [scene_point.force[at], force_rate[at], force_bend[at]];
+            let depth = [scene_point.deformation[at], speed[at], bend[at]];
             *look = [force[0], force[1], force[2], depth[0], depth[1], depth[2]];
         }
-        let most = posed.start.map(f64::abs);
-        let seen = apply(&looks, posed.start);
+        let most = scene_point.start.map(f64::abs);
+        let seen = apply(&looks, scene_point.start);
         let noise = |row: &[f64; N]| NOTHING * size(row, &most);
-        let begins = if seen[0].abs() > noise(posed.force) {
+        let begins = if seen[0].abs() > noise(scene_point.force) {
             seen[0] > 0.0
         } else {
             seen[1] > noise(&force_rate)
         };
         let peak = |value: f64| Peak { value: value.max(0.0), time: 0.0, doubtful: 0.0 };
         begins.then(|| Self {
-            posed,
+            scene_point,
             wanted,
             rate,
             step,
             carry: powers.exponential(step),
             looks,
-            sums: integrates.then(|| Sums::new(posed, wanted, step, &speed)),
+            sums: integrates.then(|| Integrals::new(scene_point, wanted, step, &speed)),
             at: 0,
-            z: *posed.start,
+            z: *scene_point.start,
             seen,
             most,
             peaks: [peak(seen[0]), peak(seen[3])],
@@ -156,12 +156,12 @@ impl<'p, const N: usize> March<'p, N> {
             *own = own.max(state.abs());
         }
         let flanks = [Flank::of(&self.seen, &found, 0), Flank::of(&self.seen, &found, 3)];
-        let (matrix, looks) = (self.posed.matrix, &self.looks);
+        let (matrix, looks) = (self.scene_point.matrix, &self.looks);
         let whole = Step { matrix, looks, length: self.step, ends: [&self.z, &next] };
         let mut until = None;
         if found[0] <= 0.0 {
             let (time, depth) = whole.fall(&flanks[0])?;
-            if self.at == 0 || self.start() + time > self.posed.end {
+            if self.at == 0 || self.start() + time > self.scene_point.end {
                 return None;
             }
             self.shallowest = self.shallowest.min(depth);
@@ -188,12 +188,12 @@ impl<'p, const N: usize> March<'p, N> {
             }
         }
         self.shallowest = self.shallowest.min(found[3]);
-        let ahead = self.posed.end - self.start();
+        let ahead = self.scene_point.end - self.start();
         if let Some(sums) = &mut self.sums {
             if until.is_some() && self.wanted.work_at_end {
                 sums.complete(&self.carry, &self.z, ahead);
             }
-            sums.add(self.posed, &self.z, self.at, until)?;
+            sums.add(self.scene_point, &self.z, self.at, until)?;
         }
         if let Some(time) = until {
             return Some(ControlFlow::Break(time));
@@ -209,9 +209,10 @@ impl<'p, const N: usize> March<'p, N> {
         let twice = self.carry.map(|column| apply(&self.carry, &column));
         let most = NEARLY * self.peaks[0].value;
         let (mut z, mut time) = (self.z, self.start());
-        while time < self.posed.end {
+        while time < self.scene_point.end {
             z = apply(&twice, &z);
-            let force: f64 = self.posed.force.iter().zip(&z).map(|(row, own)| row * own).sum();
+            let force: f64 =
+                self.scene_point.force.iter().zip(&z).map(|(row, own)| row * own).sum();
             if force.abs() > most {
                 return true;
             }
@@ -233,21 +234,21 @@ impl<'p, const N: usize> March<'p, N> {
         }
         let steps = f64::from(self.at) + 16.0 + self.rate * release;
         let grown = ROUNDINGS * steps * N as f64;
-        let noise = grown * size(self.posed.force, &self.most);
+        let noise = grown * size(self.scene_point.force, &self.most);
         let figure = |value: f64, error: f64| Figure { value, error };
         let mut impact = Impact {
             force: figure(force.value, noise),
-            depth: figure(depth.value, grown * size(self.posed.deformation, &self.most)),
+            depth: figure(depth.value, grown * size(self.scene_point.deformation, &self.most)),
             deepest_at: depth.time,
             release: figure(release, noise / self.fall + 4.0 * f64::EPSILON * release),
             ..Impact::default()
         };
         if let Some(sums) = &self.sums {
-            let speed: [f64; N] = self.looks.map(|own| own[4]);
-            sums.finish(&mut impact, self.posed.end, noise, grown * size(&speed, &self.most));
+            let speed: [f64; N] = self.looks.map(|look| look[4]);
+            sums.finish(&mut impact, self.scene_point.end, noise, grown * size(&speed, &self.most));
         }
         let all = [impact.force, impact.depth, impact.release, impact.power, impact.work];
-        let is_finite = |own: &Figure| own.value.is_finite() && own.error.is_finite();
+        let is_finite = |figure: &Figure| figure.value.is_finite() && figure.error.is_finite();
         all.iter().all(is_finite).then_some(impact)
     }
 }

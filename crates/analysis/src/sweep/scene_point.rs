@@ -4,7 +4,7 @@ use dashpot_numerics::small::Square;
 
 /// An impact, ready to be solved: `ż = A z` in any unit of time, and what is looked at.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Posed<'s, const N: usize> {
+pub(super) struct ScenePoint<'s, const N: usize> {
     /// `A` by its columns.
     pub(super) matrix: &'s Square<N>,
     /// The state at the start.

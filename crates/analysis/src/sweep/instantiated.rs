@@ -1,13 +1,13 @@
-//! Points of a sweep that are solved by stamping: one compiled form, other numbers.
+//! Points of a sweep that are solved by instantiating: one compiled form, other numbers.
 
 use dashpot_network::{
-    Blueprint, ConnectionOutputs, SegmentPlace, Stamp,
+    ConnectionOutputs, Instance, ParametricSystem, SegmentPlace,
     parameters::{Value, WindowWish},
 };
 
 use super::{
-    Column, Grid, Pose, Posed as Scene,
-    posed::{Figure, Impact, Posed, Wanted},
+    Column, Grid, Pose, ScenePoint as Scene,
+    scene_point::{Figure, Impact, ScenePoint, Wanted},
     table::Table,
     warned::Notice,
 };
@@ -36,11 +36,11 @@ enum Shown {
     Severity,
 }
 
-/// How the points of a sweep are solved by stamping.
+/// How the points of a sweep are solved by instantiating.
 #[derive(Debug)]
 pub(super) struct Plan<'g> {
     grid: &'g Grid,
-    blueprint: Blueprint,
+    parametric: ParametricSystem,
     /// The element that is struck.
     element: String,
     table: Table,
@@ -65,11 +65,11 @@ impl<'g> Plan<'g> {
             return None;
         }
         let duration = settings.duration;
-        let blueprint = Blueprint::of(&first.network, duration)?;
-        if blueprint.states() > MOST_STATES {
+        let parametric = ParametricSystem::of(&first.network, duration)?;
+        if parametric.states() > MOST_STATES {
             return None;
         }
-        let struck = blueprint.element();
+        let struck = parametric.element();
         let assembly = first
             .network
             .compile(duration)
@@ -88,14 +88,14 @@ impl<'g> Plan<'g> {
         let mut shown = Vec::with_capacity(columns.len());
         for column in columns {
             let own = selected.iter().find(|own| own.key == column.key)?;
-            let own = shown_by(own, &blueprint, &mut wanted)?;
+            let own = shown_by(own, &parametric, &mut wanted)?;
             shown.push(if column.is_share { Shown::Share } else { own });
         }
         let loosest =
-            columns.iter().map(|own| settings.accuracy.of(&own.key).min(LOOSEST)).collect();
-        let table = Table::of(&blueprint, grid, pose, duration)?;
+            columns.iter().map(|column| settings.accuracy.of(&column.key).min(LOOSEST)).collect();
+        let table = Table::of(&parametric, grid, pose, duration)?;
         let element = first.network.connections()[struck].name.clone();
-        Some(Self { grid, blueprint, element, table, shown, loosest, wanted, duration })
+        Some(Self { grid, parametric, element, table, shown, loosest, wanted, duration })
     }
 
     /// The element that is struck.
@@ -107,12 +107,12 @@ impl<'g> Plan<'g> {
     pub(super) fn agrees(&self, point: usize, scene: &Scene) -> bool {
         let mut places = vec![0; self.grid.counts().len()];
         self.grid.locate(point, &mut places);
-        self.table.agrees(&self.blueprint, &places, &scene.network)
+        self.table.agrees(&self.parametric, &places, &scene.network)
     }
 
     /// What solves points; one for each thread.
     pub(super) fn stamper(&self) -> Option<Box<dyn Stamper + '_>> {
-        match self.blueprint.states() {
+        match self.parametric.states() {
             0..=2 => self.sized::<2>(),
             3..=4 => self.sized::<4>(),
             5..=6 => self.sized::<6>(),
@@ -126,14 +126,14 @@ impl<'g> Plan<'g> {
     fn sized<const N: usize>(&self) -> Option<Box<dyn Stamper + '_>> {
         Some(Box::new(Sized {
             plan: self,
-            stamp: self.blueprint.stamp::<N>()?,
+            instance: self.parametric.instance::<N>()?,
             places: vec![0; self.grid.counts().len()],
             numbers: vec![0.0; self.table.len()],
         }))
     }
 
     fn notice(&self, impact: &Impact, numbers: &[f64]) -> Notice {
-        let time = self.blueprint.time_scale();
+        let time = self.parametric.time_scale();
         let thickness = numbers[numbers.len() - 1];
         let Figure { value: depth, error } = impact.depth;
         let release = impact.release.value * time;
@@ -148,8 +148,8 @@ impl<'g> Plan<'g> {
     }
 
     fn figure(&self, shown: Shown, impact: &Impact, numbers: &[f64]) -> Figure {
-        let time = self.blueprint.time_scale();
-        let mass = self.blueprint.impactor_mass(numbers);
+        let time = self.parametric.time_scale();
+        let mass = self.parametric.impactor_mass(numbers);
         let thickness = numbers[numbers.len() - 1];
         let times = |own: Figure, factor: f64| Figure {
             value: own.value * factor,
@@ -172,28 +172,32 @@ impl<'g> Plan<'g> {
     }
 }
 
-/// The largest number of unknowns that are stamped.
+/// The largest number of unknowns that are instantiated.
 const MOST_STATES: usize = 12;
 
 /// The figure that is a measure; `None` where it has to be read off the full solution.
-fn shown_by(own: &Selected, blueprint: &Blueprint, wanted: &mut Wanted) -> Option<Shown> {
+fn shown_by(
+    selected: &Selected,
+    parametric: &ParametricSystem,
+    wanted: &mut Wanted,
+) -> Option<Shown> {
     let mut numbers = Vec::new();
-    for value in own.measure.values() {
+    for value in selected.measure.values() {
         match value {
             Value::Window(WindowWish::Impact) => {}
             Value::Number(number) => numbers.push(number),
             _ => return None,
         }
     }
-    let target = match own.measure.kind() {
+    let target = match selected.measure.kind() {
         "peak-force" | "peak-deformation" | "contact-time" | "impulse" | "energy"
-        | "energy-at-end" => blueprint.element(),
-        _ => blueprint.impactor().index(),
+        | "energy-at-end" => parametric.element(),
+        _ => parametric.impactor().index(),
     };
-    if own.target != target {
+    if selected.target != target {
         return None;
     }
-    match (own.measure.kind(), numbers.as_slice()) {
+    match (selected.measure.kind(), numbers.as_slice()) {
         ("peak-force", []) => Some(Shown::Force),
         ("peak-deformation", []) => Some(Shown::Depth),
         ("peak-acceleration", []) => Some(Shown::Acceleration),
@@ -213,7 +217,7 @@ fn shown_by(own: &Selected, blueprint: &Blueprint, wanted: &mut Wanted) -> Optio
         // Below one, a power is too steep where the force is zero.
         ("severity-index", &[exponent])
             if exponent >= 1.0
-                && wanted.power.is_none_or(|own| own.to_bits() == exponent.to_bits()) =>
+                && wanted.power.is_none_or(|power| power.to_bits() == exponent.to_bits()) =>
         {
             wanted.power = Some(exponent);
             Some(Shown::Severity)
@@ -232,7 +236,7 @@ pub(super) trait Stamper {
 
 struct Sized<'p, const N: usize> {
     plan: &'p Plan<'p>,
-    stamp: Stamp<N>,
+    instance: Instance<N>,
     places: Vec<usize>,
     numbers: Vec<f64>,
 }
@@ -244,16 +248,16 @@ impl<const N: usize> Stamper for Sized<'_, N> {
         if !plan.table.write(&self.places, &mut self.numbers) {
             return None;
         }
-        plan.blueprint.fill(&self.numbers, &mut self.stamp);
-        let stamp = &self.stamp;
-        let posed = Posed {
-            matrix: &stamp.matrix,
-            start: &stamp.start,
-            force: &stamp.force,
-            deformation: &stamp.deformation,
-            end: plan.duration / plan.blueprint.time_scale(),
+        plan.parametric.fill(&self.numbers, &mut self.instance);
+        let instance = &self.instance;
+        let scene_point = ScenePoint {
+            matrix: &instance.matrix,
+            start: &instance.start,
+            force: &instance.force,
+            deformation: &instance.deformation,
+            end: plan.duration / plan.parametric.time_scale(),
         };
-        let impact = posed.solve(plan.wanted)?;
+        let impact = scene_point.solve(plan.wanted)?;
         let places = plan.shown.iter().zip(&plan.loosest).zip(values).zip(errors);
         for (((shown, loosest), value), error) in places {
             let own = plan.figure(*shown, &impact, &self.numbers);

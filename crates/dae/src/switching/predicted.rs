@@ -1,14 +1,14 @@
-//! Legs that are over before a method has seen them.
+//! Intervals that are over before a method has seen them.
 //!
 //! What rebounds slowly comes back from so near that the way out and back is less than the method's
-//! error, or the rounding of what is far away. The series of the derivatives at the leg's start tells
-//! all about so short a leg.
+//! error, or the rounding of what is far away. The series of the derivatives at the interval's
+//! start tells all about so short an interval.
 
 use std::time::Instant;
 
 use dashpot_numerics::chebyshev::Interpolation;
 
-use super::Leg;
+use super::ModeInterval;
 use crate::{
     Dense, Derivatives, Direction, Event, Guard, Method, Observer, Outcome, Panel, Progress, Run,
     Signal, SolveError, Statistics, System, Trajectory, derivatives,
@@ -16,35 +16,36 @@ use crate::{
     pieces::{Pieces, ROUNDING, between},
 };
 
-/// A guard that ends a leg at a time that is known.
+/// A guard that ends an interval at a time that is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flight {
-    /// Index into [`Leg::guards`].
+pub struct PredictedEvent {
+    /// Index into [`ModeInterval::guards`].
     pub guard: usize,
-    /// When, from the start of the leg, in units of its system's time, positive.
+    /// When, from the start of the interval, in units of its system's time, positive.
     pub length: f64,
 }
 
 /// The highest order of the derivatives that are used.
 const ORDERS: usize = 7;
-/// What the last two orders may contribute, in parts of the whole and of the doubt.
+/// What the last two orders may contribute, in parts of the whole and of the threshold.
 const NEGLIGIBLE: f64 = 1e-3;
-/// The error of a leg that follows an exact solution, in parts of the rounding of its values: they are
-/// sums of larger terms.
+/// The error of an interval that follows an exact solution, in parts of the rounding of its values:
+/// they are sums of larger terms.
 const ERROR: f64 = 8.0;
 /// Most improvements of the time at which a quantity comes back.
 const IMPROVEMENTS: usize = 30;
 
-impl Flight {
-    /// How a leg of `system` ends at the guard number `guard`, if that is reached soon by what begins
-    /// on its inner side, and how far it strays from its level before, in the output's unit. `None`
-    /// where the `motion`, which is the derivatives up to order 7, does not tell all about so long a
-    /// time; `doubt` is as in [`LegEnd::doubt`](crate::LegEnd::doubt).
+impl PredictedEvent {
+    /// How an interval of `system` ends at the guard number `guard`, if that is reached soon by
+    /// what begins on its inner side, and how far it strays from its level before, in the output's
+    /// unit. `None` where the `motion`, which is the derivatives up to order 7, does not tell all
+    /// about so long a time; `threshold` is as in
+    /// [`IntervalEnd::threshold`](crate::IntervalEnd::threshold).
     pub fn of(
         system: &System,
         motion: &Derivatives,
         guard: (usize, &Guard),
-        doubt: f64,
+        threshold: f64,
     ) -> Option<(Self, f64)> {
         let (guard, own) = guard;
         if !system.is_linear() || motion.values.len() <= ORDERS {
@@ -58,9 +59,9 @@ impl Flight {
         let output = system.outputs.get(own.output)?;
         let mut gap = series(|order| -outward * motion.output(output, order).0);
         gap[0] = (gap[0] + outward * own.level).max(0.0);
-        let (length, height) = back(&gap, doubt)?;
+        let (length, height) = back(&gap, threshold)?;
         let is_told = |unknown: usize| {
-            is_settled(&series(|order| motion.values[order][unknown].abs()), length, doubt)
+            is_settled(&series(|order| motion.values[order][unknown].abs()), length, threshold)
         };
         let is_smooth = system.breakpoints(2.0 * length).is_empty();
         let is_known = is_smooth && (0..system.len()).all(is_told);
@@ -80,7 +81,7 @@ fn series(derivative: impl Fn(usize) -> f64) -> [f64; ORDERS + 1] {
 
 /// When a quantity of this series that begins at zero or above falls through zero, and how high it
 /// rises before.
-fn back(gap: &[f64; ORDERS + 1], doubt: f64) -> Option<(f64, f64)> {
+fn back(gap: &[f64; ORDERS + 1], threshold: f64) -> Option<(f64, f64)> {
     let [start, rate, bend, ..] = *gap;
     let root = (rate * rate - 4.0 * bend * start).sqrt();
     let rises = rate > 0.0;
@@ -101,13 +102,13 @@ fn back(gap: &[f64; ORDERS + 1], doubt: f64) -> Option<(f64, f64)> {
     }
     // What improves it by much has led to another root.
     let is_near = (time - first).abs() <= 0.1 * first;
-    let is_told = time > 0.0 && is_near && is_settled(&gap.map(f64::abs), time, doubt);
+    let is_told = time > 0.0 && is_near && is_settled(&gap.map(f64::abs), time, threshold);
     let height = if rises { start + rate * rate / (-4.0 * bend) } else { start };
     is_told.then_some((time, height))
 }
 
 /// Whether the last orders of a series contribute next to nothing to what it changes by.
-fn is_settled(sizes: &[f64; ORDERS + 1], time: f64, doubt: f64) -> bool {
+fn is_settled(sizes: &[f64; ORDERS + 1], time: f64, threshold: f64) -> bool {
     let mut power = 1.0;
     let (mut whole, mut last) = (0.0, 0.0);
     for (order, size) in sizes.iter().enumerate().skip(1) {
@@ -117,23 +118,23 @@ fn is_settled(sizes: &[f64; ORDERS + 1], time: f64, doubt: f64) -> bool {
             last += size * power;
         }
     }
-    last <= NEGLIGIBLE * doubt * whole
+    last <= NEGLIGIBLE * threshold * whole
 }
 
-/// Solves a leg whose end is known by its series; `None` where the series cannot be had.
+/// Solves an interval whose end is known by its series; `None` where the series cannot be had.
 ///
 /// # Errors
 ///
 /// [`SolveError::Cancelled`] where the observer ends the run.
 pub(super) fn follow(
-    leg: &Leg,
-    flight: Flight,
+    interval: &ModeInterval,
+    predicted: PredictedEvent,
     method: &dyn Method,
     run: &Run,
     observer: &mut dyn Observer,
 ) -> Result<Option<Trajectory>, SolveError> {
     let begin = Instant::now();
-    let system = leg.system.as_ref();
+    let system = interval.system.as_ref();
     let Ok(motion) = derivatives(system, &system.initial, ORDERS) else { return Ok(None) };
     let mut pieces = Pieces::new(system, run);
     let mut row = vec![0.0; system.len()];
@@ -144,7 +145,7 @@ pub(super) fn follow(
         }
     };
     for &node in Interpolation::of_degree(ORDERS).nodes() {
-        let time = between(0.0, flight.length, node);
+        let time = between(0.0, predicted.length, node);
         state(time, &mut row);
         if time > 0.0 {
             pieces.add_row(system, time, &row);
@@ -153,9 +154,9 @@ pub(super) fn follow(
         }
     }
     pieces.end_step(ORDERS);
-    let whole = flight.length * system.time_scale;
+    let whole = predicted.length * system.time_scale;
     let signal = |(at, guard): (usize, &Guard)| {
-        if at == flight.guard {
+        if at == predicted.guard {
             // Its end is known better than by looking.
             let inside = guard.begins.map_or(0.0, |above| if above { 1.0 } else { -1.0 });
             let value = guard.level + inside * guard.level.abs().max(1.0);
@@ -174,7 +175,7 @@ pub(super) fn follow(
     let (outcome, t_end) = match stop {
         Some(stop) if stop.time <= run.t_end => (Outcome::Stopped { guard: stop.guard }, stop.time),
         _ if whole <= run.t_end => {
-            let guard = flight.guard;
+            let guard = predicted.guard;
             let rising = run.guards[guard].direction == Direction::Rising;
             events.push(Event { time: whole, guard, rising });
             (Outcome::Stopped { guard }, whole)
@@ -199,7 +200,7 @@ pub(super) fn follow(
     }))
 }
 
-/// A leg of an exact solution: its error is that of rounding.
+/// An interval of an exact solution: its error is that of rounding.
 #[derive(Debug)]
 struct Bounded(Pieces);
 
@@ -223,7 +224,7 @@ mod tests {
     use super::*;
     use crate::{Piece, Waveform, problems};
 
-    const DOUBT: f64 = 1e-10;
+    const THRESHOLD: f64 = 1e-10;
 
     fn falling(output: usize, level: f64) -> Guard {
         Guard {
@@ -245,16 +246,16 @@ mod tests {
         system
     }
 
-    fn flight(system: &System) -> Option<(Flight, f64)> {
+    fn predicted(system: &System) -> Option<(PredictedEvent, f64)> {
         let motion = derivatives(system, &system.initial, ORDERS).unwrap();
-        Flight::of(system, &motion, (3, &falling(0, 0.0)), DOUBT)
+        PredictedEvent::of(system, &motion, (3, &falling(0, 0.0)), THRESHOLD)
     }
 
     #[test]
     fn short_flight_ends_where_the_closed_form_does() {
         for speed in [1e-3, 1e-7, 1e-12] {
             let system = thrown(speed);
-            let (found, height) = flight(&system).unwrap();
+            let (found, height) = predicted(&system).unwrap();
             let scale = system.outputs.at(0).scale;
             // x = −1 + e^(−0.2 t) (cos ω t + (v + 0.2)/ω sin ω t), whose −1 cancels.
             let (t, omega) = (found.length, 0.96_f64.sqrt());
@@ -269,11 +270,11 @@ mod tests {
 
     #[test]
     fn flight_that_the_series_does_not_tell_all_about_is_none() {
-        assert!(flight(&thrown(1.0)).is_none(), "too long");
-        assert!(flight(&thrown(-1e-3)).is_none(), "it does not rise");
+        assert!(predicted(&thrown(1.0)).is_none(), "too long");
+        assert!(predicted(&thrown(-1e-3)).is_none(), "it does not rise");
         let step = |start: f64, value: f64| Piece { start, value, ..Piece::default() };
         let mut system = thrown(1e-3);
         system.waveforms = vec![Waveform::new(vec![step(0.0, -1.0), step(1e-3, 0.0)]).unwrap()];
-        assert!(flight(&system).is_none(), "the force changes on the way");
+        assert!(predicted(&system).is_none(), "the force changes on the way");
     }
 }

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::{
     Parts,
-    acting::add_forces,
     bodies::Role,
+    incidence::add_forces,
     row::{Combination, Row, RowSum},
     sides::{Sides, Sum},
 };
@@ -43,7 +43,7 @@ pub(super) fn rigid_forces(network: &Network, parts: &Parts<'_>) -> BTreeMap<usi
     if links.is_empty() {
         return BTreeMap::new();
     }
-    let ends: Vec<[usize; 2]> = links.iter().map(|own| own.1).collect();
+    let ends: Vec<[usize; 2]> = links.iter().map(|link| link.1).collect();
     let sides = Sides::of(&ends, |joint| share(network, parts, joint));
     let force = |(at, &(link, [joint, _])): (usize, &(usize, [usize; 2]))| {
         let [first, second] = sides.of_link(at)?;
@@ -58,8 +58,8 @@ pub(super) fn rigid_forces(network: &Network, parts: &Parts<'_>) -> BTreeMap<usi
 fn share(network: &Network, parts: &Parts<'_>, joint: usize) -> Share {
     let mut force = RowSum::default();
     add_forces(parts, &[joint], 1.0, &mut force);
-    let drives = parts.acting.drives_at(parts.drives, joint);
-    drives.filter_map(|own| own.force.as_ref()).for_each(|own| force.add(1.0, own));
+    let drives = parts.incidence.drives_at(parts.drives, joint);
+    drives.filter_map(|drive| drive.force.as_ref()).for_each(|own| force.add(1.0, own));
     let node = network.nodes.get(joint);
     Share {
         force: force.total(),
@@ -77,7 +77,7 @@ fn balance(parts: &Parts<'_>, body: usize, share: &Share, sign: f64) -> Row {
         (Role::Mass(_), Some(acceleration)) => sum.add(-sign * share.mass, &acceleration),
         (Role::Prescribed(_), _) if share.mass > 0.0 => {
             let part = share.mass / parts.bodies.all[body].whole_mass;
-            let own = parts.acting.drives(parts.drives, body);
+            let own = parts.incidence.drives(parts.drives, body);
             let given = own.filter(|own| own.force.is_none());
             given.for_each(|own| sum.add(-sign * part, &own.inertia));
         }

@@ -18,9 +18,9 @@ const PULSE: Duration = Duration::from_millis(20);
 pub type Watch<'w> = dyn FnMut(usize, usize) -> ControlFlow<()> + 'w;
 
 /// How many of some threads find work in so many rows.
-pub(super) fn hands(threads: usize, rows: usize) -> u32 {
-    let hands = threads.clamp(1, rows.div_ceil(SHARE).max(1));
-    u32::try_from(hands).unwrap_or(u32::MAX)
+pub(super) fn workers(threads: usize, rows: usize) -> u32 {
+    let workers = threads.clamp(1, rows.div_ceil(SHARE).max(1));
+    u32::try_from(workers).unwrap_or(u32::MAX)
 }
 
 /// Does something for each of some `rows`, by so many threads, each with a `tool` of its own. False
@@ -33,7 +33,7 @@ pub(super) fn share<R: Send, T>(
     watch: &mut Watch<'_>,
 ) -> bool {
     let count = rows.len();
-    let threads = hands(threads, count) as usize;
+    let threads = workers(threads, count) as usize;
     if threads == 1 {
         return alone(rows, &mut tool(), work, watch);
     }
