@@ -11,6 +11,8 @@ const OVERHEAD: u64 = 16;
 const MOST_UNKNOWNS: usize = 1000;
 /// Entries of a row that a factorisation meets at most: matrices of more unknowns are sparse.
 const DENSE: usize = 30;
+/// What a panel costs that follows a driving function within a step.
+const PANEL: u64 = 500;
 /// What a choice of phases costs, with the equations that follow from it.
 const CHOICE: u64 = 2000;
 
@@ -19,8 +21,8 @@ const CHOICE: u64 = 2000;
 ///
 /// A unit is what one unknown costs in one step, some 30 ns. A step costs 16 units and one for each
 /// unknown, up to 1000, and so do a rejected one and a panel of `exact` for its modes; a linear system about
-/// as much, a factorisation more for each entry; modes cost twice the cube of their number; a choice of
-/// phases 2000. Copies share one account.
+/// as much, a factorisation more for each entry; modes cost twice the cube of their number; a panel that
+/// follows a driving function within a step 500; a choice of phases 2000. Copies share one account.
 #[derive(Debug, Clone, Default)]
 pub struct Budget {
     account: Option<Arc<Account>>,
@@ -74,6 +76,8 @@ impl Budget {
             if account.is_over() {
                 return false;
             }
+            // What one part of it asks for beyond the limit counts as that, so that no sum overflows.
+            let units = units.min(account.limit.saturating_add(1));
             let done = account.done.fetch_add(units, Relaxed).saturating_add(units);
             account.whole.charge(units) || done > account.limit
         })
@@ -105,6 +109,11 @@ impl Budget {
     pub(crate) fn charge_decomposition(&self, size: usize) -> bool {
         let size = size as u64;
         self.charge(OVERHEAD + 2 * size * size * size)
+    }
+
+    /// Counts panels that follow driving functions within a step.
+    pub(crate) fn charge_panels(&self, panels: usize) -> bool {
+        self.charge((panels as u64).saturating_mul(PANEL))
     }
 
     /// Counts a choice of phases.

@@ -29,10 +29,8 @@ pub(super) fn add(
     magnitude: &mut f64,
 ) {
     let terms: Vec<Term> = output.inputs.terms().map(|term| term_of(system, step, term)).collect();
-    let omega = terms.iter().map(|term| term.omega(step)).fold(0.0, f64::max);
-    let half = 0.5 * omega * (step.end - step.start);
-    let parts = count((half / LONGEST).ceil()).max(1);
-    let degree = degree(step, &terms, half / parts as f64, parts);
+    let (half, parts) = parts(step, terms.iter().map(|term| term.omega(step)));
+    let degree = degree(step, &terms, half, parts);
     let interpolation = Interpolation::of_degree(degree);
     let mut own = vec![0.0; step.degree + 1];
     Interpolation::of_degree(step.degree).coefficients(values, &mut own);
@@ -69,10 +67,22 @@ pub(super) fn add(
 pub(super) fn resolution(system: &System, step: &Step) -> (usize, usize) {
     let terms: Vec<Term> =
         (0..system.inputs.len()).map(|input| term_of(system, step, (input, 1.0))).collect();
-    let omega = terms.iter().map(|term| term.omega(step)).fold(0.0, f64::max);
-    let half = 0.5 * omega * (step.end - step.start);
+    let (half, parts) = parts(step, terms.iter().map(|term| term.omega(step)));
+    (degree(step, &terms, half, parts), parts)
+}
+
+/// How many panels follow the driving functions over a step, whatever the output.
+pub(super) fn panels(system: &System, step: &Step) -> usize {
+    let omega = |input| term_of(system, step, (input, 1.0)).omega(step);
+    parts(step, (0..system.inputs.len()).map(omega)).1
+}
+
+/// Half of what the phase of the fastest sine turns by on one of the equal parts of a step, and how many
+/// there are.
+fn parts(step: &Step, omegas: impl Iterator<Item = f64>) -> (f64, usize) {
+    let half = 0.5 * omegas.fold(0.0, f64::max) * (step.end - step.start);
     let parts = count((half / LONGEST).ceil()).max(1);
-    (degree(step, &terms, half / parts as f64, parts), parts)
+    (half / parts as f64, parts)
 }
 
 /// Adds a panel; adjoining panels share their border to the last bit.

@@ -18,6 +18,9 @@ use stream::Stream;
 /// interpolation, and of its coefficients.
 pub(crate) const ROUNDING: f64 = 16.0;
 
+/// Memory \[B\] that a panel of a signal takes, whose polynomial follows some waves.
+pub(crate) const PANEL_BYTES: usize = 300;
+
 /// Memory \[B\] that the rows of a run may take.
 pub(crate) const MOST_BYTES: usize = 2 << 30;
 
@@ -155,6 +158,11 @@ impl Pieces {
     pub(crate) fn size_of_rows(&self) -> usize {
         size_of::<f64>() * (self.rows.len() + self.times.len())
             + size_of::<Step>() * self.steps.len()
+    }
+
+    /// How many panels follow the driving functions over the last step.
+    pub(crate) fn panels(&self, system: &System) -> usize {
+        self.steps.last().map_or(0, |step| inputs::panels(system, step))
     }
 
     /// Number of steps.

@@ -58,6 +58,7 @@ fn integrate_in<S: Scheme>(
         watch: Watch::new(&run.guards),
         largest: vec![0.0; run.guards.len()],
         pieces: Pieces::new(system, run),
+        further: 0,
         statistics: Statistics::default(),
         span: (0.0, 0.0),
         state: system.initial.clone(),

@@ -27,6 +27,8 @@ pub(in crate::methods) struct Walk<'r> {
     /// The largest terms of each guard's output so far.
     pub(super) largest: Vec<f64>,
     pub(super) pieces: Pieces,
+    /// Panels of a signal that follow driving functions within steps, beyond one for each step.
+    pub(super) further: usize,
     pub(super) statistics: Statistics,
     /// Start and end of the current span, dimensionless.
     pub(super) span: (f64, f64),
@@ -154,11 +156,15 @@ impl Walk<'_> {
         if steps >= MOST_STEPS {
             return Err(SolveError::TooManySteps { method: self.method, time, steps }.into());
         }
-        if self.run.budget.charge_step(self.system.len()) {
+        let further = self.pieces.panels(self.system).saturating_sub(1);
+        let is_over = self.run.budget.charge_panels(further);
+        if self.run.budget.charge_step(self.system.len()) || is_over {
             let work = self.run.budget.done();
             return Err(SolveError::BudgetSpent { method: self.method, time, work }.into());
         }
-        let bytes = self.pieces.size_of_rows();
+        self.further = self.further.saturating_add(further);
+        let signal = self.further.saturating_mul(pieces::PANEL_BYTES);
+        let bytes = signal.saturating_add(self.pieces.size_of_rows());
         if bytes > MOST_BYTES {
             return Err(SolveError::TooLarge { method: self.method, time, steps, bytes }.into());
         }

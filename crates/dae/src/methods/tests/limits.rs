@@ -3,7 +3,9 @@ use std::ops::ControlFlow;
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use super::*;
-use crate::{Input, LinearForm, Outcome, Outputs, Piece, Progress, Unknown, UnknownKind, Waveform};
+use crate::{
+    Budget, Input, LinearForm, Outcome, Outputs, Piece, Progress, Unknown, UnknownKind, Waveform,
+};
 
 /// A system of unknowns `u0, u1, …` with this matrix and no input.
 fn system(kinds: &[UnknownKind], entries: &[(usize, usize, f64)], initial: &[f64]) -> System {
@@ -161,6 +163,28 @@ fn without_unknowns_the_outputs_follow_the_inputs() {
             let expected = 2.0 * (3.0 * piece.derivative(0, t) + 0.25 * piece.derivative(1, t));
             // The phase 400 t is rounded to 10⁻¹³ in several places, and rates reach 400.
             assert!((signal.value(t) - expected).abs() < 1e-9, "{} at {t}", method.name());
+        }
+    }
+}
+
+#[test]
+fn more_waves_than_can_be_kept_are_refused_before_they_are_followed() {
+    let mut still = system(&[], &[], &[]);
+    still.inputs = vec![Input { waveform: 0, derivative: 0 }];
+    still.input_matrix = CsrMatrix::zeros(0, 1);
+    still.outputs = Outputs::new();
+    still.outputs.push("sine", "N", 1.0, &LinearForm::zero(), &LinearForm::term(0, 1.0));
+    // From 3·10⁷ panels on.
+    for (omega, duration) in [(1e9, 0.5), (1e20, 1.0), (600.0, 1e30)] {
+        let piece = Piece { sine: 1.0, omega, ..Piece::default() };
+        still.waveforms = vec![Waveform::new(vec![piece]).unwrap()];
+        for method in steppers() {
+            let free = method.integrate(&still, &Run::to(duration), &mut Silent);
+            assert!(matches!(free, Err(SolveError::TooLarge { .. })), "{free:?}");
+            let run = Run { budget: Budget::of(1_000_000_000), ..Run::to(duration) };
+            let bound = method.integrate(&still, &run, &mut Silent);
+            assert!(matches!(bound, Err(SolveError::BudgetSpent { .. })), "{bound:?}");
+            assert!((1_000_000_000..3_000_000_000).contains(&run.budget.done()));
         }
     }
 }
