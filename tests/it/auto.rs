@@ -10,6 +10,8 @@ use dashpot::{
     scene::{ReadOptions, Scene, read},
 };
 
+use crate::scenes::scene_paths;
+
 const METHODS: [&str; 4] = ["exact", "bdf", "esdirk34", "tr-bdf2"];
 
 fn scene(text: &str) -> Scene {
@@ -58,12 +60,8 @@ fn joined(damping: f64, spring: bool) -> Scene {
 
 #[test]
 fn costs_little_more_than_the_best_single_method() {
-    let folder = format!("{}/scenes", env!("CARGO_MANIFEST_DIR"));
-    let mut names: Vec<_> = fs::read_dir(folder).unwrap().map(|own| own.unwrap().path()).collect();
-    names.retain(|path| path.extension().is_some_and(|own| own == "toml"));
-    names.sort();
     let mut ratios = Vec::new();
-    for path in names {
+    for path in scene_paths() {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         let file = path.to_string_lossy();
         let options = ReadOptions { file: Some(&file), ..ReadOptions::default() };
@@ -206,7 +204,7 @@ fn energies_beyond_the_range_of_numbers_end_the_run() {
 
 #[test]
 fn budget_ends_a_run_with_the_best_answer_so_far() {
-    let scene = scene(include_str!("../../scenes/reference.toml"));
+    let scene = scene(include_str!("../../crates/scene/templates/reference.toml"));
     let within = |budget: u64| {
         let mut settings = SolveSettings { budget, ..scene.settings("bdf").unwrap() };
         settings.accuracy.default = 1e-9;

@@ -364,7 +364,7 @@ fn folder_of_results_holds_every_form_and_is_never_foreign() {
 
 #[test]
 fn check_counts_what_is_valid_and_points_at_what_is_not() {
-    let output = run(&["check", "scenes/reference.toml"]);
+    let output = run(&["check", "reference"]);
     assert_eq!(
         (code(&output), out(&output).as_str()),
         (0, "ok: 2 nodes, 2 elements, 6 unknowns, linear\n")
@@ -373,11 +373,9 @@ fn check_counts_what_is_valid_and_points_at_what_is_not() {
     let folder = TempDir::new().unwrap();
     let wrong = SOFT.replace("80 N s/m", "80 N").replace("thickness", "thicknes");
     let wrong = file(&folder, "wrong.toml", &wrong);
-    let output = run(&["check", "scenes/reference-stiff.toml", text(&wrong)]);
+    let output = run(&["check", "reference-stiff", text(&wrong)]);
     assert_eq!(code(&output), 2);
-    assert!(
-        out(&output).contains("reference-stiff.toml: ok") && out(&output).contains("not valid")
-    );
+    assert!(out(&output).contains("reference-stiff: ok") && out(&output).contains("not valid"));
     let errors = err(&output);
     for part in ["wrong.toml:7:", "a damping (N s/m) is expected here", "did you mean `thickness`?"]
     {

@@ -329,7 +329,7 @@ fn methods_converge_on_every_problem_that_they_claim() {
 
 #[test]
 fn the_builder_and_a_scene_give_the_same_network() {
-    let text = include_str!("../../scenes/reference.toml");
+    let text = include_str!("../../crates/scene/templates/reference.toml");
     let from_text = scene(text);
     let pad = Tree::Series(vec![
         Branch::new("maxwell", Tree::series([spring(2e7), dashpot(6e3)])),

@@ -12,10 +12,13 @@ use dashpot::{
 };
 use tempfile::TempDir;
 
-use crate::cli::{code, err, json, out, run, text};
+use crate::{
+    cli::{code, err, json, out, run, text},
+    scenes::scene_path,
+};
 
-fn scene(path: &str) -> Scene {
-    read(&fs::read_to_string(path).unwrap(), &ReadOptions::default()).unwrap().value
+fn scene(name: &str) -> Scene {
+    read(&fs::read_to_string(scene_path(name)).unwrap(), &ReadOptions::default()).unwrap().value
 }
 
 /// What accuracy costs at these tolerances, without regard to time.
@@ -33,7 +36,7 @@ fn cost(scene: &Scene, methods: &[&str], rtols: &[f64]) -> CostReport {
 
 #[test]
 fn errors_of_the_reference_impact_fall_and_are_those_of_runs_beside_the_exact_one() {
-    let scene = scene("scenes/reference.toml");
+    let scene = scene("reference");
     let assembly = Arc::new(scene.assembly.clone());
     let solved = |method: &str, rtol| {
         let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
@@ -61,26 +64,26 @@ fn errors_of_the_reference_impact_fall_and_are_those_of_runs_beside_the_exact_on
 
 #[test]
 fn the_agreement_of_two_families_limits_what_is_said_of_a_nonlinear_scene() {
-    for path in ["scenes/crash-mat.toml", "scenes/eps-helmet.toml"] {
-        let report = cost(&scene(path), &["bdf", "esdirk34"], &[1e-5, 1e-11]);
+    for name in ["crash-mat", "eps-helmet"] {
+        let report = cost(&scene(name), &["bdf", "esdirk34"], &[1e-5, 1e-11]);
         let truth = &report.truth;
-        assert_eq!(truth.witness.map(|witness| witness.0), Some("esdirk34"), "{path}");
-        assert!(truth.why_not_exact.is_some() && report.auto == "bdf", "{path}: {}", report.auto);
+        assert_eq!(truth.witness.map(|witness| witness.0), Some("esdirk34"), "{name}");
+        assert!(truth.why_not_exact.is_some() && report.auto == "bdf", "{name}: {}", report.auto);
         let agreement = truth.measure_agreement.unwrap();
-        assert!(agreement > 0.0 && agreement < 1e-6, "{path}: {agreement:e}");
-        assert!(truth.state_agreement.unwrap() < 1e-4, "{path}: {truth:?}");
+        assert!(agreement > 0.0 && agreement < 1e-6, "{name}: {agreement:e}");
+        assert!(truth.state_agreement.unwrap() < 1e-4, "{name}: {truth:?}");
         let known = report.measures.iter().map(|measure| measure.known_within).fold(0.0, f64::max);
-        assert!((known - agreement).abs() <= 0.0, "{path}: {known:e} {agreement:e}");
+        assert!((known - agreement).abs() <= 0.0, "{name}: {known:e} {agreement:e}");
         assert!(
             report.points.iter().all(|point| point.worst(&report.asked) >= agreement),
-            "{path}"
+            "{name}"
         );
     }
 }
 
 #[test]
 fn a_method_that_loses_its_way_on_a_stiff_scene_is_listed() {
-    let stiff = scene("scenes/reference-stiff.toml");
+    let stiff = scene("reference-stiff");
     let report = cost(&stiff, &["tsit45"], &[1e-3, 1e-5]);
     let [failure] = &report.failures[..] else { panic!("{:?}", report.failures) };
     assert_eq!((failure.method, failure.rtol), ("tsit45", Some(1e-3)));
@@ -98,7 +101,7 @@ fn a_method_that_loses_its_way_on_a_stiff_scene_is_listed() {
 
 #[test]
 fn events_of_a_scene_that_switches_are_met_the_better_the_tighter_the_tolerance() {
-    let report = cost(&scene("scenes/thesis-stop.toml"), &["bdf"], &[1e-5, 1e-7, 1e-9]);
+    let report = cost(&scene("thesis-stop"), &["bdf"], &[1e-5, 1e-7, 1e-9]);
     let times: Vec<f64> =
         report.points.iter().map(|point| point.events.deviation.unwrap().value).collect();
     assert!(times[2] < times[1] && times[1] < times[0] && times[2] < 1e-7, "{times:?}");
@@ -109,7 +112,7 @@ fn events_of_a_scene_that_switches_are_met_the_better_the_tighter_the_tolerance(
 
 #[test]
 fn the_command_prints_tables_that_fit_and_one_object_that_says_the_same() {
-    let arguments = ["cost", "scenes/reference.toml", "--repeat", "1", "--method", "bdf,exact"];
+    let arguments = ["cost", "reference", "--repeat", "1", "--method", "bdf,exact"];
     let output = run(&arguments);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let shown = out(&output);
@@ -134,7 +137,7 @@ fn the_command_prints_tables_that_fit_and_one_object_that_says_the_same() {
     let sentences = shown.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(sentences.contains("the cheapest method: at 1 % it is"), "{shown}");
     // Read back, it holds the numbers of the library to the last digit but one.
-    let report = cost(&scene("scenes/reference.toml"), &["bdf", "exact"], &Ladder::default().rtols);
+    let report = cost(&scene("reference"), &["bdf", "exact"], &Ladder::default().rtols);
     for (point, own) in points.iter().zip(&report.points) {
         assert_eq!(point["method"], own.method);
         assert_eq!(point["linear_solves"].as_u64(), Some(own.work.linear_solves as u64));

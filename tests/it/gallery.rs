@@ -19,6 +19,8 @@ use dashpot::{
     scene::{ReadOptions, Scene, read},
 };
 
+use crate::scenes::scene_path;
+
 /// Standard gravity \[m/s²\].
 const G0: f64 = 9.806_65;
 
@@ -29,9 +31,10 @@ struct Solved {
 
 /// Reads a scene of the folder `scenes`; `change` makes another text of it.
 fn scene(name: &str, change: impl Fn(String) -> String) -> Scene {
-    let path = format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = scene_path(name);
     let text = change(fs::read_to_string(&path).unwrap());
-    let options = ReadOptions { file: Some(&path), ..ReadOptions::default() };
+    let file = path.to_string_lossy();
+    let options = ReadOptions { file: Some(&file), ..ReadOptions::default() };
     let checked = read(&text, &options).unwrap_or_else(|faults| panic!("{name}: {faults}"));
     assert!(checked.warnings.is_empty(), "{name}: {}", checked.warnings);
     checked.value

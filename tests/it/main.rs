@@ -36,6 +36,7 @@ mod partial;
 mod power_laws;
 mod properties;
 mod random_networks;
+mod scenes;
 mod signs;
 mod similarity;
 mod sizes;

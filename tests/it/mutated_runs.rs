@@ -13,7 +13,7 @@ use std::{fs, ops::Range, path::Path};
 
 use tempfile::TempDir;
 
-use crate::{hard, random_networks::Dice};
+use crate::{hard, random_networks::Dice, scenes::scene_paths};
 use change::mutated;
 use outcome::Outcome;
 
@@ -33,10 +33,8 @@ const WAVES: [usize; 2] = [2359, 2457];
 
 /// Names and texts of what is mutated.
 fn sources() -> Vec<(String, String)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let files = folder.read_dir().unwrap().map(|entry| entry.unwrap().path());
-    let scenes = files.filter(|path| path.extension().is_some_and(|end| end == "toml"));
-    let mut all: Vec<(String, String)> = scenes
+    let mut all: Vec<(String, String)> = scene_paths()
+        .into_iter()
         .map(|path| {
             (
                 path.file_stem().unwrap().to_string_lossy().into_owned(),

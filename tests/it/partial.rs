@@ -5,9 +5,12 @@ use std::{fs, path::Path};
 use dashpot::network::effects::EFFECTS;
 use tempfile::TempDir;
 
-use crate::cli::{code, err, json, out, run};
+use crate::{
+    cli::{code, err, json, out, run},
+    scenes::scene_path,
+};
 
-const GRAVITY: &str = "scenes/reference-gravity.toml";
+const GRAVITY: &str = "reference-gravity";
 
 fn wide(text: &str) -> Option<&str> {
     text.lines().find(|line| line.chars().count() > 80)
@@ -84,7 +87,7 @@ fn the_text_and_the_page_say_what_was_left_out() {
 
 #[test]
 fn explain_has_a_row_for_each_effect_on_or_off() {
-    for scene in ["scenes/reference.toml", GRAVITY] {
+    for scene in ["reference", GRAVITY] {
         let text = out(&run(&["explain", scene]));
         assert_eq!(wide(&text), None, "{text}");
         let section = section(&text, "Effects");
@@ -104,7 +107,7 @@ fn explain_says_what_is_dropped_and_what_is_put_back() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("scene.toml");
     let state = |bound: &str| {
-        let text = fs::read_to_string(GRAVITY).unwrap();
+        let text = fs::read_to_string(scene_path(GRAVITY)).unwrap();
         fs::write(&path, format!("{text}[accuracy]\nneglect-below = \"{bound}\"\n")).unwrap();
         let text = out(&run(&["explain", path.to_str().unwrap()]));
         let rows = section(&text, "Effects").to_owned();
@@ -119,7 +122,7 @@ fn explain_says_what_is_dropped_and_what_is_put_back() {
 #[test]
 fn explain_counts_what_compiling_with_and_without_gives() {
     // The support is a mass with a place and a speed; without it two unknowns go.
-    let text = out(&run(&["explain", "scenes/reference.toml"]));
+    let text = out(&run(&["explain", "reference"]));
     let rows = section(&text, "Effects");
     let row = |word: &str| {
         let row = rows.lines().find(|line| line.trim_start().starts_with(word)).unwrap();
@@ -138,7 +141,7 @@ fn explain_counts_what_compiling_with_and_without_gives() {
 fn parts_that_switch_show_their_phases() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("scene.toml");
-    let text = fs::read_to_string("scenes/reference.toml").unwrap();
+    let text = fs::read_to_string(scene_path("reference")).unwrap();
     fs::write(&path, format!("{text}[effects]\nseparation.padding = true\n")).unwrap();
     let text = out(&run(&["explain", path.to_str().unwrap()]));
     let part = text.lines().find(|line| line.contains("open / closed")).unwrap();

@@ -1,6 +1,6 @@
 //! Groups, similar scenes and laboratory tests, from the text of scenes to the command.
 
-use std::{fs, path::PathBuf};
+use std::fs;
 
 use dashpot::{
     analysis::similarity::{Inventory, Laboratory, Similarity, Wish, scaled, similar_settings},
@@ -10,15 +10,10 @@ use dashpot::{
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::cli::{code, err, file, json, out, run, text};
-
-/// The files of the folder `scenes`.
-fn files() -> Vec<PathBuf> {
-    let folder = format!("{}/scenes", env!("CARGO_MANIFEST_DIR"));
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let is_scene = |path: &PathBuf| path.extension().is_some_and(|own| own == "toml");
-    entries.filter(is_scene).collect()
-}
+use crate::{
+    cli::{code, err, file, json, out, run, text},
+    scenes::{scene_path, scene_paths},
+};
 
 fn scene(text: &str, file: &str) -> Scene {
     let options = ReadOptions { file: Some(file), ..ReadOptions::default() };
@@ -32,7 +27,7 @@ fn inventory(network: &Network) -> Inventory {
 #[test]
 fn scenes_that_are_written_are_read_back_equal() {
     let mut written = 0;
-    for path in files() {
+    for path in scene_paths() {
         let name = path.display().to_string();
         let own = scene(&fs::read_to_string(&path).unwrap(), &name);
         let text = match write_scene("again", &[], &own.network, &own.run, &own.measures) {
@@ -71,7 +66,7 @@ fn scenes_that_are_written_are_read_back_equal() {
 fn every_scene_has_similar_ones() {
     let (mass, length, time) = (0.1, 0.25, 3.0);
     let scale = dashpot::analysis::similarity::Scale { mass, length, time };
-    for path in files() {
+    for path in scene_paths() {
         let name = path.display().to_string();
         let own = scene(&fs::read_to_string(&path).unwrap(), &name);
         let other = scaled(&own.network, &scale).unwrap();
@@ -161,7 +156,7 @@ fn laboratory_scene_is_similar_and_the_command_says_so() {
 #[test]
 fn scenes_that_are_not_similar_end_with_code_3_and_what_differs() {
     let folder = TempDir::new().unwrap();
-    let scene = fs::read_to_string(format!("{}/scenes/reference.toml", env!("CARGO_MANIFEST_DIR")));
+    let scene = fs::read_to_string(scene_path("reference"));
     let softer = scene
         .unwrap()
         .replace("maxwell = { spring = \"20 MN/m\"", "maxwell = { spring = \"19 MN/m\"");
@@ -271,11 +266,6 @@ duration = \"30 ms\"
     assert_eq!(names.len(), groups.len());
 }
 
-/// The scene of this text in a folder, by its path.
-fn scenes_file(name: &str) -> String {
-    format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
-}
-
 /// A group of the thesis in an answer.
 fn of_thesis(told: &Value, name: &str) -> f64 {
     let all = told["thesis"]["groups"].as_array().unwrap();
@@ -306,7 +296,8 @@ fn gravity_and_mass_of_the_face_are_those_of_the_equations() {
 fn groups_that_are_as_they_were_leave_the_scene_as_it_was() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("same.toml");
-    let own = scenes_file("padding-mass");
+    let padding = scene_path("padding-mass");
+    let own = text(&padding);
     let output = run(&["groups", &own, "--from", "c=8", "--out", text(&path)]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let written = fs::read_to_string(&path).unwrap();
@@ -333,7 +324,7 @@ fn groups_that_no_scene_has_are_refused_with_their_ranges() {
 #[test]
 fn what_is_apart_is_so_by_the_numbers_beside_it() {
     let wishes = "mass=1 kg, speed=2 m/s";
-    let told = json(&["groups", &scenes_file("helmet-drop"), "--lab", wishes, "--json"]);
+    let told = json(&["groups", text(&scene_path("helmet-drop")), "--lab", wishes, "--json"]);
     let all = told["laboratory"]["with_own_gravity"].as_array().unwrap();
     assert!(all.len() > 5);
     for own in all {
@@ -348,14 +339,14 @@ fn what_is_apart_is_so_by_the_numbers_beside_it() {
 
 #[test]
 fn scenes_whose_effects_differ_are_compared_all_the_same() {
-    let output = run(&["groups", "reference", &scenes_file("reference-gravity")]);
+    let output = run(&["groups", "reference", text(&scene_path("reference-gravity"))]);
     assert_eq!(code(&output), 3, "{}", err(&output));
     let shown = out(&output);
     for part in ["gravity.value δ/V²", "0.00196133", "padding.contact-time", "0.77 %"] {
         assert!(shown.contains(part), "{part}:\n{shown}");
     }
     assert!(!shown.contains("factor of"), "{shown}");
-    let output = run(&["groups", "reference", &scenes_file("padding-mass")]);
+    let output = run(&["groups", "reference", text(&scene_path("padding-mass"))]);
     assert_eq!(code(&output), 3, "{}", err(&output));
     let shown = out(&output);
     for part in ["`separation.padding` is in the second only", "face.padding.mass/m", "36.892 kN"] {
@@ -366,12 +357,13 @@ fn scenes_whose_effects_differ_are_compared_all_the_same() {
 
 #[test]
 fn a_pulse_is_told_by_its_peak_and_duration() {
-    let told = json(&["groups", &scenes_file("shock-table"), "--json"]);
+    let told = json(&["groups", text(&scene_path("shock-table")), "--json"]);
     // m, K, C, peak and duration: five parameters of rank three.
     assert_eq!((&told["parameters"], &told["rank"]), (&5.into(), &3.into()), "{told}");
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("lab.toml");
-    let own = scenes_file("shock-table");
+    let table = scene_path("shock-table");
+    let own = text(&table);
     let wishes = "mass=1 kg, table.acceleration.duration=22 ms";
     let output = run(&["groups", &own, "--lab", wishes, "--out", text(&path)]);
     assert_eq!(code(&output), 0, "{}", err(&output));
@@ -388,7 +380,7 @@ fn a_pulse_is_told_by_its_peak_and_duration() {
 #[test]
 fn sizes_that_act_in_products_alone_make_no_groups() {
     let names = |scene: &str| {
-        let told = json(&["groups", &scenes_file(scene), "--json"]);
+        let told = json(&["groups", text(&scene_path(scene)), "--json"]);
         let groups = told["groups"].as_array().unwrap().iter();
         groups.map(|group| group["parameter"].as_str().unwrap().to_owned()).collect::<Vec<String>>()
     };
@@ -400,12 +392,12 @@ fn sizes_that_act_in_products_alone_make_no_groups() {
     assert!(!bar.iter().any(|own| own.contains(".area") || own.contains(".density")), "{bar:?}");
     // Half the area of twice the density and modulus is the same bar; half the area alone is not.
     let folder = TempDir::new().unwrap();
-    let own = fs::read_to_string(scenes_file("polymer-bar")).unwrap();
+    let own = fs::read_to_string(scene_path("polymer-bar")).unwrap();
     let thin = own.replace("3 cm^2", "1.5 cm^2");
     let same = thin.replace("3 GPa", "6 GPa").replace("1150 kg/m^3", "2300 kg/m^3");
     for (content, expected) in [(same, 0), (thin, 3)] {
         let path = file(&folder, "other.toml", &content);
-        let output = run(&["groups", &scenes_file("polymer-bar"), text(&path)]);
+        let output = run(&["groups", text(&scene_path("polymer-bar")), text(&path)]);
         assert_eq!(code(&output), expected, "{}{}", out(&output), err(&output));
     }
 }

@@ -1,6 +1,6 @@
 //! What the command prints on a terminal of 80 columns.
 
-use std::{fs, path::PathBuf};
+use std::fs;
 
 use dashpot::{
     dae::{System, switching::Switching},
@@ -9,19 +9,12 @@ use dashpot::{
 };
 use tempfile::TempDir;
 
-use crate::cli::{code, err, file, out, run, text};
+use crate::{
+    cli::{code, err, file, out, run, text},
+    scenes::{scene_path, scene_paths},
+};
 
 const WIDTH: usize = 80;
-
-fn scenes() -> Vec<PathBuf> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut all: Vec<PathBuf> =
-        entries.filter(|path| path.extension().is_some_and(|end| end == "toml")).collect();
-    all.sort();
-    assert!(all.len() > 10);
-    all
-}
 
 /// Checks both streams of a command. Names of files are as long as they are.
 fn fits(arguments: &[&str]) {
@@ -40,7 +33,7 @@ fn network(path: &str) -> Network {
 #[test]
 fn no_line_is_wider_than_the_terminal() {
     let folder = TempDir::new().unwrap();
-    for scene in scenes() {
+    for scene in scene_paths() {
         let scene = text(&scene);
         for verb in ["check", "explain", "vibrate"] {
             fits(&[verb, scene]);
@@ -92,7 +85,8 @@ fn a_long_line_of_a_scene_is_cut_around_what_is_at_fault() {
 
 #[test]
 fn long_notes_go_on_with_an_indent() {
-    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/hockey-pad.toml");
+    let path = scene_path("hockey-pad");
+    let scene = text(&path);
     let told = err(&run(&["check", scene]));
     let mut lines = told.lines();
     assert!(lines.next().unwrap().starts_with("note: element `pad`: "), "{told}");
@@ -111,7 +105,8 @@ fn entries(network: &Network, duration: f64) -> usize {
 
 #[test]
 fn effects_that_remove_entries_say_so() {
-    let helmet = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/helmet-drop.toml");
+    let path = scene_path("helmet-drop");
+    let helmet = text(&path);
     let full = network(helmet);
     for (name, effect) in [("gravity", 0), ("separation.liner", 1)] {
         let position = full.effects().iter().position(|own| match effect {
@@ -135,8 +130,8 @@ fn effects_that_remove_entries_say_so() {
 #[test]
 fn what_cannot_be_shaken_is_told_with_what_to_do_instead() {
     let told = |scene: &str, arguments: &[&str]| {
-        let scene = format!("{}/scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
-        let output = run(&[&["vibrate", &scene], arguments].concat());
+        let path = scene_path(scene);
+        let output = run(&[&["vibrate", text(&path)], arguments].concat());
         assert_eq!(code(&output), 2);
         err(&output).split_whitespace().collect::<Vec<_>>().join(" ")
     };
@@ -150,7 +145,8 @@ fn what_cannot_be_shaken_is_told_with_what_to_do_instead() {
 
 #[test]
 fn contacts_of_effects_are_named_once() {
-    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/hockey-pad.toml");
+    let path = scene_path("hockey-pad");
+    let scene = text(&path);
     let shown = out(&run(&["explain", scene]));
     assert!(
         shown

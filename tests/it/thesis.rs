@@ -219,7 +219,7 @@ fn every_method_approaches_the_independent_equations() {
 
 #[test]
 fn three_routes_through_the_compiler_give_one_answer() {
-    let text = include_str!("../../scenes/reference.toml");
+    let text = include_str!("../../crates/scene/templates/reference.toml");
     let named = read(text, &ReadOptions::default()).unwrap().value.network;
     let part_by_part = impact(
         10.0,

@@ -38,17 +38,17 @@ const REFERENCES: &[Shipped] = &[
     Shipped {
         name: "reference",
         summary: "the thesis' head against a padded car panel",
-        text: include_str!("../../../scenes/reference.toml"),
+        text: include_str!("../templates/reference.toml"),
     },
     Shipped {
         name: "reference-stiff",
         summary: "the same with the support damping that the thesis prints",
-        text: include_str!("../../../scenes/reference-stiff.toml"),
+        text: include_str!("../templates/reference-stiff.toml"),
     },
     Shipped {
         name: "reference-gravity",
         summary: "the same with gravity, starting in balance",
-        text: include_str!("../../../scenes/reference-gravity.toml"),
+        text: include_str!("../templates/reference-gravity.toml"),
     },
 ];
 

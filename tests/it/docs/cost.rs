@@ -6,6 +6,7 @@
 use std::{fmt::Write as _, fs, process::Command};
 
 use super::{is_update, root, text};
+use crate::scenes::scene_path;
 
 const CHAPTER: &str = "docs/accuracy-and-cost.md";
 const PLACE: (&str, &str) = ("<!-- measured: cost -->", "<!-- end -->");
@@ -25,7 +26,7 @@ fn what_accuracy_costs_is_measured() {
     let folder = tempfile::tempdir().unwrap();
     let mut all = String::new();
     for (scene, title) in SCENES {
-        let path = root().join(format!("scenes/{scene}.toml"));
+        let path = scene_path(scene);
         let out = folder.path().join(scene);
         let mut dashpot = Command::new(env!("CARGO_BIN_EXE_dashpot"));
         let done = dashpot.arg("cost").arg(&path).arg("--out").arg(&out).output().unwrap();

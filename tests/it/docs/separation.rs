@@ -10,6 +10,7 @@ use dashpot::{
 };
 
 use super::{OUTDATED, blocks, is_update, root, shown::check, text};
+use crate::scenes::scene_path;
 
 const CHAPTER: &str = "docs/separation-and-thickness.md";
 
@@ -42,8 +43,8 @@ fn table(names: &[&str], rows: &[(&str, Vec<String>)]) -> String {
 }
 
 fn separation() -> String {
-    let runs =
-        ["reference", "thesis-separation"].map(|name| solved(&text(format!("scenes/{name}.toml"))));
+    let runs = ["reference", "thesis-separation"]
+        .map(|name| solved(&fs::read_to_string(scene_path(name)).unwrap()));
     let row = |of: &dyn Fn(&RunReport) -> String| runs.iter().map(of).collect::<Vec<_>>();
     let peak = |run: &RunReport| format!("{:.6} kN", 1e-3 * measure(run, "padding.peak-force"));
     let deepest =
