@@ -8,11 +8,11 @@ use std::{
 
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{
-    Checked, ReadOptions, Scene, nearest, read, references, text_of_bytes,
+    ReadOptions, Scene, nearest, read, references, text_of_bytes,
     units::{parse_dimension, parse_quantity},
 };
 
-use crate::error::CliError;
+use crate::{error::CliError, terminal::Terminal};
 
 /// Texts are at most so long, in bytes; a reader takes one more, so that the limit is noticed.
 const MAX_BYTES: u64 = 64 << 20;
@@ -67,13 +67,16 @@ impl Input {
 }
 
 /// Reads a scene with the values `set` in place of its own: the built-in one, a file, or standard
-/// input for `-`.
+/// input for `-`; shows what is odd about it.
 pub(crate) fn read_scene(
     path: Option<&Path>,
     set: &[(String, String)],
-) -> Result<Checked<Scene>, CliError> {
+    terminal: Terminal,
+) -> Result<Scene, CliError> {
     let input = Input::of(path)?;
-    read(input.text()?, &input.options(set)).map_err(CliError::Scene)
+    let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
+    terminal.diagnose(&checked.warnings);
+    Ok(checked.value)
 }
 
 /// The scene's title, or the name of its file.

@@ -15,7 +15,6 @@ mod output;
 mod part;
 mod progress;
 mod registers;
-mod shown;
 mod sketch;
 mod studies;
 mod terminal;

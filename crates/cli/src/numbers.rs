@@ -71,8 +71,12 @@ pub(crate) fn share(relative: f64) -> String {
 
 /// An estimate with its formula.
 pub(crate) fn estimate(formula: &str, value: f64) -> String {
-    let number = if value > 0.0 { significant(value, 2) } else { "0".to_owned() };
-    format!("{formula} = {number}")
+    format!("{formula} = {}", estimated(value))
+}
+
+/// An estimate to two digits; what is not positive is zero.
+pub(crate) fn estimated(value: f64) -> String {
+    if value > 0.0 { significant(value, 2) } else { "0".to_owned() }
 }
 
 #[cfg(test)]

@@ -1,8 +1,6 @@
 //! The arguments of the command: types only.
 
-mod kinds;
 mod models;
-mod registers;
 mod scenes;
 mod studies;
 mod values;
@@ -17,8 +15,9 @@ use clap_complete::Shell;
 
 use self::values::assignment;
 pub(crate) use self::{
-    models::{CompareArguments, ConvertArguments, RheometerArguments},
-    registers::{Family, ListArguments, NewArguments},
+    models::{
+        CompareArguments, ConvertArguments, Family, ListArguments, NewArguments, RheometerArguments,
+    },
     scenes::{CheckArguments, ExplainArguments, RunArguments, VibrateArguments},
     studies::{CostArguments, GroupsArguments, SweepArguments, ThesisArguments},
 };

@@ -6,8 +6,7 @@ use clap::Args;
 
 use super::{
     SceneArguments, Switch, ValueArguments, When,
-    kinds::{MethodNames, method_names},
-    values::{budget, frequency, share},
+    values::{MethodNames, budget, frequency, method_names, share},
 };
 
 /// `run`.

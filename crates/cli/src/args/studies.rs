@@ -6,8 +6,7 @@ use clap::Args;
 
 use super::{
     SceneArguments, ValueArguments,
-    kinds::{MethodNames, method_names},
-    values::{assignment, budget, share, within},
+    values::{MethodNames, assignment, budget, method_names, share, within},
 };
 
 /// `sweep`.

@@ -36,9 +36,7 @@ pub(crate) fn check(arguments: &CheckArguments, terminal: Terminal) -> Result<St
 }
 
 fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<String, CliError> {
-    let checked = read_scene(Some(path), set)?;
-    terminal.diagnose(&checked.warnings);
-    let scene = checked.value;
+    let scene = read_scene(Some(path), set, terminal)?;
     can_run(&scene)?;
     undefined(&scene)?.iter().for_each(|text| terminal.warn(text));
     notes(&scene).iter().for_each(|text| remark(text));

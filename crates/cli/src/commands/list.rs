@@ -9,7 +9,7 @@ use crate::{
     args::{Family, ListArguments},
     error::{CliError, Status},
     registers::{Entry, entries},
-    shown::Tone,
+    terminal::Tone,
     terminal::{Terminal, WIDTH, print},
     text::{columns, wrapped},
 };

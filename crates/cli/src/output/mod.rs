@@ -1,12 +1,114 @@
 //! What goes out: every verb states its result once as a [`Study`], and [`emit`] brings it to people,
 //! to programs, and into a folder.
 
-mod csv;
-mod object;
-mod study;
 mod text;
 
-pub(crate) use csv::csv;
-pub(crate) use object::{Pairs, VERSION, list, object};
-pub(crate) use study::{Study, emit};
+use std::io::{self, Write};
+
+use dashpot_scene::text_cell;
+use serde::{Serialize, Serializer};
+
+use crate::{
+    error::CliError,
+    folder::{Folder, Staged},
+    terminal::{Terminal, print, print_data, remark},
+};
+
 pub(crate) use text::Text;
+
+/// Writes a heading and rows; a cell without a value is blank.
+pub(crate) fn csv(
+    out: &mut dyn Write,
+    header: impl IntoIterator<Item = String>,
+    rows: impl IntoIterator<Item: Serialize>,
+) -> io::Result<()> {
+    let header: Vec<String> = header.into_iter().map(|own| text_cell(&own).into_owned()).collect();
+    writeln!(out, "{}", header.join(","))?;
+    let mut writer = csv::Writer::from_writer(out);
+    rows.into_iter().try_for_each(|row| writer.serialize(row))?;
+    writer.flush()
+}
+
+/// Version of the program; also the mark of files that it wrote.
+pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// An object with these keys, in this order: `object! { method: own.method, rtol }`.
+macro_rules! object {
+    (@value $key:ident) => { $key };
+    (@value $key:ident $value:expr) => { $value };
+    ($($key:ident $(: $value:expr)?),* $(,)?) => {{
+        #[expect(non_camel_case_types, reason = "a key is the name of its own type as well")]
+        mod object {
+            #[derive(serde::Serialize)]
+            pub(super) struct Object<$($key),*> { $(pub(super) $key: $key),* }
+        }
+        object::Object { $($key: object!(@value $key $($value)?)),* }
+    }};
+}
+pub(crate) use object;
+
+/// The items as a list.
+pub(crate) fn list<T>(items: impl IntoIterator<Item = T>) -> Vec<T> {
+    items.into_iter().collect()
+}
+
+/// A map in an order of its own.
+pub(crate) struct Pairs<K, V>(Vec<(K, V)>);
+
+impl<K, V> FromIterator<(K, V)> for Pairs<K, V> {
+    fn from_iter<I: IntoIterator<Item = (K, V)>>(pairs: I) -> Self {
+        Self(list(pairs))
+    }
+}
+
+impl<K: Serialize, V: Serialize> Serialize for Pairs<K, V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(key, value)| (key, value)))
+    }
+}
+
+/// What a verb has found.
+pub(crate) trait Study {
+    /// Says it to people.
+    fn text(&self, text: &mut Text);
+
+    /// The object for programs: what `--json` prints, and what a folder holds as its result.
+    fn object(&self) -> impl Serialize;
+
+    /// A table for programs that is printed where no folder is asked for, in place of the text.
+    fn data(&self) -> Option<String> {
+        None
+    }
+
+    /// What is said on standard error where no text is printed, which says it as well.
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Adds what a folder holds besides: tables, figures, a page.
+    fn files(&self, _files: &mut Staged<'_>) -> Result<(), CliError> {
+        Ok(())
+    }
+}
+
+/// Prints a study, as one JSON object or as text, and writes it into the folder, where there is one.
+pub(crate) fn emit(
+    study: &impl Study,
+    json: bool,
+    folder: Option<Folder>,
+    terminal: Terminal,
+) -> Result<(), CliError> {
+    let object = || Ok::<_, CliError>(serde_json::to_string_pretty(&study.object())? + "\n");
+    let data = || study.data().filter(|_| folder.is_none());
+    match if json { Some(object()?) } else { data() } {
+        Some(data) => {
+            print_data(&data)?;
+            study.remarks().iter().for_each(|own| remark(own));
+        }
+        None => print(&Text::written(terminal, |text| study.text(text)))?,
+    }
+    match folder {
+        Some(folder) => folder.write(|files| study.files(files), &object()?, json),
+        None => Ok(()),
+    }
+}

@@ -3,7 +3,7 @@
 use dashpot_plot::{Chart, Table};
 
 use crate::{
-    shown::Tone,
+    terminal::Tone,
     terminal::{Terminal, WIDTH},
     text::{columns, labelled, side_by_side, table, wrapped},
 };

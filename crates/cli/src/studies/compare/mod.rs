@@ -24,8 +24,8 @@ use crate::{
     non_identifiable::{combinations, groups},
     operand::{Operand, Subject, canonical_model, parted},
     output::{Study, Text, emit},
-    shown::Tone,
     terminal::Terminal,
+    terminal::Tone,
 };
 
 /// Maps of more parameters than this are in the JSON only.
@@ -180,9 +180,7 @@ fn same_impact(
     terminal: Terminal,
 ) -> Result<Impact, CliError> {
     let (path, element) = parted(word);
-    let checked = read_scene(Some(std::path::Path::new(path)), set)?;
-    terminal.diagnose(&checked.warnings);
-    let scene = checked.value;
+    let scene = read_scene(Some(std::path::Path::new(path)), set, terminal)?;
     let names = || scene.network.connections().iter().map(|connection| connection.name.clone());
     let element =
         if element.is_empty() { names().next().unwrap_or_default() } else { element.to_owned() };

@@ -5,8 +5,7 @@ use dashpot_plot::{PrecisionCurve, PrecisionSeries, Report, ReportFigure, Table}
 
 use super::{
     Costs,
-    tables::{cheapest, errors, measures, work},
-    words::{answer, truth},
+    tables::{answer, cheapest, errors, measures, truth, work},
 };
 use crate::{
     error::CliError,

@@ -1,23 +1,18 @@
 //! `dashpot cost`.
 
 mod files;
-mod object;
 mod tables;
-mod words;
 
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
 use dashpot_analysis::{
     Choice, RunError,
-    work_precision::{CostReport, Ladder, Subject, work_precision_assembly},
+    work_precision::{CostPoint, CostReport, Ladder, Subject, work_precision_assembly},
 };
 use dashpot_scene::Scene;
 use serde::Serialize;
 
-use self::{
-    tables::{cheapest, errors, work},
-    words::{answer, failures, slips, truth},
-};
+use self::tables::{answer, cheapest, errors, failures, slips, truth, work};
 use crate::{
     args::CostArguments,
     error::{CliError, Status},
@@ -25,7 +20,7 @@ use crate::{
     input::{read_scene, title},
     numbers::rounded,
     operand::tell,
-    output::{Study, Text, emit},
+    output::{Study, Text, VERSION, emit, list, object},
     progress::Bar,
     terminal::Terminal,
 };
@@ -43,10 +38,9 @@ struct Costs {
 
 /// Finds out what accuracy costs in a scene.
 pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
-    terminal.diagnose(&checked.warnings);
-    tell(&checked.value.notes);
-    let scene = checked.value;
+    let scene =
+        read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set, terminal)?;
+    tell(&scene.notes);
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let assembly = Arc::new(scene.assembly.clone());
     let mut settings = scene.settings("auto")?;
@@ -93,8 +87,39 @@ impl Study for Costs {
         text.words(&answer(report, accuracies));
     }
 
+    /// All that was found, with the cheapest methods for each accuracy.
     fn object(&self) -> impl Serialize {
-        object::object(self)
+        let Self { scene, report, accuracies } = self;
+        let measures = report.measures.iter().map(|measure| {
+            let (value, unit, size, known_within) =
+                (measure.value, measure.unit, measure.size, measure.known_within);
+            (measure.key.as_str(), object! { value, unit, size, known_within })
+        });
+        object! {
+            dashpot: VERSION,
+            title: &scene.title,
+            file: &scene.file,
+            truth: reference_solution(report),
+            auto: report.auto,
+            asked: list(report.asked.iter().map(|&at| subject(report, Subject::Measure(at)))),
+            measures: measures.collect::<BTreeMap<_, _>>(),
+            points: list(report.points.iter().map(|own| point(report, own))),
+            failures: list(report.failures.iter().map(|failure| object! {
+                method: failure.method,
+                rtol: failure.rtol,
+                error: failure.error.to_string(),
+                finer_tried: !failure.ends,
+            })),
+            silent: list(report.slips.iter().map(|slip| object! {
+                method: slip.method,
+                rtol: slip.rtol,
+                what: subject(report, slip.subject),
+                error: slip.error,
+                bar: slip.bar,
+                warned: slip.warned,
+            })),
+            cheapest: list(accuracies.iter().map(|&accuracy| cheapest_object(report, accuracy))),
+        }
     }
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
@@ -143,6 +168,61 @@ fn wish(accuracy: f64) -> String {
         format!("{accuracy:e}")
     } else {
         format!("{} %", rounded(100.0 * accuracy, "1", 3))
+    }
+}
+
+fn reference_solution(report: &CostReport) -> impl Serialize {
+    let own = &report.truth;
+    object! {
+        method: own.method,
+        rtol: own.rtol,
+        why_not_exact: own.why_not_exact.as_ref().map(ToString::to_string),
+        witness: own.witness.map(|(method, rtol)| object! { method, rtol }),
+        agreement: object! {
+            state: own.state_agreement,
+            events: own.event_agreement,
+            measures: own.measure_agreement,
+        },
+    }
+}
+
+fn point(report: &CostReport, cost_point: &CostPoint) -> impl Serialize {
+    let reached = cost_point.measures.iter().map(|measure| {
+        object! {
+            error: measure.deviation.map(|deviation| deviation.value),
+            known_within: measure.deviation.map(|deviation| deviation.known_within),
+            bar: measure.bar,
+            warned: measure.warned,
+        }
+    });
+    let keys = report.measures.iter().map(|measure| measure.key.as_str());
+    object! {
+        method: cost_point.method,
+        rtol: cost_point.rtol,
+        time_s: cost_point.time,
+        integration_s: cost_point.integration,
+        repeats: cost_point.repeats,
+        accepted: cost_point.work.accepted,
+        rejected: cost_point.work.rejected,
+        rhs_calls: cost_point.work.rhs_calls,
+        jacobian_calls: cost_point.work.jacobian_calls,
+        factorizations: cost_point.work.factorizations,
+        linear_solves: cost_point.work.linear_solves,
+        state: cost_point.state,
+        events: cost_point.events,
+        measures: keys.zip(reached).collect::<BTreeMap<_, _>>(),
+    }
+}
+
+/// The cheapest method, and how many times as long ten times the accuracy takes.
+fn cheapest_object(report: &CostReport, accuracy: f64) -> impl Serialize + use<> {
+    let point = report.cheapest(accuracy);
+    object! {
+        accuracy,
+        method: point.map(|point| point.method),
+        rtol: point.and_then(|point| point.rtol),
+        time_s: point.map(|point| point.time.median),
+        next_digit: report.next_digit(accuracy),
     }
 }
 

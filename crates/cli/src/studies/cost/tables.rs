@@ -1,9 +1,9 @@
-//! Errors, times and work as tables.
+//! Errors, times and work as tables, and what is to be said in sentences.
 
 use std::time::Duration;
 
 use dashpot_analysis::work_precision::{
-    CostPoint, CostReport, Deviation, Spread, Subject, Timing, TrueMeasure,
+    CostFailure, CostPoint, CostReport, Deviation, Slip, Spread, Subject, Timing, TrueMeasure,
 };
 use dashpot_plot::Table;
 
@@ -139,6 +139,172 @@ pub(super) fn error(own: Option<Deviation>) -> String {
 /// A small number with one digit behind the point.
 pub(super) fn power(value: f64) -> String {
     if value > 0.0 { format!("{value:.1e}") } else { "0".to_owned() }
+}
+
+/// More errors that nobody tells of are not listed one by one.
+const MOST_SLIPS: usize = 8;
+/// Ratios of times up to which a digit costs nothing.
+const NOTHING: f64 = 1.05;
+
+/// What errors are taken from.
+pub(super) fn truth(report: &CostReport) -> Vec<String> {
+    let own = &report.truth;
+    let mut said = Vec::new();
+    let name = match own.rtol {
+        None => "the exact solution".to_owned(),
+        Some(rtol) => format!("`{}` at a tolerance of {rtol:e}", own.method),
+    };
+    let apart: Vec<String> = [
+        ("the state", own.state_agreement),
+        ("the times of events", own.event_agreement),
+        ("any measure", own.measure_agreement),
+    ]
+    .into_iter()
+    .filter_map(|(what, apart)| Some(format!("{} in {what}", power(apart?))))
+    .collect();
+    said.push(match own.witness {
+        Some((method, rtol)) => {
+            let apart = match apart.as_slice() {
+                [] => "nothing that can be compared".to_owned(),
+                [only] => only.clone(),
+                [first @ .., last] => format!("{} and {last}", first.join(", ")),
+            };
+            format!(
+                "true is {name}; `{method}` at {rtol:e}, a method of another family, differs by \
+                 {apart}"
+            )
+        }
+        None => format!("true is {name}; no other method solves this scene"),
+    });
+    if let Some(why) = &own.why_not_exact {
+        said.push(format!("there is no exact solution: {why}"));
+    }
+    said.push(
+        "times are medians, to solve and to read all measures, with their interquartile range as \
+         spread"
+            .to_owned(),
+    );
+    said.push(
+        "errors are relative: of the state to the largest value of each unknown, of events to the \
+         length of the run; ≤ stands where the truth is not known better"
+            .to_owned(),
+    );
+    if report.asked.len() > 1 {
+        said.push(
+            "of several measures it is the worst one; `--measure` asks for one, `--out` and \
+             `--json` hold the error of each"
+                .to_owned(),
+        );
+    }
+    said
+}
+
+/// Methods that decline, and solutions that failed; errors in the same words once.
+pub(super) fn failures(report: &CostReport) -> Vec<String> {
+    let mut said: Vec<(&CostFailure, Vec<String>)> = Vec::new();
+    for failure in &report.failures {
+        let is_same = |other: &CostFailure| {
+            let is_alike = other.error == failure.error && failure.rtol.is_some() && !failure.ends;
+            other.method == failure.method && is_alike
+        };
+        match said.iter_mut().find(|(other, _)| is_same(other)) {
+            Some((_, rtols)) => rtols.push(tolerance(failure.rtol)),
+            None => said.push((failure, vec![tolerance(failure.rtol)])),
+        }
+    }
+    let sentence = |(own, rtols): (&CostFailure, Vec<String>)| {
+        let (method, error) = (own.method, &own.error);
+        let rest = if own.ends { "; finer tolerances are not tried" } else { "" };
+        match own.rtol {
+            None => format!("{method}: {error}"),
+            Some(_) => format!("{method} at {} failed: {error}{rest}", rtols.join(", ")),
+        }
+    };
+    said.into_iter().map(sentence).collect()
+}
+
+/// Errors that a run does not tell of, the largest first; those of one method in one thing are told
+/// together.
+pub(super) fn slips(report: &CostReport) -> Vec<String> {
+    let mut groups: Vec<Vec<&Slip>> = Vec::new();
+    for slip in &report.slips {
+        let is_alike = |other: &Slip| {
+            other.method == slip.method
+                && other.subject == slip.subject
+                && other.warned == slip.warned
+                && other.error.is_finite() == slip.error.is_finite()
+        };
+        match groups.iter_mut().find(|group| group.iter().all(|other| is_alike(other))) {
+            Some(group) => group.push(slip),
+            None => groups.push(vec![slip]),
+        }
+    }
+    let worst = |group: &[&Slip]| group.iter().map(|own| own.error).fold(0.0, f64::max);
+    groups.sort_by(|one, other| worst(other).total_cmp(&worst(one)));
+    let mut said: Vec<String> =
+        groups.iter().take(MOST_SLIPS).map(|group| together(report, group)).collect();
+    if let Some(more @ 1..) = groups.len().checked_sub(MOST_SLIPS) {
+        said.push(format!("… {more} more; `--json` has all"));
+    }
+    said
+}
+
+/// Errors of one method in one thing.
+fn together(report: &CostReport, group: &[&Slip]) -> String {
+    let Some(own) = group.iter().max_by(|one, other| one.error.total_cmp(&other.error)) else {
+        return String::new();
+    };
+    let what = subject(report, own.subject);
+    let mut rtols: Vec<f64> = group.iter().filter_map(|own| own.rtol).collect();
+    rtols.sort_by(|one, other| other.total_cmp(one));
+    let rtols: Vec<String> = rtols.into_iter().map(|rtol| tolerance(Some(rtol))).collect();
+    let at = if own.rtol.is_some() { format!(" at {}", rtols.join(", ")) } else { String::new() };
+    let most = if group.len() > 1 { "up to " } else { "" };
+    let how = match (own.subject, own.bar) {
+        (Subject::Events, _) if !own.error.is_finite() => {
+            "other events than the true ones".to_owned()
+        }
+        _ if !own.error.is_finite() => format!("{what} has a value in one solution only"),
+        (_, Some(bar)) => {
+            let (error, bar) = (power(own.error), power(bar));
+            format!("{what} is off by {most}{error} where the bar is {bar}")
+        }
+        (Subject::Events, None) => format!("events are off by {most}{}", power(own.error)),
+        _ => format!("{what} is off by {most}{}", power(own.error)),
+    };
+    let warned = if own.warned { "; the run warns" } else { "; the run is silent" };
+    format!("{}{at}: {how}{warned}", own.method)
+}
+
+/// The cheapest method at each accuracy, and what the next digit costs.
+pub(super) fn answer(report: &CostReport, accuracies: &[f64]) -> String {
+    let which = match report.asked.as_slice() {
+        [only] => format!("For {}", subject(report, Subject::Measure(*only))),
+        all if all.len() < report.measures.len() => "For the measures asked".to_owned(),
+        _ => "For all measures".to_owned(),
+    };
+    let part = |&accuracy: &f64| {
+        let wish = wish(accuracy);
+        let Some(point) = report.cheapest(accuracy) else {
+            return format!("at {wish} nothing tried reaches it");
+        };
+        let at = point.rtol.map_or(String::new(), |rtol| format!(" at rtol {rtol:e}"));
+        let digit = match report.next_digit(accuracy) {
+            None => "the next digit is not reached".to_owned(),
+            Some(ratio) if ratio < NOTHING => match report.cheapest(0.1 * accuracy) {
+                Some(next) if next.rtol.is_none() => {
+                    format!("the next digit costs nothing: `{}` has it", next.method)
+                }
+                _ => "the next digit costs nothing".to_owned(),
+            },
+            Some(ratio) => {
+                format!("the next digit takes {} times as long", significant(ratio, 2))
+            }
+        };
+        format!("at {wish} it is `{}`{at} in {} ({digit})", point.method, time(point.time.median))
+    };
+    let parts: Vec<String> = accuracies.iter().map(part).collect();
+    format!("{which}, the cheapest method: {}. `auto` chooses `{}`.", parts.join("; "), report.auto)
 }
 
 #[cfg(test)]

@@ -6,9 +6,9 @@ use dashpot_scene::Scene;
 use serde::Serialize;
 
 use super::{
-    DIGITS,
-    factors::{factor_table, factors},
-    left_out, opposed, quantity, si, write,
+    DIGITS, left_out,
+    opposed::{self, factor_table, factors},
+    quantity, si, write,
 };
 use crate::{
     args::GroupsArguments,
@@ -16,7 +16,7 @@ use crate::{
     input::{setting, title},
     numbers::{constant, significant},
     output::{Text, list, object},
-    shown::Tone,
+    terminal::Tone,
 };
 
 /// A laboratory test.

@@ -1,6 +1,5 @@
 //! `dashpot groups`.
 
-mod factors;
 mod laboratory;
 mod opposed;
 mod pair;
@@ -82,10 +81,9 @@ fn read(
     arguments: &GroupsArguments,
     terminal: Terminal,
 ) -> Result<Scene, CliError> {
-    let checked = read_scene(path, &arguments.values.set)?;
-    terminal.diagnose(&checked.warnings);
-    tell(&checked.value.notes);
-    Ok(checked.value)
+    let scene = read_scene(path, &arguments.values.set, terminal)?;
+    tell(&scene.notes);
+    Ok(scene)
 }
 
 fn with_groups(network: &Network, wanted: &[(String, String)]) -> Result<Network, CliError> {

@@ -9,16 +9,15 @@ use dashpot_scene::Scene;
 use serde::Serialize;
 
 use super::{
-    DIGITS,
-    factors::{factor_table, factors, is_one},
-    left_out, opposed,
+    DIGITS, left_out,
+    opposed::{self, factor_table, factors, is_one},
 };
 use crate::{
     args::GroupsArguments,
     error::CliError,
     numbers::{apart, bound, significant},
     output::{Text, list, object},
-    shown::Tone,
+    terminal::Tone,
 };
 
 /// So many groups are moved one at a time; more would take long and say little.

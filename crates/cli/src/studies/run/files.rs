@@ -1,15 +1,24 @@
-//! What `run` draws, and what it writes into a folder.
+//! What `run` draws, and what it writes into a folder; the page.
 
 use std::io::{self, Write};
 
 use dashpot_analysis::{RunReport, regular_times, resolving_times, table_at, touching};
-use dashpot_plot::{ReportFigure, figures::FIGURES};
+use dashpot_plot::{Report, ReportFigure, Table, figures::FIGURES};
 use dashpot_scene::RunSettings;
 
-use super::{Answer, page::page, resolved_scene, series::curves_and_energies};
+use super::{
+    Answer,
+    energy::energy_table,
+    measures::{measures_table, notes},
+    resolved_scene,
+    series::curves_and_energies,
+    solving::{reasons, settings_table, solving_table},
+    verdict::verdict,
+};
 use crate::{
     error::CliError,
     folder::Staged,
+    input::title,
     output::{csv, list},
     sketch::{MOST_DRAWN, sketch},
 };
@@ -90,6 +99,32 @@ fn write_table(run: &RunReport, times: &[f64], out: &mut dyn Write) -> io::Resul
     csv(out, ["time [s]".to_owned()].into_iter().chain(header), rows)
 }
 
+/// The page with these drawings.
+pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
+    let mut tables = vec![measures_table(answer)];
+    tables.extend(Some(Table::list("Remarks", notes(answer))).filter(|own| !own.rows.is_empty()));
+    tables.extend(answer.best().map(energy_table));
+    let why = reasons(answer).into_iter().map(|(method, why)| vec![method, why]);
+    let failed = answer.failed.iter().map(|(method, error)| format!("{method} failed: {error}"));
+    let details = vec![
+        solving_table(answer),
+        Table::new("Why these methods", &[], why),
+        settings_table(answer),
+    ];
+    let changes = answer.changes.told().into_iter();
+    let verdict = verdict(answer).into_iter();
+    let lines = verdict.map(|line| format!("{}: {}", line.label, line.text));
+    Report {
+        title: title(&answer.scene).to_owned(),
+        warnings: failed.chain(answer.warnings()).collect(),
+        verdict: changes.chain(lines).collect(),
+        tables,
+        figures,
+        details,
+        scene_text: resolved_scene::text(&answer.scene, &answer.changes),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use dashpot_analysis::solve;
@@ -101,8 +136,8 @@ mod tests {
     #[test]
     fn samples_resolve_a_short_contact_unless_the_scene_says_how_many() {
         let text = "[nodes]\nhead = { mass = \"4 kg\", drop = \"1 m\" }\n[elements]\n\
-            pad = { between = [\"head\", \"ground\"], spring = \"1 MN/m\" }\n[effects]\n\
-            separation.pad = {}\ngravity = { value = \"9.81 m/s^2\" }\n[run]\n";
+        pad = { between = [\"head\", \"ground\"], spring = \"1 MN/m\" }\n[effects]\n\
+        separation.pad = {}\ngravity = { value = \"9.81 m/s^2\" }\n[run]\n";
         let times = |run: &str| {
             let scene = read(&format!("{text}{run}"), &ReadOptions::default()).unwrap().value;
             let report =

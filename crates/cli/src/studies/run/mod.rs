@@ -4,14 +4,11 @@ mod energy;
 mod files;
 mod measures;
 mod object;
-mod page;
 mod partial;
 mod resolved_scene;
 mod series;
-mod settings;
 mod solving;
 mod verdict;
-mod zero;
 
 use std::{
     collections::HashMap,
@@ -131,14 +128,14 @@ impl Answer {
 
 /// Solves a scene by its methods, and reports.
 pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
-    terminal.diagnose(&checked.warnings);
-    tell(&checked.value.notes);
+    let scene =
+        read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set, terminal)?;
+    tell(&scene.notes);
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
-    if let Ok(texts) = undefined(&checked.value) {
+    if let Ok(texts) = undefined(&scene) {
         texts.iter().for_each(|text| terminal.warn(text));
     }
-    let answer = solve_all(checked.value, arguments, terminal)?;
+    let answer = solve_all(scene, arguments, terminal)?;
     tell_failures(&answer, terminal);
     let status = answer.failed.iter().map(|(_, error)| error.status()).max();
     if arguments.json || !answer.runs.is_empty() {

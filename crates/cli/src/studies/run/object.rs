@@ -10,7 +10,7 @@ use dashpot_network::parameters::{Dimension, ModelValue, Value};
 use dashpot_scene::write_model;
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
-use super::{Answer, settings::direction};
+use super::{Answer, solving::direction};
 use crate::output::{Pairs, VERSION, list, object};
 
 /// The whole answer, with the largest difference between the first run and any other, relative.

@@ -2,7 +2,7 @@
 
 use dashpot_analysis::{
     Contact, ContactReport, MeasureReport, Note, RunReport,
-    measures::{Hic, Hic15, Hic36, STANDARD_GRAVITY, SeverityIndex},
+    measures::{Hic, STANDARD_GRAVITY},
     verdict::{Absorbed, Ending, Opened, Peak, Reached, Verdict, WholeForce},
 };
 use dashpot_network::parameters::Kind as _;
@@ -10,8 +10,8 @@ use dashpot_units::percent;
 
 use super::{
     Answer,
+    measures::{Zeros, is_hic, is_index},
     partial::{left_out, put_back},
-    zero::Zeros,
 };
 use crate::numbers::{self, Unit, bound, constant, quantity, rounded, share, significant};
 
@@ -332,15 +332,6 @@ fn again(contact: &ContactReport) -> String {
         1 => "; they meet once more".to_owned(),
         count => format!("; they meet {count} times more"),
     }
-}
-
-/// Whether a measure of this kind is an index that has seconds as its unit but is no time.
-pub(super) fn is_index(kind: &str) -> bool {
-    kind == SeverityIndex::KIND || is_hic(kind)
-}
-
-fn is_hic(kind: &str) -> bool {
-    [Hic::KIND, Hic15::KIND, Hic36::KIND].contains(&kind)
 }
 
 /// The field's name of an index: `GSI`, Gadd's severity index, or `HIC15`, the head injury criterion with the

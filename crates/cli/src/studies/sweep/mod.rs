@@ -1,7 +1,6 @@
 //! `dashpot sweep`.
 
 mod files;
-mod remarks;
 mod words;
 
 use std::{num::NonZero, thread::available_parallelism};
@@ -14,14 +13,14 @@ use dashpot_analysis::{
 use dashpot_scene::{Diagnostics, Scene, Tunables, Variation, read};
 use serde::Serialize;
 
-use self::{remarks::remarks, words::summary};
+use self::words::{remarks, summary};
 use crate::{
     args::SweepArguments,
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
     output::{Study, Text, VERSION, emit, list, object},
-    progress::Count,
+    progress::Bar,
     terminal::{Terminal, remark},
 };
 
@@ -129,8 +128,10 @@ fn solved(
 ) -> Result<SweepReport, CliError> {
     let all = || available_parallelism().map_or(1, NonZero::get);
     let threads = arguments.threads.map_or_else(all, NonZero::get);
-    let mut bar = Count::new("sweep", terminal.error.attended);
-    Ok(solve(grid, pose, columns, threads, &mut |done, of| bar.tell(done, of))?)
+    let mut bar = Bar::new("sweep", 0.0, terminal.error.attended);
+    let mut show =
+        |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
+    Ok(solve(grid, pose, columns, threads, &mut show)?)
 }
 
 impl Study for Swept {

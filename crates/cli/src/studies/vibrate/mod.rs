@@ -46,9 +46,8 @@ pub(crate) fn vibrate(
     arguments: &VibrateArguments,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
-    let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
-    terminal.diagnose(&checked.warnings);
-    let scene = checked.value;
+    let scene =
+        read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set, terminal)?;
     let vibration = Vibration::new(&scene.network, scene.run.duration, arguments.drive.as_deref())?;
     let names = FIGURES.iter().chain([&TABLE]).map(|own| (*own).to_owned());
     let folder = Folder::wanted(arguments.out.as_deref(), names)?;

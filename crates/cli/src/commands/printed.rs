@@ -1,16 +1,26 @@
-//! `dashpot man`.
+//! `dashpot new`, `schema`, `man` and `completions`: texts that are there already.
 
 use std::{fs, path::Path};
 
 use clap::CommandFactory;
+use clap_complete::{Shell, generate};
 use clap_mangen::Man;
+use dashpot_scene::template;
 
 use crate::{
-    args::Arguments,
+    args::{Arguments, NewArguments},
     error::{CliError, Status, unwritable},
     part::write_text,
     terminal::{print, print_data},
 };
+
+/// Prints the completions for a shell.
+pub(crate) fn completions(shell: Shell) -> Result<Status, CliError> {
+    let mut text = Vec::new();
+    generate(shell, &mut Arguments::command(), "dashpot", &mut text);
+    print_data(&String::from_utf8_lossy(&text))?;
+    Ok(Status::Done)
+}
 
 /// Prints the manual page of the command, or writes those of all verbs to a folder.
 pub(crate) fn man(out: Option<&Path>) -> Result<Status, CliError> {
@@ -35,4 +45,25 @@ fn page(man: &Man) -> Result<String, CliError> {
     let mut text = Vec::new();
     man.render(&mut text).map_err(CliError::Output)?;
     Ok(String::from_utf8_lossy(&text).into_owned())
+}
+
+/// Prints a commented scene, or writes it to a file that is not there yet.
+pub(crate) fn new(arguments: &NewArguments) -> Result<Status, CliError> {
+    let text = template(&arguments.template).unwrap_or_default();
+    match &arguments.out {
+        None => print_data(text)?,
+        Some(path) => {
+            write_text(path, text, arguments.force)?;
+            let path = path.display();
+            print(&format!("wrote {path}; solve it with `dashpot run {path}`\n"))?;
+        }
+    }
+    Ok(Status::Done)
+}
+
+/// Prints the JSON schema of scenes.
+pub(crate) fn schema() -> Result<Status, CliError> {
+    let text = serde_json::to_string_pretty(&dashpot_scene::schema())?;
+    print_data(&(text + "\n"))?;
+    Ok(Status::Done)
 }

@@ -1,21 +1,28 @@
 //! `dashpot explain`.
 
-mod effects;
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
-use std::path::{Path, PathBuf};
-
-use dashpot_analysis::{choice, reported_measures};
-use dashpot_dae::UnknownKind;
-use dashpot_network::{Node, NodeId, Situation, Start, Support, elements::Law, layers::resolved};
+use dashpot_analysis::{
+    RunError, choice,
+    contribution::{Contribution, Contributor, EffectState, SystemSize, contributions},
+    reported_measures,
+};
+use dashpot_dae::{Silent, UnknownKind};
+use dashpot_network::{
+    Detail, Node, NodeId, Situation, Start, Support, elements::Law, layers::resolved,
+};
 use dashpot_plot::Table;
-use dashpot_scene::Scene;
+use dashpot_scene::{Scene, write_effect};
 
 use crate::{
     args::ExplainArguments,
     error::{CliError, Status},
     input::{read_scene, title},
     non_identifiable::notes,
-    numbers::{constant, estimate, quantity},
+    numbers::{constant, estimate, estimated, quantity},
     output::Text,
     part::write_drawing,
     sketch::{MOST_DRAWN, element, sketch, waveform},
@@ -34,9 +41,8 @@ pub(crate) fn explain(
     arguments: &ExplainArguments,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
-    let checked = read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set)?;
-    terminal.diagnose(&checked.warnings);
-    let scene = checked.value;
+    let scene =
+        read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set, terminal)?;
     let count = scene.network.connections().len();
     let drawing = || sketch(&scene.network, scene.run.duration);
     let drawn = if count > MOST_DRAWN {
@@ -44,7 +50,7 @@ pub(crate) fn explain(
     } else {
         drawing().text(WIDTH - 4)
     };
-    let (solving, effects) = (solving(&scene)?, effects::found(&scene)?);
+    let (solving, effects) = (solving(&scene)?, effects(&scene)?);
     let mut text = Text::written(terminal, |text| {
         text.title(title(&scene));
         text.blank();
@@ -59,7 +65,7 @@ pub(crate) fn explain(
             text.heading("Notes");
             text.paragraphs(remarks);
         }
-        effects::section(text, &effects);
+        effects_section(text, &effects);
         text.heading("Solving");
         solving.iter().for_each(|(label, words)| text.labelled(label, 10, words));
         let unknowns = unknowns(&scene);
@@ -239,4 +245,86 @@ fn more(text: &mut Text, count: usize) {
     if count > MOST {
         text.line(&format!("  and {} more", count - MOST));
     }
+}
+
+/// What the columns mean.
+const MEANING: &str = "What each adds, or would add with its defaults: unknowns, modes as a \
+                       factor, and entries of the matrices and guards at the start, where it \
+                       may change which phases hold; `2 fewer` says that it removes two. \
+                       `number` measures how much it matters: little where it is far below 1.";
+
+/// What each effect of a scene contributes.
+fn effects(scene: &Scene) -> Result<Vec<Contribution>, RunError> {
+    let settings = scene.settings(scene.run.methods.first().map_or("auto", String::as_str))?;
+    let assembly = Arc::new(scene.assembly.clone());
+    Ok(contributions(&scene.network, &assembly, &settings, MOST, &mut Silent))
+}
+
+/// The section with all effects.
+fn effects_section(text: &mut Text, rows: &[Contribution]) {
+    let shown = &rows[..rows.len().min(MOST)];
+    text.table(&counts(shown));
+    more(text, rows.len());
+    text.blank();
+    for row in shown {
+        let number = row
+            .influence
+            .as_ref()
+            .map(|influence| format!("; {}", estimate(&influence.formula, influence.value)));
+        let words = format!("{}{}", description(row), number.unwrap_or_default());
+        text.labelled(&row.name, LABELS, &words);
+    }
+    text.blank();
+    text.paragraphs([MEANING]);
+}
+
+/// Columns of the effects' names.
+const LABELS: usize = 20;
+
+fn description(row: &Contribution) -> String {
+    match &row.contributor {
+        Contributor::Effect(effect) => write_effect(effect.as_ref()),
+        Contributor::Kind(summary) => (*summary).to_owned(),
+        Contributor::Other(Detail::Inertia(_)) => {
+            "the layers have mass: waves travel in them".to_owned()
+        }
+        Contributor::Other(_) => "what is struck rests on a support that gives".to_owned(),
+    }
+}
+
+fn counts(rows: &[Contribution]) -> Table {
+    let header = ["effect", "state", "unknowns", "modes", "entries", "guards", "number"];
+    let row = |contribution: &Contribution| {
+        let adds = |of: fn(&SystemSize) -> usize| match &contribution.sizes {
+            Some([with, without]) => change(of(with), of(without)),
+            None => "–".to_owned(),
+        };
+        let modes = match &contribution.sizes {
+            Some([with, without]) if with.modes > without.modes && without.modes > 0 => {
+                format!("×{}", with.modes / without.modes)
+            }
+            _ => "–".to_owned(),
+        };
+        let state = match contribution.state {
+            EffectState::On => "on",
+            EffectState::Off => "off",
+            EffectState::LeftOut => "dropped",
+            EffectState::PutBack => "put back",
+        };
+        let number = contribution.influence.as_ref().map(|influence| estimated(influence.value));
+        vec![
+            contribution.name.clone(),
+            state.to_owned(),
+            adds(|size| size.unknowns),
+            modes,
+            adds(|size| size.entries),
+            adds(|size| size.guards),
+            number.unwrap_or_else(|| "–".to_owned()),
+        ]
+    };
+    Table::new("Effects", &header, rows.iter().map(row))
+}
+
+fn change(with: usize, without: usize) -> String {
+    if with >= without { (with - without).to_string() } else { format!("{} fewer", without - with) }
 }
