@@ -13,9 +13,7 @@
 mod axis;
 mod chart;
 mod decimation;
-mod error;
 pub mod figures;
-mod frame;
 mod map;
 mod report;
 mod sketch;
@@ -24,11 +22,11 @@ mod theme;
 #[cfg(test)]
 mod well_formed;
 
-pub use chart::{Chart, Direction, Marker, Pattern, ReferenceLine, Scale, Series, Stroke};
-pub use error::PlotError;
+pub use chart::{
+    Chart, Direction, Marker, Pattern, PlotError, ReferenceLine, Scale, Series, Stroke,
+};
 pub use figures::model::{
-    Measured, ModelCurve, ModelFigure, ModelMarker, ModelSeries, ModelSubject, RheometerLine,
-    RheometerSeries,
+    Measured, ModelCurve, ModelFigure, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
 };
 pub use figures::{
     ElementSeries, EnergySeries, Figure, PrecisionCurve, PrecisionSeries, RunMarker, RunMarkerKind,

@@ -1,18 +1,17 @@
 //! Charts: curves over an axis, as SVG and as text.
 
 mod canvas;
-mod curves;
 mod labels;
 mod legend;
 mod naming;
-mod scale;
 mod svg;
 mod text;
-mod texts;
+
+use thiserror::Error;
 
 use crate::axis::Axis;
 
-pub use scale::Scale;
+pub use crate::axis::Scale;
 
 /// A chart in the units of its labels.
 ///
@@ -195,6 +194,20 @@ impl Chart {
             .filter(|at| low > high || (low - room..=high + room).contains(&scale.coordinate(*at)))
             .collect()
     }
+}
+
+/// A drawing that could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PlotError {
+    /// The drawing back-end refused a shape of the chart.
+    #[error("chart `{title}` cannot be drawn: {reason}")]
+    Backend {
+        /// Title of the chart.
+        title: String,
+        /// The back-end's own words.
+        reason: String,
+    },
 }
 
 #[cfg(test)]

@@ -4,18 +4,16 @@ use plotters::element::{Circle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontTransform};
 
-use super::canvas::Drawn;
 use super::canvas::{
-    Area, Fault, canvas, dashes, layer, line, opening, path, pen, pixels, text_style,
+    Area, Drawn, Fault, canvas, dashes, draw_curve, draw_stem, layer, line, opening, path, pen,
+    pixels, places, text_style,
 };
-use super::curves::{draw_curve, draw_stem, places};
-use super::legend::{Entry, Legend, Sample};
+use super::legend::{Entry, Legend, Sample, draw_texts};
 use super::naming::{same_curves, same_name};
-use super::texts::draw_texts;
 use super::{Chart, Direction, Pattern, ReferenceLine};
 use crate::PlotError;
+use crate::axis::{Ends, Frame};
 use crate::decimation::Path;
-use crate::frame::{Ends, Frame};
 use crate::text_metrics::{clip_width, escape, one_line, text_width};
 use crate::theme;
 

@@ -160,7 +160,7 @@ fn interpolate(time: &[f64], values: &[f64], at: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::{Figure, ForceDeformation, ForceTime, tests::runs};
+    use crate::figures::{FORCE_DEFORMATION, FORCE_TIME, tests::runs};
 
     #[test]
     fn markers_are_interpolated_and_outside_the_samples_left_out() {
@@ -183,7 +183,7 @@ mod tests {
         let mut runs = runs();
         let kinds = [RunMarkerKind::PeakForce, RunMarkerKind::DeepestPoint];
         runs[0].markers = vec![marker(kinds[0], 1e-3, "peak"), marker(kinds[1], 5e-3, "deepest")];
-        let chart = ForceDeformation.chart(&runs);
+        let chart = FORCE_DEFORMATION.chart(&runs);
         let own = &runs[0].elements[0];
         for (marker, at) in chart.markers.iter().zip([10, 50]) {
             assert_eq!((marker.x * 1e-3, marker.y * 1e3), (own.deformation[at], own.force[at]));
@@ -203,7 +203,7 @@ mod tests {
             element.deformation.insert(at, element.deformation[at]);
         }
         run.markers = vec![marker(RunMarkerKind::PeakForce, time, "peak")];
-        let chart = ForceTime.chart(&[run]);
+        let chart = FORCE_TIME.chart(&[run]);
         assert!((chart.markers[0].y - 90.0).abs() < 1e-12, "{:?}", chart.markers);
     }
 
@@ -211,7 +211,7 @@ mod tests {
     fn what_happens_at_one_place_is_told_in_one_text_and_elsewhere_in_its_own() {
         let mut runs = runs();
         let labels = |runs: &[RunSeries]| -> Vec<String> {
-            ForceDeformation.chart(runs).markers.into_iter().map(|marker| marker.label).collect()
+            FORCE_DEFORMATION.chart(runs).markers.into_iter().map(|marker| marker.label).collect()
         };
         runs[0].markers = vec![
             marker(RunMarkerKind::PeakForce, 1e-3, "peak 38 kN"),
@@ -236,7 +236,7 @@ mod tests {
             ..marker(RunMarkerKind::PeakForce, 1e-3, "peak 18 kN")
         };
         runs[0].markers = vec![on_contact, marker(RunMarkerKind::PeakForce, 1e-3, "peak 38 kN")];
-        let chart = ForceDeformation.chart(&runs);
+        let chart = FORCE_DEFORMATION.chart(&runs);
         let labels: Vec<&str> = chart.markers.iter().map(|marker| marker.label.as_str()).collect();
         assert_eq!(labels, ["peak 38 kN at 1 ms"]);
     }

@@ -1,11 +1,7 @@
 //! The register of figures.
 //!
-//! A figure is one file here: a type, its [`Figure`] implementation, and a line in [`FIGURES`].
+//! A figure of runs is one line of [`FIGURES`]: which signal stands over which, and what is marked.
 
-mod deformation_time;
-mod energy_time;
-mod force_deformation;
-mod force_time;
 mod markers;
 pub mod model;
 mod run_series;
@@ -13,32 +9,102 @@ mod unit;
 mod vibration;
 mod work_precision;
 
-use crate::{Chart, Pattern, Series, Stroke};
+use self::{
+    markers::markers,
+    run_series::{Of, quantities, thickness_lines},
+    unit::Unit,
+};
+use crate::{Chart, Direction, Pattern, Series, Stroke};
 
-pub use deformation_time::DeformationTime;
-pub use energy_time::EnergyTime;
-pub use force_deformation::ForceDeformation;
-pub use force_time::ForceTime;
 pub use run_series::{ElementSeries, EnergySeries, RunMarker, RunMarkerKind, RunSeries};
-use unit::Unit;
 pub use vibration::{VibrationCurve, VibrationSeries};
 pub use work_precision::{PrecisionCurve, PrecisionSeries};
 
+use RunMarkerKind::{DeepestPoint, PeakForce, TensionStart};
+
 /// Every figure, in the order of the report. **A new figure is registered here.**
-pub const FIGURES: &[&dyn Figure] = &[&ForceTime, &DeformationTime, &ForceDeformation, &EnergyTime];
+pub const FIGURES: &[Figure] = &[FORCE_TIME, DEFORMATION_TIME, FORCE_DEFORMATION, ENERGY_TIME];
+
+/// Force of each element over time, positive in compression.
+pub const FORCE_TIME: Figure = Figure {
+    name: "force-time",
+    title: "Force over time",
+    x: Of::Time,
+    y: Of::Force,
+    kinds: &[PeakForce, TensionStart],
+};
+
+/// Deformation of each element over time, positive in compression, with the thickness of pads as a limit. Gaps at
+/// contacts that are wide beside the deformations are cut off.
+pub const DEFORMATION_TIME: Figure = Figure {
+    name: "deformation-time",
+    title: "Deformation over time",
+    x: Of::Time,
+    y: Of::Deformation,
+    kinds: &[DeepestPoint, TensionStart],
+};
+
+/// Force of each element over its deformation, both positive in compression: the area in a loop is the energy lost.
+pub const FORCE_DEFORMATION: Figure = Figure {
+    name: "force-deformation",
+    title: "Force over deformation",
+    x: Of::Deformation,
+    y: Of::Force,
+    kinds: &[PeakForce, DeepestPoint, TensionStart],
+};
+
+/// The parts of the energy ledger over time.
+pub const ENERGY_TIME: Figure = Figure {
+    name: "energy-time",
+    title: "Energy over time",
+    x: Of::Time,
+    y: Of::Energy,
+    kinds: &[],
+};
 
 /// A figure drawn from one or several runs of the same scene.
-pub trait Figure: Sync {
+#[derive(Debug, Clone, Copy)]
+pub struct Figure {
     /// Name in files and on the command line, as in `force-time`.
-    fn name(&self) -> &'static str;
-
+    pub name: &'static str,
     /// Heading, as in `Force over time`.
-    fn title(&self) -> &'static str;
-
-    /// The chart of `runs`, which differ in their method; what they have nothing of stays empty.
-    fn chart(&self, runs: &[RunSeries]) -> Chart;
+    pub title: &'static str,
+    x: Of,
+    y: Of,
+    /// What is marked.
+    kinds: &'static [RunMarkerKind],
 }
 
+impl Figure {
+    /// The chart of `runs`, which differ in their method; what they have nothing of stays empty.
+    pub fn chart(&self, runs: &[RunSeries]) -> Chart {
+        let mut all = quantities(runs, self.x, self.y);
+        let widest = if self.y == Of::Deformation { cut_off(runs, &mut all) } else { None };
+        let (shown, left_out) = largest(all, self.y);
+        let points = || shown.iter().flat_map(|q| q.curves.iter().flatten());
+        let x = self.x.unit(points().map(|p| p.0));
+        let y = self.y.unit(points().map(|p| p.1));
+        let gaps = widest.map(|gap| format!("gaps wider than {} are cut off", y.print(gap)));
+        let limits = |direction, unit| thickness_lines(runs, &shown, direction, unit);
+        Chart {
+            title: self.title.into(),
+            note: note(runs, left_out, gaps),
+            x_label: x.label(self.x.word()),
+            y_label: y.label(self.y.word()),
+            markers: markers(runs, &shown, self.kinds, (self.x, x), (self.y, y)),
+            lines: match (self.x, self.y) {
+                (Of::Deformation, _) => limits(Direction::Vertical, x),
+                (_, Of::Deformation) => limits(Direction::Horizontal, y),
+                _ => Vec::new(),
+            },
+            series: curves(runs, &shown, x.factor, y.factor),
+            ..Chart::default()
+        }
+    }
+}
+
+/// The widest gap that is shown, as a part of the largest deformation.
+const WIDEST: f64 = 0.5;
 /// Curves beyond these in one figure cannot be told apart.
 const MOST_CURVES: usize = 6;
 
@@ -49,7 +115,7 @@ struct Quantity {
 }
 
 /// The quantities of largest magnitude, in their order, and a remark when some are left out.
-fn largest(mut quantities: Vec<Quantity>, kind: &str) -> (Vec<Quantity>, String) {
+fn largest(mut quantities: Vec<Quantity>, of: Of) -> (Vec<Quantity>, String) {
     let total = quantities.len();
     if total <= MOST_CURVES {
         return (quantities, String::new());
@@ -63,14 +129,14 @@ fn largest(mut quantities: Vec<Quantity>, kind: &str) -> (Vec<Quantity>, String)
     let least = sizes[MOST_CURVES - 1];
     quantities.retain(|q| size(q) >= least);
     quantities.truncate(MOST_CURVES);
+    let kind = if of == Of::Energy { "energies" } else { "elements" };
     (quantities, format!("the {MOST_CURVES} largest of {total} {kind}"))
 }
 
-/// What stands below a heading: which part of the run is shown, and what is left out.
-fn note(runs: &[RunSeries], left_out: &str) -> String {
-    let excerpt = runs.first().and_then(excerpt).unwrap_or_default();
-    let said = [&*excerpt, left_out].into_iter().filter(|text| !text.is_empty());
-    said.collect::<Vec<_>>().join("; ")
+/// What stands below a heading: which part of the run is shown, what is left out and cut off.
+fn note(runs: &[RunSeries], left_out: String, gaps: Option<String>) -> String {
+    let parts = [runs.first().and_then(excerpt), Some(left_out), gaps].into_iter().flatten();
+    parts.filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; ")
 }
 
 /// Which part of a run is shown, as in `from 552.1 to 564.5 ms of 600 ms`.
@@ -121,6 +187,28 @@ fn curves(
     series
 }
 
+/// Leaves out the parts of flights in which a contact is wide open, so that they do not flatten the curves of what
+/// deforms. Returns the widest gap that is shown \[m\] where any is wider.
+fn cut_off(runs: &[RunSeries], all: &mut [Quantity]) -> Option<f64> {
+    let is_contact = |quantity: &Quantity| {
+        let elements = runs.iter().flat_map(|run| &run.elements);
+        elements.filter(|element| element.name == quantity.name).any(|element| element.is_contact)
+    };
+    let deforming = all.iter().filter(|own| !is_contact(own));
+    let sizes = deforming.flat_map(|own| own.curves.iter().flatten()).map(|point| point.1.abs());
+    let widest = WIDEST * sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+    if widest <= 0.0 {
+        return None;
+    }
+    let mut is_cut = false;
+    for quantity in all.iter_mut().filter(|own| is_contact(own)) {
+        for point in quantity.curves.iter_mut().flatten().filter(|point| point.1 < -widest) {
+            (point.1, is_cut) = (f64::NAN, true);
+        }
+    }
+    is_cut.then_some(widest)
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
@@ -158,7 +246,7 @@ pub(crate) mod tests {
             ],
             markers: vec![RunMarker {
                 element: "padding".into(),
-                kind: RunMarkerKind::PeakForce,
+                kind: PeakForce,
                 time: 1e-3,
                 label: "peak 38.4 kN".into(),
                 moment: "1.00 ms".into(),
@@ -171,11 +259,11 @@ pub(crate) mod tests {
     #[test]
     fn names_are_unique_and_every_figure_draws_both_runs() {
         for (i, figure) in FIGURES.iter().enumerate() {
-            assert!(FIGURES[..i].iter().all(|other| other.name() != figure.name()));
+            assert!(FIGURES[..i].iter().all(|other| other.name != figure.name));
             let chart = figure.chart(&runs());
-            assert_eq!(chart.series.len(), 4, "{}", figure.name());
+            assert_eq!(chart.series.len(), 4, "{}", figure.name);
             let named = |method| chart.series.iter().filter(|s| s.name.ends_with(method)).count();
-            assert_eq!((named("exact"), named("bdf")), (2, 2), "{}", figure.name());
+            assert_eq!((named("exact"), named("bdf")), (2, 2), "{}", figure.name);
             assert_eq!(chart.series[0].stroke.map(|s| s.pattern), Some(Pattern::Broad));
             assert_eq!(chart.series[3].stroke.map(|s| s.pattern), Some(Pattern::Dashed));
         }
@@ -185,7 +273,7 @@ pub(crate) mod tests {
     fn every_figure_draws_from_nothing() {
         for figure in FIGURES {
             for runs in [vec![], vec![RunSeries::default()]] {
-                assert!(figure.chart(&runs).series.is_empty(), "{}", figure.name());
+                assert!(figure.chart(&runs).series.is_empty(), "{}", figure.name);
                 assert!(figure.chart(&runs).svg().is_ok());
             }
         }
@@ -193,7 +281,7 @@ pub(crate) mod tests {
 
     #[test]
     fn a_marker_sits_on_its_curve_in_the_units_of_the_axes() {
-        let chart = ForceTime.chart(&runs());
+        let chart = FORCE_TIME.chart(&runs());
         let marker = &chart.markers[0];
         assert!((marker.x - 1.0).abs() < 1e-12, "{marker:?}");
         assert!((marker.y - 38.4).abs() < 1e-9, "{marker:?}");
@@ -203,7 +291,7 @@ pub(crate) mod tests {
     #[test]
     fn a_text_names_its_elements_where_several_are_shown() {
         let labels = |run: RunSeries| -> Vec<String> {
-            ForceTime.chart(&[run]).markers.into_iter().map(|marker| marker.label).collect()
+            FORCE_TIME.chart(&[run]).markers.into_iter().map(|marker| marker.label).collect()
         };
         let mut run = run("exact");
         assert_eq!(labels(run.clone()), ["padding: peak 38.4 kN at 1.00 ms"]);
@@ -220,11 +308,11 @@ pub(crate) mod tests {
     fn limits_have_the_colours_of_their_curves_and_equal_ones_are_one_line() {
         let mut run = run("exact");
         run.elements[1].thickness = Some(0.03);
-        let lines = DeformationTime.chart(&[run.clone()]).lines;
+        let lines = DEFORMATION_TIME.chart(&[run.clone()]).lines;
         let colours: Vec<_> = lines.iter().map(|line| line.colour).collect();
         assert_eq!(colours, [Some(0), Some(1)]);
         run.elements[1].thickness = Some(0.02);
-        let lines = DeformationTime.chart(&[run]).lines;
+        let lines = DEFORMATION_TIME.chart(&[run]).lines;
         assert_eq!(lines.len(), 1);
         assert_eq!(lines[0].label, "thickness of padding, mount <&>: 20 mm");
         assert_eq!(lines[0].colour, None);
@@ -238,9 +326,9 @@ pub(crate) mod tests {
             chart.series.iter().map(|series| series.name.clone()).collect::<Vec<_>>()
         };
         let runs = [run];
-        assert_eq!(names(ForceDeformation.chart(&runs)), ["padding"]);
-        assert_eq!(names(DeformationTime.chart(&runs)), ["padding", "mount <&>"]);
-        assert_eq!(names(ForceTime.chart(&runs)), ["padding", "mount <&>"]);
+        assert_eq!(names(FORCE_DEFORMATION.chart(&runs)), ["padding"]);
+        assert_eq!(names(DEFORMATION_TIME.chart(&runs)), ["padding", "mount <&>"]);
+        assert_eq!(names(FORCE_TIME.chart(&runs)), ["padding", "mount <&>"]);
     }
 
     #[test]
@@ -253,7 +341,7 @@ pub(crate) mod tests {
                 ..run.elements[0].clone()
             })
             .collect();
-        let chart = ForceTime.chart(&[run]);
+        let chart = FORCE_TIME.chart(&[run]);
         let names: Vec<&str> = chart.series.iter().map(|s| s.name.as_str()).collect();
         assert_eq!(names, ["e24", "e25", "e26", "e27", "e28", "e29"]);
         assert_eq!(chart.note, "the 6 largest of 30 elements");
@@ -270,8 +358,29 @@ pub(crate) mod tests {
                 figure.chart(&runs).note,
                 "from 500 to 520 ms of 1000 ms",
                 "{}",
-                figure.name()
+                figure.name
             );
         }
+    }
+
+    #[test]
+    fn wide_gaps_do_not_flatten_what_deforms() {
+        let mut runs = runs();
+        runs.truncate(1);
+        let deepest = runs[0].elements[0].deformation.iter().copied().fold(0.0, f64::max);
+        let contact = &mut runs[0].elements[1];
+        contact.is_contact = true;
+        let last = contact.deformation.len() - 1;
+        for (at, gap) in contact.deformation.iter_mut().enumerate() {
+            *gap = -(at as f64) / last as f64;
+        }
+        let chart = DEFORMATION_TIME.chart(&runs);
+        let shown = chart.series[1].points.iter().map(|point| point.1);
+        let lowest = shown.clone().filter(|shown| shown.is_finite()).fold(0.0, f64::min);
+        assert!(lowest < 0.0 && lowest >= -500.0 * deepest, "{lowest}");
+        assert!(shown.clone().any(f64::is_nan));
+        assert!(chart.note.contains("gaps wider than 8.75 mm are cut off"), "{}", chart.note);
+        let whole = DEFORMATION_TIME.chart(&self::runs());
+        assert!(!whole.note.contains("gaps"), "{}", whole.note);
     }
 }

@@ -73,12 +73,34 @@ pub enum RunMarkerKind {
     TensionStart,
 }
 
-/// A signal of an element.
+/// What a figure shows along an axis: a signal of an element, or the parts of the energy ledger.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
     Time,
     Force,
     Deformation,
+    Energy,
+}
+
+impl Of {
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::Force => "force",
+            Self::Deformation => "deformation",
+            Self::Energy => "energy",
+        }
+    }
+
+    /// The unit in which such values are shown.
+    pub(super) fn unit(self, values: impl Iterator<Item = f64>) -> Unit {
+        match self {
+            Self::Time => Unit::time(values),
+            Self::Force => Unit::force(values),
+            Self::Deformation => Unit::length(values),
+            Self::Energy => Unit::energy(values),
+        }
+    }
 }
 
 impl RunSeries {
@@ -87,25 +109,35 @@ impl RunSeries {
             Of::Time => &self.time,
             Of::Force => &element.force,
             Of::Deformation => &element.deformation,
+            Of::Energy => &[],
         }
     }
 }
 
-/// Per element of the first run, one curve of `y` over `x` of each run.
-pub(super) fn element_curves(runs: &[RunSeries], x: Of, y: Of) -> Vec<Quantity> {
+/// Per element of the first run, or per part of its energy ledger, one curve of `y` over `x` of each run.
+pub(super) fn quantities(runs: &[RunSeries], x: Of, y: Of) -> Vec<Quantity> {
     let Some(first) = runs.first() else { return Vec::new() };
     let curve = |run: &RunSeries, name: &str| {
+        if y == Of::Energy {
+            let part = run.energy.iter().find(|part| part.name == name);
+            return part.map_or_else(Vec::new, |part| zip(&run.time, &part.values));
+        }
         let is_drawn = |e: &&ElementSeries| !(e.is_contact && x == Of::Deformation);
         let element = run.elements.iter().find(|e| e.name == name).filter(is_drawn);
         element.map_or_else(Vec::new, |e| zip(run.signal(e, x), run.signal(e, y)))
     };
-    let of_all = |name: &String| runs.iter().map(|run| curve(run, name)).collect();
-    let names = first.elements.iter().map(|e| e.name.clone());
-    names.map(|name| Quantity { curves: of_all(&name), name }).collect()
+    let of_all = |name: &String| Quantity {
+        name: name.clone(),
+        curves: runs.iter().map(|run| curve(run, name)).collect(),
+    };
+    match y {
+        Of::Energy => first.energy.iter().map(|part| of_all(&part.name)).collect(),
+        _ => first.elements.iter().map(|element| of_all(&element.name)).collect(),
+    }
 }
 
 /// Points of two signals of equal times; the longer one is cut.
-pub(super) fn zip(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
+fn zip(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
     x.iter().copied().zip(y.iter().copied()).collect()
 }
 

@@ -2,7 +2,6 @@
 
 mod contours;
 mod lines;
-mod marks;
 mod svg;
 
 use crate::{Scale, axis::Axis};

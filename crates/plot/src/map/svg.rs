@@ -4,11 +4,10 @@ use std::fmt::Write as _;
 
 use super::{
     Map,
-    marks::{draw_path, text, upright},
+    lines::{draw_path, text, upright},
 };
 use crate::{
-    axis::Axis,
-    frame::Frame,
+    axis::{Axis, Frame},
     text_metrics::{clip_width, escape, one_line, text_width},
     theme,
 };

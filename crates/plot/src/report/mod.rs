@@ -219,7 +219,7 @@ mod tests {
         let row = |cells: &[&str]| cells.iter().map(|c| (*c).to_owned()).collect::<Vec<_>>();
         let network = ReportFigure { caption: "Network".into(), svg: tangled().svg() };
         let figures = FIGURES.iter().map(|figure| ReportFigure {
-            caption: figure.title().into(),
+            caption: figure.title.into(),
             svg: figure.chart(&runs()).svg().unwrap(),
         });
         Report {

@@ -2,7 +2,6 @@
 
 mod blocks;
 mod graph;
-mod grid;
 mod layout;
 mod list;
 mod order;

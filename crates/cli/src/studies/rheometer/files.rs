@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use dashpot_analysis::rheometer::{RheometerReport, Series, Specimen};
 use dashpot_plot::{
     Measured, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
-    figures::model::{LossFactor, MODEL_FIGURES, ModelFigure, Sweep},
+    figures::model::{LOSS_FACTOR, MODEL_FIGURES, SWEEP},
 };
 use dashpot_rheology::MaxwellForm;
 
@@ -62,7 +62,7 @@ fn measured_under_force(measured: Measured) -> bool {
 
 /// The files of these tests.
 pub(super) fn names(tests: &[String]) -> Vec<String> {
-    let models = MODEL_FIGURES.iter().map(|own| format!("model-{}.svg", own.name()));
+    let models = MODEL_FIGURES.iter().map(|own| format!("model-{}.svg", own.name));
     let tests = tests.iter().flat_map(|test| [format!("{test}.csv"), format!("{test}.svg")]);
     models.chain(tests).collect()
 }
@@ -72,9 +72,9 @@ pub(super) fn write(files: &mut Staged<'_>, tested: &Tested) -> Result<(), CliEr
     let subject = if tested.units.is_material { ModelSubject::Material } else { ModelSubject::Pad };
     let curves = curves(&tested.word, &tested.specimen, &tested.reports);
     for own in MODEL_FIGURES {
-        let is_swept = [Sweep.name(), LossFactor.name()].contains(&own.name());
+        let is_swept = [SWEEP.name, LOSS_FACTOR.name].contains(&own.name);
         let shown = if is_swept { &curves[..] } else { &curves[..1] };
-        files.add(format!("model-{}.svg", own.name()), own.chart(shown, subject).svg()?)?;
+        files.add(format!("model-{}.svg", own.name), own.chart(shown, subject).svg()?)?;
     }
     for report in &tested.reports {
         let columns = columns(report, tested.units);
@@ -113,7 +113,6 @@ fn curves(word: &str, specimen: &Specimen, reports: &[RheometerReport]) -> Vec<M
         storage: over(&|omega| linear.storage(omega), &omegas),
         loss: over(&|omega| linear.loss(omega), &omegas),
         loss_factor: over(&|omega| linear.loss_factor(omega), &omegas),
-        markers: Vec::new(),
     };
     let sweep = reports.iter().find(|report| report.abscissa.unit == "Hz");
     let network = sweep.map(|report| {

@@ -36,7 +36,7 @@ const CHUNK: usize = 4096;
 
 /// The files that are written besides the result and the tables of the methods.
 pub(super) fn names() -> impl Iterator<Item = String> {
-    let figures = FIGURES.iter().map(|figure| format!("{}.svg", figure.name()));
+    let figures = FIGURES.iter().map(|figure| format!("{}.svg", figure.name));
     figures.chain([SCENE, DRAWING, PAGE].map(str::to_owned))
 }
 
@@ -61,7 +61,7 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
             continue;
         }
         let svg = chart.svg()?;
-        files.add(format!("{}.svg", figure.name()), &svg)?;
+        files.add(format!("{}.svg", figure.name), &svg)?;
         figures.push(ReportFigure { caption: String::new(), svg });
     }
     files.add(PAGE, page(answer, figures).html())?;

@@ -19,7 +19,7 @@ use std::{
 use dashpot_analysis::{
     Accuracy, Difference, RunError, RunReport, SolveSettings, Warning, differences, solve_partial,
 };
-use dashpot_plot::figures::{Figure, ForceTime};
+use dashpot_plot::figures::FORCE_TIME;
 use dashpot_scene::Scene;
 use serde::Serialize;
 
@@ -231,7 +231,7 @@ impl Study for Answer {
             text.labelled(line.label, LABELS, &line.text);
         }
         if let Some(best) = self.best().filter(|_| text.is_plotted(self.plot)) {
-            let chart = ForceTime.chart(&[curves(best, PLOT_POINTS)]);
+            let chart = FORCE_TIME.chart(&[curves(best, PLOT_POINTS)]);
             text.blank();
             text.lines(&indented(&chart.text(WIDTH - 4, PLOT_HEIGHT)));
         }

@@ -197,10 +197,7 @@ fn markers(report: &RunReport) -> Vec<RunMarker> {
 mod tests {
     use dashpot_analysis::solve;
     use dashpot_dae::Silent;
-    use dashpot_plot::{
-        Figure,
-        figures::{ForceDeformation, ForceTime},
-    };
+    use dashpot_plot::figures::{FORCE_DEFORMATION, FORCE_TIME};
     use dashpot_scene::{ReadOptions, read};
 
     use super::*;
@@ -226,14 +223,14 @@ mod tests {
         assert!(first < met && met - first < 0.2 * length, "{first}");
         assert!(last > met + length && last - met - length < 0.2 * length, "{last}");
         assert_eq!(series.excerpt_of, Some(0.6));
-        let note = ForceTime.chart(&[series]).note;
+        let note = FORCE_TIME.chart(&[series]).note;
         assert!(note.starts_with("from 450.") && note.ends_with(" ms of 600 ms"), "{note}");
     }
 
     #[test]
     fn markers_lie_where_the_solution_is_at_their_times() {
         let report = report();
-        let chart = ForceDeformation.chart(&[curves(&report, 50)]);
+        let chart = FORCE_DEFORMATION.chart(&[curves(&report, 50)]);
         let [marker] = &chart.markers[..] else { panic!("{:?}", chart.markers) };
         let own = report.assembly.connection("pad").unwrap();
         let solution = report.solution();

@@ -1,7 +1,65 @@
-//! What figures of models share: strokes, names, remarks and markers.
+//! The plain numbers of one linear model that figures are drawn from, and how its curves are drawn.
 
-use super::{ModelCurve, ModelMarker, ModelSeries};
-use crate::{Marker, Pattern, Series, Stroke};
+use crate::{Pattern, Series, Stroke};
+
+/// What models stand for, which gives their units.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ModelSubject {
+    /// A pad: forces over deformations; stiffnesses \[N/m\] and compliances \[m/N\].
+    Pad,
+    /// A material: stresses over strains; moduli \[Pa\] and compliances \[1/Pa\].
+    Material,
+}
+
+/// Curves of one linear model as points along them, in the units of its [`ModelSubject`].
+///
+/// Curves that are not wanted stay empty. Times and frequencies are best sampled at equal ratios, some forty a decade;
+/// points that are not positive are gaps, since both axes are logarithmic.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ModelSeries {
+    /// Name.
+    pub name: String,
+    /// Relaxation function: (time \[s\], `G(t)` \[N/m or Pa\]), ascending in time.
+    pub relaxation: Vec<(f64, f64)>,
+    /// Relaxation spectrum: (relaxation time `τ_j` \[s\], strength `K_j` \[N/m or Pa\]).
+    pub spectrum: Vec<(f64, f64)>,
+    /// Creep function: (time \[s\], `J(t)` \[m/N or 1/Pa\]), ascending in time.
+    pub creep: Vec<(f64, f64)>,
+    /// Storage: (angular frequency \[rad/s\], `k′` \[N/m or Pa\]), ascending in frequency.
+    pub storage: Vec<(f64, f64)>,
+    /// Loss: (angular frequency \[rad/s\], `k″` \[N/m or Pa\]), ascending in frequency.
+    pub loss: Vec<(f64, f64)>,
+    /// Loss factor: (angular frequency \[rad/s\], `tan δ` \[1\]), ascending in frequency.
+    pub loss_factor: Vec<(f64, f64)>,
+}
+
+impl ModelSeries {
+    /// The points of one curve.
+    pub(super) fn points(&self, curve: ModelCurve) -> &[(f64, f64)] {
+        match curve {
+            ModelCurve::Relaxation => &self.relaxation,
+            ModelCurve::Creep => &self.creep,
+            ModelCurve::Storage => &self.storage,
+            ModelCurve::Loss => &self.loss,
+            ModelCurve::LossFactor => &self.loss_factor,
+        }
+    }
+}
+
+/// A curve of a linear model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ModelCurve {
+    /// `G(t)`.
+    Relaxation,
+    /// `J(t)`.
+    Creep,
+    /// `k′(ω)`.
+    Storage,
+    /// `k″(ω)`.
+    Loss,
+    /// `tan δ(ω)`.
+    LossFactor,
+}
 
 /// Models beyond these in one figure cannot be told apart in black and white.
 const MOST_MODELS: usize = 4;
@@ -9,6 +67,7 @@ const MOST_MODELS: usize = 4;
 const SMALLEST_SHARE: f64 = 1e-24;
 
 /// A curve of every model, with what tells it from other curves of the same model.
+#[derive(Debug)]
 pub(super) struct Kind {
     pub(super) curve: ModelCurve,
     /// Name in the legend and in remarks, as in `storage`.
@@ -17,10 +76,9 @@ pub(super) struct Kind {
     pub(super) colour: usize,
 }
 
-/// The curves of all models, the texts on them, and a remark on what is not shown.
+/// The curves of all models, and a remark on what is not shown.
 pub(super) struct Drawn {
     pub(super) series: Vec<Series>,
-    pub(super) markers: Vec<Marker>,
     pub(super) note: String,
 }
 
@@ -28,7 +86,7 @@ pub(super) struct Drawn {
 pub(super) fn draw(models: &[ModelSeries], kinds: &[Kind]) -> Drawn {
     let shown = &models[..models.len().min(MOST_MODELS)];
     let is_single = kinds.len() == 1;
-    let mut drawn = Drawn { series: Vec::new(), markers: Vec::new(), note: String::new() };
+    let mut drawn = Drawn { series: Vec::new(), note: String::new() };
     if shown.len() < models.len() {
         drawn.remark(&format!("the first {MOST_MODELS} of {} models", models.len()));
     }
@@ -42,8 +100,6 @@ pub(super) fn draw(models: &[ModelSeries], kinds: &[Kind]) -> Drawn {
                 (false, _) => format!("{}, {}", model.name, kind.name),
             };
             let points = model.points(kind.curve);
-            let markers = model.markers.iter().filter(|marker| marker.curve == kind.curve);
-            drawn.markers.extend(markers.map(marker));
             if points.is_empty() {
                 continue;
             }
@@ -94,8 +150,4 @@ fn pattern(index: usize) -> Pattern {
         2 => Pattern::Dotted,
         _ => Pattern::DashDotted,
     }
-}
-
-fn marker(marker: &ModelMarker) -> Marker {
-    Marker { x: marker.at, y: marker.value, label: marker.label.clone() }
 }
