@@ -12,7 +12,7 @@ use dashpot::{
         composites::COMPOSITES,
         effects::EFFECTS,
         elements::ELEMENTS,
-        parameters::{Dimension, Kind as _, Parameter, ParameterKind, Value},
+        parameters::{Dimension, Kind as _, Parameter, ParameterKind, Range, Value},
         shifts::{SHIFTS, shifted},
         waveforms::WAVEFORMS,
     },
@@ -33,7 +33,26 @@ fn describes(kind: &str, summary: &str, parameters: &[Parameter]) {
     assert!(!summary.is_empty() && summary.len() <= 100, "{kind}: summary of {}", summary.len());
     for parameter in parameters {
         assert!(is_word(parameter.name), "{kind}: `{}`", parameter.name);
-        assert!(!parameter.help.is_empty(), "{kind}.{} has no help", parameter.name);
+        let help = parameter.help;
+        assert!(!help.is_empty(), "{kind}.{} has no help", parameter.name);
+        let said = words_of(parameter.range).iter().any(|words| help.contains(words));
+        assert!(said, "{kind}.{}: `{help}` does not say its range", parameter.name);
+    }
+}
+
+/// What help may say of a range; an order beside another parameter says more than the range does.
+fn words_of(range: Range) -> &'static [&'static str] {
+    match range {
+        Range::Finite => &[""],
+        Range::NotZero => &["not zero"],
+        Range::NonNegative => &["zero or positive"],
+        Range::Positive => &["positive", "longer than", "later than", "above"],
+        Range::AtLeastOne => &["1 or more"],
+        Range::Part => &["0 to 1"],
+        Range::PositivePart => &["above 0"],
+        Range::PartBelowOne => &["below 1"],
+        Range::Count => &["2 to"],
+        Range::AboveAbsoluteZero => &["above absolute zero", "above T_ref"],
     }
 }
 

@@ -298,11 +298,11 @@ fn groups_that_are_as_they_were_leave_the_scene_as_it_was() {
     let path = folder.path().join("same.toml");
     let padding = scene_path("padding-mass");
     let own = text(&padding);
-    let output = run(&["groups", &own, "--from", "c=8", "--out", text(&path)]);
+    let output = run(&["groups", own, "--from", "c=8", "--out", text(&path)]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let written = fs::read_to_string(&path).unwrap();
     assert!(written.contains("touch = \"impact\""), "{written}");
-    assert!((peak_of_padding(text(&path)) / peak_of_padding(&own) - 1.0).abs() < 1e-12);
+    assert!((peak_of_padding(text(&path)) / peak_of_padding(own) - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -365,15 +365,15 @@ fn a_pulse_is_told_by_its_peak_and_duration() {
     let table = scene_path("shock-table");
     let own = text(&table);
     let wishes = "mass=1 kg, table.acceleration.duration=22 ms";
-    let output = run(&["groups", &own, "--lab", wishes, "--out", text(&path)]);
+    let output = run(&["groups", own, "--lab", wishes, "--out", text(&path)]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let written = fs::read_to_string(&path).unwrap();
     assert!(written.contains("acceleration = { half-sine = {"), "{written}");
     assert!(written.contains("duration = \"22 ms\""), "{written}");
-    let output = run(&["groups", &own, text(&path), "--within", "1e-11"]);
+    let output = run(&["groups", own, text(&path), "--within", "1e-11"]);
     assert_eq!(code(&output), 0, "{}{}", out(&output), err(&output));
     // Nothing is thrown here.
-    let output = run(&["groups", &own, "--lab", "speed=2 m/s"]);
+    let output = run(&["groups", own, "--lab", "speed=2 m/s"]);
     assert_eq!(code(&output), 2, "{}", out(&output));
 }
 

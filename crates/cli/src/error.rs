@@ -14,11 +14,11 @@ use dashpot_dae::{MethodKind as _, SolveError, methods::Tsit45};
 use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
-use dashpot_scene::{Diagnostics, TunableFault, Unwritable, VariationFault, suggestion};
+use dashpot_scene::{
+    Diagnostics, TunableFault, Unwritable, VariationFault, suggestion, units::parse_dimension,
+};
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
-
-use crate::input::{is_unit, reason, unquoted_help};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -337,4 +337,32 @@ fn is_wrong_place(error: &io::Error) -> bool {
             | PermissionDenied
             | ReadOnlyFilesystem
     )
+}
+
+/// An error of the system in plain words.
+pub(crate) fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
+            "a file stands in the way of a folder".to_owned()
+        }
+        io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
+        _ => {
+            let text = error.to_string();
+            // The number is of no use to people.
+            text.split_once(" (os error").map_or(text.clone(), |(words, _)| words.to_owned())
+        }
+    }
+}
+
+/// Whether a word is a unit, which belongs to the quantity before it.
+pub(crate) fn is_unit(word: &str) -> bool {
+    !["", "1"].contains(&word.trim()) && parse_dimension(word).is_ok()
+}
+
+/// What to write where the blank before a unit has divided a quantity.
+pub(crate) fn unquoted_help(unit: &str) -> String {
+    format!("`{unit}` is a unit: quote what belongs together, such as \"K=25 {unit}\"")
 }

@@ -8,11 +8,10 @@ use std::{
 
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{
-    ReadOptions, Scene, nearest, read, references, text_of_bytes,
-    units::{parse_dimension, parse_quantity},
+    ReadOptions, Scene, nearest, references, text_of_bytes, units::parse_quantity,
 };
 
-use crate::{error::CliError, terminal::Terminal};
+use crate::error::{CliError, reason};
 
 /// Texts are at most so long, in bytes; a reader takes one more, so that the limit is noticed.
 const MAX_BYTES: u64 = 64 << 20;
@@ -66,19 +65,6 @@ impl Input {
     }
 }
 
-/// Reads a scene with the values `set` in place of its own: the built-in one, a file, or standard
-/// input for `-`; shows what is odd about it.
-pub(crate) fn read_scene(
-    path: Option<&Path>,
-    set: &[(String, String)],
-    terminal: Terminal,
-) -> Result<Scene, CliError> {
-    let input = Input::of(path)?;
-    let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
-    terminal.diagnose(&checked.warnings);
-    Ok(checked.value)
-}
-
 /// The scene's title, or the name of its file.
 pub(crate) fn title(scene: &Scene) -> &str {
     scene.title.as_deref().or(scene.file.as_deref()).unwrap_or("a scene without title")
@@ -100,16 +86,6 @@ pub(crate) fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64
         }
         _ => Err(wrong(format!("`{text}` is an angle"))),
     }
-}
-
-/// Whether a word is a unit, which belongs to the quantity before it.
-pub(crate) fn is_unit(word: &str) -> bool {
-    !["", "1"].contains(&word.trim()) && parse_dimension(word).is_ok()
-}
-
-/// What to write where the blank before a unit has divided a quantity.
-pub(crate) fn unquoted_help(unit: &str) -> String {
-    format!("`{unit}` is a unit: quote what belongs together, such as \"K=25 {unit}\"")
 }
 
 /// What may be meant by a name that no file has: the same with or without the ending of a scene, or a
@@ -149,22 +125,4 @@ fn limited(reader: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     reader.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
-}
-
-/// An error of the system in plain words.
-pub(crate) fn reason(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
-        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
-        io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
-            "a file stands in the way of a folder".to_owned()
-        }
-        io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
-        _ => {
-            let text = error.to_string();
-            // The number is of no use to people.
-            text.split_once(" (os error").map_or(text.clone(), |(words, _)| words.to_owned())
-        }
-    }
 }

@@ -14,7 +14,6 @@ mod operand;
 mod output;
 mod part;
 mod progress;
-mod registers;
 mod sketch;
 mod studies;
 mod terminal;
@@ -36,7 +35,7 @@ pub fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(message) => {
             let message = args::explained(message);
-            return told(&message).into();
+            return print_usage(&message).into();
         }
     };
     let terminal = Terminal::new(arguments.color);
@@ -66,19 +65,19 @@ pub fn main() -> ExitCode {
 }
 
 /// Tells what is wrong with a command line, or the help or version that it asks for.
-fn told(message: &clap::Error) -> Status {
+fn print_usage(message: &clap::Error) -> Status {
     if !message.use_stderr() {
         return match message.print() {
             // A reader that is gone is no matter.
             Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-                terminal::note(&format!("error: {}", CliError::Output(error)));
+                terminal::message(&format!("error: {}", CliError::Output(error)));
                 Status::RunFailed
             }
             _ => Status::Done,
         };
     }
     if message.to_string().contains(dashpot_scene::is_control) {
-        terminal::note(&message.to_string());
+        terminal::message(&message.to_string());
     } else {
         // There is nowhere left to complain to.
         let _ = message.print();

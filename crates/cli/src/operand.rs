@@ -1,4 +1,4 @@
-//! Models and responses that the command line names: `FILE:NAME`, `FILE:NODE,NODE`.
+//! Scenes, models and responses that the command line names: `FILE`, `FILE:NAME`, `FILE:NODE,NODE`.
 
 use std::path::Path;
 
@@ -7,13 +7,13 @@ use dashpot_network::{
 };
 use dashpot_rheology::{Canonical, LinearModel};
 use dashpot_scene::{
-    ModelNote, NamedModel, ReadOptions, read_named_model, read_network, references,
+    ModelNote, NamedModel, ReadOptions, Scene, read, read_named_model, read_network, references,
 };
 
 use crate::{
     error::CliError,
     input::Input,
-    terminal::{Terminal, remark},
+    terminal::{Terminal, note},
 };
 
 /// What a word on the command line stands for.
@@ -60,8 +60,8 @@ impl Operand {
             let checked =
                 read_named_model(input.text()?, name, &options).map_err(CliError::Scene)?;
             terminal.diagnose(&checked.warnings);
-            tell(&checked.value.notes);
-            tell_effects(&checked.value, input.text()?, &options);
+            print_notes(&checked.value.notes);
+            note_effects(&checked.value, input.text()?, &options);
             if let Some(element) = first_nonlinear(&checked.value.model) {
                 return Err(CliError::NotLinear { word: word.to_owned(), kind: element.kind() });
             }
@@ -118,16 +118,29 @@ pub(crate) fn canonical_model(operand: &Operand) -> Result<Model, CliError> {
     tree.map(|tree| model_of(&tree)).ok_or_else(masses)
 }
 
+/// Reads a scene with the values `set` in place of its own: the built-in one, a file, or standard
+/// input for `-`; shows what is odd about it.
+pub(crate) fn read_scene(
+    path: Option<&Path>,
+    set: &[(String, String)],
+    terminal: Terminal,
+) -> Result<Scene, CliError> {
+    let input = Input::of(path)?;
+    let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
+    terminal.diagnose(&checked.warnings);
+    Ok(checked.value)
+}
+
 /// Says what there is to say about models.
-pub(crate) fn tell(notes: &[ModelNote]) {
+pub(crate) fn print_notes(notes: &[ModelNote]) {
     for ModelNote { subject, what, .. } in notes {
-        remark(&format!("{subject}: {what}"));
+        note(&format!("{subject}: {what}"));
     }
 }
 
 /// Says which effects of the scene act on the element that a model was taken from: the model is that
 /// without them.
-fn tell_effects(named: &NamedModel, text: &str, options: &ReadOptions<'_>) {
+fn note_effects(named: &NamedModel, text: &str, options: &ReadOptions<'_>) {
     if named.section != "elements" {
         return;
     }
@@ -138,7 +151,7 @@ fn tell_effects(named: &NamedModel, text: &str, options: &ReadOptions<'_>) {
     let kinds: Vec<&str> = effects.map(|effect| effect.kind()).collect();
     if !kinds.is_empty() {
         let name = &named.name;
-        remark(&format!("{name}: its model is taken without {}", kinds.join(", ")));
+        note(&format!("{name}: its model is taken without {}", kinds.join(", ")));
     }
 }
 

@@ -89,8 +89,8 @@ impl Terminal {
     fn labelled(self, label: &str, tone: Tone, text: &str) {
         let shown = hanging(&format!("{label}: {text}"), WIDTH);
         match shown.strip_prefix(label).filter(|_| self.error.colored) {
-            Some(rest) => note(&(marked(tone, label) + rest)),
-            None => note(&shown),
+            Some(rest) => message(&(marked(tone, label) + rest)),
+            None => message(&shown),
         }
     }
 }
@@ -136,12 +136,12 @@ fn print_raw(text: &str) -> Result<(), CliError> {
 }
 
 /// Says on standard error what may be of interest.
-pub(crate) fn remark(text: &str) {
-    note(&hanging(&format!("note: {text}"), WIDTH));
+pub(crate) fn note(text: &str) {
+    message(&hanging(&format!("note: {text}"), WIDTH));
 }
 
 /// Says something on standard error, with no control characters but ours.
-pub(crate) fn note(text: &str) {
+pub(crate) fn message(text: &str) {
     put(&shown(text));
 }
 

@@ -21,7 +21,7 @@ pub(crate) fn stretches(points: impl Iterator<Item = (f64, f64)>) -> Vec<Path> {
 
 /// Keeps of each run of neighbouring points in one column of `width` \[px\] the first, the lowest, the highest and
 /// the last one, in their order. Loops stay loops, since runs follow the curve and not the axis; no extreme is lost.
-pub(crate) fn thin(points: &[(f64, f64)], width: f64) -> Path {
+pub(crate) fn decimate(points: &[(f64, f64)], width: f64) -> Path {
     let column = |p: &(f64, f64)| (p.0 / width).floor();
     let mut kept = Path::new();
     for run in points.chunk_by(|a, b| column(a).total_cmp(&column(b)).is_eq()) {
@@ -54,18 +54,18 @@ mod tests {
     fn thinning_keeps_the_extremes_and_the_ends() {
         let wave = |i: i32| (f64::from(i) * 0.01, (f64::from(i) * 0.37).sin() * f64::from(i));
         let points: Path = (0..60_000).map(wave).collect();
-        let thinned = thin(&points, 0.5);
-        assert!(thinned.len() <= 4 * 1201, "{}", thinned.len());
+        let decimated = decimate(&points, 0.5);
+        assert!(decimated.len() <= 4 * 1201, "{}", decimated.len());
         let bounds = |path: &Path| {
             path.iter().fold((0.0_f64, 0.0_f64), |(low, high), p| (low.min(p.1), high.max(p.1)))
         };
-        assert_eq!(bounds(&points), bounds(&thinned));
-        assert_eq!((points.first(), points.last()), (thinned.first(), thinned.last()));
+        assert_eq!(bounds(&points), bounds(&decimated));
+        assert_eq!((points.first(), points.last()), (decimated.first(), decimated.last()));
     }
 
     #[test]
     fn a_sparse_curve_stays_as_it_is() {
         let points = vec![(0.0, 0.0), (10.0, 4.0), (5.0, 9.0), (0.0, 0.0)];
-        assert_eq!(thin(&points, 0.5), points);
+        assert_eq!(decimate(&points, 0.5), points);
     }
 }

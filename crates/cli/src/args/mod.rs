@@ -21,7 +21,7 @@ pub(crate) use self::{
     scenes::{CheckArguments, ExplainArguments, RunArguments, VibrateArguments},
     studies::{CostArguments, GroupsArguments, SweepArguments, ThesisArguments},
 };
-use crate::input::{is_unit, unquoted_help};
+use crate::error::{is_unit, unquoted_help};
 
 /// Impacts on viscoelastic padding: spring-dashpot-mass networks, solved with stated errors.
 #[derive(Debug, Parser)]

@@ -9,9 +9,9 @@ use dashpot_scene::Scene;
 use crate::{
     args::CheckArguments,
     error::{CliError, Status},
-    input::read_scene,
     non_identifiable::notes,
-    terminal::{Terminal, WIDTH, print, remark},
+    operand::read_scene,
+    terminal::{Terminal, WIDTH, note, print},
     text::hanging,
 };
 
@@ -39,7 +39,7 @@ fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<
     let scene = read_scene(Some(path), set, terminal)?;
     can_run(&scene)?;
     undefined(&scene)?.iter().for_each(|text| terminal.warn(text));
-    notes(&scene).iter().for_each(|text| remark(text));
+    notes(&scene).iter().for_each(|text| note(text));
     let system = &scene.assembly.system;
     let nodes = scene.network.nodes().count() - 1;
     let structure = match (system.is_linear(), system.algebraic()) {

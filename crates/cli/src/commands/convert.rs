@@ -15,7 +15,7 @@ use crate::{
     numbers::bound,
     operand::{Operand, Subject},
     part::write_text,
-    terminal::{Terminal, print, print_data, remark},
+    terminal::{Terminal, note, print, print_data},
 };
 
 /// Name of the table for a response, which has none of its own.
@@ -41,8 +41,12 @@ pub(crate) fn convert(
     let set = &arguments.values.set;
     let with: Vec<String> = set.iter().map(|(name, value)| format!("{name} = {value}")).collect();
     let with = if with.is_empty() { String::new() } else { format!(" with {}", with.join(", ")) };
-    let comment =
-        format!("converted to {} from {}{with}; {}", target.word, operand.word, said(error));
+    let comment = format!(
+        "converted to {} from {}{with}; {}",
+        target.word,
+        operand.word,
+        round_trip_note(error)
+    );
     let (text, section, name) = match &operand.subject {
         Subject::Model(named) => {
             let text = with_model(operand.input.text()?, named, &model, &comment);
@@ -59,16 +63,16 @@ pub(crate) fn convert(
             write_text(path, &text, arguments.force)?;
             let elsewhere = path.parent() != Path::new(&operand.input.file).parent();
             if elsewhere && text.contains(".toml:") {
-                remark("models of other files are now looked for beside the new file");
+                note("models of other files are now looked for beside the new file");
             }
             let path = path.display();
             print(&format!("wrote {path}; its model is `{path}:{name}`\n"))?;
         }
         None => print_data(&text)?,
     }
-    remark(&said(error));
+    note(&round_trip_note(error));
     if !with.is_empty() {
-        remark(&format!("the model is converted{with}; the table [values] is as it was"));
+        note(&format!("the model is converted{with}; the table [values] is as it was"));
     }
     Ok(Status::Done)
 }
@@ -79,7 +83,7 @@ fn round_trip(comparison: &Equivalence) -> f64 {
     forms.map(|form| form.largest).fold(0.0, f64::max)
 }
 
-fn said(error: f64) -> String {
+fn round_trip_note(error: f64) -> String {
     if error == 0.0 {
         "round trip: the same in every rate and residue, to the last digit".to_owned()
     } else {

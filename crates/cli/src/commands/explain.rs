@@ -20,9 +20,10 @@ use dashpot_scene::{Scene, write_effect};
 use crate::{
     args::ExplainArguments,
     error::{CliError, Status},
-    input::{read_scene, title},
+    input::title,
     non_identifiable::notes,
     numbers::{constant, estimate, estimated, quantity},
+    operand::read_scene,
     output::Text,
     part::write_drawing,
     sketch::{MOST_DRAWN, element, sketch, waveform},
@@ -60,10 +61,10 @@ pub(crate) fn explain(
         {
             section(text, &content);
         }
-        let remarks = notes(&scene);
-        if !remarks.is_empty() {
+        let notes_of_models = notes(&scene);
+        if !notes_of_models.is_empty() {
             text.heading("Notes");
-            text.paragraphs(remarks);
+            text.paragraphs(notes_of_models);
         }
         effects_section(text, &effects);
         text.heading("Solving");

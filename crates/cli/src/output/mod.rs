@@ -11,7 +11,7 @@ use serde::{Serialize, Serializer};
 use crate::{
     error::CliError,
     folder::{Folder, Staged},
-    terminal::{Terminal, print, print_data, remark},
+    terminal::{Terminal, note, print, print_data},
 };
 
 pub(crate) use text::Text;
@@ -81,7 +81,7 @@ pub(crate) trait Study {
     }
 
     /// What is said on standard error where no text is printed, which says it as well.
-    fn remarks(&self) -> Vec<String> {
+    fn notes(&self) -> Vec<String> {
         Vec::new()
     }
 
@@ -103,7 +103,7 @@ pub(crate) fn emit(
     match if json { Some(object()?) } else { data() } {
         Some(data) => {
             print_data(&data)?;
-            study.remarks().iter().for_each(|own| remark(own));
+            study.notes().iter().for_each(|own| note(own));
         }
         None => print(&Text::written(terminal, |text| study.text(text)))?,
     }

@@ -31,11 +31,12 @@ parameters! {
     /// `arrhenius1889` in `docs/references.bib`.
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Arrhenius: "arrhenius", "times multiplied by a_T, ln a_T = (E/k_B) (1/T - 1/T_ref)" {
-        /// temperature T [K or degC]
+        /// temperature T [K or degC], above absolute zero
         pub temperature: f64 = Quantity(Dimension::TEMPERATURE), range AboveAbsoluteZero;
-        /// temperature T_ref at which the times of the model hold [K or degC]
+        /// temperature T_ref at which the times of the model hold [K or degC], above absolute zero
         pub reference: f64 = Quantity(Dimension::TEMPERATURE), range AboveAbsoluteZero;
-        /// activation energy E, for instance "80 kJ/mol"; without "/mol" that of one molecule [J]
+        /// activation energy E, for instance "80 kJ/mol"; without "/mol" that of one molecule [J],
+        /// zero or positive
         pub energy: f64 = Quantity(Dimension::ENERGY), range NonNegative;
     }
     sample { temperature: 308.15, reference: 293.15, energy: 1.328_431_253_739_077e-19 }

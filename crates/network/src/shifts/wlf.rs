@@ -31,7 +31,7 @@ parameters! {
     pub struct Wlf: "wlf", "times multiplied by a_T, log10 a_T = -c1 (T - T_ref)/(c2 + T - T_ref)" {
         /// temperature T [K or degC], above T_ref - c2
         pub temperature: f64 = Quantity(Dimension::TEMPERATURE), range AboveAbsoluteZero;
-        /// temperature T_ref at which the times of the model hold [K or degC]
+        /// temperature T_ref at which the times of the model hold [K or degC], above absolute zero
         pub reference: f64 = Quantity(Dimension::TEMPERATURE), range AboveAbsoluteZero;
         /// constant c1 [1], positive; 17.44 is usual where T_ref is the glass transition
         pub c1: f64 = Quantity(Dimension::NUMBER), default "17.44", range Positive;

@@ -39,11 +39,11 @@ parameters! {
     {
         /// flat top [N, m or m/s^2]
         pub peak: f64 = Amplitude;
-        /// rise time [s]; zero is a jump
+        /// rise time [s], zero or positive; zero is a jump
         pub rise: f64 = Quantity(Dimension::TIME), range NonNegative;
         /// time at the top [s], zero or positive
         pub hold: f64 = Quantity(Dimension::TIME), range NonNegative;
-        /// fall time [s]; zero is a jump
+        /// fall time [s], zero or positive; zero is a jump
         pub fall: f64 = Quantity(Dimension::TIME), range NonNegative;
         /// when the pulse begins [s]
         pub start: f64 = Quantity(Dimension::TIME), default "0 s";

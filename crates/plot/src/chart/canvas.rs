@@ -14,7 +14,7 @@ use plotters::{
 use super::{Chart, Pattern, Stroke, naming::Place};
 use crate::{
     axis::Frame,
-    decimation::{Path, stretches, thin},
+    decimation::{Path, decimate, stretches},
     text_metrics::escape,
     theme::{self, Colour},
 };
@@ -122,7 +122,7 @@ impl Chart {
             let drawn = placed.filter(|(x, y)| x.is_finite() && y.is_finite());
             return drawn.map(|(x, y)| vec![(x, foot), (x, y)]).collect();
         }
-        stretches(placed).iter().map(|stretch| thin(stretch, 0.5)).collect()
+        stretches(placed).iter().map(|stretch| decimate(stretch, 0.5)).collect()
     }
 }
 

@@ -1,5 +1,4 @@
 //! What is odd or wrong about a scene as a whole.
 
-pub(crate) mod driven;
 pub(crate) mod network_faults;
 pub(crate) mod review;

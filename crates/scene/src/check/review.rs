@@ -1,17 +1,16 @@
-//! What is odd about a scene as a whole, but not wrong.
+//! What is odd about a scene as a whole, but not wrong; supports that drift away.
 
 use std::collections::HashMap;
 
 use dashpot_dae::Waveform;
-use dashpot_network::parameters::Kind as _;
 use dashpot_network::{
     Network, Node, Start, Support,
     effects::Stop,
-    parameters::{Dimension, ParameterKind, registered},
+    parameters::{Dimension, Kind as _, ParameterKind, registered},
     waveforms::WAVEFORMS,
 };
 
-use super::{driven::Driven, network_faults::value_of};
+use super::network_faults::value_of;
 use crate::{
     diagnostics::fault::Fault,
     models::notes::{ModelNote, Remark},
@@ -54,8 +53,9 @@ pub(crate) fn review(reading: &Reading<'_>, network: &Network, duration: f64) {
             time_table(reading, driven, duration);
             if let Some(waveform) = driving.named(section, &own.key) {
                 file(reading, driven, waveform, duration);
-                let (name, item) = (own.key.as_str(), driven);
-                Driven { name, key, item, waveform }.review(reading, duration);
+                if key == "acceleration" {
+                    drift(reading, (&own.key, driven), waveform, duration);
+                }
             }
         }
     }
@@ -243,4 +243,54 @@ fn time_table(reading: &Reading<'_>, driven: &Item, duration: f64) {
             late_points(reading, item.place, (late, points.len(), "points"), duration);
         }
     }
+}
+
+/// How often a drift exceeds the way to and fro about it.
+const DRIFT: f64 = 3.0;
+/// Points at which a motion is looked at.
+const POINTS: u32 = 2000;
+
+/// Warns of an acceleration whose mean velocity is not zero, so that the support drifts away.
+fn drift(reading: &Reading<'_>, (name, driven): (&str, &Item), motion: &Waveform, duration: f64) {
+    let mut entries = driven.table().unwrap_or(&[]).iter();
+    let Some(entry) = entries.find(|entry| registered(WAVEFORMS, &entry.key).is_some()) else {
+        return;
+    };
+    let is_sine = entry.key == "sine";
+    // A shock of one sign is meant to leave its support with a speed.
+    let is_shaken = is_sine || is_table(&entry.key) && shakes(motion);
+    if !is_shaken {
+        return;
+    }
+    let end = motion.value(duration);
+    let aside = (0..=POINTS).map(|at| {
+        let share = f64::from(at) / f64::from(POINTS);
+        (motion.value(share * duration) - share * end).abs()
+    });
+    // A constant acceleration goes one way, too.
+    let aside = aside.fold(0.0, f64::max);
+    if duration <= 0.0 || end.abs() <= DRIFT * aside {
+        return;
+    }
+    let millimetres = 1e3 * end;
+    let speed = format_short(end / duration, Dimension::VELOCITY, 3);
+    let run = format_short(duration, Dimension::TIME, 4);
+    let message = format!(
+        "the acceleration makes `{name}` drift away: {millimetres:.3} mm in {run}, at {speed} in the \
+         mean"
+    );
+    let help = if is_sine {
+        "a sine that is to shake about one place begins with its peak: `phase = \"90 deg\"`; or give its \
+         displacement as `motion`"
+    } else {
+        "take its mean off the record, so that velocity and displacement end near zero, or give the \
+         displacement as `motion`"
+    };
+    reading.faults.warning(entry.item.place, Fault::odd(message, help));
+}
+
+/// Whether the acceleration of a motion has both signs.
+fn shakes(motion: &Waveform) -> bool {
+    let mut signs = motion.pieces().iter().map(|piece| piece.derivative(2, piece.start));
+    signs.clone().any(|sign| sign > 0.0) && signs.any(|sign| sign < 0.0)
 }

@@ -122,6 +122,14 @@ impl Faults {
         self.note(Severity::Error, place.into(), fault);
     }
 
+    /// Notes that something is missing or unknown, unless parts of the text could not be parsed: it may have
+    /// been meant to be there.
+    pub(crate) fn missing(&self, place: impl Into<Option<Place>>, fault: Fault) {
+        if !self.damaged() {
+            self.error(place, fault);
+        }
+    }
+
     /// Notes something odd.
     pub(crate) fn warning(&self, place: impl Into<Option<Place>>, fault: Fault) {
         self.note(Severity::Warning, place.into(), fault);

@@ -8,8 +8,7 @@ use super::Example;
 use crate::{
     diagnostics::fault::Fault,
     quantities::{
-        basis::{Basis, SIZE, is_size},
-        pad::{EnclosingPad, Size},
+        basis::{Basis, EnclosingPad, SIZE, Size, is_size},
         quantity::{Quantities, Values},
     },
     text::{
@@ -305,8 +304,8 @@ impl<'d> KindReader<'d> {
             (None, Some(beside)) => beside,
             (None, None) => {
                 let fault = self.size.missing(key, &format!("`{word}`"));
-                if let Some(fault) = fault.filter(|_| !faults.damaged()) {
-                    faults.error(place, fault);
+                if let Some(fault) = fault {
+                    faults.missing(place, fault);
                 }
                 return None;
             }

@@ -9,14 +9,10 @@ use dashpot_network::{
 };
 
 use super::BRANCH_KEYS;
-
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::{Example, parameters::KindReader},
-    quantities::{
-        basis::{AREA, Basis, Pad, SIZE, is_sized},
-        pad::{EnclosingPad, Size},
-    },
+    quantities::basis::{AREA, Basis, EnclosingPad, Pad, SIZE, Size, is_sized},
     text::{
         document::{Content, Entry, Item},
         library::{Library, ModelSection},
@@ -152,15 +148,14 @@ impl<'d> ContextReader<'d> {
     fn size(&self, site: &Site<'d>, key: &'static str, entry: &Entry) -> Option<Size> {
         let quantities = self.library.quantities(site.document, self.faults);
         let dimension = if key == SIZE[0] { Dimension::LENGTH } else { AREA };
-        let check = |size| Range::Positive.check(key, size);
-        let size = quantities.of(key).read_checked(&entry.item, dimension, check);
+        let size = quantities.within(Range::Positive, key, &entry.item, dimension);
         size.map(|value| Size { value, place: entry.item.place })
     }
 
     /// Notes a size that a material needs.
     fn missing(&self, site: &Site<'d>, around: EnclosingPad, key: &'static str) {
-        if let Some(fault) = around.missing(key, &site.owner).filter(|_| !self.faults.damaged()) {
-            self.faults.error(site.place, fault);
+        if let Some(fault) = around.missing(key, &site.owner) {
+            self.faults.missing(site.place, fault);
         }
     }
 

@@ -5,22 +5,26 @@ use std::{cell::RefCell, collections::HashMap};
 use dashpot_network::{
     Element, Model,
     composites::{COMPOSITES, Composed},
-    elements::ELEMENTS,
-    parameters::{Dimension, Registered, registered},
+    elements::{Dashpot, ELEMENTS, Spring},
+    parameters::{Dimension, Kind as _, Registered, registered},
     shifts::shifted,
 };
-use dashpot_rheology::Tree;
+use dashpot_rheology::{Branch, Part, Role, Tree};
 
-use super::{context::Context, forms::FormReader, notes::Remark};
+use super::{context::Context, notes::Remark};
 use crate::{
     diagnostics::{Faults, fault::Fault},
-    kinds::{form, parameters::KindReader},
+    kinds::{Example, form, parameters::KindReader},
     quantities::{
-        basis::{Basis, Pad, SIZE, fits_material, is_size},
-        pad::Extent,
+        basis::{Basis, Extent, Pad, SIZE, fits_material, is_size},
         quantity::Quantities,
     },
-    text::{document::Entry, library::Library, source::Place},
+    text::{
+        document::Entry,
+        library::Library,
+        source::Place,
+        table::{Table, wrong_type},
+    },
 };
 
 /// Reads such laws.
@@ -130,4 +134,49 @@ fn extent_of(element: &dyn Element) -> Extent {
 #[expect(clippy::float_cmp, reason = "1 is the factor where there is no shift at all")]
 fn is_shift(context: Context) -> bool {
     context.times != 1.0
+}
+
+/// Reads named forms; their depth is that of the register.
+struct FormReader<'d> {
+    /// Reads their quantities.
+    quantities: Quantities<'d>,
+}
+
+impl FormReader<'_> {
+    /// The form with these parts.
+    fn read(&self, parts: &'static [Part], in_series: bool, entry: &Entry) -> Option<Model> {
+        let faults = self.quantities.faults;
+        let example = Example { basis: self.quantities.basis, driven: None };
+        let owner = format!("`{}`", entry.key);
+        if entry.item.table().is_none() {
+            let expected = format!("a table, for example `{}`", example.parts(parts));
+            wrong_type(&entry.item, &owner, &expected, faults);
+            return None;
+        }
+        let table = Table::new(&entry.item, owner, entry.key_place, faults)?;
+        let read = parts.iter().map(|part| {
+            let example = example.parts(std::slice::from_ref(part));
+            let inner = example.strip_prefix("{ ").and_then(|rest| rest.strip_suffix(" }"));
+            let tree = table
+                .require(part.name, inner.unwrap_or_default())
+                .and_then(|entry| self.part(part, entry));
+            tree.map(|tree| Branch::new(part.name, tree))
+        });
+        // Every part is read, so that all faults are found.
+        let read = read.collect::<Vec<_>>();
+        table.finish();
+        let branches = read.into_iter().collect::<Option<Vec<_>>>()?;
+        Some(if in_series { Tree::Series(branches) } else { Tree::Parallel(branches) })
+    }
+
+    fn part(&self, part: &Part, entry: &Entry) -> Option<Model> {
+        let word = match part.role {
+            Role::Spring => Spring::KIND,
+            Role::Dashpot => Dashpot::KIND,
+            Role::Form { parts, in_series } => return self.read(parts, in_series, entry),
+        };
+        let kind = registered(ELEMENTS, word)?;
+        let reader = KindReader::new(self.quantities);
+        reader.read(kind, &entry.item, entry.key_place).map(Tree::Part)
+    }
 }

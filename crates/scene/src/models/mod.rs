@@ -1,10 +1,8 @@
 //! Two-terminal models, read by recursion into their branches and the models that they name.
 
 mod context;
-mod forms;
 mod laws;
 pub(crate) mod named;
-mod naming;
 pub(crate) mod notes;
 mod sizes;
 mod tables;
@@ -23,17 +21,14 @@ use dashpot_rheology::{MOST_LEVELS, Tree};
 use self::{
     context::{Context, Site},
     laws::LawReader,
-    naming::{Given, ReadBranch},
     notes::{ModelNote, Notes},
     sizes::Sizes,
+    tables::{Given, ReadBranch, named_branches},
 };
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::model_words,
-    quantities::{
-        basis::{Basis, Pad},
-        pad::Extent,
-    },
+    quantities::basis::{Basis, Extent, Pad},
     text::{
         document::Item,
         library::{Library, MODEL_SECTIONS, ModelSection, Reference},
@@ -167,9 +162,7 @@ impl<'d> ModelReader<'d> {
         match self.library.find(0, ModelSection::Models, text) {
             Ok(found) => self.named(found?),
             Err(fault) => {
-                if !self.faults.damaged() {
-                    self.faults.error(item.place, fault);
-                }
+                self.faults.missing(item.place, fault);
                 None
             }
         }
@@ -228,7 +221,7 @@ impl<'d> ModelReader<'d> {
         let compose = if in_series { Tree::Series } else { Tree::Parallel };
         let extents = branches.iter().map(|branch| branch.extent);
         let extent = if in_series { Extent::in_row(extents) } else { Extent::beside(extents) };
-        let model = naming::named(branches, self.faults).map(compose);
+        let model = named_branches(branches, self.faults).map(compose);
         Some(ReadBranch { word, given, model, extent })
     }
 

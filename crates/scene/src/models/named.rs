@@ -86,9 +86,7 @@ pub fn read_named_model(
         let (found, is_shared) = match find(&library, name) {
             Ok(found) => found,
             Err(fault) => {
-                if !faults.damaged() {
-                    faults.error(None, fault);
-                }
+                faults.missing(None, fault);
                 return None;
             }
         };

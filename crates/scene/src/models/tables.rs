@@ -1,16 +1,26 @@
-//! Tables with a model: the law, what stands beside it, and the models that it names.
+//! Tables with a model: the law, what stands beside it, the models that it names, and the names of branches.
+
+use std::{
+    borrow::Cow,
+    collections::{HashMap, HashSet},
+    sync::Arc,
+};
+
+use dashpot_network::{Element, Model};
+use dashpot_rheology::Branch;
 
 use super::{
     Descent, ModelReader,
     context::{Context, ContextReader, Shift, Site},
-    naming::{Given, ReadBranch},
     notes::Remark,
 };
 use crate::{
-    diagnostics::fault::Fault,
+    diagnostics::{Faults, fault::Fault},
+    quantities::basis::Extent,
     text::{
         document::{Entry, Item},
         library::{ModelSection, Reference},
+        source::Place,
         table::{check_name, entries_of, list_of, text_of, unknown_key},
     },
 };
@@ -105,9 +115,9 @@ impl<'d> ModelReader<'d> {
         }
         let mut laws = entries.iter().filter(is_law);
         let first = laws.next();
-        if first.is_none() && !has_strangers && !self.faults.damaged() {
+        if first.is_none() && !has_strangers {
             let fault = Fault::NoLaw { owner: site.owner.to_string(), known: self.words.clone() };
-            self.faults.error(site.place, fault);
+            self.faults.missing(site.place, fault);
         }
         if let Some(second) = laws.next() {
             let words = entries.iter().filter(is_law).map(|entry| entry.key.to_string()).collect();
@@ -136,9 +146,7 @@ impl<'d> ModelReader<'d> {
         let reference = match self.library.find(document, section, text) {
             Ok(found) => found?,
             Err(fault) => {
-                if !self.faults.damaged() {
-                    self.faults.error(item.place, fault);
-                }
+                self.faults.missing(item.place, fault);
                 return None;
             }
         };
@@ -150,4 +158,62 @@ impl<'d> ModelReader<'d> {
         self.faults.error(item.place, Fault::ModelInItself { family: section.word(), names });
         None
     }
+}
+
+/// The name that a branch is given, and its place.
+pub(super) type Given<'d> = Option<(&'d str, Place)>;
+
+/// A model that has been read, or could not be, with the name of its branch.
+pub(super) struct ReadBranch<'d> {
+    /// By which it is called where it is given no name.
+    pub(super) word: &'d str,
+    pub(super) given: Given<'d>,
+    pub(super) model: Option<Model>,
+    /// The size of the pad that it is.
+    pub(super) extent: Extent,
+}
+
+impl ReadBranch<'_> {
+    /// One in which something is wrong.
+    pub(super) const FAILED: Self =
+        Self { word: "model", given: None, model: None, extent: Extent::UNKNOWN };
+}
+
+/// The branches by the names that they are given, or else by their words, numbered from the second
+/// one of a word on; `None` where one could not be read.
+pub(super) fn named_branches(
+    branches: Vec<ReadBranch<'_>>,
+    faults: &Faults,
+) -> Option<Vec<Branch<Arc<dyn Element>>>> {
+    let mut taken = HashSet::new();
+    for (name, place) in branches.iter().filter_map(|branch| branch.given) {
+        if !taken.insert(Cow::Borrowed(name)) {
+            faults.error(place, Fault::DuplicateKey { key: name.to_owned() });
+        }
+    }
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    let mut named = Vec::with_capacity(branches.len());
+    let mut complete = true;
+    for branch in branches {
+        let name = if let Some((name, _)) = branch.given {
+            name.to_owned()
+        } else {
+            let count = counts.entry(branch.word).or_default();
+            loop {
+                *count += 1;
+                let name = match *count {
+                    1 => branch.word.to_owned(),
+                    count => format!("{}-{count}", branch.word),
+                };
+                if taken.insert(Cow::Owned(name.clone())) {
+                    break name;
+                }
+            }
+        };
+        match branch.model {
+            Some(model) => named.push(Branch::new(name, model)),
+            None => complete = false,
+        }
+    }
+    complete.then_some(named)
 }

@@ -2,7 +2,7 @@
 
 use std::{cell::Cell, collections::HashMap};
 
-use dashpot_network::parameters::Dimension;
+use dashpot_network::parameters::{Dimension, Range};
 
 use super::{
     basis::{Basis, powers},
@@ -163,6 +163,18 @@ impl<'d> Quantities<'d> {
             }
         };
         self.checked(quantity, item, in_model)
+    }
+
+    /// The quantity of a key whose numbers have a range.
+    pub(crate) fn within(
+        self,
+        range: Range,
+        key: &'static str,
+        item: &Item,
+        expected: Dimension,
+    ) -> Option<f64> {
+        let check = |value| range.check(key, value);
+        Quantities { subject: Subject::Key(key), ..self }.read_checked(item, expected, check)
     }
 
     /// The quantity that passes `check`, which says what is wrong with it.

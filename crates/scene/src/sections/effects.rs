@@ -79,9 +79,7 @@ impl Wanted<'_> {
                 format!("write `{}.{name} = {{ {target} = \"{example}\" }}`", kind.word)
             });
             let fault = Fault::UnknownName { family, name, known }.with_any_help(help);
-            if !reading.faults.damaged() {
-                reading.faults.error(entry.key_place, fault);
-            }
+            reading.faults.missing(entry.key_place, fault);
             return None;
         };
         let effect = self.read();

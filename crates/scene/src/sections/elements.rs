@@ -1,21 +1,19 @@
-//! `[elements]`: models between nodes.
+//! `[elements]`: models between nodes, and pads of layers with mass.
 
 use dashpot_network::{
     Network, NodeId,
-    parameters::{Dimension, Range},
+    layers::{Layer, Layers, MOST_SEGMENTS, Resolution},
+    parameters::{Dimension, InvalidParameter, Range},
 };
 
-use super::{Reading, layers::read_layers};
+use super::Reading;
 use crate::{
     diagnostics::fault::Fault,
     models::{ModelReader, Read},
-    quantities::{
-        basis::{AREA, SIZE},
-        pad::Size,
-    },
+    quantities::basis::{AREA, DENSITY, SIZE, Size},
     text::{
-        document::{Content, Entry},
-        table::{Table, check_name, wrong_type},
+        document::{Content, Entry, Item},
+        table::{Table, check_name, list_of, text_of, wrong_type},
     },
 };
 
@@ -33,8 +31,8 @@ pub(crate) fn read_elements<'d>(
         reading.elements.insert(&entry.key, entry);
         read_element(reading, models, entry, network);
     }
-    if reading.library.section("elements").is_none() && !reading.faults.damaged() {
-        reading.faults.error(None, Fault::MissingSection { section: "elements" });
+    if reading.library.section("elements").is_none() {
+        reading.faults.missing(None, Fault::MissingSection { section: "elements" });
     }
 }
 
@@ -56,8 +54,7 @@ fn read_element<'d>(
     }
     let size = |key: &'static str, dimension| {
         let own = table.take(key)?;
-        let check = |size| Range::Positive.check(key, size);
-        let value = reading.quantities().of(key).read_checked(&own.item, dimension, check)?;
+        let value = reading.quantities().within(Range::Positive, key, &own.item, dimension)?;
         Some(Size { value, place: own.item.place })
     };
     // The model reader tells what is wrong with the area.
@@ -92,4 +89,100 @@ fn ends(reading: &Reading<'_>, entry: &Entry) -> Option<[NodeId; 2]> {
             None
         }
     }
+}
+
+/// The keys of a layer besides its material.
+const LAYER_KEYS: &[&str] = &["shift", "thickness", "area", "density"];
+
+/// The relative error of the speed of waves where a pad does not say it.
+const ACCURACY: f64 = 0.01;
+
+/// Reads the layers of the element whose table is `element`.
+pub(super) fn read_layers<'d>(
+    reading: &Reading<'d>,
+    models: &ModelReader<'d>,
+    element: &Table<'d>,
+    entry: &'d Entry,
+) -> Option<Layers> {
+    let resolution = read_resolution(reading, element);
+    let items = list_of(&entry.item, "`layers`", reading.faults)?;
+    if items.is_empty() {
+        let expected = "a list of one layer or more";
+        wrong_type(&entry.item, "`layers`", expected, reading.faults);
+        return None;
+    }
+    // Every layer is read, so that all faults are found.
+    let all: Vec<Option<Layer>> = items
+        .iter()
+        .enumerate()
+        .map(|(at, item)| {
+            let owner = format!("layer {} of {}", at + 1, element.owner);
+            read_layer(reading, models, owner, item)
+        })
+        .collect();
+    Some(Layers { all: all.into_iter().collect::<Option<_>>()?, resolution: resolution? })
+}
+
+fn read_layer<'d>(
+    reading: &Reading<'d>,
+    models: &ModelReader<'d>,
+    owner: String,
+    item: &'d Item,
+) -> Option<Layer> {
+    let table = Table::new(item, owner, item.place, reading.faults)?;
+    let quantities = reading.quantities();
+    // The model reader looks at the size, too; what is wrong with it is told once.
+    let size = |key: &'static str, dimension| {
+        let entry = table.take(key)?;
+        let check = |size| Range::Positive.check(key, size);
+        quantities.unwatched().read_checked(&entry.item, dimension, check)
+    };
+    let material = table.require("material", "material = \"eva\"");
+    let density = table.require("density", "density = \"120 kg/m^3\"");
+    let density = density
+        .and_then(|own| quantities.within(Range::NonNegative, "density", &own.item, DENSITY));
+    let thickness = size("thickness", Dimension::LENGTH);
+    let area = size("area", AREA);
+    table.take("shift");
+    table.finish();
+    let name = text_of(&material?.item, "`material`", reading.faults)?;
+    let name = name.rsplit(':').next().unwrap_or(name).to_owned();
+    let Table { owner, place, .. } = table;
+    let model = models.element(item, owner, place, LAYER_KEYS)?.model;
+    Some(Layer { name, thickness: thickness?, area: area?, density: density?, model })
+}
+
+/// How finely the layers are resolved.
+fn read_resolution(reading: &Reading<'_>, element: &Table<'_>) -> Option<Resolution> {
+    match (element.take("segments"), element.take("accuracy")) {
+        (Some(_), Some(accuracy)) => {
+            let fault = Fault::Exclusive { first: "segments", second: "accuracy" };
+            reading.faults.error(accuracy.key_place, fault);
+            None
+        }
+        (Some(own), None) => read_segments(reading, own).map(Resolution::Segments),
+        (None, Some(own)) => {
+            let check = |accuracy: f64| {
+                let range = "more than 0 and less than 1, for instance \"1 %\"";
+                let invalid = || InvalidParameter::new("accuracy", range, accuracy);
+                if accuracy > 0.0 && accuracy < 1.0 { Ok(()) } else { Err(invalid()) }
+            };
+            let accuracy = reading.quantities().read_checked(&own.item, Dimension::NUMBER, check);
+            accuracy.map(Resolution::Accuracy)
+        }
+        (None, None) => Some(Resolution::Accuracy(ACCURACY)),
+    }
+}
+
+fn read_segments(reading: &Reading<'_>, entry: &Entry) -> Option<usize> {
+    let number = match &entry.item.value {
+        Content::Number(digits) => digits.parse::<usize>().ok(),
+        _ => None,
+    };
+    let number = number.filter(|number| (1..=MOST_SEGMENTS).contains(number));
+    if number.is_none() {
+        let expected = format!("a whole number from 1 to {MOST_SEGMENTS}");
+        wrong_type(&entry.item, "`segments`", &expected, reading.faults);
+    }
+    number
 }

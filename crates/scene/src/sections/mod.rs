@@ -1,25 +1,18 @@
 //! The tables of a scene, one file each.
 
-mod accuracy;
 mod effects;
 mod elements;
 mod files;
-mod layers;
-mod loads;
 mod measures;
 mod nodes;
 mod run;
-mod targets;
 
-pub(crate) use accuracy::read_accuracy;
 pub(crate) use effects::read_effects;
 pub(crate) use elements::{ELEMENT_KEYS, read_elements};
-pub(crate) use loads::read_loads;
-pub(crate) use measures::read_measures;
-pub(crate) use nodes::read_nodes;
+pub(crate) use measures::{Targets, read_measures};
+pub(crate) use nodes::{read_loads, read_nodes};
 pub use run::RunSettings;
-pub(crate) use run::{check_stops, read_run};
-pub(crate) use targets::Targets;
+pub(crate) use run::{check_stops, read_accuracy, read_run};
 
 use std::collections::HashMap;
 
@@ -95,12 +88,9 @@ impl<'d> Reading<'d> {
         place: Place,
         known: impl Iterator<Item = &'k str>,
     ) {
-        if self.faults.damaged() {
-            return;
-        }
         let mut known: Vec<String> = known.map(str::to_owned).collect();
         known.sort();
-        self.faults.error(place, Fault::UnknownName { family, name: name.to_owned(), known });
+        self.faults.missing(place, Fault::UnknownName { family, name: name.to_owned(), known });
     }
 
     /// A driving function, `{ half-sine = { … } }` or `{ table = "pulse.csv" }`, of what is measured

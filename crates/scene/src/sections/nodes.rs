@@ -1,4 +1,4 @@
-//! `[nodes]`: points with one displacement.
+//! `[nodes]`: points with one displacement; `[loads]`: forces on them.
 
 use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{
@@ -35,10 +35,10 @@ pub(crate) fn read_nodes(reading: &mut Reading<'_>, network: &mut Network) {
 fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
     let table = reading.table(entry, "node")?;
     let quantities = reading.quantities();
-    let mass = table.take("mass").map(|table| {
-        let check = |mass| Range::NonNegative.check("mass", mass);
-        quantities.of("mass").read_checked(&table.item, Dimension::MASS, check)
-    });
+    let range = Range::NonNegative;
+    let mass = table
+        .take("mass")
+        .map(|mass| quantities.within(range, "mass", &mass.item, Dimension::MASS));
     let velocity = table.take("velocity");
     let drop = table.take("drop");
     if let (Some(_), Some(drop)) = (velocity, drop) {
@@ -48,9 +48,7 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
     let velocity = velocity
         .map(|velocity| quantities.read(&velocity.item, Dimension::VELOCITY).map(Start::Velocity));
     let drop = drop.map(|drop| {
-        let check = |height| Range::NonNegative.check("drop", height);
-        let height = quantities.of("drop").read_checked(&drop.item, Dimension::LENGTH, check);
-        height.map(Start::Drop)
+        quantities.within(range, "drop", &drop.item, Dimension::LENGTH).map(Start::Drop)
     });
     let supports = ["fixed", "motion", "acceleration"].map(|key| (key, table.take(key)));
     let mut given = supports.iter().filter_map(|(key, entry)| entry.map(|entry| (*key, entry)));
@@ -103,4 +101,47 @@ fn displacement<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Waveform>
         reading.faults.error(entry.item.place, fault);
     }
     twice
+}
+
+/// Reads the loads into `network`.
+pub(crate) fn read_loads(reading: &Reading<'_>, network: &mut Network) {
+    for entry in reading.section("loads") {
+        check_name(&entry.key, entry.key_place, reading.faults);
+        read_load(reading, entry, network);
+    }
+}
+
+fn read_load<'d>(reading: &Reading<'d>, entry: &'d Entry, network: &mut Network) -> Option<()> {
+    if entry.item.table().is_none() {
+        note_bare_force(reading, entry);
+        return None;
+    }
+    let table = reading.table(entry, "load")?;
+    let node = table.require("on", "on = \"head\"").and_then(|own| reading.node(&own.item));
+    let example = "force = { half-sine = { peak = \"2 kN\", duration = \"10 ms\" } }";
+    let force =
+        table.require("force", example).and_then(|own| reading.waveform(own, Dimension::FORCE));
+    table.finish();
+    network.add_load(&*entry.key, node?, force?);
+    Some(())
+}
+
+/// Notes a load that is not a table; its name is that of a node where the force alone was given.
+fn note_bare_force(reading: &Reading<'_>, entry: &Entry) {
+    let Entry { key, item, .. } = entry;
+    let force = match &item.value {
+        Content::Text(text) => text.to_string(),
+        Content::Number(digits) => format!("{digits} N"),
+        _ => "2 kN".to_owned(),
+    };
+    let node = if reading.nodes.contains_key(key.as_str()) { key } else { "head" };
+    let fault = Fault::WrongType {
+        what: format!("load `{key}`"),
+        expected: "a table".to_owned(),
+        found: item.type_name(),
+    };
+    let help = format!(
+        "write [loads.name] with `on = \"{node}\"` and `force = {{ constant = \"{force}\" }}`"
+    );
+    reading.faults.error(item.place, fault.with_help(help));
 }

@@ -5,7 +5,7 @@ use dashpot_numerics::roots::monotone_root;
 
 use dashpot_plot::Table;
 
-use super::{Claim, Trend, Verdict, row};
+use super::{Claim, OVER_VALUES, Verdict, are_opposed, over, row};
 use crate::{
     DURATION, Family, Impact, Study, ThesisError, Varied,
     words::{change, listed, significant},
@@ -47,16 +47,13 @@ fn meeting(one: &Impact, other: &Impact) -> Option<f64> {
 }
 
 fn crossing(study: &Study) -> Claim {
-    let (mut cases, mut rows) = (Vec::new(), Vec::new());
-    for family in study.families() {
-        let symbol = family.varied.symbol().to_owned();
+    let cell = |own: Option<f64>| own.map_or_else(|| "–".to_owned(), |at| significant(at, 3));
+    let (cases, rows) = over(study.families(), |family| {
         let pairs = family.members.windows(2);
         let meetings: Vec<Option<f64>> =
             pairs.map(|pair| meeting(&pair[0].impact, &pair[1].impact)).collect();
-        cases.push((symbol.clone(), meetings.iter().all(Option::is_some)));
-        let cell = |own: Option<f64>| own.map_or_else(|| "–".to_owned(), |at| significant(at, 3));
-        rows.push(row([symbol].into_iter().chain(meetings.into_iter().map(cell))));
-    }
+        (meetings.iter().all(Option::is_some), meetings.into_iter().map(cell))
+    });
     let header = ["parameter", "1st and 2nd value", "2nd and 3rd", "3rd and 4th", "4th and 5th"];
     Claim {
         place: "V",
@@ -75,21 +72,14 @@ fn crossing(study: &Study) -> Claim {
 }
 
 fn decay(study: &Study) -> Claim {
-    let (mut cases, mut rows) = (Vec::new(), Vec::new());
-    for family in study.families() {
-        let symbol = family.varied.symbol().to_owned();
+    let (cases, rows) = over(study.families(), |family| {
         let peaks = family.each(|own| own.peak().value);
         let times = family.each(|own| own.decays_to(HALF).unwrap_or(f64::NAN) - own.peak().time);
-        let opposed = matches!(
-            (Trend::of(&peaks), Trend::of(&times)),
-            (Trend::Rises, Trend::Falls) | (Trend::Falls, Trend::Rises)
-        );
-        cases.push((symbol.clone(), opposed));
-        let cells = peaks.iter().zip(&times);
-        let cells = cells
-            .map(|(peak, time)| format!("{}: {}", significant(*peak, 3), significant(*time, 3)));
-        rows.push(row([symbol].into_iter().chain(cells)));
-    }
+        let is_opposed = are_opposed(&peaks, &times);
+        let cells = peaks.into_iter().zip(times);
+        let cell = |(peak, time)| format!("{}: {}", significant(peak, 3), significant(time, 3));
+        (is_opposed, cells.map(cell))
+    });
     Claim {
         place: "V",
         says: "the higher the peak force, the faster the force decays",
@@ -97,7 +87,7 @@ fn decay(study: &Study) -> Claim {
         finding: "Timed from the peak to half of it.".to_owned(),
         evidence: vec![Table::new(
             "φ max: τ* from the peak to half of it, over the values of each family",
-            &["parameter", "1st value", "2nd", "3rd", "4th", "5th"],
+            &OVER_VALUES,
             rows,
         )],
     }
@@ -149,22 +139,14 @@ fn ends_of_c(study: &Study) -> String {
 }
 
 fn trade(study: &Study) -> Claim {
-    let (mut cases, mut rows) = (Vec::new(), Vec::new());
-    for family in study.families() {
-        let symbol = family.varied.symbol().to_owned();
+    let (cases, rows) = over(study.families(), |family| {
         let peaks = family.each(|own| own.peak().value);
         let depths = family.each(|own| own.deepest().value);
-        let opposed = matches!(
-            (Trend::of(&peaks), Trend::of(&depths)),
-            (Trend::Rises, Trend::Falls) | (Trend::Falls, Trend::Rises)
-        );
-        cases.push((symbol.clone(), opposed));
-        let cells = peaks.iter().zip(&depths);
-        let cells = cells.map(|(peak, depth)| {
-            format!("{} at {}", significant(*peak, 4), significant(*depth, 4))
-        });
-        rows.push(row([symbol].into_iter().chain(cells)));
-    }
+        let is_opposed = are_opposed(&peaks, &depths);
+        let cells = peaks.into_iter().zip(depths);
+        let cell = |(peak, depth)| format!("{} at {}", significant(peak, 4), significant(depth, 4));
+        (is_opposed, cells.map(cell))
+    });
     Claim {
         place: "V",
         says: "the peak force is the higher, the smaller the largest deformation is",
@@ -172,7 +154,7 @@ fn trade(study: &Study) -> Claim {
         finding: "Where both go with a parameter without turning, in opposite ways.".to_owned(),
         evidence: vec![Table::new(
             "φ max at ξ max, over the values of each family",
-            &["parameter", "1st value", "2nd", "3rd", "4th", "5th"],
+            &OVER_VALUES,
             rows,
         )],
     }
@@ -216,16 +198,14 @@ fn separation(study: &Study) -> Claim {
 }
 
 fn tension(study: &Study) -> Claim {
-    let (mut cases, mut rows) = (Vec::new(), Vec::new());
-    let mut most = 0.0_f64;
-    for family in study.families() {
-        let shares = family.each(|own| own.energy_after_release() / 0.5);
-        let symbol = family.varied.symbol().to_owned();
-        cases.push((symbol.clone(), shares.iter().all(|share| *share < VERY_SMALL)));
-        most = shares.iter().copied().fold(most, f64::max);
-        let cells = shares.iter().map(|share| change(*share).trim_start_matches('+').to_owned());
-        rows.push(row([symbol].into_iter().chain(cells)));
-    }
+    let shares_of = |family: &Family| family.each(|own| own.energy_after_release() / 0.5);
+    let most = study.families().flat_map(shares_of).fold(0.0, f64::max);
+    let (cases, rows) = over(study.families(), |family| {
+        let shares = shares_of(family);
+        let is_small = shares.iter().all(|share| *share < VERY_SMALL);
+        let cell = |share| change(share).trim_start_matches('+').to_owned();
+        (is_small, shares.into_iter().map(cell))
+    });
     let base = study.printed.energy_after_release() / 0.5;
     Claim {
         place: "V",
@@ -240,7 +220,7 @@ fn tension(study: &Study) -> Claim {
         ),
         evidence: vec![Table::new(
             "Energy taken up after the release over the impact energy, for the values of each family",
-            &["parameter", "1st value", "2nd", "3rd", "4th", "5th"],
+            &OVER_VALUES,
             rows,
         )],
     }

@@ -11,7 +11,7 @@ mod trends;
 
 use dashpot_plot::Table;
 
-use crate::{Impact, Scales, Study, ThesisError, words::listed};
+use crate::{Family, Impact, Scales, Study, ThesisError, words::listed};
 
 /// A claim with its evidence.
 #[derive(Debug, Clone, PartialEq)]
@@ -134,6 +134,30 @@ impl Trend {
             Self::TurnsAround
         }
     }
+}
+
+/// Column headings of a table that has a row for each family.
+const OVER_VALUES: [&str; 6] = ["parameter", "1st value", "2nd", "3rd", "4th", "5th"];
+
+/// Of each family whether a claim holds there, and its row in a table: its parameter, and cells.
+fn over<'f, C: IntoIterator<Item = String>>(
+    families: impl Iterator<Item = &'f Family>,
+    of: impl Fn(&Family) -> (bool, C),
+) -> (Vec<(String, bool)>, Vec<Vec<String>>) {
+    let one = |family: &Family| {
+        let symbol = family.varied.symbol().to_owned();
+        let (holds, cells) = of(family);
+        ((symbol.clone(), holds), row([symbol].into_iter().chain(cells)))
+    };
+    families.map(one).unzip()
+}
+
+/// Whether both rise and fall without turning, in opposite ways.
+fn are_opposed(one: &[f64], other: &[f64]) -> bool {
+    matches!(
+        (Trend::of(one), Trend::of(other)),
+        (Trend::Rises, Trend::Falls) | (Trend::Falls, Trend::Rises)
+    )
 }
 
 fn row(cells: impl IntoIterator<Item = String>) -> Vec<String> {

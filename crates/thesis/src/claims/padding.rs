@@ -7,7 +7,7 @@ use dashpot_rheology::{
     appendix_a::{SpringDashpot, TwoMaxwell},
 };
 
-use super::{Claim, Trend, Verdict, row};
+use super::{Claim, OVER_VALUES, Trend, Verdict, row};
 use crate::{
     DURATION, Groups, Impact, Member, Padding, STANDARD_GRAVITY, Scales, Study, ThesisError,
     Varied,
@@ -91,11 +91,7 @@ fn conservative(study: &Study) -> Claim {
             significant(least, 3),
             significant(most, 3)
         ),
-        evidence: vec![Table::new(
-            "ν = d/c over each family",
-            &["parameter", "1st value", "2nd", "3rd", "4th", "5th"],
-            rows,
-        )],
+        evidence: vec![Table::new("ν = d/c over each family", &OVER_VALUES, rows)],
     }
 }
 

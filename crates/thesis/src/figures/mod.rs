@@ -1,7 +1,6 @@
 //! The figures of the thesis from the exact impact: what is drawn, and its numbers.
 
 mod families;
-mod graph;
 mod networks;
 
 use dashpot_network::Network;
@@ -9,7 +8,7 @@ use dashpot_plot::Chart;
 
 use crate::{Study, ThesisError};
 
-pub use graph::{GraphCase, graph_cases};
+pub use networks::{GraphCase, graph_cases};
 
 /// A figure.
 #[derive(Debug)]
@@ -65,7 +64,7 @@ impl Figure {
 /// [`ThesisError::NoPadding`], [`ThesisError::Rheometer`] and [`ThesisError::EquivalentModel`] for
 /// paddings that do not exist; that of chapter IV does.
 pub fn figures(study: &Study) -> Result<Vec<Figure>, ThesisError> {
-    let mut all = vec![networks::impact(study)?, networks::load_hold_unload()?, graph::figure()];
+    let mut all = vec![networks::impact(study)?, networks::load_hold_unload()?, networks::graph()];
     all.extend(families::figures(study));
     all.push(networks::equivalent()?);
     Ok(all)

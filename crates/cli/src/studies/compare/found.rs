@@ -64,7 +64,7 @@ pub(super) struct Constant {
 }
 
 /// The worst disagreement.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(super) struct Worst {
     pub(super) frequency: Option<f64>,
     pub(super) response: f64,
@@ -162,10 +162,7 @@ impl Comparison {
                 response: worst.stiffness,
                 time: Some(worst.time),
                 creep: Some(worst.creep),
-                after_impulse: None,
-                is_growing: None,
-                until: None,
-                instant_left_out: false,
+                ..Worst::default()
             }),
             models: Vec::new(),
             map: None,

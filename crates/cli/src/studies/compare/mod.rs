@@ -20,9 +20,8 @@ use self::{
 use crate::{
     args::CompareArguments,
     error::{CliError, Status},
-    input::read_scene,
     non_identifiable::{combinations, groups},
-    operand::{Operand, Subject, canonical_model, parted},
+    operand::{Operand, Subject, canonical_model, parted, read_scene},
     output::{Study, Text, emit},
     terminal::Terminal,
     terminal::Tone,
@@ -109,13 +108,13 @@ fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
                 frequency: Some(omega / std::f64::consts::TAU),
                 response: size,
                 time: Some(time),
-                creep: None,
                 after_impulse: Some(after_impulse),
                 is_growing: Some(is_growing),
                 until: Some(until),
                 instant_left_out: [&first, &second]
                     .iter()
                     .any(|own| own.instantaneous_compliance() > 0.0),
+                ..Worst::default()
             });
         }
         Agreement::Undecided { error } => return Err(CliError::Undecided { error }),

@@ -5,7 +5,7 @@ use dashpot_plot::{PrecisionCurve, PrecisionSeries, Report, ReportFigure, Table}
 
 use super::{
     Costs,
-    tables::{answer, cheapest, errors, measures, truth, work},
+    tables::{answer, cheapest, errors, measures, reference_notes, work},
 };
 use crate::{
     error::CliError,
@@ -81,7 +81,8 @@ fn page(costs: &Costs, figures: &[(String, String)]) -> Report {
     let charts =
         figures.iter().map(|(_, svg)| ReportFigure { caption: String::new(), svg: svg.clone() });
     let faults = costs.faults().map(|(caption, lines)| Table::list(caption, lines));
-    let details = [Table::list("What is true", truth(report)), work(report), measures(report)];
+    let details =
+        [Table::list("What is true", reference_notes(report)), work(report), measures(report)];
     let details = details.into_iter().chain(faults);
     Report {
         title: title(scene).to_owned(),

@@ -12,14 +12,14 @@ use dashpot_analysis::{
 use dashpot_scene::Scene;
 use serde::Serialize;
 
-use self::tables::{answer, cheapest, errors, failures, slips, truth, work};
+use self::tables::{answer, cheapest, errors, failures, reference_notes, underestimated, work};
 use crate::{
     args::CostArguments,
     error::{CliError, Status},
     folder::{Folder, Staged},
-    input::{read_scene, title},
+    input::title,
     numbers::rounded,
-    operand::tell,
+    operand::{print_notes, read_scene},
     output::{Study, Text, VERSION, emit, list, object},
     progress::Bar,
     terminal::Terminal,
@@ -40,7 +40,7 @@ struct Costs {
 pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Status, CliError> {
     let scene =
         read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set, terminal)?;
-    tell(&scene.notes);
+    print_notes(&scene.notes);
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let assembly = Arc::new(scene.assembly.clone());
     let mut settings = scene.settings("auto")?;
@@ -75,7 +75,7 @@ impl Study for Costs {
     fn text(&self, text: &mut Text) {
         let Self { scene, report, accuracies } = self;
         text.title(title(scene));
-        text.items(truth(report));
+        text.items(reference_notes(report));
         for table in [errors(report), work(report), cheapest(report, accuracies)] {
             text.table(&table);
         }
@@ -132,7 +132,7 @@ impl Costs {
     fn faults(&self) -> [(&'static str, Vec<String>); 2] {
         [
             ("Failed", failures(&self.report)),
-            ("True error exceeds the estimate", slips(&self.report)),
+            ("True error exceeds the estimate", underestimated(&self.report)),
         ]
     }
 }

@@ -142,14 +142,14 @@ pub(super) fn power(value: f64) -> String {
 }
 
 /// More errors that nobody tells of are not listed one by one.
-const MOST_SLIPS: usize = 8;
+const MOST_GROUPS: usize = 8;
 /// Ratios of times up to which a digit costs nothing.
 const NOTHING: f64 = 1.05;
 
 /// What errors are taken from.
-pub(super) fn truth(report: &CostReport) -> Vec<String> {
+pub(super) fn reference_notes(report: &CostReport) -> Vec<String> {
     let own = &report.truth;
-    let mut said = Vec::new();
+    let mut notes = Vec::new();
     let name = match own.rtol {
         None => "the exact solution".to_owned(),
         Some(rtol) => format!("`{}` at a tolerance of {rtol:e}", own.method),
@@ -162,7 +162,7 @@ pub(super) fn truth(report: &CostReport) -> Vec<String> {
     .into_iter()
     .filter_map(|(what, apart)| Some(format!("{} in {what}", power(apart?))))
     .collect();
-    said.push(match own.witness {
+    notes.push(match own.witness {
         Some((method, rtol)) => {
             let apart = match apart.as_slice() {
                 [] => "nothing that can be compared".to_owned(),
@@ -177,39 +177,39 @@ pub(super) fn truth(report: &CostReport) -> Vec<String> {
         None => format!("true is {name}; no other method solves this scene"),
     });
     if let Some(why) = &own.why_not_exact {
-        said.push(format!("there is no exact solution: {why}"));
+        notes.push(format!("there is no exact solution: {why}"));
     }
-    said.push(
+    notes.push(
         "times are medians, to solve and to read all measures, with their interquartile range as \
          spread"
             .to_owned(),
     );
-    said.push(
+    notes.push(
         "errors are relative: of the state to the largest value of each unknown, of events to the \
          length of the run; ≤ stands where the truth is not known better"
             .to_owned(),
     );
     if report.asked.len() > 1 {
-        said.push(
+        notes.push(
             "of several measures it is the worst one; `--measure` asks for one, `--out` and \
              `--json` hold the error of each"
                 .to_owned(),
         );
     }
-    said
+    notes
 }
 
 /// Methods that decline, and solutions that failed; errors in the same words once.
 pub(super) fn failures(report: &CostReport) -> Vec<String> {
-    let mut said: Vec<(&CostFailure, Vec<String>)> = Vec::new();
+    let mut groups: Vec<(&CostFailure, Vec<String>)> = Vec::new();
     for failure in &report.failures {
         let is_same = |other: &CostFailure| {
             let is_alike = other.error == failure.error && failure.rtol.is_some() && !failure.ends;
             other.method == failure.method && is_alike
         };
-        match said.iter_mut().find(|(other, _)| is_same(other)) {
+        match groups.iter_mut().find(|(other, _)| is_same(other)) {
             Some((_, rtols)) => rtols.push(tolerance(failure.rtol)),
-            None => said.push((failure, vec![tolerance(failure.rtol)])),
+            None => groups.push((failure, vec![tolerance(failure.rtol)])),
         }
     }
     let sentence = |(own, rtols): (&CostFailure, Vec<String>)| {
@@ -220,12 +220,12 @@ pub(super) fn failures(report: &CostReport) -> Vec<String> {
             Some(_) => format!("{method} at {} failed: {error}{rest}", rtols.join(", ")),
         }
     };
-    said.into_iter().map(sentence).collect()
+    groups.into_iter().map(sentence).collect()
 }
 
 /// Errors that a run does not tell of, the largest first; those of one method in one thing are told
 /// together.
-pub(super) fn slips(report: &CostReport) -> Vec<String> {
+pub(super) fn underestimated(report: &CostReport) -> Vec<String> {
     let mut groups: Vec<Vec<&Slip>> = Vec::new();
     for slip in &report.slips {
         let is_alike = |other: &Slip| {
@@ -241,12 +241,12 @@ pub(super) fn slips(report: &CostReport) -> Vec<String> {
     }
     let worst = |group: &[&Slip]| group.iter().map(|own| own.error).fold(0.0, f64::max);
     groups.sort_by(|one, other| worst(other).total_cmp(&worst(one)));
-    let mut said: Vec<String> =
-        groups.iter().take(MOST_SLIPS).map(|group| together(report, group)).collect();
-    if let Some(more @ 1..) = groups.len().checked_sub(MOST_SLIPS) {
-        said.push(format!("… {more} more; `--json` has all"));
+    let mut lines: Vec<String> =
+        groups.iter().take(MOST_GROUPS).map(|group| together(report, group)).collect();
+    if let Some(more @ 1..) = groups.len().checked_sub(MOST_GROUPS) {
+        lines.push(format!("… {more} more; `--json` has all"));
     }
-    said
+    lines
 }
 
 /// Errors of one method in one thing.

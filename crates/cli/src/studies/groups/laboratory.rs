@@ -109,8 +109,8 @@ impl Test {
     /// What is chosen, and what stays as it is.
     fn choices(&self) -> Table {
         let chosen = self.design.chosen.iter().map(|own| {
-            let said = |value| constant(value, si(own.real.dimension));
-            vec![own.real.name.clone(), said(own.real.value), said(own.value)]
+            let text_of = |value| constant(value, si(own.real.dimension));
+            vec![own.real.name.clone(), text_of(own.real.value), text_of(own.value)]
         });
         let kept = self.design.kept.iter().map(|own| {
             let value = constant(own.value, si(own.dimension));

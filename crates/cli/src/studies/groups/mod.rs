@@ -20,19 +20,19 @@ use self::{laboratory::Test, pair::Pair, thesis::Thesis};
 use crate::{
     args::GroupsArguments,
     error::{CliError, Status},
-    input::{read_scene, setting, title},
+    input::{setting, title},
     numbers::{constant, significant},
-    operand::tell,
+    operand::{print_notes, read_scene},
     output::{Study, Text, emit, list, object},
     part::write_text,
-    terminal::{Terminal, remark},
+    terminal::{Terminal, note},
 };
 
 /// Digits of groups.
 const DIGITS: usize = 6;
 
 /// All that is told.
-struct Told {
+struct GroupsStudy {
     /// What the groups are of.
     scene: String,
     groups: Groups,
@@ -52,7 +52,7 @@ pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<
         network = with_groups(&network, &arguments.from)?;
         name = format!("{name}, with other groups");
     }
-    let mut told = Told {
+    let mut study = GroupsStudy {
         scene: name,
         groups: Groups::of(&network).map_err(SimilarityError::from)?,
         thesis: FourParameterImpact::of(&network).ok().map(Thesis::of),
@@ -61,18 +61,18 @@ pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<
     };
     if let Some(second) = &arguments.second {
         let other = read(Some(second), arguments, terminal)?;
-        told.pair = Some(Pair::of(&scene, &other, arguments)?);
+        study.pair = Some(Pair::of(&scene, &other, arguments)?);
     }
     if !arguments.lab.is_empty() {
-        told.laboratory = Some(Test::of(&scene, arguments)?);
+        study.laboratory = Some(Test::of(&scene, arguments)?);
     } else if let Some(path) = &arguments.out {
         let title = format!("{} (groups {})", title(&scene), pairs(&arguments.from));
         let settings = scene.settings("auto")?;
         write(path, &title, &network, &settings, (&scene, arguments))?;
-        remark(&format!("wrote {}", path.display()));
+        note(&format!("wrote {}", path.display()));
     }
-    emit(&told, arguments.json, None, terminal)?;
-    let is_other = told.pair.is_some_and(|pair| !pair.found.is_similar());
+    emit(&study, arguments.json, None, terminal)?;
+    let is_other = study.pair.is_some_and(|pair| !pair.found.is_similar());
     Ok(if is_other { Status::NotSame } else { Status::Done })
 }
 
@@ -82,7 +82,7 @@ fn read(
     terminal: Terminal,
 ) -> Result<Scene, CliError> {
     let scene = read_scene(path, &arguments.values.set, terminal)?;
-    tell(&scene.notes);
+    print_notes(&scene.notes);
     Ok(scene)
 }
 
@@ -122,7 +122,7 @@ fn pairs(all: &[(String, String)]) -> String {
     pairs.join(", ")
 }
 
-impl Study for Told {
+impl Study for GroupsStudy {
     fn text(&self, text: &mut Text) {
         text.title(&self.scene);
         if let Some(pair) = &self.pair {
@@ -158,7 +158,7 @@ impl Study for Told {
     }
 }
 
-impl Told {
+impl GroupsStudy {
     /// The groups that are not zero.
     fn table(&self) -> Table {
         let rows = self.groups.groups.iter().filter(|group| group.value != 0.0);

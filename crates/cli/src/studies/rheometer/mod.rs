@@ -21,7 +21,7 @@ use crate::{
     input::setting,
     operand::{Operand, canonical_model},
     output::{Study, Text, VERSION, emit, list, object},
-    terminal::{Terminal, WIDTH, remark},
+    terminal::{Terminal, WIDTH, note},
     text::{columns, table, wrapped},
 };
 
@@ -59,7 +59,7 @@ pub(crate) fn rheometer(
         match protocol(&test, &own)?.run(&specimen, &methods) {
             Ok(report) => reports.push(report),
             // One test alone was asked for; of several, the others go on.
-            Err(error) if arguments.test.len() != 1 => remark(&error.to_string()),
+            Err(error) if arguments.test.len() != 1 => note(&error.to_string()),
             Err(error) => return Err(error.into()),
         }
     }

@@ -99,11 +99,11 @@ pub(super) fn figure_table(figures: &[Figure], units: Units) -> Table {
 
 /// Figures that do not exist, and why.
 pub(super) fn missing(figures: &[Figure], units: Units) -> Vec<String> {
-    let told = |figure: &Figure| {
+    let sentence = |figure: &Figure| {
         let note = figure.note?;
         Some(format!("no {}: {note}", units.word(figure.name)))
     };
-    figures.iter().filter_map(told).collect()
+    figures.iter().filter_map(sentence).collect()
 }
 
 /// A value in its unit; a strain rate is no frequency.

@@ -111,7 +111,7 @@ pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
         Table::new("Why these methods", &[], why),
         settings_table(answer),
     ];
-    let changes = answer.changes.told().into_iter();
+    let changes = answer.changes.description().into_iter();
     let verdict = verdict(answer).into_iter();
     let lines = verdict.map(|line| format!("{}: {}", line.label, line.text));
     Report {

@@ -4,7 +4,6 @@ mod energy;
 mod files;
 mod measures;
 mod object;
-mod partial;
 mod resolved_scene;
 mod series;
 mod solving;
@@ -37,8 +36,8 @@ use crate::{
     commands::undefined,
     error::{CliError, Status},
     folder::{Folder, Staged},
-    input::{read_scene, title},
-    operand::tell,
+    input::title,
+    operand::{print_notes, read_scene},
     output::{Study, Text, emit},
     progress::Bar,
     terminal::{Terminal, WIDTH},
@@ -79,21 +78,21 @@ impl Answer {
 
     /// All warnings, the most important first; those that not every run gives name their methods.
     pub(super) fn warnings(&self) -> Vec<String> {
-        self.told(|_| true)
+        self.warnings_of(|_| true)
     }
 
-    fn told(&self, is_meant: impl Fn(&Warning) -> bool) -> Vec<String> {
-        let mut said: Vec<(String, Vec<&str>)> = Vec::new();
+    fn warnings_of(&self, is_meant: impl Fn(&Warning) -> bool) -> Vec<String> {
+        let mut grouped: Vec<(String, Vec<&str>)> = Vec::new();
         let mut places: HashMap<String, usize> = HashMap::new();
         for run in &self.runs {
             for warning in
                 run.warnings.iter().filter(|warning| is_meant(warning)).map(Warning::to_string)
             {
                 let place = *places.entry(warning).or_insert_with_key(|warning| {
-                    said.push((warning.clone(), Vec::new()));
-                    said.len() - 1
+                    grouped.push((warning.clone(), Vec::new()));
+                    grouped.len() - 1
                 });
-                said[place].1.push(run.solver.method);
+                grouped[place].1.push(run.solver.method);
             }
         }
         let text = |(warning, methods): (String, Vec<&str>)| {
@@ -103,7 +102,7 @@ impl Answer {
                 format!("{}: {warning}", methods.join(", "))
             }
         };
-        said.into_iter().map(text).collect()
+        grouped.into_iter().map(text).collect()
     }
 
     /// How far the runs are apart in each measure: the largest difference from the first one.
@@ -122,7 +121,7 @@ impl Answer {
     /// The warnings but those that the scene's own text has brought already.
     fn new_warnings(&self) -> Vec<String> {
         let known = &self.scene.assembly.warnings;
-        self.told(|warning| !matches!(warning, Warning::Network(own) if known.contains(own)))
+        self.warnings_of(|warning| !matches!(warning, Warning::Network(own) if known.contains(own)))
     }
 }
 
@@ -130,13 +129,13 @@ impl Answer {
 pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status, CliError> {
     let scene =
         read_scene(arguments.scene.scene.as_deref(), &arguments.scene.values.set, terminal)?;
-    tell(&scene.notes);
+    print_notes(&scene.notes);
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     if let Ok(texts) = undefined(&scene) {
         texts.iter().for_each(|text| terminal.warn(text));
     }
     let answer = solve_all(scene, arguments, terminal)?;
-    tell_failures(&answer, terminal);
+    print_failures(&answer, terminal);
     let status = answer.failed.iter().map(|(_, error)| error.status()).max();
     if arguments.json || !answer.runs.is_empty() {
         // The report begins with them, so at one place they would be read twice.
@@ -150,11 +149,11 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
 }
 
 /// Tells of each error once, with the methods that it is about unless that is all of them.
-fn tell_failures(answer: &Answer, terminal: Terminal) {
-    let mut told: Vec<String> = Vec::new();
+fn print_failures(answer: &Answer, terminal: Terminal) {
+    let mut printed: Vec<String> = Vec::new();
     for (_, error) in &answer.failed {
         let text = error.to_string();
-        if told.contains(&text) {
+        if printed.contains(&text) {
             continue;
         }
         let same = answer.failed.iter().filter(|(_, other)| other.to_string() == text);
@@ -162,7 +161,7 @@ fn tell_failures(answer: &Answer, terminal: Terminal) {
         let is_all = methods.len() == answer.asked.len();
         let prefix = if is_all { String::new() } else { format!("{}: ", methods.join(", ")) };
         terminal.fail(&prefix, error);
-        told.push(text);
+        printed.push(text);
     }
 }
 
@@ -225,7 +224,7 @@ impl Study for Answer {
     fn text(&self, text: &mut Text) {
         text.warnings(&self.new_warnings());
         text.title(title(&self.scene));
-        self.changes.told().iter().for_each(|told| text.words(told));
+        self.changes.description().iter().for_each(|changes| text.words(changes));
         text.blank();
         for line in verdict(self) {
             text.labelled(line.label, LABELS, &line.text);

@@ -46,7 +46,7 @@ impl Changes {
     }
 
     /// The values that were set, for people; `None` if none were.
-    pub(super) fn told(&self) -> Option<String> {
+    pub(super) fn description(&self) -> Option<String> {
         let pairs: Vec<String> =
             self.set.iter().map(|(name, text)| format!("{name} = {text}")).collect();
         (!pairs.is_empty()).then(|| format!("with {}", pairs.join(", ")))
@@ -212,6 +212,6 @@ mod tests {
     fn nothing_changes_where_nothing_was_asked() {
         assert_eq!(resolved_scene(SCENE, &Changes::default()), SCENE);
         let changes = Changes { set: set_k("1 N/m"), ..Changes::default() };
-        assert_eq!(changes.told().as_deref(), Some("with K = 1 N/m"));
+        assert_eq!(changes.description().as_deref(), Some("with K = 1 N/m"));
     }
 }

@@ -13,7 +13,7 @@ use dashpot_analysis::{
 use dashpot_scene::{Diagnostics, Scene, Tunables, Variation, read};
 use serde::Serialize;
 
-use self::words::{remarks, summary};
+use self::words::{notes, summary};
 use crate::{
     args::SweepArguments,
     error::{CliError, Status},
@@ -21,7 +21,7 @@ use crate::{
     input::{Input, title},
     output::{Study, Text, VERSION, emit, list, object},
     progress::Bar,
-    terminal::{Terminal, remark},
+    terminal::{Terminal, note},
 };
 
 /// What was varied, in what, and what was found.
@@ -77,21 +77,21 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         scene_point.settings.measures.clone_from(&wishes);
         Ok(scene_point)
     };
-    let mut told = checked.warnings.list;
-    let before = told.len();
+    let mut shown = checked.warnings.list;
+    let before = shown.len();
     // A fault at the ends of a range is shown in the scene's text, with the value under a caret.
     for point in grid.corners().into_iter().take(MOST_CORNERS) {
         let text = text_at(&tunables, &variations, &matched, &grid.places(point));
         let found = read(&text, &input.options(set)).map_err(CliError::Scene)?.warnings;
-        let known: Vec<String> = told.iter().map(dashpot_scene::Diagnostic::message).collect();
-        told.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
+        let known: Vec<String> = shown.iter().map(dashpot_scene::Diagnostic::message).collect();
+        shown.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
     }
-    terminal.diagnose(&Diagnostics { list: told.split_off(before), omitted: 0 });
+    terminal.diagnose(&Diagnostics { list: shown.split_off(before), omitted: 0 });
     let report = solved(arguments, &grid, &pose, &columns, terminal)?;
     let swept = Swept { scene, tunables, variations, matched, grid, report };
     let has_folder = folder.is_some();
     emit(&swept, arguments.json, folder, terminal)?;
-    files::undrawn(&swept.variations).filter(|_| has_folder).into_iter().for_each(remark);
+    files::undrawn(&swept.variations).filter(|_| has_folder).into_iter().for_each(note);
     let failed = swept.report.gaps.iter().filter(|gap| gap.column.is_none()).count();
     Ok(if failed == swept.points() { Status::RunFailed } else { Status::Done })
 }
@@ -139,7 +139,7 @@ impl Study for Swept {
         text.title(title(&self.scene));
         self.in_words().iter().for_each(|in_word| text.faint(in_word));
         text.table(&summary(&self.report));
-        text.paragraphs(remarks(self));
+        text.paragraphs(notes(self));
     }
 
     fn data(&self) -> Option<String> {
@@ -148,8 +148,8 @@ impl Study for Swept {
         String::from_utf8(bytes).ok()
     }
 
-    fn remarks(&self) -> Vec<String> {
-        remarks(self)
+    fn notes(&self) -> Vec<String> {
+        notes(self)
     }
 
     /// Values stand in the order of the points: the last parameter varies fastest.

@@ -96,13 +96,13 @@ pub(super) fn shown(variation: &Variation, at: usize) -> String {
     format!("{short} {rest}").trim_end().to_owned()
 }
 
-/// Faults of so many kinds are told.
-const MOST_TOLD: usize = 3;
-/// Warnings of so many kinds are told.
+/// Faults of so many kinds are counts.
+const MOST_FAULTS: usize = 3;
+/// Warnings of so many kinds are counts.
 const MOST_WARNED: usize = 8;
 
 /// How it was solved, what runs are warned of, what is missing, and what was left out.
-pub(super) fn remarks(swept: &Swept) -> Vec<String> {
+pub(super) fn notes(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.points());
     let mut all = vec![solved(report, points)];
     if !report.checked.is_empty() {
@@ -142,7 +142,7 @@ fn solved(report: &SweepReport, points: usize) -> String {
 /// has brought already.
 fn warnings(swept: &Swept, report: &SweepReport, points: usize) -> Vec<String> {
     let known = &swept.scene.assembly.warnings;
-    let told = |(at, own): (usize, &SweepWarning)| {
+    let sentence = |(at, own): (usize, &SweepWarning)| {
         let first = own.points.first().map_or(String::new(), |point| swept.at(*point));
         let of = if own.points.len() == points {
             format!("at all {points} points")
@@ -153,7 +153,7 @@ fn warnings(swept: &Swept, report: &SweepReport, points: usize) -> Vec<String> {
     };
     let is_known = |sweep_warning: &SweepWarning| matches!(&sweep_warning.warning, Warning::Network(sweep_warning) if known.contains(sweep_warning));
     let new = report.warnings.iter().enumerate().filter(|own| !is_known(own.1));
-    let mut all: Vec<String> = new.map(told).collect();
+    let mut all: Vec<String> = new.map(sentence).collect();
     let more = all.len().saturating_sub(MOST_WARNED);
     all.truncate(MOST_WARNED);
     if more > 0 {
@@ -207,15 +207,15 @@ fn missing(report: &SweepReport, points: usize) -> Vec<String> {
             first.reason
         ));
     }
-    let mut told: Vec<(usize, &str, usize)> = Vec::new();
+    let mut counts: Vec<(usize, &str, usize)> = Vec::new();
     for gap in &report.gaps {
         let Some(column) = gap.column else { continue };
-        match told.iter_mut().find(|known| (known.0, known.1) == (column, gap.reason.as_str())) {
+        match counts.iter_mut().find(|known| (known.0, known.1) == (column, gap.reason.as_str())) {
             Some(known) => known.2 += 1,
-            None => told.push((column, &gap.reason, 1)),
+            None => counts.push((column, &gap.reason, 1)),
         }
     }
-    for (column, reason, count) in told.into_iter().take(MOST_TOLD) {
+    for (column, reason, count) in counts.into_iter().take(MOST_FAULTS) {
         let name = name(&report.columns[column]);
         all.push(format!("`{name}` has no value at {count} of {points} points: {reason}"));
     }

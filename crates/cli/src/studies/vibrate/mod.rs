@@ -13,13 +13,14 @@ use dashpot_plot::{VibrationCurve, VibrationSeries};
 use dashpot_scene::{Scene, units::parse_quantity};
 use serde::Serialize;
 
-use self::tables::{degrees, drive, remarks, resonances, response, steady, steady_remarks};
+use self::tables::{degrees, drive, range_notes, resonances, response, steady, steady_notes};
 use crate::{
     args::{VibrateArguments, When},
     error::{CliError, Status},
     folder::{Folder, Staged},
-    input::{read_scene, title},
+    input::title,
     numbers::{Unit, quantity},
+    operand::read_scene,
     output::{Study, Text, VERSION, csv, emit, list, object},
     terminal::{Terminal, WIDTH},
 };
@@ -108,11 +109,11 @@ impl Study for Shaken {
         text.faint(&drive(&sweep.drive));
         if let Some(own) = &self.steady {
             steady(own).iter().for_each(|own| text.table(own));
-            text.paragraphs(steady_remarks(own));
+            text.paragraphs(steady_notes(own));
         }
         text.table(&resonances(sweep));
         let notes = sweep.notes.iter().map(VibrationWarning::to_string);
-        text.paragraphs(remarks(sweep).into_iter().chain(notes));
+        text.paragraphs(range_notes(sweep).into_iter().chain(notes));
         if self.steady.is_none() {
             let (content, left_out) = response(sweep, WIDTH - 2);
             text.table(&content);

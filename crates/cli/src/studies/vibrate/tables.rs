@@ -82,26 +82,26 @@ pub(super) fn resonances(sweep: &Sweep) -> Table {
 }
 
 /// What is to be known beside the tables, in whole sentences.
-pub(super) fn remarks(sweep: &Sweep) -> Vec<String> {
+pub(super) fn range_notes(sweep: &Sweep) -> Vec<String> {
     let all = || sweep.transmissions.iter();
-    let mut remarks = Vec::new();
+    let mut range_notes = Vec::new();
     let still: Vec<&str> =
         all().filter(|own| own.resonances.is_empty()).map(|own| own.name.as_str()).collect();
     if !still.is_empty() {
-        remarks.push(format!("no resonance of {} in this range", still.join(", ")));
+        range_notes.push(format!("no resonance of {} in this range", still.join(", ")));
     }
     let count = all().map(|own| own.resonances.len()).sum::<usize>();
     if count > MOST_ROWS {
-        remarks
+        range_notes
             .push(format!("{MOST_ROWS} of {count} resonances; `--of` chooses, `--json` has all"));
     }
     if all().flat_map(|own| &own.resonances).any(|own| own.swing.is_none()) {
-        remarks.push("a resonance without a ratio is not damped: it has no limit".to_owned());
+        range_notes.push("a resonance without a ratio is not damped: it has no limit".to_owned());
     }
-    remarks.push(format!("limit at slow oscillation: {}", limits(&sweep.transmissions)));
+    range_notes.push(format!("limit at slow oscillation: {}", limits(&sweep.transmissions)));
     let worst = all().map(Transmission::worst_error).fold(0.0, f64::max);
-    remarks.push(format!("every ratio within {}, by rounding", bound(worst)));
-    remarks
+    range_notes.push(format!("every ratio within {}, by rounding", bound(worst)));
+    range_notes
 }
 
 /// The limits of slow oscillation; one that all have in common is said once.
@@ -153,8 +153,8 @@ pub(super) fn response(sweep: &Sweep, columns: usize) -> (Table, Option<String>)
     if shown < all.len() {
         left_out.push(format!("{shown} of {} responses; `--of` chooses others", all.len()));
     }
-    let remark = (!left_out.is_empty()).then(|| left_out.join(", "));
-    (whole(&all[..shown]), remark)
+    let note = (!left_out.is_empty()).then(|| left_out.join(", "));
+    (whole(&all[..shown]), note)
 }
 
 /// The peaks of the steady state.
@@ -200,7 +200,7 @@ pub(super) fn steady(steady: &Steady) -> Vec<Table> {
 }
 
 /// What is to be known beside them.
-pub(super) fn steady_remarks(steady: &Steady) -> Vec<String> {
+pub(super) fn steady_notes(steady: &Steady) -> Vec<String> {
     let power = steady.power.map(|power| {
         // A power that only rounding makes is none.
         format!("the drive puts in {} on average", watts(power.max(0.0)))

@@ -88,7 +88,7 @@ pub(super) fn draw(models: &[ModelSeries], kinds: &[Kind]) -> Drawn {
     let is_single = kinds.len() == 1;
     let mut drawn = Drawn { series: Vec::new(), note: String::new() };
     if shown.len() < models.len() {
-        drawn.remark(&format!("the first {MOST_MODELS} of {} models", models.len()));
+        drawn.note_also(&format!("the first {MOST_MODELS} of {} models", models.len()));
     }
     let mut is_cut = false;
     let floor = SMALLEST_SHARE * largest(shown, kinds);
@@ -104,7 +104,7 @@ pub(super) fn draw(models: &[ModelSeries], kinds: &[Kind]) -> Drawn {
                 continue;
             }
             if !points.iter().any(|p| is_positive(p.1)) {
-                drawn.remark(&format!("{} of {} is zero", kind.name, model.name));
+                drawn.note_also(&format!("{} of {} is zero", kind.name, model.name));
                 continue;
             }
             let colour = if is_single { index } else { kind.colour };
@@ -117,14 +117,14 @@ pub(super) fn draw(models: &[ModelSeries], kinds: &[Kind]) -> Drawn {
         }
     }
     if is_cut {
-        drawn.remark("values below 10⁻²⁴ of the largest are not shown");
+        drawn.note_also("values below 10⁻²⁴ of the largest are not shown");
     }
     drawn
 }
 
 impl Drawn {
     /// Adds to what stands below the heading.
-    pub(super) fn remark(&mut self, text: &str) {
+    pub(super) fn note_also(&mut self, text: &str) {
         if !self.note.is_empty() {
             self.note += "; ";
         }

@@ -86,7 +86,7 @@ impl ModelFigure {
             cut.relaxation.len() < whole.relaxation.len()
         };
         if cut.iter().flatten().zip(models).any(is_cut) {
-            drawn.remark("final decay shown until it falls as t⁻¹⁰");
+            drawn.note_also("final decay shown until it falls as t⁻¹⁰");
         }
         if let [model] = models
             && is_relaxation

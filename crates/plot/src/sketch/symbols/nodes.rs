@@ -49,23 +49,23 @@ impl Canvas {
             SketchKind::Mass | SketchKind::Prescribed => {
                 let is_given = node.kind == SketchKind::Prescribed;
                 self.rectangle((x, y - half), (extent.width, 2.0 * half), is_given);
-                let texts = lettering_height(node);
-                self.text_metrics(node, (centre, y - 0.5 * texts + 0.85 * theme::LABEL_SIZE));
+                let texts = text_height(node);
+                self.inscription(node, (centre, y - 0.5 * texts + 0.85 * theme::LABEL_SIZE));
             }
             SketchKind::Massless => {
                 self.wires((x, centre), y, extent, wired);
                 self.disc((centre, y), JOINT);
-                self.text_metrics(node, (centre, y + JOINT + 3.0 + theme::LABEL_SIZE));
+                self.inscription(node, (centre, y + JOINT + 3.0 + theme::LABEL_SIZE));
             }
             SketchKind::Face => {
                 self.wires((x, centre), y, extent, wired);
                 self.plate((centre, y), FACE);
-                self.text_metrics(node, (centre, y + FACE + 4.0 + theme::LABEL_SIZE));
+                self.inscription(node, (centre, y + FACE + 4.0 + theme::LABEL_SIZE));
             }
             SketchKind::HeavyFace => {
                 self.wires((x, centre), y, extent, wired);
                 self.rectangle((centre - HEAVY, y - FACE), (2.0 * HEAVY, 2.0 * FACE), false);
-                self.text_metrics(node, (centre, y + FACE + 4.0 + theme::LABEL_SIZE));
+                self.inscription(node, (centre, y + FACE + 4.0 + theme::LABEL_SIZE));
             }
             SketchKind::Fixed => {
                 let (end, side) = if wired.1 { (x + extent.width, -1.0) } else { (x, 1.0) };
@@ -73,7 +73,7 @@ impl Canvas {
                     self.straight((end, y), (centre, y));
                 }
                 self.wall((centre, y), WALL, side);
-                self.text_metrics(node, (centre, y + WALL + 4.0 + theme::LABEL_SIZE));
+                self.inscription(node, (centre, y + WALL + 4.0 + theme::LABEL_SIZE));
             }
         }
     }
@@ -87,7 +87,7 @@ impl Canvas {
         }
     }
 
-    fn text_metrics(&mut self, node: &SketchNode, (x, y): Point) {
+    fn inscription(&mut self, node: &SketchNode, (x, y): Point) {
         self.text((x, y), &node.name, Weight::Bold);
         let mut base = y;
         for line in &node.lines {
@@ -132,7 +132,7 @@ fn class(kind: SketchKind) -> &'static str {
     }
 }
 
-fn lettering_height(node: &SketchNode) -> f64 {
+fn text_height(node: &SketchNode) -> f64 {
     theme::LABEL_SIZE + LINE * node.lines.iter().fold(0.0, |n, _| n + 1.0)
 }
 
@@ -140,7 +140,7 @@ fn lettering_height(node: &SketchNode) -> f64 {
 fn half_height(node: &SketchNode) -> f64 {
     match node.kind {
         SketchKind::Mass | SketchKind::Prescribed => {
-            (0.5 * (lettering_height(node) + 16.0)).max(24.0).ceil()
+            (0.5 * (text_height(node) + 16.0)).max(24.0).ceil()
         }
         SketchKind::Massless => 10.0,
         SketchKind::Face | SketchKind::HeavyFace => FACE + 4.0,
@@ -155,7 +155,7 @@ pub(in crate::sketch) fn node_extent(node: &SketchNode) -> Extent {
     let name = 1.1 * text_width(&node.name, theme::LABEL_SIZE);
     let widest = node.lines.iter().map(width).fold(name, f64::max);
     let loads = node.loads.iter().map(|load| ARROW + SPACE + width(load)).fold(0.0, f64::max);
-    let lines = lettering_height(node);
+    let lines = text_height(node);
     let half = half_height(node);
     let (least, room, down) = match node.kind {
         SketchKind::Mass | SketchKind::Prescribed => (56.0, 22.0, half),

@@ -5,16 +5,15 @@
 //! of it is a number; a field such as `force [kN]` or `force (kN)` names a column and its unit. An
 //! apostrophe before a name that begins like a formula is not part of it ([`text_cell`]).
 
-mod cell;
 mod fault;
 
-use std::ops::Range;
+use std::{borrow::Cow, ops::Range};
 
-pub use cell::text_cell;
-pub use fault::CsvFault;
 use fault::MOST_ROWS;
 
 use crate::units::{UnitError, parse_quantity};
+
+pub use fault::CsvFault;
 
 /// After so many faults the rest of a file is not looked at.
 const TOLD: usize = 10;
@@ -36,7 +35,7 @@ impl Field<'_> {
 
     /// The name and the unit of a column, `force` and `kN` in `force [kN]`.
     pub(crate) fn name_and_unit(&self) -> (&str, Option<Self>) {
-        let text = cell::unguarded(self.text);
+        let text = unguarded(self.text);
         let at = self.at + self.text.len() - text.len();
         let open = match text.chars().last() {
             Some(']') => text.rfind('['),
@@ -214,6 +213,42 @@ fn trimmed(text: &str, at: usize) -> Field<'_> {
     // The trimmed text is a part of the text.
     let before = text.find(own).unwrap_or(0);
     Field { text: own, at: at + before }
+}
+
+/// Stands before a text that a sheet would take for a formula.
+const GUARD: char = '\'';
+
+/// A name as a field of a CSV text.
+///
+/// A sheet evaluates what begins with `=`, `+`, `-` or `@`. Such a name gets an apostrophe before it,
+/// which says to a sheet that a text follows; where this crate reads a header it belongs to no name.
+/// Where a separator of any kind stands in a name, the field is quoted.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_scene::text_cell;
+///
+/// assert_eq!(text_cell("pad.force [N]"), "pad.force [N]");
+/// assert_eq!(text_cell("=1+1"), "'=1+1");
+/// assert_eq!(text_cell("-x;y"), "\"'-x;y\"");
+/// ```
+pub fn text_cell(name: &str) -> Cow<'_, str> {
+    let guarded = if is_live(name) { format!("{GUARD}{name}").into() } else { Cow::Borrowed(name) };
+    if guarded.contains([',', ';', '\t', '"', '\n', '\r']) {
+        return format!("\"{}\"", guarded.replace('"', "\"\"")).into();
+    }
+    guarded
+}
+
+/// A name without the apostrophe of [`text_cell`].
+fn unguarded(text: &str) -> &str {
+    text.strip_prefix(GUARD).filter(|own| is_live(own)).unwrap_or(text)
+}
+
+/// Whether a sheet would evaluate the text; an apostrophe before such a text is data like any other.
+fn is_live(text: &str) -> bool {
+    text.trim_start_matches(GUARD).starts_with(['=', '+', '-', '@', '\t', '\r'])
 }
 
 #[cfg(test)]

@@ -2,14 +2,13 @@
 
 mod blocks;
 mod tree;
-mod word;
 
 use std::sync::Arc;
 
 use toml::de::DeTable;
 
+use self::tree::{Builder, Words};
 pub(crate) use self::tree::{Content, Entry, Item};
-use self::{tree::Builder, word::Words};
 use super::{
     nesting,
     repair::repaired,
