@@ -11,7 +11,7 @@ use std::{sync::Arc, time::Instant};
 use dashpot_dae::Observer;
 use dashpot_network::{
     Assembly, Network,
-    layers::{Recut, recut},
+    segments::{Recut, recut},
 };
 
 use crate::{

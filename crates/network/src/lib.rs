@@ -15,28 +15,33 @@ pub mod elements;
 mod error;
 pub mod influence;
 pub mod layers;
-mod linear_model;
 pub mod memory;
+mod model;
 mod network;
+mod outputs;
 pub mod parameters;
-pub mod phases;
+mod rewrite;
+pub mod segments;
 pub mod shifts;
 mod warning;
 pub mod waveforms;
 
-pub use assembly::{
-    Assembly, ConnectionOutputs, DriveOutputs, NodeOutputs, PadOutputs, PrimitiveOutputs,
-    SegmentOutputs, SegmentPlace, Source,
-};
+pub use assembly::Assembly;
 pub use compile::{
     HeldTable, Unsaid,
     parametric::{Instance, ParametricSystem},
     phased::{IdleSlider, PhasedNetwork, PhasedPart},
 };
-pub use effects::Effect;
-pub use elements::Element;
+pub use elements::{Element, phases};
 pub use error::{NetworkError, NetworkErrors, Subject};
-pub use influence::{Detail, Influence, Situation};
-pub use linear_model::{first_nonlinear, is_linear, linear_model, model_of, primitive};
-pub use network::{Connection, InnerPad, Load, Model, Network, Node, NodeId, Start, Support, part};
+pub use influence::Detail;
+pub use model::{Model, first_nonlinear, is_linear, linear_model, model_of, part, primitive};
+pub use network::{
+    Connection, Effect, ImpactScales, Influence, InnerPad, Load, Network, Node, NodeId, PadOutputs,
+    Situation, Start, Support,
+};
+pub use outputs::{
+    ConnectionOutputs, DriveOutputs, NodeOutputs, PrimitiveOutputs, SegmentOutputs, SegmentPlace,
+    Source,
+};
 pub use warning::{Front, NetworkWarning};

@@ -101,7 +101,7 @@ pub enum SweepError {
     /// A fault of the scene at the first point, or of what is asked of it.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The scene at the first point cannot be scene_point.
+    /// The scene at the first point cannot be made.
     #[error("{0}")]
     NotPosed(String),
     /// An axis has no values, or there are too many points to count.

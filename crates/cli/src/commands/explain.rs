@@ -12,7 +12,7 @@ use dashpot_analysis::{
 };
 use dashpot_dae::{Silent, UnknownKind};
 use dashpot_network::{
-    Detail, Node, NodeId, Situation, Start, Support, elements::Law, layers::resolved,
+    Detail, Node, NodeId, Situation, Start, Support, elements::Law, segments::resolved,
 };
 use dashpot_plot::Table;
 use dashpot_scene::{Scene, write_effect};

@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{
-    Parts,
     bodies::Role,
-    incidence::contact_force,
+    parts::Parts,
     row::{Row, RowSum},
 };
 use crate::{Network, Support};
@@ -63,7 +62,7 @@ impl Shared {
         let is_free = matches!(parts.bodies.all[body].role, Role::Mass(_));
         let nodes = parts.bodies.all[body].joints.iter().filter_map(|&at| network.nodes.get(at));
         Self {
-            contact: if is_free { contact_force(parts, body) } else { Row::default() },
+            contact: if is_free { parts.contact_force(body) } else { Row::default() },
             weight: weight.total(),
             inertia: inertia.total(),
             heavy: nodes.filter(|node| node.mass > 0.0).count(),

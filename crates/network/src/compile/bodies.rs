@@ -1,9 +1,7 @@
 //! Joints merged into bodies by rigid links.
 
-use dashpot_units::STANDARD_GRAVITY;
-
 use super::expand::{Expansion, Primitive};
-use crate::{Network, NetworkError, Start, Subject, Support, elements::Law};
+use crate::{Network, NetworkError, Subject, Support, elements::Law, network::start_velocity};
 
 /// Joints that move as one.
 #[derive(Debug, Clone)]
@@ -63,18 +61,6 @@ impl Groups {
         let (low, high) = (first.min(second), first.max(second));
         self.parent[high] = low;
         low != high
-    }
-}
-
-/// Start velocity \[m/s\] of a node under the network's gravity.
-pub(crate) fn start_velocity(network: &Network, start: Start) -> f64 {
-    match start {
-        Start::Rest => 0.0,
-        Start::Velocity(velocity) => velocity,
-        Start::Drop(height) => {
-            let gravity = network.effects.iter().find_map(|effect| effect.gravity());
-            (2.0 * gravity.unwrap_or(STANDARD_GRAVITY).abs() * height).sqrt()
-        }
     }
 }
 

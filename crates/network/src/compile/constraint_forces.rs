@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{
-    Parts,
     bodies::Role,
-    incidence::add_forces,
+    parts::Parts,
     row::{Combination, Row, RowSum},
     sides::{Sides, Sum},
 };
@@ -57,7 +56,7 @@ pub(super) fn rigid_forces(network: &Network, parts: &Parts<'_>) -> BTreeMap<usi
 /// What acts on a joint.
 fn share(network: &Network, parts: &Parts<'_>, joint: usize) -> Share {
     let mut force = RowSum::default();
-    add_forces(parts, &[joint], 1.0, &mut force);
+    parts.add_forces(&[joint], 1.0, &mut force);
     let drives = parts.incidence.drives_at(parts.drives, joint);
     drives.filter_map(|drive| drive.force.as_ref()).for_each(|own| force.add(1.0, own));
     let node = network.nodes.get(joint);

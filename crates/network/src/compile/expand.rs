@@ -1,18 +1,16 @@
 //! Models expanded into primitives between joints.
 
-use std::sync::Arc;
+use std::{collections::HashMap, sync::Arc};
 
 use dashpot_rheology::{MOST_LEVELS, Tree};
 
-use super::{
-    size::Size,
-    sliders::{self, Share},
-};
+use super::size::Size;
 use crate::{
     Network,
     elements::{Element, Law},
-    network::{Connection, Model},
-    phases::{Phase, PhaseLaw, Watched},
+    model::Model,
+    network::Connection,
+    phases::{Phase, PhaseLaw, Phases, Watched},
 };
 
 /// A spring, dashpot or rigid link between two joints.
@@ -146,7 +144,7 @@ impl Expansion {
             let shape = expansion.shapes_of(connection);
             expansion.shapes.push(shape);
         }
-        sliders::share(&mut expansion.primitives);
+        share(&mut expansion.primitives);
         expansion
     }
 
@@ -265,6 +263,49 @@ impl Expansion {
             format!("{connection}.….{branch}-{}", self.primitives.len() + self.joints)
         } else {
             format!("{parent}.{branch}")
+        }
+    }
+}
+
+/// The part of another primitive's force that is one's own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Share {
+    /// Number of the primitive that stands for all of them.
+    pub(crate) of: usize,
+    /// The part of its whole force; the sign is that of the direction.
+    pub(crate) part: f64,
+}
+
+impl Share {
+    /// The sign of the direction.
+    pub(crate) fn sign(self) -> f64 {
+        1.0_f64.copysign(self.part)
+    }
+}
+
+/// Lets the first of all sliders between the same joints stand for them. While they stick, how they
+/// share the force is not determined by Coulomb's law; it is shared as when they slide, in
+/// proportion to the forces at which they do, so that they let go together.
+fn share(primitives: &mut [Primitive]) {
+    let mut groups: HashMap<[usize; 2], Vec<(usize, f64)>> = HashMap::new();
+    for (at, primitive) in primitives.iter().enumerate() {
+        let [a, b] = primitive.ends;
+        if let Some(capacity) = primitive.origin.phases().and_then(Phases::capacity)
+            && a != b
+        {
+            groups.entry([a.min(b), a.max(b)]).or_default().push((at, capacity));
+        }
+    }
+    for group in groups.into_values().filter(|own| own.len() > 1) {
+        let whole: f64 = group.iter().map(|own| own.1).sum();
+        let of = group[0].0;
+        let ends = primitives[of].ends;
+        for (at, capacity) in group {
+            let sign = if primitives[at].ends == ends { 1.0 } else { -1.0 };
+            primitives[at].share = Some(Share { of, part: sign * capacity / whole });
+            if at != of {
+                primitives[at].law = Law::Spring(0.0);
+            }
         }
     }
 }

@@ -2,11 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{
-    Drive, Parts,
-    expand::Expansion,
-    row::{Row, RowSum},
-};
+use super::{drives::Drive, expand::Expansion};
 
 /// The primitives at each joint and the drives of each body.
 #[derive(Debug)]
@@ -70,26 +66,5 @@ impl Incidence {
         node: usize,
     ) -> impl Iterator<Item = &'p Drive> {
         self.by_node.get(&node).into_iter().flatten().map(|&at| &drives[at])
-    }
-}
-
-/// Sum of the forces of springs and dashpots on a body, with the loads that an accelerometer feels.
-pub(super) fn contact_force(parts: &Parts<'_>, body: usize) -> Row {
-    let mut sum = RowSum::default();
-    add_forces(parts, &parts.bodies.all[body].joints, 1.0, &mut sum);
-    for drive in parts.incidence.drives(parts.drives, body).filter(|drive| !drive.is_body_force) {
-        if let Some(force) = &drive.force {
-            sum.add(1.0, force);
-        }
-    }
-    sum.total()
-}
-
-/// Adds `sign` times the forces of springs and dashpots on these joints.
-pub(super) fn add_forces(parts: &Parts<'_>, joints: &[usize], sign: f64, sum: &mut RowSum) {
-    for &(primitive, own) in joints.iter().flat_map(|&joint| parts.incidence.at_joint(joint)) {
-        if let Some(force) = parts.motion.force.get(primitive) {
-            sum.add(sign * own, &force);
-        }
     }
 }

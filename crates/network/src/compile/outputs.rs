@@ -3,20 +3,22 @@
 use std::{collections::BTreeMap, sync::Arc};
 
 use super::{
-    Drive, Parts,
     accelerometers::Accelerometers,
-    bodies::start_velocity,
     constraint_forces::rigid_forces,
+    drives::Drive,
     expand::Shape,
-    incidence::contact_force,
+    parts::Parts,
     row::{Combination, Row, RowSum},
-    segments::Listed,
     system::Scaling,
 };
 use crate::{
     ConnectionOutputs, DriveOutputs, Network, NetworkError, Node, NodeOutputs, PrimitiveOutputs,
-    Support, elements::Law,
+    Support, elements::Law, network::start_velocity,
 };
+
+/// Where the outputs of primitives stand, by the number of the primitive; those that take no part
+/// have none.
+pub(super) type Listed = BTreeMap<usize, usize>;
 
 /// All outputs, dimensionless, and where they are found.
 #[derive(Debug)]
@@ -299,7 +301,7 @@ fn deformation(parts: &Parts<'_>, at: usize) -> Row {
 /// The force that keeps a body on its prescribed way: what accelerates it less what acts on it.
 fn held_force(parts: &Parts<'_>, drive: &Drive) -> Row {
     let mut sum = RowSum::from(&drive.inertia);
-    sum.add(-1.0, &contact_force(parts, drive.body));
+    sum.add(-1.0, &parts.contact_force(drive.body));
     for other in
         parts.incidence.drives(parts.drives, drive.body).filter(|drive| drive.is_body_force)
     {

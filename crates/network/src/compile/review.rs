@@ -3,14 +3,14 @@
 use std::collections::{HashMap, VecDeque};
 
 use super::{
-    Parts,
     bodies::Groups,
     expand::{Primitive, Shape},
+    parts::Parts,
 };
 use crate::{
     Network, NetworkWarning, Support,
-    assembly::place,
     elements::Law,
+    outputs::place,
     phases::{Phase, PhaseLaw, Phases},
 };
 
@@ -177,7 +177,7 @@ fn distances(network: &Network, parts: &Parts<'_>) -> Vec<Option<usize>> {
         queue.push_back((body, 0));
     }
     while let Some((body, steps)) = queue.pop_front() {
-        if parts.bodies.all[body].role == super::Role::Fixed {
+        if parts.bodies.all[body].role == super::bodies::Role::Fixed {
             continue;
         }
         for &next in &neighbours[body] {

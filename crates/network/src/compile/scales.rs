@@ -119,15 +119,11 @@ impl Scales {
                 } else {
                     f64::INFINITY
                 };
-                let length = sprung.min(travelled);
                 let damped = (time / damping[body]).sqrt() * root_energy;
-                if length.is_finite() {
-                    length
-                } else if damped.is_finite() {
-                    damped
-                } else {
-                    1.0
-                }
+                [sprung.min(travelled), damped]
+                    .into_iter()
+                    .find(|way| way.is_finite())
+                    .unwrap_or(1.0)
             })
             .collect();
         let own_time = |body: usize| length[body] / of_mass(body);

@@ -1,19 +1,13 @@
 //! The parts of a pad in which stress and strain are the same all over.
 
-use std::collections::BTreeMap;
-
 use super::{
-    Parts,
     expand::Shape,
     inner_pads::{Located, located},
-    outputs::{Outputs, total},
+    outputs::{Listed, Outputs, total},
+    parts::Parts,
     row::{Combination, Row},
 };
 use crate::{Connection, ConnectionOutputs, InnerPad, SegmentOutputs, SegmentPlace, layers::Piece};
-
-/// Where the outputs of primitives stand, by the number of the primitive; those that take no part
-/// have none.
-pub(super) type Listed = BTreeMap<usize, usize>;
 
 impl Outputs<'_> {
     /// Completes the outputs of a connection by its segments, and by the force at its second end

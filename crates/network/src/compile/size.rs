@@ -2,10 +2,10 @@
 
 use dashpot_dae::Waveform;
 
-use super::bodies::start_velocity;
 use crate::{
     Network, Support,
     elements::{Element, Law},
+    network::start_velocity,
 };
 
 /// What drives a run, in all, in SI units.

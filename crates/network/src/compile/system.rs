@@ -2,7 +2,9 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use dashpot_dae::{Argument, LinearForm, Outputs, System, Term, Unknown, UnknownKind};
+use dashpot_dae::{
+    Argument, Characteristic, LinearForm, Outputs, System, Term, Unknown, UnknownKind,
+};
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use super::{
@@ -76,28 +78,14 @@ pub(super) fn dimensionless(
                 1.0 / power_of_two(size.max(f64::MIN_POSITIVE))
             }
         };
-        if let Some(Law::Force(primitive) | Law::ForceRate(primitive)) = draft.law {
-            let argument = |row: Row| {
+        if let Some(law @ (Law::Force(primitive) | Law::ForceRate(primitive))) = draft.law {
+            let of_rate = matches!(law, Law::ForceRate(_));
+            let least = least_dashpots.get(&primitive).copied().unwrap_or(0.0);
+            let (law, rows) = law_in(expansion, motion, (primitive, of_rate), least);
+            let arguments = rows.map(|row| {
                 let (unknowns, inputs) = scaled(&row, columns, input_columns);
                 Argument { scale: lift.recip(), unknowns, inputs }
-            };
-            let own = &expansion.primitives[primitive];
-            let [_, damping] = own.slopes();
-            let of_rate = matches!(draft.law, Some(Law::ForceRate(_)));
-            let rate = motion.rate.get(primitive).filter(|_| damping > 0.0 || of_rate);
-            let least = least_dashpots.get(&primitive).copied().unwrap_or(0.0);
-            let law = if of_rate {
-                Arc::new(ForceRate::of(expansion, primitive))
-            } else {
-                law_of(own, least)
-            };
-            let arguments = if own.is_reflected() {
-                let sum = rate.map(|rate| motion.force.row(primitive).plus(damping, &rate));
-                [sum.unwrap_or_default(), Row::default()]
-            } else {
-                [motion.deformation.row(primitive), rate.unwrap_or_default()]
-            };
-            let arguments = arguments.map(argument);
+            });
             terms.push(Term { row: at, factor: finite(factor * lift)?, law, arguments });
         }
         for &(column, value) in own.terms() {
@@ -132,6 +120,27 @@ pub(super) fn dimensionless(
         outputs: Outputs::new(),
         time_scale: time,
     })
+}
+
+/// The law of a primitive that is not linear, or of the rate of its force, and what it is a law of.
+fn law_in(
+    expansion: &Expansion,
+    motion: &Motion,
+    (primitive, of_rate): (usize, bool),
+    least: f64,
+) -> (Arc<dyn Characteristic>, [Row; 2]) {
+    let own = &expansion.primitives[primitive];
+    let [_, damping] = own.slopes();
+    let rate = motion.rate.get(primitive).filter(|_| damping > 0.0 || of_rate);
+    let law: Arc<dyn Characteristic> =
+        if of_rate { Arc::new(ForceRate::of(expansion, primitive)) } else { law_of(own, least) };
+    let rows = if own.is_reflected() {
+        let sum = rate.map(|rate| motion.force.row(primitive).plus(damping, &rate));
+        [sum.unwrap_or_default(), Row::default()]
+    } else {
+        [motion.deformation.row(primitive), rate.unwrap_or_default()]
+    };
+    (law, rows)
 }
 
 fn scaled(row: &Row, columns: &[f64], input_columns: &[f64]) -> (LinearForm, LinearForm) {

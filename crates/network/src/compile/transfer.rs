@@ -7,8 +7,8 @@
 use dashpot_dae::{LinearForm, System, UnknownKind};
 
 use super::{
-    Parts,
     bodies::Role,
+    parts::Parts,
     row::{Combination, Row},
     unknowns::Inputs,
 };

@@ -12,12 +12,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     bodies::{Bodies, Groups, Role},
-    structure::Structure,
+    structure::{MOST_RELATIVE, Structure},
 };
 
-/// Deformations instead of positions are unknowns up to this many bodies only, because they make
-/// dense rows.
-pub(super) const MOST_RELATIVE: usize = 100;
 /// Up to this loss the tree of the stiffest springs is taken: four bits.
 const HARMLESS: f64 = 16.0;
 /// Most trees that are tried between the stiffest and the most damped one.

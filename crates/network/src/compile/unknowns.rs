@@ -170,7 +170,7 @@ pub(super) struct Places {
 /// Chooses the unknowns that have a rate.
 ///
 /// Masses have position and velocity, which where dashpots of different strength hold a mass is
-/// counted from another mass ([`speeds`](super::speeds)). So that forces do not come from small differences of large
+/// counted from another mass ([`structure`](super::structure)). So that forces do not come from small differences of large
 /// numbers, deformations along a [`tree`] of springs and dashpots stand for positions in small
 /// networks, each the very deformation of its part, whatever rigid links are held at; massless bodies that dashpots tie to one anchor are else counted from that anchor, and
 /// those of an algebraic cluster from its first body.

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     elements::Spring,
-    network::part,
+    model::part,
     parameters,
     parameters::{Described, Dimension, InvalidParameter},
 };

@@ -6,7 +6,7 @@ use super::CompositeNote;
 use crate::{
     Model,
     elements::{Dashpot, Spring},
-    network::part,
+    model::part,
     parameters::InvalidParameter,
 };
 

@@ -149,7 +149,7 @@ fn group_difference(ours: &[&Term], theirs: &[&Term]) -> f64 {
     let width = ours
         .iter()
         .chain(theirs)
-        .map(|term| (term.at - about).size() + reach(term))
+        .map(|term| (term.at - about).size() + term.reach())
         .fold(0.0, f64::max);
     let scale = width.max(about.re.high().abs()).max(NARROW * about.size());
     let count = ours.iter().chain(theirs).map(|term| term.residues.len()).sum();
@@ -171,12 +171,4 @@ fn group_difference(ours: &[&Term], theirs: &[&Term]) -> f64 {
         unit *= scale;
     }
     relative(largest, change)
-}
-
-/// How far the poles of a group are from their mean, by a bound on the zeros of its polynomial.
-pub(super) fn reach(term: &Term) -> f64 {
-    let order = term.spread.len();
-    let root =
-        |(k, coefficient): (usize, &Complex)| coefficient.size().powf(1.0 / (order - k) as f64);
-    2.0 * term.spread.iter().enumerate().map(root).fold(0.0, f64::max)
 }

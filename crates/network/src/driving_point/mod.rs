@@ -26,7 +26,6 @@ mod massive;
 mod modes;
 mod motions;
 mod receptance;
-mod search;
 mod spectrum;
 mod terms;
 

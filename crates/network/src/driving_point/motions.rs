@@ -3,7 +3,7 @@
 
 use nalgebra_sparse::na::Complex as Double;
 
-use super::{Receptance, comparison::reach, complex::Complex, grouped::Grouped, terms::Term};
+use super::{Receptance, complex::Complex, grouped::Grouped, terms::Term};
 use crate::compile::bodies::Groups;
 
 /// Poles this close, relative, are taken together.
@@ -105,7 +105,7 @@ impl<'a> Bunch<'a> {
         let about = self.terms().next()?.at;
         let order = |side: &Vec<&Term>| side.iter().map(|term| term.residues.len()).sum::<usize>();
         let order = order(&self.sides[0]).max(order(&self.sides[1]));
-        let width = self.terms().map(|term| (term.at - about).size() + reach(term));
+        let width = self.terms().map(|term| (term.at - about).size() + term.reach());
         let width = width.fold(0.0, f64::max);
         let is_single = |side: &Vec<&Term>| side.iter().all(|term| term.residues.len() == 1);
         let is_single =

@@ -33,6 +33,14 @@ const NOTHING: f64 = 1e-22;
 const ROUNDING: f64 = 1e-31;
 
 impl Term {
+    /// How far the poles of a group are from their mean, by a bound on the zeros of its polynomial.
+    pub(super) fn reach(&self) -> f64 {
+        let order = self.spread.len();
+        let root =
+            |(k, coefficient): (usize, &Complex)| coefficient.size().powf(1.0 / (order - k) as f64);
+        2.0 * self.spread.iter().enumerate().map(root).fold(0.0, f64::max)
+    }
+
     /// `strength/(s − p)`.
     pub(super) fn simple(at: Complex, strength: Complex) -> Self {
         Self { at, spread: vec![Complex::zero()], residues: vec![strength], count: 1, error: 0.0 }

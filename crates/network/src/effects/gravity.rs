@@ -5,8 +5,7 @@ use dashpot_units::STANDARD_GRAVITY;
 
 use super::{Effect, EffectKind};
 use crate::{
-    Influence, Network, NodeId, Situation, Start, choices, compile::bodies::start_velocity,
-    parameters,
+    Influence, Network, NodeId, Situation, Start, choices, network::start_velocity, parameters,
 };
 
 parameters! {

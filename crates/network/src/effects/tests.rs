@@ -2,12 +2,13 @@ use std::sync::Arc;
 
 use dashpot_rheology::Tree;
 
-use super::{Effect, EffectKind, Face, Gravity, GravityStart, Separation, Stop, Touch, rewrite};
+use super::{Effect, EffectKind, Face, Gravity, GravityStart, Separation, Stop, Touch};
 use crate::{
     Network, NetworkError, Node, Start,
     elements::{Dashpot, HuntCrossley, HystereticFoam, Rigid, Spring},
     parameters::{Described as _, Kind as _, Value},
     part,
+    rewrite::rewrite,
 };
 
 /// A head on a pad on a sprung panel.

@@ -12,6 +12,7 @@ mod hysteretic_foam;
 mod hysteretic_table;
 mod impact_law;
 mod monotone;
+pub mod phases;
 mod power;
 mod power_dashpot;
 mod power_spring;

@@ -1,9 +1,8 @@
 //! Details that a network can be without.
 
-use super::{Influence, Situation};
 use crate::{
-    Connection, Network, NodeId, Support, effects, elements::Rigid, layers::stiffness::Stiffness,
-    part,
+    Connection, Influence, Network, NodeId, Situation, Support, effects, elements::Rigid,
+    model::stiffness::Stiffness, part,
 };
 
 /// A detail of a network that it can be without: another network that is simpler.

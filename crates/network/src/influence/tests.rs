@@ -2,9 +2,9 @@
 
 use dashpot_rheology::Tree;
 
-use super::{Detail, Situation};
+use super::Detail;
 use crate::{
-    Network, Node, Start,
+    Network, Node, Situation, Start,
     effects::{EffectKind as _, Face, Gravity, GravityStart, Separation, Stop, Touch},
     elements::{Dashpot, Spring},
     layers::{Layer, Layers, Resolution},

@@ -2,8 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::{InvalidParameter, ModelValue, Parameter, Value, WindowWish};
-use crate::Model;
+use super::{InvalidParameter, Parameter, Value, WindowWish};
 
 /// What things of the registers say about themselves where they are stored.
 pub trait Described: Debug + Send + Sync {
@@ -175,18 +174,6 @@ impl Field for String {
 
     fn value(&self) -> Value {
         Value::Word(self.clone())
-    }
-}
-
-impl Field for Model {
-    const EXPECTED: &'static str = "a model";
-
-    fn of(value: &Value) -> Option<Self> {
-        if let Value::Model(ModelValue(model)) = value { Some(model.clone()) } else { None }
-    }
-
-    fn value(&self) -> Value {
-        Value::Model(ModelValue(self.clone()))
     }
 }
 

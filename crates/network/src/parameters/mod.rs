@@ -4,17 +4,14 @@
 mod declaration;
 mod range;
 
-use std::{borrow::Cow, fmt};
+use std::{any::Any, borrow::Cow, fmt, sync::Arc};
 
-use dashpot_rheology::Tree;
 pub use dashpot_units::Dimension;
 use thiserror::Error;
 
 pub use declaration::{Described, Field, Given, Kind, Registered, registered, words};
 pub use range::Range;
 pub(crate) use range::kelvins;
-
-use crate::Model;
 
 /// What a parameter's value is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -126,25 +123,21 @@ pub enum Value {
     LeftOut,
 }
 
-/// A model as the value of a parameter. Two are equal where their trees, the names of branches, and
-/// the kinds and values of elements are.
+/// A value that is not looked into here.
+pub trait Opaque: Any + fmt::Debug + Send + Sync {
+    /// Whether it is the same as another one.
+    fn is_same(&self, other: &dyn Opaque) -> bool;
+}
+
+/// A [model](crate::Model) as the value of a parameter. Two are equal where their trees, the names of
+/// branches, and the kinds and values of elements are.
 #[derive(Debug, Clone)]
-pub struct ModelValue(pub Model);
+pub struct ModelValue(pub(crate) Arc<dyn Opaque>);
 
 impl PartialEq for ModelValue {
     fn eq(&self, other: &Self) -> bool {
-        is_same(&self.0, &other.0)
+        self.0.is_same(&*other.0)
     }
-}
-
-fn is_same(one: &Model, other: &Model) -> bool {
-    if let (Tree::Part(one), Tree::Part(other)) = (one, other) {
-        return one.kind() == other.kind() && one.values() == other.values();
-    }
-    let pairs = || one.branches().iter().zip(other.branches());
-    std::mem::discriminant(one) == std::mem::discriminant(other)
-        && one.branches().len() == other.branches().len()
-        && pairs().all(|(one, other)| one.name == other.name && is_same(&one.tree, &other.tree))
 }
 
 /// The part of a run that a measure looks at.

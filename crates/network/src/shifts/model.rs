@@ -7,7 +7,7 @@ use dashpot_rheology::Tree;
 use crate::{
     Element, Model,
     elements::{Dashpot, Law},
-    network::part,
+    model::part,
     parameters::{InvalidParameter, Range},
     phases::{Phase, PhaseLaw},
 };

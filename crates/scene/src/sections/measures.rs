@@ -156,7 +156,7 @@ fn read_table<'d>(
         kind.parameters.iter().filter(|parameter| !is_model(parameter)).copied().collect();
     let make = |values: &[Value]| {
         let mut values = values.to_vec();
-        values.insert(at, Value::Model(ModelValue(model.clone())));
+        values.insert(at, Value::Model(ModelValue::new(model.clone())));
         (kind.make)(&values)
     };
     reader(reading, &["kind", "model"]).read_as((kind.word, &others), &make, item, place)

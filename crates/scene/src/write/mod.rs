@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use dashpot_network::{
     Effect, Element, Model,
-    parameters::{Dimension, ModelValue, Parameter, ParameterKind, Value, WindowWish},
+    parameters::{Dimension, Parameter, ParameterKind, Value, WindowWish},
 };
 use dashpot_rheology::{Branch, Tree};
 
@@ -227,7 +227,7 @@ fn write_value(value: &Value, dimension: Dimension, beside: Dimension) -> String
         Value::Word(word) => quoted(word),
         Value::Flag => "true".to_owned(),
         Value::LeftOut => String::new(),
-        Value::Model(ModelValue(model)) => write_model(model),
+        Value::Model(value) => value.model().map_or_else(String::new, write_model),
         Value::Window(WindowWish::Impact) => quoted("impact"),
         Value::Window(WindowWish::Run) => quoted("run"),
         Value::Window(WindowWish::Times(from, to)) => format!("[{}, {}]", time(*from), time(*to)),

@@ -329,9 +329,10 @@ fn walk_value(
                 |key: &str, own| visit.quantity(&format!("{name}.{key}"), Dimension::TIME, own);
             Value::Window(WindowWish::Times(time("from", *from), time("to", *to)))
         }
-        (_, Value::Model(ModelValue(model))) => {
-            Value::Model(ModelValue(walk_model(name, model, visit)?))
-        }
+        (_, Value::Model(value)) => match value.model() {
+            Some(model) => Value::Model(ModelValue::new(walk_model(name, model, visit)?)),
+            None => Value::Model(value.clone()),
+        },
         (_, Value::LeftOut) => Value::LeftOut,
         (_, other) => {
             visit.word(name, &word_of(other));

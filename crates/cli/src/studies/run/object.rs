@@ -6,7 +6,7 @@ use dashpot_analysis::{
     Ledger, MeasureReport, Note, Partial, RunReport, SolveSettings, Warning,
     partial::{PutBack, Why},
 };
-use dashpot_network::parameters::{Dimension, ModelValue, Value};
+use dashpot_network::parameters::{Dimension, Value};
 use dashpot_scene::write_model;
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
@@ -181,8 +181,8 @@ impl Serialize for Measure<'_> {
                 Value::Word(word) => map.serialize_entry(name, word)?,
                 Value::Flag => map.serialize_entry(name, &true)?,
                 Value::Table(points) => map.serialize_entry(name, points)?,
-                Value::Model(ModelValue(model)) => {
-                    map.serialize_entry(name, &write_model(model))?;
+                Value::Model(value) => {
+                    map.serialize_entry(name, &value.model().map(write_model))?;
                 }
                 // Its times stand above, as they were resolved.
                 Value::Window(_) | Value::LeftOut => {}

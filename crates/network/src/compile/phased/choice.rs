@@ -43,16 +43,40 @@ fn ways() -> impl Iterator<Item = Way> {
 
 /// What an instant is like before anything changes.
 struct Instant<'a> {
+    /// When it is \[s\].
+    time: f64,
     /// The state, before impacts.
     before: State,
     /// The phases that end.
     phases: &'a [Phase],
+    /// For each part the phases that may follow.
+    options: Vec<Vec<Phase>>,
     /// For each part whether its deformation is at a level.
     touching: Vec<bool>,
+    /// Levels that have been reached.
+    on_level: Vec<(usize, Watched, f64)>,
     /// Parts whose deformation has reached a level \[m\] by the event that ended the interval.
     at_level: Vec<(usize, f64)>,
+    /// Levels that have been reached by what stays in its phase nonetheless.
+    kept: Vec<(usize, Watched, f64)>,
+    /// Whether any phase is left.
+    is_left: bool,
     threshold: f64,
     ways: Vec<Way>,
+}
+
+impl Instant<'_> {
+    /// How closely parts are looked at before any way is taken.
+    fn looks(&self) -> Vec<Admissibility> {
+        let look = |options: &Vec<Phase>| Admissibility {
+            threshold: self.threshold,
+            graze: false,
+            may_change: options.len() > 1,
+            is_smooth: true,
+            pace: None,
+        };
+        self.options.iter().map(look).collect()
+    }
 }
 
 /// Numbers of the searches in whose groups a part does not stay.
@@ -80,43 +104,11 @@ impl PhasedNetwork {
         fired: &[(usize, usize)],
         threshold: f64,
     ) -> Result<(Choice, Vec<Switch>), SolveError> {
-        let kept = self.kept(state, time, phases, fired, threshold);
-        let left: Vec<(usize, usize)> =
-            fired.iter().copied().filter(|own| !kept.contains(own)).collect();
-        let touching = self.touching(state, phases, &left);
-        let options: Vec<Vec<Phase>> = (0..self.parts.len())
-            .map(|part| self.options(part, state, phases[part], &left, touching[part]))
-            .collect();
-        let exits_of = |own: &[(usize, usize)]| -> Vec<(usize, Exit)> {
-            let exit = |&(part, exit): &(usize, usize)| {
-                let own = self.phases_of(self.parts[part])?;
-                Some((part, *own.exits(phases[part]).get(exit)?))
-            };
-            own.iter().filter_map(exit).collect()
-        };
-        let levels_of = |own: &[(usize, Exit)]| -> Vec<(usize, Watched, f64)> {
-            own.iter().map(|(part, exit)| (*part, exit.watched, exit.level)).collect()
-        };
-        let reached = exits_of(fired);
-        let (on_level, kept) = (levels_of(&reached), levels_of(&exits_of(&kept)));
-        let at_level: Vec<(usize, f64)> = reached
-            .iter()
-            .filter(|(_, exit)| exit.watched == Watched::Deformation)
-            .map(|(part, exit)| (*part, exit.level))
-            .collect();
-        let look = |options: &Vec<Phase>| Admissibility {
-            threshold,
-            graze: false,
-            may_change: options.len() > 1,
-            is_smooth: true,
-            pace: None,
-        };
-        let mut looks: Vec<Admissibility> = options.iter().map(look).collect();
-        let before = state.clone();
-        let instant =
-            Instant { before, phases, touching, at_level, threshold, ways: ways().collect() };
-        let groups = self.groups(&options).into_iter();
-        let mut searches: Vec<Search> = groups.map(|group| Search::new(group, &options)).collect();
+        let instant = self.instant(state, time, phases, fired, threshold);
+        let groups = self.groups(&instant.options).into_iter();
+        let mut searches: Vec<Search> =
+            groups.map(|group| Search::new(group, &instant.options)).collect();
+        let mut looks = instant.looks();
         for search in &mut searches {
             self.look(search, &instant, state, &mut looks);
         }
@@ -124,23 +116,9 @@ impl PhasedNetwork {
         let (mut refusal, mut spare) = (None, None);
         loop {
             searches.iter().for_each(|search| search.enter(&mut tried));
-            let size = (length, self.own_speed(state));
-            let all = searches.iter().flat_map(|search| &search.impacts);
-            let parted = all.filter(|own| own.pace.is_some()).map(|own| (own.part, own.sides));
-            let parted: Vec<(usize, [usize; 2])> = parted.collect();
-            let judge = Judge {
-                time,
-                state,
-                before: phases,
-                on_level: &on_level,
-                at_level: &instant.at_level,
-                kept: &kept,
-                looks: &looks,
-                parted: &parted,
-                size,
-            };
+            let verdict = self.verdict(&tried, state, &instant, (&searches, &looks, length));
             let mut faults = Vec::new();
-            let failing: Vec<usize> = match self.judge(&tried, &judge) {
+            let failing: Vec<usize> = match verdict {
                 Verdict::Holds(choice, doubtful) => {
                     let impacts: Vec<_> =
                         searches.iter().flat_map(|search| search.impacts.clone()).collect();
@@ -169,7 +147,7 @@ impl PhasedNetwork {
                 if let Some((choice, switches, own)) = spare {
                     // What only seems to stay, because where it goes there is no system, would be met
                     // again and again.
-                    if switches.is_empty() && !left.is_empty() && refusal.is_some() {
+                    if switches.is_empty() && instant.is_left && refusal.is_some() {
                         return Err(self.stuck(time, search, refusal));
                     }
                     state.clone_from(&own);
@@ -183,6 +161,74 @@ impl PhasedNetwork {
                 self.look(search, &instant, state, &mut looks);
             }
         }
+    }
+
+    /// What is known of the instant at which the exits `fired` were reached.
+    fn instant<'a>(
+        &self,
+        state: &State,
+        time: f64,
+        phases: &'a [Phase],
+        fired: &[(usize, usize)],
+        threshold: f64,
+    ) -> Instant<'a> {
+        let kept = self.kept(state, time, phases, fired, threshold);
+        let left: Vec<(usize, usize)> =
+            fired.iter().copied().filter(|exit| !kept.contains(exit)).collect();
+        let touching = self.touching(state, phases, &left);
+        let options = (0..self.parts.len())
+            .map(|part| self.options(part, state, phases[part], &left, touching[part]))
+            .collect();
+        let exits_of = |all: &[(usize, usize)]| -> Vec<(usize, Exit)> {
+            let exit = |&(part, exit): &(usize, usize)| {
+                let own = self.phases_of(self.parts[part])?;
+                Some((part, *own.exits(phases[part]).get(exit)?))
+            };
+            all.iter().filter_map(exit).collect()
+        };
+        let levels_of = |all: &[(usize, Exit)]| -> Vec<(usize, Watched, f64)> {
+            all.iter().map(|(part, exit)| (*part, exit.watched, exit.level)).collect()
+        };
+        let reached = exits_of(fired);
+        let deformations = reached.iter().filter(|own| own.1.watched == Watched::Deformation);
+        Instant {
+            time,
+            before: state.clone(),
+            phases,
+            options,
+            touching,
+            on_level: levels_of(&reached),
+            at_level: deformations.map(|(part, exit)| (*part, exit.level)).collect(),
+            kept: levels_of(&exits_of(&kept)),
+            is_left: !left.is_empty(),
+            threshold,
+            ways: ways().collect(),
+        }
+    }
+
+    /// Whether the phases that are tried hold, after the impacts of all groups.
+    fn verdict(
+        &self,
+        tried: &[Phase],
+        state: &State,
+        instant: &Instant<'_>,
+        (searches, looks, length): (&[Search], &[Admissibility], f64),
+    ) -> Verdict {
+        let impacts = searches.iter().flat_map(|search| &search.impacts);
+        let parted = impacts.filter(|impact| impact.pace.is_some());
+        let parted: Vec<_> = parted.map(|impact| (impact.part, impact.sides)).collect();
+        let judge = Judge {
+            time: instant.time,
+            state,
+            before: instant.phases,
+            on_level: &instant.on_level,
+            at_level: &instant.at_level,
+            kept: &instant.kept,
+            looks,
+            parted: &parted,
+            size: (length, self.own_speed(state)),
+        };
+        self.judge(tried, &judge)
     }
 
     /// Applies the impacts of a group, and says how closely its parts are looked at.
@@ -300,7 +346,7 @@ impl PhasedNetwork {
             .network
             .nodes
             .iter()
-            .map(|node| super::super::bodies::start_velocity(&self.network, node.start).abs());
+            .map(|node| crate::network::start_velocity(&self.network, node.start).abs());
         let now = state.velocity.iter().map(|own| own.abs());
         starts.chain(now).filter(|start| start.is_finite()).fold(0.0, f64::max)
     }

@@ -2,11 +2,11 @@
 
 use std::collections::HashSet;
 
-use super::{super::bodies::Groups, PhasedNetwork, is_contact};
-use crate::{
-    Assembly,
-    phases::{Phase, PhaseLaw},
+use super::{
+    super::{assemble::Compiled, bodies::Groups},
+    PhasedNetwork, is_contact,
 };
+use crate::phases::{Phase, PhaseLaw};
 
 /// A contact with a massless side.
 struct Face {
@@ -21,7 +21,7 @@ impl PhasedNetwork {
     /// Numbers the bodies as if every contact with a massless side were closed, so that what is
     /// struck through one belongs to the body that strikes, whichever phase the run begins in. A massless
     /// side of several belongs to one body only.
-    pub(super) fn join_bodies(&self, assembly: &mut Assembly) {
+    pub(super) fn join_bodies(&self, compiled: &mut Compiled) {
         let mut groups = Groups::new(self.apart.all.len());
         let mut has_joined = vec![false; self.apart.all.len()];
         for Face { ends, .. } in self.faces() {
@@ -31,10 +31,10 @@ impl PhasedNetwork {
                 massless().for_each(|end| has_joined[end] = true);
             }
         }
-        for (at, node) in assembly.nodes.iter_mut().enumerate() {
+        for (at, node) in compiled.nodes.iter_mut().enumerate() {
             node.body = groups.of(self.apart.of_joint[at]);
         }
-        for connection in &mut assembly.connections {
+        for connection in &mut compiled.connections {
             let [a, b] = connection.between.map(|id| groups.of(self.apart.of_joint[id.index()]));
             connection.is_rigid = a == b;
         }

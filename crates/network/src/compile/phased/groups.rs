@@ -2,11 +2,12 @@
 
 use super::{
     super::{
-        bodies::{Groups, Role, start_velocity},
+        bodies::{Groups, Role},
         transfer::State,
     },
     PhasedNetwork,
 };
+use crate::network::start_velocity;
 use crate::phases::{Phase, PhaseLaw};
 
 /// Parts whose phases bear on one another at an instant, and the bodies that can pass that on. What

@@ -32,13 +32,13 @@ use dashpot_dae::{
 pub use self::idle::IdleSlider;
 use self::judge::Choice;
 use super::{
-    Compiled,
+    assemble::{Compiled, assemble},
     bodies::{Bodies, Role},
     expand::Expansion,
     transfer::{State, Transfer},
 };
 use crate::{
-    Assembly, Network, NetworkError, NetworkErrors, Support,
+    Network, NetworkError, NetworkErrors, Support,
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
@@ -89,7 +89,7 @@ pub(super) fn compile(
     expansion: Expansion,
     parts: Vec<usize>,
     duration: f64,
-) -> Result<Assembly, NetworkErrors> {
+) -> Result<(Compiled, PhasedNetwork), NetworkErrors> {
     let apart = start::bodies_apart(&network, &expansion, &parts, duration).map_err(loose)?;
     jumps::through_contacts(&network, &expansion, (&parts, &apart), duration)?;
     let (start, first) = start::state(&network, &expansion, &parts, &apart, duration)?;
@@ -104,18 +104,17 @@ pub(super) fn compile(
         speed: 0.0,
         modes: Mutex::default(),
     };
-    let Compiled { mut assembly, .. } = phased.compiled(&phased.first)?;
-    let speeds = assembly.nodes.iter().filter_map(|node| node.velocity);
-    let speeds = speeds.map(|at| assembly.system.outputs.at(at).scale.abs());
+    let mut compiled = phased.compiled(&phased.first)?;
+    let speeds = compiled.nodes.iter().filter_map(|node| node.velocity);
+    let speeds = speeds.map(|at| compiled.system.outputs.at(at).scale.abs());
     phased.speed = speeds.fold(0.0, f64::max);
-    for (at, node) in assembly.nodes.iter_mut().enumerate() {
+    for (at, node) in compiled.nodes.iter_mut().enumerate() {
         let body = &phased.apart.all[phased.apart.of_joint[at]];
         node.fall = start::time_of_fall(&phased.network, &phased.expansion, body);
     }
-    phased.join_bodies(&mut assembly);
+    phased.join_bodies(&mut compiled);
     phased.modes = Mutex::default();
-    assembly.switching = Some(Arc::new(phased));
-    Ok(assembly)
+    Ok((compiled, phased))
 }
 
 /// The same errors, with the reason why something is undetermined.
@@ -163,7 +162,7 @@ impl PhasedNetwork {
 
     fn compiled(&self, phases: &[Phase]) -> Result<Compiled, NetworkErrors> {
         let expansion = self.expansion.in_phases(&self.parts, phases);
-        self.network.assemble(&expansion, self.duration)
+        assemble(&self.network, &expansion, self.duration)
     }
 
     /// The mode of these phases; compiled when it is first asked for.
@@ -186,7 +185,7 @@ impl PhasedNetwork {
     }
 
     fn build(&self, phases: &[Phase]) -> Result<Mode, NetworkErrors> {
-        let Compiled { assembly, transfer, kinks } = self.compiled(phases)?;
+        let Compiled { system, primitives, transfer, kinks, .. } = self.compiled(phases)?;
         let (mut guards, mut of_guard) = (Vec::new(), Vec::new());
         let exits: Vec<Vec<Exit>> = self
             .parts
@@ -196,9 +195,7 @@ impl PhasedNetwork {
             .collect();
         for (part, exits) in exits.iter().enumerate() {
             let name = &self.expansion.primitives[self.parts[part]].name;
-            let Some(outputs) =
-                assembly.primitives.iter().find(|primitive| primitive.name == *name)
-            else {
+            let Some(outputs) = primitives.iter().find(|primitive| primitive.name == *name) else {
                 continue;
             };
             for (at, exit) in exits.iter().enumerate() {
@@ -221,7 +218,7 @@ impl PhasedNetwork {
             }
         }
         let transfer = transfer.unwrap_or_default();
-        Ok(Mode { system: Arc::new(assembly.system), transfer, exits, guards, of_guard, kinks })
+        Ok(Mode { system: Arc::new(system), transfer, exits, guards, of_guard, kinks })
     }
 
     /// The interval that begins at `time` with these phases.

@@ -2,7 +2,7 @@
 
 use super::{
     super::{
-        bodies::{Bodies, Body, Groups, Role, start_velocity},
+        bodies::{Bodies, Body, Groups, Role},
         expand::Expansion,
         structure::Structure,
         transfer::State,
@@ -13,6 +13,7 @@ use super::{
 };
 use crate::{
     Network, NetworkError, NetworkErrors, Start, Support,
+    network::start_velocity,
     phases::{Phase, PhaseLaw, Phases},
 };
 
@@ -131,6 +132,52 @@ pub(super) fn state(
     apart: &Bodies,
     duration: f64,
 ) -> Result<(State, Vec<Phase>), NetworkErrors> {
+    let (mut position, velocity) = given(network, expansion, apart);
+    let deformations = |position: &[f64]| -> Vec<f64> {
+        let ends = expansion.primitives.iter().map(|primitive| primitive.ends);
+        ends.map(|[a, b]| position[a] - position[b]).collect()
+    };
+    let mut deformation = deformations(&position);
+    let phases = |deformation: &[f64]| -> Result<Vec<Phase>, NetworkErrors> {
+        let first = |&at: &usize| match expansion.primitives[at].origin.phases() {
+            Some(own) => own.first(deformation[at]),
+            None => Phase { index: 0, memory: 0.0 },
+        };
+        let mut first: Vec<Phase> = parts.iter().map(first).collect();
+        slip(network, expansion, parts, apart, &mut first)?;
+        Ok(first)
+    };
+    let mut first = phases(&deformation)?;
+    if let Some(own) = Settling::of(network, expansion, (parts, apart), duration, &position) {
+        let settled = own.settled(&first)?;
+        position = settled.position;
+        first = settled.phases;
+        deformation = deformations(&position);
+    }
+    if network.effects.iter().any(|effect| effect.starts_in_balance()) {
+        let loads = Loads { network, expansion, parts, apart, duration };
+        let unloaded = position.clone();
+        for _ in 0..=parts.len() {
+            position = loads.balanced(&first, &unloaded, &velocity)?;
+            deformation = deformations(&position);
+            if !close(expansion, parts, &mut first, &phases(&deformation)?) {
+                break;
+            }
+            slip(network, expansion, parts, apart, &mut first)?;
+        }
+        let remembered = phases(&deformation)?;
+        for (own, remembered) in first.iter_mut().zip(remembered) {
+            if own.index == remembered.index {
+                own.memory = remembered.memory;
+            }
+        }
+    }
+    overlaps(network, expansion, parts, apart, &deformation)?;
+    Ok((State { deformation, position, velocity }, first))
+}
+
+/// The places and velocities with which joints begin, by what is given and where they fall from.
+fn given(network: &Network, expansion: &Expansion, apart: &Bodies) -> (Vec<f64>, Vec<f64>) {
     let mut position = vec![0.0; expansion.joints];
     let mut velocity = vec![0.0; expansion.joints];
     for (at, node) in network.nodes.iter().enumerate() {
@@ -160,59 +207,20 @@ pub(super) fn state(
             }
         }
     }
-    let deformations = |position: &[f64]| -> Vec<f64> {
-        let ends = expansion.primitives.iter().map(|primitive| primitive.ends);
-        ends.map(|[a, b]| position[a] - position[b]).collect()
-    };
-    let mut deformation = deformations(&position);
-    let phases = |deformation: &[f64]| -> Result<Vec<Phase>, NetworkErrors> {
-        let first = |&at: &usize| match expansion.primitives[at].origin.phases() {
-            Some(own) => own.first(deformation[at]),
-            None => Phase { index: 0, memory: 0.0 },
-        };
-        let mut first: Vec<Phase> = parts.iter().map(first).collect();
-        slip(network, expansion, parts, apart, &mut first)?;
-        Ok(first)
-    };
-    let mut first = phases(&deformation)?;
-    if let Some(own) = Settling::of(network, expansion, (parts, apart), duration, &position) {
-        let settled = own.settled(&first)?;
-        position = settled.position;
-        first = settled.phases;
-        deformation = deformations(&position);
-    }
-    if network.effects.iter().any(|effect| effect.starts_in_balance()) {
-        let loads = Loads { network, expansion, parts, apart, duration };
-        let unloaded = position.clone();
-        for _ in 0..=parts.len() {
-            position = loads.balanced(&first, &unloaded, &velocity)?;
-            deformation = deformations(&position);
-            let reached = phases(&deformation)?;
-            let mut changed = false;
-            for (at, (own, reached)) in first.iter_mut().zip(&reached).enumerate() {
-                let holds = expansion.primitives[parts[at]]
-                    .origin
-                    .phases()
-                    .is_some_and(|phases| is_contact(phases) && own.index < reached.index);
-                if holds {
-                    *own = *reached;
-                    changed = true;
-                }
-            }
-            if !changed {
-                break;
-            }
-            slip(network, expansion, parts, apart, &mut first)?;
-        }
-        let remembered = phases(&deformation)?;
-        for (own, remembered) in first.iter_mut().zip(remembered) {
-            if own.index == remembered.index {
-                own.memory = remembered.memory;
-            }
+    (position, velocity)
+}
+
+/// Closes the contacts that balance brings together; whether there are any.
+fn close(expansion: &Expansion, parts: &[usize], phases: &mut [Phase], reached: &[Phase]) -> bool {
+    let mut changed = false;
+    for (at, (phase, reached)) in phases.iter_mut().zip(reached).enumerate() {
+        let own = expansion.primitives[parts[at]].origin.phases();
+        if own.is_some_and(|own| is_contact(own) && phase.index < reached.index) {
+            *phase = *reached;
+            changed = true;
         }
     }
-    overlaps(network, expansion, parts, apart, &deformation)?;
-    Ok((State { deformation, position, velocity }, first))
+    changed
 }
 
 /// Refuses contacts whose sides overlap at the start because a motion begins within what it meets.

@@ -2,11 +2,8 @@
 
 use dashpot_numerics::{quadrature::integral, roots::bisect};
 
-use crate::{
-    Model,
-    elements::{Element, Law},
-    phases::PhaseLaw,
-};
+use super::Model;
+use crate::elements::{Element, Law, phases::PhaseLaw};
 
 /// Doublings and halvings of the search: from far below to the last digits that matter.
 const DOUBLINGS: usize = 200;
@@ -16,7 +13,7 @@ const FIRST: f64 = 1e-6;
 
 /// The depth \[m\] at which a model has taken up `energy` \[J\] when it is pressed slowly. `None`
 /// where it is linear, or is no spring-like parts side by side, so that its stiffness has to tell.
-pub(super) fn at_energy(model: &Model, energy: f64) -> Option<f64> {
+pub(crate) fn at_energy(model: &Model, energy: f64) -> Option<f64> {
     let parts = side_by_side(model)?;
     let force = |at: f64| parts.iter().map(|part| part.force(at, 0.0)).sum::<f64>();
     let taken = |depth: f64| integral(force, 0.0, depth);

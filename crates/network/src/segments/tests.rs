@@ -4,15 +4,15 @@ use dashpot_dae::{Piece, Run, Silent, Waveform, methods};
 use dashpot_rheology::Tree;
 
 use super::{
-    Layer, Layers, MOST_SEGMENTS, Resolution,
     resolve::{Cut, cut, resolve},
     slice::slice,
-    stiffness::Stiffness,
 };
 use crate::{
     Model, Network, NetworkError, Node,
     elements::{Dashpot, Foam, Spring},
+    layers::{Layer, Layers, MOST_SEGMENTS, Resolution},
     linear_model,
+    model::stiffness::Stiffness,
     parameters::Kind as _,
     part,
 };

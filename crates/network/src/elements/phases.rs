@@ -7,7 +7,7 @@
 
 use std::{fmt::Debug, sync::Arc};
 
-use crate::elements::Element;
+use super::Element;
 
 /// One phase of an element, with what it remembers.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,10 @@
 //! The same pads in other segments, to tell what the number of segments makes of a result.
 
-use super::{MOST_SEGMENTS, Resolution, struck_mass};
-use crate::Network;
+use super::struck_mass;
+use crate::{
+    layers::{MOST_SEGMENTS, Resolution},
+    network::Network,
+};
 
 /// A network whose pads of layers are cut into other numbers of segments.
 #[derive(Debug, Clone)]

@@ -1,24 +1,22 @@
 //! Networks: nodes, elements between them, loads and effects.
 
+mod effect;
+mod situation;
+
 use std::sync::Arc;
 
 use dashpot_dae::Waveform;
-use dashpot_rheology::Tree;
+use dashpot_units::STANDARD_GRAVITY;
 
-use crate::{
-    PadOutputs,
-    effects::Effect,
-    elements::Element,
-    layers::{Layers, Piece},
+pub(crate) use self::situation::frequency;
+pub use self::{
+    effect::{Effect, Influence},
+    situation::{ImpactScales, Situation},
 };
-
-/// A two-terminal model composed of elements.
-pub type Model = Tree<Arc<dyn Element>>;
-
-/// The model that is one element.
-pub fn part(element: impl Element + 'static) -> Model {
-    Tree::Part(Arc::new(element))
-}
+use crate::{
+    layers::{Layers, Piece},
+    model::Model,
+};
 
 /// A node of one network.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -178,6 +176,32 @@ pub struct Load {
     pub node: NodeId,
     /// The force \[N\] as a function of time \[s\], positive towards the support.
     pub force: Waveform,
+}
+
+/// What effects have put at an element.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PadOutputs {
+    /// The element, in [`Assembly::connections`](crate::Assembly::connections).
+    pub element: usize,
+    /// The node in [`Assembly::nodes`](crate::Assembly::nodes) that is an end of the element in place of that which it lies
+    /// at, where it has such a face.
+    pub face: Option<usize>,
+    /// The connection between the face and that node: a contact, or a rigid link.
+    pub contact: Option<usize>,
+    /// The connection beside the element that is its stop.
+    pub stop: Option<usize>,
+}
+
+/// Start velocity \[m/s\] of a node under the network's gravity.
+pub(crate) fn start_velocity(network: &Network, start: Start) -> f64 {
+    match start {
+        Start::Rest => 0.0,
+        Start::Velocity(velocity) => velocity,
+        Start::Drop(height) => {
+            let gravity = network.effects.iter().find_map(|effect| effect.gravity());
+            (2.0 * gravity.unwrap_or(STANDARD_GRAVITY).abs() * height).sqrt()
+        }
+    }
 }
 
 /// Nodes, elements between them, loads and effects.

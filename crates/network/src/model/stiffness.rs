@@ -1,6 +1,7 @@
 //! Stiffness of a model in steady vibration.
 
-use crate::{Element, Model, elements::Law, phases::PhaseLaw};
+use super::Model;
+use crate::elements::{Element, Law, phases::PhaseLaw};
 
 /// Complex stiffness `K* = K′ + i K″` \[N/m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,7 +57,7 @@ impl Stiffness {
     }
 
     /// Loss angle `δ` \[rad\], from 0 to π/2.
-    pub(super) fn angle(self) -> f64 {
+    pub(crate) fn angle(self) -> f64 {
         if self.loss == 0.0 { 0.0 } else { self.loss.atan2(self.storage) }
     }
 
@@ -77,7 +78,7 @@ impl Stiffness {
     }
 
     /// That of several in series.
-    pub(super) fn in_series(parts: &[Self]) -> Self {
+    pub(crate) fn in_series(parts: &[Self]) -> Self {
         parts.iter().map(|part| part.inverse()).fold(Self::NONE, Self::plus).inverse()
     }
 }

@@ -6,10 +6,13 @@
 //! from face to face, a body of start speed `v` meets `2 n c v` at once, and without segments a force
 //! without limit.
 
-use super::{Layer, Layers, MOST_SEGMENTS, Recut, Resolution, stiffness::Stiffness};
+use super::Recut;
 use crate::{
-    Connection, Front, Network, NetworkWarning, NodeId, compile::bodies::start_velocity,
+    Connection, Front, Network, NetworkWarning, NodeId,
     effects::Face,
+    layers::{Layer, Layers, MOST_SEGMENTS, Resolution},
+    model::stiffness::Stiffness,
+    network::start_velocity,
 };
 
 /// Largest excess of the force on a face over that of a step, `∫₀^2.405 J₀ − 1`.

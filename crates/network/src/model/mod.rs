@@ -1,14 +1,64 @@
-//! Models as linear models, and back.
+//! Two-terminal models made of elements, also as linear models and as values of parameters.
 
-use std::sync::Arc;
+pub(crate) mod depth;
+pub(crate) mod stiffness;
+
+use std::{any::Any, sync::Arc};
 
 use dashpot_rheology::{LinearModel, Primitive, Tree};
 
 use crate::{
-    Element, Model,
-    elements::{Dashpot, Law, Rigid, Spring},
-    part,
+    elements::{Dashpot, Element, Law, Rigid, Spring},
+    parameters::{Field, ModelValue, Opaque, Value},
 };
+
+/// A two-terminal model composed of elements.
+pub type Model = Tree<Arc<dyn Element>>;
+
+/// The model that is one element.
+pub fn part(element: impl Element + 'static) -> Model {
+    Tree::Part(Arc::new(element))
+}
+
+impl Opaque for Model {
+    fn is_same(&self, other: &dyn Opaque) -> bool {
+        (other as &dyn Any).downcast_ref().is_some_and(|other| is_same(self, other))
+    }
+}
+
+fn is_same(one: &Model, other: &Model) -> bool {
+    if let (Tree::Part(one), Tree::Part(other)) = (one, other) {
+        return one.kind() == other.kind() && one.values() == other.values();
+    }
+    let pairs = || one.branches().iter().zip(other.branches());
+    std::mem::discriminant(one) == std::mem::discriminant(other)
+        && one.branches().len() == other.branches().len()
+        && pairs().all(|(one, other)| one.name == other.name && is_same(&one.tree, &other.tree))
+}
+
+impl ModelValue {
+    /// A model as a value.
+    pub fn new(model: Model) -> Self {
+        Self(Arc::new(model))
+    }
+
+    /// The model.
+    pub fn model(&self) -> Option<&Model> {
+        (&*self.0 as &dyn Any).downcast_ref()
+    }
+}
+
+impl Field for Model {
+    const EXPECTED: &'static str = "a model";
+
+    fn of(value: &Value) -> Option<Self> {
+        if let Value::Model(value) = value { value.model().cloned() } else { None }
+    }
+
+    fn value(&self) -> Value {
+        Value::Model(ModelValue::new(self.clone()))
+    }
+}
 
 /// What a model is, seen from outside: all its material functions and canonical forms.
 ///

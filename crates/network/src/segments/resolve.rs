@@ -2,8 +2,13 @@
 
 use dashpot_rheology::{Branch, Tree};
 
-use super::{Layer, Layers, Piece, slice::slice, struck_mass};
-use crate::{Model, Network, NetworkError, Node, NodeId, Subject};
+use super::{slice::slice, struck_mass};
+use crate::{
+    error::{NetworkError, Subject},
+    layers::{Layer, Layers, Piece},
+    model::Model,
+    network::{Network, Node, NodeId},
+};
 
 /// Puts the masses of all layers into the network.
 ///
