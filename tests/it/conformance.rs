@@ -6,7 +6,7 @@ use dashpot::{
         measures::{Family, MEASURES, PeakStrain, PeakStress},
         solve,
     },
-    dae::{Run, Silent, methods::METHODS, problems},
+    dae::{Silent, methods::METHODS},
     network::{
         Model, Network, Node,
         composites::COMPOSITES,
@@ -306,43 +306,12 @@ fn measures_read_the_reference_impact() {
 }
 
 #[test]
-fn methods_converge_on_every_problem_that_they_claim() {
+fn methods_say_what_they_are() {
     assert!(METHODS.len() >= 6);
     for kind in METHODS {
         let method = (kind.make)();
         assert_eq!(method.name(), kind.name);
         describes(kind.name, method.summary(), &[]);
-        let mut solved = 0;
-        for problem in problems::all() {
-            let run = Run::to(problem.t_end);
-            if method.applies(&problem.system, &run).is_err() {
-                assert!(method.integrate(&problem.system, &run, &mut Silent).is_err());
-                continue;
-            }
-            if problem.stiff && kind.name == "tsit45" {
-                continue;
-            }
-            let end = problem.t_end / problem.system.time_scale;
-            let error = |rtol: f64| {
-                let trajectory = method
-                    .integrate(&problem.system, &run.clone().with_rtol(rtol), &mut Silent)
-                    .unwrap();
-                let found = trajectory.dense.sample(&problem.system, &[end]);
-                let truth = problem.exact(problem.t_end);
-                found.iter().zip(&truth).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-            };
-            let [coarse, fine] = [1e-4, 1e-8].map(error);
-            // Every method converges: four decades of tolerance gain two of error at least, down to
-            // the rounding of the problem.
-            assert!(
-                fine <= (1e-2 * coarse).max(1e-9),
-                "{} on {}: {coarse:e}, {fine:e}",
-                kind.name,
-                problem.name
-            );
-            solved += 1;
-        }
-        assert!(solved >= 5, "{} solves only {solved} problems", kind.name);
     }
 }
 

@@ -6,8 +6,6 @@
 //! integrals are those of the continuous solution, not of samples.
 
 mod budget;
-mod derivatives;
-mod digest;
 mod error;
 pub mod events;
 mod exact;
@@ -15,28 +13,28 @@ pub mod frequency;
 pub mod methods;
 mod outputs;
 mod pieces;
-pub mod problems;
 mod run;
 mod signal;
 pub mod switching;
 mod system;
-mod term;
 mod trajectory;
 mod waveform;
 
 pub use budget::Budget;
 pub use dashpot_numerics::{FormRef, LinearForm};
-pub use derivatives::Derivatives;
-pub use digest::{Digest, Jump, Product};
 pub use error::SolveError;
 pub use events::{Direction, Event, Guard};
 pub use exact::Shared;
 pub use methods::{Method, MethodKind, derivatives};
 pub use outputs::{Output, Outputs};
-pub use run::{Keep, Observer, Part, Progress, Run, Silent};
+pub use run::{Digest, Jump, Keep, Observer, Part, Product, Progress, Run, Silent};
 pub use signal::{Crossing, Extremum, Panel, Signal};
 pub use switching::{IntervalEnd, ModeInterval, PredictedEvent, Switching};
-pub use system::{Input, Linear, System, Unknown, UnknownKind};
-pub use term::{Argument, Characteristic, Term};
+pub use system::{
+    Argument, Characteristic, Derivatives, Input, Linear, System, Term, Unknown, UnknownKind,
+};
 pub use trajectory::{Dense, Outcome, Statistics, Switch, Trajectory};
 pub use waveform::{Given, Piece, Waveform};
+
+#[cfg(test)]
+mod tests;

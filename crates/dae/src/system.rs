@@ -1,8 +1,10 @@
 //! The narrow waist's input.
 
+use std::{fmt::Debug, sync::Arc};
+
 use nalgebra_sparse::CsrMatrix;
 
-use crate::{Outputs, Term, Waveform};
+use crate::{LinearForm, Output, Outputs, Waveform};
 
 /// How an unknown enters the system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +45,36 @@ pub struct Input {
 /// Everything is dimensionless: time in units of [`time_scale`](Self::time_scale), unknowns in
 /// units of their own [`scale`](Unknown::scale). It is semi-explicit and of index 1: the block of
 /// `J` that belongs to the algebraic unknowns is regular.
+///
+/// # Examples
+///
+/// `x″ + 0.2 x′ + x = 0`, `x(0) = 1`, `x′(0) = 0.5`:
+///
+/// ```
+/// use dashpot_dae::{Outputs, System, Unknown, UnknownKind, derivatives};
+/// use nalgebra_sparse::{CooMatrix, CsrMatrix};
+///
+/// let unknown = |name: &str, unit| {
+///     Unknown { name: name.to_owned(), kind: UnknownKind::Differential, scale: 1.0, unit }
+/// };
+/// let (rows, columns, values) = (vec![0, 1, 1], vec![1, 0, 1], vec![1.0, -1.0, -0.2]);
+/// let jacobian = CooMatrix::try_from_triplets(2, 2, rows, columns, values)?;
+/// let system = System {
+///     unknowns: vec![unknown("position", "m"), unknown("velocity", "m/s")],
+///     jacobian: CsrMatrix::from(&jacobian),
+///     input_matrix: CsrMatrix::zeros(2, 0),
+///     inputs: vec![],
+///     waveforms: vec![],
+///     terms: vec![],
+///     initial: vec![1.0, 0.5],
+///     outputs: Outputs::new(),
+///     time_scale: 1.0,
+/// };
+/// let found = derivatives(&system, &system.initial, 2)?;
+/// assert_eq!(found.values[1][0], 0.5);
+/// assert!((found.values[2][0] + 1.1).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct System {
     /// The unknowns, in the order of the rows of `J`.
@@ -176,5 +208,102 @@ impl System {
             *value =
                 self.waveforms[input.waveform].piece_at(piece_time).derivative(input.derivative, t);
         }
+    }
+}
+
+/// A scalar law of two quantities, for instance a force of a deformation and its rate; SI units.
+///
+/// It must be continuous, and its slopes must be those of the value.
+pub trait Characteristic: Debug + Send + Sync {
+    /// The value at `arguments`.
+    fn value(&self, arguments: [f64; 2]) -> f64;
+
+    /// The partial derivatives of [`value`](Self::value) at `arguments`.
+    fn slopes(&self, arguments: [f64; 2]) -> [f64; 2];
+}
+
+/// A quantity in SI units that a [`Term`] depends on: `scale · (unknowns·y + inputs·w)`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Argument {
+    /// SI value of the dimensionless value 1.
+    pub scale: f64,
+    /// Coefficients over the unknowns.
+    pub unknowns: LinearForm,
+    /// Coefficients over the inputs.
+    pub inputs: LinearForm,
+}
+
+impl Argument {
+    /// Its value \[SI\] where the unknowns are `y` and the inputs `w`.
+    pub fn at(&self, y: &[f64], w: &[f64]) -> f64 {
+        self.scale * (self.unknowns.at(y) + self.inputs.at(w))
+    }
+}
+
+/// A term `factor · law(arguments)` in the row of an algebraic unknown.
+#[derive(Debug, Clone)]
+pub struct Term {
+    /// The row to which it belongs, that of an algebraic unknown.
+    pub row: usize,
+    /// Value of the row's unit of the law's SI unit.
+    pub factor: f64,
+    /// The law.
+    pub law: Arc<dyn Characteristic>,
+    /// What it depends on.
+    pub arguments: [Argument; 2],
+}
+
+impl Term {
+    /// What it adds to its row.
+    pub fn value(&self, y: &[f64], w: &[f64]) -> f64 {
+        self.factor * self.law.value(self.arguments.each_ref().map(|own| own.at(y, w)))
+    }
+
+    /// The slopes of [`value`](Self::value) over both arguments, in SI units of these.
+    pub fn slopes(&self, y: &[f64], w: &[f64]) -> [f64; 2] {
+        self.law.slopes(self.arguments.each_ref().map(|own| own.at(y, w))).map(|s| self.factor * s)
+    }
+
+    /// The unknowns that it depends on, in rising order.
+    pub fn columns(&self) -> Vec<usize> {
+        let mut columns: Vec<usize> = self
+            .arguments
+            .iter()
+            .flat_map(|argument| argument.unknowns.terms().iter().map(|term| term.0))
+            .collect();
+        columns.sort_unstable();
+        columns.dedup();
+        columns
+    }
+}
+
+/// The time derivatives of all unknowns and inputs of a [`System`](crate::System) at `t = 0`, with respect to
+/// dimensionless time; the first index is the order, from 0 on.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Derivatives {
+    /// `values[k][i]`: the `k`-th derivative of unknown `i`, dimensionless.
+    pub values: Vec<Vec<f64>>,
+    /// The same recursion on absolute values: `Σ |terms|` instead of `Σ terms`. A value is lost in
+    /// rounding where it is below some `ε` times its magnitude.
+    pub magnitudes: Vec<Vec<f64>>,
+    /// `inputs[k][j]`: the `k`-th derivative of input `j`, dimensionless.
+    pub inputs: Vec<Vec<f64>>,
+    /// The magnitudes of the inputs' derivatives.
+    pub input_magnitudes: Vec<Vec<f64>>,
+}
+
+impl Derivatives {
+    /// The `k`-th derivative of an output with respect to dimensionless time, and its magnitude, both
+    /// in the output's unit.
+    ///
+    /// # Panics
+    ///
+    /// When `k` is beyond the highest order, or `output` is one of another system.
+    pub fn output(&self, output: Output<'_>, k: usize) -> (f64, f64) {
+        let Output { scale, unknowns, inputs, .. } = output;
+        let value = unknowns.at(&self.values[k]) + inputs.at(&self.inputs[k]);
+        let magnitude = unknowns.magnitude_at(&self.magnitudes[k])
+            + inputs.magnitude_at(&self.input_magnitudes[k]);
+        (scale * value, scale.abs() * magnitude)
     }
 }

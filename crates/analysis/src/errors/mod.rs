@@ -1,8 +1,6 @@
 //! How wrong a number is, and as many solutions as it takes to know.
 
 pub(crate) mod accuracy;
-pub(crate) mod keep;
-pub(crate) mod magnitude;
 pub(crate) mod open_ends;
 pub(crate) mod refinement;
 pub(crate) mod solved;

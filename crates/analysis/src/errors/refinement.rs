@@ -4,6 +4,7 @@ use std::{collections::BTreeMap, ops::ControlFlow, time::Duration};
 
 use dashpot_dae::{Observer, Run, SolveError};
 
+use super::accuracy::largest;
 use crate::{
     Ledger, Reading, Solution,
     errors::{
@@ -11,7 +12,6 @@ use crate::{
             Evidence, SMALL, SOLUTIONS, excess, is_as_good_as_zero, is_determined,
             is_lost_in_noise, of_energy, rounding,
         },
-        magnitude::largest,
         open_ends::{OpenEnd, cover_switching},
         solved::{Solved, Task},
     },

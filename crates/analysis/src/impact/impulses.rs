@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use dashpot_dae::Trajectory;
 use dashpot_network::Assembly;
 
-use crate::impact::bodies;
+use super::contacts;
 
 /// An instant at which masses meet, so that velocities jump by an impulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +70,7 @@ pub(crate) fn on_body(
         if blows.is_empty() || connection.is_rigid {
             continue;
         }
-        let [a, b] = bodies::between(assembly, connection);
+        let [a, b] = contacts::between(assembly, connection);
         let sign = match (a == body, b == body) {
             (true, false) => -1.0,
             (false, true) => 1.0,

@@ -1,6 +1,5 @@
 //! The span of an impact: who strikes what, the impulses, and when it ends.
 
-pub(crate) mod bodies;
 pub(crate) mod contacts;
 pub(crate) mod face;
 pub(crate) mod impulses;

@@ -7,7 +7,6 @@ pub(crate) mod selection;
 mod clip;
 mod contact;
 mod driven;
-mod ends;
 mod energy;
 mod injury;
 mod integrals;
@@ -28,11 +27,13 @@ pub use dashpot_units::STANDARD_GRAVITY;
 pub use self::{
     clip::{Clip, Clip3ms},
     contact::{CoefficientOfRestitution, ContactTime},
-    ends::{EndDeformation, EndPosition, EndVelocity},
     energy::{Energy, EnergyAtEnd},
     injury::{Hic, Hic15, Hic36, SeverityIndex},
     integrals::{AverageDeceleration, Impulse},
-    peaks::{PeakAcceleration, PeakDeformation, PeakDisplacement, PeakForce, PeakRate},
+    peaks::{
+        EndDeformation, EndPosition, EndVelocity, PeakAcceleration, PeakDeformation,
+        PeakDisplacement, PeakForce, PeakRate,
+    },
     reading::Reading,
     response_index::{Dri, Edi},
     segments::{PeakStrain, PeakStress},

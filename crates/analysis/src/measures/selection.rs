@@ -9,7 +9,7 @@ use dashpot_network::{
 
 use crate::{
     RunError,
-    impact::bodies,
+    impact::contacts,
     measures::{Family, Measure, by_default, of_layers},
     memory::is_large,
 };
@@ -127,11 +127,11 @@ fn key(target: &str, measure: &dyn Measure) -> String {
 fn reported_elements(assembly: &Assembly) -> Vec<usize> {
     let touching = |wanted: &[bool]| -> Vec<usize> {
         let connections = assembly.connections.iter().enumerate();
-        let touching =
-            connections.filter(|(_, connection)| bodies::is_touching(assembly, connection, wanted));
+        let touching = connections
+            .filter(|(_, connection)| contacts::is_touching(assembly, connection, wanted));
         touching.map(|(at, _)| at).collect()
     };
-    let impactors = bodies::with_impactor(assembly);
+    let impactors = contacts::with_impactor(assembly);
     if impactors.contains(&true) {
         let mut found = touching(&impactors);
         // What is struck through its face by one of them.
@@ -142,7 +142,7 @@ fn reported_elements(assembly: &Assembly) -> Vec<usize> {
         found.dedup();
         return found;
     }
-    let mut masses = vec![false; bodies::count(assembly)];
+    let mut masses = vec![false; contacts::count(assembly)];
     for node in assembly.nodes.iter().filter(|node| node.mass > 0.0) {
         masses[node.body] = true;
     }
@@ -158,9 +158,9 @@ fn reported_nodes(assembly: &Assembly) -> Vec<usize> {
     if !impactors.is_empty() {
         return impactors;
     }
-    let mut touched = vec![false; bodies::count(assembly)];
+    let mut touched = vec![false; contacts::count(assembly)];
     for connection in assembly.connections.iter().filter(|connection| !connection.is_rigid) {
-        for body in bodies::between(assembly, connection) {
+        for body in contacts::between(assembly, connection) {
             touched[body] = true;
         }
     }

@@ -10,8 +10,7 @@ use dashpot_dae::Observer;
 use dashpot_network::{Detail, Network};
 
 use super::{
-    Cost, Neglected, PutBack,
-    cost::charged,
+    Cost, Neglected, PutBack, charged,
     trial::{Candidate, Trial, candidates, is_cancelled, settle, solve_without},
 };
 use crate::{RunError, RunReport, SolveSettings};

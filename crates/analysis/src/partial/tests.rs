@@ -327,3 +327,34 @@ fn a_sweep_saves_the_work_of_layers_whose_mass_is_little() {
     assert!(found.saving.wall < in_full.saving.wall, "{:?} {:?}", found.saving, in_full.saving);
     assert!(found.saving.wall < found.saving.wall_in_full, "{:?}", found.saving);
 }
+
+fn energy(value: f64, size: f64) -> MeasureReport {
+    MeasureReport {
+        key: "pad.energy".to_owned(),
+        target: "pad".to_owned(),
+        kind: "energy",
+        unit: "J",
+        value: Some(value),
+        time: None,
+        window: None,
+        error: Some(0.0),
+        notes: Vec::new(),
+        window_wish: None,
+        parameters: Vec::new(),
+        is_undetermined: false,
+        size,
+        excess: 0.0,
+    }
+}
+
+#[test]
+fn a_move_is_a_part_of_the_value_however_much_has_gone_to_and_fro() {
+    let moved = cost(&energy(28.8, 110.0), &energy(32.0, 110.0));
+    assert!((moved.relative - 0.1).abs() < 1e-12, "{}", moved.relative);
+}
+
+#[test]
+fn a_move_of_what_is_given_back_is_a_part_of_what_went_to_and_fro() {
+    let moved = cost(&energy(0.0, 100.0), &energy(0.01, 100.0));
+    assert!((moved.relative - 0.002).abs() < 1e-12, "{}", moved.relative);
+}

@@ -8,7 +8,7 @@ use std::{
 use dashpot_dae::{Observer, SolveError};
 use dashpot_network::{Assembly, Detail, Influence, Network, Situation};
 
-use super::{Cost, Neglected, PutBack, Why, cost::Comparison};
+use super::{Comparison, Cost, Neglected, PutBack, Why};
 use crate::{
     Contact, RunError, RunReport, SolveSettings, reported_measures,
     run::{solve_assembly, words},

@@ -18,9 +18,7 @@
 //! # Ok::<(), dashpot_analysis::rheometer::RheometerError>(())
 //! ```
 
-mod error;
 mod frequency;
-mod given;
 mod history;
 mod note;
 mod protocols;
@@ -37,7 +35,7 @@ mod tests;
 use dashpot_dae::methods;
 use dashpot_network::parameters::{Described, Kind, Registered, Value, registered};
 
-pub use error::RheometerError;
+pub use note::RheometerError;
 pub use note::{Note, Obstacle};
 pub use protocols::{ConstantRate, Creep, CreepRecovery, LoadHoldUnload, Relaxation, Sweep};
 pub use report::{Computation, Computed, Disagreement, Figure, RheometerReport, Series, Setting};

@@ -3,7 +3,7 @@
 use super::{
     Specimen,
     history::{History, Instant, instants},
-    report::{Computation, RheometerReport, Series, Setting, series},
+    report::{Computation, Figure, RheometerReport, Series, Setting, series},
     response::{self, Parts},
     simulation::{Control, Rig, Simulation},
 };
@@ -97,8 +97,13 @@ impl<'a> Trial<'a> {
         ]
     }
 
-    /// The report, without figures of the test and notes.
-    pub(super) fn report(&self, protocol: &'static str, settings: Vec<Setting>) -> RheometerReport {
+    /// The report without notes; of the figures of the test it has the answers at these instants.
+    pub(super) fn report(
+        &self,
+        protocol: &'static str,
+        settings: Vec<Setting>,
+        looks: &[(&'static str, Instant)],
+    ) -> RheometerReport {
         let (name, unit) = match self.control {
             Control::Force => ("force", "N"),
             Control::Deformation => ("deformation", "m"),
@@ -109,13 +114,18 @@ impl<'a> Trial<'a> {
             reach: simulation.reach,
             obstacle: simulation.obstacle.clone(),
         };
+        let series = self.series();
+        let look = |&(name, at): &(&'static str, Instant)| {
+            Figure::of(name, series.unit, self.answer(at)).computed(self.simulated(at))
+        };
+        let figures = self.specimen.figures().into_iter().chain(looks.iter().map(look)).collect();
         RheometerReport {
             protocol,
             settings,
             abscissa: Column { name: "time".to_owned(), unit: "s", values: self.times.clone() },
             drive: Some(Column { name: name.to_owned(), unit, values }),
-            series: vec![self.series()],
-            figures: self.specimen.figures(),
+            figures,
+            series: vec![series],
             computations: self.simulations.iter().map(computation).collect(),
             notes: Vec::new(),
         }

@@ -3,7 +3,6 @@
 pub(crate) mod attempts;
 
 mod events;
-mod measured;
 mod outcome;
 mod warnings;
 
@@ -15,7 +14,7 @@ use dashpot_network::{Assembly, Network};
 use self::{attempts::Found, outcome::report};
 use crate::{
     Choice, Note, RunError, RunReport, SolveSettings, Stop,
-    errors::{keep::keep, solved::Task},
+    errors::solved::{Task, keep},
     measures::selection::{Selected, select},
     memory,
 };
@@ -192,11 +191,5 @@ pub(crate) fn words(network: &Network) -> Vec<&'static str> {
     network.effects().iter().map(|effect| effect.kind()).collect()
 }
 
-#[cfg(test)]
-mod faults;
-#[cfg(test)]
-mod random;
-#[cfg(test)]
-mod rest;
 #[cfg(test)]
 mod tests;

@@ -3,21 +3,29 @@
 use std::sync::Arc;
 
 use dashpot_dae::Run;
-use dashpot_network::Assembly;
+use dashpot_network::{
+    Assembly, ConnectionOutputs, PrimitiveOutputs,
+    parameters::{Kind as _, ParameterKind, Value, WindowWish},
+};
 
 use super::{
     events,
-    measured::measures,
     warnings::{self, Findings},
 };
 use crate::{
-    ContactReport, RunError, RunReport, Solution, SolverReport, SystemReport, Warning,
+    ContactReport, Idle, Ledger, MeasureReport, Note, Reading, RunError, RunReport, Solution,
+    SolverReport, SystemReport, Warning,
     energy::ledger::ledger,
-    errors::{refinement::Outcome, solved::Task},
+    errors::{
+        accuracy::{excess, is_open, largest},
+        refinement::Outcome,
+        solved::Task,
+    },
     impact::{
         contacts::{self, meetings_after},
         sliders::idle_times,
     },
+    measures::{Impulse, PeakForce, selection::Selected},
     memory::is_large,
 };
 
@@ -131,4 +139,153 @@ fn contact_reports(solution: &Solution<'_>) -> Vec<ContactReport> {
             ContactReport { element: connection.name.clone(), impact, is_glued, again }
         })
         .collect()
+}
+
+/// The reports of a task's measures, of which these are the readings and their errors, where the solution is
+/// followed to the time `cut` \[s\] only.
+pub(super) fn measures(
+    task: &Task<'_>,
+    (solution, energy, idle): (&Solution<'_>, &Ledger, &[Idle]),
+    readings: Vec<Reading>,
+    errors: &[Option<f64>],
+    cut: Option<f64>,
+) -> Vec<MeasureReport> {
+    let read = task.selected.iter().zip(readings).zip(errors);
+    read.map(|((entry, reading), &error)| {
+        let wish = task.settings.accuracy.of(&entry.key);
+        let kind = || largest(solution, energy, entry.measure.unit());
+        let is_open = is_open(&reading, error, wish, kind);
+        let report = measure_report(entry, reading, error, wish);
+        let report = without_idle_forces(report, solution, idle);
+        as_far_as_known(report, is_open.then(|| error.unwrap_or(f64::INFINITY)), cut)
+    })
+    .collect()
+}
+
+/// What is reported of a measure.
+fn measure_report(
+    entry: &Selected,
+    reading: Reading,
+    error: Option<f64>,
+    wish: f64,
+) -> MeasureReport {
+    let parameters = entry.measure.parameters().iter().zip(entry.measure.values());
+    let parameters = parameters.filter(|(parameter, _)| parameter.kind != ParameterKind::Window);
+    let excess = excess(&reading, error, wish);
+    let comes_and_goes = error.is_some_and(f64::is_infinite);
+    let reading = if comes_and_goes { reading.noting(Note::ComesAndGoes) } else { reading };
+    MeasureReport {
+        key: entry.key.clone(),
+        target: entry.name.clone(),
+        kind: entry.measure.kind(),
+        unit: entry.measure.unit(),
+        value: reading.value,
+        time: reading.time,
+        window: reading.window,
+        error,
+        notes: reading.notes,
+        window_wish: window_wish(entry),
+        parameters: parameters.map(|(parameter, value)| (parameter.name, value)).collect(),
+        is_undetermined: false,
+        size: reading.size,
+        excess,
+    }
+}
+
+/// The report without its value, where that hangs on what is not followed beyond the time `cut` \[s\], or
+/// the error of what is `open` says so.
+fn as_far_as_known(report: MeasureReport, open: Option<f64>, cut: Option<f64>) -> MeasureReport {
+    let until = report.window.map(|window| window.1).or(report.time);
+    match (cut, open) {
+        // What reaches to the end of a part of the run hangs on the rest of it.
+        (Some(end), _) if until.is_none_or(|until| until >= end) => {
+            report.undetermined(Note::NotFollowed)
+        }
+        (_, Some(error)) => {
+            let unit = report.unit;
+            report.undetermined(Note::LargeError(error, unit))
+        }
+        _ => report,
+    }
+}
+
+fn window_wish(entry: &Selected) -> Option<WindowWish> {
+    entry.measure.values().iter().find_map(|value| match value {
+        Value::Window(wish) => Some(*wish),
+        _ => None,
+    })
+}
+
+/// The report on a measure of a force, which is not determined where it hangs on that of an idle slider.
+fn without_idle_forces(
+    report: MeasureReport,
+    solution: &Solution<'_>,
+    times: &[Idle],
+) -> MeasureReport {
+    let is_of_force = [PeakForce::KIND, Impulse::KIND].contains(&report.kind);
+    if times.is_empty() || !is_of_force || report.value.is_none() {
+        return report;
+    }
+    let connections = &solution.assembly().connections;
+    let Some(at) = connections.iter().position(|connection| connection.name == report.target)
+    else {
+        return report;
+    };
+    let impact = solution.element_impact(at);
+    let window = report.window.unwrap_or(match report.window_wish {
+        Some(WindowWish::Impact) => (impact.start, impact.end),
+        Some(WindowWish::Times(from, to)) => (from, to),
+        _ => (0.0, solution.end()),
+    });
+    let hangs = times.iter().find(|time| {
+        let span = (time.from.max(window.0), time.to.min(window.1));
+        span.0 < span.1 && time.changes(&report, solution, &connections[at], span)
+    });
+    let Some(idle) = hangs else { return report };
+    report.undetermined(Note::IdleSlider(idle.from, idle.to))
+}
+
+impl Idle {
+    /// Whether another force of the slider within a span of time \[s\] would change what is measured in
+    /// an element.
+    fn changes(
+        &self,
+        report: &MeasureReport,
+        solution: &Solution<'_>,
+        element: &ConnectionOutputs,
+        span: (f64, f64),
+    ) -> bool {
+        let Some(force) = element.force else { return false };
+        let own = &solution.assembly().primitives[element.primitives.clone()];
+        let has = |paths: &[String]| own.iter().any(|own| paths.contains(&own.name));
+        let holds = has(&self.slider.held_by);
+        if !holds && !has(&self.slider.sliders) {
+            return false;
+        }
+        let Some(peak) = report.value.filter(|_| report.kind == PeakForce::KIND) else {
+            return true;
+        };
+        if !solution.keeps(force) {
+            return true;
+        }
+        let force = solution.signal(force);
+        let (least, most) = (force.minimum(span).value, force.maximum(span).value);
+        let bound = if holds {
+            let other = self.taken(solution, &solution.assembly().primitives).abs();
+            least.abs().max(most.abs()) + 2.0 * other
+        } else {
+            let slides = self.taken(solution, own);
+            let turned = |own: f64| (own - 2.0 * slides).abs();
+            least.abs().max(most.abs()).max(turned(least)).max(turned(most))
+        };
+        let is_within = report.time.is_some_and(|time| span.0 < time && time < span.1);
+        is_within || bound > peak.abs()
+    }
+
+    /// The force \[N\] that those of these parts which are idle are taken to have.
+    fn taken(&self, solution: &Solution<'_>, parts: &[PrimitiveOutputs]) -> f64 {
+        let idle = parts.iter().filter(|part| self.slider.sliders.contains(&part.name));
+        let idle = idle.filter(|idle| solution.keeps(idle.force));
+        idle.map(|idle| solution.signal(idle.force).value(0.5 * (self.from + self.to))).sum()
+    }
 }

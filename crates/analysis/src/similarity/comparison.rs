@@ -4,8 +4,7 @@ use dashpot_network::{Network, parameters::InvalidParameter};
 use serde::Serialize;
 
 use super::{
-    groups::{Group, Groups},
-    inventory::Inventory,
+    groups::{Group, Groups, Inventory},
     names::renamed,
     scale::Scale,
     views::{completed, drawn_as_burgers, mirrored, sorted, sorted_like},

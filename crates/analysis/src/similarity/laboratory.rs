@@ -3,8 +3,7 @@
 use dashpot_network::{Network, parameters::Dimension};
 
 use super::{
-    Groups, Inventory, Quantity, Scale, SimilarityError, basis::Basis, inventory::with_value,
-    scaled,
+    Groups, Inventory, Quantity, Scale, SimilarityError, groups::with_value, scale::Basis, scaled,
 };
 
 /// Wishes that follow from others may differ from them by so much, relatively: they are given with

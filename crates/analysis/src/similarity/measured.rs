@@ -3,7 +3,7 @@
 use dashpot_dae::Silent;
 use dashpot_network::{Network, parameters::Dimension};
 
-use super::{Scale, Similarity, inventory::with_value, scale::similar_measure};
+use super::{Scale, Similarity, groups::with_value, scale::similar_measure};
 use crate::{
     MeasureReport, MeasureWish, RunError, RunReport, SolveSettings, Stop,
     measures::selection::select, report::over, solve,

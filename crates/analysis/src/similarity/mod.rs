@@ -6,13 +6,10 @@
 //! such groups, and these alone say what the network does: two networks of one structure whose
 //! groups are equal are similar, and their answers differ by a [`Scale`] only.
 
-mod again;
-mod basis;
 mod comparison;
 mod error;
 mod four_parameter;
 mod groups;
-mod inventory;
 mod laboratory;
 mod measured;
 mod names;
@@ -30,7 +27,7 @@ pub use four_parameter::{
     ImpactScales, Ranges,
 };
 pub use groups::{Group, Groups, Reference};
-pub use inventory::{Inventory, Quantity};
+pub use groups::{Inventory, Quantity};
 pub use laboratory::{Chosen, Laboratory, Wish};
 pub use measured::{Alone, Measured, alone, measured, similar_settings};
 pub use scale::{Scale, scaled};

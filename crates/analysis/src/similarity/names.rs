@@ -4,11 +4,10 @@ use std::{collections::HashMap, sync::Arc};
 
 use dashpot_network::{
     Effect, Model, Network,
-    parameters::{InvalidParameter, ParameterKind, Value},
+    effects::EFFECTS,
+    parameters::{InvalidParameter, ParameterKind, Value, registered},
 };
 use dashpot_rheology::{Branch, Tree};
-
-use super::again::again;
 
 /// The network with the names that nodes, elements, branches and loads at the same places have in
 /// another; `None` where it has not as many of each.
@@ -109,4 +108,16 @@ pub(super) fn retargeted(
     });
     let values: Vec<Value> = values.collect();
     again(effect, effect.target().map(new).as_deref(), &values)
+}
+
+/// An effect of the same kind with other values, on `target` where it acts on an element; the same
+/// one where its kind is in no register.
+pub(super) fn again(
+    effect: &Arc<dyn Effect>,
+    target: Option<&str>,
+    values: &[Value],
+) -> Result<Arc<dyn Effect>, InvalidParameter> {
+    let Some(kind) = registered(EFFECTS, effect.kind()) else { return Ok(Arc::clone(effect)) };
+    let made = (kind.make)(values)?;
+    Ok(target.and_then(|target| made.on(target)).unwrap_or(made))
 }

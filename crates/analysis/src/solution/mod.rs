@@ -12,8 +12,7 @@ use dashpot_network::{Assembly, ConnectionOutputs, NodeId, parameters::WindowWis
 use crate::{
     Note,
     impact::{
-        bodies::{self, Members},
-        contacts,
+        contacts::{self, Members},
         face::{self, FaceContact, Struck, Through},
         impulses::{self, VelocityJump},
         interval::{Impact, NO_PULL, Span, first_felt, first_way},
@@ -75,7 +74,7 @@ impl Known {
             signals: Signals::of(assembly.system.outputs.len()),
             twins: Twins::default(),
             element_impacts: cells(assembly.connections.len()),
-            body_impacts: cells(bodies::count(assembly)),
+            body_impacts: cells(contacts::count(assembly)),
             blows: OnceCell::new(),
             faces: OnceCell::new(),
             members: OnceCell::new(),
@@ -92,7 +91,7 @@ impl<'a> Solution<'a> {
             trajectory,
             known: Known::nothing(assembly),
             missing: RefCell::default(),
-            has_impactor: bodies::with_impactor(assembly),
+            has_impactor: contacts::with_impactor(assembly),
             threshold: 0.0,
             ends: UndecidedReleases::new(),
         }
@@ -382,7 +381,7 @@ impl<'a> Solution<'a> {
         let found = self.struck_faces().iter().filter_map(|&(element, face)| {
             let is_meant = body.is_none_or(|body| {
                 let ends =
-                    bodies::between(self.assembly, &self.assembly.connections[face.connection]);
+                    contacts::between(self.assembly, &self.assembly.connections[face.connection]);
                 ends.contains(&body)
             });
             self.impact_through(element, face).filter(|own| is_meant && own.is_more)
@@ -463,7 +462,7 @@ impl<'a> Solution<'a> {
     /// Whether the connection can deform and has an impactor, or what is rigidly linked to one, at
     /// one of its ends.
     pub fn touches_impactor(&self, connection: &ConnectionOutputs) -> bool {
-        bodies::is_touching(self.assembly, connection, &self.has_impactor)
+        contacts::is_touching(self.assembly, connection, &self.has_impactor)
     }
 }
 

@@ -7,9 +7,9 @@ use dashpot_network::{
 
 use super::{
     Column, Grid, Pose, ScenePoint as Scene,
+    report::Notice,
     scene_point::{Figure, Impact, ScenePoint, Wanted},
     table::Table,
-    warned::Notice,
 };
 use crate::{
     measures::{

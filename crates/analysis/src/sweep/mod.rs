@@ -13,40 +13,38 @@ mod axes;
 mod bracket;
 mod columns;
 mod full;
-mod grid;
 mod instantiated;
-mod neglect;
 mod parallel;
 mod propagate;
 mod report;
 mod scene_point;
 mod sums;
 mod table;
-mod warned;
 
 #[cfg(test)]
 mod tests;
 
 use std::time::{Duration, Instant};
 
+use dashpot_dae::Silent;
 use dashpot_network::{Detail, Network};
 
 pub use self::{
-    axes::{Axis, Sweep, SweepRow, Swept, axis},
+    axes::{Axis, Grid, Sweep, SweepRow, Swept, axis},
     columns::{columns, measure_named},
-    grid::Grid,
     parallel::Watch,
-    report::{Column, Gap, PartialOfSweep, SweepError, SweepReport},
-    warned::SweepWarning,
+    report::{Column, Gap, PartialOfSweep, SweepError, SweepReport, SweepWarning},
 };
 use self::{
     full::{Full, check},
     instantiated::Plan,
-    neglect::decided,
     parallel::{share, workers},
-    warned::Notice,
+    report::Notice,
 };
-use crate::{SolveSettings, Warning};
+use crate::{
+    SolveSettings, Warning,
+    partial::{decide, spread},
+};
 
 /// A scene at a point.
 #[derive(Debug, Clone)]
@@ -148,7 +146,7 @@ fn solved(
     let instantiated = rows.iter().filter(|row| row.notice.is_some()).count();
     let (checked, largest_difference) = found.filter(|_| instantiated > 0).unwrap_or_default();
     let gaps = rows.iter_mut().flat_map(|row| std::mem::take(&mut row.gaps)).collect();
-    let warnings = warned::collect(&rows, plan.as_ref().map_or("", Plan::element));
+    let warnings = report::collect(&rows, plan.as_ref().map_or("", Plan::element));
     drop(rows);
     Ok(SweepReport {
         columns: columns.to_vec(),
@@ -173,4 +171,40 @@ fn rows<'r>(columns: usize, values: &'r mut [f64], errors: &'r mut [f64]) -> Vec
         Row { point, values, errors, gaps, warnings, notice }
     };
     places.map(row).collect()
+}
+
+/// The corners of a grid are looked at up to so many parameters.
+const MOST_CORNERED: usize = 6;
+
+/// What may be left out of all points, where the scene at the first one allows that.
+fn decided(
+    grid: &Grid,
+    pose: &Pose<'_>,
+    first: &ScenePoint,
+) -> Result<Option<(PartialOfSweep, Vec<Detail>)>, SweepError> {
+    let Some(bound) = first.settings.accuracy.neglect_below else { return Ok(None) };
+    let mut points = spread(grid.len());
+    if grid.counts().len() <= MOST_CORNERED {
+        points.extend(grid.corners());
+    }
+    points.sort_unstable();
+    points.dedup();
+    let scene_point: Vec<(usize, Network)> = points
+        .into_iter()
+        .filter_map(|point| Some((point, pose(&grid.places(point)).ok()?.network)))
+        .collect();
+    let networks: Vec<Network> = scene_point.iter().map(|own| own.1.clone()).collect();
+    let all: Vec<usize> = (0..networks.len()).collect();
+    let found = decide(&networks, &all, &first.settings, &mut Silent)?;
+    let worst = found.worst();
+    let report = PartialOfSweep {
+        bound,
+        checked: found.checked().map(|at| scene_point[at].0).collect(),
+        worst,
+        solves: found.solves(),
+        wall_in_full: found.wall_in_full(grid.len()),
+        left_out: found.left_out(),
+        put_back: found.put_back.clone(),
+    };
+    Ok(Some((report, found.details())))
 }

@@ -13,7 +13,7 @@ use super::{
     Drive, DriveKind, Vibration, VibrationError, VibrationWarning,
     curve::Curve,
     drive::Driven,
-    linearity,
+    error,
     observed::{Found, Observed},
 };
 use crate::{Solution, SolveSettings, solve_assembly};
@@ -131,7 +131,7 @@ struct Rest {
 impl Rest {
     fn of(network: &Network, duration: f64) -> Result<Self, VibrationError> {
         let assembly = network.compile(duration)?;
-        linearity::require_linear_system(&assembly)?;
+        error::require_linear_system(&assembly)?;
         let silence = Drive {
             name: String::new(),
             kind: DriveKind::Load,

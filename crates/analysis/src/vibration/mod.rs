@@ -33,17 +33,12 @@ mod contacts;
 mod curve;
 mod drive;
 mod error;
-mod linearity;
 mod observed;
 mod resonance;
 mod steady;
 mod sweep;
 mod warning;
 
-#[cfg(test)]
-mod contact_tests;
-#[cfg(test)]
-mod near_pole_tests;
 #[cfg(test)]
 mod tests;
 
@@ -106,15 +101,15 @@ impl Vibration {
         duration: f64,
         drive: Option<&str>,
     ) -> Result<Self, VibrationError> {
-        linearity::require_linear(network)?;
+        error::require_linear(network)?;
         let drive = drive::chosen(network, drive)?;
         let (network, limits) = contacts::closed(network, duration)?;
         let network = &*network;
         let still = network.compile(duration)?;
-        linearity::require_linear_system(&still)?;
+        error::require_linear_system(&still)?;
         let driven = Driven::new(network, &still, &drive, duration)?;
         let assembly = driven.network.compile(duration)?;
-        linearity::require_linear_system(&assembly)?;
+        error::require_linear_system(&assembly)?;
         let node = driven.node;
         if drive.kind == DriveKind::Load {
             let body = assembly.nodes[node.index()].body;

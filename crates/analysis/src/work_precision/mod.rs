@@ -30,11 +30,9 @@
 //! ```
 
 mod deviation;
-mod happenings;
 mod point;
 mod report;
 mod states;
-mod timing;
 mod truth;
 mod watch;
 

@@ -1,16 +1,21 @@
-//! One method up the ladder of tolerances.
+//! One method up the ladder of tolerances, and how long each solution takes.
 
-use std::{sync::Arc, time::Duration};
+use std::{
+    hint::black_box,
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
-use dashpot_dae::{Method, Run, SolveError, Statistics};
+use dashpot_dae::{Method, Run, Silent, SolveError, Statistics, switching};
 use dashpot_network::Assembly;
 
 use super::{
-    CostFailure, CostPoint, CostReport, Ladder, declines, deviation::slips, timing, truth::Judge,
+    CostFailure, CostPoint, CostReport, Ladder, Spread, declines, deviation::slips, truth::Judge,
     watch::Watch,
 };
 use crate::{
-    Choice, RunError, RunReport, SolveSettings, measures::selection::Selected, solve_assembly,
+    Choice, RunError, RunReport, Solution, SolveSettings, measures::selection::Selected,
+    solution::threshold_at, solve_assembly,
 };
 
 /// Part of the work that is left, one in so many, which the repeats of one solution may take.
@@ -95,7 +100,7 @@ impl Bench<'_> {
 
     /// How often a solution is repeated for its time.
     fn repeats(&self, solved: &RunReport) -> usize {
-        self.ladder.repeats.unwrap_or_else(|| timing::repeats(&solved.solver.statistics))
+        self.ladder.repeats.unwrap_or_else(|| repeats(&solved.solver.statistics))
     }
 
     fn judged(
@@ -107,10 +112,94 @@ impl Bench<'_> {
     ) -> Result<CostPoint, RunError> {
         let work = Statistics { wall: Duration::ZERO, ..solved.solver.statistics };
         let run = self.run.clone().with_rtol(rtol.unwrap_or(self.run.rtol));
-        let (time, integration) =
-            timing::times(self.assembly, method, &run, self.selected, repeats)?;
+        let (time, integration) = times(self.assembly, method, &run, self.selected, repeats)?;
         let (state, events, measures) = self.judge.errors(solved);
         let method = method.name();
         Ok(CostPoint { method, rtol, work, time, integration, repeats, state, events, measures })
+    }
+}
+
+/// Steps that all repeats of a solution take together, about.
+const STEPS: usize = 20_000;
+/// Fewest and most repeats that are chosen by the number of steps.
+const REPEATS: (usize, usize) = (5, 51);
+/// Repeats of a method that takes no steps.
+const STEPLESS: usize = 25;
+
+/// Number of repeats that suits a solution of this work.
+pub(super) fn repeats(work: &Statistics) -> usize {
+    let (fewest, most) = REPEATS;
+    match work.accepted + work.rejected {
+        0 => STEPLESS,
+        // An odd number has a median of its own.
+        steps => (STEPS / steps).clamp(fewest, most) | 1,
+    }
+}
+
+/// The times to solve and to read all measures, and of the first part alone \[s\].
+pub(super) fn times(
+    assembly: &Assembly,
+    method: &dyn Method,
+    run: &Run,
+    selected: &[Selected],
+    repeats: usize,
+) -> Result<(Spread, Spread), SolveError> {
+    let (mut whole, mut integration) = (Vec::new(), Vec::new());
+    for _ in 0..repeats {
+        let begin = Instant::now();
+        let trajectory = match &assembly.switching {
+            None => method.integrate(&assembly.system, run, &mut Silent)?,
+            Some(phased) => switching::integrate(method, phased.as_ref(), run, &mut Silent)?,
+        };
+        integration.push(begin.elapsed().as_secs_f64());
+        let threshold = threshold_at((!method.is_exact()).then_some(run.rtol));
+        let solution = Solution::new(assembly, &trajectory).doubting(threshold);
+        for entry in selected {
+            black_box(entry.measure.read(&solution, entry.target));
+        }
+        whole.push(begin.elapsed().as_secs_f64());
+    }
+    Ok((spread(whole), spread(integration)))
+}
+
+/// Median and quartiles, by linear interpolation between the values in order.
+pub(super) fn spread(mut values: Vec<f64>) -> Spread {
+    values.sort_by(f64::total_cmp);
+    let at = |share: f64| {
+        let place = share * values.len().saturating_sub(1) as f64;
+        let below = values.get(whole(place)).copied().unwrap_or(0.0);
+        let above = values.get(whole(place.ceil())).copied().unwrap_or(below);
+        below + place.fract() * (above - below)
+    };
+    Spread { median: at(0.5), lower: at(0.25), upper: at(0.75) }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a place in a list, below 2^52"
+)]
+fn whole(place: f64) -> usize {
+    place as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quartiles_lie_between_the_values_in_order() {
+        let own = spread(vec![5.0, 1.0, 4.0, 2.0, 3.0]);
+        assert_eq!((own.lower, own.median, own.upper), (2.0, 3.0, 4.0));
+        let own = spread(vec![1.0, 2.0]);
+        assert_eq!((own.lower, own.median, own.upper), (1.25, 1.5, 1.75));
+        let own = spread(vec![7.0]);
+        assert_eq!((own.lower, own.median, own.upper), (7.0, 7.0, 7.0));
+    }
+
+    #[test]
+    fn short_solutions_are_repeated_more_often() {
+        let of = |accepted| repeats(&Statistics { accepted, ..Statistics::default() });
+        assert_eq!([of(0), of(100), of(1000), of(1_000_000)], [25, 51, 21, 5]);
     }
 }

@@ -7,8 +7,7 @@ use dashpot_network::Assembly;
 
 use super::{
     Deviation, MeasureDeviation, Slip, Subject, Timing, TrueMeasure, Truth, declines,
-    deviation::{apart, known, measures, size},
-    happenings::{Happening, Match, happenings, matched},
+    deviation::{Happening, Match, apart, happenings, known, matched, measures, size},
     states::{Probe, States},
     watch::Watch,
 };

@@ -24,7 +24,6 @@ mod panels;
 mod propagator;
 mod refinement;
 mod schur;
-mod shared;
 mod solution;
 mod tables;
 
@@ -32,7 +31,7 @@ mod tables;
 mod tests;
 
 pub(crate) use augmented::Augmented;
-pub use shared::Shared;
+pub use decomposition::Shared;
 pub(crate) use solution::Solution;
 
 /// A complex number.

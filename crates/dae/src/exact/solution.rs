@@ -6,13 +6,12 @@ use super::{
     Augmented, Complex,
     block::Block,
     coordinates::{SpanCoordinates, follow},
-    decomposition::decompose,
+    decomposition::{Form, Shared, decompose},
     decoupling::CAUTIONS,
     modal_row::{ModalRow, coordinates_at},
     modes::Modes,
     panels::{Piece, Quality, interpolate},
     propagator::{Grid, advance, drifts, propagate},
-    shared::{Form, Shared},
 };
 use crate::{Budget, Dense, Panel, Signal, System};
 

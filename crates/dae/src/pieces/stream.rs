@@ -7,7 +7,7 @@ use super::{
     lagrange::{HIGHEST, Lagrange},
     products::{Products, Row},
 };
-use crate::{Digest, Jump, Part, System, digest::Instant};
+use crate::{Digest, Jump, Part, System, run::Instant};
 
 /// The last rows of all unknowns, and what has been made of those before.
 ///

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::{
     Direction, Guard, Keep, LinearForm, Method, Part, Run, Silent, Trajectory,
     methods::{Bdf, Esdirk34, TrBdf2},
-    problems::{self, Problem},
+    tests::problems::{self, Problem},
 };
 
 /// A problem with two more outputs: the sum of all unknowns, and the difference of the first two with

@@ -7,8 +7,7 @@ use dashpot_numerics::Twofold;
 use super::{
     IntervalEnd, ModeInterval, Switching,
     chain::{Chain, Solved},
-    perturbed::{Afterwards, Perturbed},
-    precision::{margin, smaller_sizes},
+    precision::{Afterwards, Perturbed, margin, smaller_sizes},
     predicted::follow,
 };
 use crate::{

@@ -7,7 +7,6 @@
 
 mod chain;
 mod drive;
-mod perturbed;
 mod precision;
 mod predicted;
 

@@ -222,7 +222,7 @@ impl Dense for Bounded {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Piece, Waveform, problems};
+    use crate::{Piece, Waveform, tests::problems};
 
     const THRESHOLD: f64 = 1e-10;
 

@@ -6,7 +6,7 @@ use super::{IntervalEnd, ModeInterval, Switch, Switching, integrate};
 use crate::{
     Direction, Event, Guard, Method, Observer, Outcome, Progress, Run, Silent, SolveError,
     methods::{all, by_name},
-    problems,
+    tests::problems,
 };
 
 /// A body between two walls, at the dimensionless places 0 and 1, from which it is thrown back with

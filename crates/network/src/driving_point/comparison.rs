@@ -1,6 +1,6 @@
 //! Whether two receptances are the same, decided on their poles and strengths.
 
-use super::{Receptance, complex::Complex, impulse::Largest, terms::Term};
+use super::{Receptance, complex::Complex, terms::Term};
 use crate::compile::bodies::Groups;
 
 /// What the poles and strengths of two receptances say.
@@ -18,24 +18,6 @@ pub enum Agreement {
         omega: f64,
         /// The disagreement there, `|H₁ − H₂|` over the larger of the two, between 0 and 2.
         size: f64,
-        /// Time at which the motions after an impulse differ most \[s\]; 0 and infinity are the
-        /// limits.
-        time: f64,
-        /// That difference, `|h₁ − h₂|` over the larger motion of both up to then, between 0 and 2.
-        ///
-        /// `h(t)` is the approach after a unit impulse at `t = 0` \[m/(N s)\], the transform of
-        /// which is `H(s)`. What an instantaneous compliance adds to it, a `δ(t)`, is left out: 0
-        /// where there is no other difference. Right to about 10⁻³ of itself; where rounding is
-        /// more than that, a lower bound.
-        after_impulse: f64,
-        /// The largest difference is at the end of what was looked at, and may be larger later.
-        is_growing: bool,
-        /// Up to when the motions were looked at \[s\]; infinite where they die down, or come to
-        /// rest, or move on freely without any oscillation that stays.
-        ///
-        /// Of oscillations that stay, or live for more than 2000 periods, 100 periods of the
-        /// slowest are looked at; less where others are so fast that this takes too long.
-        until: f64,
     },
     /// The receptances are known less well than this asks for.
     Undecided {
@@ -69,9 +51,7 @@ impl Receptance {
             return Agreement::Same { difference };
         }
         let (omega, size) = super::disagreement::worst(self, other);
-        let Largest { time, size: after_impulse, is_growing, until } =
-            super::impulse::worst(self, other);
-        Agreement::Different { omega, size, time, after_impulse, is_growing, until }
+        Agreement::Different { omega, size }
     }
 
     /// Largest relative difference of poles and strengths; infinite where one has no counterpart.

@@ -7,7 +7,7 @@ use super::{Receptance, complex::Complex};
 /// Points between neighbouring frequencies at which something may happen.
 const BETWEEN: usize = 8;
 /// Steps of the search for a maximum between two points.
-pub(super) const STEPS: usize = 60;
+const STEPS: usize = 60;
 /// How far beyond the poles the limits are taken.
 const FAR: f64 = 1e8;
 

@@ -3,7 +3,7 @@
 use dashpot_numerics::extrema::maximum;
 use nalgebra::Complex;
 
-use super::alignment::{Aligned, aligned};
+use super::{Aligned, aligned};
 use crate::{
     LinearModel,
     linear::{Fractions, Line},

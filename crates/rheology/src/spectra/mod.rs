@@ -5,14 +5,9 @@
 //! Its creep function is `R(t) = J ∫ L(λ) (1 − e^(−t/λ)) d ln λ` \[m/N\]. [`reduce`] replaces it by
 //! `Σ J_i (1 − e^(−t/λ_i))` and proves how few terms can do.
 
-mod equalise;
 mod exchange;
-mod guess;
-mod list;
-mod log_normal;
-mod power_law;
+mod kinds;
 mod reduction;
-mod sum;
 mod target;
 #[cfg(test)]
 mod tests;
@@ -21,9 +16,7 @@ use std::fmt::Debug;
 
 use thiserror::Error;
 
-pub use list::List;
-pub use log_normal::LogNormal;
-pub use power_law::PowerLaw;
+pub use kinds::{List, LogNormal, PowerLaw};
 pub use reduction::{MOST_BRANCHES, Reduced, ReductionError, SMALLEST_ERROR, reduce};
 
 /// One Kelvin–Voigt element, as seen in creep: `J (1 − e^(−t/λ))`.

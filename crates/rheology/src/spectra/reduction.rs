@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::{Retardation, Spectrum, exchange::Levelled, sum::Sum, target::Target};
+use super::{Retardation, Spectrum, exchange::Levelled, kinds::Sum, target::Target};
 
 /// The most elements that a reduction tries.
 pub const MOST_BRANCHES: usize = 60;

@@ -7,7 +7,7 @@ use dashpot_numerics::{
     roots::bisect,
 };
 
-use super::{Spectrum, sum::Sum, whole};
+use super::{Spectrum, kinds::Sum, whole};
 
 /// Degree of the polynomials that stand for a function in one panel.
 const DEGREE: usize = 14;

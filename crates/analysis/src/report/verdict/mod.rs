@@ -9,7 +9,7 @@ use dashpot_network::{
 use crate::{
     Contact, ContactReport, MeasureReport, RunReport,
     energy::ledger::{Ledger, ledger},
-    impact::bodies,
+    impact::contacts,
     measures::{
         CoefficientOfRestitution, ContactTime, EndVelocity, Energy, Measure, PeakAcceleration,
         PeakDeformation, PeakForce, TransmittedForce,
@@ -311,7 +311,7 @@ impl<'r> Found<'r> {
         if let Some(at) = element.and_then(|name| assembly.position(name)) {
             let contact = assembly.pad(at).and_then(|pad| pad.contact);
             for at in [at].into_iter().chain(contact) {
-                ends.extend(bodies::between(assembly, &assembly.connections[at]));
+                ends.extend(contacts::between(assembly, &assembly.connections[at]));
             }
         }
         let all = assembly.nodes.iter().enumerate().filter(|(_, node)| node.is_impactor());

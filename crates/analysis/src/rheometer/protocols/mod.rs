@@ -1,20 +1,77 @@
-//! The tests, one file each.
+//! The tests, and what they have in common.
 
-mod constant_rate;
-mod creep;
-mod creep_recovery;
-mod load_hold_unload;
-mod relaxation;
 mod sweep;
+mod under_deformation;
+mod under_force;
 
-pub use constant_rate::ConstantRate;
-pub use creep::Creep;
-pub use creep_recovery::CreepRecovery;
-pub use load_hold_unload::LoadHoldUnload;
-pub use relaxation::Relaxation;
-pub use sweep::Sweep;
+use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Range};
 
-use super::{Note, RheometerError, Specimen};
+pub use self::{
+    sweep::Sweep,
+    under_deformation::{ConstantRate, Relaxation},
+    under_force::{Creep, CreepRecovery, LoadHoldUnload},
+};
+use super::{FROM_THE_MODEL, Note, RheometerError, Setting, Specimen};
+
+/// Force of a step where none is given \[N\].
+const USUAL_FORCE: f64 = 1e3;
+/// Deformation of a step where none is given \[m\].
+const USUAL_DEFORMATION: f64 = 1e-3;
+/// Number of instants or frequencies where none is given.
+const USUAL_POINTS: usize = 200;
+
+const FORCE: Parameter = Parameter::new(
+    "force",
+    ParameterKind::Quantity(Dimension::FORCE),
+    "height of the force step [N], positive in compression, not zero",
+)
+.default("1 kN")
+.range(Range::NotZero);
+const HOLD: Parameter = Parameter::new(
+    "hold",
+    ParameterKind::Quantity(Dimension::TIME),
+    "how long the force is held [s], positive; else 5 times the slowest retardation time",
+)
+.default(FROM_THE_MODEL)
+.range(Range::Positive);
+const END: Parameter = Parameter::new(
+    "end",
+    ParameterKind::Quantity(Dimension::TIME),
+    "end of the test [s]; else 10 times the slowest time of the model after the last change",
+)
+.default(FROM_THE_MODEL)
+.range(Range::Positive);
+const POINTS: Parameter = Parameter::new(
+    "points",
+    ParameterKind::Quantity(Dimension::NUMBER),
+    "number of points, from 2 to 100000, logarithmic after each change",
+)
+.default("200")
+.range(Range::Count);
+
+/// A parameter as it was used: `given`, or else `chosen`.
+fn setting(name: &'static str, unit: &'static str, given: Option<f64>, chosen: f64) -> Setting {
+    Setting { name, unit, value: given.unwrap_or(chosen), is_chosen: given.is_none() }
+}
+
+/// The number of points as it was used.
+fn points_used(points: usize) -> Setting {
+    Setting { name: "points", unit: "1", value: points as f64, is_chosen: false }
+}
+
+/// The end of a test, which must lie beyond the last change, at `last` \[s\].
+fn end_of_test(
+    given: Option<f64>,
+    last: f64,
+    specimen: &Specimen,
+) -> Result<Setting, InvalidParameter> {
+    let end = setting("end", "s", given, last + LONG * specimen.range_of_times().1);
+    if end.value.is_finite() && end.value > last {
+        return Ok(end);
+    }
+    let range = format!("finite and after the last change, at {last} s");
+    Err(InvalidParameter::new("end", range, end.value))
+}
 
 /// How many times the slowest time a test goes on after the last change.
 const LONG: f64 = 10.0;

@@ -8,13 +8,12 @@ use dashpot_network::{
 };
 use nalgebra::Complex;
 
-use super::deforms;
+use super::{POINTS, USUAL_POINTS, deforms, points_used, setting};
 use crate::{
     Choice, Column,
     rheometer::{
         FROM_THE_MODEL, Figure, Note, ProtocolKind, RheometerError, RheometerReport, Specimen,
         frequency::Shaker,
-        given::{self, points_used, setting},
         history::logarithmic,
         report::{Computation, Computed, Disagreement, Series},
         shaking::{CAUTION, SEEDS, shaken},
@@ -41,9 +40,9 @@ parameters! {
         pub to: Option<f64> = Quantity(Dimension::FREQUENCY),
             default FROM_THE_MODEL, range Positive;
         /// How many frequencies are looked at, 2 or more.
-        pub points: usize => given::POINTS;
+        pub points: usize => POINTS;
     }
-    default { from: None, to: None, points: given::USUAL_POINTS }
+    default { from: None, to: None, points: USUAL_POINTS }
 }
 
 impl ProtocolKind for Sweep {

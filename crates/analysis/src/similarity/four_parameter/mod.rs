@@ -1,9 +1,8 @@
 //! The groups of the thesis, for impacts of its form.
 
 mod groups;
+mod networks;
 mod parts;
-mod read;
-mod rewrite;
 #[cfg(test)]
 mod tests;
 
@@ -60,7 +59,7 @@ impl FourParameterImpact {
     ///
     /// [`SimilarityError::OtherForm`], and what is different.
     pub fn of(network: &Network) -> Result<Self, SimilarityError> {
-        read::read(network).map_err(|reason| SimilarityError::OtherForm { reason })
+        networks::read(network).map_err(|reason| SimilarityError::OtherForm { reason })
     }
 
     /// What its groups refer to.

@@ -150,7 +150,7 @@ fn rescaled_networks_are_similar_and_all_others_are_not() {
                 continue;
             }
             let value = quantity.value * (1.0 + 1e-9);
-            let Ok(other) = inventory::with_value(&network, &quantity.name, value) else {
+            let Ok(other) = groups::with_value(&network, &quantity.name, value) else {
                 continue;
             };
             let found = Similarity::between(&network, &other, Similarity::WITHIN).unwrap();

@@ -20,7 +20,7 @@ use self::{
     sizes::{Pad, Stresses},
     waveforms::{walk_motion, walk_waveform},
 };
-use super::again::again;
+use super::names::again;
 use crate::measures::STANDARD_GRAVITY;
 
 /// Area \[m²\].

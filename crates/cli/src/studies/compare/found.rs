@@ -64,21 +64,13 @@ pub(super) struct Constant {
 }
 
 /// The worst disagreement.
-#[derive(Default, Serialize)]
+#[derive(Serialize)]
 pub(super) struct Worst {
     pub(super) frequency: Option<f64>,
     pub(super) response: f64,
-    /// Of the creep; with masses that move, of the motion after an impulse.
+    /// Of the creep.
     pub(super) time: Option<f64>,
     pub(super) creep: Option<f64>,
-    /// In units of the largest motion up to then.
-    pub(super) after_impulse: Option<f64>,
-    /// Whether it may be larger after `until`.
-    pub(super) is_growing: Option<bool>,
-    /// Up to when the motions were looked at; null where they end.
-    pub(super) until: Option<f64>,
-    /// Whether something yields at the instant of the impulse, which is left out.
-    pub(super) instant_left_out: bool,
 }
 
 /// What is known of one of the two.
@@ -162,7 +154,6 @@ impl Comparison {
                 response: worst.stiffness,
                 time: Some(worst.time),
                 creep: Some(worst.creep),
-                ..Worst::default()
             }),
             models: Vec::new(),
             map: None,

@@ -103,19 +103,9 @@ fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
             comparison.same = true;
             comparison.largest_difference = Some(difference);
         }
-        Agreement::Different { omega, size, time, after_impulse, is_growing, until } => {
-            comparison.worst = Some(Worst {
-                frequency: Some(omega / std::f64::consts::TAU),
-                response: size,
-                time: Some(time),
-                after_impulse: Some(after_impulse),
-                is_growing: Some(is_growing),
-                until: Some(until),
-                instant_left_out: [&first, &second]
-                    .iter()
-                    .any(|own| own.instantaneous_compliance() > 0.0),
-                ..Worst::default()
-            });
+        Agreement::Different { omega, size } => {
+            let frequency = Some(omega / std::f64::consts::TAU);
+            comparison.worst = Some(Worst { frequency, response: size, time: None, creep: None });
         }
         Agreement::Undecided { error } => return Err(CliError::Undecided { error }),
     }

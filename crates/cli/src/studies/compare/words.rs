@@ -60,20 +60,6 @@ fn disagreement(worst: &Worst, is_same: bool) -> String {
         let time = at(worst.time, "s", ["at once", "after ever longer times"]);
         let _ = write!(line, "; in creep most {time}, by {}", share(creep));
     }
-    match worst.after_impulse {
-        Some(0.0) => line += "; after an impulse only at the very instant",
-        Some(size) => {
-            let time = at(worst.time, "s", ["at once", "after ever longer times"]);
-            let aside = if worst.instant_left_out { ", its own instant aside," } else { "" };
-            let _ = write!(line, "; after an impulse{aside} most {time}, by {}", share(size));
-            if worst.is_growing == Some(true) {
-                line += " and growing";
-            } else if let Some(until) = worst.until.filter(|until| until.is_finite()) {
-                let _ = write!(line, " (looked at up to {})", quantity(until, "s", 3));
-            }
-        }
-        None => {}
-    }
     line + "."
 }
 

@@ -240,7 +240,7 @@ mod tests {
     use crate::{
         Silent,
         methods::{Bdf, Esdirk34, Method, TrBdf2, Tsit45},
-        problems,
+        tests::problems,
     };
 
     fn difference<S: Scheme>(problem: &problems::Problem) -> f64 {

@@ -179,7 +179,7 @@ mod tests {
     use crate::{
         Method, Run, Silent, Waveform,
         methods::{Bdf, Esdirk34, TrBdf2},
-        problems,
+        tests::problems,
     };
 
     #[test]

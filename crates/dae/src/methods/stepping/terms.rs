@@ -275,7 +275,7 @@ mod tests {
 
     use super::super::{algebra::Slice, equations::Equations};
     use super::*;
-    use crate::problems;
+    use crate::tests::problems;
 
     /// Compares the Jacobian, its product and difference quotients at a state of every problem.
     fn compare<M: Algebra>() {

@@ -1,7 +1,10 @@
 #![expect(clippy::float_cmp, reason = "what is promised to the last bit is compared so")]
 
 use super::*;
-use crate::{Silent, problems, problems::Problem};
+use crate::{
+    Silent,
+    tests::problems::{self, Problem},
+};
 
 mod drives;
 mod guards;
@@ -180,5 +183,39 @@ fn a_short_pulse_inside_a_long_run_is_not_missed() {
         let gained = velocity.value(problem.t_end) / scale;
         let impulse = problem.exact(problem.t_end)[1];
         assert!((gained - impulse).abs() < 1e-9, "{name}: {gained} of {impulse}");
+    }
+}
+
+#[test]
+fn methods_converge_on_every_problem_that_they_claim() {
+    for method in all() {
+        let name = method.name();
+        let mut solved = 0;
+        for problem in problems::all() {
+            let run = Run::to(problem.t_end);
+            if method.applies(&problem.system, &run).is_err() {
+                assert!(method.integrate(&problem.system, &run, &mut Silent).is_err());
+                continue;
+            }
+            if problem.stiff && name == "tsit45" {
+                continue;
+            }
+            let end = problem.t_end / problem.system.time_scale;
+            let error = |rtol: f64| {
+                let trajectory = method
+                    .integrate(&problem.system, &run.clone().with_rtol(rtol), &mut Silent)
+                    .unwrap();
+                let found = trajectory.dense.sample(&problem.system, &[end]);
+                let truth = problem.exact(problem.t_end);
+                found.iter().zip(&truth).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+            };
+            let [coarse, fine] = [1e-4, 1e-8].map(error);
+            // Every method converges: four decades of tolerance gain two of error at least, down to
+            // the rounding of the problem.
+            let what = format!("{name} on {}: {coarse:e}, {fine:e}", problem.name);
+            assert!(fine <= (1e-2 * coarse).max(1e-9), "{what}");
+            solved += 1;
+        }
+        assert!(solved >= 5, "{name} solves only {solved} problems");
     }
 }

@@ -1,5 +1,4 @@
 mod agreement;
-mod impulse;
 mod judge;
 mod massive;
 mod massless;

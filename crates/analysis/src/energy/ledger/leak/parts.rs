@@ -12,7 +12,7 @@ use crate::{
         ledger::{does_work, steps},
         roles::Accounts,
     },
-    impact::bodies,
+    impact::contacts,
 };
 
 /// Part of the run within which times of jumps are one.
@@ -50,8 +50,8 @@ impl<'a> Parts<'a> {
             times,
             cells,
             totals: vec![0.0; count(times)],
-            bodies: vec![0.0; bodies::count(assembly)],
-            momenta: vec![0.0; bodies::count(assembly)],
+            bodies: vec![0.0; contacts::count(assembly)],
+            momenta: vec![0.0; contacts::count(assembly)],
             elements: vec![0.0; assembly.connections.len()],
             within: within(assembly),
         };
@@ -194,7 +194,7 @@ impl<'a> Parts<'a> {
         let connection = &assembly.connections[at];
         let Some(force) = connection.force.filter(|_| !connection.is_rigid) else { return };
         let transmitted = solution.signal(connection.transmitted.unwrap_or(force));
-        let [a, b] = bodies::between(assembly, connection);
+        let [a, b] = contacts::between(assembly, connection);
         for (body, push) in [(a, (-1.0, solution.signal(force))), (b, (1.0, transmitted))] {
             let velocity = self.velocity(body);
             self.push(body, Some(at), push, &velocity);
@@ -247,7 +247,7 @@ impl<'a> Parts<'a> {
             for switch in own {
                 let Some(&at) = owner.get(switch.name.as_str()) else { continue };
                 self.add_to_element(at, cell, switch.worked - switch.lost);
-                let [a, b] = bodies::between(assembly, &assembly.connections[at]);
+                let [a, b] = contacts::between(assembly, &assembly.connections[at]);
                 if a == b {
                     continue;
                 }

@@ -26,18 +26,7 @@ const NAME: &str = "derivatives";
 /// ones are exact, all higher ones lack what the curvature of the laws adds. Where a law has a kink its
 /// own slope there counts; where it is infinite, that of a narrow secant.
 ///
-/// # Examples
-///
-/// ```
-/// use dashpot_dae::{derivatives, problems};
-///
-/// // x″ + 0.2 x′ + x = 0, x(0) = 1, x′(0) = 0.5.
-/// let system = problems::underdamped().system;
-/// let found = derivatives(&system, &system.initial, 2)?;
-/// assert_eq!(found.values[1][0], 0.5);
-/// assert!((found.values[2][0] + 1.1).abs() < 1e-15);
-/// # Ok::<(), dashpot_dae::SolveError>(())
-/// ```
+/// There is an example at [`System`].
 ///
 /// # Errors
 ///

@@ -1,7 +1,7 @@
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use super::*;
-use crate::{LinearForm, Outputs, Unknown, UnknownKind, problems};
+use crate::{LinearForm, Outputs, Unknown, UnknownKind, tests::problems};
 
 /// Rounding errors in parts of `ε` times the magnitude that are accepted.
 const ROUNDING: f64 = 16.0;
