@@ -32,7 +32,7 @@ const METHODS: [&str; 6] = ["auto", "exact", "bdf", "tr-bdf2", "esdirk34", "tsit
 const PATIENCE: usize = 200_000;
 
 /// Scenes that the program does not solve rightly, by all methods or by one, and why.
-const KNOWN: [(&str, &str); 2] = [
+const KNOWN: [(&str, &str); 3] = [
     (
         "12 driven by esdirk34",
         "bars of esdirk34 beside a rate spring are half as wide as they ought to be",
@@ -40,6 +40,10 @@ const KNOWN: [(&str, &str); 2] = [
     (
         "34 struck by esdirk34",
         "the linear part of a power dashpot is beyond the bars of fine solutions",
+    ),
+    (
+        "991 driven by esdirk34",
+        "the balances of a power dashpot below exponent 1 are refused at the first instant",
     ),
 ];
 

@@ -22,9 +22,12 @@ fn rounding(report: &RunReport) -> f64 {
 }
 
 fn by(methods: &[&str], [nodes, elements, effects]: [&str; 3], check: impl Fn(&RunReport)) {
+    by_gravity(methods, [nodes, elements, &format!("gravity = {{}}\n{effects}")], check);
+}
+
+fn by_gravity(methods: &[&str], [nodes, elements, effects]: [&str; 3], check: impl Fn(&RunReport)) {
     let text = format!(
-        "[nodes]\n{nodes}\n[elements]\n{elements}\n[effects]\ngravity = {{}}\n{effects}\n[run]\n\
-         duration = \"0.2 s\"\n"
+        "[nodes]\n{nodes}\n[elements]\n{elements}\n[effects]\n{effects}\n[run]\nduration = \"0.2 s\"\n"
     );
     let scene = read(&text, &ReadOptions::default()).unwrap().value;
     for &method in methods {
@@ -201,4 +204,48 @@ fn a_panel_that_is_struck_without_a_pad_has_sagged_all_the_same() {
     let report = run(&struck_panel("velocity = 2", "contact = {}", ""), "exact");
     starts_at(&report, "head.position", static_equilibrium);
     starts_at(&report, "panel.position", static_equilibrium);
+}
+
+#[test]
+fn sliders_that_cannot_hold_the_weight_have_slid_before() {
+    let weight = 10.0 * G;
+    // The law of the pad, and where it stands: of springs of 1 kN/m as if the weight had grown slowly.
+    let cases = [
+        ("{ spring = 1000 }, { friction = 1 }", (weight - 1.0) / 1000.0),
+        ("{ spring = 1000 }, { friction = 60 }, { friction = 20 }", (weight - 80.0) / 1000.0),
+        ("{ spring = 1000 }, { friction = 60 }, { friction = 40 }", 0.0),
+        (
+            "{ spring = 1000 }, { series = [{ spring = 1000 }, { friction = 10 }] }",
+            (weight - 10.0) / 1000.0,
+        ),
+        ("{ spring = 1000 }, { series = [{ spring = 1000 }, { friction = 50 }] }", weight / 2000.0),
+        (
+            "{ series = [{ spring = 1000 }, { friction = 40 }] }, \
+             { series = [{ cubic-spring = { stiffness = 1000, cubic = 0 } }, { friction = 200 }] }",
+            (weight - 40.0) / 1000.0,
+        ),
+    ];
+    for (parts, place) in cases {
+        for sign in [1.0, -1.0] {
+            let element = format!(
+                "pad = {{ between = [\"box\", \"ground\"], parallel = [{parts}, {{ dashpot = 10 }}] }}"
+            );
+            let pulled = format!("gravity = {{ value = {} }}", sign * G);
+            by_gravity(&["exact", "bdf"], ["box = { mass = 10 }", &element, &pulled], |report| {
+                carries(report, "pad", sign * weight);
+                let solution = report.solution();
+                let start = solution.signal(report.assembly.nodes[1].position).value(0.0);
+                let off = start - sign * place;
+                assert!(off.abs() <= 1e-9 * weight / 1000.0, "{parts}: {start} off by {off}");
+            });
+        }
+    }
+}
+
+#[test]
+fn a_weight_that_only_a_slider_too_weak_holds_has_no_balance() {
+    let text = "[nodes]\nbox = { mass = 10 }\n[elements]\nrail = { between = [\"box\", \
+                \"ground\"], friction = 50 }\n[effects]\ngravity = {}\n[run]\nduration = 1\n";
+    let error = read(text, &ReadOptions::default()).unwrap_err().to_string();
+    assert!(error.contains("start in balance") && error.contains("box"), "{error}");
 }

@@ -79,7 +79,7 @@ fn a_mass_leaves_with_the_root_of_the_ratio_of_both_areas() {
             let beyond = report
                 .warnings
                 .iter()
-                .any(|warning| warning.to_string().contains("beyond its last point"));
+                .any(|warning| warning.to_string().contains("beyond the end of its law"));
             assert_eq!(beyond, depth > Y, "{:?}", report.warnings);
             assert!(report.warnings.iter().all(|warning| !warning.code().contains("pulls")
                 && !warning.to_string().contains("pulls")));

@@ -41,8 +41,8 @@ pub enum Warning {
         /// How many other parts of the same pad are so as well.
         others: usize,
     },
-    /// A measured law is followed beyond its points.
-    BeyondMeasured(Beyond),
+    /// A law is followed beyond its last point, or further than it is given.
+    BeyondLaw(Beyond),
     /// A part of a pad of layers is pressed in by more than its thickness.
     CrushedPart {
         /// The pad.
@@ -160,13 +160,13 @@ pub struct Through {
 pub struct Beyond {
     /// The path of the element.
     pub name: String,
-    /// Whether it is pressed beyond its last point, else stretched beyond its first one.
+    /// Whether it is pressed beyond the end of its law, else stretched beyond its beginning.
     pub is_pressed: bool,
     /// How far \[m\].
     pub excess: f64,
     /// When \[s\].
     pub time: f64,
-    /// The deformation of the point \[m\].
+    /// The deformation where the law ends \[m\].
     pub point: f64,
 }
 
@@ -204,8 +204,8 @@ impl Warning {
             Self::Pulls { since: Some(_), .. } => "pulls",
             Self::Pulls { since: None, .. } => "pulls-from-the-start",
             Self::PressedThrough { .. } => "pressed-through",
-            Self::BeyondMeasured(Beyond { is_pressed: true, .. }) => "pressed-beyond-points",
-            Self::BeyondMeasured(_) => "stretched-beyond-points",
+            Self::BeyondLaw(Beyond { is_pressed: true, .. }) => "pressed-beyond-points",
+            Self::BeyondLaw(_) => "stretched-beyond-points",
             Self::CrushedPart { .. } => "crushed-part",
             Self::EnergyNotClosed { .. } => "energy-not-closed",
             Self::IdleSlider(_) => "idle-slider",
@@ -239,7 +239,7 @@ impl Warning {
             | Self::StillInContact { element, .. }
             | Self::ReleaseMissed { element, .. } => vec![element],
             Self::PressedThrough { through, .. } => vec![&through.name],
-            Self::BeyondMeasured(own) => vec![&own.name],
+            Self::BeyondLaw(own) => vec![&own.name],
             Self::IdleSlider(own) => all(&own.slider.sliders),
             Self::StopHolds { condition } => vec![condition],
             Self::StillFalling { node, .. } => vec![node],
@@ -301,12 +301,12 @@ impl fmt::Display for Through {
 impl fmt::Display for Beyond {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [how, which] =
-            if self.is_pressed { ["pressed", "last"] } else { ["stretched", "first"] };
+            if self.is_pressed { ["pressed", "end"] } else { ["stretched", "beginning"] };
         let excess = quantity(self.excess, "m");
         let point = if self.point.abs() > 0.0 { quantity(self.point, "m") } else { "0".to_owned() };
         write!(
             f,
-            "{} is {how} {excess} beyond its {which} point of {point} at {}: its force there is \
+            "{} is {how} {excess} beyond the {which} of its law at {point}, at {}: its force there is \
              extrapolated",
             self.name,
             quantity(self.time, "s"),
@@ -366,7 +366,7 @@ impl fmt::Display for Warning {
                 1 => write!(f, "{through}; so is another part of it"),
                 count => write!(f, "{through}; so are {count} other parts of it"),
             },
-            Self::BeyondMeasured(own) => write!(f, "{own}"),
+            Self::BeyondLaw(own) => write!(f, "{own}"),
             Self::CrushedPart { element, strain, time: at, notes } => write!(
                 f,
                 "a part of the {element} is pressed in by {} of its own thickness at {} ({})",

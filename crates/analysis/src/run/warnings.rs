@@ -382,7 +382,7 @@ pub(crate) fn beyond_measured(solution: &Solution<'_>) -> Vec<Warning> {
         let furthest = |is_pressed: bool| {
             let of_side = beyond.iter().filter(|own| own.is_pressed == is_pressed);
             let found = of_side.max_by(|one, other| one.excess.total_cmp(&other.excess));
-            found.cloned().map(Warning::BeyondMeasured)
+            found.cloned().map(Warning::BeyondLaw)
         };
         [true, false].map(furthest).into_iter().flatten()
     };
@@ -391,11 +391,12 @@ pub(crate) fn beyond_measured(solution: &Solution<'_>) -> Vec<Warning> {
 
 impl Beyond {
     fn of(solution: &Solution<'_>, part: &PrimitiveOutputs) -> Vec<Self> {
-        let measured = part.element.measured().filter(|_| solution.keeps(part.deformation));
-        let Some((first, last)) = measured else { return Vec::new() };
+        let range = part.element.range().filter(|_| solution.keeps(part.deformation));
+        let Some((first, last)) = range else { return Vec::new() };
         let deformation = solution.glance(part.deformation);
         let run = (0.0, solution.end());
-        let noise = deformation.error.unwrap_or(0.0).max(ROUNDING * (last - first));
+        let size = if first.is_finite() { last - first } else { last };
+        let noise = deformation.error.unwrap_or(0.0).max(ROUNDING * size);
         let (deepest, longest) = (deformation.maximum(run), deformation.minimum(run));
         let name = || part.name.clone();
         let pressed = (deepest.value > last + noise).then(|| Self {

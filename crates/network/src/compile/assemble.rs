@@ -6,7 +6,7 @@ use dashpot_dae::System;
 
 use super::bodies::Role;
 use super::{
-    balance,
+    balance::{self, Surroundings, UNBALANCED},
     bodies::{Bodies, joint_name},
     drives::{self, Drive},
     expand::Expansion,
@@ -192,9 +192,15 @@ impl Graph<'_> {
                 _ => 0.0,
             })
             .collect();
-        let positions =
-            balance::positions(network, expansion, bodies, structure, &weights, &given, &[])
-                .map_err(NetworkErrors)?;
+        let positions = balance::positions(
+            network,
+            expansion,
+            bodies,
+            structure,
+            &weights,
+            &Surroundings { given: &given, touches: &[], unbalanced: UNBALANCED },
+        )
+        .map_err(NetworkErrors)?;
         for body in 0..bodies.all.len() {
             if let Some(unknown) = places.unknown[body] {
                 let base = places.parent[body].map_or(0.0, |parent| positions[parent]);

@@ -19,11 +19,21 @@ pub(super) struct Touch {
     pub(super) distance: f64,
 }
 
+/// What bodies hang on and meet.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Surroundings<'a> {
+    /// Displacement \[m\] of bodies whose motion is prescribed.
+    pub(super) given: &'a [f64],
+    /// Where bodies may touch.
+    pub(super) touches: &'a [Touch],
+    /// What the forces on a body may sum up to, in parts of their magnitudes.
+    pub(super) unbalanced: f64,
+}
+
 /// Displacement of each body \[m\] at the start, counted from unloaded.
 ///
 /// Springs carry `weights` \[N\] (one for each body), linear or not; dashpots carry nothing, and keep
-/// the place of what only they hold. What nothing holds goes with what it can touch. `given` is the
-/// displacement of bodies whose motion is prescribed.
+/// the place of what only they hold. What nothing holds goes with what it can touch.
 ///
 /// # Errors
 ///
@@ -34,9 +44,9 @@ pub(super) fn positions(
     bodies: &Bodies,
     structure: &Structure,
     weights: &[f64],
-    given: &[f64],
-    touches: &[Touch],
+    surroundings: &Surroundings<'_>,
 ) -> Result<Vec<f64>, Vec<NetworkError>> {
+    let &Surroundings { given, touches, unbalanced } = surroundings;
     let count = bodies.all.len();
     let is_given = |body: usize| matches!(bodies.all[body].role, Role::Fixed | Role::Prescribed(_));
     let name = |body: &usize| joint_name(network, expansion, bodies.all[*body].joints[0]);
@@ -64,7 +74,8 @@ pub(super) fn positions(
     if !errors.is_empty() {
         return Err(errors);
     }
-    let load = Load { structure, primitives: &expansion.primitives, free: &free, weights };
+    let load =
+        Load { structure, primitives: &expansion.primitives, free: &free, weights, unbalanced };
     let values = load.carried(given.to_vec());
     let mut values = values.map_err(|sinking| {
         vec![NetworkError::NoBalance { nodes: sinking.iter().map(name).collect() }]
@@ -88,6 +99,8 @@ struct Load<'a> {
     free: &'a [usize],
     /// Force on each body \[N\].
     weights: &'a [f64],
+    /// What the forces on a body may sum up to, in parts of their magnitudes.
+    unbalanced: f64,
 }
 
 /// Most steps of Newton's iteration.
@@ -99,7 +112,7 @@ const HALVINGS: usize = 200;
 const FLATTEST: f64 = 1e-9;
 /// What the forces on a body may sum up to, in parts of their magnitudes, where rounding ends the
 /// iteration.
-const UNBALANCED: f64 = 1e-9;
+pub(super) const UNBALANCED: f64 = 1e-9;
 
 impl Load<'_> {
     /// The places of all bodies in balance, from those of the bodies that are given; else the bodies
@@ -214,7 +227,7 @@ impl Load<'_> {
         let most = sums.iter().map(|sum| sum.1).fold(0.0, f64::max);
         let is_unbalanced = |&&body: &&usize| {
             let (sum, size) = sums[body];
-            sum.is_nan() || sum.abs() > UNBALANCED * size.max(f64::EPSILON * most)
+            sum.is_nan() || sum.abs() > self.unbalanced * size.max(f64::EPSILON * most)
         };
         self.free.iter().filter(is_unbalanced).copied().collect()
     }

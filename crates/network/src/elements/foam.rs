@@ -181,6 +181,10 @@ impl Element for Foam {
     fn law(&self) -> Law {
         Law::Nonlinear { stiffness: self.stiffness(), damping: 0.0 }
     }
+
+    fn range(&self) -> Option<(f64, f64)> {
+        Some((f64::NEG_INFINITY, LAST * self.thickness))
+    }
 }
 
 #[cfg(test)]

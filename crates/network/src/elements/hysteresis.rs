@@ -164,8 +164,8 @@ impl<H: Hysteresis> Element for H {
         true
     }
 
-    fn measured(&self) -> Option<(f64, f64)> {
-        self.loading().measured()
+    fn range(&self) -> Option<(f64, f64)> {
+        self.loading().range()
     }
 }
 

@@ -98,9 +98,10 @@ pub trait Element: Described {
         false
     }
 
-    /// The deformations \[m\] between which its law is known, where it is one of measured points; the
-    /// force beyond is extrapolated.
-    fn measured(&self) -> Option<(f64, f64)> {
+    /// The deformations \[m\] between which the force is that of the law: of one of measured points those
+    /// of its points, of one that grows without bound as far as it is followed. The force beyond is
+    /// extrapolated. `None` where the law holds for all deformations.
+    fn range(&self) -> Option<(f64, f64)> {
         None
     }
 }

@@ -21,7 +21,7 @@ parameters! {
     /// # Limits
     ///
     /// Beyond 0.999 `L` the law goes on as a straight line with the slope that it has there, 4.05·10⁵ k,
-    /// so that it has a value everywhere. A force of more than 811 k L would press it over its limit.
+    /// so that it has a value everywhere; a run warns of it. A force of more than 811 k L would press it over its limit.
     ///
     /// # Examples
     ///
@@ -96,6 +96,10 @@ impl Element for StiffeningSpring {
 
     fn law(&self) -> Law {
         Law::Nonlinear { stiffness: self.stiffness, damping: 0.0 }
+    }
+
+    fn range(&self) -> Option<(f64, f64)> {
+        Some((-LAST * self.limit, LAST * self.limit))
     }
 }
 

@@ -68,7 +68,7 @@ impl TableSpring {
     }
 
     /// The spring through points that are in order.
-    pub(super) fn through(points: Vec<(f64, f64)>) -> Self {
+    pub(crate) fn through(points: Vec<(f64, f64)>) -> Self {
         let curve = MonotoneCurve::through(points);
         let at_rest = curve.area(0.0);
         Self { curve, at_rest }
@@ -129,7 +129,7 @@ impl Element for TableSpring {
         Law::Nonlinear { stiffness: (last.1 - first.1) / (last.0 - first.0), damping: 0.0 }
     }
 
-    fn measured(&self) -> Option<(f64, f64)> {
+    fn range(&self) -> Option<(f64, f64)> {
         Some(self.curve.ends().map(|end| end.0).into())
     }
 }

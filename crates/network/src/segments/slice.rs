@@ -95,8 +95,8 @@ impl Element for Slice {
         self.of.phases().map(|_| self as &dyn Phases)
     }
 
-    fn measured(&self) -> Option<(f64, f64)> {
-        self.of.measured().map(|(first, last)| (first / self.count, last / self.count))
+    fn range(&self) -> Option<(f64, f64)> {
+        self.of.range().map(|(first, last)| (first / self.count, last / self.count))
     }
 }
 

@@ -84,14 +84,22 @@ class CubicSpring(Part):
 
 
 class StiffeningSpring(Part):
+    """Phases: beyond 0.999 of the limit in tension, within, beyond in compression."""
+
     def __init__(self, stiffness, limit):
         self.k, self.limit = stiffness, limit
+        self.levels = (-0.999 * limit, 0.999 * limit)
 
     def law(self, phase, y, w):
-        # A trial of Newton's method may go beyond the limit, no solution can.
-        angle = np.clip(np.pi * y / (2 * self.limit), -1.5707, 1.5707)
-        own = np.tan(angle)
-        return 2 * self.k * self.limit / np.pi * own, self.k * (1 + own**2), 0 * y
+        if phase == 1:
+            # A trial of Newton's method may go beyond the limit, no solution can.
+            at = np.clip(y, -0.99999 * self.limit, 0.99999 * self.limit)
+        else:
+            at = np.array(self.levels[phase // 2])
+        own = np.tan(np.pi * at / (2 * self.limit))
+        slope = self.k * (1 + own**2)
+        beyond = 0 * y if phase == 1 else slope * (y - at)
+        return 2 * self.k * self.limit / np.pi * own + beyond, slope + 0 * y, 0 * y
 
 
 class Curve:

@@ -1,4 +1,4 @@
-"""The start in balance under weight: springs carry it, dashpots and sliders nothing."""
+"""The start in balance under weight: springs carry it, dashpots nothing, sliders stick."""
 
 import numpy as np
 
@@ -29,7 +29,7 @@ def at_rest(network, struck):
         follows |= {n: far for far in hits for n in (own.a, own.b) if n != far}
     joined = list(range(count))
     for own in own_links:
-        if isinstance(own.part, laws.Contact) and own.name.endswith(".contact"):
+        if isinstance(own.part, laws.Friction) or isinstance(own.part, laws.Contact) and own.name.endswith(".contact"):
             joined = [own_b if n == joined[own.a] else n for n in joined for own_b in (joined[own.b],)]
     x = np.array([own.motion.at(np.array([0.0]), 1e-300)[0][0] if own.motion else 0.0 for own in network.nodes])
     fixed = {joined[n] for n in range(count) if network.nodes[n].motion is not None}

@@ -90,6 +90,8 @@ const FOLLOWED: f64 = 0.01;
 /// Speeds of rebound that can be told from none, in parts of the threshold.
 const TOLD: f64 = 4.0;
 
+/// Speeds of approach below this part of the speeds are none at all.
+const ROUNDING: f64 = 1e-14;
 /// How near to its level a deformation is at it, in parts of the lengths: roundings.
 const TOUCHING: f64 = 20.0 * f64::EPSILON;
 
@@ -104,8 +106,9 @@ impl PhasedNetwork {
             .flat_map(|contact| contact.ends)
             .map(|body| self.velocity(state, body).abs())
             .fold(0.0, f64::max);
-        let noise = meeting.threshold.max(1e-14);
-        if contacts.iter().all(|contact| contact.approach <= noise * scale && !contact.settles) {
+        let is_below =
+            |part: f64| contacts.iter().all(|own| own.approach <= part * scale && !own.settles);
+        if is_below(ROUNDING) {
             return Vec::new();
         }
         let before: Vec<f64> =
@@ -118,6 +121,10 @@ impl PhasedNetwork {
                     state.velocity[joint] = after[body];
                 }
             }
+        }
+        // What cannot be told from a touch keeps its momentum, and is no impact.
+        if is_below(meeting.threshold) {
+            return Vec::new();
         }
         self.booked(&contacts, &impulses, &before, &after)
     }

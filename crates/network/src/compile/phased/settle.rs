@@ -5,7 +5,7 @@ use dashpot_dae::Waveform;
 
 use super::{
     super::{
-        balance,
+        balance::{self, Surroundings, UNBALANCED},
         bodies::{Bodies, Body, Groups, Role, joint_name},
         expand::Expansion,
         structure::{Structure, jumps},
@@ -190,8 +190,14 @@ impl<'a> Settling<'a> {
         };
         let given: Vec<f64> = bodies.all.iter().map(given).collect();
         let weights = vec![0.0; bodies.all.len()];
-        let places =
-            balance::positions(&self.held, &expansion, &bodies, &structure, &weights, &given, &[]);
+        let places = balance::positions(
+            &self.held,
+            &expansion,
+            &bodies,
+            &structure,
+            &weights,
+            &Surroundings { given: &given, touches: &[], unbalanced: UNBALANCED },
+        );
         let places = places.map_err(|found| self.refused(&found))?;
         let place = |joint: usize| places[bodies.of_joint[joint]] + bodies.offset[joint];
         Ok((0..self.expansion.joints).map(place).collect())
