@@ -66,7 +66,7 @@ fn errors_of_the_reference_impact_fall_and_are_those_of_runs_beside_the_exact_on
 fn the_agreement_of_two_families_limits_what_is_said_of_a_nonlinear_scene() {
     for name in ["crash-mat", "eps-helmet"] {
         let report = cost(&scene(name), &["bdf", "esdirk34"], &[1e-5, 1e-11]);
-        let truth = &report.truth;
+        let truth = &report.reference;
         assert_eq!(truth.witness.map(|witness| witness.0), Some("esdirk34"), "{name}");
         assert!(truth.why_not_exact.is_some() && report.auto == "bdf", "{name}: {}", report.auto);
         let agreement = truth.measure_agreement.unwrap();

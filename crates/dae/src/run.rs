@@ -14,7 +14,7 @@ pub struct Run {
     pub rtol: f64,
     /// The size of each unknown that the absolute tolerance is a part of, in parts of its scale, positive;
     /// 1 where there is none. `exact` has no use for it.
-    pub nominal: Vec<f64>,
+    pub tolerance_scaling: Vec<f64>,
     /// Conditions to watch.
     pub guards: Vec<Guard>,
     /// What the trajectory is to keep.
@@ -53,7 +53,7 @@ impl Run {
         Self {
             t_end,
             rtol: 1e-6,
-            nominal: Vec::new(),
+            tolerance_scaling: Vec::new(),
             guards: Vec::new(),
             keep: Keep::Everything,
             budget: Budget::default(),

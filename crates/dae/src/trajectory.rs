@@ -93,7 +93,7 @@ pub trait Dense: Debug + Send + Sync {
 
     /// How much longer a run of several intervals would have to be for a switching that may have
     /// come before its end, by the error of the method, to be seen \[s\].
-    fn margin(&self) -> Option<f64> {
+    fn end_margin(&self) -> Option<f64> {
         None
     }
 

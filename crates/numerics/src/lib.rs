@@ -1,6 +1,6 @@
 //! Numerics that know nothing of what their numbers stand for.
 //!
-//! - [`Twofold`] and [`Accumulator`]: double-double arithmetic, for what doubles cannot tell apart;
+//! - [`DoubleDouble`] and [`Accumulator`]: double-double arithmetic, for what doubles cannot tell apart;
 //! - [`chebyshev`]: polynomials, their zeros and their interpolation;
 //! - [`quadrature`]: rules of Gauss and Legendre, and of Gauss and Kronrod on halved intervals;
 //! - [`roots`] and [`extrema`]: bisection, bracketed Newton steps, false position, golden section;
@@ -9,14 +9,14 @@
 
 mod accumulator;
 pub mod chebyshev;
+mod double_double;
 pub mod exponential;
 pub mod extrema;
 mod linear_form;
 pub mod quadrature;
 pub mod roots;
 pub mod small;
-mod twofold;
 
 pub use accumulator::Accumulator;
+pub use double_double::{DoubleDouble, two_product, two_sum};
 pub use linear_form::{Coefficient, FormRef, Forms, LinearForm, packed};
-pub use twofold::{Twofold, two_product, two_sum};

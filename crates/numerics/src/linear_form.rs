@@ -5,7 +5,7 @@ use std::{
     ops::{Add, Mul},
 };
 
-use crate::Twofold;
+use crate::DoubleDouble;
 
 /// A coefficient of a [`LinearForm`].
 pub trait Coefficient:
@@ -29,7 +29,7 @@ impl Coefficient for f64 {
     }
 }
 
-impl Coefficient for Twofold {
+impl Coefficient for DoubleDouble {
     const ONE: Self = Self::ONE;
     /// A thousand roundings of 106 bits.
     const NOTHING: f64 = 1.0 / ((1_u128 << 94) as f64);
@@ -288,20 +288,22 @@ mod tests {
 
     #[test]
     fn a_rest_over_fourteen_decades_keeps_all_digits_of_a_double() {
-        let (large, small) = (Twofold::from(1e14) / 3.0, Twofold::ONE / 7.0);
-        let sum = LinearForm::sum(vec![(2, large), (0, Twofold::ONE), (2, small), (2, -large)]);
-        assert_eq!(sum.terms()[0], (0, Twofold::ONE));
+        let (large, small) = (DoubleDouble::from(1e14) / 3.0, DoubleDouble::ONE / 7.0);
+        let sum =
+            LinearForm::sum(vec![(2, large), (0, DoubleDouble::ONE), (2, small), (2, -large)]);
+        assert_eq!(sum.terms()[0], (0, DoubleDouble::ONE));
         assert!((sum.scaled(&[1.0; 3]).coefficient(2) * 7.0 - 1.0).abs() <= f64::EPSILON);
         assert_eq!(sum.terms().len(), 2);
     }
 
     #[test]
     fn what_cancels_but_for_rounding_disappears() {
-        let third = Twofold::ONE / 3.0;
-        let form =
-            LinearForm::variable(4).plus(-third, &LinearForm::sum(vec![(4, Twofold::from(3.0))]));
+        let third = DoubleDouble::ONE / 3.0;
+        let form = LinearForm::variable(4)
+            .plus(-third, &LinearForm::sum(vec![(4, DoubleDouble::from(3.0))]));
         assert!(form.is_zero());
-        let form = LinearForm::sum(vec![(1, third), (1, third), (1, third), (1, -Twofold::ONE)]);
+        let form =
+            LinearForm::sum(vec![(1, third), (1, third), (1, third), (1, -DoubleDouble::ONE)]);
         assert!(form.is_zero());
     }
 }

@@ -12,5 +12,5 @@ pub mod spectra;
 mod tree;
 
 pub use forms::{FORMS, Form, Part, Role};
-pub use linear::{Canonical, KelvinForm, LinearModel, MaxwellForm, Primitive, Twofold};
+pub use linear::{Canonical, DoubleDouble, KelvinForm, LinearModel, MaxwellForm, Primitive};
 pub use tree::{Branch, MOST_LEVELS, Tree};

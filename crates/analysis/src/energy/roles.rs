@@ -9,14 +9,14 @@ use dashpot_network::{
 
 /// Which entries of an energy ledger a part has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Accounts {
+pub(crate) struct EnergyRole {
     /// It stores energy.
     pub(crate) stores: bool,
     /// It dissipates energy.
     pub(crate) dissipates: bool,
 }
 
-impl Accounts {
+impl EnergyRole {
     /// Those of an element.
     pub(crate) fn of(element: &dyn Element) -> Self {
         match element.law() {

@@ -81,7 +81,7 @@ pub(crate) fn cover_switching(
     if task.assembly.switching.is_none() || t_end < run.t_end {
         return;
     }
-    let longer = finest.trajectory.dense.margin();
+    let longer = finest.trajectory.dense.end_margin();
     let last = finest.trajectory.switches.last().map(|switch| t_end - switch.time);
     let shorter = last.filter(|since| *since <= OF_INSTANTS * finest.rtol * t_end);
     let shorter = shorter.map(|since| -AMPLE * since.max(4.0 * f64::EPSILON * t_end));

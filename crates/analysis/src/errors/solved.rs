@@ -9,7 +9,7 @@ use crate::{
     Ledger, Reading, RunError, Solution, SolveSettings,
     energy::{
         ledger::{does_work, leak, ledger},
-        roles::Accounts,
+        roles::EnergyRole,
     },
     impact::{contacts, sliders::slider_fault},
     measures::{Family, selection::Selected},
@@ -186,7 +186,7 @@ pub(crate) fn keep_also(keep: &Keep, outputs: &BTreeSet<usize>) -> Keep {
 fn products(assembly: &Assembly) -> Option<Vec<[usize; 2]>> {
     let parts = assembly.primitives.iter();
     let parts = parts
-        .filter(|part| Accounts::of(part.element.as_ref()).dissipates && does_work(part))
+        .filter(|part| EnergyRole::of(part.element.as_ref()).dissipates && does_work(part))
         .map(|part| Some([part.force, part.rate?]));
     let drives = assembly.drives.iter().map(|drive| Some([drive.force, drive.velocity?]));
     parts.chain(drives).collect()
@@ -198,7 +198,7 @@ fn jumps(assembly: &Assembly) -> Vec<usize> {
         return Vec::new();
     }
     let springs = assembly.primitives.iter();
-    let springs = springs.filter(|spring| Accounts::of(spring.element.as_ref()).stores);
+    let springs = springs.filter(|spring| EnergyRole::of(spring.element.as_ref()).stores);
     springs.map(|spring| spring.deformation).collect()
 }
 

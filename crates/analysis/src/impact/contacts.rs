@@ -10,7 +10,7 @@ use dashpot_network::{
     phases::{Phase, PhaseLaw},
 };
 
-use crate::energy::roles::Accounts;
+use crate::energy::roles::EnergyRole;
 
 /// The parts of a connection.
 fn parts<'a>(assembly: &'a Assembly, connection: &ConnectionOutputs) -> &'a [PrimitiveOutputs] {
@@ -59,7 +59,7 @@ fn is_slider(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
     let slides = |primitive_outputs: &PrimitiveOutputs| {
         primitive_outputs.element.law() == Law::Phased
             && !is_contact(primitive_outputs)
-            && !Accounts::of(primitive_outputs.element.as_ref()).stores
+            && !EnergyRole::of(primitive_outputs.element.as_ref()).stores
     };
     !parts.is_empty() && parts.iter().all(slides)
 }

@@ -44,7 +44,7 @@ pub(crate) struct Struck<'a> {
     /// The force between the face and what strikes it.
     pub(crate) touch: &'a Signal,
     /// The impulses there.
-    pub(crate) blows: &'a [VelocityJump],
+    pub(crate) jumps: &'a [VelocityJump],
     /// The force of the padding.
     pub(crate) padding: &'a Signal,
     /// End of the run \[s\].
@@ -65,7 +65,7 @@ pub(crate) struct Through {
 impl Struck<'_> {
     /// The impact; see [`Impact`].
     pub(crate) fn impact(&self) -> Through {
-        let first = Impact::of_contact(self.touch, self.blows, self.run_end, NO_PULL);
+        let first = Impact::of_contact(self.touch, self.jumps, self.run_end, NO_PULL);
         if !first.has_ended() {
             return Through { touch: first, whole: first, is_more: false };
         }
@@ -93,9 +93,9 @@ impl Struck<'_> {
 
     /// The next contact of the face after `time` \[s\].
     fn next(&self, pushes: &[Push], time: f64) -> Option<f64> {
-        let blow = self.blows.iter().map(|blow| blow.time).find(|&at| at > time);
+        let jump = self.jumps.iter().map(|jump| jump.time).find(|&at| at > time);
         let push = pushes.iter().map(|push| push.start).find(|&at| at > time);
-        blow.into_iter().chain(push).reduce(f64::min)
+        jump.into_iter().chain(push).reduce(f64::min)
     }
 
     /// The contact of the face that begins at `start` \[s\].

@@ -31,7 +31,7 @@ impl VelocityJump {
 /// Part of the impulses on a body below which their sum is none: what is passed on.
 const PASSED_ON: f64 = 1e-9;
 
-/// The blows of each connection, in order of time; nothing where there are none in all of the run.
+/// The jumps of each connection, in order of time; nothing where there are none in all of the run.
 pub(crate) fn by_connection(
     assembly: &Assembly,
     trajectory: &Trajectory,
@@ -59,15 +59,15 @@ pub(crate) fn by_connection(
     found
 }
 
-/// The blows on a body that change its speed, in order of time, those of one instant added up.
+/// The jumps on a body that change its speed, in order of time, those of one instant added up.
 pub(crate) fn on_body(
     assembly: &Assembly,
     all: &[Vec<VelocityJump>],
     body: usize,
 ) -> Vec<VelocityJump> {
     let mut signed = Vec::new();
-    for (connection, blows) in assembly.connections.iter().zip(all) {
-        if blows.is_empty() || connection.is_rigid {
+    for (connection, jumps) in assembly.connections.iter().zip(all) {
+        if jumps.is_empty() || connection.is_rigid {
             continue;
         }
         let [a, b] = contacts::between(assembly, connection);
@@ -77,16 +77,16 @@ pub(crate) fn on_body(
             _ => continue,
         };
         signed.extend(
-            blows.iter().map(|blow| VelocityJump { impulse: sign * blow.impulse, ..*blow }),
+            jumps.iter().map(|jump| VelocityJump { impulse: sign * jump.impulse, ..*jump }),
         );
     }
     signed.sort_by(|one, other| one.time.total_cmp(&other.time));
     let same = |one: &VelocityJump, other: &VelocityJump| one.time.total_cmp(&other.time).is_eq();
-    let sums = signed.chunk_by(same).filter_map(|blows| {
-        let first = blows.first()?;
-        let impulse: f64 = blows.iter().map(|blow| blow.impulse).sum();
-        let size: f64 = blows.iter().map(|blow| blow.impulse.abs()).sum();
-        let lost = blows.iter().map(|blow| blow.lost).sum();
+    let sums = signed.chunk_by(same).filter_map(|jumps| {
+        let first = jumps.first()?;
+        let impulse: f64 = jumps.iter().map(|jump| jump.impulse).sum();
+        let size: f64 = jumps.iter().map(|jump| jump.impulse.abs()).sum();
+        let lost = jumps.iter().map(|jump| jump.lost).sum();
         (impulse.abs() > PASSED_ON * size).then_some(VelocityJump {
             time: first.time,
             impulse,
@@ -102,11 +102,11 @@ mod tests {
 
     #[test]
     fn windows_include_both_ends() {
-        let blow = |time: f64| VelocityJump { time, impulse: 1.0, lost: 0.0 };
-        let blows = [blow(0.0), blow(1.0), blow(2.0)];
-        assert_eq!(VelocityJump::within(&blows, (0.0, 1.0)).len(), 2);
-        assert_eq!(VelocityJump::within(&blows, (1.0, 1.0)).len(), 1);
-        assert_eq!(VelocityJump::within(&blows, (1.5, 1.0)).len(), 0);
-        assert_eq!(VelocityJump::within(&blows, (3.0, 4.0)).len(), 0);
+        let jump = |time: f64| VelocityJump { time, impulse: 1.0, lost: 0.0 };
+        let jumps = [jump(0.0), jump(1.0), jump(2.0)];
+        assert_eq!(VelocityJump::within(&jumps, (0.0, 1.0)).len(), 2);
+        assert_eq!(VelocityJump::within(&jumps, (1.0, 1.0)).len(), 1);
+        assert_eq!(VelocityJump::within(&jumps, (1.5, 1.0)).len(), 0);
+        assert_eq!(VelocityJump::within(&jumps, (3.0, 4.0)).len(), 0);
     }
 }

@@ -8,7 +8,7 @@ use crate::{
     Note, Solution, VelocityJump,
     energy::{
         ledger,
-        roles::{self, Accounts},
+        roles::{self, EnergyRole},
     },
     impact::interval::Span,
 };
@@ -106,7 +106,7 @@ fn work(solution: &Solution<'_>, (target, force): (usize, &Signal), span: &Span)
 fn has_only_springs(solution: &Solution<'_>, connection: &ConnectionOutputs) -> bool {
     let parts = solution.assembly().primitives.get(connection.primitives.clone());
     let is_spring = |part: &PrimitiveOutputs| {
-        let own = Accounts::of(part.element.as_ref());
+        let own = EnergyRole::of(part.element.as_ref());
         own.stores && !own.dissipates
     };
     parts.is_some_and(|parts| parts.iter().all(|part| is_spring(part) || !ledger::does_work(part)))
@@ -123,7 +123,7 @@ fn work_of_parts(
     let primitives = solution.assembly().primitives.get(connection.primitives.clone());
     let (mut work, mut bound) = (0.0, Some(0.0));
     for primitive in primitives.unwrap_or(&[]) {
-        let own = Accounts::of(primitive.element.as_ref());
+        let own = EnergyRole::of(primitive.element.as_ref());
         let error = if own.dissipates {
             let force = &solution.glance(primitive.force);
             let rate = solution.rate(primitive.rate, primitive.deformation);

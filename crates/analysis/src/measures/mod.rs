@@ -4,7 +4,6 @@ pub(crate) mod exceedance;
 pub(crate) mod hic_search;
 pub(crate) mod selection;
 
-mod clip;
 mod contact;
 mod driven;
 mod energy;
@@ -25,9 +24,9 @@ use dashpot_network::{
 pub use dashpot_units::STANDARD_GRAVITY;
 
 pub use self::{
-    clip::{Clip, Clip3ms},
     contact::{CoefficientOfRestitution, ContactTime},
     energy::{Energy, EnergyAtEnd},
+    exceedance::{Clip, Clip3ms},
     injury::{Hic, Hic15, Hic36, SeverityIndex},
     integrals::{AverageDeceleration, Impulse},
     peaks::{

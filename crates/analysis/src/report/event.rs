@@ -39,7 +39,7 @@ pub enum Event {
         /// Whether they have met before.
         again: bool,
         /// The impulse with which they meet, where masses do.
-        blow: Option<Blow>,
+        collision: Option<Collision>,
     },
     /// A node leaves an element.
     Leaves {
@@ -53,7 +53,7 @@ pub enum Event {
         /// Whether it has been closed before.
         again: bool,
         /// The impulse with which masses meet in it, where they do.
-        blow: Option<Blow>,
+        collision: Option<Collision>,
     },
     /// A contact opens.
     Opens {
@@ -65,7 +65,7 @@ pub enum Event {
         /// The contact.
         contact: String,
         /// The impulse.
-        blow: Blow,
+        collision: Collision,
     },
     /// An impulse goes through a closed contact.
     PassesOn {
@@ -92,7 +92,7 @@ pub enum Event {
 
 /// An impulse with which masses meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Blow {
+pub struct Collision {
     /// The impulse \[N s\].
     pub impulse: f64,
     /// The kinetic energy that it loses \[J\].
@@ -127,7 +127,7 @@ impl Serialize for EventReport {
     }
 }
 
-impl fmt::Display for Blow {
+impl fmt::Display for Collision {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (impulse, lost) = (quantity(self.impulse, "N s"), quantity(self.lost, "J"));
         write!(f, "impact of {impulse}, which loses {lost}")
@@ -136,20 +136,22 @@ impl fmt::Display for Blow {
 
 impl fmt::Display for Event {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let told = |blow: &Option<Blow>| blow.map_or(String::new(), |blow| format!(": {blow}"));
+        let told = |collision: &Option<Collision>| {
+            collision.map_or(String::new(), |collision| format!(": {collision}"))
+        };
         let again = |again: &bool| if *again { " again" } else { "" };
         match self {
             Self::Condition { stop, unit } => write!(f, "{}", stop.text(unit)),
             Self::Tension { element } => write!(f, "{element} force turns to tension"),
-            Self::Meets { sides: [node, element], again: is_again, blow } => {
-                write!(f, "{node} meets the {element}{}{}", again(is_again), told(blow))
+            Self::Meets { sides: [node, element], again: is_again, collision } => {
+                write!(f, "{node} meets the {element}{}{}", again(is_again), told(collision))
             }
             Self::Leaves { sides: [node, element] } => write!(f, "{node} leaves the {element}"),
-            Self::Closes { contact, again: is_again, blow } => {
-                write!(f, "{contact} closes{}{}", again(is_again), told(blow))
+            Self::Closes { contact, again: is_again, collision } => {
+                write!(f, "{contact} closes{}{}", again(is_again), told(collision))
             }
             Self::Opens { contact } => write!(f, "{contact} opens"),
-            Self::Impact { contact, blow } => write!(f, "{contact}: {blow}"),
+            Self::Impact { contact, collision } => write!(f, "{contact}: {collision}"),
             Self::PassesOn { contact, impulse } => {
                 write!(f, "{contact} passes on {}", quantity(*impulse, "N s"))
             }

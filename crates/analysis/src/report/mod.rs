@@ -221,7 +221,7 @@ impl RunReport {
         let forces = connections.filter_map(|(at, connection)| {
             let force = solution.signal(connection.force?);
             let peak = match solution.element_jumps(at).first() {
-                Some(blow) => Extremum { time: blow.time, value: f64::INFINITY },
+                Some(jump) => Extremum { time: jump.time, value: f64::INFINITY },
                 None => force.absolute_maximum(window),
             };
             Some((connection.name.as_str(), peak))

@@ -18,13 +18,11 @@
 //! # Ok::<(), dashpot_analysis::rheometer::RheometerError>(())
 //! ```
 
-mod frequency;
 mod history;
 mod note;
+mod perturbation;
 mod protocols;
 mod report;
-mod response;
-mod shaking;
 mod simulation;
 mod specimen;
 mod trial;

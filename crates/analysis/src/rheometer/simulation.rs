@@ -6,7 +6,7 @@ use dashpot_network::{Model, Network, Node};
 use super::{
     Obstacle,
     history::{History, Instant, Side},
-    shaking::{CAUTION, SEEDS, shake, shaken},
+    perturbation::{CAUTION, SEEDS, perturb, perturbed},
 };
 use crate::Choice;
 
@@ -94,7 +94,7 @@ fn solve(
 }
 
 /// The outputs over one run to `reach`, with the bounds that the method states; with a seed those of
-/// the equations after shaking.
+/// the equations after that.
 fn tracks(
     rig: &Rig<'_>,
     method: &dyn Method,
@@ -102,14 +102,14 @@ fn tracks(
     seed: Option<u64>,
     instants: &[Instant],
 ) -> Result<Vec<Track>, Obstacle> {
-    let network = seed.map_or_else(|| rig.network(), |seed| rig.shaken(seed).network());
+    let network = seed.map_or_else(|| rig.network(), |seed| rig.perturbed(seed).network());
     let network = network.ok_or(Obstacle::ChangesAtOnce)?;
     let mut assembly = network.compile(reach)?;
     let numbers: Option<Vec<usize>> =
         rig.outputs.iter().map(|output| assembly.output(output)).collect();
     let numbers = numbers.ok_or(Obstacle::Undetermined)?;
     if let Some(seed) = seed {
-        shake(&mut assembly.system, seed);
+        perturb(&mut assembly.system, seed);
     }
     if method.is_exact() {
         check_width(&assembly.system, reach)?;
@@ -211,9 +211,10 @@ impl<'a> Rig<'a> {
         Self { chain, control, history, outputs }
     }
 
-    /// The same rig with the models [`shaken`].
-    pub(super) fn shaken(&self, seed: u64) -> Self {
-        let chain = self.chain.iter().map(|(name, model)| (*name, shaken(model, seed))).collect();
+    /// The same rig with the models [`perturbed`].
+    pub(super) fn perturbed(&self, seed: u64) -> Self {
+        let chain =
+            self.chain.iter().map(|(name, model)| (*name, perturbed(model, seed))).collect();
         Self { chain, outputs: self.outputs.clone(), ..*self }
     }
 

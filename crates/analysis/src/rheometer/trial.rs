@@ -2,9 +2,8 @@
 
 use super::{
     Specimen,
-    history::{History, Instant, instants},
+    history::{self, History, Instant, Parts, instants},
     report::{Computation, Figure, RheometerReport, Series, Setting, series},
-    response::{self, Parts},
     simulation::{Control, Rig, Simulation},
 };
 use crate::{Choice, Column};
@@ -40,14 +39,14 @@ impl<'a> Trial<'a> {
     /// The parts of the deformation at an instant, in closed form; zero for what bears no force.
     pub(super) fn parts(&self, at: Instant) -> Parts {
         let form = self.specimen.linear().kelvin();
-        form.map_or_else(Parts::default, |form| response::deformation(form, &self.history, at))
+        form.map_or_else(Parts::default, |form| history::deformation(form, &self.history, at))
     }
 
     /// The answer of the model at an instant, in closed form: deformation \[m\] or force \[N\].
     pub(super) fn answer(&self, at: Instant) -> f64 {
         match (self.control, self.specimen.linear().maxwell()) {
             (Control::Force, _) => self.parts(at).total(),
-            (Control::Deformation, Some(form)) => response::force(form, &self.history, at),
+            (Control::Deformation, Some(form)) => history::force(form, &self.history, at),
             (Control::Deformation, None) => f64::INFINITY,
         }
     }

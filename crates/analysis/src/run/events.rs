@@ -4,7 +4,7 @@ use dashpot_dae::{Run, Switch, Trajectory};
 use dashpot_network::{Assembly, NodeId};
 
 use crate::{
-    Blow, ContactReport, Event, EventReport, Stop,
+    Collision, ContactReport, Event, EventReport, Stop,
     impact::{
         contacts::{is_contact, stays_closed},
         interval::Contact,
@@ -81,23 +81,23 @@ fn of_contact(assembly: &Assembly, switch: &Switch, at: usize, again: bool) -> E
     let is_connection = owner.is_some_and(|at| assembly.connections[at].name == switch.name);
     let name = if is_connection { &switch.name } else { assembly.primitives[at].place() };
     let contact = name.to_owned();
-    let impulse = Blow { impulse: switch.impulse, lost: switch.lost.max(0.0) };
+    let impulse = Collision { impulse: switch.impulse, lost: switch.lost.max(0.0) };
     if stays_closed(switch) {
         return if switch.lost > 0.0 {
-            Event::Impact { contact, blow: impulse }
+            Event::Impact { contact, collision: impulse }
         } else {
             Event::PassesOn { contact, impulse: switch.impulse }
         };
     }
-    let blow = (switch.impulse > 0.0).then_some(impulse);
+    let collision = (switch.impulse > 0.0).then_some(impulse);
     match owner.and_then(|at| sides(assembly, at)) {
         // Where an impulse parts them again at once, they have met all the same.
         Some(sides) if switch.impulse > 0.0 || switch.phase > 0 => {
-            Event::Meets { sides, again, blow }
+            Event::Meets { sides, again, collision }
         }
         Some(sides) => Event::Leaves { sides },
-        None if switch.phase > 0 => Event::Closes { contact, again, blow },
-        None if switch.impulse > 0.0 => Event::Impact { contact, blow: impulse },
+        None if switch.phase > 0 => Event::Closes { contact, again, collision },
+        None if switch.impulse > 0.0 => Event::Impact { contact, collision: impulse },
         None => Event::Opens { contact },
     }
 }

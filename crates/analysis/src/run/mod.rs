@@ -41,7 +41,7 @@ pub fn solve_assembly(
     let run = Run {
         t_end: settings.duration,
         rtol: settings.rtol.unwrap_or(SINGLE),
-        nominal: Vec::new(),
+        tolerance_scaling: Vec::new(),
         guards: guards(assembly, settings)?,
         keep: keep(assembly, &selected),
         budget: Budget::of(settings.budget),

@@ -7,7 +7,6 @@
 //! groups are equal are similar, and their answers differ by a [`Scale`] only.
 
 mod comparison;
-mod error;
 mod four_parameter;
 mod groups;
 mod laboratory;
@@ -21,13 +20,13 @@ mod walk;
 mod tests;
 
 pub use comparison::{GroupPair, Similarity};
-pub use error::SimilarityError;
 pub use four_parameter::{
     FourParameterGroups, FourParameterImpact, FourParameterPadding, FourParameterSupport,
     ImpactScales, Ranges,
 };
 pub use groups::{Group, Groups, Reference};
 pub use groups::{Inventory, Quantity};
+pub use laboratory::SimilarityError;
 pub use laboratory::{Chosen, Laboratory, Wish};
 pub use measured::{Alone, Measured, alone, measured, similar_settings};
 pub use scale::{Scale, scaled};

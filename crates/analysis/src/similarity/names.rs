@@ -3,11 +3,13 @@
 use std::{collections::HashMap, sync::Arc};
 
 use dashpot_network::{
-    Effect, Model, Network,
+    Connection, Effect, Model, Network, NodeId,
     effects::EFFECTS,
     parameters::{InvalidParameter, ParameterKind, Value, registered},
 };
 use dashpot_rheology::{Branch, Tree};
+
+use crate::measures::STANDARD_GRAVITY;
 
 /// The network with the names that nodes, elements, branches and loads at the same places have in
 /// another; `None` where it has not as many of each.
@@ -49,9 +51,7 @@ pub(super) fn renamed(
             again.connect_layers(&*other.name, from, to, layers).area = own.area;
         } else {
             let model = with_names(&own.model, &other.model);
-            let connection = again.connect(&*other.name, from, to, model);
-            (connection.thickness, connection.area) = (own.thickness, own.area);
-            connection.pads.clone_from(&own.pads);
+            connect_as(&mut again, own, (&other.name, own.between), model);
         }
     }
     for (load, other) in network.loads().iter().zip(like.loads()) {
@@ -61,6 +61,28 @@ pub(super) fn renamed(
         again.add_shared_effect(retargeted(effect, &names)?);
     }
     Ok(Some(again))
+}
+
+/// Connects two nodes as in another network, with a size of the same kind.
+pub(super) fn connect_as(
+    network: &mut Network,
+    like: &Connection,
+    (name, [from, to]): (&str, [NodeId; 2]),
+    model: Model,
+) {
+    let connection = network.connect(name, from, to, model);
+    (connection.thickness, connection.area) = (like.thickness, like.area);
+    connection.pads.clone_from(&like.pads);
+}
+
+/// The gravitational acceleration \[m/s²\] in a network, where gravity is on.
+pub(super) fn gravity(network: &Network) -> Option<f64> {
+    network.effects().iter().find_map(|effect| effect.gravity())
+}
+
+/// The speed \[m/s\] after a fall from this height \[m\], under standard gravity where it is off.
+pub(super) fn speed_of_fall(network: &Network, height: f64) -> f64 {
+    (2.0 * gravity(network).unwrap_or(STANDARD_GRAVITY) * height).max(0.0).sqrt()
 }
 
 /// The model with the names of branches of another, as far as both have the same shape.

@@ -60,7 +60,7 @@ pub(crate) struct Known {
     twins: Twins,
     element_impacts: Vec<OnceCell<Box<Impact>>>,
     body_impacts: Vec<OnceCell<Box<Impact>>>,
-    blows: OnceCell<Vec<Vec<VelocityJump>>>,
+    jumps: OnceCell<Vec<Vec<VelocityJump>>>,
     faces: OnceCell<Vec<(usize, FaceContact)>>,
     members: OnceCell<Members>,
     scene_impact: OnceCell<Impact>,
@@ -75,7 +75,7 @@ impl Known {
             twins: Twins::default(),
             element_impacts: cells(assembly.connections.len()),
             body_impacts: cells(contacts::count(assembly)),
-            blows: OnceCell::new(),
+            jumps: OnceCell::new(),
             faces: OnceCell::new(),
             members: OnceCell::new(),
             scene_impact: OnceCell::new(),
@@ -240,10 +240,10 @@ impl<'a> Solution<'a> {
             }
             Box::new(match connection.force {
                 Some(force) if self.touches_impactor(connection) => {
-                    let (blows, threshold) =
+                    let (jumps, threshold) =
                         (self.element_jumps(element), self.threshold_of(connection));
                     let impact =
-                        Impact::of_contact(self.signal(force), blows, self.end(), threshold);
+                        Impact::of_contact(self.signal(force), jumps, self.end(), threshold);
                     self.ended(impact, ForceOf::Element(element))
                 }
                 _ if connection.is_rigid => self.node_impact(connection.between[0].index()),
@@ -270,8 +270,8 @@ impl<'a> Solution<'a> {
             let own = match self.push_on(body) {
                 Some(force) => {
                     let threshold = self.threshold_of_body(body);
-                    let blows = self.body_jumps(body);
-                    let impact = Impact::of_contact(&force, &blows, self.end(), threshold);
+                    let jumps = self.body_jumps(body);
+                    let impact = Impact::of_contact(&force, &jumps, self.end(), threshold);
                     self.ended(impact, ForceOf::Body(body))
                 }
                 None => Impact::unloaded(self.end()),
@@ -339,7 +339,7 @@ impl<'a> Solution<'a> {
     }
 
     fn all_jumps(&self) -> &[Vec<VelocityJump>] {
-        self.known.blows.get_or_init(|| impulses::by_connection(self.assembly, self.trajectory))
+        self.known.jumps.get_or_init(|| impulses::by_connection(self.assembly, self.trajectory))
     }
 
     /// How the element number `element` is struck through its face, where an impactor does so.
@@ -368,7 +368,7 @@ impl<'a> Solution<'a> {
         let connections = &self.assembly.connections;
         let struck = Struck {
             touch: self.signal(connections[face.connection].force?),
-            blows: self.element_jumps(face.connection),
+            jumps: self.element_jumps(face.connection),
             padding: self.signal(connections[element].force?),
             run_end: self.end(),
         };
@@ -467,9 +467,9 @@ impl<'a> Solution<'a> {
 }
 
 /// Whether the first force or impulse is positive; so is none.
-fn first_pushes(force: &Signal, blows: &[VelocityJump]) -> bool {
-    match first_felt(blows, force).filter(|blow| Impact::begins_with(blow, force)) {
-        Some(blow) => blow.impulse > 0.0,
+fn first_pushes(force: &Signal, jumps: &[VelocityJump]) -> bool {
+    match first_felt(jumps, force).filter(|jump| Impact::begins_with(jump, force)) {
+        Some(jump) => jump.impulse > 0.0,
         None => first_way(force) != Some(false),
     }
 }

@@ -37,7 +37,6 @@ mod observed;
 mod resonance;
 mod steady;
 mod sweep;
-mod warning;
 
 #[cfg(test)]
 mod tests;
@@ -50,11 +49,10 @@ use self::drive::Driven;
 pub use self::{
     contacts::{Limit, LimitKind, Onset},
     drive::{Drive, DriveKind, drives},
-    error::VibrationError,
+    error::{VibrationError, VibrationWarning},
     resonance::Resonance,
     steady::{Steady, SteadyElement, SteadyNode, SteadySupport},
     sweep::{Sweep, SweepSettings, Transmission},
-    warning::VibrationWarning,
 };
 
 /// A sinusoidal quantity: `amplitude · cos(ωt + phase)` where the drive is `cos(ωt)`.

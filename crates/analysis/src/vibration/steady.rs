@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::{
     Drive, DriveKind, Swing, Vibration, VibrationError, VibrationWarning,
     curve::Curve,
+    error,
     observed::{Found, Observed, supports},
-    warning,
 };
 
 /// A network in steady oscillation under a drive of a given amplitude.
@@ -34,7 +34,7 @@ pub struct Steady {
     /// `None` where the force of the drive is not known.
     pub power: Option<f64>,
     /// What is wrong with the oscillation as a picture of the scene.
-    #[serde(flatten, serialize_with = "warning::serialize")]
+    #[serde(flatten, serialize_with = "error::serialize")]
     pub warnings: Vec<VibrationWarning>,
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{CostPoint, Deviation, MeasureDeviation, Slip, Subject, Timing};
+use super::{CostPoint, Deviation, MeasureDeviation, Subject, Timing, Underestimate};
 use crate::{Contact, MeasureReport, RunReport};
 
 /// Differences below so many roundings are none.
@@ -10,26 +10,26 @@ const ROUNDINGS: f64 = 64.0;
 
 /// The difference between two values of a measure relative to the true size, or where that is zero, to
 /// that of the run: infinite if only one has a value, `None` if neither has.
-pub(super) fn apart(truth: &MeasureReport, run: &MeasureReport) -> Option<f64> {
-    match (truth.value, run.value) {
+pub(super) fn apart(reference: &MeasureReport, run: &MeasureReport) -> Option<f64> {
+    match (reference.value, run.value) {
         (None, None) => None,
-        (Some(truth_value), Some(value)) => {
-            let size = size(truth, run);
-            Some(if size > 0.0 { (value - truth_value).abs() / size } else { 0.0 })
+        (Some(reference_value), Some(value)) => {
+            let size = size(reference, run);
+            Some(if size > 0.0 { (value - reference_value).abs() / size } else { 0.0 })
         }
         _ => Some(f64::INFINITY),
     }
 }
 
 /// What errors of a measure are relative to.
-pub(super) fn size(truth: &MeasureReport, run: &MeasureReport) -> f64 {
-    if truth.size > 0.0 { truth.size } else { run.size }
+pub(super) fn size(reference: &MeasureReport, run: &MeasureReport) -> f64 {
+    if reference.size > 0.0 { reference.size } else { run.size }
 }
 
 /// How well each measure of `truth` is known, relative: its bound where `is_bounded`, else its
 /// difference from `witness`; infinite where nothing tells.
 pub(super) fn known(
-    truth: &[MeasureReport],
+    reference: &[MeasureReport],
     witness: Option<&[MeasureReport]>,
     is_bounded: bool,
 ) -> Vec<f64> {
@@ -49,12 +49,12 @@ pub(super) fn known(
             Some(_) => bound.or_else(agreement).unwrap_or(f64::INFINITY),
         }
     };
-    truth.iter().map(of).collect()
+    reference.iter().map(of).collect()
 }
 
 /// The errors of all measures of `run`, in the order of `truth`.
 pub(super) fn measures(
-    truth: &[MeasureReport],
+    reference: &[MeasureReport],
     known: &[f64],
     run: &RunReport,
 ) -> Vec<MeasureDeviation> {
@@ -69,16 +69,16 @@ pub(super) fn measures(
         let warned = other.excess > 1.0 || other.error.is_some_and(f64::is_infinite);
         MeasureDeviation { deviation, bar, warned }
     };
-    truth.iter().zip(known).map(of).collect()
+    reference.iter().zip(known).map(of).collect()
 }
 
 /// Error beyond which a run without an error bar is wrong.
 const WRONG: f64 = 0.01;
 
 /// What is wrong about a solution beyond what it says itself.
-pub(super) fn slips(point: &CostPoint) -> Vec<Slip> {
+pub(super) fn underestimates(point: &CostPoint) -> Vec<Underestimate> {
     let warned = point.measures.iter().any(|measure| measure.warned);
-    let slip = |subject, error, bar, warned| Slip {
+    let underestimate = |subject, error, bar, warned| Underestimate {
         method: point.method,
         rtol: point.rtol,
         subject,
@@ -90,13 +90,14 @@ pub(super) fn slips(point: &CostPoint) -> Vec<Slip> {
     let is_wrong =
         |deviation: &Deviation| !warned && deviation.is_resolved() && deviation.value > WRONG;
     let state = point.state.filter(is_wrong);
-    let state = state.map(|state| slip(Subject::State, state.value, None, warned));
+    let state = state.map(|state| underestimate(Subject::State, state.value, None, warned));
     let events = error_of_events(point);
-    let events =
-        events.filter(is_wrong).map(|event| slip(Subject::Events, event.value, None, warned));
+    let events = events
+        .filter(is_wrong)
+        .map(|event| underestimate(Subject::Events, event.value, None, warned));
     let measures = point.measures.iter().enumerate().filter_map(|(at, own)| {
         let deviation = own.deviation.filter(|deviation| is_untold(deviation, own))?;
-        Some(slip(Subject::Measure(at), deviation.value, own.bar, own.warned))
+        Some(underestimate(Subject::Measure(at), deviation.value, own.bar, own.warned))
     });
     state.into_iter().chain(events).chain(measures).collect()
 }
@@ -122,7 +123,7 @@ fn is_untold(deviation: &Deviation, measure_deviation: &MeasureDeviation) -> boo
 
 /// Something that happens at a time.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Happening {
+pub(super) struct TimedEvent {
     /// What, without any number that depends on the solution.
     what: String,
     /// When \[s\].
@@ -132,21 +133,21 @@ pub(super) struct Happening {
 }
 
 /// What switches, what crosses a level that is watched, and glued contacts whose force turns.
-pub(super) fn happenings(report: &RunReport) -> Vec<Happening> {
+pub(super) fn timed_events(report: &RunReport) -> Vec<TimedEvent> {
     let trajectory = &report.trajectory;
-    let switches = trajectory.switches.iter().map(|switch| Happening {
+    let switches = trajectory.switches.iter().map(|switch| TimedEvent {
         what: format!("{}: {}", switch.name, switch.what),
         time: switch.time,
         jumps: true,
     });
-    let crossings = trajectory.events.iter().map(|event| Happening {
+    let crossings = trajectory.events.iter().map(|event| TimedEvent {
         what: format!("condition {}", event.guard),
         time: event.time,
         jumps: false,
     });
     let released =
         |own: &&crate::ContactReport| own.is_glued && own.impact.contact == Contact::Released;
-    let releases = report.contacts.iter().filter(released).map(|contact| Happening {
+    let releases = report.contacts.iter().filter(released).map(|contact| TimedEvent {
         what: format!("{} turns to tension", contact.element),
         time: contact.impact.end,
         jumps: false,
@@ -168,18 +169,18 @@ pub(super) struct Match {
     pub(super) jumps: Vec<(f64, f64)>,
 }
 
-/// Matches the events of `run` with the `true` ones.
-pub(super) fn matched(truth: &[Happening], run: &[Happening]) -> Match {
+/// Matches the events of `run` with those of the reference solution.
+pub(super) fn matched(reference: &[TimedEvent], run: &[TimedEvent]) -> Match {
     let mut found = Match::default();
-    let mut kinds: Vec<&str> = truth.iter().chain(run).map(|own| own.what.as_str()).collect();
+    let mut kinds: Vec<&str> = reference.iter().chain(run).map(|own| own.what.as_str()).collect();
     kinds.sort_unstable();
     kinds.dedup();
     for kind in kinds {
-        let of = |all: &[Happening]| -> Vec<(f64, bool)> {
+        let of = |all: &[TimedEvent]| -> Vec<(f64, bool)> {
             let same = all.iter().filter(|own| own.what == kind);
             same.map(|same| (same.time, same.jumps)).collect()
         };
-        let (one, other) = (of(truth), of(run));
+        let (one, other) = (of(reference), of(run));
         for (at, (&(time, jumps), &(in_run, _))) in one.iter().zip(&other).enumerate() {
             let apart = (time - in_run).abs();
             found.apart = Some(found.apart.unwrap_or(0.0).max(apart));
@@ -221,24 +222,24 @@ mod tests {
     }
 
     fn subjects(point: &CostPoint) -> Vec<Subject> {
-        slips(point).iter().map(|slip| slip.subject).collect()
+        underestimates(point).iter().map(|underestimate| underestimate.subject).collect()
     }
 
     #[test]
-    fn an_error_beyond_its_bar_is_a_slip_and_one_within_is_none() {
+    fn an_error_beyond_its_bar_is_an_underestimate_and_one_within_is_none() {
         assert_eq!(subjects(&point(2e-4, Some(1e-4))), [Subject::Measure(0)]);
         assert!(subjects(&point(2e-4, Some(3e-4))).is_empty());
         assert!(subjects(&point(5e-10, Some(1e-12))).is_empty(), "the truth is not known so well");
     }
 
     #[test]
-    fn without_a_bar_one_percent_is_a_slip() {
+    fn without_a_bar_one_percent_is_an_underestimate() {
         assert!(subjects(&point(0.009, None)).is_empty());
         assert_eq!(subjects(&point(0.011, None)), [Subject::State, Subject::Measure(0)]);
     }
 
     #[test]
-    fn an_event_that_is_missing_is_a_slip_where_the_state_feels_it() {
+    fn an_event_that_is_missing_is_an_underestimate_where_the_state_feels_it() {
         let mut own = point(0.0, None);
         own.events.missed = 1;
         assert!(subjects(&own).is_empty());
@@ -248,33 +249,33 @@ mod tests {
 }
 
 #[cfg(test)]
-mod happenings_tests {
+mod event_tests {
     use super::*;
 
-    fn at(what: &str, time: f64) -> Happening {
-        Happening { what: what.to_owned(), time, jumps: true }
+    fn at(what: &str, time: f64) -> TimedEvent {
+        TimedEvent { what: what.to_owned(), time, jumps: true }
     }
 
     #[test]
     fn events_are_matched_by_kind_and_order() {
-        let truth = [at("closes", 1.0), at("opens", 2.0), at("closes", 3.0)];
+        let reference = [at("closes", 1.0), at("opens", 2.0), at("closes", 3.0)];
         let run = [at("opens", 2.25), at("closes", 1.0), at("closes", 2.875)];
-        let own = matched(&truth, &run);
+        let own = matched(&reference, &run);
         assert_eq!((own.apart, own.missed, own.extra), (Some(0.25), 0, 0));
         assert_eq!(own.jumps, [(1.0, 1.0), (2.0, 2.25), (2.875, 3.0)]);
     }
 
     #[test]
     fn jumps_that_are_nearer_to_the_next_one_are_not_the_same() {
-        let truth = [at("opens", 1.0), at("opens", 2.0), at("opens", 3.0)];
-        let own = matched(&truth, &[at("opens", 1.25), at("opens", 3.0)]);
+        let reference = [at("opens", 1.0), at("opens", 2.0), at("opens", 3.0)];
+        let own = matched(&reference, &[at("opens", 1.25), at("opens", 3.0)]);
         assert_eq!((own.jumps, own.missed), (vec![(1.0, 1.25)], 1));
     }
 
     #[test]
     fn events_that_only_one_run_has_are_counted() {
-        let truth = [at("closes", 1.0), at("opens", 2.0)];
-        let own = matched(&truth, &[at("closes", 1.0), at("sticks", 1.0)]);
+        let reference = [at("closes", 1.0), at("opens", 2.0)];
+        let own = matched(&reference, &[at("closes", 1.0), at("sticks", 1.0)]);
         assert_eq!((own.apart, own.missed, own.extra), (Some(0.0), 1, 1));
         assert_eq!(matched(&[], &[]), Match::default());
     }

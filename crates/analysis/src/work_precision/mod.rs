@@ -2,7 +2,7 @@
 //! work.
 //!
 //! [`work_precision`] solves a network by every method at every tolerance, and compares each solution with one
-//! that is known better ([`Truth`]): the exact solution where there is one, else two solutions by
+//! that is known better ([`ReferenceSolution`]): the exact solution where there is one, else two solutions by
 //! methods of different families, whose agreement says how much can be told. Errors are those in
 //! the state, in every measure, and in the times of events. Nothing is left out: methods that fail
 //! are listed with what they say, and so are errors that a run does not tell of.
@@ -23,7 +23,7 @@
 //! network.connect("pad", head, network.ground(), pad);
 //! let ladder = Ladder { methods: vec![Choice::from(Bdf)], repeats: Some(3), ..Ladder::default() };
 //! let report = work_precision(&network, &SolveSettings::lasting(0.05), &ladder, &mut Silent)?;
-//! assert_eq!(report.truth.method, "exact");
+//! assert_eq!(report.reference.method, "exact");
 //! let worst: Vec<f64> = report.points.iter().map(|point| point.worst(&report.asked)).collect();
 //! assert!(worst[0] > 1e-4 && worst.last() < Some(&1e-7));
 //! # Ok::<(), dashpot_analysis::RunError>(())
@@ -31,9 +31,9 @@
 
 mod deviation;
 mod point;
+mod reference;
 mod report;
 mod states;
-mod truth;
 mod watch;
 
 #[cfg(test)]
@@ -45,10 +45,10 @@ use dashpot_dae::{Method, MethodKind, Observer, Run, SolveError, methods};
 use dashpot_network::{Assembly, Network};
 
 pub use self::report::{
-    CostFailure, CostPoint, CostReport, Deviation, MeasureDeviation, Slip, Spread, Subject, Timing,
-    TrueMeasure, Truth,
+    CostFailure, CostPoint, CostReport, Deviation, MeasureDeviation, ReferenceSolution, Spread,
+    Subject, Timing, TrueMeasure, Underestimate,
 };
-use self::{point::Bench, truth::Judge, watch::Watch};
+use self::{point::Bench, reference::Judge, watch::Watch};
 use crate::{
     Choice, RunError, SolveSettings,
     measures::selection::{Selected, select},
@@ -128,26 +128,26 @@ pub fn work_precision_assembly(
     let count = chosen(ladder, first)?.len();
     let selected = select(assembly, &settings.measures)?;
     let asked = asked(ladder, &selected)?;
-    let total = truth::PARTS + count * ladder.rtols.len();
+    let total = reference::PARTS + count * ladder.rtols.len();
     let mut watch = Watch::new(observer, settings.duration, total, ladder.most_work);
     let judge = Judge::find(assembly, settings, &mut watch)?;
     let run = Run { guards: guards(assembly, settings)?, ..Run::to(settings.duration) };
     let bench = Bench { assembly, settings, selected: &selected, run, judge: &judge, ladder };
-    let truth = judge.truth();
+    let reference = judge.reference();
     // In scenes that switch `exact` may decline on the way, which is not known before.
-    let auto = if truth.why_not_exact.is_some() { methods::Bdf::KIND } else { first };
+    let auto = if reference.why_not_exact.is_some() { methods::Bdf::KIND } else { first };
     let names = chosen(ladder, auto)?;
     let mut report = CostReport {
-        truth,
+        reference,
         auto,
         measures: judge.measures(),
         asked,
         points: Vec::new(),
         failures: Vec::new(),
-        slips: judge.contradictions(),
+        underestimates: judge.contradictions(),
     };
     for (place, method) in names.iter().enumerate() {
-        watch.begin(truth::PARTS + place * ladder.rtols.len());
+        watch.begin(reference::PARTS + place * ladder.rtols.len());
         let most_work = watch.share(names.len() - place);
         bench.climb(method, most_work, &mut report, &mut watch)?;
     }

@@ -10,8 +10,8 @@ use dashpot_dae::{Method, Run, Silent, SolveError, Statistics, switching};
 use dashpot_network::Assembly;
 
 use super::{
-    CostFailure, CostPoint, CostReport, Ladder, Spread, declines, deviation::slips, truth::Judge,
-    watch::Watch,
+    CostFailure, CostPoint, CostReport, Ladder, Spread, declines, deviation::underestimates,
+    reference::Judge, watch::Watch,
 };
 use crate::{
     Choice, RunError, RunReport, Solution, SolveSettings, measures::selection::Selected,
@@ -50,7 +50,7 @@ impl Bench<'_> {
         for rtol in rtols {
             match self.point(method, rtol, most_work, watch) {
                 Ok(point) => {
-                    report.slips.extend(slips(&point));
+                    report.underestimates.extend(underestimates(&point));
                     report.points.push(point);
                 }
                 Err(RunError::Solve(error @ SolveError::Cancelled { .. })) => {

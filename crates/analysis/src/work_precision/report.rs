@@ -9,7 +9,7 @@ use crate::RunError;
 #[derive(Debug, Clone, PartialEq)]
 pub struct CostReport {
     /// What errors are taken from.
-    pub truth: Truth,
+    pub reference: ReferenceSolution,
     /// The method that `auto` chooses.
     pub auto: &'static str,
     /// The measures and their true values.
@@ -22,12 +22,12 @@ pub struct CostReport {
     pub failures: Vec<CostFailure>,
     /// Errors that a run does not tell of, and contradictions between the solutions that errors are
     /// taken from.
-    pub slips: Vec<Slip>,
+    pub underestimates: Vec<Underestimate>,
 }
 
 /// What errors are taken from, and how well it is known.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Truth {
+pub struct ReferenceSolution {
     /// The method whose solution counts as true.
     pub method: &'static str,
     /// Its relative tolerance; `None` for `exact`.
@@ -183,7 +183,7 @@ pub enum Subject {
 /// An error that the run does not tell of: larger than its error bar, or where it states none and does
 /// not warn of any measure, than 1 %.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Slip {
+pub struct Underestimate {
     /// Name of the method.
     pub method: &'static str,
     /// Its tolerance; `None` for `exact`.

@@ -164,21 +164,22 @@ impl<'a> Probe<'a> {
     /// of either. `None` where nothing moves.
     pub(super) fn difference(
         &self,
-        truth: &States,
+        reference: &States,
         run: &Trajectory,
         jumps: &[(f64, f64)],
     ) -> Option<f64> {
-        let (values, _) = self.values(run, &truth.times);
+        let (values, _) = self.values(run, &reference.times);
         let width = WIDTH * run.t_end;
         let is_at_jump =
             |time: f64| jumps.iter().any(|&(from, to)| time >= from - width && time <= to + width);
         let counts: Vec<bool> =
-            truth.times.iter().map(|&time| time <= run.t_end && !is_at_jump(time)).collect();
-        let rows = values.iter().zip(&truth.values).zip(&truth.sizes);
+            reference.times.iter().map(|&time| time <= run.t_end && !is_at_jump(time)).collect();
+        let rows = values.iter().zip(&reference.values).zip(&reference.sizes);
         let moving = rows.filter(|(_, size)| **size > 0.0);
-        let off = |((run, truth), size): ((&Vec<f64>, &Vec<f64>), &f64)| {
-            let pairs = run.iter().zip(truth).zip(&counts).filter(|(_, counts)| **counts);
-            pairs.fold(0.0_f64, |most, ((run, truth), _)| most.max((run - truth).abs())) / size
+        let off = |((run, reference), size): ((&Vec<f64>, &Vec<f64>), &f64)| {
+            let pairs = run.iter().zip(reference).zip(&counts).filter(|(_, counts)| **counts);
+            pairs.fold(0.0_f64, |most, ((run, reference), _)| most.max((run - reference).abs()))
+                / size
         };
         moving.map(off).reduce(f64::max)
     }

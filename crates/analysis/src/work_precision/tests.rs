@@ -56,8 +56,11 @@ fn errors_are_the_distances_from_the_exact_solution() {
     let network = impact(dashpot(6e3));
     let methods = ["bdf", "tr-bdf2", "esdirk34", "tsit45", "exact"];
     let report = report(&network, &ladder(&methods));
-    assert_eq!((report.truth.method, report.truth.witness), ("exact", Some(("bdf", 1e-12))));
-    assert!(report.truth.measure_agreement.unwrap() < 1e-8, "{:?}", report.truth);
+    assert_eq!(
+        (report.reference.method, report.reference.witness),
+        ("exact", Some(("bdf", 1e-12)))
+    );
+    assert!(report.reference.measure_agreement.unwrap() < 1e-8, "{:?}", report.reference);
     for method in &methods[..4] {
         let errors = of_peak_force(&report, method);
         assert_eq!(errors.len(), 9, "{method}");
@@ -107,11 +110,11 @@ fn counts_and_errors_repeat_to_the_bit() {
 fn without_an_exact_solution_two_families_agree_and_the_rest_is_judged_by_that() {
     let network = impact(part(PowerDashpot { force: 3e4, at: 5.0, exponent: 0.7 }));
     let report = report(&network, &ladder(&["exact", "bdf", "esdirk34"]));
-    let truth = &report.truth;
-    assert_eq!((truth.method, truth.rtol), ("bdf", Some(1e-12)));
-    assert_eq!(truth.witness, Some(("esdirk34", 1e-12)));
-    assert!(truth.why_not_exact.is_some());
-    let agreement = truth.measure_agreement.unwrap();
+    let reference = &report.reference;
+    assert_eq!((reference.method, reference.rtol), ("bdf", Some(1e-12)));
+    assert_eq!(reference.witness, Some(("esdirk34", 1e-12)));
+    assert!(reference.why_not_exact.is_some());
+    let agreement = reference.measure_agreement.unwrap();
     assert!(agreement > 0.0 && agreement < 1e-7, "{agreement:e}");
     // A tolerance at which a method fails is another matter.
     let declined = report.failures.iter().filter(|failure| failure.rtol.is_none());
@@ -141,7 +144,7 @@ fn more_work_than_there_may_be_is_left_out_and_listed() {
     let network = impact(dashpot(6e3));
     let ladder = |most_work| Ladder { most_work, ..ladder(&["bdf", "tr-bdf2"]) };
     let report = report(&network, &ladder(40_000));
-    assert_eq!(report.truth.method, "exact");
+    assert_eq!(report.reference.method, "exact");
     assert!(!report.points.is_empty());
     let is_too_much =
         |cost_failure: &&CostFailure| matches!(cost_failure.error, RunError::TooMuchWork { .. });

@@ -1,19 +1,13 @@
 //! The register of methods.
 
 mod auto;
-mod bdf;
-mod esdirk34;
 mod exact;
+mod schemes;
 mod stepping;
-mod tr_bdf2;
-mod tsit45;
 
 pub use auto::Auto;
-pub use bdf::Bdf;
-pub use esdirk34::Esdirk34;
 pub use exact::Exact;
-pub use tr_bdf2::TrBdf2;
-pub use tsit45::Tsit45;
+pub use schemes::{Bdf, Esdirk34, TrBdf2, Tsit45};
 
 pub use stepping::derivatives;
 

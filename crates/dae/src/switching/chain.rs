@@ -19,10 +19,10 @@ pub(super) struct Solved {
 #[derive(Debug, Default)]
 pub(super) struct Chain {
     pub(super) intervals: Vec<Solved>,
-    /// The intervals of a second solution whose states were shaken, where one was asked for.
+    /// The intervals of a second solution whose states were perturbed, where one was asked for.
     pub(super) doubled: Option<Vec<Solved>>,
-    /// See [`Dense::margin`].
-    pub(super) margin: Option<f64>,
+    /// See [`Dense::end_margin`].
+    pub(super) end_margin: Option<f64>,
 }
 
 /// Intervals beyond which what makes further signals of an interval quicker takes too much memory.
@@ -37,7 +37,7 @@ impl Dense for Chain {
     ///
     /// Each interval bounds its own error, to which comes what the rounding of times does to a
     /// value. What the errors before it do to it is estimated from a second solution whose states
-    /// were shaken: eight times the largest difference of both, interval by interval, is added.
+    /// were perturbed: eight times the largest difference of both, interval by interval, is added.
     /// Where the second one has no value, no error is stated.
     fn signal(&self, _system: &System, output: usize) -> Signal {
         let mut panels: Vec<Panel> = Vec::new();
@@ -80,8 +80,8 @@ impl Dense for Chain {
         Vec::new()
     }
 
-    fn margin(&self) -> Option<f64> {
-        self.margin
+    fn end_margin(&self) -> Option<f64> {
+        self.end_margin
     }
 
     fn bytes(&self) -> usize {

@@ -2,12 +2,12 @@
 
 use std::{ops::ControlFlow, time::Instant};
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{
     IntervalEnd, ModeInterval, Switching,
     chain::{Chain, Solved},
-    precision::{Afterwards, Perturbed, margin, smaller_sizes},
+    precision::{Afterwards, Perturbed, end_margin, smaller_sizes},
     predicted::follow,
 };
 use crate::{
@@ -30,7 +30,7 @@ const ROUNDINGS: f64 = 1e3;
 /// Solves a run interval by interval with one method.
 ///
 /// A method without an error of its own solves a run of several intervals twice, the second time
-/// with the state at the end of each interval shaken in its last digits: by what comes of that the
+/// with the state at the end of each interval perturbed in its last digits: by what comes of that the
 /// errors of its signals are estimated.
 ///
 /// # Errors
@@ -100,7 +100,7 @@ fn solve(
     let mut interval = switching.first(threshold)?;
     let first_phases = interval.phases.clone();
     let mut drive =
-        Drive { start: Twofold::ZERO, steps: 0, run, observer, chain: Chain::default() };
+        Drive { start: DoubleDouble::ZERO, steps: 0, run, observer, chain: Chain::default() };
     let mut found = Found { switches: interval.switches.clone(), ..Found::default() };
     let (mut at_once, mut bytes) = (0, 0);
     loop {
@@ -109,7 +109,8 @@ fn solve(
         let t_end = reached.high();
         let goes_on = found.goes_on(&interval, &trajectory, t_end, run);
         if trajectory.outcome == Outcome::Finished && !goes_on && !method.is_exact() {
-            drive.chain.margin = margin(&interval, trajectory.dense.as_ref(), run, threshold);
+            drive.chain.end_margin =
+                end_margin(&interval, trajectory.dense.as_ref(), run, threshold);
         }
         let length = trajectory.t_end / interval.system.time_scale;
         let state = trajectory.dense.sample(&interval.system, &[length]);
@@ -168,7 +169,7 @@ fn solve(
 struct Drive<'r> {
     /// Start of the interval \[s\], the sum of all intervals before: rounded, it would shift every
     /// interval of many short ones the same way.
-    start: Twofold,
+    start: DoubleDouble,
     /// Steps of the intervals before.
     steps: usize,
     run: &'r Run,
@@ -237,13 +238,13 @@ impl Drive<'_> {
         method: &dyn Method,
         interval: &ModeInterval,
         found: &mut Found,
-    ) -> Result<(Trajectory, Twofold), SolveError> {
+    ) -> Result<(Trajectory, DoubleDouble), SolveError> {
         let own = interval.guards.len();
         let last = interval.until.map_or(self.run.t_end, |until| until.min(self.run.t_end));
         let run = Run {
-            t_end: (Twofold::from(last) - self.start).high(),
+            t_end: (DoubleDouble::from(last) - self.start).high(),
             rtol: self.run.rtol,
-            nominal: Vec::new(),
+            tolerance_scaling: Vec::new(),
             guards: interval.guards.iter().chain(&self.run.guards).cloned().collect(),
             keep: Keep::Everything,
             budget: self.run.budget.clone(),
@@ -286,7 +287,7 @@ fn solve_to_size(
     }
     while let Some(sizes) = smaller_sizes(interval, &run, &found) {
         observer.steps += found.statistics.accepted;
-        run.nominal = sizes;
+        run.tolerance_scaling = sizes;
         let work = found.statistics;
         match method.integrate(&interval.system, &run, observer) {
             Ok(finer) => found = finer,

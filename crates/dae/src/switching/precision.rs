@@ -30,7 +30,7 @@ const LONGEST_MARGIN: f64 = 0.05;
 /// How much longer the last `interval` would have to be for outputs on their way out to be seen beyond the levels
 /// of their guards, if by the error of the method they may be there before its end \[s\]. `threshold` is as in
 /// [`IntervalEnd::threshold`](super::IntervalEnd::threshold).
-pub(super) fn margin(
+pub(super) fn end_margin(
     interval: &ModeInterval,
     dense: &dyn Dense,
     run: &Run,
@@ -64,7 +64,7 @@ pub(super) fn smaller_sizes(
     trajectory: &Trajectory,
 ) -> Option<Vec<f64>> {
     let system = interval.system.as_ref();
-    let before = |unknown: usize| run.nominal.get(unknown).copied().unwrap_or(1.0);
+    let before = |unknown: usize| run.tolerance_scaling.get(unknown).copied().unwrap_or(1.0);
     let mut found: Option<Vec<f64>> = None;
     for guard in &interval.guards {
         let output = system.outputs.at(guard.output);
@@ -98,13 +98,13 @@ fn held(dense: &dyn Dense, system: &System, output: usize, level: f64) -> f64 {
     signal.panels.iter().map(|panel| gap(&panel.coefficients)).fold(terms, f64::max)
 }
 
-/// By how many roundings a state is shaken: more than an interval's own errors leave in it.
+/// By how many roundings a state is perturbed: more than an interval's own errors leave in it.
 const SHAKES: f64 = 64.0;
-/// Part of its state that an interval must have changed to be shaken by so much; one that changes
-/// less is shaken by less in proportion. What is thrown back from so near that its way out and back
+/// Part of its state that an interval must have changed to be perturbed by so much; one that changes
+/// less is perturbed by less in proportion. What is thrown back from so near that its way out and back
 /// is less than a rounding would else never come to rest.
 const CHANGE: f64 = 1e-4;
-/// Most intervals that a shaken run may have for each interval of the run, and beyond: with more it
+/// Most intervals that a perturbed run may have for each interval of the run, and beyond: with more it
 /// is another run.
 const INTERVALS: usize = 2;
 const MORE_INTERVALS: usize = 64;
@@ -116,7 +116,7 @@ pub(super) struct Perturbed<'s> {
 }
 
 impl Perturbed<'_> {
-    /// Most intervals of the shaken run where there are so many in the run.
+    /// Most intervals of the perturbed run where there are so many in the run.
     pub(super) fn most_intervals(intervals: usize) -> usize {
         INTERVALS * intervals + MORE_INTERVALS
     }
@@ -129,17 +129,17 @@ impl Switching for Perturbed<'_> {
 
     fn next(&self, end: &IntervalEnd<'_>) -> Result<ModeInterval, SolveError> {
         let part = (change(&end.interval.system.initial, end.state) / CHANGE).min(1.0);
-        let shake = |(at, value): (usize, &f64)| {
+        let perturbed = |(at, value): (usize, &f64)| {
             // The signs follow the places, so that a run repeats to the bit.
             let sign = if (at * at + at / 2).is_multiple_of(3) { 1.0 } else { -1.0 };
             value * (1.0 + sign * SHAKES * f64::EPSILON * part)
         };
-        let state: Vec<f64> = end.state.iter().enumerate().map(shake).collect();
+        let state: Vec<f64> = end.state.iter().enumerate().map(perturbed).collect();
         self.inner.next(&IntervalEnd { state: &state, ..*end })
     }
 }
 
-/// Tells the observer of a run, which is over, that its shaken one is under way.
+/// Tells the observer of a run, which is over, that its perturbed one is under way.
 pub(super) struct Afterwards<'r> {
     /// Where the run has ended, and with how many steps.
     pub(super) end: Progress,

@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::row::Combination;
 
@@ -21,7 +21,7 @@ pub(super) struct Mesh<R> {
 /// A link as seen from one of its ends.
 #[derive(Debug, Clone)]
 pub(super) struct Link<R> {
-    pub(super) conductance: Twofold,
+    pub(super) conductance: DoubleDouble,
     pub(super) offset: R,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Link<R> {
 #[derive(Debug, Clone)]
 struct Step<R> {
     place: usize,
-    star: Vec<(usize, Twofold, R)>,
+    star: Vec<(usize, DoubleDouble, R)>,
     share: R,
 }
 
@@ -54,7 +54,13 @@ impl<R: Combination> Mesh<R> {
     }
 
     /// Adds a link that carries `conductance · (X_p − X_q + offset)` from `p` to `q`.
-    pub(super) fn link(&mut self, p: usize, q: usize, conductance: impl Into<Twofold>, offset: &R) {
+    pub(super) fn link(
+        &mut self,
+        p: usize,
+        q: usize,
+        conductance: impl Into<DoubleDouble>,
+        offset: &R,
+    ) {
         if p == q {
             return;
         }
@@ -63,10 +69,10 @@ impl<R: Combination> Mesh<R> {
         self.half_link(q, p, conductance, offset, -1.0);
     }
 
-    fn half_link(&mut self, p: usize, q: usize, conductance: Twofold, offset: &R, sign: f64) {
+    fn half_link(&mut self, p: usize, q: usize, conductance: DoubleDouble, offset: &R, sign: f64) {
         let link = self.neighbours[p]
             .entry(q)
-            .or_insert_with(|| Link { conductance: Twofold::ZERO, offset: R::default() });
+            .or_insert_with(|| Link { conductance: DoubleDouble::ZERO, offset: R::default() });
         let total = link.conductance + conductance;
         let (old, new) = (link.conductance / total, conductance / total);
         link.offset = R::default().plus(old, &link.offset).plus(new * sign, offset);
@@ -117,9 +123,9 @@ impl<R: Combination> Mesh<R> {
     }
 
     fn star_to_mesh(&mut self, place: usize, star: BTreeMap<usize, Link<R>>) -> Step<R> {
-        let total: Twofold = star.values().map(|link| link.conductance).sum();
+        let total: DoubleDouble = star.values().map(|link| link.conductance).sum();
         let load = std::mem::take(&mut self.loads[place]);
-        let star: Vec<(usize, Twofold, Link<R>)> =
+        let star: Vec<(usize, DoubleDouble, Link<R>)> =
             star.into_iter().map(|(q, link)| (q, link.conductance / total, link)).collect();
         for &(q, weight, _) in &star {
             self.neighbours[q].remove(&place);

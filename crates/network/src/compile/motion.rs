@@ -1,7 +1,7 @@
 //! Deformations, forces and velocities, and from them the rate of every unknown.
 
 use dashpot_dae::UnknownKind;
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{
     bodies::{Bodies, Role},
@@ -204,7 +204,7 @@ fn unknown_rates(
 ) {
     let of = |body: usize| velocity.row(body);
     let acceleration = |body: usize| match bodies.all[body].role {
-        Role::Mass(mass) => net[body].total().times(Twofold::ONE / mass),
+        Role::Mass(mass) => net[body].total().times(DoubleDouble::ONE / mass),
         _ => Row::default(),
     };
     for at in 0..bodies.all.len() {

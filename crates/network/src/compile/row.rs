@@ -1,20 +1,20 @@
 //! Quantities as linear combinations of unknowns and inputs.
 
-use dashpot_numerics::{LinearForm, Twofold, packed};
+use dashpot_numerics::{DoubleDouble, LinearForm, packed};
 
 /// Of the small rest of large terms: of a spring in parallel with the fastest dashpot of a chain only what
 /// the other dashpots give way to is left.
-type Form = LinearForm<Twofold>;
+type Form = LinearForm<DoubleDouble>;
 
 /// What can be scaled and added: numbers and [`Row`]s.
 pub(super) trait Combination: Clone + Default {
     /// `self + factor · other`.
     #[must_use]
-    fn plus(&self, factor: impl Into<Twofold>, other: &Self) -> Self;
+    fn plus(&self, factor: impl Into<DoubleDouble>, other: &Self) -> Self;
 }
 
 impl Combination for f64 {
-    fn plus(&self, factor: impl Into<Twofold>, other: &Self) -> Self {
+    fn plus(&self, factor: impl Into<DoubleDouble>, other: &Self) -> Self {
         self + factor.into().high() * other
     }
 }
@@ -41,13 +41,13 @@ impl Row {
         self.unknowns.is_zero() && self.inputs.is_zero()
     }
 
-    pub(super) fn times(&self, factor: impl Into<Twofold>) -> Self {
+    pub(super) fn times(&self, factor: impl Into<DoubleDouble>) -> Self {
         Self::default().plus(factor, self)
     }
 }
 
 impl Combination for Row {
-    fn plus(&self, factor: impl Into<Twofold>, other: &Self) -> Self {
+    fn plus(&self, factor: impl Into<DoubleDouble>, other: &Self) -> Self {
         let factor = factor.into();
         Self {
             unknowns: self.unknowns.plus(factor, &other.unknowns),
@@ -62,7 +62,7 @@ impl Combination for Row {
 pub(super) struct Rows {
     places: Vec<Place>,
     variables: Vec<u32>,
-    coefficients: Vec<Twofold>,
+    coefficients: Vec<DoubleDouble>,
 }
 
 /// Where a row's terms over unknowns begin and end, and where those over inputs end.
@@ -127,14 +127,14 @@ impl Rows {
 /// A sum of many rows, formed in one pass.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RowSum {
-    unknowns: Vec<(usize, Twofold)>,
-    inputs: Vec<(usize, Twofold)>,
+    unknowns: Vec<(usize, DoubleDouble)>,
+    inputs: Vec<(usize, DoubleDouble)>,
 }
 
 impl RowSum {
-    pub(super) fn add(&mut self, factor: impl Into<Twofold>, row: &Row) {
+    pub(super) fn add(&mut self, factor: impl Into<DoubleDouble>, row: &Row) {
         let factor = factor.into();
-        let scaled = |&(at, coefficient): &(usize, Twofold)| (at, factor * coefficient);
+        let scaled = |&(at, coefficient): &(usize, DoubleDouble)| (at, factor * coefficient);
         self.unknowns.extend(row.unknowns.terms().iter().map(scaled));
         self.inputs.extend(row.inputs.terms().iter().map(scaled));
     }
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn rows_come_back_as_they_were_put_in() {
-        let third = Twofold::ONE / 3.0;
+        let third = DoubleDouble::ONE / 3.0;
         let one = Row::unknown(7).plus(third, &Row::unknown(2)).plus(-1.0, &Row::input(1));
         let mut rows = Rows::default();
         rows.set(2, &one);

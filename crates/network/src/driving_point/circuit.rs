@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{DrivingPointError, links::Links};
 use crate::{
@@ -22,14 +22,14 @@ pub(super) type Ends = [Option<usize>; 2];
 #[derive(Debug, Clone)]
 pub(super) struct Link {
     pub(super) ends: Ends,
-    pub(super) constant: Twofold,
+    pub(super) constant: DoubleDouble,
 }
 
 /// Free bodies with springs and dashpots between them; all that is held is one point.
 #[derive(Debug, Clone)]
 pub(super) struct Circuit {
     /// Mass of each body, 0 for a massless one.
-    pub(super) masses: Vec<Twofold>,
+    pub(super) masses: Vec<DoubleDouble>,
     pub(super) springs: Vec<Link>,
     pub(super) dashpots: Vec<Link>,
     /// Where the pair of forces acts.
@@ -64,8 +64,8 @@ impl Circuit {
             return Ok(None);
         }
         let masses = bodies.all.iter().map(|body| match body.role {
-            Role::Mass(mass) => Twofold::from(mass),
-            _ => Twofold::ZERO,
+            Role::Mass(mass) => DoubleDouble::from(mass),
+            _ => DoubleDouble::ZERO,
         });
         let mut whole = Self {
             bodies: bodies.all.len(),
@@ -93,7 +93,7 @@ impl Circuit {
                 }
             };
             if constant > 0.0 && ends[0] != ends[1] {
-                list.push(Link { ends, constant: Twofold::from(constant) });
+                list.push(Link { ends, constant: DoubleDouble::from(constant) });
             }
         }
         whole.moved(network, [a, b]).map(Some)
@@ -226,16 +226,16 @@ impl Circuit {
     }
 
     /// Sum over links of constant times squared difference at its ends.
-    pub(super) fn energy(links: &[Link], shape: &[Twofold]) -> Twofold {
-        links.iter().fold(Twofold::ZERO, |sum, link| {
+    pub(super) fn energy(links: &[Link], shape: &[DoubleDouble]) -> DoubleDouble {
+        links.iter().fold(DoubleDouble::ZERO, |sum, link| {
             let stretch = Self::stretch(link.ends, shape);
             sum + link.constant * stretch * stretch
         })
     }
 
     /// Difference of the displacements of two ends.
-    pub(super) fn stretch(ends: Ends, shape: &[Twofold]) -> Twofold {
-        let [p, q] = ends.map(|end| end.map_or(Twofold::ZERO, |body| shape[body]));
+    pub(super) fn stretch(ends: Ends, shape: &[DoubleDouble]) -> DoubleDouble {
+        let [p, q] = ends.map(|end| end.map_or(DoubleDouble::ZERO, |body| shape[body]));
         p - q
     }
 
@@ -267,7 +267,7 @@ impl Circuit {
     /// is near 1; with it the exponent of the unit of force per length \[N/m\].
     pub(super) fn scaled(&self, time: i32) -> Result<(Self, i32), DrivingPointError> {
         let unit = f64::from(time);
-        let size = |value: Twofold, order: f64| value.high().log2() - order * unit;
+        let size = |value: DoubleDouble, order: f64| value.high().log2() - order * unit;
         let sizes: Vec<f64> = self
             .springs
             .iter()
@@ -317,7 +317,7 @@ impl Circuit {
                 .wrapping_add(1_442_695_040_888_963_407);
             let size = 1.0 + ((state >> 40) & 7) as f64;
             let sign = if state >> 63 == 0 { 1.0 } else { -1.0 };
-            Twofold::from_parts(1.0, sign * size * f64::EPSILON)
+            DoubleDouble::from_parts(1.0, sign * size * f64::EPSILON)
         };
         let mut rounded = self.clone();
         let links = rounded.springs.iter_mut().chain(&mut rounded.dashpots);
@@ -339,7 +339,7 @@ impl Circuit {
 }
 
 /// Multiplies by a power of two in steps that stay in the range of doubles.
-pub(super) fn shift(value: &mut Twofold, exponent: i32) {
+pub(super) fn shift(value: &mut DoubleDouble, exponent: i32) {
     let mut left = exponent;
     while left != 0 {
         let step = left.clamp(-500, 500);

@@ -2,16 +2,16 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Complex {
-    pub(super) re: Twofold,
-    pub(super) im: Twofold,
+    pub(super) re: DoubleDouble,
+    pub(super) im: DoubleDouble,
 }
 
 impl Complex {
-    pub(super) fn new(re: impl Into<Twofold>, im: impl Into<Twofold>) -> Self {
+    pub(super) fn new(re: impl Into<DoubleDouble>, im: impl Into<DoubleDouble>) -> Self {
         Self { re: re.into(), im: im.into() }
     }
 
@@ -32,7 +32,7 @@ impl Complex {
         Self { re: self.re, im: -self.im }
     }
 
-    pub(super) fn times(self, factor: Twofold) -> Self {
+    pub(super) fn times(self, factor: DoubleDouble) -> Self {
         Self { re: self.re * factor, im: self.im * factor }
     }
 

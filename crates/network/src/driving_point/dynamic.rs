@@ -1,6 +1,6 @@
 //! The dynamic stiffness `P(s) = s²M + sC + K` of a circuit at a complex rate.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{
     circuit::{Circuit, Ends, Link},
@@ -63,7 +63,7 @@ impl Circuit {
 
     /// The receptance at a rate that is no pole.
     pub(super) fn receptance(&self, s: Complex) -> Complex {
-        let zero = Twofold::ZERO;
+        let zero = DoubleDouble::ZERO;
         let forces = pair(self.bodies, self.forces);
         let forces: Vec<Complex> = forces.into_iter().map(|re| Complex { re, im: zero }).collect();
         stretch(self.forces, &self.stiffness_at(s).solve(&forces))
@@ -102,7 +102,7 @@ pub(super) struct Sum {
 pub(super) fn forms(circuit: &Circuit, s: Complex, shape: &[Complex]) -> (Sum, Complex) {
     let mut form = Sum { value: Complex::zero(), size: 0.0 };
     let mut slope = Complex::zero();
-    let mut add = |constant: Twofold, square: Complex, power: Complex, derivative: Complex| {
+    let mut add = |constant: DoubleDouble, square: Complex, power: Complex, derivative: Complex| {
         let term = (square * power).times(constant);
         form = Sum { value: form.value + term, size: form.size + term.size() };
         slope = slope + (square * derivative).times(constant);

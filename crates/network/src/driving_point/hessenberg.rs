@@ -1,10 +1,10 @@
 //! Eigenvalues of a real matrix in twice the digits of a double.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{DrivingPointError, complex::Complex, links::dot};
 
-type Matrix = Vec<Vec<Twofold>>;
+type Matrix = Vec<Vec<DoubleDouble>>;
 
 /// Relative size below which an entry beside the diagonal is rounding.
 const NEGLIGIBLE: f64 = 2e-32;
@@ -21,7 +21,7 @@ pub(super) fn eigenvalues(mut matrix: Matrix) -> Result<Vec<Complex>, DrivingPoi
     reduce(&mut matrix);
     let norm = matrix.iter().flatten().map(|entry| entry.high().abs()).sum();
     let mut found = Vec::with_capacity(matrix.len());
-    let mut shifted = Twofold::ZERO;
+    let mut shifted = DoubleDouble::ZERO;
     let mut end = matrix.len();
     let mut steps = 0;
     while end > 0 {
@@ -56,7 +56,7 @@ pub(super) fn eigenvalues(mut matrix: Matrix) -> Result<Vec<Complex>, DrivingPoi
 fn reduce(matrix: &mut Matrix) {
     let count = matrix.len();
     for at in 0..count.saturating_sub(2) {
-        let mut mirror: Vec<Twofold> = (at + 1..count).map(|i| matrix[i][at]).collect();
+        let mut mirror: Vec<DoubleDouble> = (at + 1..count).map(|i| matrix[i][at]).collect();
         let largest = mirror.iter().map(|x| x.high().abs()).fold(0.0, f64::max);
         if largest < 1e-140 {
             continue;
@@ -66,7 +66,7 @@ fn reduce(matrix: &mut Matrix) {
         mirror[0] += length;
         let square = dot(&mirror, &mirror);
         for j in at..count {
-            let column: Vec<Twofold> = (at + 1..count).map(|i| matrix[i][j]).collect();
+            let column: Vec<DoubleDouble> = (at + 1..count).map(|i| matrix[i][j]).collect();
             let share = dot(&mirror, &column) * 2.0 / square;
             for (i, m) in mirror.iter().enumerate() {
                 matrix[at + 1 + i][j] -= share * *m;
@@ -79,7 +79,7 @@ fn reduce(matrix: &mut Matrix) {
             }
         }
         for row in matrix.iter_mut().skip(at + 2) {
-            row[at] = Twofold::ZERO;
+            row[at] = DoubleDouble::ZERO;
         }
     }
 }
@@ -90,7 +90,7 @@ fn split(matrix: &mut Matrix, last: usize, norm: f64) -> usize {
         let around = matrix[at - 1][at - 1].high().abs() + matrix[at][at].high().abs();
         let around = if around > 0.0 { around } else { norm };
         if matrix[at][at - 1].high().abs() <= NEGLIGIBLE * around {
-            matrix[at][at - 1] = Twofold::ZERO;
+            matrix[at][at - 1] = DoubleDouble::ZERO;
             return at;
         }
     }
@@ -98,7 +98,7 @@ fn split(matrix: &mut Matrix, last: usize, norm: f64) -> usize {
 }
 
 /// The eigenvalues of the block of two that ends at `last`.
-fn pair_of(matrix: &Matrix, last: usize, shifted: Twofold) -> [Complex; 2] {
+fn pair_of(matrix: &Matrix, last: usize, shifted: DoubleDouble) -> [Complex; 2] {
     let (x, y) = (matrix[last][last], matrix[last - 1][last - 1]);
     let product = matrix[last][last - 1] * matrix[last - 1][last];
     let half = (y - x) * 0.5;
@@ -114,7 +114,7 @@ fn pair_of(matrix: &Matrix, last: usize, shifted: Twofold) -> [Complex; 2] {
 }
 
 /// A shift that breaks a cycle of steps.
-fn exceptional(matrix: &mut Matrix, last: usize, shifted: &mut Twofold) -> [Twofold; 3] {
+fn exceptional(matrix: &mut Matrix, last: usize, shifted: &mut DoubleDouble) -> [DoubleDouble; 3] {
     let x = matrix[last][last];
     *shifted += x;
     for i in 0..=last {
@@ -125,7 +125,7 @@ fn exceptional(matrix: &mut Matrix, last: usize, shifted: &mut Twofold) -> [Twof
 }
 
 /// One double step on the rows and columns `first..=last`.
-fn step(matrix: &mut Matrix, first: usize, last: usize, [x, y, w]: [Twofold; 3]) {
+fn step(matrix: &mut Matrix, first: usize, last: usize, [x, y, w]: [DoubleDouble; 3]) {
     let mut start = last - 2;
     let mut mirror;
     loop {
@@ -151,7 +151,7 @@ fn step(matrix: &mut Matrix, first: usize, last: usize, [x, y, w]: [Twofold; 3])
         }
         start -= 1;
     }
-    let zero = Twofold::ZERO;
+    let zero = DoubleDouble::ZERO;
     for i in start + 2..=last {
         matrix[i][i - 2] = zero;
         if i > start + 2 {
@@ -159,7 +159,7 @@ fn step(matrix: &mut Matrix, first: usize, last: usize, [x, y, w]: [Twofold; 3])
         }
     }
     for at in start..last {
-        let mut scale = Twofold::ONE;
+        let mut scale = DoubleDouble::ONE;
         let is_short = at == last - 1;
         if at > start {
             let third = if is_short { zero } else { matrix[at + 2][at - 1] };
@@ -187,8 +187,8 @@ fn reflect(
     first: usize,
     last: usize,
     at: usize,
-    [p, q, r]: [Twofold; 3],
-    length: Twofold,
+    [p, q, r]: [DoubleDouble; 3],
+    length: DoubleDouble,
 ) {
     let is_short = at == last - 1;
     let p = p + length;

@@ -1,6 +1,6 @@
 //! Orthogonal columns by rotations.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{DrivingPointError, links::dot};
 
@@ -14,8 +14,8 @@ const MOST_SWEEPS: usize = 80;
 /// # Errors
 ///
 /// [`DrivingPointError::NoConvergence`] if it doesn't come to an end.
-pub(super) fn orthogonalise(columns: &mut [Vec<Twofold>]) -> Result<(), DrivingPointError> {
-    let mut squares: Vec<Twofold> = columns.iter().map(|column| dot(column, column)).collect();
+pub(super) fn orthogonalise(columns: &mut [Vec<DoubleDouble>]) -> Result<(), DrivingPointError> {
+    let mut squares: Vec<DoubleDouble> = columns.iter().map(|column| dot(column, column)).collect();
     for _ in 0..MOST_SWEEPS {
         let mut is_done = true;
         for p in 0..columns.len() {
@@ -40,8 +40,13 @@ pub(super) fn orthogonalise(columns: &mut [Vec<Twofold>]) -> Result<(), DrivingP
 }
 
 /// Makes two columns orthogonal; `gap` is the difference of their squares.
-fn rotate(p: &mut [Twofold], q: &mut [Twofold], gap: Twofold, product: Twofold) {
-    let one = Twofold::ONE;
+fn rotate(
+    p: &mut [DoubleDouble],
+    q: &mut [DoubleDouble],
+    gap: DoubleDouble,
+    product: DoubleDouble,
+) {
+    let one = DoubleDouble::ONE;
     let cotangent = gap / (product * 2.0);
     let size = cotangent.abs();
     let tangent = if size.high() > 1e40 {

@@ -1,6 +1,6 @@
 //! Massless circuits: the Kelvin form of what is seen at the two nodes.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{
     DrivingPointError, Hidden, Massless,
@@ -27,8 +27,8 @@ pub(super) const ROUNDING: f64 = 1e-30;
 /// One term `strength/(s + rate)` of the compliance.
 #[derive(Debug, Clone, Copy)]
 struct Mode {
-    rate: Twofold,
-    strength: Twofold,
+    rate: DoubleDouble,
+    strength: DoubleDouble,
     /// How many modes of the circuit have this rate.
     count: usize,
     /// Relative difference of the strength between two runs.
@@ -48,7 +48,7 @@ pub(super) fn response(circuit: &Circuit) -> Result<Massless, DrivingPointError>
         return Err(DrivingPointError::TooLarge { bodies: circuit.bodies, most: MOST_BODIES });
     }
     let (scaled, force) = circuit.scaled(0)?;
-    let physical = |mut value: Twofold| {
+    let physical = |mut value: DoubleDouble| {
         shift(&mut value, -force);
         value
     };
@@ -72,29 +72,25 @@ pub(super) fn response(circuit: &Circuit) -> Result<Massless, DrivingPointError>
             cancelled.push(Hidden { rate: [-mode.rate.high(), 0.0], count: unseen });
         }
         if !is_hidden {
-            kept.push((twofold(mode.rate), twofold(mode.strength)));
+            kept.push((mode.rate, mode.strength));
         }
     }
-    let model = LinearModel::from_kelvin(twofold(compliance), twofold(fluidity), kept);
+    let model = LinearModel::from_kelvin(compliance, fluidity, kept);
     Ok(Massless { model, hidden: cancelled, error })
 }
 
 /// The compliance in the slowest mode's time, by which single strengths are judged.
-fn total(modes: &[Mode], compliance: Twofold, fluidity: Twofold) -> f64 {
+fn total(modes: &[Mode], compliance: DoubleDouble, fluidity: DoubleDouble) -> f64 {
     let creep = modes.first().map_or(0.0, |slowest| fluidity.high() / slowest.rate.high());
     modes.iter().fold(compliance.high() + creep, |sum, mode| sum + mode.compliance())
-}
-
-fn twofold(value: Twofold) -> Twofold {
-    Twofold::from_parts(value.high(), value.low())
 }
 
 /// The modes in physical units, with the unit of time in the middle of their rates; what they
 /// differ by from those of another unit of time is their error.
 fn settled(
     circuit: &Circuit,
-    compliance: Twofold,
-    fluidity: Twofold,
+    compliance: DoubleDouble,
+    fluidity: DoubleDouble,
 ) -> Result<(Vec<Mode>, f64, i32), DrivingPointError> {
     let mut time = exponent(1.0 / circuit.middle_rate());
     let mut last = modes(circuit, time)?;
@@ -139,7 +135,7 @@ fn modes(circuit: &Circuit, time: i32) -> Result<Vec<Mode>, DrivingPointError> {
     let mut columns = super::links::Links::of(scaled.bodies, &scaled.springs).factor().columns();
     columns.iter_mut().for_each(|column| factor.solve_lower(column));
     orthogonalise(&mut columns)?;
-    let mut pairs: Vec<(Twofold, Vec<Twofold>)> =
+    let mut pairs: Vec<(DoubleDouble, Vec<DoubleDouble>)> =
         columns.into_iter().map(|column| (dot(&column, &column), column)).collect();
     pairs.sort_by(|(a, _), (b, _)| a.high().total_cmp(&b.high()));
     let finite = pairs.len().saturating_sub(scaled.algebraic_parts());
@@ -194,7 +190,7 @@ fn difference(a: &[Mode], b: &[Mode], merged: &mut [Mode], total: f64) -> f64 {
     let mut worst = ROUNDING;
     for mode in merged {
         let sum = |modes: &[Mode]| {
-            modes[at..at + mode.count].iter().fold(Twofold::ZERO, |sum, m| sum + m.strength)
+            modes[at..at + mode.count].iter().fold(DoubleDouble::ZERO, |sum, m| sum + m.strength)
         };
         for (a, b) in a[at..at + mode.count].iter().zip(&b[at..at + mode.count]) {
             worst = worst.max(((a.rate - b.rate) / b.rate).high().abs());
@@ -229,7 +225,7 @@ fn hidden(
             let first: usize = modes[..at].iter().map(|mode| mode.count).sum();
             let other = others[first..first + modes[at].count]
                 .iter()
-                .fold(Twofold::ZERO, |sum, mode| sum + mode.strength);
+                .fold(DoubleDouble::ZERO, |sum, mode| sum + mode.strength);
             let change = (other - modes[at].strength).abs();
             hidden[at] |= change.high() > 0.5 * modes[at].strength.high();
         }

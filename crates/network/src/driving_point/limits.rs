@@ -1,6 +1,6 @@
 //! What a circuit does at infinite and at vanishing rates, from its graph.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{
     circuit::{Circuit, Link},
@@ -10,8 +10,8 @@ use super::{
 /// Leading terms of the receptance at the rate 0: `double/s² + simple/s`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Origin {
-    pub(super) double: Twofold,
-    pub(super) simple: Twofold,
+    pub(super) double: DoubleDouble,
+    pub(super) simple: DoubleDouble,
 }
 
 /// A circuit in which parts that move as one are one body.
@@ -59,7 +59,7 @@ impl Merged {
 
 impl Circuit {
     /// The compliance at infinite rate: dashpots are rigid and masses stay where they are.
-    pub(super) fn instantaneous_compliance(&self) -> Twofold {
+    pub(super) fn instantaneous_compliance(&self) -> DoubleDouble {
         let merged = Merged::of(self, &self.dashpots, true);
         let mut forces = pair(merged.parts, merged.ends(self.forces));
         merged.links(&self.springs).factor().solve_lower(&mut forces);
@@ -89,7 +89,7 @@ impl Circuit {
     /// common motion of each free part only. Its moment `Σ m X₁` is zero, so `e·X₁` is
     /// `(e − M X₂)·X₁`, which that motion does not change.
     pub(super) fn origin(&self) -> Origin {
-        let zero = Twofold::ZERO;
+        let zero = DoubleDouble::ZERO;
         let merged = Merged::of(self, &self.springs, false);
         let all: Vec<Link> = self.springs.iter().chain(&self.dashpots).cloned().collect();
         let free = Merged::of(self, &all, false);
@@ -106,7 +106,7 @@ impl Circuit {
             }
         }
         let ends = pair(free.parts, free.ends(self.forces));
-        let drift: Vec<Twofold> = ends.iter().zip(&total).map(|(e, m)| *e / *m).collect();
+        let drift: Vec<DoubleDouble> = ends.iter().zip(&total).map(|(e, m)| *e / *m).collect();
         let double = dot(&ends, &drift);
 
         let mut creep = pair(merged.parts, merged.ends(self.forces));

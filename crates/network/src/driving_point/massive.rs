@@ -1,6 +1,6 @@
 //! Circuits with masses: poles and strengths, computed twice.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{
     DrivingPointError, Hidden, Receptance,
@@ -55,7 +55,7 @@ pub(super) fn response(circuit: &Circuit) -> Result<Receptance, DrivingPointErro
 
 /// What the graph alone says of the response.
 struct Rest {
-    compliance: Twofold,
+    compliance: DoubleDouble,
     term: Option<Term>,
 }
 

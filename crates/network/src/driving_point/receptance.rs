@@ -1,6 +1,6 @@
 //! The receptance of a network with masses.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{Hidden, complex::Complex, terms::Term};
 
@@ -11,7 +11,7 @@ use super::{Hidden, complex::Complex, terms::Term};
 /// Kept with twice the digits of a double.
 #[derive(Debug, Clone)]
 pub struct Receptance {
-    pub(super) compliance: Twofold,
+    pub(super) compliance: DoubleDouble,
     /// In rising order of `|p|`.
     pub(super) terms: Vec<Term>,
     pub(super) hidden: Vec<Hidden>,

@@ -1,6 +1,6 @@
 //! The poles of a circuit with masses.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{
     DrivingPointError,
@@ -32,7 +32,7 @@ const CLEAR: f64 = 1e3;
 ///
 /// [`DrivingPointError::NoConvergence`] where a pole cannot be told from those left out.
 pub(super) fn poles(circuit: &Circuit) -> Result<Vec<Complex>, DrivingPointError> {
-    let zero = Twofold::ZERO;
+    let zero = DoubleDouble::ZERO;
     let factor = circuit.stiffness_at_one().factor();
     let mut columns = Links::of(circuit.bodies, &circuit.springs).factor().columns();
     let springs = columns.len();
@@ -46,7 +46,7 @@ pub(super) fn poles(circuit: &Circuit) -> Result<Vec<Complex>, DrivingPointError
         let entry = |j: usize| {
             let product = dot(&columns[i], &columns[j]);
             match (i < springs, j < springs) {
-                (true, true) if i == j => Twofold::ONE - product,
+                (true, true) if i == j => DoubleDouble::ONE - product,
                 (_, true) => -product,
                 (_, false) => product,
             }

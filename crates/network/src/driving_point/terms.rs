@@ -1,6 +1,6 @@
 //! The receptance as a sum of terms, one for each pole or group of poles that belong together.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{
     circuit::{Circuit, shift},
@@ -179,13 +179,13 @@ pub(super) fn terms(circuit: &Circuit, modes: &[Mode]) -> Vec<Term> {
 /// receptance around all of them. Both are well determined where the single poles are not.
 fn together(circuit: &Circuit, poles: &[Complex], others: &[Complex], is_real: bool) -> Term {
     let order = poles.len();
-    let share = Twofold::from(1.0 / order as f64);
+    let share = DoubleDouble::from(1.0 / order as f64);
     let mut at = poles[1..].iter().fold(poles[0], |sum, pole| sum + *pole).times(share);
     // 1/order is rounded to a double where order is no power of two; what remains is put right.
     let rest = poles.iter().fold(Complex::zero(), |sum, pole| sum + (*pole - at)).times(share);
     at = at + rest;
     if is_real {
-        at.im = Twofold::ZERO;
+        at.im = DoubleDouble::ZERO;
     }
     let mut spread = vec![Complex::one()];
     for pole in poles {
@@ -207,11 +207,11 @@ fn together(circuit: &Circuit, poles: &[Complex], others: &[Complex], is_real: b
     let values: Vec<(Complex, Complex)> = points
         .iter()
         .map(|&point| {
-            let step = point.times(Twofold::from(radius));
+            let step = point.times(DoubleDouble::from(radius));
             (step, circuit.receptance(at + step))
         })
         .collect();
-    let count = Twofold::from(1.0 / points.len() as f64);
+    let count = DoubleDouble::from(1.0 / points.len() as f64);
     let mut moments = Vec::with_capacity(order);
     for k in 0..order {
         let sum = values.iter().fold(Complex::zero(), |sum, &(step, value)| {
@@ -220,7 +220,7 @@ fn together(circuit: &Circuit, poles: &[Complex], others: &[Complex], is_real: b
         moments.push(sum.times(count));
     }
     if is_real {
-        moments.iter_mut().for_each(|moment| moment.im = Twofold::ZERO);
+        moments.iter_mut().for_each(|moment| moment.im = DoubleDouble::ZERO);
     }
     let size = at.size();
     let sizes: Vec<f64> =

@@ -9,7 +9,7 @@
 
 mod disagreement;
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 pub use disagreement::Disagreement;
 
 use crate::{
@@ -102,14 +102,18 @@ pub fn compare(first: &LinearModel, second: &LinearModel) -> Equivalence {
     Equivalence { is_same, maxwell, kelvin, worst: Disagreement::of(first, second) }
 }
 
-fn forms(first: &Fractions, second: &Fractions, strength: fn(&Line) -> Twofold) -> FormComparison {
+fn forms(
+    first: &Fractions,
+    second: &Fractions,
+    strength: fn(&Line) -> DoubleDouble,
+) -> FormComparison {
     let at_long_times = pair(first.at_zero, second.at_zero);
     let at_short_times = pair(first.constant, second.constant);
     let mut largest = at_long_times.difference.max(at_short_times.difference);
     let time_and_strength = |line: &Line| (line.rate.recip(), strength(line));
     let mut modes: Vec<ModePair> = aligned(&first.lines, &second.lines)
         .map(|(a, b)| {
-            let none = (Twofold::ZERO, Twofold::ZERO);
+            let none = (DoubleDouble::ZERO, DoubleDouble::ZERO);
             let [a, b] = [a, b].map(|own| own.map_or(none, time_and_strength));
             ModePair { time: pair(a.0, b.0), strength: pair(a.1, b.1) }
         })
@@ -121,7 +125,7 @@ fn forms(first: &Fractions, second: &Fractions, strength: fn(&Line) -> Twofold) 
     FormComparison { at_long_times, at_short_times, modes, largest }
 }
 
-fn pair(first: Twofold, second: Twofold) -> Pair {
+fn pair(first: DoubleDouble, second: DoubleDouble) -> Pair {
     let larger = if first > second { first } else { second };
     let difference = if larger.high() > 0.0 || larger.high().is_nan() {
         let difference = ((first - second).abs() / larger).high();

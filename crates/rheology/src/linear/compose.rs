@@ -1,6 +1,6 @@
 //! Models composed of models.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{Canonical, Fractions, LinearModel, Merged, Merger, Primitive};
 use crate::Tree;
@@ -19,8 +19,8 @@ use Half::{Kelvin, Maxwell};
 impl Half {
     fn primitive(primitive: Primitive) -> Self {
         let only = |at_zero: f64, constant: f64| Fractions {
-            at_zero: Twofold::from(at_zero),
-            constant: Twofold::from(constant),
+            at_zero: DoubleDouble::from(at_zero),
+            constant: DoubleDouble::from(constant),
             lines: Vec::new(),
         };
         match primitive {

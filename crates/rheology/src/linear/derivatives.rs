@@ -1,6 +1,6 @@
 //! Derivatives of partial fractions with respect to the parameters of a tree.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{Fractions, Primitive};
 use crate::Tree;
@@ -51,7 +51,7 @@ impl Derivatives {
     /// each line the rate and the strength.
     pub(crate) fn relative(&self, parameters: usize) -> Vec<Vec<f64>> {
         let Derived { fractions, constant, at_zero, lines } = &self.0;
-        let dense = |value: Twofold, row: &Row| {
+        let dense = |value: DoubleDouble, row: &Row| {
             let mut all = vec![0.0; parameters];
             row.iter().for_each(|&(at, slope)| all[at] = slope / value.high());
             all
@@ -137,9 +137,9 @@ impl Derived {
     fn reciprocal(&self) -> Self {
         let fractions = self.fractions.reciprocal();
         let own = &self.fractions;
-        let poles: Vec<(Twofold, Twofold, &Row, Option<&Row>)> =
+        let poles: Vec<(DoubleDouble, DoubleDouble, &Row, Option<&Row>)> =
             (own.at_zero.high() > 0.0)
-                .then_some((Twofold::ZERO, own.at_zero, &self.at_zero, None))
+                .then_some((DoubleDouble::ZERO, own.at_zero, &self.at_zero, None))
                 .into_iter()
                 .chain(own.lines.iter().zip(&self.lines).map(|(line, [rate, strength])| {
                     (line.rate, line.strength, strength, Some(rate))
@@ -174,7 +174,7 @@ impl Derived {
             [moved, change]
         });
         let lines = lines.collect();
-        let square = |value: Twofold| -(value.high() * value.high());
+        let square = |value: DoubleDouble| -(value.high() * value.high());
         let constant = if fractions.constant.high() > 0.0 {
             let strengths = self.lines.iter().map(|line| (1.0, &line[1]));
             let sum = total([(1.0, &self.at_zero)].into_iter().chain(strengths));

@@ -1,6 +1,6 @@
 //! The two canonical forms of a linear model.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{Fractions, LinearModel, Primitive};
 use crate::{Branch, Tree};
@@ -24,7 +24,7 @@ pub struct MaxwellElement {
     /// Relaxation time `τ = C/K` \[s\], > 0.
     pub relaxation_time: f64,
     /// Rate `r = 1/τ` \[1/s\] with all its digits.
-    pub rate: Twofold,
+    pub rate: DoubleDouble,
 }
 
 /// One Kelvin–Voigt element of a [`KelvinForm`]: a line of the retardation spectrum.
@@ -39,7 +39,7 @@ pub struct KelvinElement {
     /// Retardation time `λ = C/K` \[s\], > 0.
     pub retardation_time: f64,
     /// Rate `z = 1/λ` \[1/s\] with all its digits.
-    pub rate: Twofold,
+    pub rate: DoubleDouble,
 }
 
 /// `Q(s) = K_e + C s + Σ K_j s/(s + r_j)`: a spring, a dashpot and Maxwell elements in parallel.
@@ -131,8 +131,8 @@ impl LinearModel {
                     .iter()
                     .map(|element| (element.stiffness, element.damping))
                     .collect();
-                let inverse = |twofold: Twofold| {
-                    if twofold.high() > 0.0 { twofold.recip().high() } else { 0.0 }
+                let inverse = |value: DoubleDouble| {
+                    if value.high() > 0.0 { value.recip().high() } else { 0.0 }
                 };
                 ("kelvin", [inverse(form.0.constant), inverse(form.0.at_zero)], pairs, true)
             }

@@ -1,6 +1,6 @@
 //! Partial fractions with positive strengths, and their reciprocal.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::secular::{Line, Secular};
 
@@ -27,8 +27,8 @@ pub(crate) struct Merger {
 /// and Kelvin–Voigt elements of damping `1/w_j` and rate `p_j` in series.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Fractions {
-    pub(crate) constant: Twofold,
-    pub(crate) at_zero: Twofold,
+    pub(crate) constant: DoubleDouble,
+    pub(crate) at_zero: DoubleDouble,
     /// In rising order of the rate.
     pub(crate) lines: Vec<Line>,
 }
@@ -120,7 +120,7 @@ impl Fractions {
     /// Exponents of two in the middle of the rates and of the strengths, so that neither squares nor
     /// the second halves of numbers leave the range of doubles.
     fn middle(&self) -> (f64, f64) {
-        let exponent = |twofold: Twofold| twofold.high().log2();
+        let exponent = |value: DoubleDouble| value.high().log2();
         let middle = |all: &mut dyn Iterator<Item = f64>| {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             for own in all.filter(|own| own.is_finite()) {
@@ -140,17 +140,18 @@ impl Fractions {
     fn reciprocal_near_one(&self) -> Self {
         let mut poles = Vec::with_capacity(self.lines.len() + 1);
         if self.at_zero.high() > 0.0 {
-            poles.push(Line { rate: Twofold::ZERO, strength: self.at_zero });
+            poles.push(Line { rate: DoubleDouble::ZERO, strength: self.at_zero });
         }
         poles.extend(&self.lines);
         let equation = Secular { constant: self.constant, poles: &poles };
         let lines = equation
             .zeros()
             .map(|zero| Line { rate: zero.place, strength: (zero.place * zero.slope).recip() });
-        let total: Twofold = self.lines.iter().map(|line| line.strength).sum();
-        let over_rates: Twofold = self.lines.iter().map(|line| line.strength / line.rate).sum();
-        let only_if = |is_zero: bool, sum: Twofold| {
-            if is_zero { sum.recip() } else { Twofold::ZERO }
+        let total: DoubleDouble = self.lines.iter().map(|line| line.strength).sum();
+        let over_rates: DoubleDouble =
+            self.lines.iter().map(|line| line.strength / line.rate).sum();
+        let only_if = |is_zero: bool, sum: DoubleDouble| {
+            if is_zero { sum.recip() } else { DoubleDouble::ZERO }
         };
         Self {
             lines: lines.collect(),
@@ -161,18 +162,18 @@ impl Fractions {
 }
 
 /// Relative distance of two rates, the larger one last.
-fn gap(low: Twofold, high: Twofold) -> f64 {
+fn gap(low: DoubleDouble, high: DoubleDouble) -> f64 {
     ((high - low) / high).high()
 }
 
 /// One mode with the sum of the strengths and the sum of the strengths over the rates.
 fn merged(lines: &[Line], mergers: &mut Vec<Merger>) -> Line {
-    let strength = lines.iter().map(|line| line.strength).sum::<Twofold>();
+    let strength = lines.iter().map(|line| line.strength).sum::<DoubleDouble>();
     let (first, last) = (lines[0].rate, lines[lines.len() - 1].rate);
     let rate = if first == last {
         first
     } else {
-        strength / lines.iter().map(|line| line.strength / line.rate).sum::<Twofold>()
+        strength / lines.iter().map(|line| line.strength / line.rate).sum::<DoubleDouble>()
     };
     mergers.push(Merger { rate: rate.high(), gap: gap(first, last), count: lines.len() });
     Line { rate, strength }

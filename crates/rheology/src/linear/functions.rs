@@ -1,6 +1,6 @@
 //! Material functions.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::{Fractions, LinearModel};
 
@@ -88,14 +88,14 @@ trait RecipOrInfinity {
     fn recip_or_infinity(self) -> f64;
 }
 
-impl RecipOrInfinity for Twofold {
+impl RecipOrInfinity for DoubleDouble {
     fn recip_or_infinity(self) -> f64 {
         if self.high() > 0.0 { self.recip().high() } else { f64::INFINITY }
     }
 }
 
 /// `e^(−r t)`, to rounding even where it is small: the exponent is taken in twice the digits.
-fn decay(rate: Twofold, t: f64) -> f64 {
+fn decay(rate: DoubleDouble, t: f64) -> f64 {
     let exponent = rate * t;
     (-exponent.high()).exp() * (1.0 - exponent.low())
 }

@@ -20,7 +20,7 @@ mod fractions;
 mod functions;
 mod secular;
 
-pub use dashpot_numerics::Twofold;
+pub use dashpot_numerics::DoubleDouble;
 pub use forms::{Canonical, KelvinElement, KelvinForm, MaxwellElement, MaxwellForm};
 pub use fractions::MERGED_BELOW;
 
@@ -104,9 +104,9 @@ impl LinearModel {
             self.kelvin.as_ref().map(|kelvin| &kelvin.0),
         ];
         forms.into_iter().flatten().all(|form| {
-            let is_normal = |twofold: Twofold| RANGE.contains(&twofold.high());
-            let is_single = |twofold: Twofold| {
-                twofold.high() == 0.0 || (is_normal(twofold) && is_normal(twofold.recip()))
+            let is_normal = |value: DoubleDouble| RANGE.contains(&value.high());
+            let is_single = |value: DoubleDouble| {
+                value.high() == 0.0 || (is_normal(value) && is_normal(value.recip()))
             };
             [form.constant, form.at_zero].into_iter().all(is_single)
                 && form.lines.iter().all(|line| {
@@ -127,11 +127,11 @@ impl LinearModel {
     /// `(z_i, φ_i)` in any order \[1/s, m/(N s)\]. All constants are finite, `J_g, φ₀ ≥ 0` and
     /// `z_i, φ_i > 0`; no two rates are equal.
     pub fn from_kelvin(
-        spring_compliance: Twofold,
-        fluidity: Twofold,
-        modes: impl IntoIterator<Item = (Twofold, Twofold)>,
+        spring_compliance: DoubleDouble,
+        fluidity: DoubleDouble,
+        modes: impl IntoIterator<Item = (DoubleDouble, DoubleDouble)>,
     ) -> Self {
-        let line = |(rate, strength): (Twofold, Twofold)| Line { rate, strength };
+        let line = |(rate, strength): (DoubleDouble, DoubleDouble)| Line { rate, strength };
         let mut lines: Vec<Line> = modes.into_iter().map(line).collect();
         lines.sort_by(|a, b| a.rate.total_cmp(&b.rate));
         let kelvin = Fractions { constant: spring_compliance, at_zero: fluidity, lines };

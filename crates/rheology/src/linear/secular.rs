@@ -5,7 +5,7 @@
 //! and everything that follows depends on distances. A safeguarded Newton iteration in doubles is
 //! polished in twice their digits.
 
-use dashpot_numerics::{Twofold, roots::Bracket};
+use dashpot_numerics::{DoubleDouble, roots::Bracket};
 
 /// Newton steps in doubles; about eight are usual, and bisection alone takes this many at worst.
 const MOST_STEPS: usize = 200;
@@ -18,22 +18,22 @@ const FINAL: f64 = 1e-14;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Line {
     /// Rate \[1/s\], > 0 except for the pole at zero.
-    pub(crate) rate: Twofold,
+    pub(crate) rate: DoubleDouble,
     /// Strength, > 0: a stiffness \[N/m\], or a compliance times its rate \[m/(N s)\].
-    pub(crate) strength: Twofold,
+    pub(crate) strength: DoubleDouble,
 }
 
 /// The function `F(x) = c − Σ w_j/(x − p_j)`, poles in rising order.
 pub(super) struct Secular<'l> {
-    pub(super) constant: Twofold,
+    pub(super) constant: DoubleDouble,
     pub(super) poles: &'l [Line],
 }
 
 /// A zero of the function.
 pub(super) struct Zero {
-    pub(super) place: Twofold,
+    pub(super) place: DoubleDouble,
     /// Derivative of the function there, > 0.
-    pub(super) slope: Twofold,
+    pub(super) slope: DoubleDouble,
 }
 
 /// The function as seen from one of its poles: `x = p + side · η`, `η > 0`.
@@ -106,9 +106,9 @@ impl Secular<'_> {
     fn polished(&self, base: usize, side: f64, distance: f64) -> Zero {
         let own = self.poles[base];
         let others = self.poles.iter().enumerate().filter(|other| other.0 != base);
-        let others: Vec<(Twofold, Twofold)> =
+        let others: Vec<(DoubleDouble, DoubleDouble)> =
             others.map(|(_, other)| (other.strength, own.rate - other.rate)).collect();
-        let mut distance = Twofold::from(distance);
+        let mut distance = DoubleDouble::from(distance);
         for _ in 0..MOST_POLISHING {
             let offset = distance * side;
             let mut rest = self.constant;
@@ -131,14 +131,14 @@ impl Secular<'_> {
             }
         }
         let offset = distance * side;
-        let square = |strength: Twofold, apart: Twofold| {
+        let square = |strength: DoubleDouble, apart: DoubleDouble| {
             let inverse = apart.recip();
             strength * inverse * inverse
         };
         let slopes = others.iter().map(|&(strength, apart)| square(strength, apart + offset));
         Zero {
             place: own.rate + offset,
-            slope: slopes.sum::<Twofold>() + square(own.strength, distance),
+            slope: slopes.sum::<DoubleDouble>() + square(own.strength, distance),
         }
     }
 }

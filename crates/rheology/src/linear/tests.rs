@@ -255,7 +255,7 @@ proptest! {
     fn poles_and_zeros_interlace_and_spectra_are_positive(tree in trees()) {
         let model = LinearModel::of(&tree, |&part| part);
         let (relaxance, retardance) = (&model.maxwell.as_ref().unwrap().0, &model.kelvin.as_ref().unwrap().0);
-        let zero = Twofold::ZERO;
+        let zero = DoubleDouble::ZERO;
         prop_assert!(relaxance.lines.iter().chain(&retardance.lines).all(|line| line.strength > zero));
         // The slowest time of a solid is one of retardation, that of a liquid one of relaxation. A
         // very weak mode has its zero upon its pole, to all digits.

@@ -6,7 +6,7 @@ use dashpot_dae::{Digest, Product};
 use dashpot_network::Assembly;
 
 use super::{Ledger, STEPS, does_work, total};
-use crate::energy::roles::Accounts;
+use crate::energy::roles::EnergyRole;
 
 /// The energy balance at the end of a run of `end` \[s\], of which `digest` tells the values at both
 /// ends, and force times rate of all parts that dissipate and then of all drives.
@@ -25,7 +25,7 @@ pub(super) fn ledger(assembly: &Assembly, digest: &Digest, end: f64) -> Ledger {
     }
     let (mut stored, mut dissipated) = (Vec::new(), Vec::new());
     for primitive in &assembly.primitives {
-        let own = Accounts::of(primitive.element.as_ref());
+        let own = EnergyRole::of(primitive.element.as_ref());
         let mut gained = 0.0;
         if own.stores {
             let ends = digest.ends(system, primitive.deformation);
@@ -64,7 +64,7 @@ fn jumps(assembly: &Assembly, digest: &Digest) -> f64 {
     let springs = assembly
         .primitives
         .iter()
-        .filter(|primitive| Accounts::of(primitive.element.as_ref()).stores);
+        .filter(|primitive| EnergyRole::of(primitive.element.as_ref()).stores);
     let mut by_output: HashMap<usize, Vec<_>> = HashMap::new();
     for spring in springs {
         by_output.entry(spring.deformation).or_default().push(&spring.element);

@@ -17,7 +17,7 @@ pub use series::{EnergySeries, energy_series};
 
 use crate::{
     Solution,
-    energy::roles::{self, Accounts},
+    energy::roles::{self, EnergyRole},
 };
 
 /// The energy balance from the start of a run until a time.
@@ -78,7 +78,7 @@ impl Ledger {
         let sums = assembly.connections.iter().map(|connection| {
             let mut sum = (connection.name.as_str(), 0.0, 0.0);
             for primitive in assembly.primitives.get(connection.primitives.clone()).unwrap_or(&[]) {
-                let own = Accounts::of(primitive.element.as_ref());
+                let own = EnergyRole::of(primitive.element.as_ref());
                 if own.stores {
                     sum.1 += stored.next().unwrap_or(0.0);
                 }
@@ -155,7 +155,7 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
     }
     let (mut stored, mut dissipated) = (Vec::new(), Vec::new());
     for primitive in &assembly.primitives {
-        let own = Accounts::of(primitive.element.as_ref());
+        let own = EnergyRole::of(primitive.element.as_ref());
         let mut gained = 0.0;
         if own.stores {
             let deformation = solution.glance(primitive.deformation);

@@ -5,7 +5,7 @@ use dashpot_dae::Signal;
 use super::{does_work, steps};
 use crate::{
     Solution,
-    energy::roles::{self, Accounts},
+    energy::roles::{self, EnergyRole},
 };
 
 /// Energies of a run at given times \[J\].
@@ -41,7 +41,7 @@ pub fn energy_series(solution: &Solution<'_>, times: &[f64]) -> EnergySeries {
         }
     }
     for primitive in &assembly.primitives {
-        let own = Accounts::of(primitive.element.as_ref());
+        let own = EnergyRole::of(primitive.element.as_ref());
         let stores = own.stores;
         let mut gained = vec![0.0; times.len()];
         if own.stores {

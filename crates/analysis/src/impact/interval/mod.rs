@@ -69,11 +69,11 @@ impl Impact {
     /// The impact of a contact force with the impulses that act beside it.
     pub(crate) fn of_contact(
         force: &Signal,
-        blows: &[VelocityJump],
+        jumps: &[VelocityJump],
         run_end: f64,
         threshold: f64,
     ) -> Self {
-        let Some(first) = first_felt(blows, force).filter(|blow| Self::begins_with(blow, force))
+        let Some(first) = first_felt(jumps, force).filter(|jump| Self::begins_with(jump, force))
         else {
             return Self::of_force(force, run_end, threshold);
         };
@@ -91,9 +91,9 @@ impl Impact {
         Self { end: first.time, end_error, contact: Contact::Parted, ..run }
     }
 
-    /// Whether nothing acts before the blow.
-    pub(crate) fn begins_with(blow: &VelocityJump, force: &Signal) -> bool {
-        first_load(force).is_none_or(|loaded| blow.time <= loaded)
+    /// Whether nothing acts before the jump.
+    pub(crate) fn begins_with(jump: &VelocityJump, force: &Signal) -> bool {
+        first_load(force).is_none_or(|loaded| jump.time <= loaded)
     }
 
     /// The impact of a force that pushes first.
@@ -218,7 +218,7 @@ pub(crate) const SLIGHT: f64 = 1e-2;
 const NEXT_TO_NOTHING: f64 = 1e-3;
 
 /// Part of the largest impulse below which an impulse is rounding.
-const SMALLEST_BLOW: f64 = 1e-9;
+const SMALLEST_JUMP: f64 = 1e-9;
 
 /// The doubt of a force that by its law never pulls: no fall below zero counts.
 pub(crate) const NO_PULL: f64 = 1.0;
@@ -311,12 +311,12 @@ pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
 
 /// The first impulse of those that act beside a force which is not next to nothing.
 pub(crate) fn first_felt<'b>(
-    blows: &'b [VelocityJump],
+    jumps: &'b [VelocityJump],
     force: &Signal,
 ) -> Option<&'b VelocityJump> {
-    let most = blows.iter().map(|blow| blow.impulse.abs()).reduce(f64::max)?;
+    let most = jumps.iter().map(|jump| jump.impulse.abs()).reduce(f64::max)?;
     let size = most.max(force.integral((0.0, force.end())).abs());
-    blows.iter().find(|blow| blow.impulse.abs() > SMALLEST_BLOW * size)
+    jumps.iter().find(|jump| jump.impulse.abs() > SMALLEST_JUMP * size)
 }
 
 /// When a force that is zero at first begins to act \[s\].

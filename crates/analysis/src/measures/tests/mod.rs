@@ -1,5 +1,5 @@
-mod blows;
 mod injury;
+mod jumps;
 mod transmitted;
 
 use std::f64::consts::PI;

@@ -13,7 +13,10 @@ use dashpot_network::{
 use dashpot_rheology::{Branch, Tree};
 
 use super::{FourParameterGroups, FourParameterImpact, FourParameterPadding, face, weight};
-use crate::{measures::STANDARD_GRAVITY, similarity::SimilarityError};
+use crate::similarity::{
+    SimilarityError,
+    names::{connect_as, speed_of_fall},
+};
 
 /// A drawing of the padding stands for it if its constants come back within this, relatively.
 const SAME: f64 = 1e-9;
@@ -50,7 +53,6 @@ impl FourParameterGroups {
             again.add_node(node);
         }
         for own in network.connections() {
-            let [from, to] = own.between;
             let model = if own.name == after.names[1] {
                 padding(&own.model, &before.padding(), &after.padding())
             } else if before.support() == after.support() {
@@ -58,9 +60,7 @@ impl FourParameterGroups {
             } else {
                 after.support().mount()
             };
-            let connection = again.connect(&*own.name, from, to, model);
-            (connection.thickness, connection.area) = (own.thickness, own.area);
-            connection.pads.clone_from(&own.pads);
+            connect_as(&mut again, own, (&own.name, own.between), model);
         }
         for effect in network.effects() {
             if let Some(own) = effect.of_kind::<Gravity>() {
@@ -176,10 +176,7 @@ pub(super) fn read(network: &Network) -> Result<FourParameterImpact, &'static st
     let (face_mass, gravity) = effects(network, &head.1.name)?;
     let speed = match head.1.start {
         Start::Velocity(speed) => speed,
-        Start::Drop(height) => {
-            let own = network.effects().iter().find_map(|effect| effect.gravity());
-            (2.0 * own.unwrap_or(STANDARD_GRAVITY) * height).max(0.0).sqrt()
-        }
+        Start::Drop(height) => speed_of_fall(network, height),
         Start::Rest => 0.0,
     };
     if speed <= 0.0 {

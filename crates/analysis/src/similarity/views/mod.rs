@@ -11,9 +11,8 @@ use dashpot_rheology::{Branch, Tree};
 
 use super::{
     FourParameterImpact,
-    names::{retargeted, with_names},
+    names::{connect_as, gravity, retargeted, speed_of_fall, with_names},
 };
-use crate::measures::STANDARD_GRAVITY;
 
 /// The network with the effects of another that it has not, with nothing in them: no gravity is
 /// gravity of 0, and no mass on a face one of 0. The same network where both have not as many nodes
@@ -42,10 +41,10 @@ pub(super) fn completed(network: &Network, like: &Network) -> Result<Network, In
         return Ok(network.clone());
     }
     // A fall without gravity has the speed that it has under the standard one.
-    let is_free = network.effects().iter().all(|effect| effect.gravity().is_none());
+    let is_free = gravity(network).is_none();
     let mut again = with_nodes(network, |node| match node.start {
-        Start::Drop(_) if is_free => {
-            Node { start: Start::Velocity(speed_of_fall(network, node.start)), ..node.clone() }
+        Start::Drop(height) if is_free => {
+            Node { start: Start::Velocity(speed_of_fall(network, height)), ..node.clone() }
         }
         _ => node.clone(),
     });
@@ -61,7 +60,7 @@ pub(super) fn mirrored(network: &Network) -> Network {
         let start = match node.start {
             Start::Rest => Start::Rest,
             Start::Velocity(own) => Start::Velocity(-own),
-            Start::Drop(_) => Start::Velocity(-speed_of_fall(network, node.start)),
+            Start::Drop(height) => Start::Velocity(-speed_of_fall(network, height)),
         };
         let support = match &node.support {
             Support::Prescribed(motion) => Support::Prescribed(motion.in_units(1.0, -1.0)),
@@ -171,12 +170,6 @@ fn vanishing(effect: &Arc<dyn Effect>) -> Option<Arc<dyn Effect>> {
     Some(Arc::new(Face { mass: 0.0, ..face.clone() }))
 }
 
-fn speed_of_fall(network: &Network, start: Start) -> f64 {
-    let Start::Drop(height) = start else { return 0.0 };
-    let gravity = network.effects().iter().find_map(|effect| effect.gravity());
-    (2.0 * gravity.unwrap_or(STANDARD_GRAVITY) * height).max(0.0).sqrt()
-}
-
 /// A network of other nodes at the same places, with nothing between them.
 fn with_nodes(network: &Network, change: impl Fn(&Node) -> Node) -> Network {
     let mut again = Network::new();
@@ -199,9 +192,7 @@ fn copy_connections(network: &Network, again: &mut Network, turned: bool) {
             }
             again.connect_layers(&*own.name, from, to, layers).area = own.area;
         } else {
-            let connection = again.connect(&*own.name, from, to, own.model.clone());
-            (connection.thickness, connection.area) = (own.thickness, own.area);
-            connection.pads.clone_from(&own.pads);
+            connect_as(again, own, (&own.name, [from, to]), own.model.clone());
         }
     }
 }

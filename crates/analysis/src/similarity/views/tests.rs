@@ -9,6 +9,7 @@ use dashpot_network::{
 use super::*;
 use crate::{
     SolveSettings,
+    measures::STANDARD_GRAVITY,
     similarity::{Similarity, alone, measured},
     solve,
 };

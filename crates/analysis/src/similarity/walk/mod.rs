@@ -20,8 +20,7 @@ use self::{
     sizes::{Pad, Stresses},
     waveforms::{walk_motion, walk_waveform},
 };
-use super::names::again;
-use crate::measures::STANDARD_GRAVITY;
+use super::names::{again, gravity, speed_of_fall};
 
 /// Area \[m²\].
 const AREA: Dimension = Dimension::new(0, 2, 0);
@@ -71,7 +70,6 @@ pub(super) fn walk(network: &Network, visit: &mut dyn Visit) -> Result<Network, 
 
 /// Lets fall what falls under gravity, from where it has its speed at touch.
 fn drop_again(network: &Network, again: &mut Network) {
-    let gravity = |network: &Network| network.effects().iter().find_map(|effect| effect.gravity());
     let (Some(_), Some(pull)) = (gravity(network), gravity(again).filter(|own| *own > 0.0)) else {
         return;
     };
@@ -105,11 +103,7 @@ fn walk_node(
         Start::Rest => Start::Rest,
         Start::Velocity(own) => Start::Velocity(velocity(own)),
         // Only its speed counts, and that is one parameter instead of two.
-        Start::Drop(height) => {
-            let gravity = network.effects().iter().find_map(|effect| effect.gravity());
-            let gravity = gravity.unwrap_or(STANDARD_GRAVITY);
-            Start::Velocity(velocity((2.0 * gravity * height).max(0.0).sqrt()))
-        }
+        Start::Drop(height) => Start::Velocity(velocity(speed_of_fall(network, height))),
     };
     let support = match &node.support {
         Support::Free => Support::Free,

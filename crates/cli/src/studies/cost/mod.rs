@@ -110,13 +110,13 @@ impl Study for Costs {
                 error: failure.error.to_string(),
                 finer_tried: !failure.ends,
             })),
-            silent: list(report.slips.iter().map(|slip| object! {
-                method: slip.method,
-                rtol: slip.rtol,
-                what: subject(report, slip.subject),
-                error: slip.error,
-                bar: slip.bar,
-                warned: slip.warned,
+            silent: list(report.underestimates.iter().map(|underestimate| object! {
+                method: underestimate.method,
+                rtol: underestimate.rtol,
+                what: subject(report, underestimate.subject),
+                error: underestimate.error,
+                bar: underestimate.bar,
+                warned: underestimate.warned,
             })),
             cheapest: list(accuracies.iter().map(|&accuracy| cheapest_object(report, accuracy))),
         }
@@ -172,7 +172,7 @@ fn wish(accuracy: f64) -> String {
 }
 
 fn reference_solution(report: &CostReport) -> impl Serialize {
-    let own = &report.truth;
+    let own = &report.reference;
     object! {
         method: own.method,
         rtol: own.rtol,

@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use dashpot_analysis::work_precision::{
-    CostFailure, CostPoint, CostReport, Deviation, Slip, Spread, Subject, Timing, TrueMeasure,
+    CostFailure, CostPoint, CostReport, Deviation, Spread, Subject, Timing, TrueMeasure,
+    Underestimate,
 };
 use dashpot_plot::Table;
 
@@ -148,7 +149,7 @@ const NOTHING: f64 = 1.05;
 
 /// What errors are taken from.
 pub(super) fn reference_notes(report: &CostReport) -> Vec<String> {
-    let own = &report.truth;
+    let own = &report.reference;
     let mut notes = Vec::new();
     let name = match own.rtol {
         None => "the exact solution".to_owned(),
@@ -226,20 +227,20 @@ pub(super) fn failures(report: &CostReport) -> Vec<String> {
 /// Errors that a run does not tell of, the largest first; those of one method in one thing are told
 /// together.
 pub(super) fn underestimated(report: &CostReport) -> Vec<String> {
-    let mut groups: Vec<Vec<&Slip>> = Vec::new();
-    for slip in &report.slips {
-        let is_alike = |other: &Slip| {
-            other.method == slip.method
-                && other.subject == slip.subject
-                && other.warned == slip.warned
-                && other.error.is_finite() == slip.error.is_finite()
+    let mut groups: Vec<Vec<&Underestimate>> = Vec::new();
+    for underestimate in &report.underestimates {
+        let is_alike = |other: &Underestimate| {
+            other.method == underestimate.method
+                && other.subject == underestimate.subject
+                && other.warned == underestimate.warned
+                && other.error.is_finite() == underestimate.error.is_finite()
         };
         match groups.iter_mut().find(|group| group.iter().all(|other| is_alike(other))) {
-            Some(group) => group.push(slip),
-            None => groups.push(vec![slip]),
+            Some(group) => group.push(underestimate),
+            None => groups.push(vec![underestimate]),
         }
     }
-    let worst = |group: &[&Slip]| group.iter().map(|own| own.error).fold(0.0, f64::max);
+    let worst = |group: &[&Underestimate]| group.iter().map(|own| own.error).fold(0.0, f64::max);
     groups.sort_by(|one, other| worst(other).total_cmp(&worst(one)));
     let mut lines: Vec<String> =
         groups.iter().take(MOST_GROUPS).map(|group| together(report, group)).collect();
@@ -250,7 +251,7 @@ pub(super) fn underestimated(report: &CostReport) -> Vec<String> {
 }
 
 /// Errors of one method in one thing.
-fn together(report: &CostReport, group: &[&Slip]) -> String {
+fn together(report: &CostReport, group: &[&Underestimate]) -> String {
     let Some(own) = group.iter().max_by(|one, other| one.error.total_cmp(&other.error)) else {
         return String::new();
     };

@@ -8,7 +8,7 @@
 //! # Error control
 //!
 //! The integrators keep the root mean square of `error / (rtol · |y| + rtol · n)` over all unknowns
-//! below one, with their [sizes](crate::Run::nominal) n, mostly 1. Up to 30 unknowns `rtol` is the run's. Beyond, the mean would dilute what
+//! below one, with their [sizes](crate::Run::tolerance_scaling) n, mostly 1. Up to 30 unknowns `rtol` is the run's. Beyond, the mean would dilute what
 //! happens in a small part of a large system, so that `rtol` shrinks with `√(30/n)`: one unknown
 //! alone then has as much to say as in a system of 30.
 //!
@@ -30,18 +30,21 @@ mod start;
 mod terms;
 mod walk;
 
-pub(super) use algebra::Algebra;
 pub use recursion::derivatives;
-pub(super) use start::Problem;
-pub(super) use walk::{Polynomial, Walk};
 
 use std::fmt::Debug;
 
-use self::spans::integrate;
 use diffsol::{
-    DefaultDenseMatrix, DiffsolError, VectorRef, matrix::MatrixRef, ode_solver::state::StateCommon,
+    BdfState, DefaultDenseMatrix, DiffsolError, OdeSolverState, RkState, VectorRef,
+    matrix::MatrixRef, ode_solver::state::StateCommon,
 };
 
+use self::{
+    algebra::Algebra,
+    spans::integrate,
+    start::Problem,
+    walk::{Polynomial, Walk},
+};
 use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
 
 /// What tells one step-by-step method from another; all else of [`Method`] is the same for all.
@@ -50,6 +53,8 @@ pub(super) trait Scheme: Debug + Default + Send + Sync + 'static {
     const KIND: &'static str;
     /// What it is good for, in one line.
     const SUMMARY: &'static str;
+    /// What integrates.
+    const INTEGRATOR: Integrator;
     /// Its highest order.
     const HIGHEST: u8;
     /// Its order at the start, from which the first step is estimated.
@@ -61,9 +66,28 @@ pub(super) trait Scheme: Debug + Default + Send + Sync + 'static {
     fn suits(_system: &System) -> Result<&'static str, String> {
         Ok("it solves every system")
     }
+}
 
+/// An integrator of `diffsol`.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Integrator {
+    /// Backward differentiation of variable order.
+    Bdf,
+    /// The trapezoidal rule and backward differentiation in one step.
+    TrBdf2,
+    /// A diagonally implicit Runge–Kutta method of order 3.
+    Esdirk34,
+    /// An explicit Runge–Kutta method of order 5.
+    Tsit45,
+}
+
+impl Integrator {
     /// Integrates one span of `problem` from `state`, handing every step to `walk`.
+    ///
+    /// The dense output in a step of backward differentiation is the polynomial through the ends of the last
+    /// steps, so that nothing but these is kept; that of the others has a degree.
     fn span<M>(
+        self,
         problem: &Problem<'_, M>,
         state: StateCommon<M::V>,
         walk: &mut Walk<'_>,
@@ -72,7 +96,27 @@ pub(super) trait Scheme: Debug + Default + Send + Sync + 'static {
         M: Algebra,
         M::V: DefaultDenseMatrix<T = f64, C = M::C>,
         for<'v> &'v M::V: VectorRef<M::V>,
-        for<'m> &'m M: MatrixRef<M>;
+        for<'m> &'m M: MatrixRef<M>,
+    {
+        match self {
+            Self::Bdf => {
+                let begin = BdfState::new_from_common(state);
+                walk.steps(problem.bdf_solver::<M::Factor>(begin)?, Polynomial::History, 0)
+            }
+            Self::TrBdf2 => {
+                let begin = RkState::new_from_common(state);
+                walk.steps(problem.tr_bdf2_solver::<M::Factor>(begin)?, Polynomial::Inner(2), 1)
+            }
+            Self::Esdirk34 => {
+                let begin = RkState::new_from_common(state);
+                walk.steps(problem.esdirk34_solver::<M::Factor>(begin)?, Polynomial::Inner(3), 1)
+            }
+            Self::Tsit45 => {
+                let begin = RkState::new_from_common(state);
+                walk.steps(problem.tsit45_solver(begin)?, Polynomial::Inner(4), 0)
+            }
+        }
+    }
 }
 
 impl<S: Scheme> Method for S {

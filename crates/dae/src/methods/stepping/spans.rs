@@ -186,7 +186,7 @@ impl Walk<'_> {
             return Err(site.singular(&self.state).into());
         }
         self.pieces.begin(self.system, start, &self.state);
-        S::span(problem, state, self)
+        S::INTEGRATOR.span(problem, state, self)
     }
 
     /// Integrates all spans in one world of matrices.

@@ -53,7 +53,7 @@ pub(super) fn problem<'s, M: Algebra>(
     let rtol = tolerance(run.rtol, system.len());
     let context = M::C::default();
     let mut atol = vec![rtol; system.len()];
-    atol.iter_mut().zip(&run.nominal).for_each(|(atol, size)| *atol *= size);
+    atol.iter_mut().zip(&run.tolerance_scaling).for_each(|(atol, size)| *atol *= size);
     let atol = context.vector_from_vec(atol);
     Ok(OdeSolverProblem {
         eqn: Equations::new(system)?,

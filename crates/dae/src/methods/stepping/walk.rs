@@ -178,7 +178,8 @@ impl Walk<'_> {
             let mut signal = self.pieces.signal_from(self.system, output, steps - 1);
             // A small difference of large terms is known no better than they are, and what balances
             // determine no better than the absolute tolerance.
-            let size = |unknown: usize| self.run.nominal.get(unknown).copied().unwrap_or(1.0);
+            let size =
+                |unknown: usize| self.run.tolerance_scaling.get(unknown).copied().unwrap_or(1.0);
             let balanced = |unknown: usize| match self.system.unknowns[unknown].kind {
                 UnknownKind::Algebraic => size(unknown),
                 UnknownKind::Differential => 0.0,

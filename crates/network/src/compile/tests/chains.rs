@@ -1,7 +1,7 @@
 //! Chains of Kelvin–Voigt elements, whose times lie up to thirteen decades apart, and nests of them.
 
 use dashpot_dae::{Piece, Run, Signal, Silent, Waveform, methods};
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 use dashpot_rheology::LinearModel;
 use nalgebra_sparse::SparseEntry;
 
@@ -116,10 +116,10 @@ fn follows(signal: &Signal, expected: &[(f64, f64)], what: &str) {
 }
 
 /// Rows over the unknowns in SI.
-type Dense = Vec<Twofold>;
+type Dense = Vec<DoubleDouble>;
 
-fn added(rows: impl Iterator<Item = (Twofold, Dense)>, size: usize) -> Dense {
-    rows.fold(vec![Twofold::ZERO; size], |sum, (factor, row)| {
+fn added(rows: impl Iterator<Item = (DoubleDouble, Dense)>, size: usize) -> Dense {
+    rows.fold(vec![DoubleDouble::ZERO; size], |sum, (factor, row)| {
         sum.iter().zip(&row).map(|(&sum, &own)| sum + factor * own).collect()
     })
 }
@@ -128,21 +128,24 @@ fn added(rows: impl Iterator<Item = (Twofold, Dense)>, size: usize) -> Dense {
 /// chain each part is compressed at the rate `(F − K y)/C`, and all rates add up to the velocity.
 fn equations(parts: &[(f64, f64)], deformation: &[Dense], velocity: &Dense) -> (Dense, Vec<Dense>) {
     let size = velocity.len();
-    let one = Twofold::ONE;
+    let one = DoubleDouble::ONE;
     let damped = || parts.iter().zip(deformation).filter(|(part, _)| part.1 > 0.0);
     let force = if let Some(at) = parts.iter().position(|part| part.1 == 0.0) {
-        added([(Twofold::from(parts[at].0), deformation[at].clone())].into_iter(), size)
+        added([(DoubleDouble::from(parts[at].0), deformation[at].clone())].into_iter(), size)
     } else {
-        let fluidity: Twofold = damped().map(|(part, _)| Twofold::from(part.1).recip()).sum();
-        let flowing = damped().map(|(part, row)| (Twofold::quotient(part.0, part.1), row.clone()));
+        let fluidity: DoubleDouble =
+            damped().map(|(part, _)| DoubleDouble::from(part.1).recip()).sum();
+        let flowing =
+            damped().map(|(part, row)| (DoubleDouble::quotient(part.0, part.1), row.clone()));
         let total = added(flowing.chain([(one, velocity.clone())]), size);
         added([(fluidity.recip(), total)].into_iter(), size)
     };
     let mut rates: Vec<Dense> = Vec::new();
     for (part, row) in parts.iter().zip(deformation) {
-        let terms = [(one, force.clone()), (-Twofold::from(part.0), row.clone())];
+        let terms = [(one, force.clone()), (-DoubleDouble::from(part.0), row.clone())];
         let net = added(terms.into_iter(), size);
-        let fluidity = if part.1 > 0.0 { Twofold::from(part.1).recip() } else { Twofold::ZERO };
+        let fluidity =
+            if part.1 > 0.0 { DoubleDouble::from(part.1).recip() } else { DoubleDouble::ZERO };
         rates.push(added([(fluidity, net)].into_iter(), size));
     }
     if let Some(at) = parts.iter().position(|part| part.1 == 0.0) {
@@ -164,8 +167,8 @@ fn every_coefficient_of_a_mass_on_a_chain_is_right_to_its_last_digits() {
             |name: &str| system.unknowns.iter().position(|unknown| unknown.name == name).unwrap();
         let (place, speed) = (find("position of head"), find("velocity of head"));
         let single = |at: usize| {
-            let mut row = vec![Twofold::ZERO; size];
-            row[at] = Twofold::ONE;
+            let mut row = vec![DoubleDouble::ZERO; size];
+            row[at] = DoubleDouble::ONE;
             row
         };
         let mut primitives = assembly.primitives.iter();
@@ -177,7 +180,7 @@ fn every_coefficient_of_a_mass_on_a_chain_is_right_to_its_last_digits() {
                     primitives.next();
                 }
                 let entry = |at: usize| output.scale * output.unknowns.coefficient(at) / scale(at);
-                (0..size).map(|at| Twofold::from(entry(at))).collect()
+                (0..size).map(|at| DoubleDouble::from(entry(at))).collect()
             })
             .collect();
         let (force, rates) = equations(&parts, &deformation, &single(speed));

@@ -1,6 +1,6 @@
 //! Random networks against the balance of forces at real rates, where nothing cancels.
 
-use dashpot_numerics::Twofold;
+use dashpot_numerics::DoubleDouble;
 
 use super::*;
 use crate::driving_point::{
@@ -11,7 +11,7 @@ use crate::driving_point::{
 
 /// The receptance at a real rate by star–mesh elimination of all but the two nodes: sums of
 /// positive terms only.
-fn receptance(network: &Network, a: NodeId, b: NodeId, s: f64) -> Twofold {
+fn receptance(network: &Network, a: NodeId, b: NodeId, s: f64) -> DoubleDouble {
     let circuit = Circuit::of(network, a, b).unwrap().unwrap();
     let mut order: Vec<usize> = (0..circuit.bodies).collect();
     order.sort_by_key(|&body| circuit.forces.contains(&Some(body)));

@@ -10,7 +10,7 @@ use crate::{
     Solution,
     energy::{
         ledger::{does_work, steps},
-        roles::Accounts,
+        roles::EnergyRole,
     },
     impact::contacts,
 };
@@ -206,7 +206,7 @@ impl<'a> Parts<'a> {
         let (solution, assembly) = (self.solution, self.solution.assembly());
         let range = assembly.connections[at].primitives.clone();
         for primitive in assembly.primitives.get(range.clone()).unwrap_or_default() {
-            let own = Accounts::of(primitive.element.as_ref());
+            let own = EnergyRole::of(primitive.element.as_ref());
             let deformation = solution.signal(primitive.deformation);
             if own.dissipates {
                 if does_work(primitive) {

@@ -6,8 +6,9 @@ use dashpot_dae::{MethodKind, SolveError, methods};
 use dashpot_network::Assembly;
 
 use super::{
-    Deviation, MeasureDeviation, Slip, Subject, Timing, TrueMeasure, Truth, declines,
-    deviation::{Happening, Match, apart, happenings, known, matched, measures, size},
+    Deviation, MeasureDeviation, ReferenceSolution, Subject, Timing, TrueMeasure, Underestimate,
+    declines,
+    deviation::{Match, TimedEvent, apart, known, matched, measures, size, timed_events},
     states::{Probe, States},
     watch::Watch,
 };
@@ -59,7 +60,7 @@ pub(super) struct Judge<'a> {
     report: Told,
     witness: Option<Told>,
     why_not_exact: Option<RunError>,
-    happenings: Vec<Happening>,
+    events: Vec<TimedEvent>,
     states: States,
     /// Length of the run \[s\].
     duration: f64,
@@ -86,13 +87,13 @@ impl<'a> Judge<'a> {
             Err(error) if is_final(&error) => return Err(error),
             Err(error) => {
                 let limits = (watch.share(OF_ALL), &mut *watch);
-                let (report, family) = reference(assembly, settings, None, limits)?;
+                let (report, family) = reference_solution(assembly, settings, None, limits)?;
                 (report, Some(error), Some(family))
             }
         };
         watch.begin(1);
         let limits = (watch.share(OF_ALL), &mut *watch);
-        let witness = reference(assembly, settings, family, limits);
+        let witness = reference_solution(assembly, settings, family, limits);
         let witness = match (witness, family) {
             (Ok((report, _)), _) => Some(report),
             // The exact solution states its own errors.
@@ -100,11 +101,10 @@ impl<'a> Judge<'a> {
             (Err(error), _) => return Err(error),
         };
         let probe = Probe::new(assembly, &select(assembly, &settings.measures)?);
-        let happenings = happenings(&report);
-        let events: Vec<f64> = happenings.iter().map(|happening| happening.time).collect();
-        let states = probe.states(&report.trajectory, &events);
-        let witnessed =
-            witness.as_ref().map(|witness| matched(&happenings, &self::happenings(witness)));
+        let events = timed_events(&report);
+        let times: Vec<f64> = events.iter().map(|event| event.time).collect();
+        let states = probe.states(&report.trajectory, &times);
+        let witnessed = witness.as_ref().map(|witness| matched(&events, &timed_events(witness)));
         let witnessed = witnessed.unwrap_or_default();
         let state_agreement = witness
             .as_ref()
@@ -114,7 +114,7 @@ impl<'a> Judge<'a> {
         let measures_known = known(&report.measures, others, family.is_none());
         Ok(Self {
             probe,
-            happenings,
+            events,
             states,
             duration: settings.duration,
             state_agreement,
@@ -127,14 +127,14 @@ impl<'a> Judge<'a> {
     }
 
     /// Where the truth comes from.
-    pub(super) fn truth(&self) -> Truth {
+    pub(super) fn reference(&self) -> ReferenceSolution {
         let solver = &self.report.solver;
         let witness = self.witness.as_ref();
         let apart = witness.iter().flat_map(|witness| {
             let pairs = self.report.measures.iter().zip(&witness.measures);
             pairs.filter_map(|(own, other)| apart(own, other))
         });
-        Truth {
+        ReferenceSolution {
             method: solver.method,
             rtol: solver.rtol,
             why_not_exact: self.why_not_exact.clone(),
@@ -161,9 +161,9 @@ impl<'a> Judge<'a> {
 
     /// Where the two solutions differ by more than both of their error bars, and events that only one
     /// of them has.
-    pub(super) fn contradictions(&self) -> Vec<Slip> {
+    pub(super) fn contradictions(&self) -> Vec<Underestimate> {
         let Some(witness) = &self.witness else { return Vec::new() };
-        let slip = |subject, error, bar| Slip {
+        let underestimate = |subject, error, bar| Underestimate {
             method: witness.solver.method,
             rtol: witness.solver.rtol,
             subject,
@@ -177,10 +177,10 @@ impl<'a> Judge<'a> {
             let bars = own.error? + other.error?;
             let bar = if size > 0.0 { bars / size } else { 0.0 };
             let apart = apart(own, other).filter(|apart| *apart > bar)?;
-            Some(slip(Subject::Measure(at), apart, Some(bar)))
+            Some(underestimate(Subject::Measure(at), apart, Some(bar)))
         });
         let is_other = self.witnessed.missed + self.witnessed.extra > 0;
-        let events = is_other.then(|| slip(Subject::Events, f64::INFINITY, None));
+        let events = is_other.then(|| underestimate(Subject::Events, f64::INFINITY, None));
         events.into_iter().chain(measures).collect()
     }
 
@@ -189,7 +189,7 @@ impl<'a> Judge<'a> {
         &self,
         run: &RunReport,
     ) -> (Option<Deviation>, Timing, Vec<MeasureDeviation>) {
-        let own = matched(&self.happenings, &happenings(run));
+        let own = matched(&self.events, &timed_events(run));
         let state = self.probe.difference(&self.states, &run.trajectory, &own.jumps);
         let known_within = self.states.bound.or(self.state_agreement).unwrap_or(f64::INFINITY);
         let state = state.map(|value| Deviation { value, known_within });
@@ -207,7 +207,7 @@ impl<'a> Judge<'a> {
 }
 
 /// The first solution by steps that succeeds, of a family other than `but`.
-fn reference(
+fn reference_solution(
     assembly: &Arc<Assembly>,
     settings: &SolveSettings,
     but: Option<Family>,

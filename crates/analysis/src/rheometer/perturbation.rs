@@ -22,7 +22,7 @@ pub(super) const CAUTION: f64 = 2.0;
 pub(super) const SEEDS: [u64; 2] = [1, 2];
 
 /// The same model with each constant moved in its last digits at random.
-pub(super) fn shaken(model: &Model, seed: u64) -> Model {
+pub(super) fn perturbed(model: &Model, seed: u64) -> Model {
     let mut stream = Stream(seed);
     let mut copy = model.clone();
     let mut left = vec![&mut copy];
@@ -47,7 +47,7 @@ pub(super) fn shaken(model: &Model, seed: u64) -> Model {
 
 /// Moves each coefficient of the equations by a rounding of the greatest one in its row, up or down
 /// at random.
-pub(super) fn shake(system: &mut System, seed: u64) {
+pub(super) fn perturb(system: &mut System, seed: u64) {
     let mut stream = Stream(seed);
     for matrix in [&mut system.jacobian, &mut system.input_matrix] {
         for mut row in matrix.row_iter_mut() {
@@ -93,7 +93,7 @@ mod tests {
             part(Rigid),
             Model::parallel([part(Dashpot { damping: 2.0 }), part(Spring { stiffness: 0.0 })]),
         ]);
-        let (one, other) = (linear_model(&model), linear_model(&shaken(&model, SEEDS[0])));
+        let (one, other) = (linear_model(&model), linear_model(&perturbed(&model, SEEDS[0])));
         let change = other.creep(1.0) / one.creep(1.0) - 1.0;
         assert!(change != 0.0 && change.abs() <= (MOST + 2.0) * f64::EPSILON, "{change:e}");
     }

@@ -33,12 +33,12 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
 /// Joldes, Muller, Popescu, *Tight and rigorous error bounds for basic building blocks of
 /// double-word arithmetic*, 2017.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
-pub struct Twofold {
+pub struct DoubleDouble {
     high: f64,
     low: f64,
 }
 
-impl Twofold {
+impl DoubleDouble {
     /// 0.
     pub const ZERO: Self = Self { high: 0.0, low: 0.0 };
     /// 1.
@@ -108,14 +108,14 @@ impl Twofold {
     }
 }
 
-impl From<f64> for Twofold {
+impl From<f64> for DoubleDouble {
     #[inline]
     fn from(high: f64) -> Self {
         Self { high, low: 0.0 }
     }
 }
 
-impl Neg for Twofold {
+impl Neg for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -124,7 +124,7 @@ impl Neg for Twofold {
     }
 }
 
-impl Add for Twofold {
+impl Add for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -136,7 +136,7 @@ impl Add for Twofold {
     }
 }
 
-impl Sub for Twofold {
+impl Sub for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -145,7 +145,7 @@ impl Sub for Twofold {
     }
 }
 
-impl Mul for Twofold {
+impl Mul for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -156,7 +156,7 @@ impl Mul for Twofold {
     }
 }
 
-impl Div for Twofold {
+impl Div for DoubleDouble {
     type Output = Self;
 
     /// Long division by doubles: two digits of 53 bits.
@@ -168,7 +168,7 @@ impl Div for Twofold {
     }
 }
 
-impl Add<f64> for Twofold {
+impl Add<f64> for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -177,7 +177,7 @@ impl Add<f64> for Twofold {
     }
 }
 
-impl Sub<f64> for Twofold {
+impl Sub<f64> for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -186,7 +186,7 @@ impl Sub<f64> for Twofold {
     }
 }
 
-impl Mul<f64> for Twofold {
+impl Mul<f64> for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -196,28 +196,28 @@ impl Mul<f64> for Twofold {
     }
 }
 
-impl AddAssign for Twofold {
+impl AddAssign for DoubleDouble {
     #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl SubAssign for Twofold {
+impl SubAssign for DoubleDouble {
     #[inline]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl MulAssign for Twofold {
+impl MulAssign for DoubleDouble {
     #[inline]
     fn mul_assign(&mut self, other: Self) {
         *self = *self * other;
     }
 }
 
-impl Div<f64> for Twofold {
+impl Div<f64> for DoubleDouble {
     type Output = Self;
 
     #[inline]
@@ -226,35 +226,35 @@ impl Div<f64> for Twofold {
     }
 }
 
-impl MulAssign<f64> for Twofold {
+impl MulAssign<f64> for DoubleDouble {
     #[inline]
     fn mul_assign(&mut self, other: f64) {
         *self = *self * other;
     }
 }
 
-impl SubAssign<f64> for Twofold {
+impl SubAssign<f64> for DoubleDouble {
     #[inline]
     fn sub_assign(&mut self, other: f64) {
         *self = *self - other;
     }
 }
 
-impl PartialEq<f64> for Twofold {
+impl PartialEq<f64> for DoubleDouble {
     #[inline]
     fn eq(&self, other: &f64) -> bool {
         *self == Self::from(*other)
     }
 }
 
-impl PartialOrd<f64> for Twofold {
+impl PartialOrd<f64> for DoubleDouble {
     #[inline]
     fn partial_cmp(&self, other: &f64) -> Option<Ordering> {
         self.partial_cmp(&Self::from(*other))
     }
 }
 
-impl Sum for Twofold {
+impl Sum for DoubleDouble {
     fn sum<I: Iterator<Item = Self>>(numbers: I) -> Self {
         numbers.fold(Self::ZERO, Add::add)
     }
@@ -267,17 +267,17 @@ mod tests {
     /// A few units of 2⁻¹⁰⁴.
     const TOLERANCE: f64 = 2e-31;
 
-    fn samples() -> Vec<Twofold> {
+    fn samples() -> Vec<DoubleDouble> {
         (1..200)
             .map(|at| {
                 let x = f64::from(at).sqrt() * 10_f64.powi(at % 41 - 20);
-                Twofold::from_parts(x, x * f64::EPSILON * (f64::from(at).sin() * 0.4))
+                DoubleDouble::from_parts(x, x * f64::EPSILON * (f64::from(at).sin() * 0.4))
             })
             .collect()
     }
 
     #[track_caller]
-    fn assert_near(found: Twofold, expected: Twofold) {
+    fn assert_near(found: DoubleDouble, expected: DoubleDouble) {
         let error = ((found - expected).high() / expected.high()).abs();
         assert!(error < TOLERANCE, "{found:?} for {expected:?}, off by {error:.1e}");
     }
@@ -287,7 +287,7 @@ mod tests {
         let all = samples();
         for (&a, &b) in all.iter().zip(all.iter().rev()) {
             assert_near(a * b / b, a);
-            assert_near(b.recip() * b, Twofold::ONE);
+            assert_near(b.recip() * b, DoubleDouble::ONE);
             assert_near((a + b) * (a + b), a * a + a * b * 2.0 + b * b);
         }
     }
@@ -295,7 +295,7 @@ mod tests {
     #[test]
     fn a_third_has_all_its_digits() {
         // 1/3 = 0x1.5555555555555p-2 + 0x1.5555555555555p-56.
-        let third = Twofold::quotient(1.0, 3.0);
+        let third = DoubleDouble::quotient(1.0, 3.0);
         assert_eq!(third.high().to_bits(), (1.0_f64 / 3.0).to_bits());
         assert_eq!(third.low().to_bits(), (1.0_f64 / 3.0 * 2_f64.powi(-54)).to_bits());
     }
@@ -305,21 +305,24 @@ mod tests {
         for a in samples() {
             assert_near(a.sqrt() * a.sqrt(), a);
         }
-        assert_eq!(Twofold::ZERO.sqrt(), Twofold::ZERO);
+        assert_eq!(DoubleDouble::ZERO.sqrt(), DoubleDouble::ZERO);
     }
 
     #[test]
     fn the_difference_of_products_keeps_its_digits() {
         // (1 + ε)(1 − ε) − 1 = −ε².
         let (a, b) = (1.0 + f64::EPSILON, 1.0 - f64::EPSILON);
-        let rest = Twofold::product(a, b) - Twofold::ONE;
+        let rest = DoubleDouble::product(a, b) - DoubleDouble::ONE;
         assert_eq!(rest.high().to_bits(), (-f64::EPSILON * f64::EPSILON).to_bits());
     }
 
     #[test]
     fn order_is_that_of_the_numbers() {
-        let one = Twofold::ONE;
-        assert!(one < Twofold::from_parts(1.0, 1e-20) && one > Twofold::from_parts(1.0, -1e-20));
+        let one = DoubleDouble::ONE;
+        assert!(
+            one < DoubleDouble::from_parts(1.0, 1e-20)
+                && one > DoubleDouble::from_parts(1.0, -1e-20)
+        );
         assert_eq!((-one).abs(), one);
     }
 }
