@@ -4,7 +4,6 @@
 //! Results go to standard output, progress and warnings to standard error.
 
 mod args;
-mod commands;
 mod error;
 mod folder;
 mod input;
@@ -15,17 +14,17 @@ mod output;
 mod part;
 mod progress;
 mod sketch;
-mod studies;
 mod terminal;
 mod text;
+mod verbs;
 
 use std::{io::ErrorKind, process::ExitCode};
 
 use clap::Parser;
 
-use args::{Arguments, Command};
 use error::{CliError, Status};
 use terminal::Terminal;
+use verbs::Arguments;
 
 /// Does what the command line says. The exit code is 0 when it is done (warnings included), 1 when
 /// a run failed, 2 when the input is wrong, and 3 when two models are not the same, or two scenes not
@@ -39,25 +38,7 @@ pub fn main() -> ExitCode {
         }
     };
     let terminal = Terminal::new(arguments.color);
-    let result = match arguments.command {
-        Command::Run(arguments) => studies::run(&arguments, terminal),
-        Command::Check(arguments) => commands::check(&arguments, terminal),
-        Command::Explain(arguments) => commands::explain(&arguments, terminal),
-        Command::Convert(arguments) => commands::convert(&arguments, terminal),
-        Command::Compare(arguments) => studies::compare(&arguments, terminal),
-        Command::Rheometer(arguments) => studies::rheometer(&arguments, terminal),
-        Command::Cost(arguments) => studies::cost(&arguments, terminal),
-        Command::Sweep(arguments) => studies::sweep(&arguments, terminal),
-        Command::Vibrate(arguments) => studies::vibrate(&arguments, terminal),
-        Command::Groups(arguments) => studies::groups(&arguments, terminal),
-        Command::Thesis(arguments) => studies::thesis(&arguments, terminal),
-        Command::List(arguments) => commands::list(&arguments, terminal),
-        Command::New(arguments) => commands::new(&arguments),
-        Command::Schema => commands::schema(),
-        Command::Man { out } => commands::man(out.as_deref()),
-        Command::Completions { shell } => commands::completions(shell),
-    };
-    let status = result.unwrap_or_else(|error| {
+    let status = arguments.command.run(terminal).unwrap_or_else(|error| {
         terminal.error(&error);
         error.status()
     });

@@ -11,6 +11,7 @@ use dashpot_scene::{
 };
 
 use crate::{
+    args::SceneArguments,
     error::CliError,
     input::Input,
     terminal::{Terminal, note},
@@ -129,6 +130,13 @@ pub(crate) fn read_scene(
     let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
     terminal.diagnose(&checked.warnings);
     Ok(checked.value)
+}
+
+impl SceneArguments {
+    /// Reads the scene that the command line names.
+    pub(crate) fn read(&self, terminal: Terminal) -> Result<Scene, CliError> {
+        read_scene(self.scene.as_deref(), &self.values.set, terminal)
+    }
 }
 
 /// Says what there is to say about models.

@@ -9,7 +9,9 @@ use dashpot_network::{
     elements::{Contact, Friction, Law},
     parameters::Kind as _,
 };
-use dashpot_plot::{Sketch, SketchGravity, SketchKind, SketchLink, SketchNode, SketchTree};
+use dashpot_plot::{
+    Sketch, SketchGravity, SketchKind, SketchLaw, SketchLink, SketchNode, SketchTree,
+};
 use dashpot_rheology::Tree;
 
 use crate::numbers::{constant, rounded};
@@ -196,6 +198,16 @@ fn label(own: &dyn Element, kind: &str) -> String {
     words.join(", ")
 }
 
+/// What an element is drawn as where its kind has no symbol of its own.
+fn law(own: &dyn Element) -> SketchLaw {
+    match own.law() {
+        Law::Dashpot(_) | Law::Nonlinear { stiffness: 0.0, .. } => SketchLaw::Dashpot,
+        Law::Phased if own.value("gap").is_some() => SketchLaw::Impact,
+        Law::Spring(_) | Law::Phased | Law::Nonlinear { .. } => SketchLaw::Spring,
+        Law::Rigid => SketchLaw::Other,
+    }
+}
+
 /// The drawing of a model; contacts are drawn as what the effect makes of them that has put it
 /// there.
 fn tree(model: &Tree<Arc<dyn Element>>, effect: Option<&'static str>) -> SketchTree {
@@ -209,7 +221,11 @@ fn tree(model: &Tree<Arc<dyn Element>>, effect: Option<&'static str>) -> SketchT
                 Some(drawn) if part.kind() == Contact::KIND => drawn,
                 _ => part.kind(),
             };
-            SketchTree::element(kind, label(part.as_ref(), kind))
+            SketchTree::Element {
+                kind: kind.to_owned(),
+                label: label(part.as_ref(), kind),
+                law: law(part.as_ref()),
+            }
         }
         Tree::Series(branches) => SketchTree::Series(parts(branches)),
         Tree::Parallel(branches) => SketchTree::Parallel(parts(branches)),

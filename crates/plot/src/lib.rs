@@ -34,4 +34,6 @@ pub use figures::{
 };
 pub use map::{Map, MapLimit};
 pub use report::{Report, ReportFigure, Table};
-pub use sketch::{Sketch, SketchGravity, SketchKind, SketchLink, SketchNode, SketchTree};
+pub use sketch::{
+    Sketch, SketchGravity, SketchKind, SketchLaw, SketchLink, SketchNode, SketchTree,
+};

@@ -13,9 +13,10 @@ use super::{
     incidence::Incidence,
     laws,
     motion::{self, Motion},
+    nonlinear_forces,
     outputs::Outputs,
     parts::Parts,
-    pushes, rates, review,
+    rates, review,
     row::{Row, RowSum, Rows},
     scales::{Drives, Force, Scales},
     structure::Structure,
@@ -96,19 +97,26 @@ impl Graph<'_> {
         }
         let mut places =
             unknowns::choose(network, expansion, bodies, structure, scales, motions, inputs);
-        let pushes =
-            pushes::add(expansion, bodies, structure, scales, inputs, &mut places, &mut loads);
+        let nonlinear = nonlinear_forces::add(
+            expansion,
+            bodies,
+            structure,
+            scales,
+            inputs,
+            &mut places,
+            &mut loads,
+        );
         let given = motion::Given {
             primitives: &expansion.primitives,
-            pushes: &pushes,
+            nonlinear: &nonlinear,
             bodies,
             structure,
             scales,
             names: &|body| joint_name(network, expansion, bodies.all[body].joints[0]),
         };
         let mut motion = motion::build(&given, loads, inputs, &mut places);
-        drop(pushes);
-        pushes::complete(expansion, &motion, &mut places);
+        drop(nonlinear);
+        nonlinear_forces::complete(expansion, &motion, &mut places);
         rates::complete(expansion, scales.time, inputs, &mut places, &mut motion);
         (places, motion)
     }

@@ -38,9 +38,9 @@ const MOST_LINKS: usize = 16;
 /// What the rows are built from.
 pub(super) struct Given<'a> {
     pub(super) primitives: &'a [Primitive],
-    /// What each primitive pushes with besides a linear spring's and dashpot's force \[N\]; it is
+    /// The nonlinear force of each primitive, besides a linear spring's and dashpot's \[N\]; it is
     /// among the loads.
-    pub(super) pushes: &'a Rows,
+    pub(super) nonlinear: &'a Rows,
     pub(super) bodies: &'a Bodies,
     pub(super) structure: &'a Structure,
     pub(super) scales: &'a Scales,
@@ -56,7 +56,7 @@ pub(super) fn build(
     inputs: &mut Inputs,
     places: &mut Places,
 ) -> Motion {
-    let Given { pushes, bodies, structure, scales, names, .. } = *given;
+    let Given { nonlinear, bodies, structure, scales, names, .. } = *given;
     let massless = structure.cluster_of.iter().flatten().count();
     let most = if massless <= SMALL { usize::MAX } else { MOST_LINKS };
     let mut motion = Motion {
@@ -64,7 +64,7 @@ pub(super) fn build(
         velocity: known_velocities(bodies, places, inputs),
         deformation: Rows::default(),
         rate: Rows::default(),
-        force: pushes.clone(),
+        force: nonlinear.clone(),
     };
 
     let springs = SpringBalance::solve(structure, &loads, most, places, inputs, |body| {
@@ -102,7 +102,7 @@ pub(super) fn build(
     }
     unknown_rates(bodies, &net, &dashpots, structure, &motion.velocity, places);
     derived_rates(structure, inputs, places, &mut motion);
-    pushed(given, &springs, inputs, places, &mut motion);
+    without_slopes(given, &springs, inputs, places, &mut motion);
     motion
 }
 
@@ -114,8 +114,8 @@ fn add_to(sums: &mut Rows, at: usize, row: Row) {
     sums.set(at, &sum);
 }
 
-/// How what only pushes is deformed.
-fn pushed(
+/// How primitives without a slope are deformed: constant forces and laws that are not linear.
+fn without_slopes(
     given: &Given<'_>,
     springs: &SpringBalance<'_>,
     inputs: &mut Inputs,
@@ -142,7 +142,7 @@ fn pushed(
             motion.force.set(at, &force);
             continue;
         }
-        if !given.pushes.has(at) {
+        if !given.nonlinear.has(at) {
             continue;
         }
         motion.deformation.set(at, &springs.difference(places, ends).plus(1.0, &offset));
@@ -226,7 +226,7 @@ fn unknown_rates(
             places.rows.set(unknown, &rate);
         }
         if let Some(unknown) = places.velocity[at] {
-            let base = places.pace[at].map(acceleration);
+            let base = places.velocity_base[at].map(acceleration);
             let own = acceleration(at);
             let rate = base.map_or_else(|| own.clone(), |base| own.plus(-1.0, &base));
             places.rows.set(unknown, &rate);

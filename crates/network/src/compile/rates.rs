@@ -2,7 +2,7 @@
 //!
 //! A place between a spring and a slider that slides has no rate of its own: it is where the spring
 //! pushes with the slider's force. Its rate follows from the balance differentiated once. With the
-//! force `φ` of a law beyond its linear part ([`pushes`](super::pushes)) that reads
+//! force `φ` of a law beyond its linear part ([`nonlinear_forces`](super::nonlinear_forces)) that reads
 //! `0 = F'(y) ẏ − k ẏ − φ̇`, and `φ̇` is an algebraic unknown like `φ`. Only rates that something
 //! watches, or by which it dissipates, are asked for; most networks have none.
 

@@ -55,7 +55,7 @@ pub(super) struct Structure {
     /// For each body the first time at which its given displacement jumps \[s\], if it does.
     pub(super) first_jump: Vec<Option<f64>>,
     /// The mass that each mass's velocity is counted from, if any.
-    pub(super) pace: Vec<Option<usize>>,
+    pub(super) velocity_base: Vec<Option<usize>>,
     /// When what holds a mass to a given place must give way, in rising order: the motion has a kink
     /// there \[s\].
     pub(super) kinks: Vec<f64>,
@@ -97,7 +97,7 @@ impl Structure {
         structure.first_jump = bodies.all.iter().map(first_jump).collect();
         structure.find_clusters(bodies, &held);
         structure.held = held;
-        structure.pace = paces(bodies, &structure, duration);
+        structure.velocity_base = velocity_bases(bodies, &structure, duration);
         let mut errors = structure.undetermined(network, expansion, bodies);
         errors.extend(structure.steps_across_dashpots(network, expansion, bodies));
         errors.extend(structure.motions_of_masses(network, expansion, bodies, duration));
@@ -313,7 +313,7 @@ fn kinks(motion: &Waveform, duration: f64) -> impl Iterator<Item = f64> {
 /// large terms. What is fixed or moved from outside is the heaviest, and nothing is counted from it. Where
 /// no mass is held by more than one dashpot, or they are weak for a run of `duration` \[s\], all
 /// velocities stand for themselves; those of two masses that a single one makes as good as one do not.
-fn paces(bodies: &Bodies, structure: &Structure, duration: f64) -> Vec<Option<usize>> {
+fn velocity_bases(bodies: &Bodies, structure: &Structure, duration: f64) -> Vec<Option<usize>> {
     let count = bodies.all.len();
     let mut parents = vec![None; count];
     if count > MOST_RELATIVE {

@@ -157,7 +157,7 @@ fn origins(parts: &Parts<'_>, system: &System) -> Vec<Origin> {
     for (at, body) in parts.bodies.all.iter().enumerate() {
         let first = body.joints[0];
         if let Some(unknown) = parts.places.velocity[at] {
-            origins[unknown] = match parts.places.pace[at] {
+            origins[unknown] = match parts.places.velocity_base[at] {
                 None => Origin::Velocity(massive(at)),
                 Some(other) => Origin::Slip([massive(at), massive(other)]),
             };

@@ -54,9 +54,10 @@ pub(super) fn parents(bodies: &Bodies, structure: &Structure, time: f64) -> Vec<
         neighbours[b].push(a);
     };
     // Beside springs, the dashpots along which velocities are counted.
-    let is_paced =
-        |[a, b]: [usize; 2]| structure.pace[a] == Some(b) || structure.pace[b] == Some(a);
-    let counts = |tie: &Tie| tie.stiffness > 0.0 || is_paced(tie.ends);
+    let is_base = |[a, b]: [usize; 2]| {
+        structure.velocity_base[a] == Some(b) || structure.velocity_base[b] == Some(a)
+    };
+    let counts = |tie: &Tie| tie.stiffness > 0.0 || is_base(tie.ends);
     let mut springs: Vec<Tie> = firm.into_iter().filter(counts).collect();
     springs.sort_by(|a, b| b.stiffness.total_cmp(&a.stiffness));
     let mut masses = Groups::new(count);

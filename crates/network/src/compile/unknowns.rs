@@ -157,7 +157,7 @@ pub(super) struct Places {
     /// Velocity unknown of each mass.
     pub(super) velocity: Vec<Option<usize>>,
     /// The mass that a mass's velocity unknown is counted from.
-    pub(super) pace: Vec<Option<usize>>,
+    pub(super) velocity_base: Vec<Option<usize>>,
     /// The body that a body's position unknown is counted from.
     pub(super) parent: Vec<Option<usize>>,
     /// The part whose deformation a body's position unknown is, where one is between it and its
@@ -187,7 +187,7 @@ pub(super) fn choose(
     let mut places = Places {
         unknown: vec![None; count],
         velocity: vec![None; count],
-        pace: structure.pace.clone(),
+        velocity_base: structure.velocity_base.clone(),
         parent: tree::parents(bodies, structure, scales.time),
         along: Vec::new(),
         position: Rows::default(),
@@ -234,10 +234,10 @@ pub(super) fn choose(
             law: None,
         });
         if let Role::Mass(_) = bodies.all[body].role {
-            let pace = places.pace[body];
-            let relative =
-                pace.map_or(String::new(), |other| format!(" relative to {}", name(other)));
-            let base = pace.map_or(0.0, |other| bodies.all[other].velocity);
+            let velocity_base = places.velocity_base[body];
+            let relative = velocity_base
+                .map_or(String::new(), |other| format!(" relative to {}", name(other)));
+            let base = velocity_base.map_or(0.0, |other| bodies.all[other].velocity);
             places.velocity[body] = Some(places.drafts.len());
             places.drafts.push(Draft {
                 name: format!("velocity of {}{relative}", name(body)),
@@ -258,7 +258,7 @@ impl Places {
     pub(super) fn velocity_of(&self, mass: usize) -> Option<Row> {
         let mut sum = Row::unknown(self.velocity[mass]?);
         let mut at = mass;
-        while let Some(other) = self.pace[at] {
+        while let Some(other) = self.velocity_base[at] {
             sum = sum.plus(1.0, &Row::unknown(self.velocity[other]?));
             at = other;
         }

@@ -1,27 +1,243 @@
 //! Fibres: spectra of retardation times in the fewest Kelvin–Voigt elements.
 
 use dashpot_rheology::spectra::{
-    InvalidSpectrum, MOST_BRANCHES, Reduced, ReductionError, SMALLEST_ERROR, Spectrum, reduce,
+    InvalidSpectrum, List, LogNormal, MOST_BRANCHES, PowerLaw, Reduced, ReductionError,
+    Retardation, SMALLEST_ERROR, Spectrum, reduce,
 };
 
 use super::{
-    Composed, CompositeNote,
+    Composed, CompositeKind, CompositeNote,
     note::{percent, time},
-    spectrum::{Term, kelvin_chain},
+    spectrum::{Term, kelvin_chain, sorted},
 };
-use crate::parameters::InvalidParameter;
+use crate::{
+    parameters,
+    parameters::{Dimension, InvalidParameter, Kind},
+};
+
+/// A spectrum of which the creep is kept.
+trait Fibre: Kind {
+    fn spectrum(&self) -> Result<impl Spectrum, InvalidParameter>;
+
+    fn kept(&self) -> Kept;
+}
+
+impl<F: Fibre> CompositeKind for F {
+    const AMPLITUDE: Dimension = Dimension::COMPLIANCE;
+
+    fn compose(&self) -> Result<Composed, InvalidParameter> {
+        self.validate()?;
+        self.kept().composed(&self.spectrum()?)
+    }
+}
+
+parameters! {
+    /// A fibre or felt with the listed retardation times `λ` and compliances `J`, in the fewest
+    /// Kelvin–Voigt elements that keep its creep `R(t) = Σ J (1 − e^(−t/λ))`: see
+    /// [`reduce`](dashpot_rheology::spectra::reduce). `kelvin-chain` keeps them all.
+    ///
+    /// | symbol  | field        | unit | range                  |
+    /// |---------|--------------|------|------------------------|
+    /// | `λ`     | first column | s    | > 0, all different     |
+    /// | `J`     | second       | m/N  | > 0                    |
+    /// |         | `from`, `to` | s    | > 0, `to` after `from` |
+    /// |         | `error`      | 1    | 1e-8 … 1               |
+    ///
+    /// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of
+    /// `spring` beside `dashpot`.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct ListFibre: "list-fibre",
+        "fibre with a list of retardation times, in the fewest Kelvin-Voigt elements"
+    {
+        /// pairs of retardation time [s] and compliance [m/N], both positive
+        pub terms: Vec<Term> = TimeTable;
+        /// time from which on the creep is kept [s], positive
+        pub from: f64 = Quantity(Dimension::TIME), range Positive;
+        /// time up to which the creep is kept [s], later than `from`
+        pub to: f64 = Quantity(Dimension::TIME), range Positive;
+        /// greatest relative error of the creep in that range, from 1e-6 % to below 100 %
+        pub error: f64 = Quantity(Dimension::NUMBER), default "0.1 %";
+    }
+    sample {
+        terms: vec![(1e-4, 1e-8), (1.2e-4, 1e-8), (1e-3, 2e-8), (1e-2, 1e-8)],
+        from: 1e-5,
+        to: 0.1,
+        error: 1e-2,
+    }
+}
+
+impl Fibre for ListFibre {
+    fn spectrum(&self) -> Result<impl Spectrum, InvalidParameter> {
+        let lines = sorted("terms", &self.terms)?.into_iter();
+        let lines = lines.map(|(time, compliance)| Retardation { time, compliance });
+        List::new(lines.collect())
+            .map_err(|own| InvalidParameter::new("terms", own.range, own.value))
+    }
+
+    fn kept(&self) -> Kept {
+        Kept { from: self.from, to: self.to, error: self.error }
+    }
+}
+
+parameters! {
+    /// A fibre or felt with a bell of retardation times on a logarithmic axis, in the fewest
+    /// Kelvin–Voigt elements that keep its creep `R(t)`: see
+    /// [`LogNormal`] for the law and [`reduce`](dashpot_rheology::spectra::reduce) for the proof.
+    ///
+    /// | symbol | field         | unit    | range                  |
+    /// |--------|---------------|---------|------------------------|
+    /// | `J`    | `compliance`  | m/N     | > 0                    |
+    /// | `λ_m`  | `time`        | s       | > 0                    |
+    /// |        | `width`       | decades | > 0, ≤ 100             |
+    /// |        | `from`, `to`  | s       | > 0, `to` after `from` |
+    /// |        | `error`       | 1       | 1e-8 … 1               |
+    ///
+    /// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of
+    /// `spring` beside `dashpot`. With a small width it is the single Kelvin element of the thesis.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct LogNormalFibre: "log-normal-fibre",
+        "fibre with a bell of retardation times, in the fewest Kelvin-Voigt elements"
+    {
+        /// total compliance J, the creep after all time [m/N], positive
+        pub compliance: f64 = Quantity(Dimension::COMPLIANCE), range Positive;
+        /// median of the retardation times [s], positive
+        pub time: f64 = Quantity(Dimension::TIME), range Positive;
+        /// standard deviation of their decimal logarithms [decades], positive, at most 100
+        pub width: f64 = Quantity(Dimension::NUMBER);
+        /// time from which on the creep is kept [s], positive
+        pub from: f64 = Quantity(Dimension::TIME), range Positive;
+        /// time up to which the creep is kept [s], later than `from`
+        pub to: f64 = Quantity(Dimension::TIME), range Positive;
+        /// greatest relative error of the creep in that range, from 1e-6 % to below 100 %
+        pub error: f64 = Quantity(Dimension::NUMBER), default "0.1 %";
+    }
+    sample { compliance: 5e-8, time: 2e-4, width: 1.0, from: 1e-5, to: 0.1, error: 1e-3 }
+}
+
+impl Fibre for LogNormalFibre {
+    fn spectrum(&self) -> Result<impl Spectrum, InvalidParameter> {
+        LogNormal::new(self.compliance, self.time, self.width).map_err(invalid)
+    }
+
+    fn kept(&self) -> Kept {
+        Kept { from: self.from, to: self.to, error: self.error }
+    }
+}
+
+parameters! {
+    /// A fibre or felt with all retardation times between two alike on a logarithmic axis, in the
+    /// fewest Kelvin–Voigt elements that keep its creep `R(t)`: see
+    /// [`PowerLaw::uniform`] for the law and [`reduce`](dashpot_rheology::spectra::reduce) for the proof.
+    ///
+    /// | symbol  | field        | unit | range                  |
+    /// |---------|--------------|------|------------------------|
+    /// | `J`     | `compliance` | m/N  | > 0                    |
+    /// | `λ_min` | `shortest`   | s    | > 0                    |
+    /// | `λ_max` | `longest`    | s    | > `shortest`           |
+    /// |         | `from`, `to` | s    | > 0, `to` after `from` |
+    /// |         | `error`      | 1    | 1e-8 … 1               |
+    ///
+    /// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of
+    /// `spring` beside `dashpot`. With two times that all but meet it is the single Kelvin element of
+    /// the thesis.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct BoxFibre: "box-fibre",
+        "fibre with retardation times alike between two, in the fewest Kelvin-Voigt elements"
+    {
+        /// total compliance J, the creep after all time [m/N], positive
+        pub compliance: f64 = Quantity(Dimension::COMPLIANCE), range Positive;
+        /// shortest retardation time [s], positive
+        pub shortest: f64 = Quantity(Dimension::TIME), range Positive;
+        /// longest retardation time [s], longer than `shortest`
+        pub longest: f64 = Quantity(Dimension::TIME), range Positive;
+        /// time from which on the creep is kept [s], positive
+        pub from: f64 = Quantity(Dimension::TIME), range Positive;
+        /// time up to which the creep is kept [s], later than `from`
+        pub to: f64 = Quantity(Dimension::TIME), range Positive;
+        /// greatest relative error of the creep in that range, from 1e-6 % to below 100 %
+        pub error: f64 = Quantity(Dimension::NUMBER), default "0.1 %";
+    }
+    sample { compliance: 5e-8, shortest: 1e-5, longest: 0.1, from: 1e-5, to: 0.1, error: 1e-3 }
+}
+
+impl Fibre for BoxFibre {
+    fn spectrum(&self) -> Result<impl Spectrum, InvalidParameter> {
+        PowerLaw::uniform(self.compliance, self.shortest, self.longest).map_err(invalid)
+    }
+
+    fn kept(&self) -> Kept {
+        Kept { from: self.from, to: self.to, error: self.error }
+    }
+}
+
+parameters! {
+    /// A fibre or felt with a power law of retardation times between two, in the fewest Kelvin–Voigt
+    /// elements that keep its creep `R(t)`: see [`PowerLaw`] for the law and
+    /// [`reduce`](dashpot_rheology::spectra::reduce) for the proof.
+    ///
+    /// | symbol  | field        | unit | range                  |
+    /// |---------|--------------|------|------------------------|
+    /// | `J`     | `compliance` | m/N  | > 0                    |
+    /// |         | `exponent`   | 1    | finite; 0 is a box     |
+    /// | `λ_min` | `shortest`   | s    | > 0                    |
+    /// | `λ_max` | `longest`    | s    | > `shortest`           |
+    /// |         | `from`, `to` | s    | > 0, `to` after `from` |
+    /// |         | `error`      | 1    | 1e-8 … 1               |
+    ///
+    /// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of
+    /// `spring` beside `dashpot`. With two times that all but meet it is the single Kelvin element of
+    /// the thesis.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct PowerLawFibre: "power-law-fibre",
+        "fibre with a power law of retardation times, in the fewest Kelvin-Voigt elements"
+    {
+        /// total compliance J, the creep after all time [m/N], positive
+        pub compliance: f64 = Quantity(Dimension::COMPLIANCE), range Positive;
+        /// exponent m of the density over ln λ, as λ^m; any finite number, 0 is a box
+        pub exponent: f64 = Quantity(Dimension::NUMBER);
+        /// shortest retardation time [s], positive
+        pub shortest: f64 = Quantity(Dimension::TIME), range Positive;
+        /// longest retardation time [s], longer than `shortest`
+        pub longest: f64 = Quantity(Dimension::TIME), range Positive;
+        /// time from which on the creep is kept [s], positive
+        pub from: f64 = Quantity(Dimension::TIME), range Positive;
+        /// time up to which the creep is kept [s], later than `from`
+        pub to: f64 = Quantity(Dimension::TIME), range Positive;
+        /// greatest relative error of the creep in that range, from 1e-6 % to below 100 %
+        pub error: f64 = Quantity(Dimension::NUMBER), default "0.1 %";
+    }
+    sample {
+        compliance: 5e-8,
+        exponent: 0.3,
+        shortest: 1e-5,
+        longest: 0.1,
+        from: 1e-5,
+        to: 0.1,
+        error: 1e-3,
+    }
+}
+
+impl Fibre for PowerLawFibre {
+    fn spectrum(&self) -> Result<impl Spectrum, InvalidParameter> {
+        PowerLaw::new(self.compliance, self.exponent, self.shortest, self.longest).map_err(invalid)
+    }
+
+    fn kept(&self) -> Kept {
+        Kept { from: self.from, to: self.to, error: self.error }
+    }
+}
 
 /// What of a fibre's creep is to be kept: the range of time \[s\] and the greatest relative error.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Kept {
-    pub(super) from: f64,
-    pub(super) to: f64,
-    pub(super) error: f64,
+struct Kept {
+    from: f64,
+    to: f64,
+    error: f64,
 }
 
 impl Kept {
     /// Accepts what a reduction can work with.
-    pub(super) fn validate(&self) -> Result<(), InvalidParameter> {
+    fn validate(&self) -> Result<(), InvalidParameter> {
         if self.to <= self.from {
             return Err(InvalidParameter::new("to", "later than `from`", time(self.to)));
         }
@@ -33,7 +249,7 @@ impl Kept {
 
     /// The series `kelvin-1`, `kelvin-2`, … that stands for `spectrum`, with the note that says how
     /// well.
-    pub(super) fn composed(&self, spectrum: &dyn Spectrum) -> Result<Composed, InvalidParameter> {
+    fn composed(&self, spectrum: &dyn Spectrum) -> Result<Composed, InvalidParameter> {
         self.validate()?;
         let reduced = reduce(spectrum, [self.from, self.to], self.error).map_err(refused)?;
         let terms: Vec<Term> =
@@ -53,7 +269,7 @@ impl Kept {
 }
 
 /// A spectrum's fault as that of the key of the same name.
-pub(super) fn invalid(fault: InvalidSpectrum) -> InvalidParameter {
+fn invalid(fault: InvalidSpectrum) -> InvalidParameter {
     InvalidParameter::new(fault.parameter, fault.range, fault.value)
 }
 
@@ -78,16 +294,10 @@ fn error_out_of_range(error: f64) -> InvalidParameter {
 
 #[cfg(test)]
 mod tests {
+    use dashpot_rheology::LinearModel;
+
     use super::*;
-    use crate::parameters::{Described as _, Kind as _};
-
-    use dashpot_rheology::spectra::{List, Retardation};
-
-    use crate::{
-        composites::{BoxFibre, CompositeKind, LogNormalFibre, PowerLawFibre},
-        elements::Law,
-        linear_model,
-    };
+    use crate::{elements::Law, linear_model, parameters::Described as _, primitive};
 
     #[test]
     fn errors_are_rounded_to_the_safe_side() {
@@ -114,9 +324,7 @@ mod tests {
         let fibre = LogNormalFibre::sample();
         let composed = fibre.compose().unwrap();
         let model = linear_model(&composed.model);
-        let spectrum =
-            dashpot_rheology::spectra::LogNormal::new(fibre.compliance, fibre.time, fibre.width)
-                .unwrap();
+        let spectrum = LogNormal::new(fibre.compliance, fibre.time, fibre.width).unwrap();
         let worst = (0..=4000)
             .map(|index| 1e-5 * 10.0_f64.powf(0.001 * f64::from(index)))
             .map(|time| (model.creep(time) / spectrum.creep(time) - 1.0).abs())
@@ -205,5 +413,24 @@ mod tests {
         let kept = Kept { from: 1.0, to: 10.0, error: 0.1 };
         let error = kept.composed(&List::new(vec![line]).unwrap()).unwrap_err();
         assert!(error.to_string().contains("no relative error"), "{error}");
+    }
+
+    #[test]
+    fn a_long_list_keeps_its_creep_in_fewer_elements() {
+        let terms: Vec<Term> =
+            (0..=40).map(|at| (10_f64.powf(-4.0 + 0.05 * f64::from(at)), 1e-9)).collect();
+        let fibre = ListFibre { terms: terms.clone(), from: 1e-4, to: 1e-1, error: 1e-3 };
+        let composed = fibre.compose().unwrap();
+        let count = composed.model.branches().len();
+        assert!(count < 8, "{count} elements");
+        assert!(
+            composed.note.unwrap().to_string().contains("Kelvin elements keep the creep within")
+        );
+        let model = LinearModel::of(&composed.model, |part| primitive(part.as_ref()));
+        for at in 0..=300 {
+            let t = 10_f64.powf(-4.0 + 0.01 * f64::from(at));
+            let exact: f64 = terms.iter().map(|term| -term.1 * (-t / term.0).exp_m1()).sum();
+            assert!((model.creep(t) / exact - 1.0).abs() <= 1e-3, "{t}");
+        }
     }
 }

@@ -1,21 +1,14 @@
 //! The register of composites: models that are made from a description of a few numbers.
 
-mod box_fibre;
 mod fibre;
 mod kelvin_chain;
-mod list_fibre;
-mod log_normal_fibre;
 mod note;
-mod power_law_fibre;
 mod prony;
 mod spectrum;
 
-pub use box_fibre::BoxFibre;
+pub use fibre::{BoxFibre, ListFibre, LogNormalFibre, PowerLawFibre};
 pub use kelvin_chain::KelvinChain;
-pub use list_fibre::ListFibre;
-pub use log_normal_fibre::LogNormalFibre;
 pub use note::CompositeNote;
-pub use power_law_fibre::PowerLawFibre;
 pub use prony::Prony;
 
 use crate::{

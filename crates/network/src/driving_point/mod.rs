@@ -13,7 +13,6 @@
 mod circuit;
 mod comparison;
 mod complex;
-mod disagreement;
 mod dynamic;
 mod hessenberg;
 mod jacobi;

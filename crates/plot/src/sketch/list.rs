@@ -20,13 +20,17 @@ pub(super) fn counts(sketch: &Sketch) -> Vec<String> {
         (of_kind(SketchKind::Fixed), "support", "supports"),
     ]);
     let census = sketch.census();
-    let kinds = census.of_kind.iter().zip(SYMBOLS);
+    let kinds = census.of_kind.iter().map(|((place, kind), &count)| {
+        let plain = kind.replace('-', " ");
+        let of_kind = || [plain.clone(), format!("{plain}s")];
+        let [one, many] =
+            SYMBOLS.get(*place).map_or_else(of_kind, |own| own.names.map(str::to_owned));
+        (count, one, many)
+    });
+    let kinds: Vec<(usize, String, String)> = kinds.collect();
+    let kinds = kinds.iter().map(|(count, one, many)| (*count, one.as_str(), many.as_str()));
     let others = (census.others, "other element", "other elements");
-    let elements: Vec<(usize, &str, &str)> = kinds
-        .map(|(count, symbol)| (*count, symbol.names[0], symbol.names[1]))
-        .chain([others])
-        .collect();
-    let elements = sentence(&elements);
+    let elements = sentence(&kinds.chain([others]).collect::<Vec<_>>());
     let links = sentence(&[(sketch.links.len(), "link", "links")]);
     vec![nodes, format!("{links}: {elements}")]
 }
@@ -137,8 +141,8 @@ fn words(tree: &SketchTree, depth: usize) -> String {
         if depth > 0 && parts.len() > 1 { format!("({joined})") } else { joined }
     };
     match tree {
-        SketchTree::Element { kind, label } if label.contains(kind.as_str()) => label.clone(),
-        SketchTree::Element { kind, label } => format!("{kind} {label}").trim_end().to_owned(),
+        SketchTree::Element { kind, label, .. } if label.contains(kind.as_str()) => label.clone(),
+        SketchTree::Element { kind, label, .. } => format!("{kind} {label}").trim_end().to_owned(),
         SketchTree::Series(parts) if parts.is_empty() => String::from("rigid"),
         SketchTree::Parallel(parts) if parts.is_empty() => String::from("not connected"),
         SketchTree::Series(parts) => join(parts, " – "),

@@ -9,6 +9,8 @@ mod svg;
 mod symbols;
 mod text;
 
+use std::collections::BTreeMap;
+
 use symbols::SYMBOLS;
 
 /// A network to be drawn, from the impactor on the left to the support on the right.
@@ -118,12 +120,14 @@ pub struct SketchLink {
 /// What a [`SketchLink`] is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SketchTree {
-    /// A single element with the symbol of its kind; a box with the word where the kind has none.
+    /// A single element with the symbol of its kind, or of its law.
     Element {
         /// Word of the kind, as in `spring`.
         kind: String,
         /// Text above the symbol, as in `20 MN/m`.
         label: String,
+        /// What it is drawn as where its kind has no symbol of its own.
+        law: SketchLaw,
     },
     /// One behind the other: the forces are equal.
     Series(Vec<SketchTree>),
@@ -131,38 +135,54 @@ pub enum SketchTree {
     Parallel(Vec<SketchTree>),
 }
 
+/// What an element is drawn as whose kind has no symbol of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SketchLaw {
+    /// A spring that is not linear.
+    Spring,
+    /// A dashpot that is not linear.
+    Dashpot,
+    /// A gap with a spring behind it that is not linear.
+    Impact,
+    /// A box with the word of its kind.
+    Other,
+}
+
 impl SketchTree {
-    /// A single element of this kind.
+    /// A single element of this kind; a box where the kind has no symbol.
     pub fn element(kind: impl Into<String>, label: impl Into<String>) -> Self {
-        Self::Element { kind: kind.into(), label: label.into() }
+        Self::Element { kind: kind.into(), label: label.into(), law: SketchLaw::Other }
     }
 }
 
 /// Numbers of elements and depth of nesting.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Census {
-    /// As many as there are of each of the [`SYMBOLS`].
-    of_kind: Vec<usize>,
+    /// Of each kind: its place among the [`SYMBOLS`], its word, and how many there are.
+    of_kind: BTreeMap<(usize, String), usize>,
     others: usize,
     depth: usize,
 }
 
 impl Census {
     fn elements(&self) -> usize {
-        self.of_kind.iter().sum::<usize>() + self.others
+        self.of_kind.values().sum::<usize>() + self.others
     }
 
     /// Counts without recursion, since nesting may be deeper than a stack.
     fn of<'a>(trees: impl Iterator<Item = &'a SketchTree>) -> Self {
-        let mut census = Self { of_kind: vec![0; SYMBOLS.len()], others: 0, depth: 0 };
+        let mut census = Self { of_kind: BTreeMap::new(), others: 0, depth: 0 };
         let mut open: Vec<(&SketchTree, usize)> = trees.map(|tree| (tree, 1)).collect();
         while let Some((tree, depth)) = open.pop() {
             census.depth = census.depth.max(depth);
             match tree {
-                SketchTree::Element { kind, .. } => {
-                    match SYMBOLS.iter().position(|symbol| symbol.kind == kind) {
-                        Some(at) => census.of_kind[at] += 1,
-                        None => census.others += 1,
+                SketchTree::Element { kind, law, .. } => {
+                    let place = SYMBOLS.iter().position(|symbol| symbol.kind == kind);
+                    if place.is_none() && *law == SketchLaw::Other {
+                        census.others += 1;
+                    } else {
+                        let place = place.unwrap_or(SYMBOLS.len());
+                        *census.of_kind.entry((place, kind.clone())).or_default() += 1;
                     }
                 }
                 SketchTree::Series(parts) | SketchTree::Parallel(parts) => {

@@ -203,7 +203,7 @@ fn leaf_extent(leaf: &SketchTree) -> Extent {
 /// Symbol of an element and the value above it.
 fn symbol(leaf: &SketchTree) -> (String, &str) {
     match leaf {
-        SketchTree::Element { kind, label } => match symbol_of(kind) {
+        SketchTree::Element { kind, label, law } => match symbol_of(kind, *law) {
             Some(symbol) => (symbol.text.to_owned(), label),
             None => (format!("[{}]", one_line(kind)), label),
         },

@@ -146,7 +146,7 @@ impl ParametricSystem {
             if let Some(unknown) = places.unknown[body] {
                 placed.push(Placed { unknown, body, parent: places.parent[body] });
             }
-            if places.pace[body].is_some() {
+            if places.velocity_base[body].is_some() {
                 return None;
             }
             if let Some(unknown) = places.velocity[body] {

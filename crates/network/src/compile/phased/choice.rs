@@ -57,8 +57,8 @@ struct Instant<'a> {
     on_level: Vec<(usize, Watched, f64)>,
     /// Parts whose deformation has reached a level \[m\] by the event that ended the interval.
     at_level: Vec<(usize, f64)>,
-    /// Levels that have been reached by what stays in its phase nonetheless.
-    kept: Vec<(usize, Watched, f64)>,
+    /// Levels of suppressed events: reached by what stays in its phase nonetheless.
+    suppressed: Vec<(usize, Watched, f64)>,
     /// Whether any phase is left.
     is_left: bool,
     threshold: f64,
@@ -66,16 +66,16 @@ struct Instant<'a> {
 }
 
 impl Instant<'_> {
-    /// How closely parts are looked at before any way is taken.
-    fn looks(&self) -> Vec<Admissibility> {
-        let look = |options: &Vec<Phase>| Admissibility {
+    /// By what parts are judged before any way is taken.
+    fn criteria(&self) -> Vec<Admissibility> {
+        let criteria = |options: &Vec<Phase>| Admissibility {
             threshold: self.threshold,
             graze: false,
             may_change: options.len() > 1,
             is_smooth: true,
-            pace: None,
+            rebound_speed: None,
         };
-        self.options.iter().map(look).collect()
+        self.options.iter().map(criteria).collect()
     }
 }
 
@@ -108,15 +108,15 @@ impl PhasedNetwork {
         let groups = self.groups(&instant.options).into_iter();
         let mut searches: Vec<Search> =
             groups.map(|group| Search::new(group, &instant.options)).collect();
-        let mut looks = instant.looks();
+        let mut criteria = instant.criteria();
         for search in &mut searches {
-            self.look(search, &instant, state, &mut looks);
+            self.collide(search, &instant, state, &mut criteria);
         }
         let (length, mut tried) = (self.own_length(state), phases.to_vec());
         let (mut refusal, mut spare) = (None, None);
         loop {
             searches.iter().for_each(|search| search.enter(&mut tried));
-            let verdict = self.verdict(&tried, state, &instant, (&searches, &looks, length));
+            let verdict = self.verdict(&tried, state, &instant, (&searches, &criteria, length));
             let mut faults = Vec::new();
             let failing: Vec<usize> = match verdict {
                 Verdict::Holds(choice, doubtful) => {
@@ -158,7 +158,7 @@ impl PhasedNetwork {
                     return Err(self.stuck(time, search, refusal));
                 }
                 search.restart();
-                self.look(search, &instant, state, &mut looks);
+                self.collide(search, &instant, state, &mut criteria);
             }
         }
     }
@@ -172,9 +172,9 @@ impl PhasedNetwork {
         fired: &[(usize, usize)],
         threshold: f64,
     ) -> Instant<'a> {
-        let kept = self.kept(state, time, phases, fired, threshold);
+        let suppressed = self.suppressed(state, time, phases, fired, threshold);
         let left: Vec<(usize, usize)> =
-            fired.iter().copied().filter(|exit| !kept.contains(exit)).collect();
+            fired.iter().copied().filter(|exit| !suppressed.contains(exit)).collect();
         let touching = self.touching(state, phases, &left);
         let options = (0..self.parts.len())
             .map(|part| self.options(part, state, phases[part], &left, touching[part]))
@@ -199,7 +199,7 @@ impl PhasedNetwork {
             touching,
             on_level: levels_of(&reached),
             at_level: deformations.map(|(part, exit)| (*part, exit.level)).collect(),
-            kept: levels_of(&exits_of(&kept)),
+            suppressed: levels_of(&exits_of(&suppressed)),
             is_left: !left.is_empty(),
             threshold,
             ways: ways().collect(),
@@ -212,10 +212,10 @@ impl PhasedNetwork {
         tried: &[Phase],
         state: &State,
         instant: &Instant<'_>,
-        (searches, looks, length): (&[Search], &[Admissibility], f64),
+        (searches, criteria, length): (&[Search], &[Admissibility], f64),
     ) -> Verdict {
         let impacts = searches.iter().flat_map(|search| &search.impacts);
-        let parted = impacts.filter(|impact| impact.pace.is_some());
+        let parted = impacts.filter(|impact| impact.rebound_speed.is_some());
         let parted: Vec<_> = parted.map(|impact| (impact.part, impact.sides)).collect();
         let judge = Judge {
             time: instant.time,
@@ -223,21 +223,21 @@ impl PhasedNetwork {
             before: instant.phases,
             on_level: &instant.on_level,
             at_level: &instant.at_level,
-            kept: &instant.kept,
-            looks,
+            suppressed: &instant.suppressed,
+            criteria,
             parted: &parted,
             size: (length, self.own_speed(state)),
         };
         self.judge(tried, &judge)
     }
 
-    /// Applies the impacts of a group, and says how closely its parts are looked at.
-    fn look(
+    /// Applies the impacts of a group, and sets the criteria of its parts.
+    fn collide(
         &self,
         search: &mut Search,
         instant: &Instant<'_>,
         state: &mut State,
-        looks: &mut [Admissibility],
+        criteria: &mut [Admissibility],
     ) {
         let Way { coarser, rebound, graze } = instant.ways[search.way];
         let threshold = coarser * instant.threshold;
@@ -257,10 +257,16 @@ impl PhasedNetwork {
         search.impacts = self.impacts(state, &meeting);
         let is_smooth = search.impacts.is_empty();
         for &part in &search.group.parts {
-            looks[part] = Admissibility { threshold, graze, is_smooth, pace: None, ..looks[part] };
+            criteria[part] = Admissibility {
+                threshold,
+                graze,
+                is_smooth,
+                rebound_speed: None,
+                ..criteria[part]
+            };
         }
         for impact in &search.impacts {
-            looks[impact.part].pace = impact.pace;
+            criteria[impact.part].rebound_speed = impact.rebound_speed;
         }
     }
 

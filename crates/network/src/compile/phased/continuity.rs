@@ -35,7 +35,7 @@ impl PhasedNetwork {
         let jumps = |part: usize, force: f64| {
             // A force that has reached its level may be as far beyond as the judge lets it be.
             let is_fired = judge.on_level.iter().any(|own| own.1 == Watched::Force);
-            let threshold = judge.looks[part].threshold;
+            let threshold = judge.criteria[part].threshold;
             let threshold = if is_fired { threshold.sqrt() } else { threshold };
             mode.transfer.balanced().iter().any(|&at| {
                 let (jump, size, near) = jump(at);

@@ -20,20 +20,20 @@ pub(super) struct Impact {
     /// Work done by moving supports \[J\], likewise.
     pub(super) worked: f64,
     /// How its sides part again, if by their own restitution.
-    pub(super) pace: Option<Pace>,
+    pub(super) rebound_speed: Option<ReboundSpeed>,
     /// The bodies that met, on both sides of what is massless.
     pub(super) sides: [usize; 2],
 }
 
 /// How fast sides part after an impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Pace {
+pub(super) enum ReboundSpeed {
     /// By less than the threshold: only where it is known when they come back, they part at all.
-    Slow,
+    BelowThreshold,
     /// By more, but when they come back may be known all the same.
-    Fast,
+    AboveThreshold,
     /// By more, and it is left to the method when they come back.
-    Told,
+    Integrated,
 }
 
 /// What parts again after an impact.
@@ -72,7 +72,7 @@ struct Candidate {
     /// The contacts between massless sides and what they lie on, which pass the impulse on.
     through: Vec<usize>,
     restitution: f64,
-    pace: Option<Pace>,
+    rebound_speed: Option<ReboundSpeed>,
     /// Speed of approach before \[m/s\].
     approach: f64,
     /// Whether it is brought to rest although it moves apart.
@@ -191,8 +191,14 @@ impl PhasedNetwork {
         for (own, &impulse) in pushes.filter(|push| *push.1 > 0.0) {
             let share = impulse / total;
             let (lost, worked) = ((lost + work) * share, work * share);
-            let own_impact =
-                Impact { part: own.part, impulse, lost, worked, pace: own.pace, sides: own.ends };
+            let own_impact = Impact {
+                part: own.part,
+                impulse,
+                lost,
+                worked,
+                rebound_speed: own.rebound_speed,
+                sides: own.ends,
+            };
             met.push(own_impact);
             for &part in &own.through {
                 match met.iter_mut().find(|impact| impact.part == part) {
@@ -246,19 +252,29 @@ impl PhasedNetwork {
             // What loses nothing in impacts does not come to rest by them.
             let told = if restitution < 1.0 { TOLD * meeting.threshold } else { 0.0 };
             let told = RESTING.max(told);
-            let pace = match meeting.rebound {
-                Rebound::All if is_above(told, speed) => Some(Pace::Fast),
-                Rebound::Fast if is_above(told, speed) => Some(Pace::Told),
-                Rebound::All if is_above(FOLLOWED * meeting.threshold, whole) => Some(Pace::Slow),
+            let rebound_speed = match meeting.rebound {
+                Rebound::All if is_above(told, speed) => Some(ReboundSpeed::AboveThreshold),
+                Rebound::Fast if is_above(told, speed) => Some(ReboundSpeed::Integrated),
+                Rebound::All if is_above(FOLLOWED * meeting.threshold, whole) => {
+                    Some(ReboundSpeed::BelowThreshold)
+                }
                 _ => None,
             };
-            let restitution = if pace.is_some() { restitution } else { 0.0 };
+            let restitution = if rebound_speed.is_some() { restitution } else { 0.0 };
             // What has reached its level by a motion away from it is there by the method's error.
             let settles = meeting.rebound == Rebound::None
                 && approach < 0.0
                 && -approach <= meeting.threshold.sqrt() * self.speed
                 && meeting.at_level.iter().any(|own| own.0 == part);
-            found.push(Candidate { part, ends, through, restitution, pace, approach, settles });
+            found.push(Candidate {
+                part,
+                ends,
+                through,
+                restitution,
+                rebound_speed,
+                approach,
+                settles,
+            });
         }
         one_of_each_chain(found)
     }

@@ -7,7 +7,7 @@ use dashpot_dae::{Derivatives, Output, PredictedEvent, System, derivatives};
 use super::{
     super::{bodies::Groups, transfer::State},
     Mode, PhasedNetwork,
-    impacts::Pace,
+    impacts::ReboundSpeed,
     moving,
 };
 use crate::phases::{Exit, Phase, PhaseLaw, Watched};
@@ -37,10 +37,10 @@ pub(super) struct Fault {
 
 /// Whether a part stays in its phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stay {
+pub(super) enum Admissible {
     Yes,
     /// As far as can be told.
-    Doubtful,
+    Undecided,
     No,
 }
 
@@ -67,16 +67,16 @@ pub(super) struct Judge<'a> {
     /// Parts whose deformation has reached a level \[m\] by that event.
     pub(super) at_level: &'a [(usize, f64)],
     /// What is at its level by that event, but turns back before it is seen to leave it.
-    pub(super) kept: &'a [(usize, Watched, f64)],
-    /// How closely each part is looked at.
-    pub(super) looks: &'a [Admissibility],
+    pub(super) suppressed: &'a [(usize, Watched, f64)],
+    /// By what each part is judged.
+    pub(super) criteria: &'a [Admissibility],
     /// Parts by which impacts have let bodies part, and these bodies.
     pub(super) parted: &'a [(usize, [usize; 2])],
     /// A length \[m\] and a speed \[m/s\] of the network's own.
     pub(super) size: (f64, f64),
 }
 
-/// How closely a part is looked at.
+/// By what it is judged whether a part may stay in its phase.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Admissibility {
     /// What is smaller than this part of its terms cannot be told from zero.
@@ -90,7 +90,7 @@ pub(super) struct Admissibility {
     /// method's error: that speed is none.
     pub(super) is_smooth: bool,
     /// How an impact in the part has let its sides part, if one has.
-    pub(super) pace: Option<Pace>,
+    pub(super) rebound_speed: Option<ReboundSpeed>,
 }
 
 /// Derivatives that are looked at to see which way a quantity leaves its level.
@@ -127,31 +127,33 @@ impl PhasedNetwork {
         let (mut faults, mut doubtful): (Vec<Fault>, Vec<Fault>) = (Vec::new(), Vec::new());
         let guards = || mode.of_guard.iter().map(|own| own.0).zip(mode.of_guard_exits());
         let levels = judge.levels(&mode, &motion, phases);
-        let flights = judge.flights(&mode, &system, &motion, &levels);
+        let returns = judge.predicted_returns(&mode, &system, &motion, &levels);
         for (at, (part, (output, exit))) in guards().enumerate() {
             let again = judge.is_again(part, phases[part], exit);
             let fault = Fault { part, towards: Some(exit.to) };
             let output = mode.system.outputs.at(output);
-            let stays = match judge.returns(part, exit, output, flights[at], system.time_scale) {
-                Some(stay) => stay,
-                None => judge.stays(part, &motion, output, exit, again),
-            };
+            let stays =
+                match judge.stays_after_rebound(part, exit, output, returns[at], system.time_scale)
+                {
+                    Some(stay) => stay,
+                    None => judge.stays(part, &motion, output, exit, again),
+                };
             match stays {
-                Stay::Yes => {}
-                Stay::Doubtful => doubtful.push(fault),
-                Stay::No => faults.push(fault),
+                Admissible::Yes => {}
+                Admissible::Undecided => doubtful.push(fault),
+                Admissible::No => faults.push(fault),
             }
         }
         if !faults.is_empty() {
             faults.dedup_by_key(|fault| fault.part);
             return Verdict::Fails(faults);
         }
-        let is_flying = guards().zip(&flights).any(|((part, (output, _)), own)| {
+        let is_followed = guards().zip(&returns).any(|((part, (output, _)), own)| {
             let output = mode.system.outputs.at(output);
             own.is_some_and(|(_, height)| judge.is_followed(part, height, output))
         });
-        let next = flights.into_iter().flatten().map(|flight| flight.0);
-        let predicted = next.min_by(|a, b| a.length.total_cmp(&b.length)).filter(|_| is_flying);
+        let next = returns.into_iter().flatten().map(|event| event.0);
+        let predicted = next.min_by(|a, b| a.length.total_cmp(&b.length)).filter(|_| is_followed);
         let phases = phases.to_vec();
         let choice = Choice { mode, system, phases, unknowns, levels, predicted };
         Verdict::Holds(Box::new(choice), doubtful)
@@ -171,7 +173,7 @@ impl PhasedNetwork {
         for &(part, level) in &held {
             let at = self.parts[part];
             let deformation = judge.state.deformation[at];
-            let near = judge.looks[part].threshold.max(SAME)
+            let near = judge.criteria[part].threshold.max(SAME)
                 * (length + level.abs()).max(deformation.abs());
             let is_elsewhere =
                 (deformation - level).abs() > near && !judge.at_level.contains(&(part, level));
@@ -201,7 +203,7 @@ impl PhasedNetwork {
             let sides = self.sides(at);
             let whole = joined.of(sides[0]);
             let (slowest, fastest) = span[whole];
-            let threshold = judge.looks[part].threshold;
+            let threshold = judge.criteria[part].threshold;
             let near = (threshold.max(SAME) * speed).max(threshold * self.speed);
             if fastest - slowest <= near {
                 continue;
@@ -264,10 +266,10 @@ impl Judge<'_> {
             let (value, size) = motion.output(output, 0);
             let outward = if exit.rising { 1.0 } else { -1.0 };
             let beyond = (outward * (value - exit.level)).max(0.0);
-            let threshold = self.looks[part].threshold;
+            let threshold = self.criteria[part].threshold;
             let further = if self.is_again(part, phases[part], exit) {
                 beyond + threshold * (size + exit.level.abs())
-            } else if self.is_kept(part, phases[part], exit) {
+            } else if self.is_suppressed(part, phases[part], exit) {
                 seen(threshold, size.max(output.scale.abs()) + exit.level.abs())
             } else {
                 0.0
@@ -278,14 +280,14 @@ impl Judge<'_> {
     }
 
     /// Whether an exit was reached by a force or a rate at which a part stays in its phase all the same.
-    fn is_kept(&self, part: usize, phase: Phase, exit: &Exit) -> bool {
+    fn is_suppressed(&self, part: usize, phase: Phase, exit: &Exit) -> bool {
         phase.index == self.before[part].index
-            && self.kept.contains(&(part, exit.watched, exit.level))
+            && self.suppressed.contains(&(part, exit.watched, exit.level))
     }
 
     /// Whether an exit was reached at which a part stays in its phase all the same.
     fn is_again(&self, part: usize, phase: Phase, exit: &Exit) -> bool {
-        self.looks[part].is_smooth
+        self.criteria[part].is_smooth
             && phase.index == self.before[part].index
             && exit.watched == Watched::Deformation
             && self.on_level.contains(&(part, exit.watched, exit.level))
@@ -299,9 +301,9 @@ impl Judge<'_> {
         output: Output<'_>,
         exit: &Exit,
         again: bool,
-    ) -> Stay {
-        let told = |stays: bool| if stays { Stay::Yes } else { Stay::No };
-        let Admissibility { threshold, graze, may_change, .. } = self.looks[part];
+    ) -> Admissible {
+        let told = |stays: bool| if stays { Admissible::Yes } else { Admissible::No };
+        let Admissibility { threshold, graze, may_change, .. } = self.criteria[part];
         let inward = if exit.rising { -1.0 } else { 1.0 };
         let (value, size) = motion.output(output, 0);
         let gap = inward * (value - exit.level);
@@ -317,7 +319,7 @@ impl Judge<'_> {
         let pushes_on = exit.watched == Watched::Force && !fired && gap > TOLD * noise;
         if gap > 0.0 && (!may_change || pushes_on) {
             // It has not been reached yet, however near it is.
-            return Stay::Yes;
+            return Admissible::Yes;
         }
         let is_still = exit.watched == Watched::Deformation
             && self.on_level.contains(&(part, Watched::Rate, 0.0));
@@ -334,11 +336,13 @@ impl Judge<'_> {
             if is_none { 0.0 } else { inward * value }
         };
         let Some(order) = (1..=ORDERS).find(|&order| derivative(order) != 0.0) else {
-            return if gap < 0.0 { Stay::Doubtful } else { Stay::Yes };
+            return if gap < 0.0 { Admissible::Undecided } else { Admissible::Yes };
         };
         let first = derivative(order);
         if first < 0.0 || graze || order > 1 || derivative(2) >= 0.0 {
-            return told(first > 0.0 || self.kept.contains(&(part, exit.watched, exit.level)));
+            return told(
+                first > 0.0 || self.suppressed.contains(&(part, exit.watched, exit.level)),
+            );
         }
         told(first * first > 2.0 * seen(threshold, size + exit.level.abs()) * -derivative(2))
     }

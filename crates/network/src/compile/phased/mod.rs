@@ -12,12 +12,12 @@ mod idle;
 mod impacts;
 mod judge;
 mod jumps;
-mod kept;
-mod returns;
+mod rebound;
 mod search;
 mod settle;
 mod start;
 mod static_equilibrium;
+mod suppressed;
 
 use std::{
     collections::HashMap,

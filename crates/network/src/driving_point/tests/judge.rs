@@ -30,7 +30,7 @@ fn receptance(network: &Network, a: NodeId, b: NodeId, s: f64) -> DoubleDouble {
 }
 
 /// A random connected network of up to nine nodes over many decades.
-pub(super) fn scene(dice: &mut Dice, has_masses: bool, decades: f64) -> (Network, Vec<NodeId>) {
+fn scene(dice: &mut Dice, has_masses: bool, decades: f64) -> (Network, Vec<NodeId>) {
     let count = 2 + dice.below(8);
     let is_held = dice.roll() < 0.6;
     let masses: Vec<f64> = (0..count)

@@ -1,8 +1,8 @@
 //! The register of symbols of elements.
 
 use super::canvas::{Canvas, Point, Weight, upright};
-use crate::sketch::SketchTree;
 use crate::sketch::order::Extent;
+use crate::sketch::{SketchLaw, SketchTree};
 use crate::text_metrics::text_width;
 use crate::theme;
 
@@ -45,16 +45,8 @@ const fn symbol(
     Symbol { kind, names, text, width: SYMBOL, reach: (reach, reach), draw }
 }
 
-const fn nonlinear(kind: &'static str, names: [&'static str; 2]) -> Symbol {
-    symbol(kind, names, "/\\/↗/\\", ARROW, nonlinear_spring)
-}
-
-const fn striking(kind: &'static str, names: [&'static str; 2]) -> Symbol {
-    Symbol { width: 84.0, ..symbol(kind, names, "┤ ├/↗\\", ARROW, gap_and_spring) }
-}
-
-/// Every symbol. **A new kind of element has its symbol here.** The same symbol serves kinds that
-/// differ in their formula only; the drawing then carries the kind's word too.
+/// Every symbol of a kind of its own, in the order in which kinds are counted. All others have that of
+/// their [`SketchLaw`]; the drawing then carries the kind's word too.
 pub(in crate::sketch) const SYMBOLS: &[Symbol] = &[
     symbol("spring", ["spring", "springs"], "/\\/\\/\\", HALF, spring),
     symbol("dashpot", ["dashpot", "dashpots"], "]=", HALF, dashpot),
@@ -66,22 +58,26 @@ pub(in crate::sketch) const SYMBOLS: &[Symbol] = &[
         reach: (HALF, 18.0),
         ..symbol("friction", ["friction slider", "friction sliders"], "═µ═", HALF, slider)
     },
-    nonlinear("power-spring", ["power spring", "power springs"]),
-    nonlinear("cubic-spring", ["cubic spring", "cubic springs"]),
-    nonlinear("stiffening-spring", ["stiffening spring", "stiffening springs"]),
-    nonlinear("table-spring", ["table spring", "table springs"]),
-    nonlinear("foam", ["foam", "foams"]),
-    nonlinear("hysteretic-foam", ["hysteretic foam", "hysteretic foams"]),
-    nonlinear("hysteretic-table", ["hysteretic table", "hysteretic tables"]),
-    nonlinear("rate-spring", ["rate spring", "rate springs"]),
-    symbol("power-dashpot", ["power dashpot", "power dashpots"], "]↗=", ARROW, nonlinear_dashpot),
-    striking("hunt-crossley", ["Hunt–Crossley contact", "Hunt–Crossley contacts"]),
-    striking("bumper", ["bumper", "bumpers"]),
+    Symbol {
+        kind: "hunt-crossley",
+        names: ["Hunt–Crossley contact", "Hunt–Crossley contacts"],
+        ..NONLINEAR_IMPACT
+    },
 ];
 
-/// The symbol of a kind; a kind without one is drawn as a box with its word.
-pub(in crate::sketch) fn symbol_of(kind: &str) -> Option<&'static Symbol> {
-    SYMBOLS.iter().find(|own| own.kind == kind)
+const NONLINEAR_SPRING: Symbol = symbol("", [""; 2], "/\\/↗/\\", ARROW, nonlinear_spring);
+const NONLINEAR_DASHPOT: Symbol = symbol("", [""; 2], "]↗=", ARROW, nonlinear_dashpot);
+const NONLINEAR_IMPACT: Symbol =
+    Symbol { width: 84.0, ..symbol("", [""; 2], "┤ ├/↗\\", ARROW, gap_and_spring) };
+
+/// The symbol of a kind, or else of its law; without both it is drawn as a box with its word.
+pub(in crate::sketch) fn symbol_of(kind: &str, law: SketchLaw) -> Option<&'static Symbol> {
+    SYMBOLS.iter().find(|own| own.kind == kind).or(match law {
+        SketchLaw::Spring => Some(&NONLINEAR_SPRING),
+        SketchLaw::Dashpot => Some(&NONLINEAR_DASHPOT),
+        SketchLaw::Impact => Some(&NONLINEAR_IMPACT),
+        SketchLaw::Other => None,
+    })
 }
 
 impl Canvas {
@@ -96,10 +92,10 @@ impl Canvas {
         }
         self.straight((x, y), (left, y));
         self.straight((right, y), (x + extent.width, y));
-        let SketchTree::Element { kind, label } = leaf else {
+        let SketchTree::Element { kind, label, law } = leaf else {
             return bar(self, (left, y));
         };
-        match symbol_of(kind) {
+        match symbol_of(kind, *law) {
             Some(symbol) => self.group(kind, |canvas| (symbol.draw)(canvas, (left, y))),
             None => self.group("other", |canvas| {
                 canvas.rectangle((left, y - up), (width, 2.0 * up), false);
@@ -114,8 +110,8 @@ impl Canvas {
 
 /// Length of a symbol, and its height above and below the connecting line.
 fn size(leaf: &SketchTree) -> (f64, (f64, f64)) {
-    let SketchTree::Element { kind, .. } = leaf else { return (SYMBOL, (HALF, HALF)) };
-    if let Some(symbol) = symbol_of(kind) {
+    let SketchTree::Element { kind, law, .. } = leaf else { return (SYMBOL, (HALF, HALF)) };
+    if let Some(symbol) = symbol_of(kind, *law) {
         return (symbol.width, symbol.reach);
     }
     let width = text_width(kind, theme::TICK_SIZE) + 14.0;
@@ -244,6 +240,9 @@ mod tests {
     fn every_kind_has_one_symbol_that_stays_in_its_room() {
         for (i, own) in SYMBOLS.iter().enumerate() {
             assert!(SYMBOLS[..i].iter().all(|other| other.kind != own.kind), "{}", own.kind);
+        }
+        let of_laws = [&NONLINEAR_SPRING, &NONLINEAR_DASHPOT, &NONLINEAR_IMPACT];
+        for own in SYMBOLS.iter().chain(of_laws) {
             assert!(columns(own.text) <= 6, "{}", own.kind);
             let mut canvas = Canvas::default();
             (own.draw)(&mut canvas, (0.0, 0.0));

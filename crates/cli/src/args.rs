@@ -1,0 +1,146 @@
+//! Arguments that several verbs have: types, what reads their values, names from the registers.
+
+use std::{ffi::OsStr, path::PathBuf};
+
+use clap::{
+    Args, ValueEnum,
+    builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
+    error::{ContextKind, ContextValue, ErrorKind},
+};
+use dashpot_analysis::Accuracy;
+use dashpot_dae::methods;
+use dashpot_network::parameters::Dimension;
+use dashpot_scene::units::parse_quantity;
+
+use crate::error::{is_unit, unquoted_help};
+
+/// What may stand for a model.
+pub(crate) const MODEL: &str = "FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it \
+     has one model; FILE:NODE,NODE for the response of a network without moving masses";
+
+/// Which scene.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    /// File of the scene, `-` for standard input, or a built-in scene (reference,
+    /// reference-stiff, reference-gravity) [default: reference].
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) values: ValueArguments,
+}
+
+/// Which named values.
+#[derive(Debug, Args)]
+pub(crate) struct ValueArguments {
+    /// Sets a value of the scene's table [values]: `--set "K=25 MN/m"`; repeatable.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+}
+
+/// When something is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum When {
+    /// On terminals.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+impl When {
+    /// Whether it is done where a terminal is attended, or not.
+    pub(crate) fn is_now(self, attended: bool) -> bool {
+        self == Self::Always || self == Self::Auto && attended
+    }
+}
+
+/// On or off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Switch {
+    /// On.
+    On,
+    /// Off.
+    Off,
+}
+
+/// The error with what to write where a unit stands alone.
+pub(crate) fn explained(mut error: clap::Error) -> clap::Error {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return error };
+    let unit = word.split(',').next().unwrap_or_default();
+    if error.kind() == ErrorKind::UnknownArgument && is_unit(unit) {
+        let help = unquoted_help(unit).into();
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![help]));
+    }
+    error
+}
+
+pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.rsplit_once('=').unwrap_or((text, ""));
+    if name.trim().is_empty() || value.trim().is_empty() {
+        return Err("write a name, `=` and a value, such as \"K=25 MN/m\"".to_owned());
+    }
+    Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+pub(crate) fn share(text: &str) -> Result<f64, String> {
+    let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
+    let is_number = quantity.dimension.is_none_or(|dimension| dimension == Dimension::NUMBER);
+    let value = quantity.value;
+    // A bare number of this size may be meant in percent.
+    let is_doubtful = quantity.dimension.is_none()
+        && !text.contains('%')
+        && (0.01..=100.0 * Accuracy::LOOSEST).contains(&value);
+    if is_number && value > 0.0 && value <= Accuracy::LOOSEST && !is_doubtful {
+        return Ok(value);
+    }
+    Err(if is_doubtful {
+        let percent = 100.0 * value;
+        let other =
+            if value > Accuracy::LOOSEST { String::new() } else { format!(" or \"{percent}%\"") };
+        format!("a bare {value} is {percent}%; write \"{value}%\"{other}")
+    } else {
+        "\n  it must be more than 0 and at most 20%, such as 0.1% or 1e-3".to_owned()
+    })
+}
+
+/// Units of work: a whole number, or one such as 1e9.
+pub(crate) fn budget(text: &str) -> Result<u64, String> {
+    const MOST: f64 = 1e18;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the range is checked, and no one counts the last units"
+    )]
+    match text.parse::<f64>() {
+        Ok(number) if (1.0..=MOST).contains(&number) => Ok(number as u64),
+        _ => Err("it must be a number from 1 to 1e18, such as 1e10".to_owned()),
+    }
+}
+
+/// The names of methods, blanks around them allowed.
+#[derive(Debug, Clone)]
+pub(crate) struct MethodNames(pub(crate) PossibleValuesParser);
+
+impl TypedValueParser for MethodNames {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        let trimmed = value.to_str().map_or(value, |text| OsStr::new(text.trim()));
+        self.0.parse_ref(command, argument, trimmed)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        self.0.possible_values()
+    }
+}
+
+pub(crate) fn method_names() -> PossibleValuesParser {
+    let methods = methods::all();
+    PossibleValuesParser::new(methods.iter().map(|method| PossibleValue::new(method.name())))
+}

@@ -1,0 +1,119 @@
+//! The register of verbs: each is a file or a folder of its own, with its arguments and what does it.
+//! Those that find something out state it as a [`Study`](crate::output::Study).
+
+mod check;
+mod compare;
+mod convert;
+mod cost;
+mod explain;
+mod groups;
+mod list;
+mod printed;
+mod rheometer;
+mod run;
+mod sweep;
+mod thesis;
+mod vibrate;
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+use clap_complete::Shell;
+
+use crate::{
+    args::When,
+    error::{CliError, Status},
+    terminal::Terminal,
+};
+
+/// Impacts on viscoelastic padding: spring-dashpot-mass networks, solved with stated errors.
+#[derive(Debug, Parser)]
+#[command(
+    name = "dashpot",
+    version,
+    arg_required_else_help = true,
+    max_term_width = 80,
+    after_help = "Begin with:\n  \
+        dashpot run                     the built-in reference impact, by two methods\n  \
+        dashpot new --out pad.toml      a commented scene to start from\n  \
+        dashpot run pad.toml            solve it: forces, g, depth, and their errors\n\n\
+        Exit codes: 0 done (warnings included), 1 a run failed, 2 the input is wrong,\n\
+        3 `compare` says that two models are not the same, `groups` that two scenes
+        are not similar."
+)]
+pub(crate) struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+    /// Colours in the output; `auto` is for terminals and honours `NO_COLOR`.
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    pub(crate) color: When,
+}
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Solves a scene and reports peaks, energies and their errors.
+    Run(run::RunArguments),
+    /// Says whether scenes are valid, without solving them.
+    Check(check::CheckArguments),
+    /// Shows what was built from a scene: drawing, parts, unknowns, effects, method.
+    Explain(explain::ExplainArguments),
+    /// Writes a model in another form that does the same, and says how nearly.
+    Convert(convert::ConvertArguments),
+    /// Says whether two models or networks are the same from outside, by their poles.
+    Compare(compare::CompareArguments),
+    /// Tests a model alone: creep, relaxation, oscillation, in closed form and by simulation.
+    Rheometer(rheometer::RheometerArguments),
+    /// Shows what accuracy costs: true errors of every method against time and work.
+    Cost(cost::CostArguments),
+    /// Solves a scene for many values of its numbers: tables, lines and maps of measures.
+    Sweep(sweep::SweepArguments),
+    /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
+    Vibrate(vibrate::VibrateArguments),
+    /// Recomputes the thesis behind this project: its numbers, figures, misprints and claims.
+    Thesis(thesis::ThesisArguments),
+    /// Shows dimensionless groups, whether scenes are similar, and designs laboratory tests.
+    Groups(groups::GroupsArguments),
+    /// Lists every kind that a scene may contain, with its parameters.
+    List(list::ListArguments),
+    /// Writes a commented scene to start from.
+    New(printed::NewArguments),
+    /// Prints the JSON schema of scenes, for completion and checks in editors.
+    Schema,
+    /// Writes the manual pages of all verbs to a folder, or prints that of the command.
+    Man {
+        /// Folder to write to, made if it is not there.
+        #[arg(long, value_name = "DIR", value_hint = clap::ValueHint::DirPath)]
+        out: Option<PathBuf>,
+    },
+    /// Prints the completions for a shell.
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+}
+
+impl Command {
+    /// Does it.
+    pub(crate) fn run(&self, terminal: Terminal) -> Result<Status, CliError> {
+        match self {
+            Self::Run(arguments) => run::run(arguments, terminal),
+            Self::Check(arguments) => check::check(arguments, terminal),
+            Self::Explain(arguments) => explain::explain(arguments, terminal),
+            Self::Convert(arguments) => convert::convert(arguments, terminal),
+            Self::Compare(arguments) => compare::compare(arguments, terminal),
+            Self::Rheometer(arguments) => rheometer::rheometer(arguments, terminal),
+            Self::Cost(arguments) => cost::cost(arguments, terminal),
+            Self::Sweep(arguments) => sweep::sweep(arguments, terminal),
+            Self::Vibrate(arguments) => vibrate::vibrate(arguments, terminal),
+            Self::Thesis(arguments) => thesis::thesis(arguments, terminal),
+            Self::Groups(arguments) => groups::groups(arguments, terminal),
+            Self::List(arguments) => list::list(arguments, terminal),
+            Self::New(arguments) => printed::new(arguments),
+            Self::Schema => printed::schema(),
+            Self::Man { out } => printed::man(out.as_deref()),
+            Self::Completions { shell } => printed::completions(*shell),
+        }
+    }
+}

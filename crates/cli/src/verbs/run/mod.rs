@@ -1,0 +1,300 @@
+//! `dashpot run`.
+
+mod energy;
+mod files;
+mod measures;
+mod object;
+mod resolved_scene;
+mod series;
+mod solving;
+mod verdict;
+
+use std::{
+    collections::HashMap,
+    path::PathBuf,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use clap::Args;
+use dashpot_analysis::{
+    Accuracy, Difference, RunError, RunReport, SolveSettings, Warning, differences, solve_partial,
+};
+use dashpot_plot::figures::FORCE_TIME;
+use dashpot_scene::Scene;
+use serde::Serialize;
+
+pub(crate) use self::measures::unit_of_kind;
+use self::{
+    energy::energy_table,
+    measures::{measures_tables, notes},
+    resolved_scene::Changes,
+    series::curves,
+    solving::{reasons, solving_table},
+    verdict::verdict,
+};
+use crate::{
+    args::{MethodNames, SceneArguments, Switch, When, budget, method_names, share},
+    error::{CliError, Status},
+    folder::{Folder, Staged},
+    input::title,
+    operand::print_notes,
+    output::{Study, Text, emit},
+    progress::Bar,
+    terminal::{Terminal, WIDTH},
+    text::indented,
+    verbs::check::undefined,
+};
+
+/// Lines of the plot.
+const PLOT_HEIGHT: usize = 14;
+/// Points of a curve in the plot: many more than dots, so that quick oscillations fill their band.
+const PLOT_POINTS: usize = 8001;
+/// Columns of the verdict's labels.
+const LABELS: usize = 15;
+
+/// `run`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot run                                      the built-in reference impact\n  \
+    dashpot run pad.toml --set \"K=25 MN/m\"           with another stiffness\n  \
+    dashpot run pad.toml --method exact,bdf          two methods side by side\n  \
+    dashpot run pad.toml --accuracy 0.01%            more digits\n  \
+    dashpot run pad.toml --neglect 0.5%              without what matters less\n  \
+    dashpot run pad.toml --out results               CSV, JSON, SVG and HTML\n  \
+    dashpot run pad.toml --json | jq .runs[0].measures\n\n\
+    Units: --accuracy and --neglect are relative (0.1%, 1e-3), --rtol a number; all values of --json are SI.")]
+pub(crate) struct RunArguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Methods in place of the scene's, side by side; `dashpot list methods` tells of each.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = MethodNames(method_names()))]
+    method: Vec<String>,
+    /// Accuracy of every measure, relative, such as 0.1% [default: the scene's, else 0.1 %].
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    accuracy: Option<f64>,
+    /// Leaves out what moves no measure by more than this, relative, such as 0.5%; verified by a
+    /// solution with it [default: the scene's, else nothing].
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    neglect: Option<f64>,
+    /// The method's own relative tolerance, 1e-13 to 1e-3, in place of the search for one.
+    #[arg(long, value_name = "NUMBER", conflicts_with = "accuracy")]
+    rtol: Option<f64>,
+    /// Whether errors are estimated by further solutions; `off` is for bulk work.
+    #[arg(long, value_name = "SWITCH", default_value = "on")]
+    estimate: Switch,
+    /// Most work of each run, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
+    #[arg(long, value_name = "UNITS", value_parser = budget)]
+    budget: Option<u64>,
+    /// Folder for CSV, JSON, SVG and HTML; it is made if need be.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    json: bool,
+    /// A plot of the forces in the text; `auto` draws it on terminals.
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    plot: When,
+}
+
+/// A scene and its runs.
+struct Answer {
+    /// What was solved.
+    pub(super) scene: Scene,
+    /// What the command line said in place of the scene.
+    pub(super) changes: Changes,
+    /// The accuracy and the other settings with which each method was asked, in their order.
+    pub(super) asked: Vec<SolveSettings>,
+    /// The runs that went well, in the order of the methods; at least one.
+    pub(super) runs: Vec<RunReport>,
+    /// What each of them took in all: solutions, measures and errors.
+    pub(super) elapsed: Vec<Duration>,
+    /// The methods that failed, and why.
+    pub(super) failed: Vec<(&'static str, CliError)>,
+    /// Whether forces are plotted.
+    plot: When,
+}
+
+impl Answer {
+    /// The most accurate run; of equals the first. `None` if no run went well.
+    pub(super) fn best(&self) -> Option<&RunReport> {
+        let error = |run: &RunReport| run.worst_relative_error().unwrap_or(f64::INFINITY);
+        self.runs.iter().min_by(|one, other| error(one).total_cmp(&error(other)))
+    }
+
+    /// All warnings, the most important first; those that not every run gives name their methods.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        self.warnings_of(|_| true)
+    }
+
+    fn warnings_of(&self, is_meant: impl Fn(&Warning) -> bool) -> Vec<String> {
+        let mut grouped: Vec<(String, Vec<&str>)> = Vec::new();
+        let mut places: HashMap<String, usize> = HashMap::new();
+        for run in &self.runs {
+            for warning in
+                run.warnings.iter().filter(|warning| is_meant(warning)).map(Warning::to_string)
+            {
+                let place = *places.entry(warning).or_insert_with_key(|warning| {
+                    grouped.push((warning.clone(), Vec::new()));
+                    grouped.len() - 1
+                });
+                grouped[place].1.push(run.solver.method);
+            }
+        }
+        let text = |(warning, methods): (String, Vec<&str>)| {
+            if methods.len() == self.runs.len() {
+                warning
+            } else {
+                format!("{}: {warning}", methods.join(", "))
+            }
+        };
+        grouped.into_iter().map(text).collect()
+    }
+
+    /// How far the runs are apart in each measure: the largest difference from the first one.
+    pub(super) fn differences(&self) -> Vec<Difference> {
+        let Some((first, others)) = self.runs.split_first() else { return Vec::new() };
+        let mut largest: Vec<Difference> = Vec::new();
+        for difference in others.iter().flat_map(|other| differences(first, other)) {
+            match largest.iter_mut().find(|known| known.key == difference.key) {
+                Some(known) => known.relative = known.relative.max(difference.relative),
+                None => largest.push(difference),
+            }
+        }
+        largest
+    }
+
+    /// The warnings but those that the scene's own text has brought already.
+    fn new_warnings(&self) -> Vec<String> {
+        let known = &self.scene.assembly.warnings;
+        self.warnings_of(|warning| !matches!(warning, Warning::Network(own) if known.contains(own)))
+    }
+}
+
+/// Solves a scene by its methods, and reports.
+pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status, CliError> {
+    let scene = arguments.scene.read(terminal)?;
+    print_notes(&scene.notes);
+    let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
+    if let Ok(texts) = undefined(&scene) {
+        texts.iter().for_each(|text| terminal.warn(text));
+    }
+    let answer = solve_all(scene, arguments, terminal)?;
+    print_failures(&answer, terminal);
+    let status = answer.failed.iter().map(|(_, error)| error.status()).max();
+    if arguments.json || !answer.runs.is_empty() {
+        // The report begins with them, so at one place they would be read twice.
+        if arguments.json || !terminal.is_one {
+            answer.new_warnings().iter().for_each(|warning| terminal.warn(warning));
+        }
+        let folder = folder.filter(|_| !answer.runs.is_empty());
+        emit(&answer, arguments.json, folder, terminal)?;
+    }
+    Ok(status.unwrap_or(Status::Done))
+}
+
+/// Tells of each error once, with the methods that it is about unless that is all of them.
+fn print_failures(answer: &Answer, terminal: Terminal) {
+    let mut printed: Vec<String> = Vec::new();
+    for (_, error) in &answer.failed {
+        let text = error.to_string();
+        if printed.contains(&text) {
+            continue;
+        }
+        let same = answer.failed.iter().filter(|(_, other)| other.to_string() == text);
+        let methods: Vec<&str> = same.map(|same| same.0).collect();
+        let is_all = methods.len() == answer.asked.len();
+        let prefix = if is_all { String::new() } else { format!("{}: ", methods.join(", ")) };
+        terminal.fail(&prefix, error);
+        printed.push(text);
+    }
+}
+
+fn solve_all(
+    scene: Scene,
+    arguments: &RunArguments,
+    terminal: Terminal,
+) -> Result<Answer, RunError> {
+    let mut asked: Vec<SolveSettings> = Vec::new();
+    let methods = if arguments.method.is_empty() { &scene.run.methods } else { &arguments.method };
+    for method in methods {
+        if asked.iter().all(|own| own.method.name() != method) {
+            asked.push(settings(&scene, method, arguments)?);
+        }
+    }
+    let assembly = Arc::new(scene.assembly.clone());
+    let (mut runs, mut failed) = (Vec::<RunReport>::new(), Vec::new());
+    let mut elapsed = Vec::new();
+    for own in &asked {
+        let mut bar = Bar::new(own.method.name(), own.duration, terminal.error.attended);
+        let started = Instant::now();
+        match solve_partial(&scene.network, &assembly, own, &mut bar) {
+            // `auto` may choose what is asked for by name as well.
+            Ok(report) if is_new(&runs, &report) => {
+                runs.push(report);
+                elapsed.push(started.elapsed());
+            }
+            Ok(_) => {}
+            Err(error) => failed.push((own.method.name(), CliError::Run(error))),
+        }
+    }
+    let (changes, plot) = (Changes::of(arguments), arguments.plot);
+    Ok(Answer { scene, changes, asked, runs, elapsed, failed, plot })
+}
+
+fn is_new(runs: &[RunReport], report: &RunReport) -> bool {
+    runs.iter().all(|run| run.solver.method != report.solver.method)
+}
+
+fn settings(
+    scene: &Scene,
+    method: &str,
+    arguments: &RunArguments,
+) -> Result<SolveSettings, RunError> {
+    let mut settings = scene.settings(method)?;
+    settings.estimate = arguments.estimate == Switch::On;
+    settings.budget = arguments.budget.unwrap_or(settings.budget);
+    settings.rtol = arguments.rtol.or(settings.rtol);
+    if let Some(accuracy) = arguments.accuracy {
+        let neglect_below = settings.accuracy.neglect_below;
+        settings.accuracy = Accuracy { neglect_below, ..Accuracy::of_all(accuracy) };
+        // A tolerance of the scene would keep the accuracy from being sought.
+        settings.rtol = None;
+    }
+    settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
+    Ok(settings)
+}
+
+impl Study for Answer {
+    fn text(&self, text: &mut Text) {
+        text.warnings(&self.new_warnings());
+        text.title(title(&self.scene));
+        self.changes.description().iter().for_each(|changes| text.words(changes));
+        text.blank();
+        for line in verdict(self) {
+            text.labelled(line.label, LABELS, &line.text);
+        }
+        if let Some(best) = self.best().filter(|_| text.is_plotted(self.plot)) {
+            let chart = FORCE_TIME.chart(&[curves(best, PLOT_POINTS)]);
+            text.blank();
+            text.lines(&indented(&chart.text(WIDTH - 4, PLOT_HEIGHT)));
+        }
+        for table in measures_tables(self, WIDTH - 2) {
+            text.figures(&table);
+        }
+        notes(self).iter().for_each(|note| text.labelled("", 0, note));
+        self.best().iter().for_each(|best| text.figures(&energy_table(best)));
+        text.figures(&solving_table(self));
+        for (method, why) in reasons(self) {
+            text.labelled(&method, 8, &why);
+        }
+    }
+
+    fn object(&self) -> impl Serialize {
+        object::object(self)
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        files::write(files, self)
+    }
+}

@@ -1,0 +1,250 @@
+//! `dashpot sweep`.
+
+mod files;
+mod words;
+
+use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
+
+use clap::Args;
+use dashpot_analysis::{
+    RunError,
+    partial::Cost,
+    sweep::{Column, Grid, Pose, ScenePoint, SweepReport, columns, sweep as solve},
+};
+use dashpot_scene::{Diagnostics, Scene, Tunables, Variation, read};
+use serde::Serialize;
+
+use self::words::{notes, summary};
+use crate::{
+    args::{SceneArguments, budget, method_names, share},
+    error::{CliError, Status},
+    folder::{Folder, Staged},
+    input::{Input, title},
+    output::{Study, Text, VERSION, emit, list, object},
+    progress::Bar,
+    terminal::{Terminal, note},
+};
+
+/// `sweep`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot sweep pad.toml --vary \"K=5..30 MN/m,26,log\"\n  \
+    dashpot sweep --vary \"head.velocity=2..12 m/s\" --measure padding.peak-force\n  \
+    dashpot sweep --vary \"padding.maxwell.spring=5..80 MN/m,41,log\" \\\n    \
+    --vary \"padding.kelvin.dashpot=1..16 kN s/m,41,log\" --out map\n\n\
+    A number of the scene goes by its path, such as head.velocity, mount.dashpot, \
+    padding.maxwell.spring or padding.thickness, or by its name under [values]. Its values are a \
+    range, with their count and `lin` or `log`, or a list: \"K=5,10,20 MN/m\". Without `--out` the \
+    table is printed as CSV, in SI units.")]
+pub(crate) struct SweepArguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// A number of the scene and the values that it takes; repeatable, for all combinations.
+    #[arg(long, value_name = "NAME=VALUES", required = true)]
+    vary: Vec<String>,
+    /// Measures, such as padding.peak-force [default: all that the scene reports].
+    #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
+    measure: Vec<String>,
+    /// Method for all points [default: the scene's, if it names one, else auto]; points are instantiated by
+    /// auto and exact only.
+    #[arg(long, value_name = "NAME", value_parser = method_names())]
+    method: Option<String>,
+    /// Leaves out what moves no measure by more than this, relative, such as 0.5%; verified at
+    /// points spread over the sweep [default: the scene's, else nothing].
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    neglect: Option<f64>,
+    /// Most work of each point, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
+    #[arg(long, value_name = "UNITS", value_parser = budget)]
+    budget: Option<u64>,
+    /// How many threads share the points; the results are the same [default: one per core].
+    #[arg(long, value_name = "NUMBER")]
+    threads: Option<NonZero<usize>>,
+    /// Folder for CSV, JSON and SVG: lines over one parameter, maps over two.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Prints one JSON object, in SI units, in place of the table.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What was varied, in what, and what was found.
+struct Swept {
+    scene: Scene,
+    tunables: Tunables,
+    variations: Vec<Variation>,
+    /// The number of the scene that each variation is of.
+    matched: Vec<usize>,
+    grid: Grid,
+    report: SweepReport,
+}
+
+/// Solves a scene for many values of its parameters.
+pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<Status, CliError> {
+    let input = Input::of(arguments.scene.scene.as_deref())?;
+    let set = &arguments.scene.values.set;
+    let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
+    terminal.diagnose(&checked.warnings);
+    let scene = checked.value;
+    let tunables = Tunables::of(input.text()?, Some(&input.file)).map_err(CliError::Scene)?;
+    let variations: Vec<Variation> =
+        arguments.vary.iter().map(|own| Variation::parse(own)).collect::<Result<_, _>>()?;
+    let matched = tunables.matched(&variations)?;
+    if let Some((name, _)) = set.iter().find(|own| is_varied(&tunables, &matched, &own.0)) {
+        return Err(CliError::SetAndVaried { name: name.clone() });
+    }
+    let grid = Grid::new(variations.iter().map(Variation::len).collect())
+        .filter(|grid| grid.len() <= MOST)
+        .ok_or(CliError::TooManyPoints { most: MOST })?;
+    let scene_point = |scene: Scene| {
+        let method = match (&arguments.method, &scene.run.methods[..]) {
+            (Some(wanted), _) => wanted,
+            (None, [only]) => only,
+            _ => "auto",
+        };
+        let mut settings = scene.settings(method)?;
+        settings.budget = arguments.budget.unwrap_or(settings.budget);
+        settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
+        Ok::<_, RunError>(ScenePoint { network: scene.network, settings })
+    };
+    let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
+    let (columns, wishes) = columns(&scene_point(scene.clone())?, &keys)?;
+    let names = files::names(&variations, &columns);
+    let folder = Folder::wanted(arguments.out.as_deref(), names)?;
+    let pose = |places: &[usize]| {
+        let text = text_at(&tunables, &variations, &matched, places);
+        let checked = read(&text, &input.options(set)).map_err(|faults| {
+            let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
+            messages.collect::<Vec<_>>().join("; ")
+        })?;
+        let mut scene_point = scene_point(checked.value).map_err(|error| error.to_string())?;
+        scene_point.settings.measures.clone_from(&wishes);
+        Ok(scene_point)
+    };
+    let mut shown = checked.warnings.list;
+    let before = shown.len();
+    // A fault at the ends of a range is shown in the scene's text, with the value under a caret.
+    for point in grid.corners().into_iter().take(MOST_CORNERS) {
+        let text = text_at(&tunables, &variations, &matched, &grid.places(point));
+        let found = read(&text, &input.options(set)).map_err(CliError::Scene)?.warnings;
+        let known: Vec<String> = shown.iter().map(dashpot_scene::Diagnostic::message).collect();
+        shown.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
+    }
+    terminal.diagnose(&Diagnostics { list: shown.split_off(before), omitted: 0 });
+    let report = solved(arguments, &grid, &pose, &columns, terminal)?;
+    let swept = Swept { scene, tunables, variations, matched, grid, report };
+    let has_folder = folder.is_some();
+    emit(&swept, arguments.json, folder, terminal)?;
+    files::undrawn(&swept.variations).filter(|_| has_folder).into_iter().for_each(note);
+    let failed = swept.report.gaps.iter().filter(|gap| gap.column.is_none()).count();
+    Ok(if failed == swept.points() { Status::RunFailed } else { Status::Done })
+}
+
+/// More points are not solved in one sweep.
+const MOST: usize = 10_000_000;
+/// So many corners of the grid are read before anything is solved.
+const MOST_CORNERS: usize = 64;
+
+/// Whether a named value is among the numbers that vary.
+fn is_varied(tunables: &Tunables, matched: &[usize], name: &str) -> bool {
+    let path = format!("values.{name}");
+    matched.iter().any(|&at| tunables.all()[at].path == path)
+}
+
+fn text_at(
+    tunables: &Tunables,
+    variations: &[Variation],
+    matched: &[usize],
+    places: &[usize],
+) -> String {
+    let all = matched.iter().zip(variations).zip(places);
+    let values: Vec<(usize, String)> =
+        all.map(|((at, own), place)| (*at, own.text(*place))).collect();
+    tunables.text_with(&values)
+}
+
+fn solved(
+    arguments: &SweepArguments,
+    grid: &Grid,
+    pose: &Pose<'_>,
+    columns: &[Column],
+    terminal: Terminal,
+) -> Result<SweepReport, CliError> {
+    let all = || available_parallelism().map_or(1, NonZero::get);
+    let threads = arguments.threads.map_or_else(all, NonZero::get);
+    let mut bar = Bar::new("sweep", 0.0, terminal.error.attended);
+    let mut show =
+        |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
+    Ok(solve(grid, pose, columns, threads, &mut show)?)
+}
+
+impl Study for Swept {
+    fn text(&self, text: &mut Text) {
+        text.title(title(&self.scene));
+        self.in_words().iter().for_each(|in_word| text.faint(in_word));
+        text.table(&summary(&self.report));
+        text.paragraphs(notes(self));
+    }
+
+    fn data(&self) -> Option<String> {
+        let mut bytes = Vec::new();
+        files::table(self, &mut bytes).ok()?;
+        String::from_utf8(bytes).ok()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        notes(self)
+    }
+
+    /// Values stand in the order of the points: the last parameter varies fastest.
+    fn object(&self) -> impl Serialize {
+        let Self { scene, report, .. } = self;
+        let parameters = self.variations.iter().zip(&self.matched).enumerate();
+        let measures = report.columns.iter().enumerate();
+        let column = |all: &[f64], at: usize| {
+            let own = all.iter().skip(at).step_by(report.columns.len());
+            list(own.map(|own| own.is_finite().then_some(*own)))
+        };
+        object! {
+            dashpot: VERSION,
+            title: &scene.title,
+            file: &scene.file,
+            parameters: list(parameters.map(|(at, (own, &tunable))| object! {
+                name: &own.name,
+                path: &self.tunables.all()[tunable].path,
+                unit: self.unit(at),
+                values: &own.values,
+            })),
+            measures: list(measures.map(|(at, own)| object! {
+                key: &own.key,
+                over_thickness: own.is_share,
+                unit: own.unit,
+                values: column(&report.values, at),
+                errors: column(&report.errors, at),
+            })),
+            points: self.points(),
+            instantiated: report.instantiated,
+            checked: &report.checked,
+            largest_difference: report.largest_difference,
+            gaps: list(report.gaps.iter().map(|gap| object! {
+                point: gap.point,
+                measure: gap.column.map(|at| &report.columns[at].key),
+                reason: &gap.reason,
+            })),
+            warnings: list(report.warnings.iter().map(|warning| object! {
+                text: warning.warning.to_string(), code: warning.warning.code(), points: &warning.points,
+            })),
+            left_out: report.partial.as_ref().map(|partial| object! {
+                bound: partial.bound,
+                effects: list(partial.left_out.iter().map(|own| &own.effect)),
+                checked: &partial.checked,
+                measure: partial.worst.as_ref().map(|worst| &worst.measure),
+                moves: partial.worst.as_ref().map(Cost::most).filter(|own| own.is_finite()),
+                solves: partial.solves,
+            }),
+        }
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        files::write(files, self)
+    }
+}

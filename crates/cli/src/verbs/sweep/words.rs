@@ -1,0 +1,223 @@
+//! What was varied, the ends of what was found, and what is to be said of it.
+
+use dashpot_analysis::{
+    Warning,
+    sweep::{Column, PartialOfSweep, SweepReport, SweepWarning},
+};
+use dashpot_network::parameters::Dimension;
+use dashpot_plot::Table;
+use dashpot_scene::{Variation, units::si_unit};
+
+use super::Swept;
+use crate::{
+    numbers::{Unit, apart, bound, duration, estimate},
+    verbs::run::unit_of_kind,
+};
+
+/// Digits of what is computed.
+const DIGITS: usize = 5;
+
+impl Swept {
+    /// How many points there are.
+    pub(super) fn points(&self) -> usize {
+        self.report.values.len() / self.report.columns.len().max(1)
+    }
+
+    /// SI unit of a parameter.
+    pub(super) fn unit(&self, parameter: usize) -> String {
+        let own = self.tunables.all()[self.matched[parameter]].dimension;
+        let dimension = self.variations[parameter].dimension.or(own);
+        dimension
+            .filter(|dimension| *dimension != Dimension::NUMBER)
+            .map_or("1".to_owned(), si_unit)
+    }
+
+    /// The values of all parameters at a point.
+    pub(super) fn at(&self, point: usize) -> String {
+        let places = self.grid.places(point).into_iter().zip(&self.variations);
+        let all = places.map(|(place, own)| format!("{} = {}", own.name, shown(own, place)));
+        all.collect::<Vec<_>>().join(", ")
+    }
+
+    /// One line for each parameter.
+    pub(super) fn in_words(&self) -> Vec<String> {
+        let line = |(own, &at): (&Variation, &usize)| {
+            let last = own.len() - 1;
+            let scale = if own.is_logarithmic { " at equal ratios" } else { "" };
+            let path = &self.tunables.all()[at].path;
+            let path = if *path == own.name { String::new() } else { format!(" ({path})") };
+            format!(
+                "{}{path}: {} values from {} to {}{scale}; {} in the scene",
+                own.name,
+                own.len(),
+                own.text(0),
+                own.text(last),
+                self.tunables.shown(at)
+            )
+        };
+        self.variations.iter().zip(&self.matched).map(line).collect()
+    }
+}
+
+/// The name of a column.
+pub(super) fn name(column: &Column) -> String {
+    if column.is_share { format!("{} over thickness", column.key) } else { column.key.clone() }
+}
+
+/// The unit in which values of a column are read that are as large as this one.
+pub(super) fn unit(column: &Column, largest: f64) -> Unit {
+    let kind = column.key.rsplit_once('.').map_or("", |own| own.1);
+    unit_of_kind(kind, column.unit).unwrap_or_else(|| Unit::suiting(largest, column.unit))
+}
+
+/// The smallest and the largest value of each measure.
+pub(super) fn summary(report: &SweepReport) -> Table {
+    let rows = report.columns.iter().enumerate().map(|(at, column)| {
+        let finite = || report.column(at).filter(|own| own.is_finite());
+        let ends = [finite().reduce(f64::min), finite().reduce(f64::max)];
+        let text = |own: Option<f64>| {
+            own.map_or("–".to_owned(), |own| unit(column, own).text(own, DIGITS))
+        };
+        let [low, high] = ends.map(text);
+        vec![name(column), low, high]
+    });
+    Table::new("", &["measure", "lowest", "highest"], rows)
+}
+
+/// A value of a parameter to four digits.
+pub(super) fn shown(variation: &Variation, at: usize) -> String {
+    let unit = Unit::new(&variation.unit, 1.0);
+    let text = unit.text(variation.numbers[at], 4);
+    let (number, rest) = text.split_once(' ').unwrap_or((&text, ""));
+    let short = match number.split_once('.') {
+        Some(_) if !number.contains('e') => number.trim_end_matches('0').trim_end_matches('.'),
+        _ => number,
+    };
+    format!("{short} {rest}").trim_end().to_owned()
+}
+
+/// Faults of so many kinds are counts.
+const MOST_FAULTS: usize = 3;
+/// Warnings of so many kinds are counts.
+const MOST_WARNED: usize = 8;
+
+/// How it was solved, what runs are warned of, what is missing, and what was left out.
+pub(super) fn notes(swept: &Swept) -> Vec<String> {
+    let (report, points) = (&swept.report, swept.points());
+    let mut all = vec![solved(report, points)];
+    if !report.checked.is_empty() {
+        all.push(format!(
+            "{} of them solved in full as well: the largest difference is {}",
+            report.checked.len(),
+            bound(report.largest_difference)
+        ));
+    }
+    all.extend(warnings(swept, report, points));
+    all.extend(report.partial.iter().flat_map(|own| left_out(own, report)));
+    all.extend(missing(report, points));
+    all
+}
+
+fn counted(points: usize) -> String {
+    if points == 1 { "1 point".to_owned() } else { format!("{points} points") }
+}
+
+fn solved(report: &SweepReport, points: usize) -> String {
+    match (report.instantiated, points - report.instantiated) {
+        (0, 1) => "1 point, solved in full".to_owned(),
+        (0, full) => format!("{full} points, each solved in full"),
+        (instantiated, 0) => {
+            format!("{}, instantiated from one compiled form", counted(instantiated))
+        }
+        (instantiated, full) => {
+            format!(
+                "{} instantiated from one compiled form, {full} solved in full",
+                counted(instantiated)
+            )
+        }
+    }
+}
+
+/// What runs are warned of, with the numbers by which the table calls it; not what the scene's own text
+/// has brought already.
+fn warnings(swept: &Swept, report: &SweepReport, points: usize) -> Vec<String> {
+    let known = &swept.scene.assembly.warnings;
+    let sentence = |(at, own): (usize, &SweepWarning)| {
+        let first = own.points.first().map_or(String::new(), |point| swept.at(*point));
+        let of = if own.points.len() == points {
+            format!("at all {points} points")
+        } else {
+            format!("at {} of {points} points", own.points.len())
+        };
+        format!("warning {}, {of}, first at {first}: {}", at + 1, own.warning)
+    };
+    let is_known = |sweep_warning: &SweepWarning| matches!(&sweep_warning.warning, Warning::Network(sweep_warning) if known.contains(sweep_warning));
+    let new = report.warnings.iter().enumerate().filter(|own| !is_known(own.1));
+    let mut all: Vec<String> = new.map(sentence).collect();
+    let more = all.len().saturating_sub(MOST_WARNED);
+    all.truncate(MOST_WARNED);
+    if more > 0 {
+        all.push(format!("{more} more kinds of warnings are in the JSON object"));
+    }
+    all
+}
+
+fn left_out(partial_of_sweep: &PartialOfSweep, report: &SweepReport) -> Vec<String> {
+    let names: Vec<String> = partial_of_sweep
+        .left_out
+        .iter()
+        .map(|own| {
+            let estimate = estimate(&own.influence.formula, own.influence.value);
+            format!("{} ({estimate})", own.effect)
+        })
+        .collect();
+    let most = partial_of_sweep.worst.as_ref().map_or(String::new(), |worst| {
+        format!("; `{}` moves by {}, the most of all", worst.measure, apart(worst.most()))
+    });
+    // Nothing is saved where nothing is left out.
+    let saving = if names.is_empty() {
+        String::new()
+    } else {
+        format!(
+            "; that took {} in all, where the sweep in full takes about {}",
+            duration(report.wall),
+            duration(partial_of_sweep.wall_in_full)
+        )
+    };
+    let names = if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
+    let checked = counted(partial_of_sweep.checked.len());
+    let mut all = vec![format!(
+        "left out everywhere: {names}{most}; solved with and without it at {checked}{saving}"
+    )];
+    let back: Vec<&str> = partial_of_sweep.put_back.iter().map(|own| own.effect.as_str()).collect();
+    if !back.is_empty() {
+        all.push(format!("put back, because it matters at one of them: {}", back.join(", ")));
+    }
+    all
+}
+
+fn missing(report: &SweepReport, points: usize) -> Vec<String> {
+    let mut all = Vec::new();
+    let failed: Vec<_> = report.gaps.iter().filter(|gap| gap.column.is_none()).collect();
+    if let Some(first) = failed.first() {
+        let have = if failed.len() == 1 { "has" } else { "have" };
+        all.push(format!(
+            "{} {have} no solution; the first: {}",
+            counted(failed.len()),
+            first.reason
+        ));
+    }
+    let mut counts: Vec<(usize, &str, usize)> = Vec::new();
+    for gap in &report.gaps {
+        let Some(column) = gap.column else { continue };
+        match counts.iter_mut().find(|known| (known.0, known.1) == (column, gap.reason.as_str())) {
+            Some(known) => known.2 += 1,
+            None => counts.push((column, &gap.reason, 1)),
+        }
+    }
+    for (column, reason, count) in counts.into_iter().take(MOST_FAULTS) {
+        let name = name(&report.columns[column]);
+        all.push(format!("`{name}` has no value at {count} of {points} points: {reason}"));
+    }
+    all
+}

@@ -1,0 +1,280 @@
+//! `dashpot vibrate`.
+
+mod tables;
+
+use std::{f64::consts::TAU, path::PathBuf};
+
+use clap::Args;
+use dashpot_analysis::vibration::{
+    DriveKind, Resonance, Steady, Sweep, SweepSettings, Swing, Transmission, Vibration,
+    VibrationWarning,
+};
+use dashpot_network::parameters::Dimension;
+use dashpot_plot::{VibrationCurve, VibrationSeries};
+use dashpot_scene::{Scene, units::parse_quantity};
+use serde::Serialize;
+
+use self::tables::{degrees, drive, range_notes, resonances, response, steady, steady_notes};
+use crate::{
+    args::{SceneArguments, When},
+    error::{CliError, Status},
+    folder::{Folder, Staged},
+    input::title,
+    numbers::{Unit, quantity},
+    output::{Study, Text, VERSION, csv, emit, list, object},
+    terminal::{Terminal, WIDTH},
+};
+
+/// Ratios and phases at all frequencies.
+const TABLE: &str = "response.csv";
+/// The figures.
+const FIGURES: [&str; 2] = ["transmissibility.svg", "phase.svg"];
+/// Digits in the text of a peak.
+const DIGITS: usize = 3;
+/// Lines of a plot.
+const PLOT_HEIGHT: usize = 16;
+
+/// `vibrate`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot vibrate crate.toml\n  \
+    dashpot vibrate crate.toml --from \"1 Hz\" --to \"200 Hz\" --out crate-vibration\n  \
+    dashpot vibrate crate.toml --at \"20 Hz\" --amplitude \"0.5 g0\"\n  \
+    dashpot vibrate reference --drive ground --of head\n\n\
+    One load or motion is a sine of any small size, all others are silent: the functions of \
+    time in the scene, weights and start speeds do not matter. A fixed node such as `ground` may \
+    be shaken too. Scenes that switch or are not linear are refused.")]
+pub(crate) struct VibrateArguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// The load that pushes or the node that is moved [default: the only one of the scene].
+    #[arg(long, value_name = "NAME")]
+    drive: Option<String>,
+    /// Lowest frequency [default: a tenth of the lowest natural frequency].
+    #[arg(long, value_name = "FREQUENCY", value_parser = frequency)]
+    from: Option<f64>,
+    /// Highest frequency [default: ten times the highest natural frequency].
+    #[arg(long, value_name = "FREQUENCY", value_parser = frequency)]
+    to: Option<f64>,
+    /// How many frequencies, at equal ratios; resonances are found between them.
+    #[arg(long, value_name = "NUMBER", default_value_t = 200)]
+    points: usize,
+    /// Nodes to look at, or supports where a load drives [default: all masses, all supports].
+    #[arg(long, value_name = "NODE,…", value_delimiter = ',')]
+    of: Vec<String>,
+    /// Peaks of the steady state at this frequency, in place of the table over frequency.
+    #[arg(long, value_name = "FREQUENCY", value_parser = frequency, requires = "amplitude")]
+    at: Option<f64>,
+    /// Amplitude of the drive there: of a force, or of a displacement or an acceleration.
+    #[arg(long, value_name = "QUANTITY", requires = "at")]
+    amplitude: Option<String>,
+    /// Folder for CSV, JSON and SVG; it is made if need be.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    json: bool,
+    /// A plot in the text; `auto` draws it on terminals.
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    plot: When,
+}
+
+fn frequency(text: &str) -> Result<f64, String> {
+    let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
+    let is_frequency = quantity.dimension.is_none_or(|dimension| dimension == Dimension::FREQUENCY);
+    if quantity.angle != 0 {
+        let frequency = quantity.value / TAU;
+        Err(format!("that is an angular frequency; write \"{frequency:.6} Hz\""))
+    } else if is_frequency && quantity.value > 0.0 {
+        Ok(quantity.value)
+    } else {
+        Err("it must be a positive frequency, such as \"20 Hz\"".to_owned())
+    }
+}
+
+/// What shaking a scene has shown.
+struct Shaken {
+    scene: Scene,
+    sweep: Sweep,
+    steady: Option<Steady>,
+    plot: When,
+}
+
+/// Shakes a scene.
+pub(crate) fn vibrate(
+    arguments: &VibrateArguments,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let scene = arguments.scene.read(terminal)?;
+    let vibration = Vibration::new(&scene.network, scene.run.duration, arguments.drive.as_deref())?;
+    let names = FIGURES.iter().chain([&TABLE]).map(|own| (*own).to_owned());
+    let folder = Folder::wanted(arguments.out.as_deref(), names)?;
+    let sweep = vibration.sweep(&SweepSettings {
+        from: arguments.from,
+        to: arguments.to,
+        points: arguments.points,
+        of: arguments.of.iter().map(|own| own.trim().to_owned()).collect(),
+    })?;
+    let steady = match (arguments.at, &arguments.amplitude) {
+        (Some(frequency), Some(text)) => {
+            Some(vibration.steady(frequency, amplitude(&vibration, frequency, text)?)?)
+        }
+        _ => None,
+    };
+    for warning in steady.iter().flat_map(|own| &own.warnings) {
+        terminal.warn(&warning.to_string());
+    }
+    let found = Shaken { scene, sweep, steady, plot: arguments.plot };
+    emit(&found, arguments.json, folder, terminal)?;
+    Ok(Status::Done)
+}
+
+/// The amplitude of the drive \[m or N\]: that of an acceleration is one of a displacement, too.
+fn amplitude(vibration: &Vibration, frequency: f64, text: &str) -> Result<f64, CliError> {
+    let drive = vibration.drive();
+    let wrong = |reason: String| CliError::WrongAmplitude { drive: drive.name.clone(), reason };
+    let quantity = parse_quantity(text).map_err(|error| wrong(error.to_string()))?;
+    let omega = TAU * frequency;
+    let value = match (drive.kind, quantity.dimension) {
+        (DriveKind::Motion, None | Some(Dimension::LENGTH))
+        | (DriveKind::Load, None | Some(Dimension::FORCE)) => quantity.value,
+        (DriveKind::Motion, Some(Dimension::ACCELERATION)) => quantity.value / (omega * omega),
+        (DriveKind::Motion, Some(_)) => {
+            let wanted = "a displacement or an acceleration is wanted, such as \"1 mm\" or";
+            let grams = text.trim().strip_suffix('g').map(str::trim);
+            let grams = grams.filter(|number| number.parse::<f64>().is_ok());
+            let number = grams.unwrap_or("0.5");
+            let gram = "; `g` is the gram, the acceleration of gravity is `g0`";
+            let gram = if grams.is_some() { gram } else { "" };
+            return Err(wrong(format!("{wanted} \"{number} g0\"{gram}")));
+        }
+        (DriveKind::Load, Some(_)) => {
+            return Err(wrong("a force is wanted, such as \"10 N\"".to_owned()));
+        }
+    };
+    if value.is_normal() && value > 0.0 {
+        Ok(value)
+    } else {
+        Err(wrong(format!("`{text}` is not a positive amplitude")))
+    }
+}
+
+impl Study for Shaken {
+    fn text(&self, text: &mut Text) {
+        let Self { sweep, .. } = self;
+        text.title(title(&self.scene));
+        text.faint(&drive(&sweep.drive));
+        if let Some(own) = &self.steady {
+            steady(own).iter().for_each(|own| text.table(own));
+            text.paragraphs(steady_notes(own));
+        }
+        text.table(&resonances(sweep));
+        let notes = sweep.notes.iter().map(VibrationWarning::to_string);
+        text.paragraphs(range_notes(sweep).into_iter().chain(notes));
+        if self.steady.is_none() {
+            let (content, left_out) = response(sweep, WIDTH - 2);
+            text.table(&content);
+            text.paragraphs(
+                left_out.map(|left_out| format!("{left_out}; `--out` writes all of them")),
+            );
+        }
+        if text.is_plotted(self.plot) {
+            text.chart(&series(sweep).ratio_chart(), PLOT_HEIGHT);
+        }
+    }
+
+    fn object(&self) -> impl Serialize {
+        let Self { scene, sweep, .. } = self;
+        let kind = match sweep.drive.kind {
+            DriveKind::Motion => "motion",
+            DriveKind::Load => "load",
+        };
+        let (name, node, unit) = (&sweep.drive.name, &sweep.drive.node, sweep.drive.kind.unit());
+        object! {
+            dashpot: VERSION,
+            title: &scene.title,
+            file: &scene.file,
+            drive: object! { name, kind, node, unit },
+            frequencies: &sweep.frequencies,
+            responses: list(sweep.transmissions.iter().map(response_object)),
+            steady: &self.steady,
+            notes: list(sweep.notes.iter().map(VibrationWarning::to_string)),
+            note_codes: list(sweep.notes.iter().map(VibrationWarning::code)),
+        }
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        let all = &self.sweep.transmissions;
+        let header = all.iter().flat_map(|Transmission { name, .. }| {
+            [("ratio", "1"), ("phase", "deg"), ("error", "1")]
+                .map(|(what, unit)| format!("{what} of {name} [{unit}]"))
+        });
+        let header = ["frequency [Hz]".to_owned()].into_iter().chain(header);
+        let row = |(at, frequency): (usize, &f64)| {
+            let values = all.iter().flat_map(|own| {
+                let swing = own.swings[at];
+                // A zero has no sign.
+                let phase = swing.map(|swing| degrees(swing.phase) + 0.0);
+                [swing.map(|swing| swing.amplitude), phase, swing.map(|swing| swing.error)]
+            });
+            list([Some(*frequency)].into_iter().chain(values))
+        };
+        let rows = self.sweep.frequencies.iter().enumerate().map(row);
+        files.add_with(TABLE, |out| csv(out, header, rows))?;
+        let series = series(&self.sweep);
+        let [ratio, phase] = FIGURES;
+        files.add(ratio, series.ratio_chart().svg()?)?;
+        files.add(phase, series.phase_chart().svg()?)
+    }
+}
+
+fn response_object(transmission: &Transmission) -> impl Serialize {
+    let all =
+        |value: fn(Swing) -> f64| list(transmission.swings.iter().map(|swing| swing.map(value)));
+    let peak = |resonance: &Resonance| {
+        let Resonance { frequency, frequency_error, swing, band } = *resonance;
+        object! { frequency, frequency_error, response: swing, band, quality: resonance.quality() }
+    };
+    object! {
+        name: &transmission.name,
+        ratio: all(|own| own.amplitude),
+        phase: all(|own| own.phase),
+        error: all(|own| own.error),
+        resonances: list(transmission.resonances.iter().map(peak)),
+        at_rest: transmission.at_rest,
+    }
+}
+
+/// The responses as the plain numbers that figures are drawn from, with their peaks between the
+/// frequencies of the list.
+fn series(sweep: &Sweep) -> VibrationSeries {
+    VibrationSeries {
+        title: format!("Response to {}", sweep.drive.name),
+        curves: sweep.transmissions.iter().map(|transmission| curve(sweep, transmission)).collect(),
+    }
+}
+
+fn curve(sweep: &Sweep, transmission: &Transmission) -> VibrationCurve {
+    let mut points: Vec<(f64, Option<Swing>)> =
+        sweep.frequencies.iter().copied().zip(transmission.swings.iter().copied()).collect();
+    points.extend(
+        transmission.resonances.iter().map(|resonance| (resonance.frequency, resonance.swing)),
+    );
+    points.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let peaks = transmission.resonances.iter().filter_map(|resonance| {
+        let height = resonance.swing?.amplitude;
+        let value = Unit::plain("1").number(height, DIGITS);
+        let label = format!("{value} at {}", quantity(resonance.frequency, "Hz", DIGITS));
+        Some((resonance.frequency, height, label))
+    });
+    let value = |of: fn(Swing) -> f64| {
+        points.iter().map(|point| point.1.map_or(f64::NAN, of)).collect::<Vec<f64>>()
+    };
+    VibrationCurve {
+        name: transmission.name.clone(),
+        frequency: points.iter().map(|point| point.0).collect(),
+        ratio: value(|own| own.amplitude),
+        phase: value(|own| degrees(own.phase)),
+        peaks: peaks.collect(),
+    }
+}
