@@ -54,7 +54,6 @@ impl Input {
         Ok(Self { file: file.to_owned(), bytes })
     }
 
-    /// The text.
     pub(crate) fn text(&self) -> Result<&str, CliError> {
         text_of_bytes(&self.bytes, Some(&self.file)).map_err(CliError::Scene)
     }

@@ -69,7 +69,6 @@ pub(crate) fn share(relative: f64) -> String {
     percent(relative, 2)
 }
 
-/// An estimate with its formula.
 pub(crate) fn estimate(formula: &str, value: f64) -> String {
     format!("{formula} = {}", estimated(value))
 }

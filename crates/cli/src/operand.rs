@@ -19,7 +19,6 @@ use crate::{
 
 /// What a word on the command line stands for.
 pub(crate) struct Operand {
-    /// The word.
     pub(crate) word: String,
     /// The text in which it was found.
     pub(crate) input: Input,
@@ -171,7 +170,6 @@ pub(crate) fn parted(word: &str) -> (&str, &str) {
     if is_whole { (word, "") } else { word.rsplit_once(':').unwrap_or((word, "")) }
 }
 
-/// The node of this name.
 fn node(network: &Network, name: &str) -> Result<NodeId, CliError> {
     let name = name.trim();
     network.node_named(name).ok_or_else(|| CliError::UnknownNode {

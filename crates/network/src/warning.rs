@@ -4,49 +4,33 @@ use std::fmt;
 
 /// Something about a network that is odd, but not wrong.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum NetworkWarning {
     /// Rigid links join both ends of an element.
-    RigidlyLinked {
-        /// The element.
-        element: String,
-    },
+    RigidlyLinked { element: String },
     /// The ends of an element stand in an order against the impactor's way.
-    Reversed {
-        /// The element.
-        element: String,
-    },
+    Reversed { element: String },
     /// A restitution between masses acts on what has none.
     IdleRestitution {
-        /// The element.
         element: String,
-        /// Its restitution.
         restitution: f64,
         /// The node without mass; `None` for a place inside of a model.
         node: Option<String>,
     },
     /// Two contacts close at one deformation between the same masses.
-    SharedContacts {
-        /// The elements, or their paths.
-        elements: [String; 2],
-    },
+    SharedContacts { elements: [String; 2] },
     /// A body strikes a layer in which a dashpot leads from face to face.
     DampedFront(Front),
     /// A body strikes a layer that is not linear.
     NonlinearFront(Front),
     /// A body strikes a layer so that the front of the wave is as steep as its segments.
     SteepFront {
-        /// Where.
         front: Front,
         /// By which part of themselves forces are too high at most.
         excess: f64,
     },
     /// A load jumps at the face of a layer.
-    LoadJumps {
-        /// The load.
-        load: String,
-        /// The element.
-        element: String,
-    },
+    LoadJumps { load: String, element: String },
 }
 
 /// A body at the face of a layer.

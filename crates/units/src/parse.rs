@@ -24,69 +24,39 @@ pub struct Quantity {
 }
 
 /// Why a text is not a quantity.
+///
+/// `text` is what was given.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum UnitError {
     /// There is no number at the start.
     #[error("`{text}` does not begin with a number")]
-    NoNumber {
-        /// What was given.
-        text: String,
-    },
+    NoNumber { text: String },
     /// NaN or infinity.
     #[error("`{text}` is not finite: every quantity is a finite number")]
-    NotFinite {
-        /// What was given.
-        text: String,
-    },
+    NotFinite { text: String },
     /// Larger than the largest double.
     #[error("`{text}` is too large: it does not fit into double precision")]
-    TooLarge {
-        /// What was given.
-        text: String,
-    },
+    TooLarge { text: String },
     /// Not zero, but smaller than the smallest double.
     #[error("`{text}` is too small: it would be rounded to zero")]
-    TooSmall {
-        /// What was given.
-        text: String,
-    },
+    TooSmall { text: String },
     /// A comma in a number.
     #[error("`{text}` has a comma: decimals are written with a point")]
-    DecimalComma {
-        /// What was given.
-        text: String,
-    },
+    DecimalComma { text: String },
     /// A space or another mark between the digits of a number.
     #[error("`{text}` has a space or a mark within the number, which is not read")]
-    Separated {
-        /// What was given.
-        text: String,
-        /// The same without them.
-        joined: String,
-    },
+    Separated { text: String, joined: String },
     /// A symbol that is no unit.
     #[error("`{symbol}` is not a known unit")]
-    UnknownUnit {
-        /// The symbol.
-        symbol: String,
-        /// The whole unit, of which it is all or a part.
-        unit: String,
-        /// What was probably meant.
-        meant: Option<String>,
-    },
+    UnknownUnit { symbol: String, unit: String, meant: Option<String> },
     /// Degrees Celsius as a part of a unit.
     #[error("`{unit}` has degrees Celsius in it, which count from a point of their own")]
-    CelsiusInProduct {
-        /// The whole unit.
-        unit: String,
-    },
+    CelsiusInProduct { unit: String },
     /// A unit that cannot be read.
     #[error("`{text}` is not a unit that can be read")]
-    Malformed {
-        /// What was given.
-        text: String,
-    },
+    Malformed { text: String },
 }
 
 /// Reads a quantity such as `"20 MN/m"` or `"0.1 %"`.

@@ -47,7 +47,6 @@ macro_rules! object {
 }
 pub(crate) use object;
 
-/// The items as a list.
 pub(crate) fn list<T>(items: impl IntoIterator<Item = T>) -> Vec<T> {
     items.into_iter().collect()
 }

@@ -27,7 +27,6 @@ impl Text {
         wish.is_now(self.terminal.output.attended)
     }
 
-    /// A line as it is.
     pub(crate) fn line(&mut self, line: &str) {
         self.text.push_str(line);
         self.text.push('\n');
@@ -58,7 +57,6 @@ impl Text {
         self.toned(Tone::Heading, words);
     }
 
-    /// Words in a tone.
     pub(crate) fn toned(&mut self, tone: Tone, words: &str) {
         for line in wrapped(words, WIDTH) {
             self.line(&self.terminal.toned(tone, &line));

@@ -273,7 +273,6 @@ fn effects(scene: &Scene) -> Result<Vec<Contribution>, RunError> {
     Ok(contributions(&scene.network, &assembly, &settings, MOST, &mut Silent))
 }
 
-/// The section with all effects.
 fn effects_section(text: &mut Text, rows: &[Contribution]) {
     let shown = &rows[..rows.len().min(MOST)];
     text.table(&counts(shown));

@@ -192,7 +192,6 @@ impl Expansion {
         copy
     }
 
-    /// The shapes of a connection.
     fn shapes_of(&mut self, connection: &Connection) -> Vec<Shape> {
         let mut shapes = vec![Shape::Series(Vec::new())];
         let ends = connection.between.map(|id| id.0);

@@ -84,12 +84,10 @@ impl<R: Combination> Mesh<R> {
         self.loads[place] = self.loads[place].plus(factor, load);
     }
 
-    /// The links of a place.
     pub(super) fn links(&self, place: usize) -> impl Iterator<Item = (usize, &Link<R>)> {
         self.neighbours[place].iter().map(|(&other, link)| (other, link))
     }
 
-    /// The load of a place.
     pub(super) fn load_at(&self, place: usize) -> &R {
         &self.loads[place]
     }

@@ -96,7 +96,6 @@ impl<'a> SpringBalance<'a> {
         Self { structure, solution: Some(eliminated.solve(values)) }
     }
 
-    /// Position of a body.
     pub(super) fn position(&self, places: &Places, body: usize) -> Row {
         match self.structure.algebraic_cluster(body).zip(self.solution.as_ref()) {
             Some((cluster, solution)) => {

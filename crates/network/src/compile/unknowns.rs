@@ -80,7 +80,6 @@ impl Inputs {
         self.entries.iter().map(column).collect()
     }
 
-    /// The constant `value`.
     pub(super) fn constant(&mut self, value: f64) -> Row {
         if value == 0.0 {
             return Row::default();
@@ -254,7 +253,6 @@ pub(super) fn choose(
 }
 
 impl Places {
-    /// The velocity of a mass.
     pub(super) fn velocity_of(&self, mass: usize) -> Option<Row> {
         let mut sum = Row::unknown(self.velocity[mass]?);
         let mut at = mass;

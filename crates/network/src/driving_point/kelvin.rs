@@ -42,7 +42,6 @@ impl Mode {
     }
 }
 
-/// The response of a massless circuit.
 pub(super) fn response(circuit: &Circuit) -> Result<Massless, DrivingPointError> {
     if circuit.bodies > MOST_BODIES {
         return Err(DrivingPointError::TooLarge { bodies: circuit.bodies, most: MOST_BODIES });

@@ -41,6 +41,7 @@ use crate::{Network, NetworkErrors, NodeId};
 /// Why a response cannot be given.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum DrivingPointError {
     /// The network itself is at fault.
     #[error(transparent)]
@@ -50,26 +51,17 @@ pub enum DrivingPointError {
         "nothing resists a force on `{node}`: no spring or dashpot leads from it to the other \
          node, a mass, or a fixed or prescribed node"
     )]
-    NothingResists {
-        /// The node.
-        node: String,
-    },
+    NothingResists { node: String },
     /// An element that has no linear response.
     #[error("`{kind}`, element `{element}`, is not linear: run it in a scene")]
     NotLinear {
         /// Path of the element, for instance `padding.foam`.
         element: String,
-        /// Its word.
         kind: &'static str,
     },
     /// The part that moves is larger than what is computed with twice the digits.
     #[error("the response of {bodies} free bodies is asked for; {most} is the most")]
-    TooLarge {
-        /// Free bodies in the part that moves.
-        bodies: usize,
-        /// The limit.
-        most: usize,
-    },
+    TooLarge { bodies: usize, most: usize },
     /// The constants are too far apart for the poles to be told.
     #[error("the poles of the network cannot be told: its time constants are too far apart")]
     NoConvergence,

@@ -26,7 +26,6 @@ impl MonotoneCurve {
         curve
     }
 
-    /// The points.
     pub(super) fn points(&self) -> &[(f64, f64)] {
         &self.points
     }
@@ -41,7 +40,6 @@ impl MonotoneCurve {
         self.slopes.iter().chain(&self.areas).all(|slope| slope.is_finite())
     }
 
-    /// The value at `x`.
     pub(super) fn value(&self, x: f64) -> f64 {
         match self.place(x) {
             Place::Outside(at, beyond) => self.points[at].1 + self.slopes[at] * beyond,
@@ -49,7 +47,6 @@ impl MonotoneCurve {
         }
     }
 
-    /// The slope at `x`.
     pub(super) fn slope(&self, x: f64) -> f64 {
         match self.place(x) {
             Place::Outside(at, _) => self.slopes[at],

@@ -199,15 +199,11 @@ impl Chart {
 /// A drawing that could not be made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum PlotError {
     /// The drawing back-end refused a shape of the chart.
     #[error("chart `{title}` cannot be drawn: {reason}")]
-    Backend {
-        /// Title of the chart.
-        title: String,
-        /// The back-end's own words.
-        reason: String,
-    },
+    Backend { title: String, reason: String },
 }
 
 #[cfg(test)]

@@ -19,13 +19,11 @@ use crate::{
 /// One thing that is wrong, or odd, in a scene.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum Fault {
     /// The text is larger than the limit.
     #[error("the text has {bytes} bytes; the limit is 64 MB")]
-    TooLarge {
-        /// Its size.
-        bytes: usize,
-    },
+    TooLarge { bytes: usize },
     /// The bytes are not UTF-8.
     #[error("the text is not UTF-8: byte {at} cannot be read (line {line})")]
     NotUtf8 {
@@ -39,148 +37,69 @@ pub enum Fault {
     Empty,
     /// Brackets or dotted keys nest too deeply.
     #[error("the text nests {levels} levels deep; the limit is {limit}")]
-    TooDeep {
-        /// Depth.
-        levels: usize,
-        /// The deepest that is read.
-        limit: usize,
-    },
+    TooDeep { levels: usize, limit: usize },
     /// The text is not TOML.
     #[error("{message}")]
-    Syntax {
-        /// What is wrong.
-        message: String,
-    },
+    Syntax { message: String },
     /// A string is not quoted.
     #[error("text and quantities with units are written in quotes")]
-    NotQuoted {
-        /// What was given.
-        text: String,
-    },
+    NotQuoted { text: String },
     /// A key stands twice.
     #[error("`{key}` is given twice")]
-    DuplicateKey {
-        /// The key.
-        key: String,
-    },
+    DuplicateKey { key: String },
     /// A key that has no meaning where it stands.
     #[error("unknown key `{key}` in {owner}")]
-    UnknownKey {
-        /// The key.
-        key: String,
-        /// What it stands in.
-        owner: String,
-        /// The keys that are known there.
-        known: Vec<&'static str>,
-    },
+    UnknownKey { key: String, owner: String, known: Vec<&'static str> },
     /// A required key is missing.
     #[error("{owner} has no `{key}`")]
-    MissingKey {
-        /// The key.
-        key: String,
-        /// Where it is missing.
-        owner: String,
-        /// How it might be written.
-        example: String,
-    },
+    MissingKey { key: String, owner: String, example: String },
     /// A value of a wrong type.
     #[error("{what} is {expected}, but this is {found}")]
-    WrongType {
-        /// What is given by the value.
-        what: String,
-        /// The type that is expected, with an article.
-        expected: String,
-        /// What was found, in words.
-        found: String,
-    },
+    WrongType { what: String, expected: String, found: String },
     /// A value of another type where a quantity is expected.
     #[error("{} is expected here, but this is {found}", described(*.expected))]
-    NoQuantity {
-        /// What was found, in words.
-        found: String,
-        /// What is expected.
-        expected: Dimension,
-    },
+    NoQuantity { found: String, expected: Dimension },
     /// A quantity that cannot be read.
     #[error("{error}")]
-    Unreadable {
-        /// Why.
-        error: UnitError,
-        /// What is expected.
-        expected: Dimension,
-    },
+    Unreadable { error: UnitError, expected: Dimension },
     /// A named value that cannot be read.
     #[error("{error}")]
-    BadValue {
-        /// Why.
-        error: UnitError,
-        /// How a value may be written.
-        example: &'static str,
-    },
+    BadValue { error: UnitError, example: &'static str },
     /// A quantity of a wrong dimension.
     #[error("`{text}` is {}; {} is expected here", described(*.found), described(*.expected))]
-    WrongDimension {
-        /// What was given.
-        text: String,
-        /// What it measures.
-        found: Dimension,
-        /// What is expected.
-        expected: Dimension,
-    },
+    WrongDimension { text: String, found: Dimension, expected: Dimension },
     /// An angular frequency in place of a frequency.
     #[error("`{text}` is an angular frequency; a frequency (Hz) is expected here")]
     AngularFrequency {
-        /// What was given.
         text: String,
         /// The same as a frequency \[Hz\].
         frequency: f64,
     },
     /// A temperature in place of a difference of temperatures.
     #[error("`{text}` is a temperature; a difference of temperatures (K) is expected here")]
-    CelsiusDifference {
-        /// What was given.
-        text: String,
-    },
+    CelsiusDifference { text: String },
     /// A name that stands for nothing.
     #[error("there is no {family} named `{name}`")]
     UnknownName {
         /// What is named: node, model, value …
         family: &'static str,
-        /// The name.
         name: String,
-        /// The names that are known.
         known: Vec<String>,
     },
     /// A word that is none of those that may stand there.
     #[error("`{word}` is not {family}")]
-    UnknownWord {
-        /// What is chosen, with an article.
-        family: String,
-        /// The word.
-        word: String,
-        /// The words that are known.
-        known: Vec<&'static str>,
-    },
+    UnknownWord { family: String, word: String, known: Vec<&'static str> },
     /// A name that cannot be used.
     #[error("`{name}` cannot be a name: {reason}")]
-    BadName {
-        /// The name.
-        name: String,
-        /// Why not.
-        reason: &'static str,
-    },
+    BadName { name: String, reason: &'static str },
     /// A value that refers to itself.
     #[error("the value `{}` refers to itself ({})", .names.first().map_or("", String::as_str), .names.join(" → "))]
-    SelfReference {
-        /// The names in the circle.
-        names: Vec<String>,
-    },
+    SelfReference { names: Vec<String> },
     /// A model that contains itself.
     #[error("the {family} `{}` contains itself ({})", .names.first().map_or("", String::as_str), .names.join(" → "))]
     ModelInItself {
         /// What it is: a model or a material.
         family: &'static str,
-        /// The names in the circle.
         names: Vec<String>,
     },
     /// A model within others, too many.
@@ -193,39 +112,23 @@ pub enum Fault {
     },
     /// A table that says nothing about its law.
     #[error("{owner} has no law")]
-    NoLaw {
-        /// The table.
-        owner: String,
-        /// Words that are laws.
-        known: Vec<&'static str>,
-    },
+    NoLaw { owner: String, known: Vec<&'static str> },
     /// Several laws in one table.
     #[error("{owner} has several laws ({}) and does not say how they are composed", list(.words))]
-    SeveralLaws {
-        /// The table.
-        owner: String,
-        /// The laws.
-        words: Vec<String>,
-    },
+    SeveralLaws { owner: String, words: Vec<String> },
     /// A model within a material.
     #[error("`model` cannot stand in a material: models are in N/m, materials in Pa")]
     ModelInMaterial,
     /// A contact within a material.
     #[error("`{word}` cannot stand in a material: it acts across a gap")]
-    ElementInMaterial {
-        /// Word of the element.
-        word: &'static str,
-    },
+    ElementInMaterial { word: &'static str },
     /// Two sizes of one pad.
     #[error("`{key}` is {found} here, but {expected} in {place}")]
     SizesDiffer {
         /// `thickness` or `area`.
         key: &'static str,
-        /// What it is where the fault is noted.
         found: String,
-        /// What it is elsewhere.
         expected: String,
-        /// Where that is.
         place: String,
     },
     /// The size of a pad where there is none.
@@ -233,7 +136,6 @@ pub enum Fault {
     SizeWithoutMaterial {
         /// `thickness` or `area`.
         key: &'static str,
-        /// What it stands in.
         owner: String,
     },
     /// The size of a pad within a material.
@@ -244,36 +146,19 @@ pub enum Fault {
     },
     /// A text with several models, or none, and no word on which is meant.
     #[error("{}", if .known.is_empty() { "there is no model here" } else { "there are several models here" })]
-    WhichModel {
-        /// The names that are known.
-        known: Vec<String>,
-    },
+    WhichModel { known: Vec<String> },
     /// A driving function that is not given.
     #[error("{owner} names no function of time")]
-    NoFunction {
-        /// What is driven.
-        owner: String,
-        /// Words that are functions.
-        known: Vec<&'static str>,
-    },
+    NoFunction { owner: String, known: Vec<&'static str> },
     /// Several driving functions in one place.
     #[error("one function of time is expected, but there are several ({})", list(.words))]
-    SeveralFunctions {
-        /// The functions.
-        words: Vec<String>,
-    },
+    SeveralFunctions { words: Vec<String> },
     /// A section that every scene has.
     #[error("the scene has no [{section}]")]
-    MissingSection {
-        /// The section.
-        section: &'static str,
-    },
+    MissingSection { section: &'static str },
     /// A list without entries.
     #[error("`{key}` is an empty list")]
-    EmptyList {
-        /// What the list is.
-        key: String,
-    },
+    EmptyList { key: String },
     /// Models that expand to more than memory should hold.
     #[error(
         "{model} expands to {parts} parts, about {:.0} GB of memory; the limit is {:.0} GB",
@@ -281,9 +166,7 @@ pub enum Fault {
         *.limit as f64 * 1e-9
     )]
     TooManyParts {
-        /// The model.
         model: String,
-        /// Parts and compositions up to here.
         parts: u64,
         /// What they take \[B\].
         bytes: u64,
@@ -292,12 +175,7 @@ pub enum Fault {
     },
     /// Two keys that contradict each other.
     #[error("`{first}` and `{second}` exclude each other")]
-    Exclusive {
-        /// One key.
-        first: &'static str,
-        /// The other key.
-        second: &'static str,
-    },
+    Exclusive { first: &'static str, second: &'static str },
     /// A parameter out of its range.
     #[error("{0}")]
     Invalid(InvalidParameter),
@@ -306,31 +184,19 @@ pub enum Fault {
     Network(NetworkError),
     /// Another file cannot be read.
     #[error("`{path}` cannot be read: {reason}")]
-    Unloadable {
-        /// The path as written.
-        path: String,
-        /// Why.
-        reason: String,
-    },
+    Unloadable { path: String, reason: String },
     /// A file of numbers that is no table.
     #[error("{0}")]
     Csv(CsvFault),
     /// Something that is odd but not wrong.
     #[error("{message}")]
-    Odd {
-        /// What.
-        message: String,
-        /// What to do about it.
-        help: Option<String>,
-    },
+    Odd { message: String, help: Option<String> },
     /// A fault about which its surroundings tell more.
     #[error("{fault}")]
     Explained {
-        /// The fault.
         fault: Box<Self>,
         /// How to put it right; the fault's own help where there is none.
         help: Option<String>,
-        /// What else there is to know.
         note: Option<String>,
     },
 }

@@ -150,7 +150,6 @@ impl Faults {
         self.state.borrow().errors
     }
 
-    /// The text at a place.
     pub(crate) fn text(&self, place: Place) -> String {
         let state = self.state.borrow();
         let source = state.sources.get(place.source as usize);

@@ -235,7 +235,6 @@ impl<'d> KindReader<'d> {
         Some((values.into_iter().collect::<Option<Vec<_>>>()?, places))
     }
 
-    /// The value of a parameter.
     pub(crate) fn value(self, parameter: &Parameter, item: &Item) -> Option<Value> {
         let faults = self.quantities.faults;
         let what = || format!("`{}`", parameter.name);

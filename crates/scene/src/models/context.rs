@@ -49,7 +49,6 @@ pub(super) struct Site<'d> {
 /// A shift of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Shift {
-    /// Its word.
     pub(super) word: &'static str,
     /// Factor of all times \[1\].
     pub(super) factor: f64,

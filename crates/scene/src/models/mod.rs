@@ -57,7 +57,6 @@ pub(crate) struct ModelReader<'d> {
 
 /// A model that an element is made of.
 pub(crate) struct Read {
-    /// The model.
     pub(crate) model: Model,
     /// The size of the pad that it is.
     pub(crate) extent: Extent,

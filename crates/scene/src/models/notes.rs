@@ -90,7 +90,6 @@ impl fmt::Display for Remark {
 pub(crate) struct Notes(RefCell<Vec<ModelNote>>);
 
 impl Notes {
-    /// Adds a remark.
     pub(crate) fn add(&self, subject: impl Into<String>, what: Remark, until: Option<f64>) {
         let note = ModelNote { subject: subject.into(), what, until };
         let mut all = self.0.borrow_mut();

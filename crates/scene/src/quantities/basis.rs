@@ -164,9 +164,7 @@ const SAME: f64 = 1e-9;
 /// A thickness \[m\] or area \[m²\], and where it is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Size {
-    /// Its value.
     pub(crate) value: f64,
-    /// Its place.
     pub(crate) place: Place,
 }
 
@@ -243,7 +241,6 @@ impl Extent {
     /// That of what no size is known of.
     pub(crate) const UNKNOWN: Self = Self { thickness: None, area: None, least: 0.0 };
 
-    /// That of a pad.
     pub(crate) fn of(Pad { thickness, area }: Pad) -> Self {
         Self { thickness: Some(thickness), area: Some(area), least: thickness }
     }

@@ -121,7 +121,6 @@ pub(super) fn named_quantity(dimension: Dimension) -> Value {
     dimension.named().map_or_else(|| quantity(dimension), |(name, _)| reference(name))
 }
 
-/// The quantity of a dimension.
 pub(super) fn quantity(dimension: Dimension) -> Value {
     json!({
         "description": format!("{}, a bare number in SI units, or a named value", described(dimension)),

@@ -25,12 +25,10 @@ fn read_text(text: &str) -> Result<Checked<Scene>, Diagnostics> {
     read(text, &ReadOptions { file: Some("scene.toml"), ..ReadOptions::default() })
 }
 
-/// The scene in `text`.
 fn scene(text: &str) -> Scene {
     read_text(text).unwrap_or_else(|errors| panic!("{errors}")).value
 }
 
-/// The messages on `text`.
 fn messages(text: &str) -> String {
     read_text(text).unwrap_err().render(false)
 }
@@ -79,7 +77,6 @@ fn on_model(law: &str) -> String {
     )
 }
 
-/// The model in `law`.
 fn model(law: &str) -> Model {
     scene(&on_model(law)).network.connections()[0].model.clone()
 }

@@ -33,63 +33,36 @@ pub struct Variation {
 }
 
 /// Why a text does not say how a parameter varies.
+///
+/// `text` and `word` are what was given.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum VariationFault {
     /// There is no name, or nothing behind it.
     #[error("`{text}` does not name a parameter and its values")]
-    NoValues {
-        /// What was given.
-        text: String,
-    },
+    NoValues { text: String },
     /// A value that is no quantity.
     #[error("{error}")]
-    BadValue {
-        /// What is wrong with it.
-        error: UnitError,
-    },
+    BadValue { error: UnitError },
     /// Values of different dimensions.
     #[error("`{first}` and `{second}` do not measure the same")]
-    Mixed {
-        /// One of both.
-        first: String,
-        /// The other one.
-        second: String,
-    },
+    Mixed { first: String, second: String },
     /// Values that do not rise.
     #[error("the values do not rise: `{second}` stands behind `{first}`")]
-    Falling {
-        /// One of both.
-        first: String,
-        /// The one behind it.
-        second: String,
-    },
+    Falling { first: String, second: String },
     /// A count that cannot be used.
     #[error("`{text}` is not a number of values from 2 to 1000000")]
-    BadCount {
-        /// What was given.
-        text: String,
-    },
+    BadCount { text: String },
     /// A word that is no scale.
     #[error("`{word}` is not a scale; there are `lin` and `log`")]
-    UnknownScale {
-        /// What was given.
-        word: String,
-        /// What was probably meant.
-        near: Option<&'static str>,
-    },
+    UnknownScale { word: String, near: Option<&'static str> },
     /// Equal ratios from zero or below.
     #[error("equal ratios cannot begin at `{text}`: `log` is for positive values")]
-    NotPositive {
-        /// What was given.
-        text: String,
-    },
+    NotPositive { text: String },
     /// Something behind the scale.
     #[error("`{text}` stands behind the values, their number and their scale")]
-    TooMuch {
-        /// What was given.
-        text: String,
-    },
+    TooMuch { text: String },
 }
 
 impl VariationFault {

@@ -86,7 +86,6 @@ pub(crate) fn comment_lines(comments: &[String]) -> String {
     text
 }
 
-/// A name as a key.
 pub(crate) fn key(name: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     if !name.is_empty() && name.chars().all(is_bare) { name.to_owned() } else { quoted(name) }

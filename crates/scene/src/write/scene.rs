@@ -27,24 +27,17 @@ use crate::{
 /// What a scene cannot say.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum Unwritable {
     /// A load that is no line, sine, half-sine or haversine, or a motion that is none and whose
     /// acceleration is none.
     #[error("`{name}` is driven by a function of time that only its own text describes")]
-    Function {
-        /// The load, or the node that is moved.
-        name: String,
-    },
+    Function { name: String },
     /// A layer that is not linear.
     #[error(
         "the layer `{layer}` of `{element}` is not linear, so that no material of its own tells it"
     )]
-    Layer {
-        /// The element.
-        element: String,
-        /// The layer.
-        layer: String,
-    },
+    Layer { element: String, layer: String },
 }
 
 /// Writes a network and what is to be done with it as a scene, below comment lines.

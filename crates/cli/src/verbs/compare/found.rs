@@ -249,7 +249,6 @@ fn times([first, second]: [f64; 2]) -> String {
 }
 
 impl Form {
-    /// As a table.
     pub(super) fn table(&self) -> Table {
         let caption = if self.word == "kelvin" {
             "Kelvin form: in series"
@@ -269,7 +268,6 @@ impl Form {
 }
 
 impl Impact {
-    /// As a table.
     pub(super) fn table(&self) -> Table {
         let rows = self.measures.iter().map(|own| {
             let value = |at: usize| {

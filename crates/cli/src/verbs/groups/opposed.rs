@@ -28,7 +28,6 @@ pub(super) fn cleared(all: Vec<Measured>) -> Vec<Measured> {
     list(all.into_iter().map(cleared))
 }
 
-/// The measures as objects.
 pub(super) fn objects(all: &[Measured]) -> impl Serialize {
     list(all.iter().map(|own| {
         object! {

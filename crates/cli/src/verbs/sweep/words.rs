@@ -59,7 +59,6 @@ impl Swept {
     }
 }
 
-/// The name of a column.
 pub(super) fn name(column: &Column) -> String {
     if column.is_share { format!("{} over thickness", column.key) } else { column.key.clone() }
 }

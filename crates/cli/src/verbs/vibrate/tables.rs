@@ -18,7 +18,6 @@ use dashpot_units::STANDARD_GRAVITY as GRAVITY;
 /// What does not exist.
 const NONE: &str = "–";
 
-/// A phase in degrees.
 pub(super) fn degrees(phase: f64) -> f64 {
     phase * (180.0 / PI)
 }

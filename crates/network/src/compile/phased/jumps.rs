@@ -1,9 +1,16 @@
-//! Motions that jump, and the contacts that would jump with them.
+//! Jumps: of motions, with the contacts that would jump with them; and of what follows from balances, where
+//! phases would put it elsewhere.
 
-use super::is_contact;
+use dashpot_dae::Derivatives;
+
+use super::{
+    GIVEN, Mode, PhasedNetwork, is_contact,
+    judge::{Fault, Judge},
+};
 use crate::{
     Network, NetworkError, NetworkErrors, Support,
     compile::{bodies::Bodies, expand::Expansion, structure::jumps},
+    phases::{Phase, PhaseLaw, Watched},
 };
 
 /// Refuses motions that jump where contacts jump with them: what a jump passes through cannot be
@@ -56,4 +63,63 @@ fn moved_at_once(expansion: &Expansion, apart: &Bodies, body: usize) -> Vec<bool
         }
     }
     moved
+}
+
+impl PhasedNetwork {
+    /// The parts that would have to jump against their own force.
+    ///
+    /// A place without mass that springs hold follows from the force of the part behind it. Phases in
+    /// which that force is another put it elsewhere at once; a slider that goes there against the way
+    /// in which it slides would give energy. What jumps from outside moves a slider its own way.
+    pub(super) fn jumped_back(
+        &self,
+        phases: &[Phase],
+        judge: &Judge<'_>,
+        mode: &Mode,
+        motion: &Derivatives,
+    ) -> Vec<Fault> {
+        let (unknowns, inputs) = (&motion.values[0], &motion.inputs[0]);
+        let old = |primitive: usize| judge.state.deformation[primitive];
+        let new = |primitive: usize| mode.transfer.deformation(primitive, unknowns, inputs);
+        let rounding = GIVEN * judge.size.0;
+        // By how much a spring's force jumps, the size of its force, and what rounding does to it.
+        let jump = |at: usize| {
+            let force = |deformation: f64| self.spring_force(phases, at, deformation);
+            let (before, after) = (force(old(at)), force(new(at)));
+            let near = force(new(at) + rounding) - force(new(at) - rounding);
+            ((after - before).abs(), before.abs().max(after.abs()), near.abs())
+        };
+        let jumps = |part: usize, force: f64| {
+            // A force that has reached its level may be as far beyond as the judge lets it be.
+            let is_fired = judge.on_level.iter().any(|own| own.1 == Watched::Force);
+            let threshold = judge.criteria[part].threshold;
+            let threshold = if is_fired { threshold.sqrt() } else { threshold };
+            mode.transfer.balanced().iter().any(|&at| {
+                let (jump, size, near) = jump(at);
+                jump > threshold * size.max(force.abs()) + near
+            })
+        };
+        let is_back = |part: &usize| match self.phases_of(self.parts[*part])?.law(phases[*part]) {
+            PhaseLaw::Force(force) => {
+                let at = self.parts[*part];
+                let jump = (new(at) - old(at)) * force.signum();
+                Some(jump < -rounding && jumps(*part, force))
+            }
+            _ => None,
+        };
+        (0..self.parts.len())
+            .filter(|part| is_back(part) == Some(true))
+            .map(|part| Fault { part, towards: None })
+            .collect()
+    }
+
+    /// The force \[N\] of a spring, or of a law that is not linear, in these phases.
+    fn spring_force(&self, phases: &[Phase], primitive: usize, deformation: f64) -> f64 {
+        let part = self.parts.iter().position(|&at| at == primitive);
+        let law = part.and_then(|part| Some(self.phases_of(primitive)?.law(phases[part])));
+        match law {
+            Some(PhaseLaw::Element(element)) => element.force(deformation, 0.0),
+            _ => self.expansion.primitives[primitive].element.force(deformation, 0.0),
+        }
+    }
 }

@@ -5,7 +5,6 @@
 //! unknowns.
 
 mod choice;
-mod continuity;
 mod faces;
 mod groups;
 mod idle;

@@ -148,7 +148,6 @@ fn half_height(node: &SketchNode) -> f64 {
     }
 }
 
-/// Extent of a node.
 pub(in crate::sketch) fn node_extent(node: &SketchNode) -> Extent {
     let width = |text: &String| text_width(text, theme::TICK_SIZE);
     // Bold letters are about a tenth wider.

@@ -10,75 +10,48 @@ pub(crate) const MOST_ROWS: usize = 1_000_000;
 /// Why a file is no table of values over time.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CsvFault {
     /// There is no row of numbers.
     #[error("`{path}` has no row of numbers")]
-    Empty {
-        /// The file.
-        path: String,
-    },
+    Empty { path: String },
     /// There is but one column.
     #[error("the file has one column; a table has at least two, time and value")]
     OneColumn,
     /// There are several columns, and no word on which are meant.
     #[error("the file has {count} columns, and nothing says which are time and value")]
-    WhichColumns {
-        /// Number of columns.
-        count: usize,
-    },
+    WhichColumns { count: usize },
     /// There is no such column.
     #[error("there is no column {wanted}: the file has {count}")]
     NoColumn {
         /// The column, counted from 1.
         wanted: String,
-        /// Number of columns.
         count: usize,
     },
     /// A row has more fields than the first line.
     #[error("this row has {found} fields, but the first line has {first}")]
-    Uneven {
-        /// Number of fields of the row.
-        found: usize,
-        /// Number of fields of the first line.
-        first: usize,
-    },
+    Uneven { found: usize, first: usize },
     /// A cell is empty.
     #[error("a number is missing here")]
     EmptyCell,
     /// A cell is no number.
     #[error("`{text}` is not a number")]
-    NoNumber {
-        /// The cell.
-        text: String,
-    },
+    NoNumber { text: String },
     /// A cell is a number that cannot be read.
     #[error("{0}")]
     Unreadable(UnitError),
     /// A cell is a number with a unit.
     #[error("`{text}` has a unit; the numbers of a file have none of their own")]
-    UnitInCell {
-        /// The cell.
-        text: String,
-    },
+    UnitInCell { text: String },
     /// A time before the one of the row above.
     #[error("the time {found} stands after {before}: times never fall")]
-    OutOfOrder {
-        /// The time as written.
-        found: String,
-        /// The one before it, as written.
-        before: String,
-    },
+    OutOfOrder { found: String, before: String },
     /// More rows than a table may have.
     #[error("the file has more than {MOST_ROWS} rows")]
     TooManyRows,
     /// Header and scene give different units.
     #[error("the header of the file says `{header}`, but `{given}` is given here")]
-    Contradiction {
-        /// The unit in the header.
-        header: String,
-        /// The unit in the scene.
-        given: String,
-    },
+    Contradiction { header: String, given: String },
 }
 
 impl CsvFault {

@@ -17,7 +17,6 @@ use crate::text::source::Place;
 /// A value and its place.
 #[derive(Debug, Clone)]
 pub(crate) struct Item {
-    /// The value.
     pub(crate) value: Content,
     /// Where it stands. For a table under a header that is the header.
     pub(crate) place: Place,
@@ -43,7 +42,6 @@ pub(crate) enum Content {
 /// A key and its value.
 #[derive(Debug, Clone)]
 pub(crate) struct Entry {
-    /// The key.
     pub(crate) key: Word,
     /// Where the key stands.
     pub(crate) key_place: Place,

@@ -335,53 +335,23 @@ fn collect(item: &Item, path: &mut Vec<String>, found: &mut Found) {
 /// Why there is no such number.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum TunableFault {
     /// No number goes by this name.
     #[error("the scene has no number `{name}`")]
-    Unknown {
-        /// What was given.
-        name: String,
-        /// What was probably meant.
-        near: Option<String>,
-        /// The names that there are.
-        known: Vec<String>,
-    },
+    Unknown { name: String, near: Option<String>, known: Vec<String> },
     /// Several numbers do.
     #[error("`{name}` may be {}", .names.join(" or "))]
-    Ambiguous {
-        /// What was given.
-        name: String,
-        /// What tells them apart.
-        names: Vec<String>,
-    },
+    Ambiguous { name: String, names: Vec<String> },
     /// Its values would measure something else.
     #[error("`{name}`: {reason}")]
-    OtherDimension {
-        /// What was given.
-        name: String,
-        /// What they measure.
-        reason: String,
-    },
+    OtherDimension { name: String, reason: String },
     /// Bare values where the scene has a unit other than that of SI.
     #[error("`{bare}` has no unit: a bare number is in {si}, and the scene says {scene}")]
-    NoUnit {
-        /// What was given.
-        bare: String,
-        /// The SI unit of a bare number.
-        si: String,
-        /// The value in the scene.
-        scene: String,
-        /// The same in the unit of the scene.
-        meant: String,
-    },
+    NoUnit { bare: String, si: String, scene: String, meant: String },
     /// One number is varied twice.
     #[error("`{first}` and `{second}` are the same number of the scene")]
-    Twice {
-        /// What was given first.
-        first: String,
-        /// What was given then.
-        second: String,
-    },
+    Twice { first: String, second: String },
 }
 
 impl TunableFault {
