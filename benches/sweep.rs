@@ -19,7 +19,7 @@ use std::{hint::black_box, ops::ControlFlow, time::Instant};
 use dashpot::{
     analysis::{
         SolveSettings,
-        sweep::{Column, Grid, ScenePoint, SweepReport, columns, sweep},
+        sweep::{Column, Grid, ScenePoint, SweepOptions, SweepReport, columns, sweep},
     },
     network::{
         Network, Node,
@@ -104,7 +104,10 @@ fn ours(grid: &Grid, columns: &[Column], threads: usize) -> SweepReport {
         let network = network(2e7 * factor(places[0]), 4e3 * factor(places[1]));
         Ok(ScenePoint { network, settings: SolveSettings::lasting(0.02) })
     };
-    sweep(grid, &pose, columns, threads, &mut |_, _| ControlFlow::Continue(())).expect("a sweep")
+    sweep(grid, &pose, columns, SweepOptions { threads, ..SweepOptions::default() }, &mut |_, _| {
+        ControlFlow::Continue(())
+    })
+    .expect("a sweep")
 }
 
 /// The reference alone by hand-written diffsol, for comparison.

@@ -16,7 +16,7 @@ use allocation_counter::measure;
 use dashpot::{
     analysis::{
         SolveSettings,
-        sweep::{Grid, ScenePoint, columns, sweep},
+        sweep::{Grid, ScenePoint, SweepOptions, columns, sweep},
     },
     dae::{Run, Silent, System, methods},
     network::{
@@ -97,7 +97,9 @@ fn swept(counts: [usize; 3]) -> (u64, usize) {
     let mut instantiated = 0;
     let counted = measure(|| {
         let watch = &mut |_, _| ControlFlow::Continue(());
-        instantiated = sweep(&grid, &scene_point, &columns, 1, watch).unwrap().instantiated;
+        instantiated = sweep(&grid, &scene_point, &columns, SweepOptions::default(), watch)
+            .unwrap()
+            .instantiated;
     });
     assert_eq!(instantiated, grid.len());
     (counted.count_total, grid.len())

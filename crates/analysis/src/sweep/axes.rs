@@ -2,7 +2,7 @@
 
 use std::{num::NonZero, ops::ControlFlow};
 
-use super::{Column, ScenePoint, SweepError, SweepReport, Watch, columns, sweep};
+use super::{Column, ScenePoint, SweepError, SweepOptions, SweepReport, Watch, columns, sweep};
 
 /// A parameter and the values that it takes.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,7 +98,8 @@ impl Sweep {
             Ok(scene_point)
         };
         let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
-        let report = sweep(&grid, &scene_point, &columns, threads, watch)?;
+        let options = SweepOptions { threads, ..SweepOptions::default() };
+        let report = sweep(&grid, &scene_point, &columns, options, watch)?;
         Ok(Swept { sweep: self, grid, report })
     }
 

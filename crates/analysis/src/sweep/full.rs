@@ -9,7 +9,7 @@ use super::{
     instantiated::{Plan, Stamper},
     parallel::share,
 };
-use crate::{Warning, partial::spread, solve};
+use crate::{RunReport, SolveSettings, partial::spread, solve};
 
 /// How points are solved in full.
 #[derive(Clone, Copy)]
@@ -20,28 +20,50 @@ pub(super) struct Full<'f> {
 }
 
 impl Full<'_> {
-    /// Writes the columns of a point and their errors, notes why values are missing, and returns what the
-    /// run is warned of.
+    /// The run at a point, with its settings changed.
+    pub(super) fn solved(
+        &self,
+        point: usize,
+        change: impl Fn(&mut SolveSettings),
+    ) -> Result<RunReport, String> {
+        let mut scene_point = (self.pose)(&self.grid.places(point))?;
+        change(&mut scene_point.settings);
+        solve(&scene_point.network, &scene_point.settings, &mut Silent)
+            .map_err(|error| error.to_string())
+    }
+
+    /// Solves a point as it is asked for, and writes its columns and their errors, or notes why they are
+    /// missing. The run; `None` where there is none.
     pub(super) fn write(
         &self,
         point: usize,
         values: &mut [f64],
         errors: &mut [f64],
         gaps: &mut Vec<Gap>,
-    ) -> Vec<Warning> {
+    ) -> Option<RunReport> {
         values.fill(f64::NAN);
         errors.fill(f64::NAN);
-        let solved = (self.pose)(&self.grid.places(point)).and_then(|scene_point| {
-            solve(&scene_point.network, &scene_point.settings, &mut Silent)
-                .map_err(|error| error.to_string())
-        });
-        let report = match solved {
-            Ok(report) => report,
+        match self.solved(point, |_| {}) {
+            Ok(report) => {
+                self.read(&report, point, values, errors, gaps);
+                Some(report)
+            }
             Err(reason) => {
                 gaps.push(Gap { point, column: None, reason });
-                return Vec::new();
+                None
             }
-        };
+        }
+    }
+
+    /// Writes the columns of a run and their errors, and notes why values are missing.
+    pub(super) fn read(
+        &self,
+        report: &RunReport,
+        point: usize,
+        values: &mut [f64],
+        errors: &mut [f64],
+        gaps: &mut Vec<Gap>,
+    ) {
         for (at, column) in self.columns.iter().enumerate() {
             let gap = |reason: String| Gap { point, column: Some(at), reason };
             let Some(measure) = report.measure(&column.key) else {
@@ -59,7 +81,6 @@ impl Full<'_> {
                 None => gaps.push(gap(measure.note().unwrap_or_default())),
             }
         }
-        report.warnings
     }
 }
 
@@ -96,7 +117,8 @@ pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<
             return;
         };
         let (mut right, mut bars) = (vec![f64::NAN; count], vec![f64::NAN; count]);
-        let warned = full.write(row.point, &mut right, &mut bars, &mut Vec::new());
+        let run = full.write(row.point, &mut right, &mut bars, &mut Vec::new());
+        let warned = run.map_or(Vec::new(), |run| run.warnings);
         let noticed = notice.warnings(plan.element());
         if !(warned.len() == noticed.len()
             && warned.iter().zip(&noticed).all(|own| own.0.is_like(own.1)))
@@ -117,7 +139,10 @@ pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<
         }
         row.found = Some((true, largest));
     };
-    share(&mut rows, threads, &|| plan.stamper(), &both, &mut |_, _| ControlFlow::Continue(()));
+    let work = |stamper: &mut Option<Box<dyn Stamper + '_>>, rows: &mut [Both]| {
+        rows.iter_mut().for_each(|row| both(stamper, row));
+    };
+    share(&mut rows, threads, &|| plan.stamper(), &work, &mut |_, _| ControlFlow::Continue(()));
     let mut largest = 0.0_f64;
     let mut checked = Vec::new();
     for row in rows {

@@ -12,6 +12,7 @@
 mod axes;
 mod bracket;
 mod columns;
+mod estimates;
 mod full;
 mod instantiated;
 mod parallel;
@@ -24,7 +25,10 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use std::time::{Duration, Instant};
+use std::{
+    sync::atomic::{AtomicUsize, Ordering},
+    time::{Duration, Instant},
+};
 
 use dashpot_dae::Silent;
 use dashpot_network::{Detail, Network};
@@ -32,6 +36,7 @@ use dashpot_network::{Detail, Network};
 pub use self::{
     axes::{Axis, Grid, Sweep, SweepRow, Swept, axis},
     columns::{columns, measure_named},
+    estimates::{Estimates, SweepOptions},
     parallel::Watch,
     report::{Column, Gap, PartialOfSweep, SweepError, SweepReport, SweepWarning},
 };
@@ -84,7 +89,7 @@ pub fn sweep(
     grid: &Grid,
     pose: &Pose<'_>,
     columns: &[Column],
-    threads: usize,
+    options: SweepOptions,
     watch: &mut Watch<'_>,
 ) -> Result<SweepReport, SweepError> {
     let started = Instant::now();
@@ -97,13 +102,14 @@ pub fn sweep(
             scene_point.network = scene_point.network.without(details);
         }
         scene_point.settings.accuracy.neglect_below = None;
+        scene_point.settings.estimate &= options.estimates != Estimates::Off;
         Ok(scene_point)
     };
     let full = Full { grid, pose: &reduced, columns };
-    let mut report = solved(&full, threads, watch)?;
+    let mut report = solved(&full, options, watch)?;
     if let Some((own, _)) = partial {
         // As many threads would share the work in full.
-        let wall_in_full = own.wall_in_full / workers(threads, grid.len());
+        let wall_in_full = own.wall_in_full / workers(options.threads, grid.len());
         report.charge(PartialOfSweep { wall_in_full, ..own });
     }
     report.wall = started.elapsed();
@@ -113,7 +119,7 @@ pub fn sweep(
 /// Solves all points: by instantiating where that agrees with full runs, else in full.
 fn solved(
     full: &Full<'_>,
-    threads: usize,
+    SweepOptions { threads, estimates }: SweepOptions,
     watch: &mut Watch<'_>,
 ) -> Result<SweepReport, SweepError> {
     let &Full { grid, pose, columns } = full;
@@ -125,17 +131,21 @@ fn solved(
     let mut values = vec![f64::NAN; count * columns.len()];
     let mut errors = vec![f64::NAN; count * columns.len()];
     let mut rows = rows(columns.len(), &mut values, &mut errors);
+    let estimated = AtomicUsize::new(0);
     let tool = || plan.as_ref().and_then(Plan::stamper);
     let is_whole = share(
         &mut rows,
         threads,
         &tool,
-        &|stamper, row| {
-            let stamper = stamper.as_mut();
-            row.notice =
-                stamper.and_then(|stamper| stamper.write(row.point, row.values, row.errors));
-            if row.notice.is_none() {
-                row.warnings = full.write(row.point, row.values, row.errors, &mut row.gaps);
+        &|stamper, rows| {
+            for row in &mut *rows {
+                row.notice =
+                    stamper.as_mut().and_then(|own| own.write(row.point, row.values, row.errors));
+            }
+            let others: Vec<&mut Row<'_>> =
+                rows.iter_mut().filter(|row| row.notice.is_none()).collect();
+            if !others.is_empty() {
+                estimated.fetch_add(full.group(others, estimates), Ordering::Relaxed);
             }
         },
         watch,
@@ -155,6 +165,7 @@ fn solved(
         gaps,
         warnings,
         instantiated,
+        estimated: estimated.into_inner(),
         checked,
         largest_difference,
         partial: None,

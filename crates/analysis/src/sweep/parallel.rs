@@ -9,8 +9,8 @@ use std::{
     time::Duration,
 };
 
-/// Points that a thread takes at once.
-const SHARE: usize = 32;
+/// Points that a thread takes at once: a group begins at a fixed number of the whole grid.
+pub(super) const GROUP: usize = 64;
 /// How often the watcher is told how far the work has come.
 const PULSE: Duration = Duration::from_millis(20);
 
@@ -19,17 +19,17 @@ pub type Watch<'w> = dyn FnMut(usize, usize) -> ControlFlow<()> + 'w;
 
 /// How many of some threads find work in so many rows.
 pub(super) fn workers(threads: usize, rows: usize) -> u32 {
-    let workers = threads.clamp(1, rows.div_ceil(SHARE).max(1));
+    let workers = threads.clamp(1, rows.div_ceil(GROUP).max(1));
     u32::try_from(workers).unwrap_or(u32::MAX)
 }
 
-/// Does something for each of some `rows`, by so many threads, each with a `tool` of its own. False
+/// Does something for each [group](GROUP) of some `rows`, by so many threads, each with a `tool` of its own. False
 /// where the watcher broke it off.
 pub(super) fn share<R: Send, T>(
     rows: &mut [R],
     threads: usize,
     tool: &(dyn Fn() -> T + Sync),
-    work: &(dyn Fn(&mut T, &mut R) + Sync),
+    work: &(dyn Fn(&mut T, &mut [R]) + Sync),
     watch: &mut Watch<'_>,
 ) -> bool {
     let count = rows.len();
@@ -37,7 +37,7 @@ pub(super) fn share<R: Send, T>(
     if threads == 1 {
         return alone(rows, &mut tool(), work, watch);
     }
-    let queue = Mutex::new(rows.chunks_mut(SHARE));
+    let queue = Mutex::new(rows.chunks_mut(GROUP));
     let (done, running) = (AtomicUsize::new(0), AtomicUsize::new(threads));
     let is_over = AtomicBool::new(false);
     let watcher = std::thread::current();
@@ -46,10 +46,9 @@ pub(super) fn share<R: Send, T>(
         while !is_over.load(Ordering::Relaxed) {
             let chunk = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
             let Some(chunk) = chunk else { break };
-            for row in chunk {
-                work(&mut own, row);
-                done.fetch_add(1, Ordering::Relaxed);
-            }
+            let count = chunk.len();
+            work(&mut own, chunk);
+            done.fetch_add(count, Ordering::Relaxed);
         }
         if running.fetch_sub(1, Ordering::Release) == 1 {
             watcher.unpark();
@@ -74,13 +73,13 @@ pub(super) fn share<R: Send, T>(
 fn alone<R, T>(
     rows: &mut [R],
     tool: &mut T,
-    work: &(dyn Fn(&mut T, &mut R) + Sync),
+    work: &(dyn Fn(&mut T, &mut [R]) + Sync),
     watch: &mut Watch<'_>,
 ) -> bool {
     let (mut done, count) = (0, rows.len());
-    for chunk in rows.chunks_mut(SHARE) {
+    for chunk in rows.chunks_mut(GROUP) {
         done += chunk.len();
-        chunk.iter_mut().for_each(|row| work(tool, row));
+        work(tool, chunk);
         if watch(done, count).is_break() {
             return false;
         }
@@ -96,9 +95,10 @@ mod tests {
     fn every_row_is_worked_on_once_by_any_number_of_threads() {
         for threads in [0, 1, 2, 7, 1000] {
             let mut rows: Vec<usize> = (0..1000).collect();
-            let whole = share(&mut rows, threads, &|| 1, &|one, row| *row += *one, &mut |_, _| {
-                ControlFlow::Continue(())
-            });
+            let work =
+                |one: &mut usize, rows: &mut [usize]| rows.iter_mut().for_each(|row| *row += *one);
+            let whole =
+                share(&mut rows, threads, &|| 1, &work, &mut |_, _| ControlFlow::Continue(()));
             assert!(whole && rows.iter().enumerate().all(|(at, own)| *own == at + 1));
         }
     }
@@ -106,9 +106,9 @@ mod tests {
     #[test]
     fn the_watcher_may_break_it_off() {
         let mut rows = vec![0; 100_000];
-        let work = |(): &mut (), row: &mut i32| {
-            *row += 1;
-            std::thread::sleep(Duration::from_micros(50));
+        let work = |(): &mut (), rows: &mut [i32]| {
+            rows.fill(1);
+            std::thread::sleep(Duration::from_millis(3));
         };
         let whole = share(&mut rows, 2, &|| (), &work, &mut |_, _| ControlFlow::Break(()));
         assert!(!whole && rows.contains(&0));

@@ -48,6 +48,9 @@ pub struct SweepReport {
     pub warnings: Vec<SweepWarning>,
     /// How many points were instantiated; all others were solved in full.
     pub instantiated: usize,
+    /// At how many of the others errors were estimated by further solutions, where no bound is known without
+    /// them; the rest have those of points near them.
+    pub estimated: usize,
     /// The instantiated points that were solved in full as well.
     pub checked: Vec<usize>,
     /// The largest difference there, in parts of the value.

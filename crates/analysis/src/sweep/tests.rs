@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use dashpot_dae::Silent;
 use dashpot_network::{
     Network, Node,
-    effects::{Gravity, GravityStart},
-    elements::{Dashpot, Spring},
+    effects::{Gravity, GravityStart, Separation},
+    elements::{Dashpot, Foam, Spring},
     part,
 };
 use dashpot_rheology::Tree;
@@ -81,7 +81,14 @@ fn swept(networks: &[Network], keys: &[&str], threads: usize) -> SweepReport {
         Ok(own)
     };
     let grid = Grid::new(vec![networks.len()]).unwrap();
-    sweep(&grid, &pose, &columns, threads, &mut |_, _| ControlFlow::Continue(())).unwrap()
+    sweep(
+        &grid,
+        &pose,
+        &columns,
+        SweepOptions { threads, ..SweepOptions::default() },
+        &mut |_, _| ControlFlow::Continue(()),
+    )
+    .unwrap()
 }
 
 /// What a sweep is warned of at a point, but for numbers.
@@ -223,7 +230,10 @@ fn a_run_that_ends_in_contact_is_warned_of() {
         Ok(own)
     };
     let grid = Grid::new(vec![4]).unwrap();
-    let found = sweep(&grid, &pose, &columns, 1, &mut |_, _| ControlFlow::Continue(())).unwrap();
+    let found = sweep(&grid, &pose, &columns, SweepOptions::default(), &mut |_, _| {
+        ControlFlow::Continue(())
+    })
+    .unwrap();
     let lasting = found
         .warnings
         .iter()
@@ -279,9 +289,64 @@ fn points_that_fail_are_gaps_and_the_others_stand() {
         _ => Ok(scene_point(network.clone())),
     };
     let grid = Grid::new(vec![5]).unwrap();
-    let found = sweep(&grid, &pose, &columns, 1, &mut |_, _| ControlFlow::Continue(())).unwrap();
+    let found = sweep(&grid, &pose, &columns, SweepOptions::default(), &mut |_, _| {
+        ControlFlow::Continue(())
+    })
+    .unwrap();
     assert_eq!(found.gaps.len(), 1);
     assert_eq!((found.gaps[0].point, found.gaps[0].reason.as_str()), (2, "no such scene"));
     let finite: Vec<bool> = found.column(0).map(f64::is_finite).collect();
     assert_eq!(finite, [true, true, false, true, true]);
+}
+
+/// A foam that is struck, at one of a hundred thicknesses: with separation, which `exact` declines.
+fn foam(place: usize) -> ScenePoint {
+    let mut network = Network::new();
+    let head = network.add_node(Node::mass("head", 8.0).moving(4.0));
+    let foam = Foam {
+        modulus: 1.2e6,
+        plateau: 1.2e5,
+        densification: 3e4,
+        exponent: 2.0,
+        thickness: 0.04 + 2e-4 * place as f64,
+        area: 0.0144,
+    };
+    let model = Tree::parallel([part(foam), dashpot(40.0)]);
+    network.connect("pad", head, network.ground(), model);
+    network.add_effect(Separation { element: "pad".to_owned(), at: None, restitution: 0.0 });
+    scene_point(network)
+}
+
+#[test]
+fn errors_of_some_points_stand_for_those_near_them() {
+    let keys =
+        ["pad.peak-force", "pad.peak-deformation", "pad.contact-time", "head.severity-index"];
+    let keys = keys.map(str::to_owned);
+    let (columns, wishes) = columns(&foam(0), &keys).unwrap();
+    let grid = Grid::new(vec![150]).unwrap();
+    let swept = |options: SweepOptions, rtol: Option<f64>| {
+        let pose = |places: &[usize]| {
+            let mut own = foam(places[0]);
+            own.settings.measures.clone_from(&wishes);
+            own.settings.rtol = rtol;
+            Ok(own)
+        };
+        sweep(&grid, &pose, &columns, options, &mut |_, _| ControlFlow::Continue(())).unwrap()
+    };
+    let options = |threads, estimates| SweepOptions { threads, estimates };
+    let some = swept(options(1, Estimates::Some), None);
+    assert!(some.gaps.is_empty());
+    // Three of each of two groups of 64 and one of 22.
+    assert_eq!(some.estimated, 9);
+    assert_eq!(some, SweepReport { wall: some.wall, ..swept(options(2, Estimates::Some), None) });
+    let all = swept(options(1, Estimates::All), None);
+    assert_eq!(all.estimated, 150);
+    let off = swept(options(1, Estimates::Off), Some(1e-10));
+    assert!(off.estimated == 0 && off.errors.iter().all(|own| own.is_nan()));
+    for (at, truth) in off.values.iter().enumerate() {
+        let (value, error) = (some.values[at], some.errors[at]);
+        assert!((value - truth).abs() <= error, "{at}: {value} ± {error}, {truth}");
+        assert!(error <= 1e-3 * value.abs(), "{at}: {value} ± {error}");
+        assert!(error <= 30.0 * all.errors[at], "{at}: {error}, {} in full", all.errors[at]);
+    }
 }

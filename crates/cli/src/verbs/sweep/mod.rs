@@ -5,11 +5,14 @@ mod words;
 
 use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use dashpot_analysis::{
     RunError,
     partial::Cost,
-    sweep::{Column, Grid, Pose, ScenePoint, SweepReport, columns, sweep as solve},
+    sweep::{
+        Column, Estimates, Grid, Pose, ScenePoint, SweepOptions, SweepReport, columns,
+        sweep as solve,
+    },
 };
 use dashpot_scene::{Diagnostics, Scene, Tunables, Variation, read};
 use serde::Serialize;
@@ -53,6 +56,10 @@ pub(crate) struct SweepArguments {
     /// points spread over the sweep [default: the scene's, else nothing].
     #[arg(long, value_name = "SHARE", value_parser = share)]
     neglect: Option<f64>,
+    /// Where errors are estimated by further solutions; some: at three of 64 points, whose errors stand for
+    /// those near them.
+    #[arg(long, value_enum, value_name = "WHERE", default_value = "some")]
+    estimate: EstimatedPoints,
     /// Most work of each point, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
     #[arg(long, value_name = "UNITS", value_parser = budget)]
     budget: Option<u64>,
@@ -65,6 +72,27 @@ pub(crate) struct SweepArguments {
     /// Prints one JSON object, in SI units, in place of the table.
     #[arg(long)]
     json: bool,
+}
+
+/// The points of a sweep at which errors are estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum EstimatedPoints {
+    /// Every point.
+    All,
+    /// Some points.
+    Some,
+    /// None.
+    Off,
+}
+
+impl From<EstimatedPoints> for Estimates {
+    fn from(points: EstimatedPoints) -> Self {
+        match points {
+            EstimatedPoints::All => Self::All,
+            EstimatedPoints::Some => Self::Some,
+            EstimatedPoints::Off => Self::Off,
+        }
+    }
 }
 
 /// What was varied, in what, and what was found.
@@ -174,7 +202,13 @@ fn solved(
     let mut bar = Bar::new("sweep", 0.0, terminal.error.attended);
     let mut show =
         |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
-    Ok(solve(grid, pose, columns, threads, &mut show)?)
+    Ok(solve(
+        grid,
+        pose,
+        columns,
+        SweepOptions { threads, estimates: arguments.estimate.into() },
+        &mut show,
+    )?)
 }
 
 impl Study for Swept {
@@ -223,6 +257,7 @@ impl Study for Swept {
             })),
             points: self.points(),
             instantiated: report.instantiated,
+            estimated: report.estimated,
             checked: &report.checked,
             largest_difference: report.largest_difference,
             gaps: list(report.gaps.iter().map(|gap| object! {

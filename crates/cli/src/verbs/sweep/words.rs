@@ -111,6 +111,13 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
             bound(report.largest_difference)
         ));
     }
+    if (1..points - report.instantiated).contains(&report.estimated) {
+        all.push(format!(
+            "errors estimated at {} of them; the others have those of points near them \
+             (`--estimate all` for all)",
+            report.estimated
+        ));
+    }
     all.extend(warnings(swept, report, points));
     all.extend(report.partial.iter().flat_map(|own| left_out(own, report)));
     all.extend(missing(report, points));

@@ -1,0 +1,173 @@
+//! Points of a sweep whose errors are known from points near them.
+
+use super::{Row, full::Full};
+use crate::{Choice, RunReport, SolveSettings, Warning};
+
+/// At which points of a sweep that are solved by steps errors are estimated by further solutions.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Estimates {
+    /// At every point.
+    All,
+    /// At three points of each group of 64, which begin at fixed numbers of the grid. The others are solved
+    /// once, by the method of those three and at a quarter of their tolerance; they have the largest of
+    /// their relative errors. At every point of a group whose three differ in kind, by more than 30 times in
+    /// an error, or of which the middle one is not within both errors if it is solved once; and at points
+    /// that are of another kind than those.
+    #[default]
+    Some,
+    /// At none.
+    Off,
+}
+
+/// How the points of a sweep are solved.
+#[derive(Debug, Clone, Copy)]
+pub struct SweepOptions {
+    /// How many threads share the points; the results are the same.
+    pub threads: usize,
+    /// Where errors are estimated.
+    pub estimates: Estimates,
+}
+
+impl Default for SweepOptions {
+    /// One thread, errors estimated at some points.
+    fn default() -> Self {
+        Self { threads: 1, estimates: Estimates::default() }
+    }
+}
+
+/// Fewer points of a group are not worth it.
+const FEWEST: usize = 6;
+/// The tolerance of points whose errors are not estimated, in parts of that of those whose are.
+const TIGHTER: f64 = 0.25;
+/// Relative errors within a group may differ by this factor.
+const ALIKE: f64 = 30.0;
+
+/// What is known of a group of points.
+struct Known {
+    method: &'static str,
+    rtol: f64,
+    /// For each column the largest error relative to its value.
+    errors: Vec<f64>,
+    warnings: Vec<Warning>,
+}
+
+impl Full<'_> {
+    /// Solves the points of a group; how many of them have their errors estimated.
+    pub(super) fn group(&self, mut rows: Vec<&mut Row<'_>>, estimates: Estimates) -> usize {
+        let count = rows.len();
+        let mut anchors = vec![];
+        if estimates == Estimates::Some && count >= FEWEST {
+            anchors = vec![0, count / 2, count - 1];
+        }
+        let reports: Vec<Option<RunReport>> =
+            anchors.iter().map(|&at| self.estimated(rows[at])).collect();
+        let known = self.known(&anchors, &reports, &rows);
+        // The one in the middle is the test.
+        let known = known.filter(|known| {
+            let Some(&middle) = anchors.get(1) else { return false };
+            let row = &rows[middle];
+            let (mut values, mut errors) = (row.values.to_vec(), row.errors.to_vec());
+            let is_taken = self.spared(known, row.point, &mut values, &mut errors).is_some();
+            let within =
+                |at: usize| (values[at] - row.values[at]).abs() <= row.errors[at].max(errors[at]);
+            is_taken && (0..values.len()).all(within)
+        });
+        let is_estimated = |run: &Option<RunReport>| {
+            run.as_ref().is_some_and(|own| own.solver.solves_for_error > 0)
+        };
+        let mut estimated = reports.iter().filter(|own| is_estimated(own)).count();
+        for (at, row) in rows.iter_mut().enumerate() {
+            if anchors.contains(&at) {
+                continue;
+            }
+            let spared = known
+                .as_ref()
+                .and_then(|known| self.spared(known, row.point, row.values, row.errors));
+            match spared {
+                Some(warnings) => row.warnings = warnings,
+                None => {
+                    estimated += usize::from(is_estimated(&self.estimated(row)));
+                }
+            }
+        }
+        estimated
+    }
+
+    /// What these points agree in, if they do.
+    fn known(
+        &self,
+        anchors: &[usize],
+        reports: &[Option<RunReport>],
+        rows: &[&mut Row<'_>],
+    ) -> Option<Known> {
+        let reports: Vec<&RunReport> = reports.iter().map(Option::as_ref).collect::<Option<_>>()?;
+        let first = *reports.first()?;
+        let warnings = first.warnings.clone();
+        let is_alike = |own: &&RunReport| {
+            own.segmentation.is_none()
+                && own.solver.method == first.solver.method
+                && are_alike(&own.warnings, &warnings)
+        };
+        if !reports.iter().all(is_alike) {
+            return None;
+        }
+        let rtols =
+            reports.iter().map(|own| own.solver.rtol.filter(|_| own.solver.solves_for_error > 0));
+        let rtol = rtols.collect::<Option<Vec<f64>>>()?.into_iter().fold(f64::INFINITY, f64::min);
+        let relative = |column: usize| {
+            let all =
+                anchors.iter().map(|&at| rows[at].errors[column] / rows[at].values[column].abs());
+            let all = all.map(|own| Some(own).filter(|own| own.is_finite()));
+            let all = all.collect::<Option<Vec<f64>>>()?;
+            let (least, most) = all.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), own| {
+                (least.min(*own), most.max(*own))
+            });
+            (most <= ALIKE * least).then_some(most)
+        };
+        let errors = (0..self.columns.len()).map(relative).collect::<Option<Vec<f64>>>()?;
+        Some(Known { method: first.solver.method, rtol, errors, warnings })
+    }
+
+    /// Solves a point once, and returns what the run is warned of; `None` where it is of another kind than
+    /// those that are known.
+    fn spared(
+        &self,
+        known: &Known,
+        point: usize,
+        values: &mut [f64],
+        errors: &mut [f64],
+    ) -> Option<Vec<Warning>> {
+        let once = |settings: &mut SolveSettings| {
+            settings.estimate = false;
+            settings.rtol = Some((TIGHTER * known.rtol).max(1e-13));
+            if let Ok(method) = Choice::named(known.method) {
+                settings.method = method;
+            }
+        };
+        let report = self.solved(point, once).ok()?;
+        if !are_alike(&report.warnings, &known.warnings) {
+            return None;
+        }
+        let mut gaps = Vec::new();
+        self.read(&report, point, values, errors, &mut gaps);
+        if !gaps.is_empty() {
+            return None;
+        }
+        for ((value, error), relative) in values.iter().zip(errors).zip(&known.errors) {
+            *error = relative * value.abs();
+        }
+        Some(report.warnings)
+    }
+
+    /// Solves a point as it is asked for, and writes what was found.
+    fn estimated(&self, row: &mut Row<'_>) -> Option<RunReport> {
+        let report = self.write(row.point, row.values, row.errors, &mut row.gaps);
+        row.warnings = report.as_ref().map_or(Vec::new(), |own| own.warnings.clone());
+        report
+    }
+}
+
+/// Whether two runs are warned of the same.
+fn are_alike(one: &[Warning], other: &[Warning]) -> bool {
+    one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.is_like(other))
+}
