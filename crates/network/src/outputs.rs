@@ -60,7 +60,7 @@ pub struct ConnectionOutputs {
     pub deformation: usize,
     /// Deformation rate \[m/s\]; `None` where it follows from algebraic unknowns that are kept.
     pub rate: Option<usize>,
-    /// Its primitives in [`Assembly::primitives`].
+    /// Its primitives in [`Assembly::primitives`](crate::Assembly::primitives).
     pub primitives: Range<usize>,
     /// The parts of a pad whose stress and strain are looked at: of layers all that deform, from the
     /// first face to the second; else the whole pad where its thickness is known, and all branches

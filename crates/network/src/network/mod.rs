@@ -138,7 +138,7 @@ pub struct Connection {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InnerPad {
     /// Which branch: its number among all branches and parts of the model, in the order in which
-    /// [`Tree::fold`] is done with them, so that each has its own branches before it.
+    /// [`Tree::fold`](dashpot_rheology::Tree::fold) is done with them, so that each has its own branches before it.
     pub at: usize,
     /// Thickness \[m\], > 0.
     pub thickness: f64,
@@ -148,7 +148,7 @@ pub struct InnerPad {
 
 impl Connection {
     /// Whether its law has no tension at the end 0 or 1 of [`between`](Self::between): the force
-    /// there goes through an element that [never pulls](Element::never_pulls).
+    /// there goes through an element that [never pulls](crate::Element::never_pulls).
     pub fn never_pulls(&self, end: usize) -> bool {
         let own = self.model.branches();
         let at_end = if end == 0 { own.first() } else { own.last() };
