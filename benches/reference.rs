@@ -20,7 +20,7 @@ use std::{
 
 use criterion::Criterion;
 use dashpot::{
-    analysis::{SolveSettings, solve},
+    analysis::{Solve, SolveSettings},
     dae::{Method, Run, Silent, System, methods},
     network::Assembly,
 };
@@ -219,11 +219,11 @@ fn main() {
     criterion.bench_function("network to system", |b| b.iter(|| network.compile(black_box(0.02))));
     let settings = SolveSettings::lasting(0.02).by_name("exact").expect("a method");
     criterion.bench_function("exact with all measures and the energy ledger", |b| {
-        b.iter(|| solve(black_box(&network), &settings, &mut Silent));
+        b.iter(|| black_box(&network).solve_with(&settings));
     });
     let settings = SolveSettings::lasting(0.02).by_name("bdf").expect("a method");
     criterion.bench_function("bdf with all measures, error bars and the energy ledger", |b| {
-        b.iter(|| solve(black_box(&network), &settings, &mut Silent));
+        b.iter(|| black_box(&network).solve_with(&settings));
     });
     criterion.final_summary();
 }

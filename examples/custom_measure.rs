@@ -13,17 +13,10 @@ use std::{error::Error, f64::consts::PI};
 
 use dashpot::{
     analysis::{
-        Family, MeasureKind, MeasureReport, MeasureWish, Note, Reading, Solution, SolveSettings,
-        VelocityJump, measures::WINDOW, solve,
+        Family, MeasureKind, MeasureReport, MeasureWish, Note, Reading, Solution, Solve,
+        SolveSettings, VelocityJump, measures::WINDOW,
     },
-    dae::Silent,
-    network::{
-        Network, Node,
-        elements::{Contact, Spring},
-        parameters,
-        parameters::WindowWish,
-        part,
-    },
+    network::{Network, Node, elements::Contact, parameters, parameters::WindowWish, spring},
 };
 
 parameters! {
@@ -61,7 +54,7 @@ fn mean_force(
 ) -> Result<MeasureReport, Box<dyn Error>> {
     let mut settings = SolveSettings::lasting(duration).by_name(method)?;
     settings.measures.push(MeasureWish::new(element, MeanForce { window }));
-    let report = solve(network, &settings, &mut Silent)?;
+    let report = network.solve_with(&settings)?;
     let measure = report.measure(&format!("{element}.mean-force")).ok_or("it is not reported")?;
     Ok(measure.clone())
 }
@@ -70,7 +63,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     // 2 kg at 3 m/s on 80 kN/m: half a period, in which the momentum turns round.
     let mut struck = Network::new();
     let head = struck.add_node(Node::mass("head", 2.0).moving(3.0));
-    struck.connect("pad", head, struck.ground(), part(Spring { stiffness: 80e3 }));
+    struck.connect("pad", head, struck.ground(), spring(80e3));
     let expected = 2.0 * 2.0 * 3.0 / (PI / 200.0);
     for method in ["exact", "bdf"] {
         let own = mean_force(&struck, ("pad", WindowWish::Impact), (method, 0.05))?;
@@ -82,7 +75,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     // 1 kg meets a rigid stop after 0.1 s, and comes back as fast: all of the force is one impulse.
     let mut thrown = Network::new();
     let ball = thrown.add_node(Node::mass("ball", 1.0).moving(2.0));
-    let wall = part(Contact { gap: 0.2, restitution: 1.0 });
+    let wall = Contact { gap: 0.2, restitution: 1.0 };
     thrown.connect("wall", ball, thrown.ground(), wall);
     let run = ("wall", WindowWish::Times(0.0, 0.4));
     let own = mean_force(&thrown, run, ("exact", 0.5))?;

@@ -11,16 +11,12 @@
 use std::{error::Error, f64::consts::PI};
 
 use dashpot::{
-    analysis::{SolveSettings, solve},
+    analysis::{Solve, SolveSettings},
     dae::{
-        Dense, Method, Observer, Outcome, Panel, Run, Signal, Silent, SolveError, Statistics,
-        System, Trajectory, methods::Exact,
+        Dense, Method, Observer, Outcome, Panel, Run, Signal, SolveError, Statistics, System,
+        Trajectory, methods::Exact,
     },
-    network::{
-        Model, Network, Node,
-        elements::{Dashpot, Spring},
-        part,
-    },
+    network::{Network, Node, dashpot, spring},
     numerics::chebyshev::Interpolation,
 };
 
@@ -162,15 +158,14 @@ impl Dense for Steps {
 pub fn main() -> Result<(), Box<dyn Error>> {
     let mut network = Network::new();
     let head = network.add_node(Node::mass("head", 5.0).moving(4.0));
-    let pad = Model::parallel([part(Spring { stiffness: 60e3 }), part(Dashpot { damping: 50.0 })]);
-    network.connect("pad", head, network.ground(), pad);
+    network.connect("pad", head, network.ground(), spring(60e3) | dashpot(50.0));
     let settings = SolveSettings::lasting(PI * (5.0_f64 / 60e3).sqrt());
 
-    let own = solve(&network, &settings.clone().by(Rk4), &mut Silent)?;
-    let exact = solve(&network, &settings.by(Exact), &mut Silent)?;
+    let own = network.solve_with(&settings.clone().by(Rk4))?;
+    let exact = network.solve_with(&settings.by(Exact))?;
     for found in &own.measures {
         let Some((value, error)) = found.value.zip(found.error) else { continue };
-        let truth = exact.measure(&found.key).and_then(|own| own.value).ok_or("no value")?;
+        let truth = exact.value(&found.key)?;
         println!(
             "{:<26} {value:10.4} ± {error:.1e} {}, off by {:.1e}",
             found.key,

@@ -12,44 +12,29 @@
 use std::error::Error;
 
 use dashpot::{
-    analysis::{SolveSettings, solve},
-    dae::Silent,
-    network::{
-        Model, Network, Node,
-        elements::{Dashpot, Spring},
-        part,
-    },
-    rheology::{Branch, Tree},
+    analysis::Solve,
+    network::{Model, Network, Node, dashpot, spring},
+    rheology::Branch,
 };
 
-fn maxwell(stiffness: f64, damping: f64) -> Model {
-    Tree::Series(vec![
-        Branch::new("spring", part(Spring { stiffness })),
-        Branch::new("dashpot", part(Dashpot { damping })),
-    ])
-}
-
 pub fn main() -> Result<(), Box<dyn Error>> {
-    let shell = Tree::Parallel(vec![
-        Branch::new("spring", part(Spring { stiffness: 2e6 })),
-        Branch::new("dashpot", part(Dashpot { damping: 200.0 })),
+    let shell = spring(2e6) | dashpot(200.0);
+    // Names instead of numbers, for the parts to be found by in the report.
+    let foam = Model::Parallel(vec![
+        Branch::new("skeleton", spring(60e3)),
+        Branch::new("fast", spring(150e3) + dashpot(300.0)),
+        Branch::new("slow", spring(40e3) + dashpot(4e3)),
     ]);
-    let foam = Tree::Parallel(vec![
-        Branch::new("skeleton", part(Spring { stiffness: 60e3 })),
-        Branch::new("fast", maxwell(150e3, 300.0)),
-        Branch::new("slow", maxwell(40e3, 4e3)),
-    ]);
-    let pad = Tree::Series(vec![Branch::new("shell", shell), Branch::new("foam", foam)]);
+    let pad = Model::Series(vec![Branch::new("shell", shell), Branch::new("foam", foam)]);
 
     let mut network = Network::new();
     let head = network.add_node(Node::mass("head", 5.0).dropped(1.5));
     network.connect("helmet", head, network.ground(), pad).thickness = Some(0.08);
-    let report = solve(&network, &SolveSettings::lasting(0.05), &mut Silent)?;
+    let report = network.solve(0.05)?;
 
-    let value = |key: &str| report.measure(key).and_then(|m| m.value).ok_or(key.to_owned());
-    println!("peak          {:6.1} g", value("head.peak-acceleration")? / 9.806_65);
-    println!("deepest       {:6.1} mm of 80 mm", 1e3 * value("helmet.peak-deformation")?);
-    println!("severity      {:6.0} s", value("head.severity-index")?);
+    println!("peak          {:6.1} g", report.value("head.peak-acceleration")? / 9.806_65);
+    println!("deepest       {:6.1} mm of 80 mm", 1e3 * report.value("helmet.peak-deformation")?);
+    println!("severity      {:6.0} s", report.value("head.severity-index")?);
     for (name, energy) in &report.energy.dissipated {
         println!("{name:<28} {energy:6.2} J");
     }

@@ -12,15 +12,9 @@
 use std::error::Error;
 
 use dashpot::{
-    analysis::{RunReport, SolveSettings, differences, solve},
-    dae::Silent,
-    network::{
-        Model, Network, Node,
-        elements::{Dashpot, Spring},
-        linear_model, model_of, part,
-    },
+    analysis::{RunReport, Solve, SolveSettings, differences},
+    network::{Model, Network, Node, dashpot, linear_model, model_of, spring},
     rheology::{
-        Tree,
         conversion::{Target, converted},
         equivalence::compare,
     },
@@ -31,17 +25,12 @@ fn impact(padding: Model) -> Result<RunReport, Box<dyn Error>> {
     let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
     let panel = network.add_node(Node::mass("panel", 100.0));
     network.connect("padding", head, panel, padding);
-    let mount = Tree::parallel([part(Spring { stiffness: 50e6 }), part(Dashpot { damping: 10e3 })]);
-    network.connect("mount", panel, network.ground(), mount);
-    Ok(solve(&network, &SolveSettings::lasting(0.02).by_name("exact")?, &mut Silent)?)
+    network.connect("mount", panel, network.ground(), spring(50e6) | dashpot(10e3));
+    Ok(network.solve_with(&SolveSettings::lasting(0.02).by_name("exact")?)?)
 }
 
 pub fn main() -> Result<(), Box<dyn Error>> {
-    let burgers = Tree::series([
-        part(Spring { stiffness: 20e6 }),
-        part(Dashpot { damping: 6e3 }),
-        Tree::parallel([part(Spring { stiffness: 20e6 }), part(Dashpot { damping: 4e3 })]),
-    ]);
+    let burgers = spring(20e6) + dashpot(6e3) + (spring(20e6) | dashpot(4e3));
     let linear = linear_model(&burgers);
     let form = linear.maxwell().ok_or("the padding is rigid")?;
     for element in form.elements() {

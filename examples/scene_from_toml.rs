@@ -11,8 +11,7 @@
 use std::error::Error;
 
 use dashpot::{
-    analysis::{regular_times, solve},
-    dae::Silent,
+    analysis::{Solve, regular_times},
     plot::{Chart, Series},
     scene::{ReadOptions, read},
 };
@@ -35,8 +34,8 @@ duration = "15 ms"
 
 pub fn main() -> Result<(), Box<dyn Error>> {
     let scene = read(SCENE, &ReadOptions::default())?.value;
-    let report = solve(&scene.network, &scene.settings("auto")?, &mut Silent)?;
-    let deepest = report.measure("mat.peak-deformation").and_then(|m| m.value).ok_or("no peak")?;
+    let report = scene.network.solve_with(&scene.settings("auto")?)?;
+    let deepest = report.value("mat.peak-deformation")?;
     println!("{}: {:.2} mm deep", scene.title.as_deref().unwrap_or("scene"), 1e3 * deepest);
 
     let times = regular_times(scene.run.duration, 200);

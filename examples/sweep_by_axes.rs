@@ -15,11 +15,7 @@ use dashpot::{
         SolveSettings,
         sweep::{ScenePoint, Sweep, axis},
     },
-    network::{
-        Model, Network, Node,
-        elements::{Dashpot, Spring},
-        part,
-    },
+    network::{Network, Node, dashpot, spring},
 };
 
 /// 4 kg at 5 m/s on a spring beside a dashpot.
@@ -27,8 +23,7 @@ fn scene(values: &[f64]) -> Result<ScenePoint, String> {
     let &[stiffness, damping] = values else { return Err("two axes are wanted".to_owned()) };
     let mut network = Network::new();
     let head = network.add_node(Node::mass("head", 4.0).moving(5.0));
-    let pad = Model::parallel([part(Spring { stiffness }), part(Dashpot { damping })]);
-    network.connect("pad", head, network.ground(), pad);
+    network.connect("pad", head, network.ground(), spring(stiffness) | dashpot(damping));
     Ok(ScenePoint { network, settings: SolveSettings::lasting(0.1) })
 }
 

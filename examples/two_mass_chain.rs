@@ -12,7 +12,7 @@ use std::error::Error;
 
 use dashpot::{
     dae::{Run, Silent, methods},
-    network::{Network, Node, elements::Spring, part},
+    network::{Network, Node, spring},
 };
 
 pub fn main() -> Result<(), Box<dyn Error>> {
@@ -20,9 +20,9 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let mut network = Network::new();
     let left = network.add_node(Node::mass("left", mass).moving(1.0));
     let right = network.add_node(Node::mass("right", mass));
-    network.connect("left-wall", left, network.ground(), part(Spring { stiffness: wall }));
-    network.connect("coupling", left, right, part(Spring { stiffness: coupling }));
-    network.connect("right-wall", right, network.ground(), part(Spring { stiffness: wall }));
+    network.connect("left-wall", left, network.ground(), spring(wall));
+    network.connect("coupling", left, right, spring(coupling));
+    network.connect("right-wall", right, network.ground(), spring(wall));
 
     let duration = 20.0;
     let assembly = network.compile(duration)?;

@@ -14,28 +14,21 @@
 //! # A first impact
 //!
 //! A head of 10 kg at 10 m/s on a pad over a panel that is mounted on the ground; the pad is the
-//! four-parameter model of the thesis:
+//! four-parameter model of the thesis, composed by `+` in series and `|` in parallel:
 //!
 //! ```
-//! use dashpot::analysis::{SolveSettings, solve};
-//! use dashpot::network::{Network, Node, elements::{Dashpot, Spring}, part};
-//! use dashpot::rheology::Tree;
+//! use dashpot::analysis::Solve;
+//! use dashpot::network::{Network, Node, dashpot, spring};
 //!
 //! let mut network = Network::new();
 //! let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
 //! let panel = network.add_node(Node::mass("panel", 100.0));
-//! let pad = Tree::series([
-//!     part(Spring { stiffness: 20e6 }),
-//!     part(Dashpot { damping: 6e3 }),
-//!     Tree::parallel([part(Spring { stiffness: 20e6 }), part(Dashpot { damping: 4e3 })]),
-//! ]);
+//! let pad = spring(20e6) + dashpot(6e3) + (spring(20e6) | dashpot(4e3));
 //! network.connect("padding", head, panel, pad).thickness = Some(0.02);
-//! let mount = Tree::parallel([part(Spring { stiffness: 50e6 }), part(Dashpot { damping: 10e3 })]);
-//! network.connect("mount", panel, network.ground(), mount);
+//! network.connect("mount", panel, network.ground(), spring(50e6) | dashpot(10e3));
 //!
-//! let report = solve(&network, &SolveSettings::lasting(0.02), &mut dashpot::dae::Silent)?;
-//! let peak = report.measure("padding.peak-force").and_then(|measure| measure.value);
-//! assert!((peak.unwrap_or(0.0) - 38_359.411_601).abs() < 1e-6);
+//! let report = network.solve(0.02)?;
+//! assert!((report.value("padding.peak-force")? - 38_359.411_601).abs() < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

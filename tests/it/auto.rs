@@ -5,8 +5,8 @@
 use std::fs;
 
 use dashpot::{
-    analysis::{MeasureReport, RunError, RunReport, SolveSettings, solve},
-    dae::{Silent, SolveError},
+    analysis::{MeasureReport, RunError, RunReport, Solve, SolveSettings},
+    dae::SolveError,
     scene::{ReadOptions, Scene, read},
 };
 
@@ -19,7 +19,7 @@ fn scene(text: &str) -> Scene {
 }
 
 fn run(scene: &Scene, settings: &SolveSettings) -> Result<RunReport, RunError> {
-    solve(&scene.network, settings, &mut Silent)
+    scene.network.solve_with(settings)
 }
 
 fn by(scene: &Scene, method: &str) -> Result<RunReport, RunError> {

@@ -17,7 +17,7 @@ mod tally;
 use std::fs;
 
 use dashpot::{
-    analysis::{RunError, solve},
+    analysis::{RunError, Solve},
     dae::SolveError,
     scene::{ReadOptions, read},
 };
@@ -71,7 +71,7 @@ fn campaign<'a>(path: &str, methods: impl Fn(usize) -> Vec<&'a str>) -> Tally {
                 continue;
             }
             let settings = scene.settings(method).unwrap();
-            match solve(&scene.network, &settings, &mut Patience { steps: PATIENCE }) {
+            match scene.network.solve_watched(&settings, &mut Patience { steps: PATIENCE }) {
                 Ok(report) => tally.add(&name, &entry, &report),
                 Err(RunError::Solve(SolveError::NotApplicable { .. })) if method != "auto" => {}
                 Err(RunError::Solve(SolveError::Cancelled { .. })) => tally.too_long.push(name),

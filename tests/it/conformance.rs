@@ -2,11 +2,10 @@
 
 use dashpot::{
     analysis::{
-        SolveSettings,
+        Solve, SolveSettings,
         measures::{Family, MEASURES, PeakStrain, PeakStress},
-        solve,
     },
-    dae::{Silent, methods::METHODS},
+    dae::methods::METHODS,
     network::{
         Model, Network, Node,
         composites::COMPOSITES,
@@ -273,7 +272,7 @@ fn shifts_come_back_from_toml_and_multiply_the_times() {
 #[test]
 fn measures_read_the_reference_impact() {
     let settings = SolveSettings::lasting(0.02).by_name("exact").unwrap();
-    let report = solve(&reference(1e4), &settings, &mut Silent).unwrap();
+    let report = reference(1e4).solve_with(&settings).unwrap();
     assert!(MEASURES.len() >= 15);
     for kind in MEASURES {
         describes(kind.word, kind.summary, kind.parameters);

@@ -2,8 +2,7 @@
 //! alike, or refused as a later jump is.
 
 use dashpot::{
-    analysis::{RunReport, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve},
     scene::{ReadOptions, read},
 };
 
@@ -35,7 +34,7 @@ impl Beside<'_> {
 
     fn report(&self, method: &str) -> RunReport {
         let scene = read(&self.text(), &ReadOptions::default()).unwrap().value;
-        solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent).unwrap()
+        scene.network.solve_with(&scene.settings(method).unwrap()).unwrap()
     }
 
     /// Checks where the mass ends \[m\] and, where given, the largest force of the element \[N\].

@@ -1,8 +1,7 @@
 //! Contacts and sliders under loads and motions, by the methods that take steps.
 
 use dashpot::{
-    analysis::{RunReport, SolveSettings, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve, SolveSettings},
     scene::{ReadOptions, read},
 };
 
@@ -12,7 +11,7 @@ const GRAVITY: f64 = 9.80665;
 fn run_at(text: &str, method: &str, rtol: Option<f64>) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
-    solve(&scene.network, &settings, &mut Silent).unwrap()
+    scene.network.solve_with(&settings).unwrap()
 }
 
 fn run(text: &str, method: &str) -> RunReport {

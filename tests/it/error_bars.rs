@@ -7,8 +7,8 @@
 mod known;
 
 use dashpot::{
-    analysis::{MeasureReport, SolveSettings, solve},
-    dae::{Piece, Silent, Waveform},
+    analysis::{MeasureReport, Solve, SolveSettings},
+    dae::{Piece, Waveform},
     network::{
         Model, Network, Node, NodeId,
         effects::{Gravity, GravityStart},
@@ -37,11 +37,10 @@ fn the_truth_lies_inside_the_bars_in_99_of_100_random_networks() {
         }
         let (network, duration) = (recipe.build(), recipe.duration());
         let settings = SolveSettings::lasting(duration);
-        let Ok(exact) = solve(&network, &settings.clone().by_name("exact").unwrap(), &mut Silent)
-        else {
+        let Ok(exact) = network.solve_with(&settings.clone().by_name("exact").unwrap()) else {
             continue;
         };
-        let bdf = solve(&network, &settings.by_name("bdf").unwrap(), &mut Silent).unwrap();
+        let bdf = network.solve_with(&settings.by_name("bdf").unwrap()).unwrap();
         networks += 1;
         for truth in &exact.measures {
             let found = bdf.measure(&truth.key).unwrap();
@@ -119,11 +118,9 @@ fn the_truth_lies_inside_the_bars_where_forces_die_down() {
     for case in 0..60 {
         let (network, duration) = long_decay(&mut dice);
         let settings = SolveSettings::lasting(duration);
-        let exact =
-            solve(&network, &settings.clone().by_name("exact").unwrap(), &mut Silent).unwrap();
+        let exact = network.solve_with(&settings.clone().by_name("exact").unwrap()).unwrap();
         for method in ["bdf", "esdirk34"] {
-            let other =
-                solve(&network, &settings.clone().by_name(method).unwrap(), &mut Silent).unwrap();
+            let other = network.solve_with(&settings.clone().by_name(method).unwrap()).unwrap();
             for truth in &exact.measures {
                 let found = other.measure(&truth.key).unwrap();
                 let Some(bars) = bars_beside(truth, found) else { continue };
@@ -143,13 +140,12 @@ fn bdf_is_inside_its_own_bars_on_both_reference_cases_at_three_tolerances() {
     for damping in [1e4, 1e7] {
         let network = reference(damping);
         let settings = SolveSettings::lasting(0.02);
-        let exact =
-            solve(&network, &settings.clone().by_name("exact").unwrap(), &mut Silent).unwrap();
+        let exact = network.solve_with(&settings.clone().by_name("exact").unwrap()).unwrap();
         let mut bars = Vec::new();
         for rtol in [1e-5, 1e-7, 1e-9] {
             let settings =
                 SolveSettings { rtol: Some(rtol), ..settings.clone().by_name("bdf").unwrap() };
-            let bdf = solve(&network, &settings, &mut Silent).unwrap();
+            let bdf = network.solve_with(&settings).unwrap();
             assert_eq!(bdf.solver.solves_for_error, 3);
             for truth in &exact.measures {
                 let found = bdf.measure(&truth.key).unwrap();
@@ -188,9 +184,7 @@ fn where_it_is_open_whether_an_impact_ends_the_bars_cover_both_ends() {
         [run]\n\
         duration = \"0.15 s\"\n";
     let scene = read(scene, &ReadOptions::default()).unwrap().value;
-    let by = |method: &str| {
-        solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent).unwrap()
-    };
+    let by = |method: &str| scene.network.solve_with(&scene.settings(method).unwrap()).unwrap();
     let exact = by("exact");
     let truth = exact.measure("pad.impulse").unwrap();
     assert!(exact.contacts[0].impact.end < 20e-6);

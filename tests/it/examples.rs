@@ -1,5 +1,9 @@
 //! The examples run to their end, with the assertions in them.
 
+#[path = "../../examples/composition.rs"]
+mod composition;
+#[path = "../../examples/custom_element.rs"]
+mod custom_element;
 #[path = "../../examples/custom_measure.rs"]
 mod custom_measure;
 #[path = "../../examples/custom_method.rs"]
@@ -24,6 +28,16 @@ mod two_mass_chain;
 #[test]
 fn the_reference_impact_runs() {
     reference_impact::main().unwrap();
+}
+
+#[test]
+fn the_composition_runs() {
+    composition::main().unwrap();
+}
+
+#[test]
+fn the_custom_element_runs() {
+    custom_element::main().unwrap();
 }
 
 #[test]

@@ -14,8 +14,8 @@ mod waves;
 use std::fs;
 
 use dashpot::{
-    analysis::{RunReport, solve},
-    dae::{Signal, Silent},
+    analysis::{RunReport, Solve},
+    dae::Signal,
     scene::{ReadOptions, Scene, read},
 };
 
@@ -50,7 +50,9 @@ pub(crate) fn runs(name: &str, change: impl Fn(String) -> String) -> Vec<RunRepo
     let scene = scene(name, change);
     let by = |method: &String| {
         let settings = scene.settings(method).unwrap();
-        solve(&scene.network, &settings, &mut Silent)
+        scene
+            .network
+            .solve_with(&settings)
             .unwrap_or_else(|error| panic!("{name} by {method}: {error}"))
     };
     scene.run.methods.iter().map(by).collect()

@@ -5,8 +5,8 @@
 use std::f64::consts::TAU;
 
 use dashpot::{
-    analysis::{Choice, RunReport, Solution, SolveSettings, solve, vibration::Vibration},
-    dae::{Signal, Silent},
+    analysis::{Choice, RunReport, Solution, Solve, SolveSettings, vibration::Vibration},
+    dae::Signal,
     network::{
         Model, Network, Node,
         driving_point::{Agreement, Response},
@@ -28,7 +28,7 @@ fn scene(text: &str) -> Scene {
 
 fn run(text: &str, method: &str) -> RunReport {
     let scene = scene(text);
-    let report = solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent);
+    let report = scene.network.solve_with(&scene.settings(method).unwrap());
     report.unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
@@ -276,7 +276,8 @@ fn pressed(model: Model, in_layers: bool, method: &str) -> Signal {
         rtol: Some(1e-6),
         ..SolveSettings::lasting(PRESS)
     };
-    let report = solve(&network, &settings, &mut Silent)
+    let report = network
+        .solve_with(&settings)
         .unwrap_or_else(|error| panic!("{in_layers} {method}: {error}"));
     let solution = report.solution();
     signal(&solution, "pad.force").clone()

@@ -2,8 +2,7 @@
 //! their own; measured laws beyond their points, and pads that pull without an impactor.
 
 use dashpot::{
-    analysis::{RunReport, solve, undefined_measures},
-    dae::Silent,
+    analysis::{RunReport, Solve, undefined_measures},
     scene::{ReadOptions, Scene, read},
 };
 
@@ -16,7 +15,7 @@ fn scene(text: &str) -> Scene {
 
 fn run(text: &str) -> RunReport {
     let scene = scene(text);
-    solve(&scene.network, &scene.settings("auto").unwrap(), &mut Silent).unwrap()
+    scene.network.solve_with(&scene.settings("auto").unwrap()).unwrap()
 }
 
 fn value(report: &RunReport, key: &str) -> f64 {

@@ -1,8 +1,7 @@
 //! Power laws in series, and laws with a kink, by the methods that take steps.
 
 use dashpot::{
-    analysis::{RunReport, SolveSettings, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve, SolveSettings},
     scene::{ReadOptions, read},
 };
 
@@ -12,7 +11,9 @@ const END: f64 = 0.3;
 fn run(text: &str, method: &str, rtol: Option<f64>) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
-    solve(&scene.network, &settings, &mut Silent)
+    scene
+        .network
+        .solve_with(&settings)
         .unwrap_or_else(|error| panic!("{method} {rtol:?}: {error}\n{text}"))
 }
 

@@ -2,15 +2,14 @@
 //! ends, and rigid links.
 
 use dashpot::{
-    analysis::{RunReport, SolveSettings, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve, SolveSettings},
     network::{Model, Network, Node, NodeId, elements::Rigid, part},
 };
 
 use crate::thesis::{dashpot, kelvin, spring};
 
 fn run(network: &Network, method: &str) -> RunReport {
-    solve(network, &SolveSettings::lasting(0.3).by_name(method).unwrap(), &mut Silent).unwrap()
+    network.solve_with(&SolveSettings::lasting(0.3).by_name(method).unwrap()).unwrap()
 }
 
 fn value(report: &RunReport, key: &str) -> f64 {

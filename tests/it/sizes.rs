@@ -11,10 +11,10 @@ use std::{f64::consts::PI, sync::Arc};
 use allocation_counter::measure;
 use dashpot::{
     analysis::{
-        Measure, MeasureWish, RunReport, Solution, SolveSettings,
+        Measure, MeasureWish, RunReport, Solution, Solve, SolveSettings,
         ledger::ledger,
         measures::{EndVelocity, Impulse, PeakForce},
-        solve, solve_assembly, table,
+        solve_assembly, table,
     },
     dae::{Method, Piece, Run, Silent, Trajectory, Waveform, methods::Bdf},
     network::{
@@ -201,7 +201,7 @@ fn energies_of_a_large_network_are_those_of_a_solution_kept_as_a_whole() {
 
 #[test]
 fn tables_of_a_large_network_hold_what_was_kept() {
-    let report = solve(&struck_chain(600), &until_of_impact(), &mut Silent).unwrap();
+    let report = struck_chain(600).solve_with(&until_of_impact()).unwrap();
     let table = table(&report.assembly, &report.trajectory, 5);
     let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
     assert!(names.contains(&"link0.force") && names.contains(&"impactor.velocity"), "{names:?}");
@@ -219,7 +219,7 @@ fn struck_end_of_a_chain_moves_as_the_closed_form_says_within_its_bar() {
     // The wave has passed 30 masses, and has not come back.
     let duration = 30.0 / OMEGA;
     for count in [60, 200, 700] {
-        let report = solve(&uniform_chain(count), &until(duration), &mut Silent).unwrap();
+        let report = uniform_chain(count).solve_with(&until(duration)).unwrap();
         let (value, bar) = end_velocity(&report);
         let error = (value - struck_velocity(duration)).abs();
         assert!(error <= bar.unwrap(), "{count} masses: {error:e} of {bar:?}");
@@ -231,7 +231,7 @@ fn struck_end_of_a_chain_moves_as_the_closed_form_says_within_its_bar() {
 fn errors(networks: impl Iterator<Item = (Network, f64)>, duration: f64) -> Vec<f64> {
     let error = |(network, truth): (Network, f64)| {
         let settings = SolveSettings { rtol: Some(1e-5), estimate: false, ..until(duration) };
-        let report = solve(&network, &settings, &mut Silent).unwrap();
+        let report = network.solve_with(&settings).unwrap();
         (end_velocity(&report).0 - truth).abs()
     };
     networks.map(error).collect()
@@ -250,7 +250,7 @@ fn a_local_impact_is_not_diluted_in_a_large_lattice() {
     let duration = 6.0 / OMEGA;
     // The wave does not come back from the far sides, so that one truth holds for all sizes.
     let settings = SolveSettings { rtol: Some(1e-10), estimate: false, ..until(duration) };
-    let finest = solve(&lattice(16), &settings, &mut Silent).unwrap();
+    let finest = lattice(16).solve_with(&settings).unwrap();
     let truth = end_velocity(&finest).0;
     assert_alike(&errors([10, 16, 28].map(|side| (lattice(side), truth)).into_iter(), duration));
 }

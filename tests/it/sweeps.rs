@@ -1,8 +1,7 @@
 //! Sweeps as users of the command meet them.
 
 use dashpot::{
-    analysis::solve,
-    dae::Silent,
+    analysis::Solve,
     scene::{ReadOptions, read, reference},
 };
 use tempfile::TempDir;
@@ -37,7 +36,7 @@ fn values_are_those_of_single_runs() {
             .replace("maxwell = { spring = \"20 MN/m\",", &spring)
             .replace("velocity = \"10 m/s\"", &format!("velocity = \"{} m/s\"", record[1]));
         let scene = read(&text, &ReadOptions::default()).unwrap().value;
-        let report = solve(&scene.network, &scene.settings("exact").unwrap(), &mut Silent).unwrap();
+        let report = scene.network.solve_with(&scene.settings("exact").unwrap()).unwrap();
         let mut compared = 0;
         let measures = records[0].iter().enumerate().filter(|own| *own.1 != "warnings");
         for (at, name) in measures.skip(2).step_by(2) {

@@ -1,8 +1,7 @@
 //! What tables are before their first and after their last point, and what is told of it.
 
 use dashpot::{
-    analysis::{RunReport, SolveSettings, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve, SolveSettings},
     scene::{Checked, Diagnostics, ReadOptions, Scene, read},
 };
 use tempfile::TempDir;
@@ -49,7 +48,7 @@ fn reports(text: &str) -> impl Iterator<Item = (&'static str, RunReport)> {
     let scene = read_beside(text, RECORD).unwrap().value;
     METHODS.into_iter().map(move |method| {
         let settings = scene.settings(method).unwrap();
-        (method, solve(&scene.network, &settings, &mut Silent).unwrap())
+        (method, scene.network.solve_with(&settings).unwrap())
     })
 }
 
@@ -95,7 +94,7 @@ fn a_table_that_ends_above_zero_holds_is_zero_or_is_refused() {
         let within = pushed(&table).replace("duration = 0.1", "duration = \"20 ms\"");
         let scene = read_beside(&within, RECORD).unwrap().value;
         let longer = SolveSettings { duration: 0.021, ..scene.settings("auto").unwrap() };
-        let error = solve(&scene.network, &longer, &mut Silent).unwrap_err().to_string();
+        let error = scene.network.solve_with(&longer).unwrap_err().to_string();
         assert!(error.contains("the run lasts from 0 s to 0.021 s"), "{error}");
     }
 }
@@ -226,7 +225,7 @@ fn what_is_still_falling_is_told_by_every_method() {
     for method in METHODS.into_iter().chain(["tsit45", "auto"]) {
         for estimate in [true, false] {
             let settings = SolveSettings { estimate, ..scene.settings(method).unwrap() };
-            let report = solve(&scene.network, &settings, &mut Silent).unwrap();
+            let report = scene.network.solve_with(&settings).unwrap();
             let told = report.warnings.iter().any(|warning| warning.code() == "still-falling");
             assert!(told, "{method}: {:?}", report.warnings);
         }
@@ -255,8 +254,7 @@ fn what_is_dropped_begins_in_the_air_only_where_it_falls_and_nothing_is_bonded_t
         let fall = f64::sqrt(2.0 * height / g);
         assert!((head.fall - fall).abs() < 1e-15, "{gravity} {separation}: {}", head.fall);
         for (method, allowed) in [("exact", 0.0), ("bdf", 1e-6)] {
-            let report =
-                solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent).unwrap();
+            let report = scene.network.solve_with(&scene.settings(method).unwrap()).unwrap();
             let output = |name: &str| {
                 let at = report.assembly.output(name).unwrap();
                 report.trajectory.signal(&report.assembly.system, at).value(0.0)

@@ -1,25 +1,14 @@
 //! The thesis' reference impact through the compiler and the methods, against its tables.
 
+pub(crate) use dashpot::network::{dashpot, spring};
 use dashpot::{
     dae::{Method, Run, Signal, Silent, Trajectory, methods},
-    network::{
-        Assembly, Model, Network, Node,
-        elements::{Dashpot, Spring},
-        part,
-    },
+    network::{Assembly, Model, Network, Node},
     rheology::{Branch, Tree},
     scene::{ReadOptions, read},
 };
 
 use crate::independent::{Groups, PRINTED, has_digits};
-
-pub(crate) fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
-pub(crate) fn dashpot(damping: f64) -> Model {
-    part(Dashpot { damping })
-}
 
 pub(crate) fn kelvin(stiffness: f64, damping: f64) -> Model {
     Tree::Parallel(vec![

@@ -5,12 +5,11 @@ use std::f64::consts::TAU;
 
 use dashpot::{
     analysis::{
-        MeasureWish, SolveSettings,
+        MeasureWish, Solve, SolveSettings,
         measures::{PeakAcceleration, PeakDeformation, PeakForce},
-        solve,
         vibration::{SweepSettings, Vibration, VibrationError},
     },
-    dae::{Piece, Silent, Waveform, methods::Exact},
+    dae::{Piece, Waveform, methods::Exact},
     network::{
         Network, Node,
         driving_point::{Receptance, Response},
@@ -74,7 +73,7 @@ fn a_run_over_many_periods_ends_in_the_steady_state() {
             ],
             ..SolveSettings::lasting(end)
         };
-        let report = solve(&network, &settings, &mut Silent).unwrap();
+        let report = network.solve_with(&settings).unwrap();
         let vibration = Vibration::new(&network, 1.0, None).unwrap();
         let steady = vibration.steady(frequency, amplitude).unwrap();
         let node = |name: &str| {

@@ -2,9 +2,10 @@
 
 use dashpot_dae::SolveError;
 use dashpot_network::NetworkErrors;
+use dashpot_units::nearest;
 use thiserror::Error;
 
-use crate::{Leak, SliderFault};
+use crate::{Leak, Note, SliderFault};
 
 /// Why a run has no report.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -143,6 +144,59 @@ pub enum RunError {
     },
 }
 
+/// Why a report has no value of a measure.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum NoValue {
+    /// It does not report it.
+    #[error("`{key}` is not among the measures that are reported{}", meant(.near))]
+    Unknown {
+        /// What was asked for.
+        key: String,
+        /// What is reported of the same element or node, or else in all, the nearest first.
+        near: Vec<String>,
+    },
+    /// It is infinite, undefined or not determined.
+    #[error("`{key}` has no value: {}", Note::joined(.notes))]
+    Undefined {
+        /// The measure.
+        key: String,
+        /// Why.
+        notes: Vec<Note>,
+    },
+}
+
+impl NoValue {
+    /// That `known` do not have `key`.
+    pub(crate) fn unknown(key: &str, known: &[&str]) -> Self {
+        let target = key.rsplit_once('.').map_or(key, |own| own.0);
+        let mut near: Vec<&str> = known
+            .iter()
+            .copied()
+            .filter(|own| own.rsplit_once('.').is_some_and(|own| own.0 == target))
+            .collect();
+        if near.is_empty() {
+            near.extend(known);
+        }
+        if let Some(nearest) = nearest(key, near.iter().copied()) {
+            near.sort_by_key(|own| *own != nearest);
+        }
+        Self::Unknown { key: key.to_owned(), near: near.into_iter().map(str::to_owned).collect() }
+    }
+}
+
+/// Measures that a message names.
+const SHOWN: usize = 6;
+
+fn meant(near: &[String]) -> String {
+    let shown: Vec<String> = near.iter().take(SHOWN).map(|own| format!("`{own}`")).collect();
+    match (shown.is_empty(), near.len() > SHOWN) {
+        (true, _) => String::new(),
+        (false, more) => {
+            format!("; did you mean {}{}?", shown.join(", "), if more { ", …" } else { "" })
+        }
+    }
+}
+
 fn gigabytes(bytes: u64) -> String {
     let tenths = bytes.div_ceil(100_000_000);
     format!("{}.{}", tenths / 10, tenths % 10)
@@ -161,4 +215,19 @@ fn fail_too(others: &[&str]) -> String {
 fn listed(words: &[&str]) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
     quoted.join(" and ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_measure_that_is_not_reported_finds_the_nearest_ones() {
+        let known = ["head.peak-acceleration", "pad.peak-deformation", "pad.peak-force"];
+        let says = |key: &str| NoValue::unknown(key, &known).to_string();
+        let all = says("pad.peak-forse");
+        assert!(all.ends_with("; did you mean `pad.peak-force`, `pad.peak-deformation`?"), "{all}");
+        assert!(says("pat.peak-force").contains("mean `pad.peak-force`, `head."));
+        assert!(NoValue::unknown("a.b", &[]).to_string().ends_with("reported"));
+    }
 }

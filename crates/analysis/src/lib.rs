@@ -1,7 +1,7 @@
 //! From trajectories to numbers: measures, the energy ledger, their errors, and the report of a
 //! run.
 //!
-//! [`solve`] compiles a network, integrates it as often as its errors ask for, and returns a
+//! [`Solve`] compiles a network, integrates it as often as its errors ask for, and returns a
 //! [`RunReport`]. All measures are read off the continuous solution, never off samples.
 
 pub mod contribution;
@@ -27,7 +27,7 @@ pub mod work_precision;
 
 pub use energy::ledger;
 pub use energy::ledger::{EnergySeries, Leak, Ledger, Place};
-pub use error::RunError;
+pub use error::{NoValue, RunError};
 pub use impact::impulses::VelocityJump;
 pub use impact::interval::{Contact, Impact, Span};
 pub use impact::sliders::Idle;
@@ -47,5 +47,5 @@ pub use report::{Difference, differences};
 pub use run::{choice, reported_measures, solve_assembly, undefined_measures};
 pub use settings::{Accuracy, Choice, SolveSettings, Stop};
 pub use solution::{Solution, threshold_at};
-pub use solve::{solve, solve_partial};
+pub use solve::{Solve, solve_partial};
 pub use work_precision::work_precision;

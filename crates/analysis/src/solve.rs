@@ -8,7 +8,7 @@
 
 use std::{sync::Arc, time::Instant};
 
-use dashpot_dae::Observer;
+use dashpot_dae::{Observer, Silent};
 use dashpot_network::{
     Assembly, Network,
     segments::{Recut, recut},
@@ -20,24 +20,68 @@ use crate::{
     run::{solve_assembly, words},
 };
 
-/// Compiles a network, integrates it, and reports.
+/// What can be solved.
 ///
-/// A method that bounds its own error solves once. The others solve at four tolerances a factor √10
-/// apart and take the errors of the finest solution from the differences; as long as an error
-/// exceeds what is wanted, or the energy does not close as well, they go on to the next tolerance.
+/// # Examples
 ///
-/// # Errors
+/// ```
+/// use dashpot_analysis::Solve;
+/// use dashpot_network::{Network, Node, dashpot, spring};
 ///
-/// Any [`RunError`]: what is wrong with the network or the settings, a method that fails, and an
-/// energy balance that is off by more than 1 % of the energy turned over.
-pub fn solve(
-    network: &Network,
-    settings: &SolveSettings,
-    observer: &mut dyn Observer,
-) -> Result<RunReport, RunError> {
-    settings.validate()?;
-    let assembly = Arc::new(network.compile(settings.duration)?);
-    solve_partial(network, &assembly, settings, observer)
+/// let mut network = Network::new();
+/// let head = network.add_node(Node::mass("head", 5.0).moving(4.0));
+/// network.connect("pad", head, network.ground(), spring(60e3) | dashpot(300.0));
+/// let report = network.solve(0.05)?;
+/// assert!(report.value("pad.peak-force")? > 1500.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub trait Solve {
+    /// Solves for a run of `duration` \[s\] by the method that suits, with measures good to 0.1 %.
+    ///
+    /// # Errors
+    ///
+    /// As [`solve_watched`](Self::solve_watched).
+    fn solve(&self, duration: f64) -> Result<RunReport, RunError> {
+        self.solve_with(&SolveSettings::lasting(duration))
+    }
+
+    /// Solves with these settings.
+    ///
+    /// # Errors
+    ///
+    /// As [`solve_watched`](Self::solve_watched).
+    fn solve_with(&self, settings: &SolveSettings) -> Result<RunReport, RunError> {
+        self.solve_watched(settings, &mut Silent)
+    }
+
+    /// Compiles a network, integrates it, and reports; `observer` is told of the progress, and may end
+    /// the run.
+    ///
+    /// A method that bounds its own error solves once. The others solve at four tolerances a factor √10
+    /// apart and take the errors of the finest solution from the differences; as long as an error
+    /// exceeds what is wanted, or the energy does not close as well, they go on to the next tolerance.
+    ///
+    /// # Errors
+    ///
+    /// Any [`RunError`]: what is wrong with the network or the settings, a method that fails, and an
+    /// energy balance that is off by more than 1 % of the energy turned over.
+    fn solve_watched(
+        &self,
+        settings: &SolveSettings,
+        observer: &mut dyn Observer,
+    ) -> Result<RunReport, RunError>;
+}
+
+impl Solve for Network {
+    fn solve_watched(
+        &self,
+        settings: &SolveSettings,
+        observer: &mut dyn Observer,
+    ) -> Result<RunReport, RunError> {
+        settings.validate()?;
+        let assembly = Arc::new(self.compile(settings.duration)?);
+        solve_partial(self, &assembly, settings, observer)
+    }
 }
 
 /// Solves a network that is compiled already; where the accuracy has a bound for what may be left

@@ -35,7 +35,9 @@ pub use compile::{
 pub use elements::{Element, phases};
 pub use error::{NetworkError, NetworkErrors, Subject};
 pub use influence::Detail;
-pub use model::{Model, first_nonlinear, is_linear, linear_model, model_of, part, primitive};
+pub use model::{
+    Model, dashpot, first_nonlinear, is_linear, linear_model, model_of, part, primitive, spring,
+};
 pub use network::{
     Connection, Effect, ImpactScales, Influence, InnerPad, Load, Network, Node, NodeId, PadOutputs,
     Situation, Start, Support,

@@ -1,6 +1,9 @@
 //! Series–parallel trees.
 
-use std::convert::Infallible;
+use std::{
+    convert::Infallible,
+    ops::{Add, BitOr},
+};
 
 /// Levels of composition that a tree may have in a network or a scene, which refuse more. Whatever
 /// walks a tree calls itself once for each level.
@@ -12,12 +15,17 @@ pub const MOST_LEVELS: usize = 128;
 /// up, in order from the impactor's side; in a [`Parallel`](Self::Parallel) all branches have one
 /// deformation and their forces add up.
 ///
+/// `a + b` is a series, since compliances add up there, and `a | b` stands in parallel. `+` binds
+/// closer than `|`. Branches of series in a series, or parallel ones in parallel, join with no level of
+/// their own where they have no names but numbers; to keep them together, name a
+/// [`Branch`].
+///
 /// # Examples
 ///
 /// ```
 /// use dashpot_rheology::Tree;
 ///
-/// let pad = Tree::series([Tree::from("spring"), Tree::parallel(["spring".into(), "dashpot".into()])]);
+/// let pad = Tree::from("spring") + (Tree::from("spring") | "dashpot");
 /// let names: Vec<&str> = pad.branches().iter().map(|branch| branch.name.as_str()).collect();
 /// assert_eq!(names, ["1", "2"]);
 /// assert_eq!(pad.branches()[1].tree.branches()[1].tree, Tree::Part("dashpot"));
@@ -190,10 +198,73 @@ impl<P> Tree<P> {
     }
 }
 
+impl<P, T: Into<Tree<P>>> Add<T> for Tree<P> {
+    type Output = Self;
+
+    /// Both in series.
+    fn add(self, other: T) -> Self {
+        let mut branches = Vec::new();
+        for own in [self, other.into()] {
+            match own {
+                Self::Series(parts) if is_numbered(&parts) => branches.extend(trees(parts)),
+                own => branches.push(own),
+            }
+        }
+        Self::series(branches)
+    }
+}
+
+impl<P, T: Into<Tree<P>>> BitOr<T> for Tree<P> {
+    type Output = Self;
+
+    /// Both in parallel.
+    fn bitor(self, other: T) -> Self {
+        let mut branches = Vec::new();
+        for own in [self, other.into()] {
+            match own {
+                Self::Parallel(parts) if is_numbered(&parts) => branches.extend(trees(parts)),
+                own => branches.push(own),
+            }
+        }
+        Self::parallel(branches)
+    }
+}
+
+fn trees<P>(branches: Vec<Branch<P>>) -> impl Iterator<Item = Tree<P>> {
+    branches.into_iter().map(|branch| branch.tree)
+}
+
+/// Whether branches have no other names than their numbers; of none there is nothing to join.
+fn is_numbered<P>(branches: &[Branch<P>]) -> bool {
+    !branches.is_empty()
+        && branches.iter().enumerate().all(|(at, own)| own.name == (at + 1).to_string())
+}
+
 fn numbered<P>(branches: impl IntoIterator<Item = Tree<P>>) -> Vec<Branch<P>> {
     branches
         .into_iter()
         .enumerate()
         .map(|(at, tree)| Branch::new((at + 1).to_string(), tree))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_are_flat_and_names_keep_branches_together() {
+        let [a, b, c] = ["a", "b", "c"].map(Tree::from);
+        let flat = Tree::series([a.clone(), b.clone(), c.clone()]);
+        assert_eq!(a.clone() + b.clone() + "c", flat);
+        assert_eq!(a.clone() + (b.clone() + c.clone()), flat);
+        let parallel = Tree::parallel([a.clone(), b.clone()]);
+        assert_eq!(a.clone() | "b", parallel);
+        assert_eq!((a.clone() | "b") + "c", Tree::series([parallel.clone(), c.clone()]));
+        assert_eq!((a.clone() + b.clone()) | c.clone(), Tree::parallel([a + b, c.clone()]));
+        let named = Tree::Parallel(vec![Branch::new("fast", Tree::Part("a"))]);
+        assert_eq!(named.clone() | "c", Tree::parallel([named, c.clone()]));
+        let nothing: Tree<&str> = Tree::series([]);
+        assert_eq!(nothing.clone() + "c", Tree::series([nothing, c]));
+    }
 }

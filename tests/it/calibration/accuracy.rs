@@ -1,8 +1,7 @@
 //! The accuracy that is asked for: found by the program, paid for, and kept.
 
 use dashpot::{
-    analysis::{Accuracy, RunReport, solve},
-    dae::Silent,
+    analysis::{Accuracy, RunReport, Solve},
     scene::{ReadOptions, read},
 };
 
@@ -93,11 +92,11 @@ fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let mut settings = scene.settings("auto").unwrap();
     settings.accuracy.default = 1e-6;
-    let report = solve(&scene.network, &settings, &mut Silent).unwrap();
+    let report = scene.network.solve_with(&settings).unwrap();
     assert!(!admits(&report), "{:?}", report.warnings);
     assert_eq!(report.solver.method, "esdirk34");
     assert!(report.solver.why.contains("`bdf` does not reach"), "{}", report.solver.why);
-    let by_bdf = solve(&scene.network, &settings.by_name("bdf").unwrap(), &mut Silent).unwrap();
+    let by_bdf = scene.network.solve_with(&settings.by_name("bdf").unwrap()).unwrap();
     assert!(admits(&by_bdf), "{:?}", by_bdf.solver);
 }
 

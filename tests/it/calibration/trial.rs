@@ -6,7 +6,7 @@ use std::{
 };
 
 use dashpot::{
-    analysis::{RunError, RunReport, SolveSettings, solve},
+    analysis::{RunError, RunReport, Solve, SolveSettings},
     dae::SolveError,
 };
 
@@ -70,7 +70,7 @@ impl Case {
 
     /// Solves it.
     pub(super) fn solve(&self, settings: &SolveSettings) -> Result<RunReport, RunError> {
-        solve(&self.drawn.scene.network, settings, &mut Patience { steps: PATIENCE })
+        self.drawn.scene.network.solve_watched(settings, &mut Patience { steps: PATIENCE })
     }
 
     /// Solves it by a method, as its text says but for what `also` changes, and judges that.

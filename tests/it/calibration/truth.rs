@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, ops::ControlFlow};
 
 use dashpot::{
-    analysis::{MeasureReport, RunError, RunReport, SolveSettings, solve},
+    analysis::{MeasureReport, RunError, RunReport, Solve, SolveSettings},
     dae::{Observer, Progress},
 };
 
@@ -39,7 +39,7 @@ pub(super) type Truth = BTreeMap<String, (Option<f64>, f64)>;
 pub(super) fn truth(drawn: &Drawn) -> Option<Truth> {
     let settings = drawn.scene.settings("exact").unwrap();
     let run = |settings: &SolveSettings| -> Result<RunReport, RunError> {
-        solve(&drawn.scene.network, settings, &mut Patience { steps: PATIENCE })
+        drawn.scene.network.solve_watched(settings, &mut Patience { steps: PATIENCE })
     };
     if let Ok(exact) = run(&settings) {
         let own = |measure: &MeasureReport| {

@@ -4,8 +4,7 @@
 use std::fs;
 
 use dashpot::{
-    analysis::{RunReport, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve},
     scene::{ReadOptions, read},
 };
 
@@ -19,7 +18,7 @@ fn solved(text: &str) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap_or_else(|faults| panic!("{faults}"));
     let scene = scene.value;
     let settings = scene.settings(&scene.run.methods[0]).unwrap();
-    solve(&scene.network, &settings, &mut Silent).unwrap()
+    scene.network.solve_with(&settings).unwrap()
 }
 
 fn measure(run: &RunReport, key: &str) -> f64 {

@@ -1,8 +1,7 @@
 //! Runs that begin in balance under gravity: the forces are the weights, and nothing moves.
 
 use dashpot::{
-    analysis::{RunReport, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve},
     scene::{ReadOptions, read},
 };
 
@@ -31,7 +30,7 @@ fn by_gravity(methods: &[&str], [nodes, elements, effects]: [&str; 3], check: im
     );
     let scene = read(&text, &ReadOptions::default()).unwrap().value;
     for &method in methods {
-        let report = solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent).unwrap();
+        let report = scene.network.solve_with(&scene.settings(method).unwrap()).unwrap();
         let solution = report.solution();
         for node in &report.assembly.nodes {
             let position = solution.signal(node.position);

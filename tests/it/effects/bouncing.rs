@@ -1,8 +1,7 @@
 //! Bouncing on rigid and springy ground, from a fall to rest.
 
 use dashpot::{
-    analysis::{RunReport, SolveSettings, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve, SolveSettings},
     scene::{ReadOptions, read},
 };
 
@@ -99,7 +98,7 @@ fn what_bounces_to_rest_under_friction_has_a_known_error_by_the_exact_method() {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let run = |method: &str, rtol: Option<f64>| -> RunReport {
         let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
-        solve(&scene.network, &settings, &mut Silent).unwrap()
+        scene.network.solve_with(&settings).unwrap()
     };
     let (exact, stepping) = (run("exact", None), run("bdf", Some(1e-11)));
     let impacts = exact.trajectory.switches.iter().filter(|switch| switch.impulse > 0.0).count();
@@ -128,7 +127,7 @@ fn a_bounce_loses_its_share_of_the_energy_whatever_the_mass() {
             duration = 0.2"
         );
         let scene = read(&text, &ReadOptions::default()).unwrap().value;
-        let report = solve(&scene.network, &scene.settings("exact").unwrap(), &mut Silent).unwrap();
+        let report = scene.network.solve_with(&scene.settings("exact").unwrap()).unwrap();
         let energy = report.measure("floor.energy").unwrap();
         let lost = 0.5 * mass * velocity * velocity * (1.0 - restitution * restitution);
         let gap = (energy.value.unwrap() - lost).abs();

@@ -1,8 +1,7 @@
 //! Switchings that nearly coincide, and many contacts at once.
 
 use dashpot::{
-    analysis::{RunReport, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve},
     scene::{ReadOptions, read},
 };
 
@@ -10,7 +9,9 @@ const METHODS: [&str; 4] = ["exact", "bdf", "tr-bdf2", "esdirk34"];
 
 fn run(text: &str, method: &str) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
-    solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent)
+    scene
+        .network
+        .solve_with(&scene.settings(method).unwrap())
         .unwrap_or_else(|error| panic!("{method}: {error}"))
 }
 

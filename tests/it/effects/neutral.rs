@@ -1,8 +1,8 @@
 //! Effects and elements at the values at which they do nothing: the result is that without them.
 
 use dashpot::{
-    analysis::{RunError, RunReport, SolveSettings, solve},
-    dae::{Silent, SolveError},
+    analysis::{RunError, RunReport, Solve, SolveSettings},
+    dae::SolveError,
     network::{
         effects::EFFECTS,
         elements::ELEMENTS,
@@ -56,7 +56,7 @@ fn difference(one: &RunReport, two: &RunReport) -> f64 {
 /// does not apply within 1000 `rtol` by `bdf`.
 fn same(what: &str, neutral: &str, off: &str) {
     let own = scene(neutral);
-    match solve(&own.network, &own.settings("exact").unwrap(), &mut Silent) {
+    match own.network.solve_with(&own.settings("exact").unwrap()) {
         Ok(report) => {
             let gap = difference(&run(off, "exact"), &report);
             assert!(gap <= 1e-12, "{what} makes a difference of {gap:e}");
@@ -65,7 +65,7 @@ fn same(what: &str, neutral: &str, off: &str) {
             let tight = |text: &str| {
                 let read = scene(text);
                 let settings = SolveSettings { rtol: Some(1e-9), ..read.settings("bdf").unwrap() };
-                solve(&read.network, &settings, &mut Silent).unwrap()
+                read.network.solve_with(&settings).unwrap()
             };
             let gap = difference(&tight(off), &tight(neutral));
             assert!(gap <= 1e3 * 1e-9, "{what} makes a difference of {gap:e}");

@@ -7,8 +7,8 @@ use std::sync::{
 };
 
 use dashpot::{
-    analysis::{SolveSettings, solve},
-    dae::{Silent, Waveform},
+    analysis::{Solve, SolveSettings},
+    dae::Waveform,
     network::{
         Detail, Influence, Network, NetworkError, Node, NodeId, Situation,
         effects::{EFFECTS, Effect},
@@ -255,7 +255,7 @@ fn no_code_of_an_effect_that_is_off_is_reached_in_a_whole_run() {
     for (at, (kind, ..)) in all.effects.iter().enumerate() {
         let off = network.without(&[Detail::Effect(at)]);
         let before = all.counts();
-        solve(&off, &settings, &mut Silent).unwrap();
+        off.solve_with(&settings).unwrap();
         for (other, (before, after)) in before.into_iter().zip(all.counts()).enumerate() {
             assert_eq!(after == before, other == at, "without {kind}: {}", all.effects[other].0);
         }
@@ -264,7 +264,7 @@ fn no_code_of_an_effect_that_is_off_is_reached_in_a_whole_run() {
     let off = network.without(&details);
     let before = all.counts();
     for method in ["exact", "bdf", "esdirk34", "tr-bdf2"] {
-        solve(&off, &settings.clone().by_name(method).unwrap(), &mut Silent).unwrap();
+        off.solve_with(&settings.clone().by_name(method).unwrap()).unwrap();
     }
     assert_eq!(all.counts(), before);
 }

@@ -9,8 +9,8 @@
 use std::cell::RefCell;
 
 use dashpot::{
-    analysis::{RunReport, Solution, solve},
-    dae::{Signal, Silent},
+    analysis::{RunReport, Solution, Solve},
+    dae::Signal,
     scene::{ReadOptions, Scene, read},
 };
 
@@ -49,7 +49,7 @@ pub(super) fn scene(text: &str) -> Scene {
 
 pub(super) fn run(text: &str, method: &str) -> RunReport {
     let scene = scene(text);
-    let report = solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent);
+    let report = scene.network.solve_with(&scene.settings(method).unwrap());
     report.unwrap_or_else(|error| panic!("{method}: {error}\n{text}"))
 }
 

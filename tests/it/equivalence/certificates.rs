@@ -3,8 +3,7 @@
 use std::f64::consts::TAU;
 
 use dashpot::{
-    analysis::{SolveSettings, solve},
-    dae::Silent,
+    analysis::{Solve, SolveSettings},
     network::model_of,
     rheology::{Canonical, LinearModel, Primitive, Tree, equivalence::compare},
     scene::reference,
@@ -94,7 +93,7 @@ fn a_billionth_in_a_mode_that_no_impact_sees_makes_another_model() {
     let measured = |tree: &Tree<Primitive>| {
         let network = padded(&reference, model_of(tree));
         let settings = SolveSettings::lasting(reference.run.duration).by_name("exact").unwrap();
-        solve(&network, &settings, &mut Silent).unwrap().measures
+        network.solve_with(&settings).unwrap().measures
     };
     let before = measured(&first);
     let more = 1.0 + 1e-9;

@@ -1,8 +1,7 @@
 //! The reference impact with one padding, written in many ways.
 
 use dashpot::{
-    analysis::{MeasureReport, RunReport, SolveSettings, solve},
-    dae::Silent,
+    analysis::{MeasureReport, RunReport, Solve, SolveSettings},
     network::{Network, linear_model, model_of},
     rheology::{
         Canonical, LinearModel, Tree,
@@ -20,7 +19,7 @@ const SAME: f64 = 1e-10;
 
 fn run(network: &Network, scene: &Scene, method: &str) -> RunReport {
     let settings = SolveSettings::lasting(scene.run.duration).by_name(method).unwrap();
-    solve(network, &settings, &mut Silent).unwrap()
+    network.solve_with(&settings).unwrap()
 }
 
 /// The pairs of what both runs report.

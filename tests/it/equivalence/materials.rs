@@ -1,8 +1,7 @@
 //! Pads of materials and shifted times, against the same scene in plain numbers.
 
 use dashpot::{
-    analysis::{RunReport, SolveSettings, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve, SolveSettings},
     network::linear_model,
     rheology::equivalence::compare,
     scene::Scene,
@@ -23,7 +22,7 @@ fn with_padding(tables: &str, law: &str) -> Scene {
 
 fn run(scene: &Scene) -> RunReport {
     let settings = SolveSettings::lasting(scene.run.duration).by_name("exact").unwrap();
-    solve(&scene.network, &settings, &mut Silent).unwrap()
+    scene.network.solve_with(&settings).unwrap()
 }
 
 /// Constants of both paddings agree within `epsilons` roundings, so measures, which follow them

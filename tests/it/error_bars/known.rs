@@ -1,16 +1,14 @@
 //! Scenes in which a number was outside of its bar, or had none, by a cause of its own.
 
 use dashpot::{
-    analysis::{RunReport, SolveSettings, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve, SolveSettings},
     scene::{ReadOptions, read},
 };
 
 fn run(text: &str, method: &str, rtol: Option<f64>) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
-    solve(&scene.network, &settings, &mut Silent)
-        .unwrap_or_else(|error| panic!("{method} {rtol:?}: {error}"))
+    scene.network.solve_with(&settings).unwrap_or_else(|error| panic!("{method} {rtol:?}: {error}"))
 }
 
 /// A head on a spring beside a dashpot so strong that the force is next to nothing when it turns to a pull:

@@ -9,7 +9,7 @@ use std::{
 };
 
 use dashpot::{
-    analysis::solve,
+    analysis::Solve,
     dae::{Observer, Progress},
 };
 
@@ -62,7 +62,7 @@ fn solved(case: &Case, method: &'static str) -> Attempt {
         Err(words) => return Attempt { outcome: Outcome::Refused(words), by: method },
     };
     let mut limit = Limit { steps: 0, most: case.most_steps };
-    let report = match solve(&network, &settings, &mut limit) {
+    let report = match network.solve_watched(&settings, &mut limit) {
         Ok(report) => report,
         Err(error) => {
             return Attempt { outcome: Outcome::of_error(&error, case.most_steps), by: method };

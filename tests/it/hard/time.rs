@@ -3,8 +3,7 @@
 use std::{f64::consts::PI, thread};
 
 use dashpot::{
-    analysis::{RunReport, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve},
     scene::{ReadOptions, read},
 };
 
@@ -247,7 +246,7 @@ fn bits(report: &RunReport) -> Vec<u64> {
 
 fn solved(text: &str, method: &str) -> Vec<u64> {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
-    bits(&solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent).unwrap())
+    bits(&scene.network.solve_with(&scene.settings(method).unwrap()).unwrap())
 }
 
 fn samples() -> Case {

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use dashpot::{
-    analysis::{MeasureReport, RunError, RunReport, SolveSettings, solve},
+    analysis::{MeasureReport, RunError, RunReport, Solve, SolveSettings},
     dae::{Observer, Progress},
     scene::{ReadOptions, Scene, read},
 };
@@ -25,13 +25,13 @@ impl Observer for Patience {
 
 /// The report on a scene by what is chosen for it.
 pub(crate) fn by_auto(scene: &Scene) -> Result<RunReport, RunError> {
-    solve(&scene.network, &scene.settings("auto").unwrap(), &mut Patience(5_000))
+    scene.network.solve_watched(&scene.settings("auto").unwrap(), &mut Patience(5_000))
 }
 
 /// The report on a scene by a method, at tolerances from 1e-4 to 1e-6.
 pub(super) fn by(scene: &Scene, method: &str) -> Result<RunReport, RunError> {
     let settings = SolveSettings { rtol: Some(1e-6), ..scene.settings(method).unwrap() };
-    solve(&scene.network, &settings, &mut Patience(1_500))
+    scene.network.solve_watched(&settings, &mut Patience(1_500))
 }
 
 /// Part of the size of a measure that rounding makes where two networks are written down

@@ -4,7 +4,7 @@ use std::{fmt::Write as _, fs, process::Command, sync::Arc};
 
 use allocation_counter::measure;
 use dashpot::{
-    analysis::{SolveSettings, solve, solve_assembly},
+    analysis::{Solve, SolveSettings, solve_assembly},
     dae::Silent,
     plot::{Chart, Scale, Series},
     scene::{ReadOptions, read},
@@ -105,7 +105,7 @@ fn one() {
     let bar = report.worst_relative_error().unwrap();
     drop((report, assembly));
     let duration = 30.0 / OMEGA;
-    let report = solve(&uniform_chain(count), &until(duration), &mut Silent).unwrap();
+    let report = uniform_chain(count).solve_with(&until(duration)).unwrap();
     let (value, own) = end_velocity(&report);
     let (error, own) = ((value - struck_velocity(duration)).abs(), own.unwrap());
     println!(

@@ -4,8 +4,8 @@ use std::fs;
 
 use allocation_counter::measure;
 use dashpot::{
-    analysis::{MeasureWish, SolveSettings, measures::EndVelocity, solve},
-    dae::{Piece, Silent, Waveform},
+    analysis::{MeasureWish, Solve, SolveSettings, measures::EndVelocity},
+    dae::{Piece, Waveform},
     network::{Network, Node, NodeId, elements::Rigid, parameters::WindowWish, part},
     scene::{ReadOptions, read},
 };
@@ -71,7 +71,7 @@ fn free_chains_that_are_pushed_take_time_in_proportion_to_their_size() {
         let mut network = joined(count, |at| at - 1, false);
         let first = network.nodes().nth(1).unwrap().0;
         network.add_load("push", first, Waveform::constant(1e3));
-        drop(solve(&network, &settings(), &mut Silent).unwrap());
+        drop(network.solve_with(&settings()).unwrap());
     });
 }
 
@@ -84,7 +84,7 @@ fn rigid_links_take_time_in_proportion_to_their_number() {
             let mut network = joined(count, from, true);
             let (first, ground) = (network.nodes().nth(1).unwrap().0, network.ground());
             network.connect("pad", first, ground, kelvin(STIFFNESS, 100.0));
-            drop(solve(&network, &settings(), &mut Silent).unwrap());
+            drop(network.solve_with(&settings()).unwrap());
         });
     }
 }
@@ -111,7 +111,7 @@ fn noisy_loads_take_time_in_proportion_to_their_points() {
         network.connect("pad", mass, network.ground(), kelvin(1e6, 100.0));
         network.add_load("push", mass, Waveform::new(pieces.collect()).unwrap());
         let own = SolveSettings::lasting(segment * count as f64).by_name(method).unwrap();
-        drop(solve(&network, &SolveSettings { estimate: false, ..own }, &mut Silent).unwrap());
+        drop(network.solve_with(&SolveSettings { estimate: false, ..own }).unwrap());
     };
     for method in ["exact", "bdf", "tr-bdf2"] {
         assert_linear(&format!("a noisy load by {method}"), 7500, |count| solved(count, method));
@@ -139,7 +139,7 @@ fn long_runs_that_switch_keep_little_of_each_leg() {
         let settings = SolveSettings { duration, ..scene.settings("exact").unwrap() };
         let mut switches = 0;
         let memory = measure(|| {
-            let report = solve(&scene.network, &settings, &mut Silent).unwrap();
+            let report = scene.network.solve_with(&settings).unwrap();
             switches = report.trajectory.switches.len();
         });
         (memory.bytes_max as f64, switches as f64)

@@ -1,14 +1,15 @@
 //! Laws at references far from where they work, beside closed forms.
 
 use dashpot::{
-    analysis::{RunReport, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve},
     scene::{ReadOptions, read},
 };
 
 fn run(text: &str, method: &str) -> RunReport {
     let scene = read(text, &ReadOptions::default()).unwrap().value;
-    solve(&scene.network, &scene.settings(method).unwrap(), &mut Silent)
+    scene
+        .network
+        .solve_with(&scene.settings(method).unwrap())
         .unwrap_or_else(|error| panic!("{method}: {error}\n{text}"))
 }
 

@@ -1,8 +1,7 @@
 //! A law is the same at whichever reference it is given.
 
 use dashpot::{
-    analysis::{RunReport, SolveSettings, solve},
-    dae::Silent,
+    analysis::{RunReport, Solve, SolveSettings},
     network::elements::ELEMENTS,
     scene::{ReadOptions, read},
 };
@@ -79,7 +78,7 @@ fn scenes(law: &str) -> [String; 4] {
 fn run(text: &str, method: &str) -> Result<RunReport, String> {
     let scene = read(text, &ReadOptions::default()).map_err(|own| own.to_string())?.value;
     let settings = SolveSettings { rtol: Some(1e-6), ..scene.settings(method).unwrap() };
-    solve(&scene.network, &settings, &mut Silent).map_err(|own| own.to_string())
+    scene.network.solve_with(&settings).map_err(|own| own.to_string())
 }
 
 /// All values and errors of a report.

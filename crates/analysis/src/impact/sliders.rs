@@ -169,7 +169,7 @@ fn largest_force(solution: &Solution<'_>) -> f64 {
 mod tests {
     use std::sync::Arc;
 
-    use dashpot_dae::{Silent, Waveform};
+    use dashpot_dae::Waveform;
     use dashpot_network::{
         Model, Network, Node,
         elements::{Contact, Friction, Spring},
@@ -177,10 +177,10 @@ mod tests {
     };
 
     use super::*;
-    use crate::{RunReport, SolveSettings, Warning, energy::ledger::ledger, solve};
+    use crate::{RunReport, Solve, SolveSettings, Warning, energy::ledger::ledger};
 
     fn solved(network: &Network, method: &str) -> RunReport {
-        solve(network, &SolveSettings::lasting(2.0).by_name(method).unwrap(), &mut Silent).unwrap()
+        network.solve_with(&SolveSettings::lasting(2.0).by_name(method).unwrap()).unwrap()
     }
 
     /// A mass that a force presses onto a stop, beside a spring and a slider.
@@ -252,8 +252,7 @@ mod tests {
         network.connect("spring", head, ground, part(Spring { stiffness: 100.0 }));
         network.connect("guard", head, ground, part(Friction { force: 3.0 }));
         let mut report =
-            solve(&network, &SolveSettings::lasting(2.0).by_name("exact").unwrap(), &mut Silent)
-                .unwrap();
+            network.solve_with(&SolveSettings::lasting(2.0).by_name("exact").unwrap()).unwrap();
         let energy = ledger(&report.solution(), 2.0);
         assert_eq!(slider_fault(&report.solution(), &energy), None);
         // The same motion, of a slider that can hold half as much.

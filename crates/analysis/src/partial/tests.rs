@@ -17,7 +17,7 @@ use dashpot_network::{
 use dashpot_rheology::Tree;
 
 use super::*;
-use crate::{Accuracy, MeasureWish, differences, measures::PeakForce, solve};
+use crate::{Accuracy, MeasureWish, Solve, differences, measures::PeakForce};
 
 /// The reference impact of the thesis at a speed \[m/s\].
 fn at_speed(speed: f64) -> Network {
@@ -53,7 +53,7 @@ fn below(bound: Option<f64>) -> SolveSettings {
 }
 
 fn run(network: &Network, bound: Option<f64>) -> RunReport {
-    solve(network, &below(bound), &mut Silent).unwrap()
+    network.solve_with(&below(bound)).unwrap()
 }
 
 fn left_out(partial: &Partial) -> Vec<&str> {
@@ -228,7 +228,7 @@ fn what_is_asked_for_by_name_is_kept() {
     let network = with(reference(), face);
     let mut settings = below(Some(0.01));
     settings.measures = vec![MeasureWish::new("padding.contact", PeakForce::default())];
-    let report = solve(&network, &settings, &mut Silent).unwrap();
+    let report = network.solve_with(&settings).unwrap();
     let partial = report.partial.as_ref().unwrap();
     assert_eq!((left_out(partial), put_back(partial)), (vec![], vec!["face.padding"]));
     let Why::Fails(error) = &partial.put_back[0].why else { panic!("{partial:?}") };
@@ -238,7 +238,7 @@ fn what_is_asked_for_by_name_is_kept() {
 #[test]
 fn a_bound_out_of_its_range_is_refused() {
     for bound in [0.0, -1.0, 0.21, 1.0, f64::NAN] {
-        let error = solve(&reference(), &below(Some(bound)), &mut Silent).unwrap_err();
+        let error = reference().solve_with(&below(Some(bound))).unwrap_err();
         assert!(matches!(error, RunError::InvalidSetting { .. }), "{error}");
     }
 }
@@ -261,7 +261,7 @@ fn a_sweep_is_verified_at_points_spread_over_it() {
     for (network, run) in networks.iter().zip(&found.runs) {
         let reduced = run.as_ref().unwrap();
         assert!(reduced.system.effects.is_empty());
-        let full = solve(network, &below(None), &mut Silent).unwrap();
+        let full = network.solve_with(&below(None)).unwrap();
         let (key, most) = largest_difference(&full, reduced);
         assert!(most <= worst.most(), "{key}: {most}, not {}", worst.most());
     }
@@ -275,7 +275,7 @@ fn a_single_point_of_a_sweep_puts_an_effect_back_everywhere() {
     assert!(found.left_out.is_empty() && found.worst.is_none());
     assert_eq!(found.put_back.len(), 1);
     for (network, run) in networks.iter().zip(&found.runs) {
-        let full = solve(network, &below(None), &mut Silent).unwrap();
+        let full = network.solve_with(&below(None)).unwrap();
         assert_eq!(values(run.as_ref().unwrap()), values(&full));
     }
 }

@@ -16,7 +16,7 @@ use dashpot_network::{
 };
 use serde::Serialize;
 
-use crate::{EventReport, Impact, Ledger, Note, Partial, Segmentation, Solution, Warning};
+use crate::{EventReport, Impact, Ledger, NoValue, Note, Partial, Segmentation, Solution, Warning};
 
 /// Error in parts of a value whose first digit is just known.
 pub(crate) const FIRST_DIGIT: f64 = 0.1;
@@ -182,6 +182,20 @@ impl RunReport {
     /// The measure with this key, for instance `padding.peak-force`.
     pub fn measure(&self, key: &str) -> Option<&MeasureReport> {
         self.measures.iter().find(|measure| measure.key == key)
+    }
+
+    /// The value of the measure with this key, in its SI unit.
+    ///
+    /// # Errors
+    ///
+    /// [`NoValue`] where it is not reported, and where it has none.
+    pub fn value(&self, key: &str) -> Result<f64, NoValue> {
+        let Some(measure) = self.measure(key) else {
+            let known: Vec<&str> = self.measures.iter().map(|own| own.key.as_str()).collect();
+            return Err(NoValue::unknown(key, &known));
+        };
+        let why = || NoValue::Undefined { key: key.to_owned(), notes: measure.notes.clone() };
+        measure.value.ok_or_else(why)
     }
 
     /// All measures by their keys.

@@ -22,12 +22,12 @@ use crate::{
 /// Tolerance of a single solution whose error is not estimated, when none is given.
 const SINGLE: f64 = 1e-6;
 
-/// Integrates a network that is compiled already, and reports; otherwise as [`solve`](crate::solve()). `effects`
+/// Integrates a network that is compiled already, and reports; otherwise as [`Solve`](crate::Solve). `effects`
 /// are the words of those that are on.
 ///
 /// # Errors
 ///
-/// As [`solve`](crate::solve()), but for the network.
+/// As [`Solve`](crate::Solve), but for the network.
 pub fn solve_assembly(
     assembly: &Arc<Assembly>,
     effects: &[&'static str],

@@ -1,12 +1,11 @@
 //! What the measures of similar scenes have to do with each other.
 
-use dashpot_dae::Silent;
 use dashpot_network::{Network, parameters::Dimension};
 
 use super::{Scale, Similarity, groups::with_value, scale::similar_measure};
 use crate::{
-    MeasureReport, MeasureWish, RunError, RunReport, SolveSettings, Stop,
-    measures::selection::select, report::over, solve,
+    MeasureReport, MeasureWish, RunError, RunReport, Solve, SolveSettings, Stop,
+    measures::selection::select, report::over,
 };
 
 /// Differences below this part of a measure's size are those of rounding.
@@ -110,8 +109,8 @@ pub fn measured(
     let own = with_counterparts(settings, scale);
     let (mut similar, _) = similar_settings(&own, scale);
     similar.duration = similar_duration(own.duration, scale, [first, second]);
-    let one = solve(first, &own, &mut Silent)?;
-    let other = solve(second, &similar, &mut Silent)?;
+    let one = first.solve_with(&own)?;
+    let other = second.solve_with(&similar)?;
     side_by_side(&one, &other, scale, &own)
 }
 
@@ -127,7 +126,7 @@ pub fn alone(
     settings: &SolveSettings,
 ) -> Result<Vec<Alone>, RunError> {
     let own = with_counterparts(settings, &Scale::ONE);
-    let one = solve(first, &own, &mut Silent)?;
+    let one = first.solve_with(&own)?;
     let mut all = Vec::new();
     for pair in similarity.different() {
         let Some(group) = similarity.first.group(&pair.name) else { continue };
@@ -136,7 +135,7 @@ pub fn alone(
         let changed = with_value(first, &pair.name, value);
         let Ok(changed) = changed else { continue };
         let duration = similar_duration(own.duration, &Scale::ONE, [first, &changed]);
-        let other = solve(&changed, &SolveSettings { duration, ..own.clone() }, &mut Silent)?;
+        let other = changed.solve_with(&SolveSettings { duration, ..own.clone() })?;
         let measures = side_by_side(&one, &other, &Scale::ONE, &own)?;
         all.push(Alone { name: pair.name.clone(), measures });
     }

@@ -2,14 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use dashpot_dae::Silent;
-
 use super::{
     Column, Gap, Grid, Pose,
     instantiated::{Plan, Stamper},
     parallel::share,
 };
-use crate::{RunReport, SolveSettings, partial::spread, solve};
+use crate::{RunReport, Solve, SolveSettings, partial::spread};
 
 /// How points are solved in full.
 #[derive(Clone, Copy)]
@@ -28,8 +26,7 @@ impl Full<'_> {
     ) -> Result<RunReport, String> {
         let mut scene_point = (self.pose)(&self.grid.places(point))?;
         change(&mut scene_point.settings);
-        solve(&scene_point.network, &scene_point.settings, &mut Silent)
-            .map_err(|error| error.to_string())
+        scene_point.network.solve_with(&scene_point.settings).map_err(|error| error.to_string())
     }
 
     /// Solves a point as it is asked for, and writes its columns and their errors, or notes why they are

@@ -2,17 +2,16 @@
 
 use std::ops::ControlFlow;
 
-use dashpot_dae::Silent;
 use dashpot_network::{
-    Network, Node,
+    Network, Node, dashpot,
     effects::{Gravity, GravityStart, Separation},
-    elements::{Dashpot, Foam, Spring},
-    part,
+    elements::Foam,
+    part, spring,
 };
 use dashpot_rheology::Tree;
 
 use super::*;
-use crate::solve;
+use crate::Solve;
 
 /// Numbers of a generator of its own, so that a failure can be repeated.
 struct Random(u64);
@@ -29,14 +28,6 @@ impl Random {
     fn ratio(&mut self, low: f64, high: f64) -> f64 {
         low * (high / low).powf(self.share())
     }
-}
-
-fn spring(stiffness: f64) -> dashpot_network::Model {
-    part(Spring { stiffness })
-}
-
-fn dashpot(damping: f64) -> dashpot_network::Model {
-    part(Dashpot { damping })
 }
 
 /// 10 kg at 10 m/s on a pad over 100 kg on a mount.
@@ -121,7 +112,7 @@ fn instantiated_values_are_those_of_full_runs_within_their_errors() {
         assert!(found.instantiated >= 50, "{shape}: {} of 60", found.instantiated);
         let width = found.columns.len();
         for (at, network) in networks.iter().enumerate() {
-            let full = solve(network, &SolveSettings::lasting(0.04), &mut Silent).unwrap();
+            let full = network.solve(0.04).unwrap();
             assert_eq!(warned_at(&found, at), sorted(full.warnings.iter().map(kind)));
             for (place, column) in found.columns.iter().enumerate() {
                 let measure = full.measure(&column.key).unwrap();
@@ -199,7 +190,7 @@ fn instantiated_points_are_warned_of_what_full_ones_are() {
         [(0.1, 10.0), (0.2, 10.0), (20.0, 1e3), (40.0, 1e3)].map(struck_twice).to_vec();
     let found = swept(&networks, &["padding.peak-force"], 1);
     for (at, network) in networks.iter().enumerate() {
-        let full = solve(network, &SolveSettings::lasting(0.04), &mut Silent).unwrap();
+        let full = network.solve(0.04).unwrap();
         assert_eq!(warned_at(&found, at), sorted(full.warnings.iter().map(kind)));
     }
     let harder = found

@@ -1,22 +1,10 @@
 //! Tests of the whole: against exact values, and against further solutions.
 
 use dashpot_dae::{Silent, Statistics};
-use dashpot_network::{
-    Model, Network, Node,
-    elements::{Dashpot, PowerDashpot, Spring},
-    part,
-};
+use dashpot_network::{Model, Network, Node, dashpot, elements::PowerDashpot, part, spring};
 
 use super::*;
-use crate::solve;
-
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
-fn dashpot(damping: f64) -> Model {
-    part(Dashpot { damping })
-}
+use crate::Solve;
 
 /// The thesis' reference case with the padding's series dashpot as given.
 fn impact(series: Model) -> Network {
@@ -68,7 +56,7 @@ fn errors_are_the_distances_from_the_exact_solution() {
             // The peak force of the thesis, to eleven digits.
             let exact = 38_359.411_601;
             let own = SolveSettings { rtol: Some(*rtol), ..settings() }.by_name(method).unwrap();
-            let own = solve(&network, &own, &mut Silent).unwrap();
+            let own = network.solve_with(&own).unwrap();
             let value = own.measure("padding.peak-force").unwrap().value.unwrap();
             let direct = (value / exact - 1.0).abs();
             assert!((error - direct).abs() < 2e-11, "{method} {rtol}: {error}");

@@ -1,8 +1,10 @@
 //! The register of elements.
 
 mod bumper;
+mod by_numbers;
 mod contact;
 mod cubic_spring;
+mod custom;
 mod dashpot;
 mod foam;
 mod friction;
@@ -27,9 +29,12 @@ mod tests;
 
 use std::sync::Arc;
 
+use dashpot_rheology::Tree;
+
 pub use bumper::{Bumper, BumperSettings};
 pub use contact::Contact;
 pub use cubic_spring::CubicSpring;
+pub use custom::Custom;
 pub use dashpot::Dashpot;
 pub use foam::Foam;
 pub use friction::Friction;
@@ -44,8 +49,10 @@ pub use spring::Spring;
 pub use stiffening_spring::StiffeningSpring;
 pub use table_spring::TableSpring;
 
-use crate::parameters::{Described, Kind, Registered};
-use crate::phases::Phases;
+use crate::{
+    parameters::{Described, Kind, Registered},
+    phases::Phases,
+};
 
 /// A massless two-terminal element: a law giving the force in the element from its deformation
 /// and deformation rate.
@@ -59,14 +66,31 @@ pub trait Element: Described {
     /// Force `F(y, ẏ)` \[N\] at deformation `y` \[m\] and deformation rate `rate` \[m/s\].
     fn force(&self, deformation: f64, rate: f64) -> f64;
 
-    /// Partial derivatives of [`force`](Self::force).
-    fn tangent(&self, deformation: f64, rate: f64) -> Tangent;
+    /// Partial derivatives of [`force`](Self::force). Where not given, by central differences over steps
+    /// `h` of 6·10⁻⁶ of the place, and of what is [typical](Self::typical) at least: wrong by `h² F‴/6` and
+    /// about 10⁻¹¹ of the secant.
+    fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
+        by_numbers::central_differences(self, deformation, rate)
+    }
 
-    /// Energy stored \[J\] at deformation `y` \[m\].
-    fn stored(&self, deformation: f64) -> f64;
+    /// Energy stored \[J\] at deformation `y` \[m\]. Where not given, `∫ F(s, 0) ds` from 0 to `y` by
+    /// adaptive quadrature, to about 10⁻¹³ of `F y`.
+    fn stored(&self, deformation: f64) -> f64 {
+        by_numbers::work_at_rest(self, deformation)
+    }
 
-    /// The law as the compiler of networks sees it.
-    fn law(&self) -> Law;
+    /// The law as the compiler of networks sees it; where not given, one that is not linear, with the
+    /// secants at what is [typical](Self::typical).
+    fn law(&self) -> Law {
+        let [stiffness, damping] = by_numbers::secants(self);
+        Law::Nonlinear { stiffness, damping }
+    }
+
+    /// A deformation \[m\] and a rate \[m/s\], both positive, that are typical of the use of a law whose
+    /// slopes are found by numbers; a few powers of ten do not matter. 10 mm and 1 m/s.
+    fn typical(&self) -> [f64; 2] {
+        by_numbers::TYPICAL
+    }
 
     /// The deformation \[m\] from which on the force is a power of the deformation or rate beyond, or a sum
     /// of such powers: then no slope is typical of the law. What stands for it is to have the slopes that
@@ -141,22 +165,35 @@ const fn element<E: Element + Kind>() -> Registered<Arc<dyn Element>> {
     Registered::new::<E>(|values| Ok(Arc::new(E::from_values(values)?)), ())
 }
 
-/// Every element kind. **A new kind is registered here.**
-pub static ELEMENTS: &[Registered<Arc<dyn Element>>] = &[
-    element::<Spring>(),
-    element::<Dashpot>(),
-    element::<Rigid>(),
-    element::<Contact>(),
-    element::<Friction>(),
-    element::<PowerSpring>(),
-    element::<CubicSpring>(),
-    element::<StiffeningSpring>(),
-    element::<TableSpring>(),
-    element::<Foam>(),
-    element::<HystereticFoam>(),
-    element::<HystereticTable>(),
-    element::<RateSpring>(),
-    element::<PowerDashpot>(),
-    element::<HuntCrossley>(),
-    element::<Bumper>(),
-];
+macro_rules! elements {
+    ($($kind:ident,)*) => {
+        /// Every element kind.
+        pub static ELEMENTS: &[Registered<Arc<dyn Element>>] = &[$(element::<$kind>(),)*];
+
+        $(impl From<$kind> for Tree<Arc<dyn Element>> {
+            fn from(element: $kind) -> Self {
+                Self::Part(Arc::new(element))
+            }
+        })*
+    };
+}
+
+// **A new kind is registered here.**
+elements! {
+    Spring,
+    Dashpot,
+    Rigid,
+    Contact,
+    Friction,
+    PowerSpring,
+    CubicSpring,
+    StiffeningSpring,
+    TableSpring,
+    Foam,
+    HystereticFoam,
+    HystereticTable,
+    RateSpring,
+    PowerDashpot,
+    HuntCrossley,
+    Bumper,
+}

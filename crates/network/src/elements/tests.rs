@@ -164,3 +164,30 @@ fn laws_of_numbers_without_size_are_finite() {
         }
     });
 }
+
+#[test]
+fn slopes_and_energies_by_numbers_are_those_of_the_laws() {
+    for kind in ELEMENTS {
+        let law = kind.example().unwrap();
+        if matches!(law.law(), Law::Phased | Law::Rigid) {
+            continue;
+        }
+        let same = Arc::clone(&law);
+        let custom = Custom::new("the-same", move |y, v| same.force(y, v));
+        custom.validate().unwrap();
+        let close = |found: f64, exact: f64, size: f64| {
+            let off = (found - exact).abs();
+            assert!(off <= 1e-5 * exact.abs() + 1e-9 * size, "{law:?}: {found} {exact}");
+        };
+        for y in DEFORMATIONS {
+            let exact = law.stored(y);
+            let size = (law.force(y, 0.0) * y).abs();
+            assert!((custom.stored(y) - exact).abs() <= 1e-11 * size, "{law:?} at {y}");
+            for v in RATES.into_iter().filter(|v| v.abs() > 0.01) {
+                let (found, exact) = (custom.tangent(y, v), law.tangent(y, v));
+                close(found.stiffness, exact.stiffness, (law.force(y, v) / 0.01).abs());
+                close(found.damping, exact.damping, law.force(y, v).abs());
+            }
+        }
+    }
+}

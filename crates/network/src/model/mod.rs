@@ -12,12 +12,35 @@ use crate::{
     parameters::{Field, ModelValue, Opaque, Value},
 };
 
-/// A two-terminal model composed of elements.
+/// A two-terminal model composed of elements: `a + b` is a series, `a | b` stands in parallel.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_network::{Model, dashpot, elements::PowerSpring, linear_model, spring};
+///
+/// let zener = spring(6e4) | spring(2e5) + dashpot(400.0);
+/// assert!((linear_model(&zener).relaxation(0.0) / 2.6e5 - 1.0).abs() < 1e-14);
+///
+/// let skin = PowerSpring { force: 200.0, at: 0.01, exponent: 1.5 };
+/// let pad: Model = zener + skin;
+/// assert_eq!(pad.branches().len(), 2);
+/// ```
 pub type Model = Tree<Arc<dyn Element>>;
 
 /// The model that is one element.
 pub fn part(element: impl Element + 'static) -> Model {
     Tree::Part(Arc::new(element))
+}
+
+/// The model that is one [`Spring`] of this stiffness \[N/m\], positive.
+pub fn spring(stiffness: f64) -> Model {
+    part(Spring { stiffness })
+}
+
+/// The model that is one [`Dashpot`] of this damping \[N s/m\], positive.
+pub fn dashpot(damping: f64) -> Model {
+    part(Dashpot { damping })
 }
 
 impl Opaque for Model {
@@ -65,10 +88,9 @@ impl Field for Model {
 /// # Examples
 ///
 /// ```
-/// use dashpot_network::{elements::{Dashpot, Spring}, linear_model, part};
-/// use dashpot_rheology::Tree;
+/// use dashpot_network::{dashpot, linear_model, spring};
 ///
-/// let maxwell = Tree::series([part(Spring { stiffness: 2e7 }), part(Dashpot { damping: 6e3 })]);
+/// let maxwell = spring(2e7) + dashpot(6e3);
 /// let model = linear_model(&maxwell);
 /// assert!((model.relaxation(3e-4) / (2e7 * (-1_f64).exp()) - 1.0).abs() < 1e-14);
 /// ```
@@ -100,8 +122,8 @@ pub fn primitive(element: &dyn Element) -> Primitive {
 /// The elements of a canonical network.
 pub fn model_of(tree: &Tree<Primitive>) -> Model {
     tree.map(|tree| match *tree {
-        Primitive::Spring(stiffness) => part(Spring { stiffness }),
-        Primitive::Dashpot(damping) => part(Dashpot { damping }),
+        Primitive::Spring(stiffness) => spring(stiffness),
+        Primitive::Dashpot(damping) => dashpot(damping),
         Primitive::Rigid => part(Rigid),
     })
 }

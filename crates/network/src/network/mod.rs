@@ -209,13 +209,12 @@ pub(crate) fn start_velocity(network: &Network, start: Start) -> f64 {
 /// # Examples
 ///
 /// ```
-/// use dashpot_network::{Network, Node, elements::{Dashpot, Spring}, part};
-/// use dashpot_rheology::Tree;
+/// use dashpot_network::{Network, Node, dashpot, spring};
 ///
 /// let mut network = Network::new();
 /// let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
-/// let pad = Tree::parallel([part(Spring { stiffness: 2e7 }), part(Dashpot { damping: 4e3 })]);
-/// network.connect("padding", head, network.ground(), pad).thickness = Some(0.02);
+/// let ground = network.ground();
+/// network.connect("padding", head, ground, spring(2e7) | dashpot(4e3)).thickness = Some(0.02);
 /// let assembly = network.compile(0.02)?;
 /// assert_eq!(assembly.system.states(), 2);
 /// # Ok::<(), dashpot_network::NetworkErrors>(())
@@ -265,13 +264,13 @@ impl Network {
         name: impl Into<String>,
         from: NodeId,
         to: NodeId,
-        model: Model,
+        model: impl Into<Model>,
     ) -> &mut Connection {
         let at = self.connections.len();
         self.connections.push(Connection {
             name: name.into(),
             between: [from, to],
-            model,
+            model: model.into(),
             thickness: None,
             area: None,
             pads: Vec::new(),

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use dashpot_analysis::{SolveSettings, solve};
-use dashpot_dae::{Signal, Silent, Waveform};
+use dashpot_analysis::{Solve, SolveSettings};
+use dashpot_dae::{Signal, Waveform};
 use dashpot_network::Support;
 
 use crate::{Checked, Diagnostics, ReadOptions, Scene, read};
@@ -70,7 +70,7 @@ fn has(shown: &str, parts: &[&str]) {
 fn signal(text: &str, csv: &str, method: &str, output: &str) -> (Signal, f64) {
     let scene = scene(text, csv);
     let settings = scene.settings(method).unwrap();
-    let report = solve(&scene.network, &settings, &mut Silent).unwrap();
+    let report = scene.network.solve_with(&settings).unwrap();
     let at = report.assembly.system.outputs.iter().position(|own| own.name == output).unwrap();
     let signal = report.trajectory.signal(&report.assembly.system, at);
     // Steps are as accurate as the scene wants its measures.
@@ -228,8 +228,7 @@ fn a_chirp_is_solved_by_steps_and_the_methods_agree() {
         }
     }
     let scene = scene(&text, "");
-    let declined =
-        solve(&scene.network, &SolveSettings::lasting(0.5).by_name("exact").unwrap(), &mut Silent);
+    let declined = scene.network.solve_with(&SolveSettings::lasting(0.5).by_name("exact").unwrap());
     assert!(declined.unwrap_err().to_string().contains("chirp"));
 }
 

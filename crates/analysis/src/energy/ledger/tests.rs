@@ -1,22 +1,18 @@
 //! The balance through switches.
 
-use dashpot_dae::{Piece, Silent, Waveform};
+use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{
-    Model, Network, Node,
+    Model, Network, Node, dashpot,
     effects::{Face, Gravity, GravityStart, Separation, Stop, Touch},
-    elements::{Contact, Dashpot, Friction, Spring},
-    part,
+    elements::{Contact, Friction},
+    part, spring,
 };
 
 use super::energy_series;
-use crate::{RunReport, SolveSettings, regular_times, solve};
-
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
+use crate::{RunReport, Solve, SolveSettings, regular_times};
 
 fn kelvin(stiffness: f64, damping: f64) -> Model {
-    Model::parallel([spring(stiffness), part(Dashpot { damping })])
+    Model::parallel([spring(stiffness), dashpot(damping)])
 }
 
 fn contact(gap: f64, restitution: f64) -> Model {
@@ -39,7 +35,7 @@ fn faced(mass: f64, restitution: f64, touch: Touch) -> Network {
     let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
     let panel = network.add_node(Node::mass("panel", 100.0));
     let ground = network.ground();
-    let padding = Model::series([spring(20e6), part(Dashpot { damping: 6e3 }), kelvin(20e6, 4e3)]);
+    let padding = Model::series([spring(20e6), dashpot(6e3), kelvin(20e6, 4e3)]);
     network.connect("padding", head, panel, padding);
     network.connect("mount", panel, ground, kelvin(50e6, 10e3));
     network.add_effect(Separation { element: "padding".to_owned(), at: None, restitution });
@@ -143,7 +139,7 @@ pub(super) fn cases() -> Vec<(&'static str, Network, f64)> {
 
 pub(super) fn run(network: &Network, duration: f64, method: &str) -> RunReport {
     let settings = SolveSettings::lasting(duration).by_name(method).unwrap();
-    solve(network, &settings, &mut Silent).unwrap()
+    network.solve_with(&settings).unwrap()
 }
 
 #[test]

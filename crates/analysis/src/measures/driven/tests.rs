@@ -1,22 +1,15 @@
 use std::f64::consts::PI;
 
 use dashpot_network::{
-    elements::{CubicSpring, Dashpot, Rigid, Spring},
+    dashpot,
+    elements::{CubicSpring, Rigid},
     parameters::Kind as _,
-    part,
+    part, spring,
 };
 use dashpot_numerics::chebyshev::Interpolation;
 use dashpot_rheology::Tree;
 
 use super::*;
-
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
-fn dashpot(damping: f64) -> Model {
-    part(Dashpot { damping })
-}
 
 /// The function as a signal of panels of degree 15.
 fn signal(end: f64, panels: u32, function: impl Fn(f64) -> f64) -> Signal {

@@ -1,6 +1,5 @@
 //! Measures where speeds jump, and where contacts part.
 
-use dashpot_dae::Silent;
 use dashpot_network::{
     Model, Network, Node,
     effects::{Face, Gravity, GravityStart, Separation, Touch},
@@ -9,7 +8,7 @@ use dashpot_network::{
 };
 
 use super::*;
-use crate::{Event, MeasureReport, MeasureWish, RunReport, SolveSettings, solve};
+use crate::{Event, MeasureReport, MeasureWish, RunReport, Solve, SolveSettings};
 
 const RUN: WindowWish = WindowWish::Run;
 
@@ -29,7 +28,7 @@ fn solved(network: &Network, duration: f64, elements: &[&str], nodes: &[&str]) -
         settings.measures.push(MeasureWish::new(node, AverageDeceleration::default()));
         settings.measures.push(MeasureWish::new(node, Hic15::default()));
     }
-    solve(network, &settings, &mut Silent).unwrap()
+    network.solve_with(&settings).unwrap()
 }
 
 fn measure<'r>(report: &'r RunReport, key: &str) -> &'r MeasureReport {
@@ -112,7 +111,7 @@ fn window_without_a_jump_has_finite_measures() {
     settings.measures.push(MeasureWish::new("floor", PeakForce { window }));
     settings.measures.push(MeasureWish::new("floor", Impulse { window }));
     settings.measures.push(MeasureWish::new("ball", SeverityIndex { exponent: 1.0, window: RUN }));
-    let report = solve(&ball(0.0), &settings, &mut Silent).unwrap();
+    let report = ball(0.0).solve_with(&settings).unwrap();
     is(&report, "floor.peak-force-2", 20.0);
     is(&report, "floor.impulse-2", 10.0);
     // The jump of speed, and then 10 m/s² at rest.
@@ -208,7 +207,7 @@ fn impulse_is_what_the_head_loses_of_its_momentum() {
     let mut settings = SolveSettings::lasting(0.03).by_name("exact").unwrap();
     settings.measures.push(MeasureWish::new("pad.contact", Impulse { window: RUN }));
     settings.measures.push(MeasureWish::new("head", EndVelocity { window: RUN }));
-    let report = solve(&faced(0.5), &settings, &mut Silent).unwrap();
+    let report = faced(0.5).solve_with(&settings).unwrap();
     assert!(report.contacts[0].again > 5, "{}", report.contacts[0].again);
     let value = |key: &str| measure(&report, key).value.unwrap();
     let sum = value("pad.contact.impulse-2");
@@ -223,7 +222,7 @@ fn padding_is_pressed_through_all_bounces_of_its_face() {
     settings.measures.push(MeasureWish::new("pad", PeakForce { window: RUN }));
     settings.measures.push(MeasureWish::new("pad.contact", Impulse { window: RUN }));
     settings.measures.push(MeasureWish::new("head", EndVelocity::default()));
-    let report = solve(&faced(0.3), &settings, &mut Silent).unwrap();
+    let report = faced(0.3).solve_with(&settings).unwrap();
     let value = |key: &str| measure(&report, key).value.unwrap();
     let speed = value("head.end-velocity");
     // What the pad has taken is what both have lost of their momentum; they part with one speed.
@@ -270,7 +269,7 @@ fn bodies_that_bounce_on_an_unloaded_padding_have_an_impact_of_each() {
     let mut network = faced(0.3);
     network.add_effect(Gravity { acceleration: 10.0, start: GravityStart::Equilibrium });
     let settings = SolveSettings::lasting(3.0).by_name("exact").unwrap();
-    let report = solve(&network, &settings, &mut Silent).unwrap();
+    let report = network.solve_with(&settings).unwrap();
     let time = measure(&report, "pad.contact-time").value.unwrap();
     assert!((time / pressed_for() - 1.0).abs() < 0.01, "{time}");
 }

@@ -1,6 +1,5 @@
 //! What a padding passes on, beside what it carries itself.
 
-use dashpot_dae::Silent;
 use dashpot_network::{
     Network, Node,
     effects::{Face, Gravity, GravityStart, Separation, Stop, Touch},
@@ -9,7 +8,7 @@ use dashpot_network::{
 };
 
 use super::*;
-use crate::{MeasureWish, RunReport, SolveSettings, solve};
+use crate::{MeasureWish, RunReport, Solve, SolveSettings};
 
 const MASS: f64 = 2.0;
 const STIFFNESS: f64 = 5e4;
@@ -39,7 +38,7 @@ fn face(at: &str, mass: f64, touch: Touch) -> Face {
 fn solved(network: &Network, duration: f64, method: &str) -> RunReport {
     let mut settings = SolveSettings::lasting(duration).by_name(method).unwrap();
     settings.measures.push(MeasureWish::new("pad", TransmittedForce::default()));
-    solve(network, &settings, &mut Silent).unwrap()
+    network.solve_with(&settings).unwrap()
 }
 
 fn is(report: &RunReport, key: &str, expected: f64) {

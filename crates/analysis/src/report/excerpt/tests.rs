@@ -7,16 +7,14 @@ use dashpot_network::{
 use dashpot_rheology::Tree;
 
 use super::*;
-use crate::{RunReport, SolveSettings, regular_times, solve};
-use dashpot_dae::Silent;
+use crate::{RunReport, Solve, SolveSettings, regular_times};
 
 const G: f64 = 9.81;
 const MASS: f64 = 5.0;
 const STIFFNESS: f64 = 2e5;
 
 fn run(network: &Network, duration: f64) -> RunReport {
-    solve(network, &SolveSettings::lasting(duration).by_name("exact").unwrap(), &mut Silent)
-        .unwrap()
+    network.solve_with(&SolveSettings::lasting(duration).by_name("exact").unwrap()).unwrap()
 }
 
 /// 5 kg dropped from `height` \[m\] on a spring that it may leave; on a table that moves if `on_table`.
@@ -87,7 +85,7 @@ fn foam_is_left_where_its_contact_opens_and_alone_where_it_goes_slack() {
         let model = Tree::parallel([foam.clone(), part(Dashpot { damping: beside })]);
         network.set_model(0, if beside > 0.0 { model } else { foam });
         let settings = SolveSettings::lasting(0.5).by_name("esdirk34").unwrap();
-        let report = solve(&network, &settings, &mut Silent).unwrap();
+        let report = network.solve_with(&settings).unwrap();
         let spans = touching(&report.solution());
         let (met, _) = contact(0.5);
         // As good as the measures are to be.

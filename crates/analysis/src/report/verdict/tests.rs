@@ -1,4 +1,3 @@
-use dashpot_dae::Silent;
 use dashpot_network::{
     Model, Network, Node,
     elements::{Dashpot, Spring},
@@ -6,7 +5,7 @@ use dashpot_network::{
 };
 
 use super::*;
-use crate::{SolveSettings, solve};
+use crate::Solve;
 
 /// Heads on pads of their own: names, masses \[kg\], speeds \[m/s\], stiffnesses \[N/m\].
 fn side_by_side(all: &[(&str, f64, f64, f64)]) -> RunReport {
@@ -18,7 +17,7 @@ fn side_by_side(all: &[(&str, f64, f64, f64)]) -> RunReport {
         let parts = [part(Spring { stiffness: *stiffness }), part(Dashpot { damping })];
         network.connect(*name, head, ground, Model::parallel(parts));
     }
-    solve(&network, &SolveSettings::lasting(0.2), &mut Silent).unwrap()
+    network.solve(0.2).unwrap()
 }
 
 #[test]

@@ -4,25 +4,13 @@ mod random;
 
 use std::f64::consts::TAU;
 
-use dashpot_network::{
-    Model,
-    elements::{Dashpot, Rigid, Spring},
-    part,
-};
+use dashpot_network::{Model, dashpot, elements::Rigid, part, spring};
 
 use super::*;
 
 const BOTH: &[&str] = &["exact", "bdf"];
 /// Rounding of some ten operations.
 const ROUNDING: f64 = 1e-14;
-
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
-fn dashpot(damping: f64) -> Model {
-    part(Dashpot { damping })
-}
 
 fn kelvin_voigt(stiffness: f64, damping: f64) -> Model {
     Model::parallel([spring(stiffness), dashpot(damping)])

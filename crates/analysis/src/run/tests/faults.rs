@@ -8,7 +8,7 @@ use dashpot_network::{
 };
 
 use super::super::*;
-use crate::{Place, Warning, run::attempts::none_gets_through, solve};
+use crate::{Place, Solve, Warning, run::attempts::none_gets_through};
 
 /// The exact method, but for one output.
 #[derive(Debug)]
@@ -124,7 +124,7 @@ fn methods_that_damp_or_excite_are_caught_with_time_and_place() {
             estimate: false,
             ..SolveSettings::lasting(5.0).by_name("bdf").unwrap()
         };
-        let failure = solve(&struck(0.632), &settings, &mut Silent).unwrap_err();
+        let failure = struck(0.632).solve_with(&settings).unwrap_err();
         let RunError::EnergyLost { method: "bdf", closure, leak: Some(leak) } = &failure else {
             panic!("{failure}")
         };

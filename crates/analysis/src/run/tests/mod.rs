@@ -2,29 +2,18 @@ mod faults;
 mod random;
 mod rest;
 
-use dashpot_dae::{Direction, Piece, Silent, Waveform};
+use dashpot_dae::{Direction, Piece, Waveform};
 use dashpot_network::effects::{Gravity, GravityStart};
 use dashpot_network::{
-    Model, Network, Node, NodeId,
-    elements::{Dashpot, PowerDashpot, Spring},
-    parameters::WindowWish,
-    part,
+    Model, Network, Node, NodeId, dashpot, elements::PowerDashpot, parameters::WindowWish, part,
+    spring,
 };
 
 use super::*;
 use crate::{
-    Contact, MeasureWish, differences,
+    Contact, MeasureWish, Solve, differences,
     measures::{EndVelocity, Energy, Hic15, PeakForce},
-    solve,
 };
-
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
-fn dashpot(damping: f64) -> Model {
-    part(Dashpot { damping })
-}
 
 /// The thesis' reference case with the given support damping \[N s/m\].
 fn reference(damping: f64) -> Network {
@@ -82,7 +71,7 @@ fn exact_gives_the_thesis_table() {
     for (damping, [force, at, deepest, deepest_at, release, speed, work, severity]) in table {
         let mut settings = SolveSettings::lasting(0.01).by_name("exact").unwrap();
         settings.measures.push(MeasureWish::new("head", EndVelocity::default()));
-        let report = solve(&reference(damping), &settings, &mut Silent).unwrap();
+        let report = reference(damping).solve_with(&settings).unwrap();
         same(value(&report, "padding.peak-force"), force, 1e-6);
         same(1e3 * report.measure("padding.peak-force").unwrap().time.unwrap(), at, 1e-9);
         same(1e3 * value(&report, "padding.peak-deformation"), deepest, 1e-9);
@@ -118,11 +107,10 @@ fn bdf_is_inside_its_bars() {
         let mut settings = SolveSettings::lasting(0.02);
         settings.measures.push(MeasureWish::new("head", Hic15::default()));
         settings.measures.push(MeasureWish::new("head", EndVelocity::default()));
-        let exact =
-            solve(&network, &settings.clone().by_name("exact").unwrap(), &mut Silent).unwrap();
+        let exact = network.solve_with(&settings.clone().by_name("exact").unwrap()).unwrap();
         for rtol in [None, Some(1e-5), Some(1e-7), Some(1e-9)] {
             let settings = SolveSettings { rtol, ..settings.clone().by_name("bdf").unwrap() };
-            let bdf = solve(&network, &settings, &mut Silent).unwrap();
+            let bdf = network.solve_with(&settings).unwrap();
             for measure in &bdf.measures {
                 let error = (measure.value.unwrap() - value(&exact, &measure.key)).abs();
                 let bar = measure.error.unwrap();
@@ -154,7 +142,7 @@ fn ledger_of_a_damped_oscillator_closes() {
     for (stiffness, damping) in [(800.0, 8.0), (800.0, 80.0), (800.0, 200.0)] {
         for method in ["exact", "bdf", "tr-bdf2"] {
             let settings = SolveSettings::lasting(0.5).by_name(method).unwrap();
-            let report = solve(&oscillator(stiffness, damping), &settings, &mut Silent).unwrap();
+            let report = oscillator(stiffness, damping).solve_with(&settings).unwrap();
             let energy = &report.energy;
             same(energy.start, 9.0, 1e-12);
             let accuracy = if method == "exact" { 1e-12 } else { 1e-3 };
@@ -167,7 +155,7 @@ fn ledger_of_a_damped_oscillator_closes() {
 
 #[test]
 fn undamped_rebound_gives_all_back() {
-    let report = solve(&oscillator(800.0, 0.0), &SolveSettings::lasting(0.3), &mut Silent).unwrap();
+    let report = oscillator(800.0, 0.0).solve(0.3).unwrap();
     let half_period = std::f64::consts::PI / 20.0;
     same(value(&report, "pad.contact-time"), half_period, 1e-12);
     same(value(&report, "pad.impulse"), 12.0, 1e-10);
@@ -179,13 +167,12 @@ fn undamped_rebound_gives_all_back() {
 
 #[test]
 fn run_that_ends_early_is_still_in_contact() {
-    let report =
-        solve(&oscillator(800.0, 8.0), &SolveSettings::lasting(0.05), &mut Silent).unwrap();
+    let report = oscillator(800.0, 8.0).solve(0.05).unwrap();
     let contact = report.measure("pad.contact-time").unwrap();
     assert_eq!(contact.value, None);
     assert!(contact.note().unwrap().contains("still in contact"));
     assert!(report.warnings.iter().any(|warning| warning.to_string().contains("still in contact")));
-    let nothing = solve(&oscillator(800.0, 8.0), &SolveSettings::lasting(0.0), &mut Silent);
+    let nothing = oscillator(800.0, 8.0).solve(0.0);
     same(value(&nothing.unwrap(), "pad.peak-force"), 24.0, 1e-12);
 }
 
@@ -195,7 +182,7 @@ fn impactor_that_leaves_pulls_from_the_start() {
     let head = network.add_node(Node::mass("head", 2.0).moving(-3.0));
     let ground: NodeId = network.ground();
     network.connect("pad", head, ground, spring(800.0));
-    let report = solve(&network, &SolveSettings::lasting(0.1), &mut Silent).unwrap();
+    let report = network.solve(0.1).unwrap();
     same(value(&report, "pad.contact-time"), 0.0, 0.0);
     assert_eq!(report.measure("pad.peak-force").unwrap().value, None);
     assert_eq!(
@@ -217,7 +204,7 @@ fn jump_of_a_motion_does_the_work_that_the_spring_takes_up() {
     network.connect("mount", base, body, mount);
     for method in ["exact", "bdf"] {
         let settings = SolveSettings::lasting(0.6).by_name(method).unwrap();
-        let report = solve(&network, &settings, &mut Silent).unwrap();
+        let report = network.solve_with(&settings).unwrap();
         let closure = report.energy.closure().abs();
         assert!(closure < if method == "exact" { 1e-11 } else { 1e-3 }, "{method}: {closure}");
         let jump = &report.energy.work_in.last().unwrap().1;
@@ -241,7 +228,7 @@ fn pad_without_impactor_is_seen_to_pull() {
     let goods = network.add_node(Node::mass("goods", 12.0));
     let cushion = Model::parallel([spring(30e3), dashpot(150.0)]);
     network.connect("cushion", goods, bed, cushion).thickness = Some(0.05);
-    let report = solve(&network, &SolveSettings::lasting(1.0), &mut Silent).unwrap();
+    let report = network.solve(1.0).unwrap();
     // The bed sets out towards positive positions, away from the goods.
     assert_eq!(
         report.warnings[0].to_string(),
@@ -252,7 +239,7 @@ fn pad_without_impactor_is_seen_to_pull() {
 
 #[test]
 fn largest_force_is_looked_for_in_every_element() {
-    let report = solve(&reference(10e3), &SolveSettings::lasting(0.02), &mut Silent).unwrap();
+    let report = reference(10e3).solve(0.02).unwrap();
     let (element, peak) = report.largest_force().unwrap();
     assert_eq!(element, "mount");
     assert!(peak.value > value(&report, "padding.peak-force"));
@@ -264,12 +251,12 @@ fn accuracy_that_is_wanted_is_paid_for() {
         accuracy: crate::Accuracy::of_all(accuracy),
         ..SolveSettings::lasting(0.02).by_name("bdf").unwrap()
     };
-    let rough = solve(&reference(10e3), &wish(1e-2), &mut Silent).unwrap();
-    let fine = solve(&reference(10e3), &wish(1e-6), &mut Silent).unwrap();
+    let rough = reference(10e3).solve_with(&wish(1e-2)).unwrap();
+    let fine = reference(10e3).solve_with(&wish(1e-6)).unwrap();
     assert!(fine.solver.solves_for_error > rough.solver.solves_for_error);
     assert!(fine.measures.iter().all(|measure| measure.excess <= 1.0));
     assert!(fine.warnings.iter().all(|warning| !warning.to_string().contains("accuracy")));
-    let beyond = solve(&reference(10e3), &wish(1e-13), &mut Silent).unwrap();
+    let beyond = reference(10e3).solve_with(&wish(1e-13)).unwrap();
     assert!(
         beyond
             .warnings
@@ -277,7 +264,7 @@ fn accuracy_that_is_wanted_is_paid_for() {
             .any(|warning| warning.to_string().contains("accuracy wanted is not"))
     );
     let settings = SolveSettings { estimate: false, ..wish(1e-3) };
-    let single = solve(&reference(10e3), &settings, &mut Silent).unwrap();
+    let single = reference(10e3).solve_with(&settings).unwrap();
     assert!(single.measures.iter().all(|measure| measure.error.is_none()));
     assert_eq!(single.solver.solves_for_error, 0);
 }
@@ -290,7 +277,7 @@ fn energy_that_is_lost_fails_the_run() {
         estimate: false,
         ..SolveSettings::lasting(50.0).by_name("bdf").unwrap()
     };
-    let failure = solve(&oscillator(800.0, 0.0), &settings, &mut Silent).unwrap_err();
+    let failure = oscillator(800.0, 0.0).solve_with(&settings).unwrap_err();
     assert!(matches!(failure, RunError::EnergyLost { method: "bdf", .. }), "{failure}");
 }
 
@@ -309,8 +296,8 @@ fn dashpots_in_a_row_are_one_dashpot() {
     let one = dashpot(1.0 / constants.iter().map(|c| 1.0 / c).sum::<f64>());
     let one = scene(Model::series([one, spring(1e3)]));
     let settings = SolveSettings::lasting(0.135);
-    let apart = solve(&apart, &settings, &mut Silent).unwrap();
-    let one = solve(&one, &settings, &mut Silent).unwrap();
+    let apart = apart.solve_with(&settings).unwrap();
+    let one = one.solve_with(&settings).unwrap();
     for measure in &one.measures {
         let Some(expected) = measure.value else { continue };
         let other = apart.measure(&measure.key).unwrap();
@@ -330,8 +317,7 @@ fn run_stops_where_it_is_told_to() {
     });
     for method in ["exact", "bdf"] {
         let report =
-            solve(&reference(10e3), &settings.clone().by_name(method).unwrap(), &mut Silent)
-                .unwrap();
+            reference(10e3).solve_with(&settings.clone().by_name(method).unwrap()).unwrap();
         let end = report.trajectory.t_end;
         same(1e3 * end, 7.425_568_132, if method == "exact" { 1e-9 } else { 1e-2 });
         let stopped = report.stopped_by().unwrap();
@@ -348,7 +334,7 @@ fn weight_does_work() {
     network.add_effect(Gravity { acceleration: 9.806_65, start: GravityStart::Equilibrium });
     for method in ["exact", "bdf"] {
         let settings = SolveSettings::lasting(0.02).by_name(method).unwrap();
-        let report = solve(&network, &settings, &mut Silent).unwrap();
+        let report = network.solve_with(&settings).unwrap();
         assert_eq!(report.energy.work_in.len(), 2);
         assert!(report.energy.total_work_in() > 0.0);
         let closure = report.energy.closure().abs();
@@ -359,7 +345,7 @@ fn weight_does_work() {
 
 #[test]
 fn series_ends_with_the_ledger() {
-    let report = solve(&reference(10e3), &SolveSettings::lasting(0.02), &mut Silent).unwrap();
+    let report = reference(10e3).solve(0.02).unwrap();
     let solution = report.solution();
     let times = crate::regular_times(solution.end(), 41);
     let series = crate::energy::ledger::energy_series(&solution, &times);
@@ -375,7 +361,7 @@ fn series_ends_with_the_ledger() {
 
 #[test]
 fn table_holds_all_outputs() {
-    let report = solve(&reference(10e3), &SolveSettings::lasting(0.02), &mut Silent).unwrap();
+    let report = reference(10e3).solve(0.02).unwrap();
     let table = crate::table(&report.assembly, &report.trajectory, 501);
     let force = table.columns.iter().find(|column| column.name == "padding.force").unwrap();
     assert_eq!((force.values.len(), table.times.len(), force.unit), (501, 501, "N"));
@@ -388,7 +374,7 @@ fn table_holds_all_outputs() {
 
 #[test]
 fn wishes_that_name_nothing_are_refused() {
-    let solve = |settings: &SolveSettings| solve(&reference(1e4), settings, &mut Silent);
+    let solve = |settings: &SolveSettings| reference(1e4).solve_with(settings);
     let mut settings = SolveSettings::lasting(0.01);
     settings.measures.push(MeasureWish::new("hat", EndVelocity::default()));
     assert!(matches!(solve(&settings), Err(RunError::UnknownTarget { .. })));
@@ -409,10 +395,10 @@ fn second_measure_of_a_kind_gets_a_number() {
         settings.measures.push(MeasureWish::new("padding", Energy { window }));
         settings.measures.push(MeasureWish::new("mount", Energy { window }));
     }
-    let report = solve(&reference(10e3), &settings, &mut Silent).unwrap();
+    let report = reference(10e3).solve_with(&settings).unwrap();
     // 2 ζ: ω(2) and ω(4) of the thesis' groups are near 0.2 and 0.4.
     assert!(value(&report, "padding.energy-2") < value(&report, "padding.energy-3"));
-    let plain = solve(&reference(10e3), &SolveSettings::lasting(0.01), &mut Silent).unwrap();
+    let plain = reference(10e3).solve(0.01).unwrap();
     let energy = value(&report, "padding.energy").to_bits();
     assert_eq!(energy, value(&plain, "padding.energy").to_bits(), "the default is still there");
     assert!(report.measure("mount.energy").is_some() && report.measure("mount.energy-2").is_some());
@@ -424,7 +410,7 @@ fn measure_over_another_window_leaves_the_default_alone() {
     let wished = |window| {
         let mut settings = SolveSettings::lasting(0.5);
         settings.measures.push(MeasureWish::new("pad", PeakForce { window }));
-        solve(&network, &settings, &mut Silent).unwrap()
+        network.solve_with(&settings).unwrap()
     };
     let early = wished(WindowWish::Times(0.0, 1e-3));
     assert!(value(&early, "pad.peak-force") > 2.0 * value(&early, "pad.peak-force-2"));
@@ -444,14 +430,12 @@ fn force_that_decays_to_zero_is_never_released() {
     loaded.add_load("ram", head, load);
     for method in ["bdf", "tr-bdf2", "esdirk34", "tsit45"] {
         let report =
-            solve(&network, &SolveSettings::lasting(1.0).by_name(method).unwrap(), &mut Silent)
-                .unwrap();
+            network.solve_with(&SolveSettings::lasting(1.0).by_name(method).unwrap()).unwrap();
         assert_eq!(report.contacts[0].impact.contact, Contact::Lasting, "{method}");
         assert_eq!(report.measure("pad.contact-time").unwrap().value, None, "{method}");
         let settings = SolveSettings::lasting(0.3);
-        let exact =
-            solve(&loaded, &settings.clone().by_name("exact").unwrap(), &mut Silent).unwrap();
-        let report = solve(&loaded, &settings.by_name(method).unwrap(), &mut Silent).unwrap();
+        let exact = loaded.solve_with(&settings.clone().by_name("exact").unwrap()).unwrap();
+        let report = loaded.solve_with(&settings.by_name(method).unwrap()).unwrap();
         for measure in &report.measures {
             let gap = (measure.value.unwrap() - value(&exact, &measure.key)).abs();
             let bar = measure.error.unwrap();
@@ -466,11 +450,9 @@ fn slow_and_shallow_pull_is_a_release_or_the_bars_say_that_it_may_be_one() {
     for (stiffness, duration, is_clear) in [(4e4, 0.3, true), (800.0, 8.0, false)] {
         let network = oscillator(stiffness, 2e3);
         let settings = SolveSettings::lasting(duration);
-        let exact =
-            solve(&network, &settings.clone().by_name("exact").unwrap(), &mut Silent).unwrap();
+        let exact = network.solve_with(&settings.clone().by_name("exact").unwrap()).unwrap();
         for method in ["bdf", "tr-bdf2", "esdirk34"] {
-            let report =
-                solve(&network, &settings.clone().by_name(method).unwrap(), &mut Silent).unwrap();
+            let report = network.solve_with(&settings.clone().by_name(method).unwrap()).unwrap();
             for measure in &report.measures {
                 let Some(found) = measure.value else {
                     assert!(!is_clear && measure.error == Some(f64::INFINITY), "{measure:?}");
@@ -495,7 +477,7 @@ fn quiet_corner_of_a_network_does_not_cost_the_exact_method() {
     settings.measures.push(MeasureWish::new("mount", Energy { window }));
     settings.measures.push(MeasureWish::new("mount", PeakForce { window }));
     settings.measures.push(MeasureWish::new("quiet", EndVelocity { window }));
-    let report = solve(&network, &settings, &mut Silent).unwrap();
+    let report = network.solve_with(&settings).unwrap();
     assert_eq!(report.solver.method, "exact");
     assert!(report.measures.iter().all(|measure| measure.excess <= 1.0));
     assert!(report.worst_relative_error().unwrap() < 1e-6);
@@ -504,7 +486,7 @@ fn quiet_corner_of_a_network_does_not_cost_the_exact_method() {
 #[test]
 fn bound_of_the_energy_does_not_grow_with_what_happens_after_it() {
     let settings = SolveSettings::lasting(1e7).by_name("exact").unwrap();
-    let report = solve(&oscillator(800.0, 8.0), &settings, &mut Silent).unwrap();
+    let report = oscillator(800.0, 8.0).solve_with(&settings).unwrap();
     let energy = report.measure("pad.energy-at-end").unwrap();
     assert!(energy.relative_error().unwrap() < 1e-8, "{energy:?}");
 }
@@ -515,7 +497,7 @@ fn condition_that_holds_at_the_start_is_pointed_out() {
         |level: f64, direction| Stop { output: "head.velocity".to_owned(), level, direction };
     let warned = |stop| {
         let settings = SolveSettings { stops: vec![stop], ..SolveSettings::lasting(0.1) };
-        let report = solve(&oscillator(800.0, 8.0), &settings, &mut Silent).unwrap();
+        let report = oscillator(800.0, 8.0).solve_with(&settings).unwrap();
         report
             .warnings
             .iter()
@@ -538,7 +520,7 @@ fn one_step_methods_follow_what_drives_a_law_without_any_state() {
     let expected = 100.0 * (amplitude * omega).powi(3) * 8.0 / (3.0 * omega);
     for method in ["bdf", "esdirk34", "tr-bdf2"] {
         let settings = SolveSettings::lasting(0.1).by_name(method).unwrap();
-        let report = solve(&network, &settings, &mut Silent).unwrap();
+        let report = network.solve_with(&settings).unwrap();
         let energy = report.measure("damper.energy").unwrap();
         let error = (energy.value.unwrap() - expected).abs();
         assert!(error <= energy.error.unwrap(), "{method}: {error} of {expected}");

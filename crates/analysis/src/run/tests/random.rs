@@ -1,6 +1,5 @@
 //! Random impacts: the methods against the exact solution.
 
-use dashpot_dae::Silent;
 use dashpot_network::{
     Model, Network, Node,
     elements::{Dashpot, Spring},
@@ -9,9 +8,8 @@ use dashpot_network::{
 
 use super::super::*;
 use crate::{
-    MeasureWish,
+    MeasureWish, Solve,
     measures::{EndVelocity, Hic},
-    solve,
 };
 
 /// A reproducible stream of numbers (splitmix64).
@@ -78,9 +76,8 @@ fn shares(seed: u64, count: usize, method: &str) -> Vec<f64> {
         let mut settings = SolveSettings::lasting(duration);
         settings.measures.push(MeasureWish::new("head", EndVelocity::default()));
         settings.measures.push(MeasureWish::new("head", Hic::default()));
-        let exact =
-            solve(&network, &settings.clone().by_name("exact").unwrap(), &mut Silent).unwrap();
-        let other = solve(&network, &settings.by_name(method).unwrap(), &mut Silent).unwrap();
+        let exact = network.solve_with(&settings.clone().by_name("exact").unwrap()).unwrap();
+        let other = network.solve_with(&settings.by_name(method).unwrap()).unwrap();
         for measure in &other.measures {
             let judge = exact.measure(&measure.key).unwrap();
             let (found, value) = match (measure.value, judge.value) {

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use dashpot_dae::Silent;
 use dashpot_network::{
     Element, Model, Network, Node,
     effects::{Gravity, GravityStart, Separation},
@@ -15,8 +14,7 @@ use dashpot_network::{
 };
 use dashpot_rheology::Tree;
 
-use super::super::*;
-use crate::solve;
+use crate::Solve;
 
 const G: f64 = 9.81;
 
@@ -51,7 +49,7 @@ fn laws() -> Vec<Arc<dyn Element>> {
 
 /// Largest speed of a node over half a second \[m/s\], and the force of its pad at the start \[N\].
 fn unrest(network: &Network, node: &str) -> (f64, f64, usize) {
-    let report = solve(network, &SolveSettings::lasting(0.5), &mut Silent).unwrap();
+    let report = network.solve(0.5).unwrap();
     let solution = report.solution();
     let output = |name: &str| solution.signal(report.assembly.output(name).unwrap());
     let speed = output(&format!("{node}.velocity")).bound();
@@ -94,7 +92,7 @@ fn springs_in_series_each_carry_what_lies_above() {
     let pad = [part(Foam { plateau: 20.0, ..Foam::sample() }), part(Spring { stiffness: 1e3 })];
     network.connect("pad", lower, ground, Tree::parallel(pad));
     network.add_effect(Gravity { acceleration: G, start: GravityStart::Equilibrium });
-    let report = solve(&network, &SolveSettings::lasting(0.1), &mut Silent).unwrap();
+    let report = network.solve(0.1).unwrap();
     let solution = report.solution();
     let at_start = |name: &str| solution.signal(report.assembly.output(name).unwrap()).value(0.0);
     let closed = (3.0 * G / 1e9).cbrt();

@@ -1,4 +1,3 @@
-use dashpot_dae::Silent;
 use dashpot_network::{
     Network, Start,
     effects::Separation,
@@ -8,7 +7,7 @@ use dashpot_network::{
 use dashpot_rheology::{Branch, Tree};
 
 use super::*;
-use crate::{SolveSettings, similarity::Inventory, solve};
+use crate::{Solve, SolveSettings, similarity::Inventory};
 
 fn chapter_4() -> FourParameterImpact {
     let network = FourParameterGroups::of(
@@ -64,7 +63,7 @@ fn networks_of_groups_solve_the_equations_of_the_thesis() {
             let found = FourParameterImpact::of(&network).unwrap().groups();
             assert!((found.gravity - gravity).abs() < 1e-15 && (found.share - share).abs() < 1e-15);
             let settings = SolveSettings::lasting(0.006).by_name("exact").unwrap();
-            let report = solve(&network, &settings, &mut Silent).unwrap();
+            let report = network.solve_with(&settings).unwrap();
             let peak = report.measure("padding.peak-force").unwrap().value.unwrap();
             // The peak lies between steps of 1e-3, so it is seen to some 1e-6.
             assert!((peak / expected - 1.0).abs() < 3e-6, "A = {gravity}: {peak} {expected}");

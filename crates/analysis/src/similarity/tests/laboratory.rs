@@ -14,8 +14,8 @@ fn laboratory_tests_are_similar_and_their_measures_map_back() {
     assert!(Similarity::between(&real, &found.network, 1e-14).unwrap().is_similar());
     let settings = SolveSettings::lasting(0.02).by_name("exact").unwrap();
     let (similar, _) = similar_settings(&settings, &found.scale);
-    let one = solve(&real, &settings, &mut Silent).unwrap();
-    let other = solve(&found.network, &similar, &mut Silent).unwrap();
+    let one = real.solve_with(&settings).unwrap();
+    let other = found.network.solve_with(&similar).unwrap();
     let force = |report: &crate::RunReport| report.measure("padding.peak-force").unwrap().value;
     // Forces go with m V²/δ.
     close(force(&other).unwrap() / force(&one).unwrap(), 0.1 * 0.04 / 0.25, 1e-12);

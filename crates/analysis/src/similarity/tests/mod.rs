@@ -1,31 +1,22 @@
 mod laboratory;
 mod of_the_thesis;
 
-use dashpot_dae::{Piece, Silent, Waveform};
+use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{
-    Model, Network, Node,
+    Network, Node, dashpot,
     effects::{Face, Gravity, GravityStart, Separation, Touch},
-    elements::{Contact, CubicSpring, Dashpot, ELEMENTS, PowerDashpot, Spring, TableSpring},
+    elements::{Contact, CubicSpring, ELEMENTS, PowerDashpot, TableSpring},
     layers::{Layer, Layers, Resolution},
     parameters::{Dimension, Kind as _},
-    part,
+    part, spring,
 };
 use dashpot_rheology::Tree;
 
 use super::*;
 use crate::{
-    MeasureWish, SolveSettings,
+    MeasureWish, Solve, SolveSettings,
     measures::{Clip3ms, Dri, Edi, Hic15, PeakForce, SeverityIndex},
-    solve,
 };
-
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
-fn dashpot(damping: f64) -> Model {
-    part(Dashpot { damping })
-}
 
 /// The reference case of the thesis.
 fn reference() -> Network {

@@ -1,26 +1,17 @@
-use dashpot_dae::{Piece, Silent, Waveform};
+use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{
+    dashpot,
     effects::{Face, Gravity, GravityStart, Separation, Touch},
-    elements::{Dashpot, Spring},
     layers::{Layer, Layers, Resolution},
-    part,
+    spring,
 };
 
 use super::*;
 use crate::{
-    SolveSettings,
+    Solve, SolveSettings,
     measures::STANDARD_GRAVITY,
     similarity::{Similarity, alone, measured},
-    solve,
 };
-
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
-fn dashpot(damping: f64) -> Model {
-    part(Dashpot { damping })
-}
 
 /// A head on a padding on a panel.
 fn scene(padding: Model, mount: Model) -> Network {
@@ -109,7 +100,7 @@ fn the_scene_from_the_other_side_is_the_same() {
     assert_similar(&network, &other, true);
     // It is the same to solve, too.
     let settings = SolveSettings::lasting(0.01).by_name("exact").unwrap();
-    let [one, two] = [&network, &other].map(|own| solve(own, &settings, &mut Silent).unwrap());
+    let [one, two] = [&network, &other].map(|own| own.solve_with(&settings).unwrap());
     for key in ["padding.peak-force", "padding.peak-deformation", "head.severity-index"] {
         let [one, two] = [&one, &two].map(|own| own.measure(key).unwrap().value.unwrap());
         assert!((one / two - 1.0).abs() < 1e-10, "{key}: {one} {two}");

@@ -1,13 +1,12 @@
 use std::cell::OnceCell;
 
-use dashpot_dae::Silent;
 use dashpot_network::{
     Model, Network, Node,
     elements::{Dashpot, Spring},
     part,
 };
 
-use crate::{Solution, SolveSettings, energy::ledger::ledger, solve};
+use crate::{Solution, Solve, SolveSettings, energy::ledger::ledger};
 
 /// Masses in a row, the last of which moves.
 fn row(count: usize) -> Network {
@@ -33,8 +32,7 @@ fn at_hand(solution: &Solution<'_>) -> usize {
 fn looks_beyond_the_bound_keep_no_signal_and_tell_the_same() {
     for method in ["exact", "bdf"] {
         let report =
-            solve(&row(6), &SolveSettings::lasting(0.5).by_name(method).unwrap(), &mut Silent)
-                .unwrap();
+            row(6).solve_with(&SolveSettings::lasting(0.5).by_name(method).unwrap()).unwrap();
         let roomy = Solution::new(&report.assembly, &report.trajectory);
         let mut narrow = Solution::new(&report.assembly, &report.trajectory);
         narrow.known.signals.most = 0;

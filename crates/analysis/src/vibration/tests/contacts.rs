@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dashpot_dae::{Silent, Waveform};
+use dashpot_dae::Waveform;
 use dashpot_network::{
     Model, Network, Node,
     effects::{Face, Gravity, GravityStart, Separation, Stop, Touch},
@@ -11,7 +11,7 @@ use dashpot_network::{
 };
 
 use super::super::*;
-use crate::{SolveSettings, solve};
+use crate::{Solve, SolveSettings};
 
 const MASS: f64 = 2.0;
 const STIFFNESS: f64 = 8e4;
@@ -177,7 +177,7 @@ fn a_run_in_time_parts_above_the_onset_and_not_below() {
         let mut network = heavy(standing(motion), GravityStart::Equilibrium);
         network.add_effect(separation("device"));
         let settings = SolveSettings::lasting(duration).by_name("exact").unwrap();
-        let report = solve(&network, &settings, &mut Silent).unwrap();
+        let report = network.solve_with(&settings).unwrap();
         let late = |own: &&dashpot_dae::Switch| own.time > 0.5 * duration;
         let count = report.trajectory.switches.iter().filter(late).count();
         assert_eq!(count > 0, parts, "{part}: {count} switches");

@@ -5,10 +5,9 @@ use std::f64::consts::TAU;
 
 use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{
-    Model, Network, Node, NodeId,
+    Model, Network, Node, NodeId, dashpot,
     effects::{Gravity, GravityStart},
-    elements::{Dashpot, Spring},
-    part,
+    spring,
 };
 use nalgebra::Complex;
 
@@ -18,14 +17,6 @@ type C = Complex<f64>;
 
 const MASS: f64 = 2.0;
 const STIFFNESS: f64 = 8e4;
-
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
-fn dashpot(damping: f64) -> Model {
-    part(Dashpot { damping })
-}
 
 /// A mass on a model on the ground.
 fn mount(model: Model) -> Network {

@@ -4,8 +4,7 @@ mod found;
 mod words;
 
 use clap::Args;
-use dashpot_analysis::{RunReport, SolveSettings, differences, solve};
-use dashpot_dae::Silent;
+use dashpot_analysis::{RunReport, Solve, SolveSettings, differences};
 use dashpot_network::{
     Model,
     driving_point::{Agreement, Hidden, Receptance, Response},
@@ -216,7 +215,7 @@ fn same_impact(
         }
         let mut network = scene.network.clone();
         network.set_model(at, canonical_model(operand)?);
-        Ok(solve(&network, &settings, &mut Silent)?)
+        Ok(network.solve_with(&settings)?)
     };
     let [first, second] = [run(&operands[0])?, run(&operands[1])?];
     let apart = differences(&first, &second);

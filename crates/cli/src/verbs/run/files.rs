@@ -127,8 +127,7 @@ pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
 
 #[cfg(test)]
 mod tests {
-    use dashpot_analysis::solve;
-    use dashpot_dae::Silent;
+    use dashpot_analysis::Solve;
     use dashpot_scene::{ReadOptions, read};
 
     use super::*;
@@ -140,8 +139,7 @@ mod tests {
         separation.pad = {}\ngravity = { value = \"9.81 m/s^2\" }\n[run]\n";
         let times = |run: &str| {
             let scene = read(&format!("{text}{run}"), &ReadOptions::default()).unwrap().value;
-            let report =
-                solve(&scene.network, &scene.settings("exact").unwrap(), &mut Silent).unwrap();
+            let report = scene.network.solve_with(&scene.settings("exact").unwrap()).unwrap();
             sample_times(&report, &scene.run)
         };
         let met = (2.0_f64 / 9.81).sqrt();

@@ -195,8 +195,7 @@ fn markers(report: &RunReport) -> Vec<RunMarker> {
 
 #[cfg(test)]
 mod tests {
-    use dashpot_analysis::solve;
-    use dashpot_dae::Silent;
+    use dashpot_analysis::Solve;
     use dashpot_plot::figures::{FORCE_DEFORMATION, FORCE_TIME};
     use dashpot_scene::{ReadOptions, read};
 
@@ -210,7 +209,7 @@ mod tests {
 
     fn report() -> RunReport {
         let scene = read(DROP, &ReadOptions::default()).unwrap().value;
-        solve(&scene.network, &scene.settings("exact").unwrap(), &mut Silent).unwrap()
+        scene.network.solve_with(&scene.settings("exact").unwrap()).unwrap()
     }
 
     #[test]
@@ -256,7 +255,7 @@ mod tests {
             [loads.pull]\non = \"head\"\nforce = { constant = \"-1 kN\" }\n\
             [run]\nduration = \"10 ms\"\n";
         let scene = read(pulled, &ReadOptions::default()).unwrap().value;
-        let report = solve(&scene.network, &scene.settings("exact").unwrap(), &mut Silent).unwrap();
+        let report = scene.network.solve_with(&scene.settings("exact").unwrap()).unwrap();
         let labels: Vec<String> = markers(&report).into_iter().map(|marker| marker.label).collect();
         assert!(labels.iter().any(|label| label == "peak −2.00 kN"), "{labels:?}");
     }

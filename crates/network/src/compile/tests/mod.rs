@@ -5,19 +5,11 @@ use dashpot_dae::Waveform;
 use dashpot_rheology::{Branch, MOST_LEVELS, Tree};
 
 use crate::{
-    Assembly, Model, Network, NetworkError, Node,
+    Assembly, Model, Network, NetworkError, Node, dashpot,
     effects::{Gravity, GravityStart},
-    elements::{Dashpot, Rigid, Spring},
-    part,
+    elements::Rigid,
+    part, spring,
 };
-
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
-fn dashpot(damping: f64) -> Model {
-    part(Dashpot { damping })
-}
 
 fn burgers() -> Model {
     Tree::series([spring(2e7), dashpot(6e3), Tree::parallel([spring(2e7), dashpot(4e3)])])

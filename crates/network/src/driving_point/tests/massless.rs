@@ -1,5 +1,5 @@
 use super::*;
-use crate::{driving_point::DrivingPointError, elements::Rigid, linear_model};
+use crate::{driving_point::DrivingPointError, elements::Rigid, linear_model, part};
 
 /// Of doubles that come from twice the digits, through at most a few roundings.
 const DOUBLES: f64 = 4.0 * f64::EPSILON;

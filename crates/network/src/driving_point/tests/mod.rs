@@ -5,20 +5,8 @@ mod massless;
 mod reference;
 
 use super::{Massless, Receptance, Response};
-use crate::{
-    Model, Network, Node, NodeId,
-    elements::{Dashpot, Spring},
-    part,
-};
+use crate::{Model, Network, Node, NodeId, dashpot, spring};
 use dashpot_rheology::{LinearModel, Tree};
-
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
-fn dashpot(damping: f64) -> Model {
-    part(Dashpot { damping })
-}
 
 fn kelvin(stiffness: f64, damping: f64) -> Model {
     Tree::parallel([spring(stiffness), dashpot(damping)])

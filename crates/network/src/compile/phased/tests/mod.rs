@@ -5,22 +5,18 @@ use dashpot_dae::{Run, Silent, Switch, Trajectory, Waveform, methods, switching}
 use dashpot_rheology::Tree;
 
 use crate::{
-    Assembly, Model, Network, Node,
+    Assembly, Model, Network, Node, dashpot,
     effects::{Gravity, GravityStart},
-    elements::{Contact, Dashpot, Friction, Spring},
-    part,
+    elements::{Contact, Friction},
+    part, spring,
 };
 
 fn contact(gap: f64, restitution: f64) -> Model {
     part(Contact { gap, restitution })
 }
 
-fn spring(stiffness: f64) -> Model {
-    part(Spring { stiffness })
-}
-
 fn kelvin_voigt(stiffness: f64, damping: f64) -> Model {
-    Tree::parallel([spring(stiffness), part(Dashpot { damping })])
+    Tree::parallel([spring(stiffness), dashpot(damping)])
 }
 
 fn gravity(acceleration: f64) -> Gravity {
@@ -104,10 +100,7 @@ fn face_of_a_spring_parts_with_a_jump_of_its_speed() {
 #[test]
 fn force_that_decays_to_zero_never_lets_go() {
     // A dashpot alone, and a Maxwell pad that is damped critically: F > 0 for all times.
-    for pad in [
-        part(Dashpot { damping: 50.0 }),
-        Tree::series([spring(1e4), part(Dashpot { damping: 50.0 })]),
-    ] {
+    for pad in [dashpot(50.0), Tree::series([spring(1e4), dashpot(50.0)])] {
         for method in ["exact", "bdf"] {
             let solved = solve_by(method, &impact(10.0, pad.clone()), 0.5);
             assert!(solved.switches().is_empty(), "{method}: {:?}", solved.switches());
