@@ -17,7 +17,7 @@ use dashpot::{
         Trajectory, methods::Exact,
     },
     network::{Network, Node, dashpot, spring},
-    numerics::chebyshev::Interpolation,
+    numerics::chebyshev::{Coefficients, Interpolation},
 };
 
 /// `y₊ = y + h (k₁ + 2 k₂ + 2 k₃ + k₄)/6` on a linear system that nothing drives, with the step
@@ -142,7 +142,7 @@ impl Dense for Steps {
             };
             let values: Vec<f64> = interpolation.nodes().iter().map(value).collect();
             largest = values.iter().fold(largest, |most, own| most.max(own.abs()));
-            let mut coefficients = vec![0.0; values.len()];
+            let mut coefficients = Coefficients::zeros(values.len());
             interpolation.coefficients(&values, &mut coefficients);
             let [start, end] = [start, end].map(|time| time * system.time_scale);
             panels.push(Panel { start, end, coefficients });

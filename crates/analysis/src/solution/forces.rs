@@ -118,7 +118,7 @@ mod tests {
 
     fn rests(values: &[f64], switches: &[Switch]) -> Vec<bool> {
         let found = only_at_rest(signal(values), switches);
-        found.panels.iter().map(|panel| panel.coefficients == [0.0]).collect()
+        found.panels.iter().map(|panel| *panel.coefficients == [0.0]).collect()
     }
 
     #[test]
@@ -129,7 +129,7 @@ mod tests {
         };
         let rests = |values: &[f64], switches: &[Switch]| -> Vec<bool> {
             let found = resting_from_switches(sum(values), switches);
-            found.panels.iter().map(|panel| panel.coefficients == [0.0]).collect()
+            found.panels.iter().map(|panel| *panel.coefficients == [0.0]).collect()
         };
         let values = [1.0, 1e-15, -2e-15, 1.0, 1e-15];
         assert_eq!(rests(&values, &[switch(1.0)]), [false, true, true, false, false]);

@@ -1,4 +1,4 @@
-use dashpot_numerics::chebyshev::Interpolation;
+use dashpot_numerics::chebyshev::{Coefficients, Interpolation};
 
 use super::*;
 
@@ -20,7 +20,7 @@ fn signal(f: impl Fn(f64) -> f64, borders: &[f64]) -> Signal {
     let panel = |pair: &[f64]| {
         let time = |node: f64| pair[0] + 0.5 * (node + 1.0) * (pair[1] - pair[0]);
         let values: Vec<f64> = interpolation.nodes().iter().map(|&node| f(time(node))).collect();
-        let mut coefficients = vec![0.0; values.len()];
+        let mut coefficients = Coefficients::zeros(values.len());
         interpolation.coefficients(&values, &mut coefficients);
         Panel { start: pair[0], end: pair[1], coefficients }
     };

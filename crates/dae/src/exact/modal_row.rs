@@ -102,7 +102,7 @@ impl ModalRow {
 
     /// The interpolating polynomial on a panel of this width, at whose start the modal coordinates are
     /// given.
-    pub(super) fn fit(&self, modes: &Modes, coordinates: &[Complex], width: f64) -> Vec<f64> {
+    pub(super) fn fit(&self, modes: &Modes, coordinates: &[Complex], width: f64) -> [f64; COUNT] {
         let mut values = [0.0; COUNT];
         for block in modes.blocks.iter().filter(|block| self.has_part(block)) {
             self.add_values(block, &coordinates[block.range()], width, &mut values);
@@ -111,7 +111,12 @@ impl ModalRow {
     }
 
     /// That of a block alone.
-    pub(super) fn fit_block(&self, block: &Block, coordinates: &[Complex], width: f64) -> Vec<f64> {
+    pub(super) fn fit_block(
+        &self,
+        block: &Block,
+        coordinates: &[Complex],
+        width: f64,
+    ) -> [f64; COUNT] {
         let mut values = [0.0; COUNT];
         self.add_values(block, coordinates, width, &mut values);
         coefficients(&values)
@@ -158,8 +163,8 @@ impl ModalRow {
     }
 }
 
-fn coefficients(values: &[f64; COUNT]) -> Vec<f64> {
-    let mut coefficients = vec![0.0; COUNT];
+fn coefficients(values: &[f64; COUNT]) -> [f64; COUNT] {
+    let mut coefficients = [0.0; COUNT];
     Interpolation::of_degree(DEGREE).coefficients(values, &mut coefficients);
     coefficients
 }

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use dashpot_numerics::two_sum;
+use dashpot_numerics::{chebyshev::Coefficients, two_sum};
 
 use super::{
     Complex,
@@ -37,7 +37,7 @@ pub(super) struct Piece {
     /// Where it ends.
     pub(super) end: f64,
     /// Its Chebyshev coefficients.
-    pub(super) coefficients: Vec<f64>,
+    pub(super) coefficients: Coefficients,
 }
 
 /// What is known about a piecewise polynomial as a whole.
@@ -85,8 +85,7 @@ pub(super) fn interpolate(
         let shifted = TIMING * (start + at + width) * row.rate_at(&walk.sizes);
         let missed = walk.missed + shifted;
         worst = if missed.is_finite() { worst.max(missed) } else { f64::INFINITY };
-        let mut coefficients = walk.fit();
-        trim(&mut coefficients, 0.1 * tolerance);
+        let coefficients = trimmed(&walk.fit(), 0.1 * tolerance);
         walk.go_on();
         pieces.push(Piece { start: start + at, end: start + walk.at, coefficients });
         if walk.at >= length {
@@ -102,16 +101,17 @@ pub(super) fn interpolate(
     quality.error = if error.is_finite() { quality.error.max(error) } else { f64::INFINITY };
 }
 
-/// Drops the last coefficients as long as their sum stays below `negligible`.
-fn trim(coefficients: &mut Vec<f64>, negligible: f64) {
-    let mut dropped = 0.0;
-    while coefficients.len() > 1 {
-        dropped += coefficients[coefficients.len() - 1].abs();
+/// The coefficients without the last ones, as long as their sum stays below `negligible`.
+fn trimmed(coefficients: &[f64], negligible: f64) -> Coefficients {
+    let (mut dropped, mut count) = (0.0, coefficients.len());
+    while count > 1 {
+        dropped += coefficients[count - 1].abs();
         if dropped > negligible {
             break;
         }
-        coefficients.pop();
+        count -= 1;
     }
+    coefficients[..count].into()
 }
 
 /// The width of a panel.
@@ -279,13 +279,13 @@ impl<'m> Walk<'m> {
     }
 
     /// The interpolating polynomial on the panel.
-    fn fit(&self) -> Vec<f64> {
+    fn fit(&self) -> [f64; COUNT] {
         let step = match self.width {
             Width::Odd(width) => return self.row.fit(self.modes, &self.coordinates, width),
             Width::Step(step) => step,
         };
         let mut sum = [0.0; COUNT];
-        let Some(line) = self.lines.get(&step) else { return sum.to_vec() };
+        let Some(line) = self.lines.get(&step) else { return sum };
         let courses = line.table.courses(self.modes);
         for (&at, share) in self.active.iter().zip(&line.shares) {
             let block = &self.modes.blocks[at];
@@ -313,7 +313,7 @@ impl<'m> Walk<'m> {
                 }
             }
         }
-        sum.to_vec()
+        sum
     }
 
     /// Goes on to the start of the next panel, or to the end of the span.

@@ -1,6 +1,6 @@
 //! The panels of one step, where outputs may follow driving functions directly.
 
-use dashpot_numerics::chebyshev::{Interpolation, evaluate};
+use dashpot_numerics::chebyshev::{Coefficients, Interpolation, evaluate};
 
 use super::{Step, between};
 use crate::{Output, Panel, Piece, System};
@@ -18,28 +18,26 @@ struct Term {
     factor: f64,
 }
 
-/// Adds to `panels` the output over one step, given `values` of its part in the unknowns at the
-/// step's nodes. `magnitude` grows to the size of the terms.
+/// Adds to `panels` the output over one step, given its part in the unknowns. `magnitude` grows to
+/// the size of the terms.
 pub(super) fn add(
     system: &System,
     output: Output<'_>,
     step: &Step,
-    values: &[f64],
+    mut own: Coefficients,
     panels: &mut Vec<Panel>,
     magnitude: &mut f64,
 ) {
-    let terms: Vec<Term> = output.inputs.terms().map(|term| term_of(system, step, term)).collect();
-    let (half, parts) = parts(step, terms.iter().map(|term| term.omega(step)));
-    let degree = degree(step, &terms, half, parts);
-    let interpolation = Interpolation::of_degree(degree);
-    let mut own = vec![0.0; step.degree + 1];
-    Interpolation::of_degree(step.degree).coefficients(values, &mut own);
-    if terms.is_empty() {
+    if output.inputs.is_zero() {
         own.iter_mut().for_each(|coefficient| *coefficient *= output.scale);
         let time = |t| (step.origin + t) * system.time_scale;
         push(panels, time(step.start), time(step.end), own);
         return;
     }
+    let terms: Vec<Term> = output.inputs.terms().map(|term| term_of(system, step, term)).collect();
+    let (half, parts) = parts(step, terms.iter().map(|term| term.omega(step)));
+    let degree = degree(step, &terms, half, parts);
+    let interpolation = Interpolation::of_degree(degree);
     for part in 0..parts {
         let place = |k: usize| 2.0 * k as f64 / parts as f64 - 1.0;
         let (from, to) = (place(part), place(part + 1));
@@ -54,8 +52,8 @@ pub(super) fn add(
             }
             sum * output.scale
         };
-        let nodal: Vec<f64> = interpolation.nodes().iter().map(value).collect();
-        let mut coefficients = vec![0.0; degree + 1];
+        let nodal: Coefficients = interpolation.nodes().iter().map(value).collect();
+        let mut coefficients = Coefficients::zeros(degree + 1);
         interpolation.coefficients(&nodal, &mut coefficients);
         let time = |x| (step.origin + between(step.start, step.end, x)) * system.time_scale;
         push(panels, time(from), time(to), coefficients);
@@ -86,7 +84,7 @@ fn parts(step: &Step, omegas: impl Iterator<Item = f64>) -> (f64, usize) {
 }
 
 /// Adds a panel; adjoining panels share their border to the last bit.
-fn push(panels: &mut Vec<Panel>, start: f64, end: f64, coefficients: Vec<f64>) {
+fn push(panels: &mut Vec<Panel>, start: f64, end: f64, coefficients: Coefficients) {
     let start = panels.last().map_or(start, |panel| panel.end);
     panels.push(Panel { start, end: end.max(start), coefficients });
 }

@@ -1,5 +1,6 @@
 //! A solution kept as values at points of time, one polynomial for each step through some of them.
 
+mod conversion;
 mod inputs;
 mod lagrange;
 mod products;
@@ -8,10 +9,10 @@ mod stream;
 #[cfg(test)]
 mod tests;
 
-use dashpot_numerics::chebyshev::Interpolation;
+use std::sync::OnceLock;
 
 use crate::{Dense, Digest, Keep, Output, Panel, Run, Signal, System};
-use lagrange::Lagrange;
+use conversion::Conversions;
 use stream::Stream;
 
 /// Roundings of the largest term that a value of an output may be off by: those of the
@@ -23,6 +24,9 @@ pub(crate) const PANEL_BYTES: usize = 300;
 
 /// Memory \[B\] that the rows of a run may take.
 pub(crate) const MOST_BYTES: usize = 2 << 30;
+
+/// Steps whose conversions are kept, at most.
+const MOST_CONVERTED: usize = 4096;
 
 /// One step: where it lies, and the rows that its polynomial passes through. Times are counted from
 /// `origin`, so that steps far below the resolution of the time of day are told apart.
@@ -57,6 +61,8 @@ pub(crate) struct Pieces {
     /// The time of each row, from the origin of its span.
     times: Vec<f64>,
     steps: Vec<Step>,
+    /// From the rows of each step to coefficients, once an output of the whole run was asked for.
+    conversions: OnceLock<Conversions>,
     origin: f64,
     /// The first row of the span.
     first: usize,
@@ -91,6 +97,7 @@ impl Pieces {
             rows: Vec::new(),
             times: Vec::new(),
             steps: Vec::new(),
+            conversions: OnceLock::new(),
             origin: 0.0,
             first: 0,
             reached: 0.0,
@@ -182,20 +189,55 @@ impl Pieces {
         }
     }
 
-    /// The output over the steps from number `from` on.
-    pub(crate) fn signal_from(&self, system: &System, output: Output<'_>, from: usize) -> Signal {
-        let mut panels = Vec::with_capacity(self.steps.len() - from);
+    /// The output over the whole run.
+    pub(crate) fn whole(&self, system: &System, output: Output<'_>) -> Signal {
+        let all = || self.conversions(&self.steps);
+        let own;
+        let conversions = if self.steps.len() > MOST_CONVERTED {
+            own = all();
+            &own
+        } else {
+            self.conversions.get_or_init(all)
+        };
+        self.signal_of(system, output, (&self.steps, conversions))
+    }
+
+    /// Outputs over the last step.
+    pub(crate) fn last_step(&self) -> LastStep<'_> {
+        let steps = &self.steps[self.steps.len().saturating_sub(1)..];
+        LastStep { pieces: self, steps, conversions: self.conversions(steps) }
+    }
+
+    fn conversions(&self, steps: &[Step]) -> Conversions {
+        let mut conversions = Conversions::default();
+        for step in steps {
+            let nodes = &self.times[step.first..=step.first + step.degree];
+            conversions.push(nodes, (step.start, step.end));
+        }
+        conversions
+    }
+
+    /// The output over adjoining steps, with their conversions.
+    fn signal_of(
+        &self,
+        system: &System,
+        output: Output<'_>,
+        (steps, conversions): (&[Step], &Conversions),
+    ) -> Signal {
+        let mut panels = Vec::with_capacity(steps.len());
         let mut magnitude = 0.0_f64;
-        let mut values = Vec::new();
         let Some(terms) = self.places(output) else {
-            let start = self.steps.get(from).map_or(0.0, |step| step.origin + step.start);
+            let start = steps.first().map_or(0.0, |step| step.origin + step.start);
             let start = (start * system.time_scale).min(self.t_end);
             let panel = Panel::constant(start, self.t_end, f64::NAN);
             return Signal::new(vec![panel], None, f64::NAN);
         };
-        for step in &self.steps[from..] {
-            self.at_nodes(&terms, step, &mut values, &mut magnitude);
-            inputs::add(system, output, step, &values, &mut panels, &mut magnitude);
+        let mut reader = conversions.reader();
+        for step in steps {
+            let mut values = [0.0; lagrange::HIGHEST + 1];
+            self.in_rows(&terms, step, &mut values, &mut magnitude);
+            let own = reader.coefficients(&values[..=step.degree]);
+            inputs::add(system, output, step, own, &mut panels, &mut magnitude);
         }
         if let Some(panel) = panels.last_mut()
             && self.t_end.is_finite()
@@ -213,16 +255,15 @@ impl Pieces {
         terms.map(place).collect()
     }
 
-    /// The sum of `terms` at the Chebyshev–Lobatto points of a step, and how large they are.
-    fn at_nodes(
+    /// The sum of `terms` in the rows of a step, and how large they are.
+    fn in_rows(
         &self,
         terms: &[(usize, f64)],
         step: &Step,
-        values: &mut Vec<f64>,
+        values: &mut [f64; lagrange::HIGHEST + 1],
         magnitude: &mut f64,
     ) {
-        let mut in_rows = [0.0; lagrange::HIGHEST + 1];
-        for (at, in_row) in in_rows.iter_mut().enumerate().take(step.degree + 1) {
+        for (at, in_row) in values.iter_mut().enumerate().take(step.degree + 1) {
             let row = &self.rows[(step.first + at) * self.size..][..self.size];
             let mut size = 0.0;
             for &(unknown, factor) in terms {
@@ -232,24 +273,26 @@ impl Pieces {
             }
             *magnitude = magnitude.max(size);
         }
-        let lagrange = self.lagrange(step);
-        let nodes = Interpolation::of_degree(step.degree);
-        let value = |&node: &f64| {
-            let weights = lagrange.weights(between(step.start, step.end, node));
-            weights.iter().zip(&in_rows).map(|(weight, value)| weight * value).sum::<f64>()
-        };
-        values.clear();
-        values.extend(nodes.nodes().iter().map(value));
     }
+}
 
-    fn lagrange(&self, step: &Step) -> Lagrange<'_> {
-        Lagrange::new(&self.times[step.first..=step.first + step.degree])
+/// The last step of a run that goes on.
+pub(crate) struct LastStep<'p> {
+    pieces: &'p Pieces,
+    steps: &'p [Step],
+    conversions: Conversions,
+}
+
+impl LastStep<'_> {
+    /// An output over the step.
+    pub(crate) fn signal(&self, system: &System, output: Output<'_>) -> Signal {
+        self.pieces.signal_of(system, output, (self.steps, &self.conversions))
     }
 }
 
 impl Dense for Pieces {
     fn signal(&self, system: &System, output: usize) -> Signal {
-        self.signal_from(system, system.outputs.at(output), 0)
+        self.whole(system, system.outputs.at(output))
     }
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {

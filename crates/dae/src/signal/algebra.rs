@@ -55,7 +55,7 @@ impl Signal {
     pub fn scaled(&self, factor: f64) -> Self {
         let mut scaled = self.clone();
         for panel in &mut scaled.panels {
-            for c in &mut panel.coefficients {
+            for c in panel.coefficients.iter_mut() {
                 *c *= factor;
             }
         }
@@ -70,12 +70,12 @@ impl Signal {
     pub fn plus(&self, other: &Self, factor: f64) -> Self {
         let mut panels = Vec::with_capacity(self.panels.len() + other.panels.len());
         self.overlaps(other, (self.start(), self.end()), |one, two, start, end| {
-            let mut coefficients = part(one, start, end);
-            let summand = part(two, start, end);
+            let mut coefficients = one.cut(start, end).into_owned().coefficients;
+            let summand = &two.cut(start, end).coefficients;
             if coefficients.len() < summand.len() {
-                coefficients.resize(summand.len(), 0.0);
+                coefficients.resize(summand.len());
             }
-            for (sum, c) in coefficients.iter_mut().zip(&summand) {
+            for (sum, c) in coefficients.iter_mut().zip(summand.iter()) {
                 *sum += factor * c;
             }
             panels.push(Panel { start, end, coefficients });
@@ -120,14 +120,6 @@ impl Signal {
     }
 }
 
-fn part(panel: &Panel, start: f64, end: f64) -> Vec<f64> {
-    if start <= panel.start && end >= panel.end {
-        panel.coefficients.clone()
-    } else {
-        panel.part(start, end).coefficients
-    }
-}
-
 /// Replaces the panels of each run that are not known by a line from the end of the panel before to the begin
 /// of the one behind, as far as their roundings account for the difference.
 fn bridge(panels: &mut [Panel], roundings: &[f64], is_known: &[bool]) {
@@ -146,11 +138,11 @@ fn bridge(panels: &mut [Panel], roundings: &[f64], is_known: &[bool]) {
             let [left, right] = [panel.start, panel.end].map(|t| first + (last - first) * part(t));
             let line = [0.5 * (left + right), 0.5 * (right - left)];
             let mut between = panel.coefficients.clone();
-            between.resize(between.len().max(2), 0.0);
+            between.resize(between.len().max(2));
             between.iter_mut().zip(line).for_each(|(own, line)| *own -= line);
             let is_more = chebyshev::bound(&between) > *rounding;
             if !is_more {
-                panel.coefficients = line.to_vec();
+                panel.coefficients = line.into();
             }
         }
         at = to;

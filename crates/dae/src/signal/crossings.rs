@@ -1,5 +1,7 @@
 //! Where a signal passes a level.
 
+use std::iter;
+
 use dashpot_numerics::chebyshev::{self, bracketed_root, evaluate, sign_changes};
 
 use super::{Crossing, Panel, Signal};
@@ -83,8 +85,10 @@ impl Signal {
             let noise = self.floor(&panel, level);
             let search = Search::new(&panel, level, noise);
             let mut before = None;
-            for &x in &search.places {
-                let gap = evaluate(&panel.coefficients, x) - level;
+            let [first, last] = chebyshev::at_ends(&panel.coefficients);
+            let inside = search.turns.iter().map(|&x| (x, evaluate(&panel.coefficients, x)));
+            for (x, value) in iter::once((-1.0, first)).chain(inside).chain([(1.0, last)]) {
+                let gap = value - level;
                 let point = Point { time: panel.time(x), gap, noise };
                 let crossed = follower.advance(point, || match before {
                     Some(before) => search.passage(before, (x, gap)),
@@ -118,8 +122,8 @@ fn growth(degree: usize, order: u32) -> f64 {
 struct Search<'a> {
     panel: &'a Panel,
     level: f64,
-    /// Places between which the panel is monotone, as far as that matters, both ends included.
-    places: Vec<f64>,
+    /// Places inside between which the panel is monotone, as far as that matters.
+    turns: Vec<f64>,
     /// Whether all of it is on the level.
     rests: bool,
 }
@@ -129,13 +133,13 @@ impl<'a> Search<'a> {
         let middle = panel.coefficients.first().map_or(0.0, |c| (c - level).abs());
         let spread = chebyshev::variation(&panel.coefficients);
         let rests = middle + spread <= noise;
-        let mut places = vec![-1.0];
         // In a panel that stays on one side, or on the level, nothing is to be found inside.
-        if !rests && middle <= spread + noise {
-            places.extend(sign_changes(&chebyshev::derivative(&panel.coefficients)));
-        }
-        places.push(1.0);
-        Self { panel, level, places, rests }
+        let turns = if !rests && middle <= spread + noise {
+            sign_changes(&chebyshev::derivative(&panel.coefficients))
+        } else {
+            Vec::new()
+        };
+        Self { panel, level, turns, rests }
     }
 
     /// When the level is passed between two places `(x, gap)` on different sides.

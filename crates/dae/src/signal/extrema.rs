@@ -107,8 +107,9 @@ impl Signal {
         };
         let mut most = f64::NEG_INFINITY;
         for panel in panels.clone() {
-            consider(panel.start, evaluate(&panel.coefficients, -1.0));
-            most = consider(panel.end, evaluate(&panel.coefficients, 1.0));
+            let [first, last] = chebyshev::at_ends(&panel.coefficients);
+            consider(panel.start, first);
+            most = consider(panel.end, last);
         }
         for panel in panels {
             let coefficients = &panel.coefficients;

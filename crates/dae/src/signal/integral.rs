@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_PI_4;
 
 use dashpot_numerics::{
     Accumulator,
-    chebyshev::{self, bracketed_root, evaluate, sign_changes},
-    quadrature::{GaussLegendre, integral_to},
+    chebyshev::{self, Coefficients, bracketed_root, evaluate, sign_changes},
+    quadrature::integral_to,
 };
 
 use super::{Panel, Signal};
@@ -26,23 +26,10 @@ impl Signal {
     /// `∫ self · other dt` over the part of the window that both cover, exact up to rounding.
     pub fn integral_of_product(&self, other: &Self, window: (f64, f64)) -> f64 {
         let mut sum = Accumulator::default();
-        let (mut places, mut first, mut second) = (Vec::new(), Vec::new(), Vec::new());
         self.overlaps(other, window, |one, two, start, end| {
-            let points = usize::midpoint(one.coefficients.len(), two.coefficients.len()) + 1;
-            let rule = GaussLegendre::with_points(points);
-            let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
-            let mut fill = |panel: &Panel, values: &mut Vec<f64>| {
-                places.clear();
-                places.extend(rule.nodes().iter().map(|x| panel.place(middle + half * x)));
-                values.resize(points, 0.0);
-                chebyshev::evaluate_all(&panel.coefficients, &places, values);
-            };
-            fill(one, &mut first);
-            fill(two, &mut second);
-            let products = first.iter().zip(&second).map(|(one, two)| one * two);
-            sum.add(
-                half * products.zip(rule.weights()).map(|(own, weight)| weight * own).sum::<f64>(),
-            );
+            let (one, two) = (one.cut(start, end), two.cut(start, end));
+            let product = chebyshev::integral_of_product(&one.coefficients, &two.coefficients);
+            sum.add(0.5 * (end - start) * product);
         });
         sum.value()
     }
@@ -138,7 +125,7 @@ fn places(coefficients: &[f64], breaks: &[f64]) -> Vec<Place> {
     turns.push(1.0);
     let mut places: Vec<Place> = turns.iter().map(|&x| (x, false)).collect();
     for level in met {
-        let mut gap = coefficients.to_vec();
+        let mut gap = Coefficients::from(coefficients);
         gap[0] -= level;
         let noise = 4.0 * f64::EPSILON * (spread + middle.abs() + level.abs());
         for (at, pair) in turns.windows(2).enumerate() {

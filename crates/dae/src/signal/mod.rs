@@ -21,7 +21,7 @@ pub use panel::Panel;
 /// ```
 /// use dashpot_dae::{Panel, Signal};
 ///
-/// let panel = Panel { start: 0.0, end: 1.0, coefficients: vec![0.5, -1.5] };
+/// let panel = Panel { start: 0.0, end: 1.0, coefficients: [0.5, -1.5].into() };
 /// let signal = Signal::new(vec![panel], None, 0.0);
 /// assert_eq!(signal.value(0.5), 0.5);
 /// assert_eq!(signal.integral((0.0, 1.0)), 0.5);

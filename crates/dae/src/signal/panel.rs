@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use dashpot_numerics::chebyshev;
+use dashpot_numerics::chebyshev::{self, Coefficients};
 
 use super::Signal;
 
@@ -14,13 +14,13 @@ pub struct Panel {
     /// Where it ends \[s\]; never before `start`.
     pub end: f64,
     /// Chebyshev coefficients, at least one.
-    pub coefficients: Vec<f64>,
+    pub coefficients: Coefficients,
 }
 
 impl Panel {
     /// The polynomial that is `value` everywhere.
     pub fn constant(start: f64, end: f64, value: f64) -> Self {
-        Self { start, end, coefficients: vec![value] }
+        Self { start, end, coefficients: [value].into() }
     }
 
     /// How long it is \[s\].
@@ -66,11 +66,11 @@ impl Panel {
     pub fn derivative(&self) -> Self {
         let mut coefficients = chebyshev::derivative(&self.coefficients);
         let rate = 2.0 / self.length();
-        for c in &mut coefficients {
+        for c in coefficients.iter_mut() {
             *c *= rate;
         }
         if coefficients.iter().any(|c| !c.is_finite()) {
-            coefficients = vec![0.0];
+            coefficients = [0.0].into();
         }
         Self { start: self.start, end: self.end, coefficients }
     }
@@ -91,9 +91,18 @@ impl Panel {
         let coefficients = if a < b {
             chebyshev::restrict(&self.coefficients, a, b)
         } else {
-            vec![chebyshev::evaluate(&self.coefficients, a)]
+            [chebyshev::evaluate(&self.coefficients, a)].into()
         };
         Self { start, end, coefficients }
+    }
+
+    /// The part of it between `from` and `to`; itself where it lies within.
+    pub(super) fn cut(&self, from: f64, to: f64) -> Cow<'_, Self> {
+        if self.start >= from && self.end <= to {
+            Cow::Borrowed(self)
+        } else {
+            Cow::Owned(self.part(self.start.max(from), self.end.min(to)))
+        }
     }
 
     /// Its integral over time \[unit·s\].
@@ -123,8 +132,7 @@ impl Signal {
             last = self.panels.get(self.panel_at(from)).map(|panel| panel.part(from, from));
         }
         let whole = self.panels.get(indices).unwrap_or_default().iter();
-        let cut = move |panel| cut(panel, from, to);
-        whole.map(cut).chain(last.map(Cow::Owned))
+        whole.map(move |panel| panel.cut(from, to)).chain(last.map(Cow::Owned))
     }
 
     /// What cannot be told from a level in a panel: the noise, some roundings of the value, or a
@@ -132,7 +140,7 @@ impl Signal {
     pub(super) fn floor(&self, panel: &Panel, level: f64) -> f64 {
         let (mut size, mut variation, mut steepest) = (0.0, 0.0, 0.0);
         let mut k = 0.0;
-        for c in &panel.coefficients {
+        for c in panel.coefficients.iter() {
             size += c.abs();
             variation = if k > 0.0 { variation + c.abs() } else { 0.0 };
             steepest += k * k * c.abs();
@@ -141,13 +149,5 @@ impl Signal {
         let latest = panel.start.abs().max(panel.end.abs());
         let change = (2.0 * latest / panel.length() * steepest).min(variation / f64::EPSILON);
         self.noise.max(f64::EPSILON * (4.0 * (level.abs() + size) + change))
-    }
-}
-
-fn cut(panel: &Panel, from: f64, to: f64) -> Cow<'_, Panel> {
-    if panel.start >= from && panel.end <= to {
-        Cow::Borrowed(panel)
-    } else {
-        Cow::Owned(panel.part(panel.start.max(from), panel.end.min(to)))
     }
 }

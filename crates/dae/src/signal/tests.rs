@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use dashpot_numerics::chebyshev::Interpolation;
+use dashpot_numerics::chebyshev::{Coefficients, Interpolation};
 
 use super::*;
 
@@ -10,7 +10,7 @@ const EVERYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 fn panel(start: f64, end: f64, degree: usize, f: impl Fn(f64) -> f64) -> Panel {
     let interpolation = Interpolation::of_degree(degree);
-    let mut panel = Panel { start, end, coefficients: vec![0.0; degree + 1] };
+    let mut panel = Panel { start, end, coefficients: Coefficients::zeros(degree + 1) };
     let values: Vec<f64> = interpolation.nodes().iter().map(|&x| f(panel.time(x))).collect();
     interpolation.coefficients(&values, &mut panel.coefficients);
     panel
@@ -367,7 +367,7 @@ fn a_step_of_a_few_roundings_of_the_time_has_no_slope_of_its_own() {
         let line = |(time, value): (&[f64], &[f64])| Panel {
             start: time[0],
             end: time[1],
-            coefficients: vec![0.5 * (value[0] + value[1]), 0.5 * (value[1] - value[0])],
+            coefficients: [0.5 * (value[0] + value[1]), 0.5 * (value[1] - value[0])].into(),
         };
         let slope = Signal::new(pairs.map(line).collect(), None, 0.0).derivative();
         for extreme in [slope.maximum(EVERYWHERE), slope.minimum(EVERYWHERE)] {

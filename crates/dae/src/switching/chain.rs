@@ -94,7 +94,7 @@ impl Dense for Chain {
 fn steepest(signal: &Signal) -> f64 {
     let slope = |panel: &Panel| {
         let (mut sum, mut order) = (0.0, 0.0);
-        for coefficient in &panel.coefficients {
+        for coefficient in panel.coefficients.iter() {
             sum += order * order * coefficient.abs();
             order += 1.0;
         }

@@ -163,7 +163,7 @@ pub(super) fn follow(
             return Signal::new(vec![Panel::constant(0.0, whole, value)], None, 0.0);
         }
         let output = system.outputs.at(guard.output);
-        let mut signal = pieces.signal_from(system, output, 0);
+        let mut signal = pieces.whole(system, output);
         let largest = signal.noise / (ROUNDING * f64::EPSILON);
         if !method.is_exact() {
             signal.noise = signal.noise.max(run.rtol * largest.max(output.scale.abs()));

@@ -55,6 +55,11 @@ impl Interpolation {
         &self.nodes
     }
 
+    /// For each node what a value of 1 there adds to the coefficients.
+    pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.transform.chunks_exact(self.nodes.len())
+    }
+
     /// Writes to `out` the coefficients of the polynomial with these `values` at the nodes.
     ///
     /// # Panics

@@ -2,17 +2,27 @@
 //!
 //! A slice of coefficients is a polynomial; the empty slice is zero.
 
+mod coefficients;
 mod interpolation;
 mod roots;
 
+pub use coefficients::Coefficients;
 pub use interpolation::Interpolation;
 pub use roots::{bracketed_root, sign_changes};
 
 /// Places that are worked on side by side, so that the recurrences do not wait for each other.
 const LANES: usize = 6;
 
+/// The values `p(−1)` and `p(1)` at both ends, to the last bit those of [`evaluate`].
+#[inline]
+pub fn at_ends(coefficients: &[f64]) -> [f64; 2] {
+    let add = |[first, last]: [f64; 2], c: &f64| [c - first, c + last];
+    coefficients.iter().rev().fold([0.0; 2], add)
+}
+
 /// The value `p(x)`, `x` in `[−1, 1]`, by Clenshaw's recurrence in Reinsch's form, which keeps its
 /// accuracy at the ends of the interval.
+#[inline]
 pub fn evaluate(coefficients: &[f64], x: f64) -> f64 {
     let [value] = clenshaw(coefficients, [x]);
     value
@@ -72,9 +82,10 @@ fn recurrence<const N: usize>(
 }
 
 /// The coefficients of `p′`, one fewer than those of `p` but at least one.
-pub fn derivative(coefficients: &[f64]) -> Vec<f64> {
+#[inline]
+pub fn derivative(coefficients: &[f64]) -> Coefficients {
     let degree = coefficients.len().saturating_sub(1);
-    let mut slope = vec![0.0; degree.max(1)];
+    let mut slope = Coefficients::zeros(degree.max(1));
     let mut factor = 2.0 * degree as f64;
     for k in (1..=degree).rev() {
         slope[k - 1] = factor * coefficients[k] + slope.get(k + 1).copied().unwrap_or(0.0);
@@ -85,49 +96,80 @@ pub fn derivative(coefficients: &[f64]) -> Vec<f64> {
 }
 
 /// The coefficients of the antiderivative `∫₋₁ˣ p`, one more than those of `p`.
-pub fn antiderivative(coefficients: &[f64]) -> Vec<f64> {
+pub fn antiderivative(coefficients: &[f64]) -> Coefficients {
     let at = |k: usize| coefficients.get(k).copied().unwrap_or(0.0);
-    let mut area = vec![0.0];
+    let mut area = Coefficients::zeros(coefficients.len() + 1);
     let mut start = 0.0;
     for k in 1..=coefficients.len() {
         let before = if k == 1 { 2.0 * at(0) } else { at(k - 1) };
         let c = (before - at(k + 1)) / (2.0 * k as f64);
         start += if k % 2 == 0 { c } else { -c };
-        area.push(c);
+        area[k] = c;
     }
     area[0] = -start;
     area
 }
 
 /// The integral of `p` over `[−1, 1]`.
+#[inline]
 pub fn integral(coefficients: &[f64]) -> f64 {
     let even = coefficients.iter().enumerate().step_by(2).rev();
     even.map(|(k, c)| 2.0 * c / (1.0 - k as f64 * k as f64)).sum()
 }
 
+/// The integral of `p q` over `[−1, 1]`: `∫ T_j T_k = 1/(1 − (j + k)²) + 1/(1 − (j − k)²)` for even `j + k`.
+pub fn integral_of_product(p: &[f64], q: &[f64]) -> f64 {
+    let mut sum = 0.0;
+    for (j, one) in p.iter().enumerate() {
+        let alike = q.iter().enumerate().skip(j % 2).step_by(2);
+        let own =
+            alike.map(|(k, other)| other * (even_integral(j + k) + even_integral(j.abs_diff(k))));
+        sum += one * own.sum::<f64>();
+    }
+    sum
+}
+
+/// Half of `∫ T_m` for an even `m`.
+fn even_integral(m: usize) -> f64 {
+    const READY: [f64; 32] = {
+        let mut ready = [0.0; 32];
+        let mut at = 0;
+        while at < ready.len() {
+            let order = 2.0 * at as f64;
+            ready[at] = 1.0 / (1.0 - order * order);
+            at += 1;
+        }
+        ready
+    };
+    let order = m as f64;
+    READY.get(m / 2).copied().unwrap_or_else(|| 1.0 / (1.0 - order * order))
+}
+
 /// The polynomial seen on `[a, b]` only: the `q` of the same degree with
 /// `q(ξ) = p((a + b)/2 + ξ (b − a)/2)`, exact up to the rounding of [`bound`]`(p)`.
-pub fn restrict(coefficients: &[f64], a: f64, b: f64) -> Vec<f64> {
+pub fn restrict(coefficients: &[f64], a: f64, b: f64) -> Coefficients {
     let degree = coefficients.len().saturating_sub(1);
     let interpolation = Interpolation::of_degree(degree);
     let place = |&node: &f64| {
         // Exact at both ends, so that adjoining restrictions share their border.
         if node < 0.0 { a + 0.5 * (b - a) * (1.0 + node) } else { b - 0.5 * (b - a) * (1.0 - node) }
     };
-    let places: Vec<f64> = interpolation.nodes().iter().map(place).collect();
-    let mut values = vec![0.0; degree + 1];
+    let places: Coefficients = interpolation.nodes().iter().map(place).collect();
+    let mut values = Coefficients::zeros(degree + 1);
     evaluate_all(coefficients, &places, &mut values);
-    let mut restricted = vec![0.0; degree + 1];
+    let mut restricted = Coefficients::zeros(degree + 1);
     interpolation.coefficients(&values, &mut restricted);
     restricted
 }
 
 /// `Σ |c_k|`, which no `|p(x)|` on `[−1, 1]` exceeds.
+#[inline]
 pub fn bound(coefficients: &[f64]) -> f64 {
     coefficients.iter().map(|c| c.abs()).sum()
 }
 
 /// `Σ |c_k|` without the constant: how far `p` strays at most from `c_0`.
+#[inline]
 pub fn variation(coefficients: &[f64]) -> f64 {
     bound(coefficients.get(1..).unwrap_or_default())
 }

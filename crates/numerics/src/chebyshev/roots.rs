@@ -1,8 +1,8 @@
 //! Zeros of polynomials on `[−1, 1]`.
 
-use std::borrow::Cow;
+use smallvec::{SmallVec, smallvec};
 
-use super::{bound, derivative, evaluate, evaluate_both, restrict, variation};
+use super::{at_ends, bound, derivative, evaluate, evaluate_both, restrict, variation};
 
 /// Intervals shorter than this are not divided further.
 const NARROWEST: f64 = 1e-15;
@@ -39,22 +39,24 @@ pub fn sign_changes(coefficients: &[f64]) -> Vec<f64> {
     }
     let noise = (16.0 * f64::EPSILON * total).max(SMALLEST);
     let slope = derivative(coefficients);
-    let ends = (evaluate(coefficients, -1.0), evaluate(coefficients, 1.0));
-    let mut open = vec![((-1.0, ends.0), (1.0, ends.1))];
+    let ends = at_ends(coefficients);
+    let mut open: SmallVec<[_; 16]> = smallvec![((-1.0, ends[0]), (1.0, ends[1]))];
     while let Some((a, b)) = open.pop() {
+        let own;
         let part = if b.0 - a.0 < 2.0 {
-            Cow::Owned(restrict(coefficients, a.0, b.0))
+            own = restrict(coefficients, a.0, b.0);
+            &own
         } else {
-            Cow::Borrowed(coefficients)
+            coefficients
         };
-        let spread = variation(&part);
+        let spread = variation(part);
         if part[0].abs() > spread + noise {
             continue;
         }
         // Around a zero of higher order whole intervals are alike to within rounding: dividing them
         // further would tell nothing, and have no end.
         let flat = spread <= noise;
-        if flat || is_monotone(&part) || b.0 - a.0 < NARROWEST {
+        if flat || is_monotone(part) || b.0 - a.0 < NARROWEST {
             if (a.1 < 0.0) != (b.1 < 0.0) {
                 found.push(bracketed_root(coefficients, &slope, a, b).clamp(-1.0, 1.0));
             }

@@ -95,7 +95,7 @@ fn derivative_undoes_antiderivative() {
             assert!((c - exact).abs() < 1e-13);
         }
     }
-    assert_eq!(derivative(&[3.0]), [0.0]);
+    assert_eq!(*derivative(&[3.0]), [0.0]);
 }
 
 #[test]

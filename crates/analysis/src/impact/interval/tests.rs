@@ -3,7 +3,7 @@
 use super::*;
 
 fn line(start: f64, end: f64) -> Signal {
-    let coefficients = vec![0.5 * (start + end), 0.5 * (end - start)];
+    let coefficients = [0.5 * (start + end), 0.5 * (end - start)].into();
     Signal::new(vec![Panel { start: 0.0, end: 2.0, coefficients }], Some(1e-6), 1e-12)
 }
 
@@ -38,7 +38,7 @@ fn polygon(values: &[f64]) -> Signal {
         let panel = Panel {
             start,
             end: start + 1.0,
-            coefficients: vec![0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0])],
+            coefficients: [0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0])].into(),
         };
         start = panel.end;
         panel

@@ -2,7 +2,7 @@
 
 use dashpot_dae::{Panel, Signal};
 use dashpot_network::{Model, first_nonlinear, linear_model, parameters::WindowWish};
-use dashpot_numerics::chebyshev;
+use dashpot_numerics::chebyshev::{self, Coefficients};
 
 use super::Reading;
 use crate::{Note, Solution, VelocityJump};
@@ -108,12 +108,12 @@ impl Oscillator {
     fn stretch(&self, acceleration: &Panel, unit: f64, state: &mut [f64]) -> Panel {
         let half = 0.5 * acceleration.length();
         let length = acceleration.coefficients.len() + ROUNDS;
-        let mut series: Vec<Vec<f64>> = state.iter().map(|&own| vec![own]).collect();
+        let mut series: Vec<Coefficients> = state.iter().map(|&own| [own].into()).collect();
         for _ in 0..ROUNDS {
             let rates = self.rates(&series, &acceleration.coefficients, unit);
             for ((own, rate), &start) in series.iter_mut().zip(&rates).zip(state.iter()) {
                 *own = chebyshev::antiderivative(rate);
-                own.truncate(length);
+                own.resize(own.len().min(length));
                 own.iter_mut().for_each(|c| *c *= half);
                 own[0] += start;
             }
@@ -125,8 +125,8 @@ impl Oscillator {
         Panel { start: acceleration.start, end: acceleration.end, coefficients }
     }
 
-    fn rates(&self, series: &[Vec<f64>], acceleration: &[f64], unit: f64) -> Vec<Vec<f64>> {
-        let length = series.iter().map(Vec::len).fold(acceleration.len(), usize::max);
+    fn rates(&self, series: &[Coefficients], acceleration: &[f64], unit: f64) -> Vec<Vec<f64>> {
+        let length = series.iter().map(|own| own.len()).fold(acceleration.len(), usize::max);
         let at = |own: &[f64], k: usize| own.get(k).copied().unwrap_or(0.0);
         let (position, speed, forces) = (&series[0], &series[1], &series[2..]);
         let combined = |f: &dyn Fn(usize) -> f64| (0..length).map(f).collect::<Vec<f64>>();

@@ -6,7 +6,7 @@ use dashpot_network::{
     parameters::Kind as _,
     part, spring,
 };
-use dashpot_numerics::chebyshev::Interpolation;
+use dashpot_numerics::chebyshev::{Coefficients, Interpolation};
 use dashpot_rheology::Tree;
 
 use super::*;
@@ -19,7 +19,7 @@ fn signal(end: f64, panels: u32, function: impl Fn(f64) -> f64) -> Signal {
         let (start, end) = (border(at), border(at + 1));
         let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
         let values: Vec<f64> = interpolation.nodes().iter().map(|x| function(time(x))).collect();
-        let mut coefficients = vec![0.0; 16];
+        let mut coefficients = Coefficients::zeros(16);
         interpolation.coefficients(&values, &mut coefficients);
         Panel { start, end, coefficients }
     });

@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use dashpot_numerics::chebyshev::Interpolation;
+use dashpot_numerics::chebyshev::{Coefficients, Interpolation};
 
 use super::*;
 
@@ -11,7 +11,7 @@ fn signal(end: f64, panels: u32, function: impl Fn(f64) -> f64) -> Signal {
         let (start, end) = (border(at), border(at + 1));
         let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
         let values: Vec<f64> = interpolation.nodes().iter().map(|x| function(time(x))).collect();
-        let mut coefficients = vec![0.0; 16];
+        let mut coefficients = Coefficients::zeros(16);
         interpolation.coefficients(&values, &mut coefficients);
         Panel { start, end, coefficients }
     });

@@ -1,7 +1,7 @@
 //! The area under the absolute value of a signal.
 
 use dashpot_dae::{Panel, Signal};
-use dashpot_numerics::chebyshev;
+use dashpot_numerics::chebyshev::{self, Coefficients};
 
 use super::Range;
 
@@ -22,7 +22,7 @@ pub(super) struct Area<'a> {
 struct Part<'a> {
     panel: &'a Panel,
     /// Coefficients of the panel's antiderivative, with the sign that the signal has.
-    antiderivative: Vec<f64>,
+    antiderivative: Coefficients,
     /// Where the part begins \[s\].
     start: f64,
     /// Value of the antiderivative there.
@@ -131,7 +131,7 @@ fn parts<'a>(signal: &'a Signal, window: (f64, f64), zeros: &[f64]) -> Vec<Part<
         places.push(end);
         for pair in places.windows(2) {
             let sign = panel.value(0.5 * (pair[0] + pair[1])).signum();
-            let antiderivative: Vec<f64> = antiderivative.iter().map(|c| sign * c).collect();
+            let antiderivative: Coefficients = antiderivative.iter().map(|c| sign * c).collect();
             let offset = chebyshev::evaluate(&antiderivative, panel.place(pair[0]));
             let part = Part { panel, antiderivative, start: pair[0], offset, before };
             before = part.area_until(pair[1]);

@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
 use dashpot_dae::Panel;
-use dashpot_numerics::chebyshev::Interpolation;
+use dashpot_numerics::chebyshev::{Coefficients, Interpolation};
 
 use super::*;
 
@@ -13,7 +13,7 @@ fn signal(end: f64, panels: u32, function: impl Fn(f64) -> f64) -> Signal {
             (end * f64::from(at) / f64::from(panels), end * f64::from(at + 1) / f64::from(panels));
         let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
         let values: Vec<f64> = interpolation.nodes().iter().map(|x| function(time(x))).collect();
-        let mut coefficients = vec![0.0; 16];
+        let mut coefficients = Coefficients::zeros(16);
         interpolation.coefficients(&values, &mut coefficients);
         Panel { start, end, coefficients }
     });
@@ -153,7 +153,7 @@ fn a_pulse_in_thousands_of_pieces_has_the_interval_that_it_has_in_one() {
     let panels = (0..sides).map(|at| {
         let [start, end] = [at, at + 1].map(|at| f64::from(at) / f64::from(sides));
         let [from, to] = [start, end].map(|t| (PI * t).sin() * (1.0 + 1e-9 * f64::from(at % 2)));
-        Panel { start, end, coefficients: vec![0.5 * (from + to), 0.5 * (to - from)] }
+        Panel { start, end, coefficients: [0.5 * (from + to), 0.5 * (to - from)].into() }
     });
     let found = optimum(&Signal::new(panels.collect(), None, 0.0), (0.0, 1.0), 1e6);
     // Straight lines lie below the sine by up to (π/n)²/8 of it.

@@ -11,7 +11,7 @@ use dashpot_network::{
     parameters::{Value, WindowWish},
     part,
 };
-use dashpot_numerics::chebyshev::Interpolation;
+use dashpot_numerics::chebyshev::{Coefficients, Interpolation};
 
 use super::*;
 use crate::{Counted, Note};
@@ -39,7 +39,7 @@ impl Dense for Written {
             let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
             let value = |x: &f64| (self.signal)(output.name, time(x));
             let values: Vec<f64> = interpolation.nodes().iter().map(value).collect();
-            let mut coefficients = vec![0.0; 16];
+            let mut coefficients = Coefficients::zeros(16);
             interpolation.coefficients(&values, &mut coefficients);
             Panel { start, end, coefficients }
         });

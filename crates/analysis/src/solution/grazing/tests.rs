@@ -6,7 +6,7 @@ use super::earliest_end;
 fn force(points: &[(f64, f64)]) -> Signal {
     let line = |pair: &[(f64, f64)]| {
         let [(start, from), (end, to)] = [pair[0], pair[1]];
-        Panel { start, end, coefficients: vec![0.5 * (from + to), 0.5 * (to - from)] }
+        Panel { start, end, coefficients: [0.5 * (from + to), 0.5 * (to - from)].into() }
     };
     Signal::new(points.windows(2).map(line).collect(), None, 1e-15)
 }

@@ -171,11 +171,12 @@ impl Walk<'_> {
         if self.watch.is_idle() {
             return Ok(());
         }
+        let last = self.pieces.last_step();
         let mut signals = Vec::with_capacity(self.run.guards.len());
         let mut roundings = Vec::with_capacity(self.run.guards.len());
         for (guard, largest) in self.run.guards.iter().zip(&mut self.largest) {
             let output = self.system.outputs.at(guard.output);
-            let mut signal = self.pieces.signal_from(self.system, output, steps - 1);
+            let mut signal = last.signal(self.system, output);
             // A small difference of large terms is known no better than they are, and what balances
             // determine no better than the absolute tolerance.
             let size =
@@ -189,7 +190,7 @@ impl Walk<'_> {
             let mut noise = self.run.rtol * *largest;
             if let Some(whole) = guard.rate_of.and_then(|rate_of| self.system.outputs.get(rate_of))
             {
-                let own = terms(&self.pieces.signal_from(self.system, whole, steps - 1));
+                let own = terms(&last.signal(self.system, whole));
                 let length = signal.panels.iter().map(|panel| panel.end - panel.start).sum::<f64>();
                 noise = noise.min(self.run.rtol * (own + absolute(whole, size)) / length);
             }
