@@ -15,7 +15,7 @@ mod text;
 mod trial;
 mod truth;
 
-use std::{fs, path::Path};
+use std::{fs, path::Path, sync::LazyLock};
 
 use dashpot::dae::methods;
 
@@ -31,7 +31,9 @@ const ALL: usize = 1000;
 /// Scenes of the part that runs with all other tests.
 const PART: usize = 40;
 /// The methods that take their error bars from further solutions.
-const METHODS: [&str; 4] = ["bdf", "tr-bdf2", "esdirk34", "tsit45"];
+static METHODS: LazyLock<Vec<&str>> = LazyLock::new(|| {
+    methods::METHODS.iter().filter(|own| own.order.is_some()).map(|own| own.name).collect()
+});
 /// Part of the scenes in which the truth must lie inside of all bars.
 const COVERAGE: f64 = 0.99;
 /// How many times the error a bar may be in the median.
@@ -44,7 +46,8 @@ fn wanted(name: &str) -> Option<usize> {
 /// Judges scenes until there are so many for every method, half of them linear and half of them not.
 fn calibrate(seed: u64, scenes: usize) -> Tallies {
     let mut tallies = Tallies::default();
-    let mut missing = METHODS.map(|method| (method, [scenes.div_ceil(2), scenes / 2]));
+    let missing = METHODS.iter().map(|method| (*method, [scenes.div_ceil(2), scenes / 2]));
+    let mut missing: Vec<_> = missing.collect();
     for at in 0..20 * scenes {
         let half = at % 2;
         if missing.iter().all(|(_, missing)| missing[half] == 0) {
@@ -79,7 +82,7 @@ fn most_outside(scenes: usize) -> usize {
 #[test]
 fn the_truth_lies_inside_the_bars_in_99_of_100_scenes() {
     let tallies = calibrate(SEED, PART);
-    let whole = METHODS.map(|method| tallies.of(method, |_| true));
+    let whole: Vec<_> = METHODS.iter().map(|method| tallies.of(method, |_| true)).collect();
     for (method, own) in METHODS.iter().zip(&whole) {
         assert_eq!(own.scenes, PART, "{method}");
         let outside = own.scenes - own.inside;
@@ -116,7 +119,7 @@ fn full() {
         let (_, after) = rest.split_once("<!-- end -->").unwrap();
         fs::write(path, format!("{before}{MARK}{tables}<!-- end -->{after}")).unwrap();
     }
-    for method in METHODS {
+    for method in &*METHODS {
         let own = tallies.of(method, |_| true);
         assert!(own.coverage() >= COVERAGE, "{method}: {}", own.coverage());
         assert!(own.ratio(0.5) <= WIDEST, "{method}: {} errors", own.ratio(0.5));
@@ -125,12 +128,9 @@ fn full() {
 
 #[test]
 fn the_page_has_a_row_for_every_method_that_shows_what_is_promised() {
-    let others = methods::all().into_iter().map(|method| method.name());
-    let others: Vec<&str> = others.filter(|name| !["auto", "exact"].contains(name)).collect();
-    assert_eq!(others, METHODS);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(PAGE);
     let page = fs::read_to_string(path).unwrap();
-    for method in METHODS {
+    for method in &*METHODS {
         let head = format!("| `{method}` | all | ");
         let row = page.lines().find_map(|line| line.strip_prefix(&head)).expect(method);
         let cells: Vec<&str> = row.split(" | ").collect();

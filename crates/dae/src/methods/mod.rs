@@ -7,7 +7,7 @@ mod stepping;
 
 pub use auto::Auto;
 pub use exact::Exact;
-pub use schemes::{Bdf, Esdirk34, TrBdf2, Tsit45};
+pub use schemes::{Bdf, Dop853, Esdirk34, TrBdf2, Tsit45};
 
 pub use stepping::derivatives;
 
@@ -89,6 +89,7 @@ pub static METHODS: &[MethodEntry] = &[
     method::<TrBdf2>(),
     method::<Esdirk34>(),
     method::<Tsit45>(),
+    method::<Dop853>(),
     method::<Exact>(),
 ];
 

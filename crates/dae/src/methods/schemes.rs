@@ -1,6 +1,8 @@
 //! The step-by-step methods: each is an integrator of `diffsol` and what is to be known of it.
 
-use super::stepping::{Integrator, Scheme};
+use diffsol::Tableau;
+
+use super::stepping::{Integrator, MOST_EXPLICIT, Scheme};
 use crate::System;
 
 /// Backward differentiation of order 1 to 5 with variable steps, on the system as it stands:
@@ -41,7 +43,7 @@ impl Scheme for TrBdf2 {
     const KIND: &'static str = "tr-bdf2";
     const SUMMARY: &'static str =
         "order 2, one step at a time: for lightly damped oscillation and frequent switching";
-    const INTEGRATOR: Integrator = Integrator::TrBdf2;
+    const INTEGRATOR: Integrator = Integrator::Implicit(Tableau::tr_bdf2, 2);
     const HIGHEST: u8 = 2;
     const ORDER: usize = 2;
 }
@@ -61,7 +63,7 @@ impl Scheme for Esdirk34 {
     const KIND: &'static str = "esdirk34";
     const SUMMARY: &'static str =
         "order 3, one step at a time: for frequent switching with strong damping";
-    const INTEGRATOR: Integrator = Integrator::Esdirk34;
+    const INTEGRATOR: Integrator = Integrator::Implicit(Tableau::esdirk34, 3);
     const HIGHEST: u8 = 3;
     const ORDER: usize = 3;
 }
@@ -79,7 +81,7 @@ pub struct Tsit45;
 impl Scheme for Tsit45 {
     const KIND: &'static str = "tsit45";
     const SUMMARY: &'static str = "explicit, order 5: an independent check where nothing is stiff";
-    const INTEGRATOR: Integrator = Integrator::Tsit45;
+    const INTEGRATOR: Integrator = Integrator::Explicit(Tableau::tsit45, 4);
     const HIGHEST: u8 = 5;
     const ORDER: usize = 4;
     // The step is controlled by the error of order 4, while the solution is of order 5.
@@ -91,6 +93,37 @@ impl Scheme for Tsit45 {
             algebraic => Err(format!(
                 "it is explicit, and {algebraic} of the unknowns follow from balances; `bdf` can"
             )),
+        }
+    }
+}
+
+/// Dormand's and Prince's explicit method of order 8 with error estimates of order 5 and 3, for small systems
+/// that are not stiff. Each stage solves the balances, so that laws that are not linear are no obstacle. Where
+/// stability would ask for many steps, by the fastest rate at the start of a mode interval or by what the steps
+/// show later, [`Bdf`] goes on to the end of the interval.
+///
+/// Its dense output in a step is a polynomial of degree 7, so that few steps tell all of an impact.
+///
+/// Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., Springer 1993, II.5 and
+/// II.10.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Dop853;
+
+impl Scheme for Dop853 {
+    const KIND: &'static str = "dop853";
+    const SUMMARY: &'static str =
+        "explicit, order 8: few steps for small systems that are not stiff";
+    const INTEGRATOR: Integrator = Integrator::Dop853;
+    const HIGHEST: u8 = 8;
+    const ORDER: usize = 7;
+    const FALL: f64 = 0.9;
+
+    fn suits(system: &System) -> Result<&'static str, String> {
+        match system.len() {
+            0..=MOST_EXPLICIT => Ok("the system is small"),
+            more => {
+                Err(format!("it is for at most {MOST_EXPLICIT} unknowns, and there are {more}"))
+            }
         }
     }
 }

@@ -17,6 +17,8 @@ use crate::{
 
 /// Most intervals of a run.
 const MOST_INTERVALS: usize = 200_000;
+/// Roundings of the time that two instants are apart which are one.
+const AT_ONCE: f64 = 1.0;
 /// Most intervals that begin at one instant: more are a sign that no phases hold there.
 const MOST_AT_ONCE: usize = 64;
 /// Errors of stepping methods at events, in parts of their tolerance.
@@ -139,7 +141,8 @@ fn solve(
         if !goes_on {
             return Ok(Solution { chain: drive.chain, name, t_end, first_phases, found });
         }
-        at_once = if t_end > start { 0 } else { at_once + 1 };
+        let comes_on = t_end - start > AT_ONCE * f64::EPSILON * t_end;
+        at_once = if comes_on { 0 } else { at_once + 1 };
         if at_once > MOST_AT_ONCE {
             return Err(found.endless(t_end));
         }

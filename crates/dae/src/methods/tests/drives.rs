@@ -5,8 +5,6 @@ use nalgebra_sparse::{CooMatrix, CsrMatrix};
 use super::*;
 use crate::{Input, LinearForm, Outputs, Piece, Unknown, UnknownKind, Waveform};
 
-const STEPPERS: [&str; 4] = ["bdf", "tr-bdf2", "esdirk34", "tsit45"];
-
 /// What the errors of steps at a tolerance may add up to within some ten cycles without damping.
 fn global(name: &str, rtol: f64) -> f64 {
     20.0 * rtol.powf(least_slope(name))
@@ -58,7 +56,7 @@ fn a_pulse_that_is_zero_at_both_ends_is_not_overlooked() {
     for pulse in [half_sine, parabola] {
         let pulse = Waveform::new(vec![rest(0.0), pulse, rest(start + length)]).unwrap();
         let system = oscillator(&pulse);
-        for name in STEPPERS {
+        for name in steppers() {
             let run = Run::to(2.0).with_rtol(1e-6);
             let solved = by_name(name).unwrap().integrate(&system, &run, &mut Silent).unwrap();
             let found = solved.signal(&system, 0).value(2.0);
@@ -127,7 +125,7 @@ fn a_chirp_through_resonance_is_duhamels_integral() {
     assert!(change.fold(0.0, f64::max) < 1e-13);
     let largest = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     assert!(largest > 4.0, "it passes through the resonance: {largest}");
-    for name in STEPPERS {
+    for name in steppers() {
         let errors = [1e-6, 1e-9].map(|rtol| error(name, &system, end, rtol, &expected));
         let slope = (errors[0] / errors[1]).log10() / 3.0;
         assert!(errors[1] < global(name, 1e-9) && slope > least_slope(name), "{name}: {errors:?}");
@@ -138,7 +136,7 @@ fn a_chirp_through_resonance_is_duhamels_integral() {
 fn outputs_follow_a_chirp_itself_and_its_rates() {
     let drive = chirp();
     let system = oscillator(&drive);
-    for name in STEPPERS {
+    for name in steppers() {
         let trajectory = by_name(name).unwrap();
         let trajectory = trajectory.integrate(&system, &Run::to(60.0), &mut Silent).unwrap();
         for order in 0..3 {
@@ -166,7 +164,7 @@ fn parabolas_and_cubics_are_stepped_through_as_the_exact_method_follows_them() {
     let (end, count) = (14.0, 140);
     let expected = duhamel(&drive, end, count);
     assert!(error("exact", &system, end, 1e-9, &expected) < 1e-12);
-    for name in STEPPERS {
+    for name in steppers() {
         let found = error(name, &system, end, 1e-9, &expected);
         assert!(found < global(name, 1e-9), "{name}: {found:e}");
     }
