@@ -12,11 +12,27 @@ const STEP: f64 = 6e-6;
 /// Error of the work, in parts of that of the typical secant.
 const AGREEMENT: f64 = 1e-13;
 
-/// The secants of a law at its typical deformation \[N/m\] and rate \[N s/m\].
+/// Places at which a law is looked at, in parts of what is typical, on both sides of zero.
+pub(super) const PLACES: [f64; 13] =
+    [-3.0, -1.0, -0.5, -0.1, -0.01, -0.001, 0.0, 0.001, 0.01, 0.1, 0.5, 1.0, 3.0];
+
+/// The secants of a law at its typical deformation \[N/m\] and rate \[N s/m\]; where one is zero, the largest
+/// at any of the [`PLACES`]: a law that begins beyond a gap, or damps one way only, has a stiffness and a
+/// damping all the same.
 pub(super) fn secants<E: Element + ?Sized>(law: &E) -> [f64; 2] {
     let [deformation, rate] = law.typical();
-    let steady = law.force(deformation, 0.0);
-    [steady / deformation, (law.force(deformation, rate) - steady) / rate]
+    let over_y = |y: f64| law.force(y, 0.0) / y;
+    let over_v = |y: f64, v: f64| (law.force(y, v) - law.force(y, 0.0)) / v;
+    let own = [over_y(deformation), over_v(deformation, rate)];
+    if own.iter().all(|own| *own != 0.0) {
+        return own;
+    }
+    let places = |unit: f64| PLACES.iter().map(move |part| part * unit);
+    let largest = |found: f64, own: f64| if own > found { own } else { found };
+    let stiffness = places(deformation).filter(|y| *y != 0.0).map(over_y).fold(own[0], largest);
+    let pairs = places(deformation).flat_map(|y| places(rate).map(move |v| (y, v)));
+    let damping = pairs.filter(|own| own.1 != 0.0).map(|(y, v)| over_v(y, v));
+    [stiffness, damping.fold(own[1], largest)]
 }
 
 pub(super) fn central_differences<E: Element + ?Sized>(

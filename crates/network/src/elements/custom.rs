@@ -1,29 +1,44 @@
 //! An element whose law is given as a function.
 
-use std::{fmt, sync::Arc};
+use std::{
+    borrow::Cow,
+    fmt,
+    ops::{Add, BitOr},
+    sync::Arc,
+};
 
 use dashpot_rheology::Tree;
 
 use super::{
     ELEMENTS, Element, Tangent,
-    by_numbers::{TYPICAL, central_differences, secants, work_at_rest},
+    by_numbers::{PLACES, TYPICAL, central_differences, secants, work_at_rest},
 };
 use crate::parameters::{Described, InvalidParameter, registered};
+
+type Parts = Tree<Arc<dyn Element>>;
+
+/// What a force may fall by, and have at rest, in parts of the largest one: its rounding.
+const ROUNDING: f64 = 1e-12;
+/// How well given slopes and energies must fit the force, in parts of its secant.
+const FIT: f64 = 1e-3;
 
 /// An element whose law is given as a function, `F(y, ẏ)` \[N\] over the deformation `y` \[m\] and
 /// its rate \[m/s\].
 ///
-/// The function is to have a number for all deformations and rates, is to be continuous, and must
-/// fall neither with the one nor with the other; `F(0, 0) = 0`. What it has at rest is elastic: it
-/// stores `∫ F(s, 0) ds`, and dissipates `(F(y, ẏ) − F(y, 0)) ẏ`. That integral and the slopes are
-/// found by numbers, as [`Element::stored`] and [`Element::tangent`] say, unless they are given, too.
+/// `y > 0` is compression, and `F > 0` pushes the ends apart. The function is asked for both signs of both, for
+/// trial values beyond those of the motion, and from several threads: it is to have a number everywhere, is to be
+/// continuous, and must fall neither with the one nor with the other; `F(0, 0) = 0`. That is checked up to three
+/// times what is [typical](Self::typically), and told by place where it is not so. What it has at rest is elastic:
+/// it stores `∫ F(s, 0) ds`, and dissipates `(F(y, ẏ) − F(y, 0)) ẏ`, which is never negative for such a law. That
+/// integral and the slopes are found by numbers, as [`Element::stored`] and [`Element::tangent`] say, unless they
+/// are given, too.
 ///
 /// # Limits
 ///
 /// A law that is steeper than any line at rest over the rate, such as `√ẏ`, is a
 /// [`PowerDashpot`](super::PowerDashpot); one with a memory is an [`Element`] with
 /// [`phases`](Element::phases). It has no parameters, so it can be neither written to a scene nor
-/// scaled, and two of one name count as the same model.
+/// scaled: both are refused. Two count as the same model only where one is a clone of the other.
 ///
 /// # Examples
 ///
@@ -53,7 +68,8 @@ impl Custom {
         Self { kind, force: Arc::new(force), tangent: None, stored: None, typical: TYPICAL }
     }
 
-    /// The same element with the slopes of its law over deformation \[m\] and rate \[m/s\].
+    /// The same element with the slopes of its law over deformation \[m\] and rate \[m/s\], which saves the
+    /// differences.
     #[must_use]
     pub fn with_tangent(
         self,
@@ -62,8 +78,8 @@ impl Custom {
         Self { tangent: Some(Arc::new(tangent)), ..self }
     }
 
-    /// The same element with the energy \[J\] that it stores at a deformation \[m\]; the run loses what
-    /// this differs by from the work at rest.
+    /// The same element with the energy `∫ F(s, 0) ds` \[J\] that it stores at a deformation \[m\], which saves
+    /// the quadrature.
     #[must_use]
     pub fn with_stored(self, stored: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Self { stored: Some(Arc::new(stored)), ..self }
@@ -93,20 +109,104 @@ impl Described for Custom {
             let found = "that of a built-in element";
             return Err(InvalidParameter::new(self.kind, "a word of its own", found));
         }
-        let at_rest = self.force(0.0, 0.0);
-        if at_rest != 0.0 {
-            let found = format!("{at_rest} N");
-            return Err(InvalidParameter::new(self.kind, "a law without a force at rest", found));
+        let is_word = |own: char| own.is_ascii_alphanumeric() || own == '-';
+        if self.kind.is_empty() || !self.kind.chars().all(is_word) {
+            return Err(
+                self.invalid("a word of letters, digits and `-`", format!("`{}`", self.kind))
+            );
         }
+        if !self.typical.iter().all(|own| *own > 0.0 && own.is_finite()) {
+            let [deformation, rate] = self.typical;
+            let found = format!("{deformation} m and {rate} m/s");
+            return Err(self.invalid("typical of positive deformations and rates", found));
+        }
+        self.rises()?;
         let [stiffness, damping] = secants(self);
-        let is_slope = |own: f64| own >= 0.0 && own.is_finite();
-        if is_slope(stiffness) && is_slope(damping) && stiffness + damping > 0.0 {
-            return Ok(());
+        if stiffness + damping <= 0.0 {
+            let [deformation, rate] = self.typical.map(|own| 3.0 * own);
+            let found = format!("none up to {deformation} m and {rate} m/s; see `typically`");
+            return Err(self.invalid("a law with a force", found));
         }
+        self.fits(stiffness.max(damping * self.typical[1] / self.typical[0]))
+    }
+}
+
+impl Custom {
+    fn invalid(&self, range: impl Into<Cow<'static, str>>, found: String) -> InvalidParameter {
+        InvalidParameter::new(self.kind, range, found)
+    }
+
+    /// Whether the law has a number at all places that are looked at, and falls between none of them.
+    fn rises(&self) -> Result<(), InvalidParameter> {
+        let places = self.typical.map(|unit| PLACES.map(|part| part * unit));
+        let forces = places[0].map(|y| places[1].map(|v| self.force(y, v)));
+        let all = forces.as_flattened();
+        let size = all.iter().map(|own| own.abs()).fold(0.0, f64::max);
+        let told = |y: usize, v: usize| {
+            format!("{} N at {} m and {} m/s", forces[y][v], places[0][y], places[1][v])
+        };
+        let middle = PLACES.len() / 2;
+        for y in 0..PLACES.len() {
+            for v in 0..PLACES.len() {
+                let own = forces[y][v];
+                if !own.is_finite() {
+                    return Err(self.invalid("a law with a force everywhere", told(y, v)));
+                }
+                for (y_before, v_before) in [(y.saturating_sub(1), v), (y, v.saturating_sub(1))] {
+                    if own < forces[y_before][v_before] - ROUNDING * size {
+                        let found = format!("{} after {}", told(y, v), told(y_before, v_before));
+                        return Err(self.invalid("a law that falls nowhere", found));
+                    }
+                }
+            }
+        }
+        if forces[middle][middle].abs() > ROUNDING * size {
+            let found = told(middle, middle);
+            return Err(self.invalid("a law without a force at rest", found));
+        }
+        Ok(())
+    }
+
+    /// Whether slopes and energy, where they are given, are those of the force, whose secant is as large as
+    /// `size` \[N/m\].
+    fn fits(&self, size: f64) -> Result<(), InvalidParameter> {
         let [deformation, rate] = self.typical;
-        let range = format!("a law that rises up to {deformation} m and {rate} m/s");
-        let found = format!("one of {stiffness} N/m and {damping} N s/m");
-        Err(InvalidParameter::new(self.kind, range, found))
+        for y in [-deformation, deformation] {
+            let (given, work) = (self.stored(y), work_at_rest(self, y));
+            if (given - self.stored(0.0) - work).abs() > FIT * size * y * y
+                || self.stored(0.0) != 0.0
+            {
+                let found = format!("{given} J at {y} m, where it is {work} J, and 0 J at rest");
+                return Err(self.invalid("an energy that is the work of the force", found));
+            }
+            for v in [-rate, rate] {
+                let (given, own) = (self.tangent(y, v), central_differences(self, y, v));
+                let gap = (given.stiffness - own.stiffness).abs() * deformation
+                    + (given.damping - own.damping).abs() * rate;
+                if gap > FIT * size * deformation {
+                    let found = format!("{given:?} at {y} m and {v} m/s, where it is {own:?}");
+                    return Err(self.invalid("slopes that are those of the force", found));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What composes models takes an element of one's own on the left, too.
+impl<T: Into<Parts>> Add<T> for Custom {
+    type Output = Parts;
+
+    fn add(self, other: T) -> Parts {
+        Parts::from(self) + other
+    }
+}
+
+impl<T: Into<Parts>> BitOr<T> for Custom {
+    type Output = Parts;
+
+    fn bitor(self, other: T) -> Parts {
+        Parts::from(self) | other
     }
 }
 
@@ -134,7 +234,7 @@ impl Element for Custom {
     }
 }
 
-impl From<Custom> for Tree<Arc<dyn Element>> {
+impl From<Custom> for Parts {
     fn from(element: Custom) -> Self {
         Self::Part(Arc::new(element))
     }
@@ -150,18 +250,41 @@ mod tests {
             Custom::new(kind, force).validate().map_err(|own| own.to_string())
         };
         assert_eq!(says("mine", |y, v| y + v), Ok(()));
+        assert_eq!(says("mine", |y, _| 1e6 * (y - 0.012).max(0.0)), Ok(()));
+        assert_eq!(says("mine", |y, v| 6e4 * y + 300.0 * v.min(0.0)), Ok(()));
         let refused = [
             says("mine", |y, v| v - y),
             says("mine", |_, _| 1.0),
             says("mine", |_, _| 0.0),
-            says("mine", |y, _| y / (0.01 - y)),
+            says("mine", |y, _| y / (0.02 - y)),
+            says("mine", |y, _| 1e4 * y.powf(1.5)),
+            says("mine", |y, v| 1e4 * y + 20.0 * v * v),
+            says("mine", |y, _| (1e3 * y).sin()),
+            says("my pad", |y, _| y),
         ];
         for own in refused {
-            assert!(
-                own.as_ref().is_err_and(|text| text.starts_with("`mine` must be a law")),
-                "{own:?}"
-            );
+            assert!(own.as_ref().is_err_and(|text| text.contains("must be")), "{own:?}");
         }
         assert!(says("spring", |y, _| y).is_err_and(|text| text.contains("a word of its own")));
+    }
+
+    #[test]
+    fn laws_that_begin_late_or_damp_one_way_keep_their_stiffness_and_damping() {
+        let gap = Custom::new("gap", |y, v| 1e6 * (y - 0.012).max(0.0) + 50.0 * v);
+        assert!(secants(&gap)[0] > 0.0 && secants(&gap)[1] > 0.0);
+        let rebound = Custom::new("rebound", |y, v| 6e4 * y + 300.0 * v.min(0.0));
+        assert!((secants(&rebound)[1] - 300.0).abs() < 1e-6);
+        let deep = |y: f64, v: f64| 6e4 * y + 3e4 * (y - 0.015).max(0.0) * v;
+        assert!(secants(&Custom::new("deep", deep))[1] > 0.0);
+    }
+
+    #[test]
+    fn given_slopes_and_energies_must_be_those_of_the_force() {
+        let law = || Custom::new("mine", |y, _| 2.0 * y);
+        assert!(law().with_stored(|y| y * y).validate().is_ok());
+        assert!(law().with_stored(|y| 2.0 * y * y).validate().is_err());
+        let slopes = |stiffness| move |_: f64, _: f64| Tangent { stiffness, damping: 0.0 };
+        assert!(law().with_tangent(slopes(2.0)).validate().is_ok());
+        assert!(law().with_tangent(slopes(3.0)).validate().is_err());
     }
 }

@@ -238,7 +238,10 @@ fn walk_element(
     let kind = element.kind();
     let place = if path.is_empty() { name.to_owned() } else { format!("{name}.{path}") };
     visit.word(&format!("{place}.law"), kind);
-    let Some(maker) = registered(ELEMENTS, kind) else { return Ok(Arc::clone(element)) };
+    let Some(maker) = registered(ELEMENTS, kind) else {
+        let range = "a law with parameters, which can be scaled";
+        return Err(InvalidParameter::new(kind, range, "given as a function"));
+    };
     let is_said = path.rsplit('.').next() == Some(kind);
     let prefix = match maker.parameters {
         [_] if is_said => place,
