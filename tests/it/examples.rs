@@ -18,6 +18,8 @@ mod fibre_padding;
 mod force_table;
 #[path = "../../examples/reference_impact.rs"]
 mod reference_impact;
+#[path = "../../examples/report_json.rs"]
+mod report_json;
 #[path = "../../examples/scene_from_toml.rs"]
 mod scene_from_toml;
 #[path = "../../examples/sweep_by_axes.rs"]
@@ -43,6 +45,11 @@ fn the_custom_element_runs() {
 #[test]
 fn the_custom_measure_runs() {
     custom_measure::main().unwrap();
+}
+
+#[test]
+fn the_report_as_json_runs() {
+    report_json::main().unwrap();
 }
 
 #[test]

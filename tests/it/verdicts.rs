@@ -5,7 +5,7 @@ use std::fs;
 
 use tempfile::TempDir;
 
-use crate::cli::{code, err, out, run};
+use crate::cli::{code, err, json, out, run};
 
 const PAD: &str = r#"
 [nodes]
@@ -133,4 +133,18 @@ fn a_rise_that_the_rheometer_chooses_has_few_digits() {
     let rise = shown.split("the deformation rises within ").nth(1).unwrap_or_default();
     let number = rise.split(' ').next().unwrap_or_default();
     assert!(!number.is_empty() && number.len() <= 5, "{shown}");
+}
+
+#[test]
+fn a_model_that_is_a_parameter_is_an_object_in_si_units() {
+    let measured = "[measures]\nhead = [{ kind = \"edi\", mass = \"2 kg\", model = { series = [\
+                    { spring = \"4 kN/m\" }, { parallel = [{ dashpot = \"90 N s/m\" }, \
+                    { spring = \"1 kN/m\" }] }] } }]";
+    let (_folder, path) = written(&format!("{PAD}{measured}\n[run]\nduration = \"20 ms\"\n"));
+    let found = json(&["run", &path, "--json"]);
+    let model = &found["runs"][0]["measures"]["head.edi"]["model"];
+    let right = serde_json::json!({ "series": [{ "spring": 4000.0 }, { "parallel": [
+        { "dashpot": 90.0 }, { "spring": 1000.0 },
+    ] }] });
+    assert_eq!(*model, right);
 }

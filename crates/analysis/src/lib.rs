@@ -36,6 +36,7 @@ pub use measures::exceedance::Counted;
 pub use measures::selection::MeasureWish;
 pub use measures::{Family, MEASURES, Measure, MeasureKind, Reading};
 pub use note::Note;
+pub use report::compression::Compression;
 pub use report::event::{Collision, Event, EventReport};
 pub use report::excerpt::{excerpt, resolving_times, touching};
 pub use report::partial::{Partial, Segmentation};

@@ -100,12 +100,19 @@ pub fn solve_partial(
     settings: &SolveSettings,
     observer: &mut dyn Observer,
 ) -> Result<RunReport, RunError> {
-    let Some(bound) = settings.accuracy.neglect_below else {
-        let report = solve_assembly(assembly, &words(network), settings, observer)?;
-        return with_segments(network, report, settings, observer);
+    let started = Instant::now();
+    let mut report = match settings.accuracy.neglect_below {
+        None => {
+            let report = solve_assembly(assembly, &words(network), settings, observer)?;
+            with_segments(network, report, settings, observer)?
+        }
+        Some(bound) => {
+            let (report, left_out) = reduced(network, assembly, settings, bound, observer)?;
+            with_segments(&network.without(&left_out), report, settings, observer)?
+        }
     };
-    let (report, left_out) = reduced(network, assembly, settings, bound, observer)?;
-    with_segments(&network.without(&left_out), report, settings, observer)
+    report.solver.wall_in_all = started.elapsed();
+    Ok(report)
 }
 
 /// What the error is taken as, in parts of the difference.

@@ -1,9 +1,11 @@
 //! The report of a run, and how far two of them are apart.
 
+pub(crate) mod compression;
 pub(crate) mod event;
 pub(crate) mod excerpt;
 pub(crate) mod partial;
 pub(crate) mod sample;
+pub(crate) mod serialized;
 pub mod verdict;
 pub(crate) mod warning;
 
@@ -70,6 +72,8 @@ pub struct SolverReport {
     pub solves_for_error: usize,
     /// Wall-clock time of those.
     pub wall_for_error: Duration,
+    /// Wall-clock time of the whole run: solutions, measures and errors.
+    pub wall_in_all: Duration,
     /// Work of the whole run, with every solution that was tried, in units of
     /// [`Budget`](dashpot_dae::Budget).
     pub work: u64,

@@ -6,16 +6,12 @@ use dashpot_dae::SolveError;
 use dashpot_network::{HeldTable, NetworkWarning, parameters::Dimension};
 
 use crate::{
-    Idle, Leak, Note,
+    Compression, Idle, Leak, Note,
     wording::{percent, quantity},
 };
 
 /// How many measures one warning names.
 const NAMED: usize = 4;
-
-/// Closure in parts of the energy turned over, and deformation in parts of a thickness, that rounding may
-/// leave.
-pub(crate) const ROUNDING: f64 = 1e-10;
 
 /// Something that the reader of a report must know.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,12 +143,8 @@ pub enum Warning {
 pub struct Through {
     /// The element, or the path of a part of it.
     pub name: String,
-    /// How far \[m\].
-    pub deepest: f64,
-    /// When \[s\].
-    pub time: f64,
-    /// Its thickness \[m\].
-    pub thickness: f64,
+    /// How far.
+    pub compression: Compression,
 }
 
 /// A measured law that is followed beyond its points.
@@ -290,10 +282,10 @@ impl fmt::Display for Through {
             f,
             "the {} is pressed in by {} at {}: {} more than its thickness of {}",
             self.name,
-            quantity(self.deepest, "m"),
-            quantity(self.time, "s"),
-            quantity(self.deepest - self.thickness, "m"),
-            quantity(self.thickness, "m"),
+            quantity(self.compression.deepest, "m"),
+            quantity(self.compression.time, "s"),
+            quantity(-self.compression.left(), "m"),
+            quantity(self.compression.thickness, "m"),
         )
     }
 }

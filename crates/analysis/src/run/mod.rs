@@ -6,7 +6,7 @@ mod events;
 mod outcome;
 mod warnings;
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Instant};
 
 use dashpot_dae::{Budget, Guard, Method, MethodKind, Observer, Run, methods};
 use dashpot_network::{Assembly, Network};
@@ -34,6 +34,7 @@ pub fn solve_assembly(
     settings: &SolveSettings,
     observer: &mut dyn Observer,
 ) -> Result<RunReport, RunError> {
+    let started = Instant::now();
     settings.validate()?;
     memory::foresee(assembly)?;
     let selected = select(assembly, &settings.measures)?;
@@ -71,6 +72,7 @@ pub fn solve_assembly(
     let task = Task { method: method.as_ref(), ..task };
     let mut report = report(assembly, effects, &task, &run, outcome)?;
     report.solver.work = work;
+    report.solver.wall_in_all = started.elapsed();
     report.solver.why = match report.trajectory.digest() {
         Some(_) => {
             format!("{why}; only what the measures need is kept of so large a solution")

@@ -1,6 +1,6 @@
 //! From the solution that was found to the report on it.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use dashpot_dae::Run;
 use dashpot_network::{
@@ -120,6 +120,7 @@ fn solver_report(task: &Task<'_>, outcome: &Outcome) -> SolverReport {
         statistics: solved.trajectory.statistics,
         solves_for_error: outcome.solves_for_error,
         wall_for_error: outcome.wall_for_error,
+        wall_in_all: Duration::ZERO,
         work: 0,
     }
 }

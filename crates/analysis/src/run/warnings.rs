@@ -10,8 +10,8 @@ use dashpot_network::{
 };
 
 use crate::{
-    Accuracy, Beyond, ContactReport, Harder, Ledger, MeasureReport, Missed, Note, Solution,
-    Through, Warning,
+    Accuracy, Beyond, Compression, ContactReport, Harder, Ledger, MeasureReport, Missed, Note,
+    Solution, Through, Warning,
     energy::ledger::leak,
     errors::open_ends::OpenEnd,
     impact::{
@@ -23,7 +23,7 @@ use crate::{
         Clip, Clip3ms, Hic, Hic15, Hic36, Measure as _, PeakAcceleration, PeakForce, PeakStrain,
         Reading, SeverityIndex,
     },
-    report::warning::ROUNDING,
+    report::compression::ROUNDING,
 };
 
 /// What warnings are made of.
@@ -324,19 +324,9 @@ impl Through {
         if !solution.keeps(output) {
             return None;
         }
-        let deformation = solution.glance(output);
-        let deepest = deformation.maximum((0.0, solution.end()));
-        let noise = deformation.error.unwrap_or(0.0).max(ROUNDING * thickness);
-        (deepest.value > thickness + noise).then(|| Self {
-            name: name.to_owned(),
-            deepest: deepest.value,
-            time: deepest.time,
-            thickness,
-        })
-    }
-
-    fn strain(&self) -> f64 {
-        self.deepest / self.thickness
+        let run = (0.0, solution.end());
+        let compression = Compression::of(&solution.glance(output), run, thickness);
+        compression.is_through().then(|| Self { name: name.to_owned(), compression })
     }
 }
 
@@ -364,7 +354,9 @@ pub(crate) fn pressed_through(solution: &Solution<'_>) -> Vec<Warning> {
             })
             .collect();
         let others = parts.len().saturating_sub(1);
-        let worst = parts.into_iter().max_by(|one, other| one.strain().total_cmp(&other.strain()));
+        let worst = parts
+            .into_iter()
+            .max_by(|one, other| one.compression.strain().total_cmp(&other.compression.strain()));
         let worst = worst.map(|through| Warning::PressedThrough { through, others });
         whole.map(|through| Warning::PressedThrough { through, others: 0 }).into_iter().chain(worst)
     };

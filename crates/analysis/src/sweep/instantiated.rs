@@ -12,11 +12,11 @@ use super::{
     table::Table,
 };
 use crate::{
+    Compression,
     measures::{
         STANDARD_GRAVITY,
         selection::{Selected, select},
     },
-    report::warning::ROUNDING,
 };
 
 /// A value that is less certain than this part of itself is left to the full solution.
@@ -139,11 +139,12 @@ impl<'g> Plan<'g> {
         let release = impact.release.value * time;
         Notice {
             pulls: (release < self.duration).then_some(release),
-            pressed: (depth > thickness + error.max(ROUNDING * thickness)).then_some([
-                depth,
-                impact.deepest_at * time,
+            pressed: Some(Compression::new(
+                [depth, impact.deepest_at * time],
+                Some(error),
                 thickness,
-            ]),
+            ))
+            .filter(Compression::is_through),
         }
     }
 

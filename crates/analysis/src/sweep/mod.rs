@@ -19,6 +19,7 @@ mod parallel;
 mod propagate;
 mod report;
 mod scene_point;
+mod serialized;
 mod sums;
 mod table;
 

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::Row;
 use crate::{
-    RunError, Through, Warning,
+    Compression, RunError, Through, Warning,
     partial::{Cost, Neglected, PutBack},
 };
 
@@ -82,9 +82,23 @@ pub struct PartialOfSweep {
 }
 
 impl SweepReport {
+    /// How many points there are.
+    pub fn points(&self) -> usize {
+        self.values.len() / self.columns.len().max(1)
+    }
+
     /// The values of a column, in the order of the grid.
     pub fn column(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
-        self.values.iter().skip(column).step_by(self.columns.len().max(1)).copied()
+        self.of_column(&self.values, column)
+    }
+
+    /// The errors of a column, in the order of the grid.
+    pub fn errors_of(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
+        self.of_column(&self.errors, column)
+    }
+
+    fn of_column<'a>(&self, all: &'a [f64], column: usize) -> impl Iterator<Item = f64> + use<'a> {
+        all.iter().skip(column).step_by(self.columns.len().max(1)).copied()
     }
 
     /// Widens the errors by the largest move that what was left out makes, and says what that was.
@@ -140,8 +154,8 @@ pub struct SweepWarning {
 pub(super) struct Notice {
     /// From when on \[s\] the element pulls.
     pub(super) pulls: Option<f64>,
-    /// Its largest deformation \[m\], when \[s\] it is reached, and its thickness \[m\], which is less.
-    pub(super) pressed: Option<[f64; 3]>,
+    /// Its largest deformation, where that is more than its thickness.
+    pub(super) pressed: Option<Compression>,
 }
 
 impl Notice {
@@ -150,8 +164,8 @@ impl Notice {
         let element = element.to_owned();
         let pulls =
             self.pulls.map(|time| Warning::Pulls { element: element.clone(), since: Some(time) });
-        let pressed = self.pressed.map(|[deepest, time, thickness]| {
-            let through = Through { name: element, deepest, time, thickness };
+        let pressed = self.pressed.map(|compression| {
+            let through = Through { name: element, compression };
             Warning::PressedThrough { through, others: 0 }
         });
         pulls.into_iter().chain(pressed).collect()

@@ -7,7 +7,7 @@ use dashpot_network::{
 };
 
 use crate::{
-    Contact, ContactReport, MeasureReport, RunReport,
+    Compression, Contact, ContactReport, MeasureReport, RunReport,
     energy::ledger::{Ledger, ledger},
     impact::contacts,
     measures::{
@@ -94,8 +94,8 @@ pub struct Elsewhere<'r> {
 pub struct Depth<'r> {
     /// Its largest deformation.
     pub peak: Peak<'r>,
-    /// What is left of its thickness \[m\], below zero where it is pressed further, and the thickness.
-    pub left: Option<[f64; 2]>,
+    /// That beside its thickness, where it has one.
+    pub compression: Option<Compression>,
 }
 
 /// What an element takes up, and of what.
@@ -292,16 +292,18 @@ impl<'r> Found<'r> {
         let pads = self.of_kind(PeakDeformation::KIND).filter_map(|measure| {
             let connection = self.0.assembly.connection(&measure.target)?;
             let (thickness, window) = connection.thickness.zip(measure.window)?;
-            let pressed = self.0.solution().signal(connection.deformation).maximum(window).value;
-            Some((measure, [thickness - pressed, thickness]))
+            let solution = self.0.solution();
+            let deformation = solution.signal(connection.deformation);
+            Some((measure, Compression::of(deformation, window, thickness)))
         });
-        let share = |[left, thickness]: [f64; 2]| left / thickness;
-        let tightest = pads.min_by(|one, other| share(one.1).total_cmp(&share(other.1)));
-        if let Some((measure, left)) = tightest {
-            return Some(Depth { peak: self.finite(measure, measure.value?), left: Some(left) });
+        let strain = |own: &(_, Compression)| -own.1.strain();
+        let tightest = pads.min_by(|one, other| strain(one).total_cmp(&strain(other)));
+        if let Some((measure, own)) = tightest {
+            let peak = self.finite(measure, measure.value?);
+            return Some(Depth { peak, compression: Some(own) });
         }
         let (measure, value) = self.largest(PeakDeformation::KIND)?;
-        Some(Depth { peak: self.finite(measure, value), left: None })
+        Some(Depth { peak: self.finite(measure, value), compression: None })
     }
 
     /// The impactors, or those that strike an element.

@@ -9,12 +9,7 @@ mod series;
 mod solving;
 mod verdict;
 
-use std::{
-    collections::HashMap,
-    path::PathBuf,
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{collections::HashMap, path::PathBuf, sync::Arc};
 
 use clap::Args;
 use dashpot_analysis::{
@@ -107,8 +102,6 @@ struct Answer {
     pub(super) asked: Vec<SolveSettings>,
     /// The runs that went well, in the order of the methods; at least one.
     pub(super) runs: Vec<RunReport>,
-    /// What each of them took in all: solutions, measures and errors.
-    pub(super) elapsed: Vec<Duration>,
     /// The methods that failed, and why.
     pub(super) failed: Vec<(&'static str, CliError)>,
     /// Whether forces are plotted.
@@ -224,22 +217,17 @@ fn solve_all(
     }
     let assembly = Arc::new(scene.assembly.clone());
     let (mut runs, mut failed) = (Vec::<RunReport>::new(), Vec::new());
-    let mut elapsed = Vec::new();
     for own in &asked {
         let mut bar = Bar::new(own.method.name(), own.duration, terminal.error.attended);
-        let started = Instant::now();
         match solve_partial(&scene.network, &assembly, own, &mut bar) {
             // `auto` may choose what is asked for by name as well.
-            Ok(report) if is_new(&runs, &report) => {
-                runs.push(report);
-                elapsed.push(started.elapsed());
-            }
+            Ok(report) if is_new(&runs, &report) => runs.push(report),
             Ok(_) => {}
             Err(error) => failed.push((own.method.name(), CliError::Run(error))),
         }
     }
     let (changes, plot) = (Changes::of(arguments), arguments.plot);
-    Ok(Answer { scene, changes, asked, runs, elapsed, failed, plot })
+    Ok(Answer { scene, changes, asked, runs, failed, plot })
 }
 
 fn is_new(runs: &[RunReport], report: &RunReport) -> bool {

@@ -1,7 +1,5 @@
 //! How the runs were solved, and with which settings.
 
-use std::time::Duration;
-
 use dashpot_analysis::{RunReport, Stop};
 use dashpot_dae::Direction;
 use dashpot_network::parameters::Dimension;
@@ -17,7 +15,7 @@ const TIMES: &str = "`time`: integration alone (of `exact`: its set-up); `in all
 pub(super) fn solving_table(answer: &Answer) -> Table {
     let header =
         ["method", "rtol", "steps", "rejected", "Jac.", "LU", "time", "for errors", "in all"];
-    let row = |(run, elapsed): (&RunReport, &Duration)| {
+    let row = |run: &RunReport| {
         let (solver, work) = (&run.solver, &run.solver.statistics);
         let stepwise = solver.rtol.is_some();
         let count = |count: usize| if stepwise { count.to_string() } else { "–".to_owned() };
@@ -36,10 +34,10 @@ pub(super) fn solving_table(answer: &Answer) -> Table {
             count(work.factorizations),
             duration(work.wall),
             further,
-            duration(*elapsed),
+            duration(solver.wall_in_all),
         ]
     };
-    let rows: Vec<Vec<String>> = answer.runs.iter().zip(&answer.elapsed).map(row).collect();
+    let rows: Vec<Vec<String>> = answer.runs.iter().map(row).collect();
     let says_something = |column: usize| rows.iter().any(|row| row[column] != "–");
     let shown: Vec<usize> = (0..header.len()).filter(|&column| says_something(column)).collect();
     Table {

@@ -4,7 +4,7 @@ use dashpot_analysis::{
     Contact, ContactReport, MeasureReport, Note, Partial, RunReport,
     measures::{Hic, STANDARD_GRAVITY},
     partial::{Cost, Verification, Why},
-    verdict::{Absorbed, Ending, Opened, Peak, Reached, Verdict, WholeForce},
+    verdict::{Absorbed, Depth, Ending, Opened, Peak, Reached, Verdict, WholeForce},
 };
 use dashpot_network::parameters::Kind as _;
 use dashpot_units::percent;
@@ -73,7 +73,7 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
         ("of it", of_it),
         ("elsewhere", elsewhere),
         ("peak g", found.peak_acceleration.map(|peak| words.peak_g(peak))),
-        ("max. deflection", found.depth.map(|depth| words.depth(depth.peak, depth.left))),
+        ("max. deflection", found.depth.map(|depth| words.depth(depth))),
         ("energy", found.energy.as_ref().map(|energy| words.energy(energy))),
         ("contact", found.ending.as_ref().map(|ending| words.ending(ending))),
         ("indices", indices(run)),
@@ -137,20 +137,20 @@ impl Words<'_> {
         }
     }
 
-    fn depth(&self, peak: Peak<'_>, left: Option<[f64; 2]>) -> String {
-        let text = self.peak(peak, " in ");
-        let (Some([left, thickness]), Peak::Finite { measure, .. }) = (left, peak) else {
+    fn depth(&self, depth: Depth<'_>) -> String {
+        let text = self.peak(depth.peak, " in ");
+        let (Some(own), Peak::Finite { measure, .. }) = (depth.compression, depth.peak) else {
             return text;
         };
-        let limit = constant(thickness, "m");
+        let (left, strain) = (own.left(), own.strain());
+        let limit = constant(own.thickness, "m");
         let digits = numbers::digits(left, measure.error, TIME_DIGITS);
         let rest = quantity(left.abs(), "m", digits);
-        let strain = 1.0 - left / thickness;
         let strain = percent(strain, if strain < 1.0 { 2 } else { 3 });
-        if left >= 0.0 {
-            format!("{text}: {strain} of {limit}, {rest} left")
-        } else {
+        if own.is_through() {
             format!("{text}: {strain} of {limit}, {rest} MORE than there is")
+        } else {
+            format!("{text}: {strain} of {limit}, {rest} left")
         }
     }
 

@@ -8,7 +8,6 @@ use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
 use clap::{Args, ValueEnum};
 use dashpot_analysis::{
     RunError,
-    partial::Cost,
     sweep::{
         Column, Estimates, Grid, Pose, ScenePoint, SweepOptions, SweepReport, columns,
         sweep as solve,
@@ -164,7 +163,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     emit(&swept, arguments.json, folder, terminal)?;
     files::undrawn(&swept.variations).filter(|_| has_folder).into_iter().for_each(note);
     let failed = swept.report.gaps.iter().filter(|gap| gap.column.is_none()).count();
-    Ok(if failed == swept.points() { Status::RunFailed } else { Status::Done })
+    Ok(if failed == swept.report.points() { Status::RunFailed } else { Status::Done })
 }
 
 /// More points are not solved in one sweep.
@@ -231,52 +230,26 @@ impl Study for Swept {
 
     /// Values stand in the order of the points: the last parameter varies fastest.
     fn object(&self) -> impl Serialize {
+        #[derive(Serialize)]
+        struct Object<'s, P> {
+            dashpot: &'static str,
+            title: &'s Option<String>,
+            file: &'s Option<String>,
+            parameters: P,
+            #[serde(flatten)]
+            report: &'s SweepReport,
+        }
         let Self { scene, report, .. } = self;
         let parameters = self.variations.iter().zip(&self.matched).enumerate();
-        let measures = report.columns.iter().enumerate();
-        let column = |all: &[f64], at: usize| {
-            let own = all.iter().skip(at).step_by(report.columns.len());
-            list(own.map(|own| own.is_finite().then_some(*own)))
-        };
-        object! {
-            dashpot: VERSION,
-            title: &scene.title,
-            file: &scene.file,
-            parameters: list(parameters.map(|(at, (own, &tunable))| object! {
+        let parameters = list(parameters.map(|(at, (own, &tunable))| {
+            object! {
                 name: &own.name,
                 path: &self.tunables.all()[tunable].path,
                 unit: self.unit(at),
                 values: &own.values,
-            })),
-            measures: list(measures.map(|(at, own)| object! {
-                key: &own.key,
-                over_thickness: own.is_share,
-                unit: own.unit,
-                values: column(&report.values, at),
-                errors: column(&report.errors, at),
-            })),
-            points: self.points(),
-            instantiated: report.instantiated,
-            estimated: report.estimated,
-            checked: &report.checked,
-            largest_difference: report.largest_difference,
-            gaps: list(report.gaps.iter().map(|gap| object! {
-                point: gap.point,
-                measure: gap.column.map(|at| &report.columns[at].key),
-                reason: &gap.reason,
-            })),
-            warnings: list(report.warnings.iter().map(|warning| object! {
-                text: warning.warning.to_string(), code: warning.warning.code(), points: &warning.points,
-            })),
-            left_out: report.partial.as_ref().map(|partial| object! {
-                bound: partial.bound,
-                effects: list(partial.left_out.iter().map(|own| &own.effect)),
-                checked: &partial.checked,
-                measure: partial.worst.as_ref().map(|worst| &worst.measure),
-                moves: partial.worst.as_ref().map(Cost::most).filter(|own| own.is_finite()),
-                solves: partial.solves,
-            }),
-        }
+            }
+        }));
+        Object { dashpot: VERSION, title: &scene.title, file: &scene.file, parameters, report }
     }
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {

@@ -18,11 +18,6 @@ use crate::{
 const DIGITS: usize = 5;
 
 impl Swept {
-    /// How many points there are.
-    pub(super) fn points(&self) -> usize {
-        self.report.values.len() / self.report.columns.len().max(1)
-    }
-
     /// SI unit of a parameter.
     pub(super) fn unit(&self, parameter: usize) -> String {
         let own = self.tunables.all()[self.matched[parameter]].dimension;
@@ -102,7 +97,7 @@ const MOST_WARNED: usize = 8;
 
 /// How it was solved, what runs are warned of, what is missing, and what was left out.
 pub(super) fn notes(swept: &Swept) -> Vec<String> {
-    let (report, points) = (&swept.report, swept.points());
+    let (report, points) = (&swept.report, swept.report.points());
     let mut all = vec![solved(report, points)];
     if !report.checked.is_empty() {
         all.push(format!(

@@ -1,0 +1,201 @@
+//! Reports as data for programs: `serde`, in SI units. A number that is not finite is none.
+
+use dashpot_network::{Model, parameters::Value};
+use dashpot_rheology::Tree;
+use serde::{Serialize, Serializer, ser::SerializeMap};
+
+use super::partial::{Neglected, Partial, PutBack, Why};
+use crate::{Ledger, MeasureReport, Note, RunReport, SolverReport, Warning};
+
+/// States what a type is serialised as: a map of these keys, in this order.
+macro_rules! serialized {
+    ($type:ty, $own:ident => { $($key:literal: $value:expr),* $(,)? }) => {
+        impl Serialize for $type {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let $own = self;
+                let mut map = serializer.serialize_map(None)?;
+                $(map.serialize_entry($key, &$value)?;)*
+                map.end()
+            }
+        }
+    };
+}
+pub(crate) use serialized;
+
+serialized!(RunReport, own => {
+    "solver": own.solver,
+    "system": own.system,
+    "measures": Pairs(own.measures.iter().map(|own| (&own.key, own)).collect()),
+    "energy": Energy { at_end: &own.energy, after_impact: own.energy_after_impact.as_ref() },
+    "events": own.events,
+    "partial": own.partial,
+    "segmentation": own.segmentation,
+    "warnings": list(&own.warnings, Warning::to_string),
+    "warning_codes": list(&own.warnings, Warning::code),
+});
+
+serialized!(SolverReport, own => {
+    "method": own.method,
+    "why": own.why,
+    "rtol": own.rtol,
+    "accepted": own.statistics.accepted,
+    "rejected": own.statistics.rejected,
+    "rhs_calls": own.statistics.rhs_calls,
+    "jacobian_calls": own.statistics.jacobian_calls,
+    "factorizations": own.statistics.factorizations,
+    "linear_solves": own.statistics.linear_solves,
+    "work": own.work,
+    "solves_for_error": own.solves_for_error,
+    "wall_s": own.statistics.wall.as_secs_f64(),
+    "wall_for_error_s": own.wall_for_error.as_secs_f64(),
+    "wall_in_all_s": own.wall_in_all.as_secs_f64(),
+});
+
+serialized!(Partial, own => {
+    "below": own.bound,
+    "left_out": own.left_out,
+    "put_back": own.put_back,
+    "worst": own.worst(),
+    "moved": Pairs(own.costs.iter().map(|own| (&own.measure, finite(own.relative))).collect()),
+    "unreported": own.unreported,
+    "further_runs": own.verification.solves,
+    "wall_of_further_runs_s": own.verification.wall.as_secs_f64(),
+});
+
+serialized!(Neglected, own => {
+    "effect": own.effect,
+    "formula": own.influence.formula,
+    "estimate": own.influence.value,
+    "alone": own.alone,
+});
+
+serialized!(PutBack, own => {
+    "effect": own.effect,
+    "formula": own.influence.formula,
+    "estimate": own.influence.value,
+    "moves": if let Why::Moves(cost) = &own.why { Some(cost) } else { None },
+    "error": own.why.error(),
+});
+
+serialized!(Ledger, own => {
+    "time": own.time,
+    "start": own.start,
+    "work-in": own.total_work_in(),
+    "drives": pairs(&own.work_in),
+    "kinetic": own.kinetic,
+    "stored": pairs(&own.stored),
+    "dissipated": pairs(&own.dissipated),
+    "closure": finite(own.closure()),
+});
+
+/// The balance at the end of the run, and that at the end of the impact, where it ends within.
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+struct Energy<'r> {
+    #[serde(flatten)]
+    at_end: &'r Ledger,
+    after_impact: Option<&'r Ledger>,
+}
+
+impl Serialize for MeasureReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("value", &self.value)?;
+        map.serialize_entry("unit", self.unit)?;
+        map.serialize_entry("time", &self.time)?;
+        map.serialize_entry("window", &self.window.map(|(from, to)| [from, to]))?;
+        map.serialize_entry("error", &self.error.and_then(finite))?;
+        if let Some(note) = self.note() {
+            map.serialize_entry("note", &note)?;
+            map.serialize_entry("note_codes", &list(&self.notes, Note::code))?;
+        }
+        // The times of the window stand above, as they were resolved.
+        for (name, value) in self.parameters.iter().filter(|own| Given(&own.1).is_said()) {
+            map.serialize_entry(name, &Given(value))?;
+        }
+        map.end()
+    }
+}
+
+/// The value of a parameter.
+struct Given<'v>(&'v Value);
+
+impl Given<'_> {
+    fn is_said(&self) -> bool {
+        !matches!(self.0, Value::Window(_) | Value::LeftOut)
+    }
+}
+
+impl Serialize for Given<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            Value::Number(number) => number.serialize(serializer),
+            Value::Word(word) => word.serialize(serializer),
+            Value::Flag => true.serialize(serializer),
+            Value::Table(points) => points.serialize(serializer),
+            Value::Model(model) => model.model().map(Branches).serialize(serializer),
+            Value::Window(_) | Value::LeftOut => serializer.serialize_none(),
+        }
+    }
+}
+
+/// A model as a scene writes it, in SI units: `{"series": [{"spring": 2e7}, {"dashpot": 6e3}]}`.
+struct Branches<'m>(&'m Model);
+
+impl Serialize for Branches<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(1))?;
+        match self.0 {
+            Tree::Part(element) => {
+                let (names, values) = (element.parameters().iter(), element.values());
+                let given = names.zip(&values).filter(|own| Given(own.1).is_said());
+                let given: Vec<_> = given.map(|(own, value)| (own.name, Given(value))).collect();
+                match &given[..] {
+                    [(_, only)] => map.serialize_entry(element.kind(), only)?,
+                    _ => map.serialize_entry(element.kind(), &Pairs(given))?,
+                }
+            }
+            Tree::Series(branches) => {
+                map.serialize_entry("series", &list(branches, |own| Branches(&own.tree)))?;
+            }
+            Tree::Parallel(branches) => {
+                map.serialize_entry("parallel", &list(branches, |own| Branches(&own.tree)))?;
+            }
+        }
+        map.end()
+    }
+}
+
+impl Why {
+    /// What keeps the effect in but a measure.
+    fn error(&self) -> Option<String> {
+        match self {
+            Self::Moves(_) => None,
+            Self::Fails(error) => Some(error.to_string()),
+            Self::Pulls { element, time } => {
+                Some(format!("`{element}` would go into tension at {time} s"))
+            }
+        }
+    }
+}
+
+pub(crate) fn finite(number: f64) -> Option<f64> {
+    number.is_finite().then_some(number)
+}
+
+pub(crate) fn list<'a, T, U>(items: &'a [T], item: impl Fn(&'a T) -> U) -> Vec<U> {
+    items.iter().map(item).collect()
+}
+
+fn pairs(entries: &[(String, f64)]) -> Pairs<&str, Option<f64>> {
+    Pairs(list(entries, |(name, amount)| (name.as_str(), finite(*amount))))
+}
+
+/// A map in an order of its own.
+struct Pairs<K, V>(Vec<(K, V)>);
+
+impl<K: Serialize, V: Serialize> Serialize for Pairs<K, V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(key, value)| (key, value)))
+    }
+}
