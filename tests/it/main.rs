@@ -29,6 +29,7 @@ mod gallery;
 mod hard;
 mod independent;
 mod layers;
+mod limits;
 mod mutated_runs;
 mod order;
 mod pads;

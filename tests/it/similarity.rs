@@ -30,11 +30,13 @@ fn scenes_that_are_written_are_read_back_equal() {
     for path in scene_paths() {
         let name = path.display().to_string();
         let own = scene(&fs::read_to_string(&path).unwrap(), &name);
-        let text = match write_scene("again", &[], &own.network, &own.run, &own.measures) {
-            Ok(text) => text,
-            Err(Unwritable::Function { .. }) => continue,
-            Err(other) => panic!("{name}: {other}"),
-        };
+        let text =
+            match write_scene("again", &[], &own.network, &own.run, &own.settings("auto").unwrap())
+            {
+                Ok(text) => text,
+                Err(Unwritable::Function { .. }) => continue,
+                Err(other) => panic!("{name}: {other}"),
+            };
         written += 1;
         let again = scene(&text, &name);
         let (one, other) = (inventory(&own.network), inventory(&again.network));
@@ -94,7 +96,7 @@ duration = "40 ms"
     let (similar, left_out) = similar_settings(&real.settings("auto").unwrap(), &found.scale);
     assert_eq!(left_out, ["head.dri"]);
     let run = dashpot::scene::RunSettings { duration: similar.duration, ..real.run.clone() };
-    let text = write_scene("lab", &[], &found.network, &run, &similar.measures).unwrap();
+    let text = write_scene("lab", &[], &found.network, &run, &similar).unwrap();
     for part in ["cap = \"30 ms\"", "duration = \"6 ms\"", "mass = \"2 kg\"", "spring = \"1 kN/m\""]
     {
         assert!(text.contains(part), "{part}:\n{text}");

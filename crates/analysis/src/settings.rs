@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use dashpot_dae::{Direction, Method, methods};
 
-use crate::{MeasureWish, RunError, wording::quantity};
+use crate::{Limit, MeasureWish, RunError, wording::quantity};
 
 /// What is asked of a run.
 #[derive(Debug, Clone)]
@@ -28,6 +28,8 @@ pub struct SolveSettings {
     pub budget: u64,
     /// Measures besides those that every run reports.
     pub measures: Vec<MeasureWish>,
+    /// Limits; the measures that they are on are reported as well.
+    pub limits: Vec<Limit>,
 }
 
 /// How the method of a run is chosen.
@@ -162,6 +164,7 @@ impl SolveSettings {
             stops: Vec::new(),
             budget: Self::BUDGET,
             measures: Vec::new(),
+            limits: Vec::new(),
         }
     }
 

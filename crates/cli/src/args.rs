@@ -7,10 +7,10 @@ use clap::{
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
     error::{ContextKind, ContextValue, ErrorKind},
 };
-use dashpot_analysis::Accuracy;
+use dashpot_analysis::{Accuracy, Limit};
 use dashpot_dae::methods;
 use dashpot_network::parameters::Dimension;
-use dashpot_scene::units::parse_quantity;
+use dashpot_scene::{parse_limits, units::parse_quantity};
 
 use crate::error::{is_unit, unquoted_help};
 
@@ -35,6 +35,34 @@ pub(crate) struct ValueArguments {
     /// Sets a value of the scene's table [values]: `--set "K=25 MN/m"`; repeatable.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
+}
+
+/// Which limits besides those of the scene.
+#[derive(Debug, Args)]
+pub(crate) struct LimitArguments {
+    /// A limit besides those of the scene, such as "head.hic15<=700" or, by a standard,
+    /// "head.peak-acceleration=en-1078" (`dashpot list limits`); repeatable.
+    #[arg(long, value_name = "LIMIT", value_parser = limits)]
+    pub(crate) limit: Vec<Limits>,
+}
+
+impl LimitArguments {
+    /// All limits.
+    pub(crate) fn all(&self) -> impl Iterator<Item = Limit> + '_ {
+        self.limit.iter().flat_map(|own| own.list.iter().cloned())
+    }
+}
+
+/// Limits that one argument states.
+#[derive(Debug, Clone)]
+pub(crate) struct Limits {
+    /// The argument.
+    pub(crate) text: String,
+    pub(crate) list: Vec<Limit>,
+}
+
+fn limits(text: &str) -> Result<Limits, String> {
+    Ok(Limits { text: text.trim().to_owned(), list: parse_limits(text)? })
 }
 
 /// When something is done.

@@ -31,6 +31,8 @@ pub(crate) enum Status {
     InputWrong = 2,
     /// Two models are not the same.
     NotSame = 3,
+    /// A limit is not kept, or not for certain.
+    LimitNotKept = 4,
 }
 
 impl From<Status> for ExitCode {
@@ -45,6 +47,9 @@ pub(crate) enum CliError {
     /// A scene that is not valid.
     #[error("{0}")]
     Scene(Diagnostics),
+    /// Limits are to be enforced, and there is none.
+    #[error("`--enforce` has no limit to enforce")]
+    NoLimits,
     /// A scene that cannot be read.
     #[error("`{name}` cannot be read: {reason}")]
     Unreadable { name: String, reason: String, similar: Option<String> },
@@ -214,6 +219,9 @@ impl CliError {
             Self::Unreadable { similar: Some(similar), .. } => {
                 Some(format!("did you mean `{similar}`?"))
             }
+            Self::NoLimits => Some(
+                "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`".to_owned(),
+            ),
             Self::Variation(fault) => Some(fault.help()),
             Self::Tunable(fault) => fault.help(),
             Self::Sweep(SweepError::NoMeasure { key, known })

@@ -27,8 +27,8 @@ use terminal::Terminal;
 use verbs::Arguments;
 
 /// Does what the command line says. The exit code is 0 when it is done (warnings included), 1 when
-/// a run failed, 2 when the input is wrong, and 3 when two models are not the same, or two scenes not
-/// similar.
+/// a run failed, 2 when the input is wrong, 3 when two models are not the same, or two scenes not similar, and 4 when
+/// a limit that is enforced is not kept.
 pub fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,

@@ -45,6 +45,12 @@ pub(crate) fn digits(value: f64, error: Option<f64>, most: usize) -> usize {
     justified.clamp(FEWEST, most)
 }
 
+/// A share in percent to two digits with its sign.
+pub(crate) fn percent_signed(share: f64) -> String {
+    let text = percent(share.abs(), 2);
+    if share < 0.0 { format!("−{text}") } else { text }
+}
+
 /// An error relative to its value in percent, rounded up to one digit.
 pub(crate) fn bound(relative: f64) -> String {
     if !relative.is_finite() {

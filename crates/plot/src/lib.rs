@@ -29,8 +29,8 @@ pub use figures::model::{
     Measured, ModelCurve, ModelFigure, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
 };
 pub use figures::{
-    ElementSeries, EnergySeries, Figure, PrecisionCurve, PrecisionSeries, RunMarker, RunMarkerKind,
-    RunSeries, VibrationCurve, VibrationSeries,
+    ElementSeries, EnergySeries, Figure, NodeSeries, Of, PrecisionCurve, PrecisionSeries, RunLimit,
+    RunMarker, RunMarkerKind, RunSeries, VibrationCurve, VibrationSeries,
 };
 pub use map::{Map, MapLimit};
 pub use report::{Report, ReportFigure, Table};

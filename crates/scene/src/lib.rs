@@ -32,6 +32,7 @@ pub use models::notes::{ModelNote, Remark};
 pub use quantities::values::NamedValue;
 pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network, text_of_bytes};
 pub use schema::schema;
+pub use sections::parse_limits;
 pub use shipped::{Shipped, reference, references, template, templates};
 pub use text::csv::{CsvFault, text_cell};
 pub use text::document::MAX_BYTES;

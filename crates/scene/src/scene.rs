@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dashpot_analysis::{Accuracy, Choice, MeasureWish, RunError, SolveSettings};
+use dashpot_analysis::{Accuracy, Choice, Limit, MeasureWish, RunError, SolveSettings};
 use dashpot_network::{Assembly, Network, effects::EFFECTS, parameters::registered};
 
 pub use crate::sections::RunSettings;
@@ -16,8 +16,8 @@ use crate::{
     models::{ModelReader, notes::ModelNote},
     quantities::values::{NamedValue, Overrides},
     sections::{
-        Reading, Targets, check_stops, read_accuracy, read_effects, read_elements, read_loads,
-        read_measures, read_nodes, read_run,
+        Reading, Targets, check_stops, read_accuracy, read_effects, read_elements, read_limits,
+        read_loads, read_measures, read_nodes, read_run,
     },
     text::{
         document::{Entry, MAX_BYTES, parse},
@@ -28,7 +28,7 @@ use crate::{
 };
 
 /// The sections of a scene and of a file of models.
-const SECTIONS: [&str; 11] = [
+const SECTIONS: [&str; 12] = [
     "title",
     "values",
     "models",
@@ -38,6 +38,7 @@ const SECTIONS: [&str; 11] = [
     "effects",
     "loads",
     "measures",
+    "limits",
     "accuracy",
     "run",
 ];
@@ -59,6 +60,8 @@ pub struct Scene {
     pub accuracy: Accuracy,
     /// What is to be reported besides what every run reports.
     pub measures: Vec<MeasureWish>,
+    /// What the measures may be.
+    pub limits: Vec<Limit>,
     /// What is to be said about its models, besides warnings.
     pub notes: Vec<ModelNote>,
     /// Named values, those set from outside included, by name.
@@ -83,6 +86,7 @@ impl Scene {
             stops: self.run.stops.clone(),
             budget: SolveSettings::BUDGET,
             measures: self.measures.clone(),
+            limits: self.limits.clone(),
         })
     }
 }
@@ -236,6 +240,7 @@ struct Parts<'d> {
     network: Network,
     title: Option<String>,
     measures: Vec<MeasureWish>,
+    limits: Vec<Limit>,
     accuracy: Accuracy,
     notes: Vec<ModelNote>,
 }
@@ -261,15 +266,16 @@ impl<'d> Parts<'d> {
         let targets = Targets::new(&reading, &network);
         let measures = read_measures(&reading, &targets, &models);
         models.check_unused();
+        let limits = read_limits(&reading, &targets);
         let accuracy = read_accuracy(&reading, &targets);
-        Self { reading, network, title, measures, accuracy, notes: models.notes() }
+        Self { reading, network, title, measures, limits, accuracy, notes: models.notes() }
     }
 }
 
 fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<Scene> {
     let (mut library, source) = load(text, options, faults)?;
     library.load_tables(options.loader, faults);
-    let Parts { reading, network, title, measures, accuracy, mut notes } =
+    let Parts { reading, network, title, measures, limits, accuracy, mut notes } =
         Parts::read(&library, faults);
     let (mut run, stops) = read_run(&reading);
     if faults.errors() > 0 {
@@ -310,6 +316,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         run,
         accuracy,
         measures,
+        limits,
         notes,
         values,
         text: Arc::clone(&source.text),

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::{
-    Dimension,
+    Dimension, STANDARD_GRAVITY,
     symbols::{self, Unit},
 };
 
@@ -21,6 +21,31 @@ pub struct Quantity {
     pub angle: i8,
     /// Whether it was given in degrees Celsius, so that it is no difference of temperatures.
     pub is_celsius: bool,
+    /// Whether its unit is `g` alone: the gram, but standard gravity where an acceleration is expected.
+    pub is_gram: bool,
+}
+
+impl Quantity {
+    /// What it is where this dimension is expected: `"250 g"` is an acceleration where one is.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use dashpot_units::{Dimension, parse_quantity};
+    ///
+    /// let written = parse_quantity("250 g")?;
+    /// assert_eq!(written.meant(Dimension::MASS).value, 0.25);
+    /// assert_eq!(written.meant(Dimension::ACCELERATION).value, 250.0 * 9.80665);
+    /// # Ok::<(), dashpot_units::UnitError>(())
+    /// ```
+    #[must_use]
+    pub fn meant(self, expected: Dimension) -> Self {
+        if !self.is_gram || expected != Dimension::ACCELERATION {
+            return self;
+        }
+        let value = self.value * 1e3 * STANDARD_GRAVITY;
+        Self { value, dimension: Some(Dimension::ACCELERATION), is_gram: false, ..self }
+    }
 }
 
 /// Why a text is not a quantity.
@@ -109,6 +134,7 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
         dimension: unit.map(|unit| unit.dimension),
         angle: unit.map_or(0, |unit| unit.angle),
         is_celsius: false,
+        is_gram: unit_text == "g",
     })
 }
 
@@ -118,7 +144,13 @@ fn celsius(text: &str, number: &str) -> Result<Quantity, UnitError> {
     if !value.is_finite() {
         return Err(UnitError::TooLarge { text: text.to_owned() });
     }
-    Ok(Quantity { value, dimension: Some(Dimension::TEMPERATURE), angle: 0, is_celsius: true })
+    Ok(Quantity {
+        value,
+        dimension: Some(Dimension::TEMPERATURE),
+        angle: 0,
+        is_celsius: true,
+        is_gram: false,
+    })
 }
 
 /// The dimension of a unit such as `"N s/m"`.

@@ -3,7 +3,10 @@
 use std::fmt::Write as _;
 
 use dashpot::{
-    analysis::measures::{Family, MEASURES, MeasureEntry},
+    analysis::{
+        limits::standards::STANDARDS,
+        measures::{Family, MEASURES, MeasureEntry, STANDARD_GRAVITY},
+    },
     dae::methods,
     network::{
         composites::COMPOSITES,
@@ -40,6 +43,30 @@ pub(super) fn sections() -> Vec<(&'static str, String)> {
     for method in methods::all() {
         kinds.row(&[code(method.name()), method.summary().to_owned()]);
     }
+    let methods = kinds.take("word | what it is good for");
+    for own in STANDARDS {
+        let bound = |&(most, of_mean): &(f64, bool)| {
+            let of_mean = if of_mean { ", of the mean" } else { "" };
+            let level = match (own.kinds[0], most) {
+                ("peak-acceleration", own) => format!("{} g", own / STANDARD_GRAVITY),
+                (kind, own) if kind.ends_with("force") => format!("{} kN", own / 1e3),
+                (_, own) => own.to_string(),
+            };
+            format!("{level}{of_mean}")
+        };
+        let bounds: Vec<String> = own.bounds.iter().map(bound).collect();
+        let kinds_of = own.kinds.iter().copied().map(code).collect::<Vec<_>>().join(" or ");
+        let (bounds, test) = (bounds.join("; "), own.test.to_owned());
+        kinds.row(&[
+            code(own.word),
+            own.edition.to_owned(),
+            kinds_of,
+            bounds,
+            test,
+            own.source.to_owned(),
+        ]);
+    }
+    let limits = kinds.take("word | standard | on | at most | test | read from");
     vec![
         ("elements", elements),
         ("forms", forms),
@@ -48,7 +75,8 @@ pub(super) fn sections() -> Vec<(&'static str, String)> {
         ("functions", waveforms),
         ("effects", effects),
         ("measures", measures),
-        ("methods", kinds.take("word | what it is good for")),
+        ("methods", methods),
+        ("limits", limits),
     ]
 }
 

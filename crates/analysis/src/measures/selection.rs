@@ -8,7 +8,7 @@ use dashpot_network::{
 };
 
 use crate::{
-    RunError,
+    RunError, SolveSettings,
     impact::contacts,
     measures::{Family, Measure, by_default, of_layers},
     memory::is_large,
@@ -41,14 +41,31 @@ pub(crate) struct Selected {
     pub(crate) measure: Arc<dyn Measure>,
 }
 
-/// The measures that every run reports, and then those wanted.
+/// The measures that every run reports, then those wanted, and those that limits are on.
 ///
 /// A measure that is wanted of a target for which its kind is reported anyway takes that place, if it
 /// looks at the same part of the run.
 pub(crate) fn select(
     assembly: &Assembly,
-    wishes: &[MeasureWish],
+    settings: &SolveSettings,
 ) -> Result<Vec<Selected>, RunError> {
+    let mut selected = select_wished(assembly, &settings.measures)?;
+    for limit in &settings.limits {
+        if selected.iter().any(|own| own.key == limit.key) {
+            continue;
+        }
+        let Some(wish) = limit.wish() else {
+            let known = selected.into_iter().map(|own| own.key).collect();
+            return Err(RunError::UnknownMeasure { key: limit.key.clone(), known });
+        };
+        let target = Names::of(assembly, std::slice::from_ref(&wish)).find(assembly, &wish)?;
+        let (key, name) = (limit.key.clone(), wish.target);
+        selected.push(Selected { key, name, target, measure: wish.measure });
+    }
+    Ok(selected)
+}
+
+fn select_wished(assembly: &Assembly, wishes: &[MeasureWish]) -> Result<Vec<Selected>, RunError> {
     let mut selected = Vec::new();
     let has_impactor = assembly.has_impactor();
     // In a large network without an impactor nothing stands out.

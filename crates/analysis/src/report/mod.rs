@@ -3,6 +3,7 @@
 pub(crate) mod compression;
 pub(crate) mod event;
 pub(crate) mod excerpt;
+pub(crate) mod judged;
 pub(crate) mod partial;
 pub(crate) mod sample;
 pub(crate) mod serialized;
@@ -18,7 +19,9 @@ use dashpot_network::{
 };
 use serde::Serialize;
 
-use crate::{EventReport, Impact, Ledger, NoValue, Note, Partial, Segmentation, Solution, Warning};
+use crate::{
+    EventReport, Impact, Ledger, Limit, NoValue, Note, Partial, Segmentation, Solution, Warning,
+};
 
 /// Error in parts of a value whose first digit is just known.
 pub(crate) const FIRST_DIGIT: f64 = 0.1;
@@ -49,6 +52,8 @@ pub struct RunReport {
     pub segmentation: Option<Segmentation>,
     /// What the reader must know, the most important first.
     pub warnings: Vec<Warning>,
+    /// The limits that were asked for.
+    pub limits: Vec<Limit>,
     /// The equations.
     pub assembly: Arc<Assembly>,
     /// The solution that is reported, the finest one.

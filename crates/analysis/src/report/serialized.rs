@@ -5,11 +5,11 @@ use dashpot_rheology::Tree;
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use super::partial::{Neglected, Partial, PutBack, Why};
-use crate::{Ledger, MeasureReport, Note, RunReport, SolverReport, Warning};
+use crate::{Judged, Ledger, MeasureReport, Note, RunReport, SolverReport, Warning};
 
 /// States what a type is serialised as: a map of these keys, in this order.
 macro_rules! serialized {
-    ($type:ty, $own:ident => { $($key:literal: $value:expr),* $(,)? }) => {
+    ($type:ty, $own:ident => { $($key:expr => $value:expr),* $(,)? }) => {
         impl Serialize for $type {
             fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 let $own = self;
@@ -23,69 +23,82 @@ macro_rules! serialized {
 pub(crate) use serialized;
 
 serialized!(RunReport, own => {
-    "solver": own.solver,
-    "system": own.system,
-    "measures": Pairs(own.measures.iter().map(|own| (&own.key, own)).collect()),
-    "energy": Energy { at_end: &own.energy, after_impact: own.energy_after_impact.as_ref() },
-    "events": own.events,
-    "partial": own.partial,
-    "segmentation": own.segmentation,
-    "warnings": list(&own.warnings, Warning::to_string),
-    "warning_codes": list(&own.warnings, Warning::code),
+    "solver" => own.solver,
+    "system" => own.system,
+    "measures" => Pairs(own.measures.iter().map(|own| (&own.key, own)).collect()),
+    "limits" => own.judged(),
+    "energy" => Energy { at_end: &own.energy, after_impact: own.energy_after_impact.as_ref() },
+    "events" => own.events,
+    "partial" => own.partial,
+    "segmentation" => own.segmentation,
+    "warnings" => list(&own.warnings, Warning::to_string),
+    "warning_codes" => list(&own.warnings, Warning::code),
+});
+
+serialized!(Judged<'_>, own => {
+    "key" => own.limit.key,
+    own.limit.bound.word() => own.limit.bound.level(),
+    "from" => own.limit.from,
+    "of_mean" => own.limit.of_mean,
+    "unit" => own.measure.map(|own| own.unit),
+    "value" => own.measure.and_then(|own| own.value),
+    "error" => own.measure.and_then(|own| own.error).and_then(finite),
+    "verdict" => own.judgement.word(),
+    "margin" => own.margin(),
 });
 
 serialized!(SolverReport, own => {
-    "method": own.method,
-    "why": own.why,
-    "rtol": own.rtol,
-    "accepted": own.statistics.accepted,
-    "rejected": own.statistics.rejected,
-    "rhs_calls": own.statistics.rhs_calls,
-    "jacobian_calls": own.statistics.jacobian_calls,
-    "factorizations": own.statistics.factorizations,
-    "linear_solves": own.statistics.linear_solves,
-    "work": own.work,
-    "solves_for_error": own.solves_for_error,
-    "wall_s": own.statistics.wall.as_secs_f64(),
-    "wall_for_error_s": own.wall_for_error.as_secs_f64(),
-    "wall_in_all_s": own.wall_in_all.as_secs_f64(),
+    "method" => own.method,
+    "why" => own.why,
+    "rtol" => own.rtol,
+    "accepted" => own.statistics.accepted,
+    "rejected" => own.statistics.rejected,
+    "rhs_calls" => own.statistics.rhs_calls,
+    "jacobian_calls" => own.statistics.jacobian_calls,
+    "factorizations" => own.statistics.factorizations,
+    "linear_solves" => own.statistics.linear_solves,
+    "work" => own.work,
+    "solves_for_error" => own.solves_for_error,
+    "wall_s" => own.statistics.wall.as_secs_f64(),
+    "wall_for_error_s" => own.wall_for_error.as_secs_f64(),
+    "wall_in_all_s" => own.wall_in_all.as_secs_f64(),
 });
 
 serialized!(Partial, own => {
-    "below": own.bound,
-    "left_out": own.left_out,
-    "put_back": own.put_back,
-    "worst": own.worst(),
-    "moved": Pairs(own.costs.iter().map(|own| (&own.measure, finite(own.relative))).collect()),
-    "unreported": own.unreported,
-    "further_runs": own.verification.solves,
-    "wall_of_further_runs_s": own.verification.wall.as_secs_f64(),
+    "below" => own.bound,
+    "left_out" => own.left_out,
+    "put_back" => own.put_back,
+    "worst" => own.worst(),
+    "moved" => Pairs(own.costs.iter().map(|own| (&own.measure, finite(own.relative))).collect()),
+    "unreported" => own.unreported,
+    "further_runs" => own.verification.solves,
+    "wall_of_further_runs_s" => own.verification.wall.as_secs_f64(),
 });
 
 serialized!(Neglected, own => {
-    "effect": own.effect,
-    "formula": own.influence.formula,
-    "estimate": own.influence.value,
-    "alone": own.alone,
+    "effect" => own.effect,
+    "formula" => own.influence.formula,
+    "estimate" => own.influence.value,
+    "alone" => own.alone,
 });
 
 serialized!(PutBack, own => {
-    "effect": own.effect,
-    "formula": own.influence.formula,
-    "estimate": own.influence.value,
-    "moves": if let Why::Moves(cost) = &own.why { Some(cost) } else { None },
-    "error": own.why.error(),
+    "effect" => own.effect,
+    "formula" => own.influence.formula,
+    "estimate" => own.influence.value,
+    "moves" => if let Why::Moves(cost) = &own.why { Some(cost) } else { None },
+    "error" => own.why.error(),
 });
 
 serialized!(Ledger, own => {
-    "time": own.time,
-    "start": own.start,
-    "work-in": own.total_work_in(),
-    "drives": pairs(&own.work_in),
-    "kinetic": own.kinetic,
-    "stored": pairs(&own.stored),
-    "dissipated": pairs(&own.dissipated),
-    "closure": finite(own.closure()),
+    "time" => own.time,
+    "start" => own.start,
+    "work-in" => own.total_work_in(),
+    "drives" => pairs(&own.work_in),
+    "kinetic" => own.kinetic,
+    "stored" => pairs(&own.stored),
+    "dissipated" => pairs(&own.dissipated),
+    "closure" => finite(own.closure()),
 });
 
 /// The balance at the end of the run, and that at the end of the impact, where it ends within.

@@ -94,6 +94,7 @@ pub(super) fn report(
         partial: None,
         segmentation: None,
         warnings,
+        limits: settings.limits.clone(),
         assembly: Arc::clone(assembly),
         trajectory: outcome.solved.trajectory,
     })

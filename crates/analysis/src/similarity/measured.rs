@@ -64,6 +64,14 @@ pub fn similar_settings(settings: &SolveSettings, scale: &Scale) -> (SolveSettin
             None => left_out.push(format!("{}.{}", wish.target, wish.measure.kind())),
         }
     }
+    let mut limits = Vec::new();
+    for limit in &settings.limits {
+        let own = limit.wish().and_then(|wish| similar_measure(wish.measure.as_ref(), scale));
+        match own {
+            Some(measure) => limits.push(limit.scaled(scale.of_measure(measure.as_ref()))),
+            None => left_out.push(limit.key.clone()),
+        }
+    }
     let stop = |stop: &Stop| {
         let output = stop.output.rsplit('.').next().unwrap_or_default();
         let dimension = match output {
@@ -78,6 +86,7 @@ pub fn similar_settings(settings: &SolveSettings, scale: &Scale) -> (SolveSettin
         duration: settings.duration * scale.time,
         stops: settings.stops.iter().map(stop).collect(),
         measures,
+        limits,
         ..settings.clone()
     };
     (similar, left_out)
@@ -146,7 +155,7 @@ pub fn alone(
 fn with_counterparts(settings: &SolveSettings, scale: &Scale) -> SolveSettings {
     let has_one = |wish: &&MeasureWish| similar_measure(wish.measure.as_ref(), scale).is_some();
     let measures = settings.measures.iter().filter(has_one).cloned().collect();
-    SolveSettings { measures, ..settings.clone() }
+    SolveSettings { measures, limits: Vec::new(), ..settings.clone() }
 }
 
 fn side_by_side(
@@ -155,7 +164,7 @@ fn side_by_side(
     scale: &Scale,
     settings: &SolveSettings,
 ) -> Result<Vec<Measured>, RunError> {
-    let kinds = select(&one.assembly, &settings.measures)?;
+    let kinds = select(&one.assembly, settings)?;
     let (all, by_key) = (&other.measures, other.by_key());
     let wished = kinds.iter().zip(&one.measures);
     let pairs = wished.enumerate().filter_map(|(at, (selected, own))| {

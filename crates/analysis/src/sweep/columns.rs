@@ -30,8 +30,8 @@ pub fn columns(
     keys: &[String],
 ) -> Result<(Vec<Column>, Vec<MeasureWish>), SweepError> {
     let assembly = scene.network.compile(scene.settings.duration).map_err(RunError::from)?;
-    let mut wishes = scene.settings.measures.clone();
-    let reported = select(&assembly, &wishes)?;
+    let mut settings = scene.settings.clone();
+    let reported = select(&assembly, &settings)?;
     for key in keys.iter().filter(|key| !reported.iter().any(|own| own.key == **key)) {
         let Some(wish) = wish(key) else {
             return Err(SweepError::NoMeasure {
@@ -39,10 +39,12 @@ pub fn columns(
                 known: reported.iter().map(|own| own.key.clone()).collect(),
             });
         };
-        wishes.push(wish);
+        settings.measures.push(wish);
     }
-    let selected = select(&assembly, &wishes)?;
-    let is_wanted = |selected: &&Selected| keys.is_empty() || keys.contains(&selected.key);
+    let selected = select(&assembly, &settings)?;
+    let is_limited = |key: &String| settings.limits.iter().any(|own| own.key == *key);
+    let is_wanted =
+        |own: &&Selected| keys.is_empty() || keys.contains(&own.key) || is_limited(&own.key);
     let mut columns: Vec<Column> = selected
         .iter()
         .filter(is_wanted)
@@ -51,6 +53,7 @@ pub fn columns(
     if columns.is_empty() {
         return Err(SweepError::NoneReported);
     }
+    let mut wishes = settings.measures.clone();
     let is_about = |at: usize| {
         let between = assembly.connections[at].between;
         selected.iter().filter(is_wanted).any(|own| match own.measure.applies_to() {
@@ -66,7 +69,8 @@ pub fn columns(
             continue;
         }
         if !selected.iter().any(|own| own.key == key) {
-            wishes.push(MeasureWish::new(connection.name.clone(), PeakDeformation::default()));
+            let wish = MeasureWish::new(connection.name.clone(), PeakDeformation::default());
+            wishes.push(wish);
         }
         columns.push(Column { key, unit: "1", is_share: true });
     }

@@ -1,6 +1,9 @@
 //! Points of a sweep whose errors are known from points near them.
 
-use super::{Row, full::Full};
+use super::{
+    Row,
+    full::{Flaws, Full},
+};
 use crate::{Choice, RunReport, SolveSettings, Warning};
 
 /// At which points of a sweep that are solved by steps errors are estimated by further solutions.
@@ -84,7 +87,7 @@ impl Full<'_> {
                 .as_ref()
                 .and_then(|known| self.spared(known, row.point, row.values, row.errors));
             match spared {
-                Some(warnings) => row.warnings = warnings,
+                Some((warnings, cut)) => (row.warnings, row.flaws.cut) = (warnings, cut),
                 None => {
                     estimated += usize::from(is_estimated(&self.estimated(row)));
                 }
@@ -128,15 +131,15 @@ impl Full<'_> {
         Some(Known { method: first.solver.method, rtol, errors, warnings })
     }
 
-    /// Solves a point once, and returns what the run is warned of; `None` where it is of another kind than
-    /// those that are known.
+    /// Solves a point once, and returns what the run is warned of, and which columns its end cuts off; `None`
+    /// where it is of another kind than those that are known.
     fn spared(
         &self,
         known: &Known,
         point: usize,
         values: &mut [f64],
         errors: &mut [f64],
-    ) -> Option<Vec<Warning>> {
+    ) -> Option<(Vec<Warning>, Vec<usize>)> {
         let once = |settings: &mut SolveSettings| {
             settings.estimate = false;
             settings.rtol = Some((TIGHTER * known.rtol).max(1e-13));
@@ -148,20 +151,20 @@ impl Full<'_> {
         if !are_alike(&report.warnings, &known.warnings) {
             return None;
         }
-        let mut gaps = Vec::new();
-        self.read(&report, point, values, errors, &mut gaps);
-        if !gaps.is_empty() {
+        let mut flaws = Flaws::default();
+        self.read(&report, point, values, errors, &mut flaws);
+        if !flaws.gaps.is_empty() {
             return None;
         }
         for ((value, error), relative) in values.iter().zip(errors).zip(&known.errors) {
             *error = relative * value.abs();
         }
-        Some(report.warnings)
+        Some((report.warnings, flaws.cut))
     }
 
     /// Solves a point as it is asked for, and writes what was found.
     fn estimated(&self, row: &mut Row<'_>) -> Option<RunReport> {
-        let report = self.write(row.point, row.values, row.errors, &mut row.gaps);
+        let report = self.write(row.point, row.values, row.errors, &mut row.flaws);
         row.warnings = report.as_ref().map_or(Vec::new(), |own| own.warnings.clone());
         report
     }

@@ -9,6 +9,15 @@ use super::{
 };
 use crate::{RunReport, Solve, SolveSettings, partial::spread};
 
+/// What is to be said of the values of a point.
+#[derive(Debug, Default)]
+pub(super) struct Flaws {
+    /// Values that are missing.
+    pub(super) gaps: Vec<Gap>,
+    /// Columns whose values the end of the run cuts off.
+    pub(super) cut: Vec<usize>,
+}
+
 /// How points are solved in full.
 #[derive(Clone, Copy)]
 pub(super) struct Full<'f> {
@@ -36,17 +45,17 @@ impl Full<'_> {
         point: usize,
         values: &mut [f64],
         errors: &mut [f64],
-        gaps: &mut Vec<Gap>,
+        flaws: &mut Flaws,
     ) -> Option<RunReport> {
         values.fill(f64::NAN);
         errors.fill(f64::NAN);
         match self.solved(point, |_| {}) {
             Ok(report) => {
-                self.read(&report, point, values, errors, gaps);
+                self.read(&report, point, values, errors, flaws);
                 Some(report)
             }
             Err(reason) => {
-                gaps.push(Gap { point, column: None, reason });
+                flaws.gaps.push(Gap { point, column: None, reason });
                 None
             }
         }
@@ -59,12 +68,12 @@ impl Full<'_> {
         point: usize,
         values: &mut [f64],
         errors: &mut [f64],
-        gaps: &mut Vec<Gap>,
+        flaws: &mut Flaws,
     ) {
         for (at, column) in self.columns.iter().enumerate() {
             let gap = |reason: String| Gap { point, column: Some(at), reason };
             let Some(measure) = report.measure(&column.key) else {
-                gaps.push(gap("it is not reported at this point".to_owned()));
+                flaws.gaps.push(gap("it is not reported at this point".to_owned()));
                 continue;
             };
             let thickness =
@@ -74,8 +83,9 @@ impl Full<'_> {
                 Some((value, unit)) => {
                     values[at] = value / unit;
                     errors[at] = measure.error.map_or(f64::NAN, |error| error / unit);
+                    flaws.cut.extend(report.is_so_far(measure).then_some(at));
                 }
-                None => gaps.push(gap(measure.note().unwrap_or_default())),
+                None => flaws.gaps.push(gap(measure.note().unwrap_or_default())),
             }
         }
     }
@@ -114,7 +124,7 @@ pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<
             return;
         };
         let (mut right, mut bars) = (vec![f64::NAN; count], vec![f64::NAN; count]);
-        let run = full.write(row.point, &mut right, &mut bars, &mut Vec::new());
+        let run = full.write(row.point, &mut right, &mut bars, &mut Flaws::default());
         let warned = run.map_or(Vec::new(), |run| run.warnings);
         let noticed = notice.warnings(plan.element());
         if !(warned.len() == noticed.len()

@@ -42,13 +42,13 @@ pub use self::{
     report::{Column, Gap, PartialOfSweep, SweepError, SweepReport, SweepWarning},
 };
 use self::{
-    full::{Full, check},
+    full::{Flaws, Full, check},
     instantiated::Plan,
     parallel::{share, workers},
     report::Notice,
 };
 use crate::{
-    SolveSettings, Warning,
+    Limit, SolveSettings, Warning,
     partial::{decide, spread},
 };
 
@@ -69,7 +69,7 @@ struct Row<'r> {
     point: usize,
     values: &'r mut [f64],
     errors: &'r mut [f64],
-    gaps: Vec<Gap>,
+    flaws: Flaws,
     /// What a full run is warned of.
     warnings: Vec<Warning>,
     /// What is to be said of a point that was instantiated.
@@ -156,7 +156,14 @@ fn solved(
     }
     let instantiated = rows.iter().filter(|row| row.notice.is_some()).count();
     let (checked, largest_difference) = found.filter(|_| instantiated > 0).unwrap_or_default();
-    let gaps = rows.iter_mut().flat_map(|row| std::mem::take(&mut row.gaps)).collect();
+    let gaps = rows.iter_mut().flat_map(|row| std::mem::take(&mut row.flaws.gaps)).collect();
+    let cut = rows.iter().flat_map(|row| row.flaws.cut.iter().map(|column| (row.point, *column)));
+    let cut = cut.collect();
+    let at = |limit: &Limit| {
+        let is_it = |own: &Column| !own.is_share && own.key == limit.key;
+        Some((columns.iter().position(is_it)?, limit.clone()))
+    };
+    let limits = first.settings.limits.iter().filter_map(at).collect();
     let warnings = report::collect(&rows, plan.as_ref().map_or("", Plan::element));
     drop(rows);
     Ok(SweepReport {
@@ -164,6 +171,8 @@ fn solved(
         values,
         errors,
         gaps,
+        cut,
+        limits,
         warnings,
         instantiated,
         estimated: estimated.into_inner(),
@@ -179,8 +188,8 @@ fn rows<'r>(columns: usize, values: &'r mut [f64], errors: &'r mut [f64]) -> Vec
     let width = columns.max(1);
     let places = values.chunks_mut(width).zip(errors.chunks_mut(width)).enumerate();
     let row = |(point, (values, errors))| {
-        let (gaps, warnings, notice) = (Vec::new(), Vec::new(), None);
-        Row { point, values, errors, gaps, warnings, notice }
+        let (flaws, warnings, notice) = (Flaws::default(), Vec::new(), None);
+        Row { point, values, errors, flaws, warnings, notice }
     };
     places.map(row).collect()
 }

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::Row;
 use crate::{
-    Compression, RunError, Through, Warning,
+    Compression, Judgement, Limit, RunError, Through, Warning,
     partial::{Cost, Neglected, PutBack},
 };
 
@@ -44,6 +44,10 @@ pub struct SweepReport {
     pub errors: Vec<f64>,
     /// Why values are missing, in the order of the points.
     pub gaps: Vec<Gap>,
+    /// Points and columns whose values may still grow after the end of their runs, in the order of the points.
+    pub cut: Vec<(usize, usize)>,
+    /// The limits of the scene at the first point, each with the column of its measure.
+    pub limits: Vec<(usize, Limit)>,
     /// What runs are warned of, one for each kind.
     pub warnings: Vec<SweepWarning>,
     /// How many points were instantiated; all others were solved in full.
@@ -85,6 +89,20 @@ impl SweepReport {
     /// How many points there are.
     pub fn points(&self) -> usize {
         self.values.len() / self.columns.len().max(1)
+    }
+
+    /// What is known of the limit at this place among [`limits`](Self::limits), at each point; `None` where
+    /// there is no value.
+    pub fn judged(&self, limit: usize) -> Vec<Option<Judgement>> {
+        let (column, ref limit) = self.limits[limit];
+        let mut cut = self.cut.iter().filter(|own| own.1 == column).map(|own| own.0).peekable();
+        let both = self.column(column).zip(self.errors_of(column)).enumerate();
+        both.map(|(point, (value, error))| {
+            let grows = cut.next_if_eq(&point).is_some();
+            let error = (!error.is_nan()).then_some(error);
+            (!value.is_nan()).then(|| limit.bound.judge(value, error, grows))
+        })
+        .collect()
     }
 
     /// The values of a column, in the order of the grid.

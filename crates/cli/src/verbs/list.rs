@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use clap::{Args, ValueEnum};
 use dashpot_analysis::{
+    Bound, Limit,
+    limits::standards::{STANDARDS, Standard},
     measures::{self, MEASURES, MeasureEntry},
     rheometer::{FROM_THE_MODEL, PROTOCOLS},
 };
@@ -23,6 +25,7 @@ use crate::{
     error::{CliError, Status},
     terminal::{Terminal, Tone, WIDTH, print},
     text::{columns, wrapped},
+    verbs::run::level,
 };
 
 /// Families of kinds.
@@ -42,6 +45,8 @@ enum Family {
     Effects,
     /// Numbers read off a run.
     Measures,
+    /// Limits that standards state.
+    Limits,
     /// Ways to solve.
     Methods,
     /// Tests of a model alone.
@@ -53,7 +58,7 @@ enum Family {
 }
 
 /// All families, in the order in which they are listed.
-const FAMILIES: [(Family, &str); 11] = [
+const FAMILIES: [(Family, &str); 12] = [
     (Family::Elements, "Elements: laws between two nodes, composed by `series` and `parallel`"),
     (Family::Forms, "Forms: models by name, composed of springs and dashpots"),
     (Family::Composites, "Composites: models that a few numbers describe as a whole"),
@@ -61,6 +66,7 @@ const FAMILIES: [(Family, &str); 11] = [
     (Family::Waveforms, "Waveforms: functions of time for `force`, `motion` and `acceleration`"),
     (Family::Effects, "Effects: off unless they are named in [effects]"),
     (Family::Measures, "Measures: numbers read off a run; * marks those that every run reports"),
+    (Family::Limits, "Limits: of standards, for [limits] and `--limit KEY=NAME`"),
     (Family::Methods, "Methods: ways to solve, for `--method` and `methods` in [run]"),
     (Family::Tests, "Tests: of a model alone, by `dashpot rheometer --test NAME`"),
     (Family::Templates, "Templates: scenes to start from, by `dashpot new NAME`"),
@@ -75,7 +81,7 @@ const WINDOW: &str = "`impact` (default), `run`, or a pair of times";
 #[command(after_help = "Examples:\n  dashpot list\n  dashpot list measures\n  dashpot list zener")]
 pub(crate) struct ListArguments {
     /// One family alone (elements, forms, composites, shifts, waveforms, effects, measures,
-    /// methods, tests, templates, scenes), or one kind, by any of its names.
+    /// limits, methods, tests, templates, scenes), or one kind, by any of its names.
     #[arg(value_name = "FAMILY|KIND")]
     what: Option<String>,
 }
@@ -194,6 +200,7 @@ fn entries(family: Family) -> Vec<Entry> {
         Family::Waveforms => WAVEFORMS.iter().map(|own| written(own, Dimension::FORCE)).collect(),
         Family::Effects => EFFECTS.iter().map(effect).collect(),
         Family::Measures => MEASURES.iter().map(measure).collect(),
+        Family::Limits => STANDARDS.iter().map(limits).collect(),
         Family::Methods => {
             let all = methods::all();
             all.iter().map(|method| Entry::plain(method.name(), method.summary())).collect()
@@ -201,6 +208,21 @@ fn entries(family: Family) -> Vec<Entry> {
         Family::Tests => PROTOCOLS.iter().map(of_kind).collect(),
         Family::Templates | Family::Scenes => Vec::new(),
     }
+}
+
+fn limits(standard: &Standard) -> Entry {
+    let kinds = standard.kinds.join(" or ");
+    let bound = |&(most, of_mean): &(f64, bool)| {
+        let limit = Limit::new("", Bound::Max(most));
+        let unit = MEASURES.iter().find(|own| own.word == standard.kinds[0]);
+        let unit = unit.map_or("1", |own| (own.about.default)().unit());
+        let of_mean = if of_mean { " in the mean of several tests" } else { "" };
+        format!("{kinds} at most {}{of_mean}", level(&limit, standard.kinds[0], unit))
+    };
+    let bounds = standard.bounds.iter().map(bound);
+    let source = format!("read from: {}", standard.source);
+    let summary = format!("{}: {}", standard.edition, standard.test);
+    Entry { details: bounds.chain([source]).collect(), ..Entry::plain(standard.word, &summary) }
 }
 
 /// A kind with its parameters.

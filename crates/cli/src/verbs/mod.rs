@@ -38,8 +38,8 @@ use crate::{
         dashpot new --out pad.toml      a commented scene to start from\n  \
         dashpot run pad.toml            solve it: forces, g, depth, and their errors\n\n\
         Exit codes: 0 done (warnings included), 1 a run failed, 2 the input is wrong,\n\
-        3 `compare` says that two models are not the same, `groups` that two scenes
-        are not similar."
+        3 `compare` says that two models are not the same, `groups` that two scenes\n\
+        are not similar, 4 `run --enforce`: a limit is not kept, or not for certain."
 )]
 pub(crate) struct Arguments {
     /// What to do.

@@ -11,19 +11,28 @@ mod work_precision;
 
 use self::{
     markers::markers,
-    run_series::{Of, quantities, thickness_lines},
+    run_series::{limit_lines, quantities, thickness_lines},
     unit::Unit,
 };
 use crate::{Chart, Direction, Pattern, Series, Stroke};
 
-pub use run_series::{ElementSeries, EnergySeries, RunMarker, RunMarkerKind, RunSeries};
+pub use run_series::{
+    ElementSeries, EnergySeries, NodeSeries, Of, RunLimit, RunMarker, RunMarkerKind, RunSeries,
+};
 pub use vibration::{VibrationCurve, VibrationSeries};
 pub use work_precision::{PrecisionCurve, PrecisionSeries};
 
 use RunMarkerKind::{DeepestPoint, PeakForce, TensionStart};
 
 /// Every figure, in the order of the report. **A new figure is registered here.**
-pub const FIGURES: &[Figure] = &[FORCE_TIME, DEFORMATION_TIME, FORCE_DEFORMATION, ENERGY_TIME];
+pub const FIGURES: &[Figure] = &[
+    FORCE_TIME,
+    ACCELERATION_TIME,
+    VELOCITY_TIME,
+    DEFORMATION_TIME,
+    FORCE_DEFORMATION,
+    ENERGY_TIME,
+];
 
 /// Force of each element over time, positive in compression.
 pub const FORCE_TIME: Figure = Figure {
@@ -32,6 +41,24 @@ pub const FORCE_TIME: Figure = Figure {
     x: Of::Time,
     y: Of::Force,
     kinds: &[PeakForce, TensionStart],
+};
+
+/// Acceleration of each mass over time, as an accelerometer reads it, positive away from the support: free fall is 0.
+pub const ACCELERATION_TIME: Figure = Figure {
+    name: "acceleration-time",
+    title: "Acceleration over time",
+    x: Of::Time,
+    y: Of::Acceleration,
+    kinds: &[],
+};
+
+/// Velocity of each mass over time, positive towards the support.
+pub const VELOCITY_TIME: Figure = Figure {
+    name: "velocity-time",
+    title: "Velocity over time",
+    x: Of::Time,
+    y: Of::Velocity,
+    kinds: &[],
 };
 
 /// Deformation of each element over time, positive in compression, with the thickness of pads as a limit. Gaps at
@@ -85,18 +112,21 @@ impl Figure {
         let x = self.x.unit(points().map(|p| p.0));
         let y = self.y.unit(points().map(|p| p.1));
         let gaps = widest.map(|gap| format!("gaps wider than {} are cut off", y.print(gap)));
-        let limits = |direction, unit| thickness_lines(runs, &shown, direction, unit);
+        let thicknesses = match (self.x, self.y) {
+            (Of::Deformation, _) => thickness_lines(runs, &shown, Direction::Vertical, x),
+            (_, Of::Deformation) => thickness_lines(runs, &shown, Direction::Horizontal, y),
+            _ => Vec::new(),
+        };
+        let limits = limit_lines(runs, &shown, (self.x, x), Direction::Vertical)
+            .into_iter()
+            .chain(limit_lines(runs, &shown, (self.y, y), Direction::Horizontal));
         Chart {
             title: self.title.into(),
             note: note(runs, left_out, gaps),
             x_label: x.label(self.x.word()),
             y_label: y.label(self.y.word()),
             markers: markers(runs, &shown, self.kinds, (self.x, x), (self.y, y)),
-            lines: match (self.x, self.y) {
-                (Of::Deformation, _) => limits(Direction::Vertical, x),
-                (_, Of::Deformation) => limits(Direction::Horizontal, y),
-                _ => Vec::new(),
-            },
+            lines: limits.chain(thicknesses).collect(),
             series: curves(runs, &shown, x.factor, y.factor),
             ..Chart::default()
         }
@@ -129,7 +159,11 @@ fn largest(mut quantities: Vec<Quantity>, of: Of) -> (Vec<Quantity>, String) {
     let least = sizes[MOST_CURVES - 1];
     quantities.retain(|q| size(q) >= least);
     quantities.truncate(MOST_CURVES);
-    let kind = if of == Of::Energy { "energies" } else { "elements" };
+    let kind = match of {
+        Of::Energy => "energies",
+        Of::Acceleration | Of::Velocity => "masses",
+        _ => "elements",
+    };
     (quantities, format!("the {MOST_CURVES} largest of {total} {kind}"))
 }
 
@@ -228,6 +262,11 @@ pub(crate) mod tests {
             thickness,
             is_contact: false,
         };
+        let node = |name: &str| NodeSeries {
+            name: name.into(),
+            acceleration: time.iter().map(|t| 4e3 * pulse(t)).collect(),
+            velocity: time.iter().map(|t| 10.0 - 500.0 * t).collect(),
+        };
         RunSeries {
             method: method.into(),
             elements: vec![
@@ -252,6 +291,8 @@ pub(crate) mod tests {
                 moment: "1.00 ms".into(),
             }],
             excerpt_of: None,
+            nodes: ["head", "plate"].map(node).to_vec(),
+            limits: Vec::new(),
             time,
         }
     }
@@ -277,6 +318,34 @@ pub(crate) mod tests {
                 assert!(figure.chart(&runs).svg().is_ok());
             }
         }
+    }
+
+    #[test]
+    fn a_limit_is_a_line_where_its_signal_is_shown_and_nowhere_else() {
+        let mut run = run("exact");
+        let limit = |name: &str, of: Of, at: f64| RunLimit {
+            name: name.into(),
+            of,
+            at,
+            label: "max".into(),
+        };
+        run.limits = vec![
+            limit("head", Of::Acceleration, 250.0 * 9.806_65),
+            limit("padding", Of::Force, 30e3),
+            limit("nothing", Of::Force, 1.0),
+        ];
+        let told = |figure: Figure| -> Vec<(Direction, f64, Option<usize>)> {
+            let lines = figure.chart(&[run.clone()]).lines.into_iter();
+            let own = lines.filter(|line| line.label == "max");
+            own.map(|line| (line.direction, line.at, line.colour)).collect()
+        };
+        let force = (Direction::Horizontal, 30.0, Some(0));
+        assert_eq!(told(FORCE_TIME), [force]);
+        assert_eq!(told(FORCE_DEFORMATION), [force]);
+        assert_eq!(told(DEFORMATION_TIME), []);
+        let [(direction, at, _)] = told(ACCELERATION_TIME)[..] else { panic!() };
+        assert_eq!(direction, Direction::Horizontal);
+        assert!((at - 250.0).abs() < 1e-9, "{at}");
     }
 
     #[test]

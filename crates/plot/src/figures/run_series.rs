@@ -14,12 +14,16 @@ pub struct RunSeries {
     pub time: Vec<f64>,
     /// Elements to be shown.
     pub elements: Vec<ElementSeries>,
+    /// Masses to be shown.
+    pub nodes: Vec<NodeSeries>,
     /// Parts of the energy ledger.
     pub energy: Vec<EnergySeries>,
     /// Length of the run \[s\] where `time` is only a part of it; figures then say which.
     pub excerpt_of: Option<f64>,
     /// Points worth a text; of several runs the first one's are drawn.
     pub markers: Vec<RunMarker>,
+    /// Limits; of several runs the first one's are drawn.
+    pub limits: Vec<RunLimit>,
 }
 
 /// One element at the sample times.
@@ -36,6 +40,30 @@ pub struct ElementSeries {
     /// Whether it is a rigid contact: its force does not belong to its deformation, which is the
     /// width of a gap.
     pub is_contact: bool,
+}
+
+/// One mass at the sample times.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct NodeSeries {
+    /// Name.
+    pub name: String,
+    /// What an accelerometer reads \[m/s²\], positive away from the support.
+    pub acceleration: Vec<f64>,
+    /// Velocity \[m/s\], positive towards the support.
+    pub velocity: Vec<f64>,
+}
+
+/// What a signal of an element or a mass may be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunLimit {
+    /// Name of the element or mass.
+    pub name: String,
+    /// Which signal.
+    pub of: Of,
+    /// The limit, in the SI unit of the signal.
+    pub at: f64,
+    /// Text at its line.
+    pub label: String,
 }
 
 /// One part of the energy ledger at the sample times.
@@ -73,12 +101,20 @@ pub enum RunMarkerKind {
     TensionStart,
 }
 
-/// What a figure shows along an axis: a signal of an element, or the parts of the energy ledger.
+/// What a figure shows along an axis: a signal of an element or a mass, or the parts of the energy ledger.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Of {
+pub enum Of {
+    /// Time \[s\].
     Time,
+    /// Force of an element \[N\].
     Force,
+    /// Deformation of an element \[m\].
     Deformation,
+    /// Acceleration of a mass \[m/s²\].
+    Acceleration,
+    /// Velocity of a mass \[m/s\].
+    Velocity,
+    /// Parts of the energy ledger \[J\].
     Energy,
 }
 
@@ -88,6 +124,8 @@ impl Of {
             Self::Time => "time",
             Self::Force => "force",
             Self::Deformation => "deformation",
+            Self::Acceleration => "acceleration",
+            Self::Velocity => "velocity",
             Self::Energy => "energy",
         }
     }
@@ -98,6 +136,8 @@ impl Of {
             Self::Time => Unit::time(values),
             Self::Force => Unit::force(values),
             Self::Deformation => Unit::length(values),
+            Self::Acceleration => Unit::acceleration(values),
+            Self::Velocity => Unit::velocity(values),
             Self::Energy => Unit::energy(values),
         }
     }
@@ -109,8 +149,18 @@ impl RunSeries {
             Of::Time => &self.time,
             Of::Force => &element.force,
             Of::Deformation => &element.deformation,
-            Of::Energy => &[],
+            Of::Acceleration | Of::Velocity | Of::Energy => &[],
         }
+    }
+
+    /// A signal over time that belongs to no element, by the name of what it belongs to.
+    fn of_others(&self, name: &str, of: Of) -> Option<&[f64]> {
+        let node = || self.nodes.iter().find(|own| own.name == name);
+        Some(match of {
+            Of::Acceleration => &node()?.acceleration,
+            Of::Velocity => &node()?.velocity,
+            _ => &self.energy.iter().find(|own| own.name == name)?.values,
+        })
     }
 }
 
@@ -118,9 +168,8 @@ impl RunSeries {
 pub(super) fn quantities(runs: &[RunSeries], x: Of, y: Of) -> Vec<Quantity> {
     let Some(first) = runs.first() else { return Vec::new() };
     let curve = |run: &RunSeries, name: &str| {
-        if y == Of::Energy {
-            let part = run.energy.iter().find(|part| part.name == name);
-            return part.map_or_else(Vec::new, |part| zip(&run.time, &part.values));
+        if !matches!(y, Of::Force | Of::Deformation) {
+            return run.of_others(name, y).map_or_else(Vec::new, |own| zip(&run.time, own));
         }
         let is_drawn = |e: &&ElementSeries| !(e.is_contact && x == Of::Deformation);
         let element = run.elements.iter().find(|e| e.name == name).filter(is_drawn);
@@ -132,6 +181,9 @@ pub(super) fn quantities(runs: &[RunSeries], x: Of, y: Of) -> Vec<Quantity> {
     };
     match y {
         Of::Energy => first.energy.iter().map(|part| of_all(&part.name)).collect(),
+        Of::Acceleration | Of::Velocity => {
+            first.nodes.iter().map(|own| of_all(&own.name)).collect()
+        }
         _ => first.elements.iter().map(|element| of_all(&element.name)).collect(),
     }
 }
@@ -139,6 +191,23 @@ pub(super) fn quantities(runs: &[RunSeries], x: Of, y: Of) -> Vec<Quantity> {
 /// Points of two signals of equal times; the longer one is cut.
 fn zip(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
     x.iter().copied().zip(y.iter().copied()).collect()
+}
+
+/// The limits on what is shown along one axis, in the colours of their curves.
+pub(super) fn limit_lines(
+    runs: &[RunSeries],
+    shown: &[Quantity],
+    (of, unit): (Of, Unit),
+    direction: Direction,
+) -> Vec<ReferenceLine> {
+    let limits = runs.first().map_or(&[][..], |run| &run.limits);
+    let lines = limits.iter().filter(|limit| limit.of == of).filter_map(|limit| {
+        let colour = shown.iter().position(|own| own.name == limit.name)?;
+        let colour = (shown.len() > 1).then_some(colour);
+        let (at, label) = (limit.at / unit.factor, limit.label.clone());
+        Some(ReferenceLine { direction, at, label, colour })
+    });
+    lines.collect()
 }
 
 /// The thicknesses of the elements that are shown, in the colours of their curves; equal ones are one line.

@@ -19,6 +19,9 @@ const TIME: [Unit; 3] = [unit("s", 1.0, 2.0), unit("ms", 1e-3, 5e-4), unit("µs"
 const LENGTH: [Unit; 3] = [unit("m", 1.0, 2.0), unit("mm", 1e-3, 1e-4), unit("µm", 1e-6, 0.0)];
 const FORCE: [Unit; 4] =
     [unit("MN", 1e6, 5e6), unit("kN", 1e3, 5e2), unit("N", 1.0, 0.5), unit("mN", 1e-3, 0.0)];
+// Standard gravity is a unit of what acts on bodies.
+const ACCELERATION: [Unit; 2] = [unit("g", 9.806_65, 0.2), unit("m/s²", 1.0, 0.0)];
+const VELOCITY: [Unit; 2] = [unit("m/s", 1.0, 0.02), unit("mm/s", 1e-3, 0.0)];
 const ENERGY: [Unit; 3] = [unit("kJ", 1e3, 1e4), unit("J", 1.0, 0.5), unit("mJ", 1e-3, 0.0)];
 const STRESS: [Unit; 4] =
     [unit("GPa", 1e9, 5e9), unit("MPa", 1e6, 5e5), unit("kPa", 1e3, 5e2), unit("Pa", 1.0, 0.0)];
@@ -38,6 +41,16 @@ impl Unit {
     /// Unit for forces \[N\].
     pub(super) fn force(values: impl Iterator<Item = f64>) -> Self {
         fitting(&FORCE, values)
+    }
+
+    /// Unit for accelerations \[m/s²\].
+    pub(super) fn acceleration(values: impl Iterator<Item = f64>) -> Self {
+        fitting(&ACCELERATION, values)
+    }
+
+    /// Unit for velocities \[m/s\].
+    pub(super) fn velocity(values: impl Iterator<Item = f64>) -> Self {
+        fitting(&VELOCITY, values)
     }
 
     /// Unit for energies \[J\].

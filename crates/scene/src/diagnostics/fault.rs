@@ -6,7 +6,7 @@ use dashpot_network::{
 };
 use thiserror::Error;
 
-use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help, wrong_dimension_help};
+use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help};
 use crate::{
     quantities::words::{described, example},
     text::{
@@ -262,8 +262,8 @@ impl Fault {
             }
             Self::Unreadable { error, expected } => Some(unreadable_help(error, *expected)),
             Self::BadValue { error, example } => Some(bad_value_help(error, example)),
-            Self::WrongDimension { text, found, expected } => {
-                Some(wrong_dimension_help(text, *found, *expected))
+            Self::WrongDimension { expected, .. } => {
+                Some(example(*expected))
             }
             Self::NoQuantity { expected, .. } => Some(example(*expected)),
             Self::TooDeep { .. } | Self::ModelTooDeep { .. } => Some(

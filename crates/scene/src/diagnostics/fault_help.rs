@@ -89,16 +89,6 @@ pub(crate) fn comma_help(text: &str, quote: &str) -> String {
     }
 }
 
-/// Help for a quantity of another dimension than the one expected.
-pub(crate) fn wrong_dimension_help(text: &str, found: Dimension, expected: Dimension) -> String {
-    if found == Dimension::MASS && expected == Dimension::ACCELERATION {
-        let number = text.strip_suffix('g').map(str::trim).unwrap_or_default();
-        let number = if parse_quantity(number).is_ok() { number } else { "1" };
-        return format!("`g` is the gram; the acceleration of gravity is `g0`: \"{number} g0\"");
-    }
-    example(expected)
-}
-
 /// Help for a name that stands for nothing.
 pub(crate) fn unknown_name_help(family: &str, name: &str, known: &[String]) -> Option<String> {
     if known.is_empty() && family == "value" {

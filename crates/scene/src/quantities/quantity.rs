@@ -295,6 +295,7 @@ impl<'d> Quantities<'d> {
 
     fn checked(self, quantity: Quantity, item: &Item, in_model: Dimension) -> Option<f64> {
         let expected = self.basis.dimension(in_model);
+        let quantity = quantity.meant(expected);
         let found = quantity.dimension.unwrap_or(expected);
         let shown = || self.shown(item);
         if found != expected {

@@ -4,7 +4,7 @@ mod values;
 
 use std::collections::BTreeMap;
 
-use dashpot_analysis::{Family, MEASURES};
+use dashpot_analysis::{Family, MEASURES, limits::standards::STANDARDS};
 use dashpot_dae::methods::METHODS;
 use dashpot_network::{
     composites::COMPOSITES,
@@ -75,6 +75,7 @@ pub fn schema() -> Value {
                 "type": "object",
                 "additionalProperties": one_or_many(&reference("measure")),
             },
+            "limits": limits(),
             "accuracy": accuracy(),
             "run": run(),
         },
@@ -171,6 +172,34 @@ fn measure() -> Value {
     });
     let plain = json!({ "enum": words });
     json!({ "anyOf": std::iter::once(plain).chain(tables).collect::<Vec<_>>() })
+}
+
+fn limits() -> Value {
+    let words = STANDARDS.iter().map(|own| own.word).collect::<Vec<_>>();
+    let level = || json!({ "type": ["number", "string"] });
+    let mut table = closed(
+        "a limit",
+        [
+            ("max", described_as(level(), "what the measure may be at most")),
+            ("min", described_as(level(), "what it may be at least")),
+            (
+                "standard",
+                json!({ "enum": words, "description": "by a standard, in place of both" }),
+            ),
+            ("from", described_as(json!({ "type": "string" }), "where the bound is from")),
+            ("mean", json!({ "const": true, "description": "on the mean of several tests" })),
+        ],
+    );
+    table["minProperties"] = json!(1);
+    let one = json!({ "anyOf": [{ "enum": words }, level(), table] });
+    let one = one_or_many(&one);
+    json!({
+        "description": "what measures may be, by their keys: a quantity is the most, a word a standard",
+        "type": "object",
+        "additionalProperties": {
+            "anyOf": [one.clone(), { "type": "object", "additionalProperties": one }],
+        },
+    })
 }
 
 fn accuracy() -> Value {

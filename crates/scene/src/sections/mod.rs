@@ -1,18 +1,24 @@
 //! The tables of a scene, one file each.
 
+mod accuracy;
 mod effects;
 mod elements;
 mod files;
+mod limits;
 mod measures;
 mod nodes;
+mod of_measures;
 mod run;
 
+pub(crate) use accuracy::read_accuracy;
 pub(crate) use effects::read_effects;
 pub(crate) use elements::{ELEMENT_KEYS, read_elements};
+pub use limits::parse_limits;
+pub(crate) use limits::read_limits;
 pub(crate) use measures::{Targets, read_measures};
 pub(crate) use nodes::{read_loads, read_nodes};
 pub use run::RunSettings;
-pub(crate) use run::{check_stops, read_accuracy, read_run};
+pub(crate) use run::{check_stops, read_run};
 
 use std::collections::HashMap;
 

@@ -134,7 +134,7 @@ fn a_wrong_value_is_traced_to_its_definition() {
 }
 
 #[test]
-fn gravity_is_a_table_and_its_unit_is_g0() {
+fn gravity_is_a_table_and_its_unit_is_g0_or_g() {
     let shown = messages(&with(HEAD, PAD, "[effects]\ngravity = 9.81\n"));
     has(&shown, &["`gravity` is a table, but this is a number"]);
     has(
@@ -143,8 +143,14 @@ fn gravity_is_a_table_and_its_unit_is_g0() {
     );
     let shown = messages(&with(HEAD, PAD, "[effects]\ngravity = \"1 g\"\n"));
     has(&shown, &["write `gravity = { value = \"1 g0\" }`"]);
-    let shown = messages(&with(HEAD, PAD, "[effects]\ngravity = { value = \"2 g\" }\n"));
-    has(&shown, &["help: `g` is the gram; the acceleration of gravity is `g0`: \"2 g0\""]);
+    let gravity = |unit: &str| {
+        let text = with(HEAD, PAD, &format!("[effects]\ngravity = {{ value = \"2 {unit}\" }}\n"));
+        let scene = read(&text, &ReadOptions::default()).unwrap().value;
+        format!("{:?}", scene.network.effects()[0].values())
+    };
+    assert_eq!(gravity("g"), gravity("g0"));
+    let shown = messages(&with(HEAD, PAD, "[effects]\ngravity = { value = \"2 kg\" }\n"));
+    has(&shown, &["`2 kg` is a mass (kg); an acceleration (m/s^2) is expected here"]);
 }
 
 #[test]

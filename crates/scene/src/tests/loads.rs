@@ -292,8 +292,15 @@ fn faults_of_a_file_name_the_file_the_line_the_key_and_the_value() {
     let alone = read(&pushed("table = \"pulse.csv\""), &ReadOptions::default()).unwrap_err();
     has(&alone.render(false), &["`pulse.csv` cannot be read: no other files can be read here"]);
     let shaken = shaken("acceleration", "table = \"pulse.csv\"");
-    let shown = beside(&shaken, "t [ms], a [g]\n0,1\n").unwrap_err().render(false);
-    has(&shown, &["`g` is the gram; the acceleration of gravity is `g0`"]);
+    let shown = beside(&shaken, "t [ms], a [kg]\n0,1\n").unwrap_err().render(false);
+    has(&shown, &["`1 kg` is a mass (kg); an acceleration (m/s^2) is expected here"]);
+    // Of accelerations `g` is standard gravity.
+    let [one, other] = ["g", "g0"].map(|unit| {
+        let csv = format!("t [ms], a [{unit}]\n0,1\n1,3\n2,0\n");
+        let network = beside(&shaken, &csv).unwrap().value.network;
+        format!("{:?}", network.nodes().collect::<Vec<_>>())
+    });
+    assert_eq!(one, other);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, fmt::Write as _};
 
-use dashpot_analysis::{MeasureWish, Stop, measures::Measure};
+use dashpot_analysis::{Limit, MeasureWish, SolveSettings, Stop, measures::Measure};
 use dashpot_dae::{Direction, Waveform};
 use dashpot_network::{
     Connection, Element, Model, Network, Node, NodeId, Start, Support,
@@ -50,7 +50,7 @@ pub fn write_scene(
     comments: &[String],
     network: &Network,
     run: &RunSettings,
-    measures: &[MeasureWish],
+    asked: &SolveSettings,
 ) -> Result<String, Unwritable> {
     let mut text = comment_lines(comments);
     let _ = writeln!(text, "title = {}", quoted(title));
@@ -85,7 +85,8 @@ pub fn write_scene(
         let on = quoted(&network.node(load.node).name);
         let _ = writeln!(text, "{} = {{ on = {on}, force = {{ {force} }} }}", key(&load.name));
     }
-    text.push_str(&wishes(measures));
+    text.push_str(&wishes(&asked.measures));
+    text.push_str(&limits(&asked.limits));
     text.push_str(&settings(run));
     Ok(text)
 }
@@ -216,6 +217,22 @@ fn wishes(measures: &[MeasureWish]) -> String {
         let _ = writeln!(text, "{} = [{}]", key(target), all.join(", "));
     }
     text
+}
+
+/// Limits in the SI units of their measures, those on one measure in one list.
+fn limits(limits: &[Limit]) -> String {
+    let mut by_key: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for limit in limits {
+        let mut pairs = vec![format!("{} = {:?}", limit.bound.word(), tidy(limit.bound.level()))];
+        pairs.extend(limit.from.iter().map(|from| format!("from = {}", quoted(from))));
+        pairs.extend(limit.of_mean.then(|| "mean = true".to_owned()));
+        by_key.entry(&limit.key).or_default().push(format!("{{ {} }}", pairs.join(", ")));
+    }
+    if by_key.is_empty() {
+        return String::new();
+    }
+    let lines = by_key.iter().map(|(key, all)| format!("{} = [{}]\n", quoted(key), all.join(", ")));
+    "\n[limits]\n".to_owned() + &lines.collect::<String>()
 }
 
 fn measure(measure: &dyn Measure) -> String {

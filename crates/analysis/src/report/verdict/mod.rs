@@ -18,8 +18,6 @@ use crate::{
 
 /// A force elsewhere is larger if it is so by this part.
 const MARGIN: f64 = 1e-3;
-/// A peak within this part of the run from its end is where the run ends.
-const LAST: f64 = 1e-9;
 /// An error below this part of the size of a value is rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -202,7 +200,7 @@ impl<'r> Verdict<'r> {
             energy: found.energy(),
             ending: found.ending(),
             reached: found.reached(),
-            is_cut: found.is_cut(),
+            is_cut: run.is_cut(),
         }
     }
 }
@@ -234,13 +232,8 @@ impl<'r> Found<'r> {
     }
 
     fn finite(self, measure: &'r MeasureReport, value: f64) -> Peak<'r> {
-        let end = self.0.trajectory.t_end;
-        let is_last = measure.time.is_some_and(|time| time >= (1.0 - LAST) * end);
-        Peak::Finite { measure, value, is_so_far: is_last && self.is_cut() }
-    }
-
-    fn is_cut(self) -> bool {
-        self.0.contacts.iter().any(|contact| contact.impact.contact == Contact::Lasting)
+        let is_so_far = measure.time.is_some() && self.0.is_so_far(measure);
+        Peak::Finite { measure, value, is_so_far }
     }
 
     fn connections(self) -> &'r [ConnectionOutputs] {

@@ -162,7 +162,7 @@ fn write(
         .map_or("reference".to_owned(), |first| first.display().to_string());
     let wish = if arguments.lab.is_empty() { &arguments.from } else { &arguments.lab };
     let comment = format!("Made from {name} for {}.", pairs(wish));
-    let text = write_scene(title, &[comment], network, &run, &settings.measures)?;
+    let text = write_scene(title, &[comment], network, &run, settings)?;
     write_text(path, &text, arguments.force)
 }
 

@@ -2,6 +2,7 @@
 
 mod energy;
 mod files;
+mod limits;
 mod measures;
 mod object;
 mod resolved_scene;
@@ -19,7 +20,6 @@ use dashpot_plot::figures::FORCE_TIME;
 use dashpot_scene::Scene;
 use serde::Serialize;
 
-pub(crate) use self::measures::unit_of_kind;
 use self::{
     energy::energy_table,
     measures::{measures_tables, notes},
@@ -28,8 +28,11 @@ use self::{
     solving::{reasons, solving_table},
     verdict::verdict,
 };
+pub(crate) use self::{limits::level, measures::unit_of_kind};
 use crate::{
-    args::{MethodNames, SceneArguments, Switch, When, budget, method_names, share},
+    args::{
+        LimitArguments, MethodNames, SceneArguments, Switch, When, budget, method_names, share,
+    },
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::title,
@@ -56,12 +59,18 @@ const LABELS: usize = 15;
     dashpot run pad.toml --method exact,bdf          two methods side by side\n  \
     dashpot run pad.toml --accuracy 0.01%            more digits\n  \
     dashpot run pad.toml --neglect 0.5%              without what matters less\n  \
+    dashpot run pad.toml --limit \"head.hic15<=700\"   pass, fail, or undecided\n  \
     dashpot run pad.toml --out results               CSV, JSON, SVG and HTML\n  \
     dashpot run pad.toml --json | jq .runs[0].measures\n\n\
     Units: --accuracy and --neglect are relative (0.1%, 1e-3), --rtol a number; all values of --json are SI.")]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     scene: SceneArguments,
+    #[command(flatten)]
+    limits: LimitArguments,
+    /// Exits with 4 unless every limit is kept, however the errors lie.
+    #[arg(long)]
+    enforce: bool,
     /// Methods in place of the scene's, side by side; `dashpot list methods` tells of each.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = MethodNames(method_names()))]
     method: Vec<String>,
@@ -166,7 +175,11 @@ impl Answer {
 
 /// Solves a scene by its methods, and reports.
 pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let scene = arguments.scene.read(terminal)?;
+    let mut scene = arguments.scene.read(terminal)?;
+    scene.limits.extend(arguments.limits.all());
+    if arguments.enforce && scene.limits.is_empty() {
+        return Err(CliError::NoLimits);
+    }
     print_notes(&scene.notes);
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     if let Ok(texts) = undefined(&scene) {
@@ -183,7 +196,9 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
         let folder = folder.filter(|_| !answer.runs.is_empty());
         emit(&answer, arguments.json, folder, terminal)?;
     }
-    Ok(status.unwrap_or(Status::Done))
+    let is_enforced = arguments.enforce && !limits::all_pass(&answer.runs);
+    let own = if is_enforced { Status::LimitNotKept } else { Status::Done };
+    Ok(status.unwrap_or(own))
 }
 
 /// Tells of each error once, with the methods that it is about unless that is all of them.

@@ -19,6 +19,8 @@ pub(super) struct Changes {
     rtol: Option<f64>,
     unestimated: bool,
     budget: Option<u64>,
+    /// Limits as the command line states them.
+    limits: Vec<String>,
 }
 
 impl Changes {
@@ -40,6 +42,7 @@ impl Changes {
             rtol: arguments.rtol,
             unestimated: arguments.estimate == Switch::Off,
             budget: arguments.budget,
+            limits: arguments.limits.limit.iter().map(|own| own.text.clone()).collect(),
         }
     }
 
@@ -64,6 +67,7 @@ impl Changes {
             options.push("--estimate off".to_owned());
         }
         options.extend(self.budget.map(|budget| format!("--budget {budget}")));
+        options.extend(self.limits.iter().map(|limit| format!("--limit \"{limit}\"")));
         options.join(" ")
     }
 }

@@ -1,15 +1,18 @@
 //! Runs as the plain numbers that figures are drawn from.
 
 use dashpot_analysis::{
-    RunReport, excerpt,
+    Judged, RunReport, excerpt,
     ledger::energy_series,
-    measures::{PeakDeformation, PeakForce},
+    measures::{PeakAcceleration, PeakDeformation, PeakForce},
     resolving_times, table_at, touching,
 };
-use dashpot_network::elements::Contact;
 use dashpot_network::parameters::Kind as _;
-use dashpot_plot::{ElementSeries, EnergySeries, RunMarker, RunMarkerKind, RunSeries};
+use dashpot_network::{NodeOutputs, elements::Contact};
+use dashpot_plot::{
+    ElementSeries, EnergySeries, NodeSeries, Of, RunLimit, RunMarker, RunMarkerKind, RunSeries,
+};
 
+use super::limits::level;
 use crate::numbers::{digits, quantity};
 
 /// Points that are closer than this part of the run are one, and forces than this of the largest.
@@ -56,13 +59,24 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
         })
         .collect();
     leave_out_repetitions(&mut elements);
+    let is_shown = |own: &&NodeOutputs| {
+        let outputs = [own.acceleration, own.velocity];
+        own.mass > 0.0 && own.free && outputs.into_iter().flatten().all(is_kept)
+    };
+    let nodes = report.assembly.nodes.iter().filter(is_shown).map(|own| NodeSeries {
+        name: own.name.clone(),
+        acceleration: values(own.acceleration).into_iter().map(std::ops::Neg::neg).collect(),
+        velocity: values(own.velocity),
+    });
     RunSeries {
         method: report.solver.method.to_owned(),
         elements,
+        nodes: nodes.collect(),
         energy: Vec::new(),
         excerpt_of: (window.0 > 0.0 || window.1 < report.trajectory.t_end)
             .then_some(report.trajectory.t_end),
         markers,
+        limits: limits(report),
         time: table.times,
     }
 }
@@ -137,6 +151,24 @@ fn pulls(report: &RunReport, element: &str, kind: RunMarkerKind, time: f64) -> b
         let (left, right) = (signal.left_value(time), signal.value(time));
         if left.abs() > right.abs() { left < 0.0 } else { right < 0.0 }
     })
+}
+
+/// The limits on what a figure shows over time.
+fn limits(report: &RunReport) -> Vec<RunLimit> {
+    let limit = |judged: Judged<'_>| {
+        let (limit, measure) = (judged.limit, judged.measure?);
+        let of = match measure.kind {
+            PeakForce::KIND => Of::Force,
+            PeakDeformation::KIND => Of::Deformation,
+            PeakAcceleration::KIND => Of::Acceleration,
+            _ => return None,
+        };
+        let (name, label) = (measure.target.clone(), level(limit, measure.kind, measure.unit));
+        let from = limit.from.as_ref().map_or(String::new(), |from| format!(" ({from})"));
+        let label = format!("{} {label}{from}", limit.bound.word());
+        Some(RunLimit { name, of, at: limit.bound.level(), label })
+    };
+    report.judged().into_iter().filter_map(limit).collect()
 }
 
 fn markers(report: &RunReport) -> Vec<RunMarker> {

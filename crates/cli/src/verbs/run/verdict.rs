@@ -10,7 +10,7 @@ use dashpot_network::parameters::Kind as _;
 use dashpot_units::percent;
 
 use super::{
-    Answer,
+    Answer, limits,
     measures::{Zeros, is_hic, is_index},
 };
 use crate::numbers::{
@@ -22,7 +22,7 @@ const DIGITS: usize = 4;
 /// Accuracies beyond this are not to be had with double precision.
 const FINEST: f64 = 1e-10;
 /// Digits of a time.
-const TIME_DIGITS: usize = 3;
+pub(super) const TIME_DIGITS: usize = 3;
 /// Work from outside is spoken of beyond this part of the impact's energy.
 const LITTLE: f64 = 5e-4;
 /// A smaller share is none.
@@ -82,7 +82,8 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
         ("num. error", words.error(&found)),
         ("next digit", next_digit(answer, run)),
     ];
-    lines.into_iter().filter_map(|(label, text)| Some(Line { label, text: text? })).collect()
+    let lines = lines.into_iter().filter_map(|(label, text)| Some(Line { label, text: text? }));
+    limits::lines(run).into_iter().chain(lines).collect()
 }
 
 /// What words are found for.

@@ -2,7 +2,10 @@
 
 use std::{fmt::Write as _, io};
 
-use dashpot_analysis::sweep::{Column, SweepReport};
+use dashpot_analysis::{
+    Judgement, Limit,
+    sweep::{Column, SweepReport},
+};
 use dashpot_plot::{Chart, Direction, Map, MapLimit, ReferenceLine, Scale, Series};
 use dashpot_scene::Variation;
 
@@ -103,8 +106,8 @@ pub(super) fn write(files: &mut Staged<'_>, swept: &Swept) -> Result<(), CliErro
     Ok(())
 }
 
-/// Writes values and errors at all points, in SI units, and the numbers of the warnings there, as CSV;
-/// what is missing is blank.
+/// Writes values and errors at all points, in SI units, what is known of the limits, and the numbers of the
+/// warnings there, as CSV; what is missing is blank.
 pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
     let Swept { variations, report, .. } = swept;
     let own = variations.iter().enumerate();
@@ -113,7 +116,12 @@ pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
         let (name, unit) = (name(column), column.unit);
         [format!("{name} [{unit}]"), format!("error of {name} [{unit}]")]
     });
-    let header = own.chain(found).chain([WARNINGS.to_owned()]);
+    let limits = report.limits.iter().map(|(column, limit)| {
+        let (bound, unit) = (limit.bound, report.columns[*column].unit);
+        format!("{} {} {} {unit}", limit.key, bound.sign(), number(bound.level()))
+    });
+    let header = own.chain(found).chain(limits).chain([WARNINGS.to_owned()]);
+    let judged = list((0..report.limits.len()).map(|at| report.judged(at)));
     let width = report.columns.len();
     let points = report.values.chunks(width).zip(report.errors.chunks(width));
     let mut warned = list(report.warnings.iter().map(|warning| warning.points.iter().peekable()));
@@ -126,7 +134,8 @@ pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
             .enumerate()
             .filter_map(|(at, points)| points.next_if_eq(&&point).map(|_| (at + 1).to_string()));
         let raised = list(raised).join(" ");
-        list(own.chain(both).map(number).chain([raised]))
+        let judged = judged.iter().map(|own| own[point].map_or("", Judgement::word).to_owned());
+        list(own.chain(both).map(number).chain(judged).chain([raised]))
     });
     csv(out, header, rows)
 }
@@ -187,12 +196,13 @@ fn lines(swept: &Swept, column: usize) -> Chart {
     let own = &report.columns[column];
     let left_out =
         if count > MOST_LINES { format!(", {MOST_LINES} of {count} lines") } else { String::new() };
-    let limit = ReferenceLine {
-        direction: Direction::Horizontal,
-        at: 1.0,
-        label: PRESSED.to_owned(),
-        colour: None,
+    let line_at = |at: f64, label: String| {
+        let direction = Direction::Horizontal;
+        ReferenceLine { direction, at, label, colour: None }
     };
+    let pressed = own.is_share.then(|| line_at(1.0, PRESSED.to_owned()));
+    let limits = limits_of(report, column)
+        .map(|limit| line_at(unit.of(limit.bound.level()), words::limit(report, column, limit)));
     Chart {
         title: name(own) + &left_out,
         note: title(&swept.scene).to_owned(),
@@ -200,7 +210,7 @@ fn lines(swept: &Swept, column: usize) -> Chart {
         x_scale,
         y_label: label(&name(own), &unit),
         series: drawn(count).into_iter().map(line).collect(),
-        lines: if own.is_share { vec![limit] } else { Vec::new() },
+        lines: pressed.into_iter().chain(limits).collect(),
         ..Chart::default()
     }
 }
@@ -225,7 +235,12 @@ fn map(swept: &Swept, column: usize) -> Map {
         at: 1.0,
         label: PRESSED.to_owned(),
     });
-    let limits = limits.collect();
+    let bounds = report.limits.iter().map(|(of, limit)| MapLimit {
+        values: turned(report.column(*of).collect()),
+        at: limit.bound.level(),
+        label: words::limit(report, *of, limit),
+    });
+    let limits = limits.chain(bounds).collect();
     let unit = unit(report, column);
     Map {
         title: name(own),
@@ -240,6 +255,11 @@ fn map(swept: &Swept, column: usize) -> Map {
         x,
         y,
     }
+}
+
+/// The limits on the measure of a column.
+fn limits_of(report: &SweepReport, column: usize) -> impl Iterator<Item = &Limit> {
+    report.limits.iter().filter(move |own| own.0 == column).map(|own| &own.1)
 }
 
 /// How many columns are shares of a thickness.

@@ -18,7 +18,7 @@ use serde::Serialize;
 
 use self::words::{notes, summary};
 use crate::{
-    args::{SceneArguments, budget, method_names, share},
+    args::{LimitArguments, SceneArguments, budget, method_names, share},
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
@@ -41,6 +41,8 @@ use crate::{
 pub(crate) struct SweepArguments {
     #[command(flatten)]
     scene: SceneArguments,
+    #[command(flatten)]
+    limits: LimitArguments,
     /// A number of the scene and the values that it takes; repeatable, for all combinations.
     #[arg(long, value_name = "NAME=VALUES", required = true)]
     vary: Vec<String>,
@@ -130,6 +132,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         };
         let mut settings = scene.settings(method)?;
         settings.budget = arguments.budget.unwrap_or(settings.budget);
+        settings.limits.extend(arguments.limits.all());
         settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
         Ok::<_, RunError>(ScenePoint { network: scene.network, settings })
     };

@@ -1,7 +1,7 @@
 //! What was varied, the ends of what was found, and what is to be said of it.
 
 use dashpot_analysis::{
-    Warning,
+    Judgement, Limit, Warning,
     sweep::{Column, PartialOfSweep, SweepReport, SweepWarning},
 };
 use dashpot_network::parameters::Dimension;
@@ -11,7 +11,7 @@ use dashpot_scene::{Variation, units::si_unit};
 use super::Swept;
 use crate::{
     numbers::{Unit, apart, bound, duration, estimate},
-    verbs::run::unit_of_kind,
+    verbs::run::{level, unit_of_kind},
 };
 
 /// Digits of what is computed.
@@ -78,6 +78,30 @@ pub(super) fn summary(report: &SweepReport) -> Table {
     Table::new("", &["measure", "lowest", "highest"], rows)
 }
 
+/// A limit on the measure of a column: `limit 250 g (EN 1078:2012)`.
+pub(super) fn limit(report: &SweepReport, column: usize, limit: &Limit) -> String {
+    let kind = limit.key.rsplit_once('.').map_or("", |own| own.1);
+    let level = level(limit, kind, report.columns[column].unit);
+    let from = limit.from.as_ref().map_or(String::new(), |from| format!(" ({from})"));
+    let of_mean = if limit.of_mean { ", of the mean" } else { "" };
+    format!("{} {level}{of_mean}{from}", limit.bound.word())
+}
+
+/// How many points keep each limit.
+fn kept(report: &SweepReport) -> Vec<String> {
+    let sentence = |at: usize| {
+        let (column, own) = &report.limits[at];
+        let judged = report.judged(at);
+        let count = |which: Judgement| judged.iter().filter(|own| **own == Some(which)).count();
+        let [pass, fail, open] =
+            [Judgement::Pass, Judgement::Fail, Judgement::Undecided].map(count);
+        let open = if open > 0 { format!(", {open} undecided") } else { String::new() };
+        let limit = limit(report, *column, own);
+        format!("{} {limit}: {pass} of {} points pass, {fail} fail{open}", own.key, judged.len())
+    };
+    (0..report.limits.len()).map(sentence).collect()
+}
+
 /// A value of a parameter to four digits.
 pub(super) fn shown(variation: &Variation, at: usize) -> String {
     let unit = Unit::new(&variation.unit, 1.0);
@@ -98,7 +122,8 @@ const MOST_WARNED: usize = 8;
 /// How it was solved, what runs are warned of, what is missing, and what was left out.
 pub(super) fn notes(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
-    let mut all = vec![solved(report, points)];
+    let mut all = kept(report);
+    all.push(solved(report, points));
     if !report.checked.is_empty() {
         all.push(format!(
             "{} of them solved in full as well: the largest difference is {}",

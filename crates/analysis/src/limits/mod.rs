@@ -1,0 +1,177 @@
+//! Limits on measures, and what a value says about one.
+
+pub mod standards;
+
+use dashpot_network::parameters::registered;
+
+use crate::{
+    MeasureWish,
+    measures::{MEASURES, MeasureEntry},
+};
+
+/// A limit on a measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limit {
+    /// Key of the measure, for instance `head.peak-acceleration`.
+    pub key: String,
+    /// What the measure may be.
+    pub bound: Bound,
+    /// Where the bound is from, for instance `EN 1078:2012`.
+    pub from: Option<String>,
+    /// Whether it is one on the mean of several tests, for which one run stands.
+    pub of_mean: bool,
+}
+
+/// What a measure may be, in its SI unit; the bound itself is within.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bound {
+    /// At most this much.
+    Max(f64),
+    /// At least this much.
+    Min(f64),
+}
+
+/// What is known of a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Judgement {
+    /// It is kept, however the error lies.
+    Pass,
+    /// It is exceeded, however the error lies.
+    Fail,
+    /// The value does not tell: its error reaches across the bound, or there is no value, or the run ends
+    /// before it is whole.
+    Undecided,
+}
+
+impl Judgement {
+    /// Its word: `pass`, `fail` or `undecided`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+impl Bound {
+    /// The number itself.
+    pub fn level(self) -> f64 {
+        match self {
+            Self::Max(level) | Self::Min(level) => level,
+        }
+    }
+
+    /// Its word: `max` or `min`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Max(_) => "max",
+            Self::Min(_) => "min",
+        }
+    }
+
+    /// Its sign: `<=` or `>=`.
+    pub fn sign(self) -> &'static str {
+        match self {
+            Self::Max(_) => "<=",
+            Self::Min(_) => ">=",
+        }
+    }
+
+    /// How far a value may still move, negative where it is beyond.
+    fn room(self, value: f64) -> f64 {
+        match self {
+            Self::Max(level) => level - value,
+            Self::Min(level) => value - level,
+        }
+    }
+
+    /// What is left in parts of the bound, negative where it is exceeded: `(bound − value)/|bound|` for
+    /// [`Max`](Self::Max), the reverse for [`Min`](Self::Min). `None` for a bound of zero.
+    pub fn margin(self, value: f64) -> Option<f64> {
+        (self.level() != 0.0).then(|| self.room(value) / self.level().abs())
+    }
+
+    /// What a value with this absolute error says; where the error is not known, the value alone. `grows`
+    /// tells that it may still grow.
+    pub fn judge(self, value: f64, error: Option<f64>, grows: bool) -> Judgement {
+        let (room, error) = (self.room(value), error.unwrap_or(0.0));
+        let is_told = error.is_finite() && !value.is_nan();
+        match self {
+            Self::Max(_) if is_told && room < -error => Judgement::Fail,
+            Self::Min(_) if is_told && room >= error => Judgement::Pass,
+            _ if !is_told || grows => Judgement::Undecided,
+            _ if room >= error => Judgement::Pass,
+            _ if room < -error => Judgement::Fail,
+            _ => Judgement::Undecided,
+        }
+    }
+}
+
+impl Limit {
+    /// A limit on the measure with this key, of no source.
+    pub fn new(key: impl Into<String>, bound: Bound) -> Self {
+        Self { key: key.into(), bound, from: None, of_mean: false }
+    }
+
+    /// The same on a measure that is `factor` times as large, positive.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        let bound = match self.bound {
+            Bound::Max(level) => Bound::Max(factor * level),
+            Bound::Min(level) => Bound::Min(factor * level),
+        };
+        Self { bound, ..self.clone() }
+    }
+
+    /// The kind of the measure, where its word is known.
+    pub fn measure(&self) -> Option<&'static MeasureEntry> {
+        registered(MEASURES, self.key.rsplit_once('.')?.1)
+    }
+
+    /// The measure that it asks for, with its parameters as they are by default, where its word is known.
+    pub(crate) fn wish(&self) -> Option<MeasureWish> {
+        let measure = (self.measure()?.about.default)();
+        Some(MeasureWish { target: self.key.rsplit_once('.')?.0.to_owned(), measure })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_that_reaches_across_the_bound_decides_nothing() {
+        use Judgement::{Fail, Pass, Undecided};
+        let of = |value, error| {
+            [Bound::Max(250.0), Bound::Min(250.0)].map(|own| own.judge(value, Some(error), false))
+        };
+        assert_eq!(of(240.0, 9.0), [Pass, Fail]);
+        assert_eq!(of(240.0, 11.0), [Undecided, Undecided]);
+        assert_eq!(of(260.0, 9.0), [Fail, Pass]);
+        assert_eq!(of(260.0, 11.0), [Undecided, Undecided]);
+        // The bound itself is within.
+        assert_eq!(of(250.0, 0.0), [Pass, Pass]);
+        assert_eq!(of(1.0, f64::INFINITY), [Undecided, Undecided]);
+    }
+
+    #[test]
+    fn what_may_still_grow_can_only_have_exceeded() {
+        use Judgement::{Fail, Pass, Undecided};
+        let of = |value| {
+            [Bound::Max(250.0), Bound::Min(250.0)].map(|own| own.judge(value, Some(1.0), true))
+        };
+        assert_eq!(of(240.0), [Undecided, Undecided]);
+        assert_eq!(of(260.0), [Fail, Pass]);
+    }
+
+    #[test]
+    fn margins_are_parts_of_the_bound() {
+        let close =
+            |one: Option<f64>, other: f64| one.is_some_and(|own| (own - other).abs() < 1e-15);
+        assert!(close(Bound::Max(200.0).margin(150.0), 0.25));
+        assert!(close(Bound::Max(200.0).margin(250.0), -0.25));
+        assert!(close(Bound::Min(200.0).margin(250.0), 0.25));
+        assert!(close(Bound::Max(-200.0).margin(-250.0), 0.25));
+        assert_eq!(Bound::Max(0.0).margin(1.0), None);
+    }
+}

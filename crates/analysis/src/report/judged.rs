@@ -1,0 +1,65 @@
+//! What a run says about its limits.
+
+use super::{MeasureReport, RunReport};
+use crate::{
+    Contact,
+    limits::{Bound, Judgement, Limit},
+};
+
+/// Times within this part of the run from its end are its end.
+const LAST: f64 = 1e-9;
+
+/// A limit, and what a run says about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Judged<'r> {
+    /// The limit.
+    pub limit: &'r Limit,
+    /// The measure, with its value, unit and error; `None` where it is not reported.
+    pub measure: Option<&'r MeasureReport>,
+    /// What is known.
+    pub judgement: Judgement,
+    /// Whether the run ends before the value is whole.
+    pub is_so_far: bool,
+}
+
+impl Judged<'_> {
+    /// What is left in parts of the bound, negative where it is exceeded; `None` where that is not a number.
+    pub fn margin(&self) -> Option<f64> {
+        self.limit.bound.margin(self.measure?.value?)
+    }
+}
+
+impl RunReport {
+    /// Whether the run ends while something is still pressed.
+    pub fn is_cut(&self) -> bool {
+        self.contacts.iter().any(|contact| contact.impact.contact == Contact::Lasting)
+    }
+
+    /// Whether a measure is one of what the end of the run cuts off: it may still grow.
+    pub fn is_so_far(&self, measure: &MeasureReport) -> bool {
+        let last = measure.time.or(measure.window.map(|(_, end)| end));
+        last.is_some_and(|time| time >= (1.0 - LAST) * self.trajectory.t_end) && self.is_cut()
+    }
+
+    /// What is known of each limit, in their order.
+    pub fn judged(&self) -> Vec<Judged<'_>> {
+        self.limits.iter().map(|limit| self.judge(limit)).collect()
+    }
+
+    fn judge<'r>(&'r self, limit: &'r Limit) -> Judged<'r> {
+        let measure = self.measure(&limit.key);
+        let is_so_far = measure.is_some_and(|own| self.is_so_far(own));
+        // What is infinite has a time, and no value there.
+        let value = measure.and_then(|own| own.value.or(own.time.map(|_| f64::INFINITY)));
+        let is_determined = measure.is_some_and(|own| !own.is_undetermined);
+        let judgement = match (value.filter(|_| is_determined), limit.bound) {
+            (None, _) => Judgement::Undecided,
+            (Some(f64::INFINITY), Bound::Max(_)) => Judgement::Fail,
+            (Some(f64::INFINITY), Bound::Min(_)) => Judgement::Pass,
+            (Some(value), bound) => {
+                bound.judge(value, measure.and_then(|own| own.error), is_so_far)
+            }
+        };
+        Judged { limit, measure, judgement, is_so_far }
+    }
+}

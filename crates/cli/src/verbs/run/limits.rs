@@ -1,0 +1,106 @@
+//! What a run says about its limits, in words, and whether they are kept.
+
+use dashpot_analysis::{Bound, Judged, Judgement, Limit, MeasureReport, RunReport};
+
+use super::{
+    measures::{is_index, unit_of_kind},
+    verdict::{Line, TIME_DIGITS},
+};
+use crate::numbers::{self, MOST_DIGITS, Unit, bound, percent_signed};
+
+/// Digits of a value beside its limit.
+const DIGITS: usize = 4;
+
+/// One line for each limit.
+pub(super) fn lines(run: &RunReport) -> Vec<Line> {
+    let line = |judged: &Judged<'_>| {
+        let label = match judged.judgement {
+            Judgement::Pass => "PASS",
+            Judgement::Fail => "FAIL",
+            Judgement::Undecided => "UNDECIDED",
+        };
+        Line { label, text: text(run, judged) }
+    };
+    run.judged().iter().map(line).collect()
+}
+
+/// Whether every limit is kept in every run.
+pub(super) fn all_pass(runs: &[RunReport]) -> bool {
+    let mut all = runs.iter().flat_map(RunReport::judged);
+    all.all(|judged| judged.judgement == Judgement::Pass)
+}
+
+fn text(run: &RunReport, judged: &Judged<'_>) -> String {
+    let limit = judged.limit;
+    let value = judged.measure.map_or("is not reported".to_owned(), |own| value(own, limit));
+    let margin = judged
+        .margin()
+        .map_or(String::new(), |margin| format!("; margin {}", percent_signed(margin)));
+    let mean = if limit.of_mean { "; one run stands for the mean of the tests" } else { "" };
+    let advice = advice(run, judged).map_or(String::new(), |own| format!("; {own}"));
+    format!("{} {value}, {}{margin}{mean}{advice}", limit.key, stated(limit, judged.measure))
+}
+
+/// The value with as many digits as tell it from the bound, and with its error where that reaches across.
+fn value(measure: &MeasureReport, limit: &Limit) -> String {
+    let Some(value) = measure.value else {
+        let is_infinite = measure.time.is_some();
+        return if is_infinite { "is infinite" } else { "is not determined" }.to_owned();
+    };
+    let unit = unit(measure.kind, measure.unit, limit);
+    let apart = (value - limit.bound.level()).abs();
+    let wanted = numbers::digits(value, Some(0.1 * apart), MOST_DIGITS).max(DIGITS);
+    let digits = numbers::digits(value, measure.error, wanted);
+    match measure.error.filter(|error| *error >= apart && error.is_finite()) {
+        Some(error) => format!("{} ± {}", unit.text(value, digits), unit.text(error, 2)),
+        None => unit.text(value, digits),
+    }
+}
+
+fn unit(kind: &str, si: &str, limit: &Limit) -> Unit {
+    // The field prints indices as plain numbers, of seconds and g.
+    let plain = is_index(kind).then(|| Unit::plain("1"));
+    let own = plain.or_else(|| unit_of_kind(kind, si));
+    own.unwrap_or_else(|| Unit::suiting(limit.bound.level(), si))
+}
+
+/// `at most 250 g (EN 1078:2012)`.
+fn stated(limit: &Limit, measure: Option<&MeasureReport>) -> String {
+    let level = match measure {
+        Some(own) => level(limit, own.kind, own.unit),
+        None => numbers::significant(limit.bound.level(), MOST_DIGITS),
+    };
+    let word = match limit.bound {
+        Bound::Max(_) => "at most",
+        Bound::Min(_) => "at least",
+    };
+    let from = limit.from.as_ref().map_or(String::new(), |from| format!(" ({from})"));
+    format!("{word} {level}{from}")
+}
+
+/// The bound as people write it.
+pub(crate) fn level(limit: &Limit, kind: &str, si: &str) -> String {
+    let unit = unit(kind, si, limit);
+    let text = unit.text(limit.bound.level(), MOST_DIGITS);
+    let (number, rest) = text.split_once(' ').unwrap_or((&text, ""));
+    let short = match number.split_once('.') {
+        Some(_) if !number.contains('e') => number.trim_end_matches('0').trim_end_matches('.'),
+        _ => number,
+    };
+    format!("{short} {rest}").trim_end().to_owned()
+}
+
+/// What may decide what is open.
+fn advice(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
+    let measure = judged.measure.filter(|_| judged.judgement == Judgement::Undecided)?;
+    if judged.is_so_far {
+        let end = numbers::quantity(run.trajectory.t_end, "s", TIME_DIGITS);
+        return Some(format!("the run ends in contact at {end}: make `duration` longer"));
+    }
+    let value = measure.value?;
+    let apart = (value - judged.limit.bound.level()).abs() / value.abs();
+    // Half of it, for the value will move as well.
+    let wanted = 0.5 * apart;
+    run.solver.rtol.filter(|_| wanted > 1e-10)?;
+    Some(format!("`--accuracy {}` may decide", bound(wanted).replace(' ', "")))
+}

@@ -1,0 +1,210 @@
+//! `[limits]`: what measures may be at most and at least, and where that is from.
+
+use dashpot_analysis::{
+    Bound, Limit,
+    limits::standards::{STANDARDS, standard},
+    measures::MeasureEntry,
+};
+use dashpot_network::parameters::Dimension;
+
+use super::{
+    Reading, Targets,
+    of_measures::{OfMeasure, Said, of_measures},
+};
+use crate::{
+    diagnostics::fault::Fault,
+    text::{
+        document::{Content, Entry, Item},
+        table::{Table, one_or_many, text_of, wrong_type},
+    },
+    units::{nearest, parse_dimension, parse_quantity},
+};
+
+/// What a table says where it is a limit, and not one of measures.
+const KEYS: [&str; 5] = ["max", "min", "standard", "from", "mean"];
+
+const SAID: Said = Said {
+    noun: "limit",
+    example: "\"250 g\"`",
+    is_value: |item: &Item| {
+        let of_limit =
+            |entries: &[Entry]| entries.iter().any(|own| KEYS.contains(&own.key.as_str()));
+        item.table().is_none_or(|entries| entries.is_empty() || of_limit(entries))
+    },
+};
+
+/// Reads the limits.
+pub(crate) fn read_limits(reading: &Reading<'_>, targets: &Targets<'_, '_>) -> Vec<Limit> {
+    let mut limits = Vec::new();
+    for entry in reading.section("limits") {
+        for own in of_measures(reading, targets, &SAID, entry) {
+            for item in one_or_many(&own.entry.item) {
+                limits.extend(one(reading, &own, item).unwrap_or_default());
+            }
+        }
+    }
+    limits
+}
+
+/// The limits that one value states: a number is the most that is allowed, a word is that of a standard.
+fn one(reading: &Reading<'_>, own: &OfMeasure<'_>, item: &Item) -> Option<Vec<Limit>> {
+    let kind = own.kind?;
+    match &item.value {
+        Content::Text(word) if is_word(reading, word) => by_standard(reading, own, item, word),
+        Content::Number(_) | Content::Text(_) => Some(vec![at_most(reading, own, kind, item)?]),
+        Content::Table(_) => in_full(reading, own, kind, item),
+        _ => {
+            let expected = "a quantity, the word of a standard, or a table such as \
+                            { max = \"250 g\", from = \"EN 1078:2012\" }";
+            wrong_type(item, &format!("the limit of `{}`", own.key), expected, reading.faults);
+            None
+        }
+    }
+}
+
+/// Whether a text can but be the word of a standard.
+fn is_word(reading: &Reading<'_>, text: &str) -> bool {
+    let is_value = reading.library.values().contains_key(text.trim());
+    let begins = text.trim_start().starts_with(|first: char| first.is_alphabetic());
+    standard(text).is_some() || begins && !is_value && text.contains('-')
+}
+
+fn at_most(
+    reading: &Reading<'_>,
+    own: &OfMeasure<'_>,
+    kind: &MeasureEntry,
+    item: &Item,
+) -> Option<Limit> {
+    Some(Limit::new(own.key.clone(), Bound::Max(level(reading, kind, item)?)))
+}
+
+fn level(reading: &Reading<'_>, kind: &MeasureEntry, item: &Item) -> Option<f64> {
+    reading.quantities().unwatched().read(item, dimension(kind))
+}
+
+fn dimension(kind: &MeasureEntry) -> Dimension {
+    let unit = (kind.about.default)().unit();
+    parse_dimension(unit).unwrap_or(Dimension::NUMBER)
+}
+
+fn by_standard(
+    reading: &Reading<'_>,
+    own: &OfMeasure<'_>,
+    item: &Item,
+    word: &str,
+) -> Option<Vec<Limit>> {
+    let Some(standard) = standard(word) else {
+        let known = STANDARDS.iter().map(|own| own.word).collect();
+        let fault =
+            Fault::UnknownWord { family: "a standard".to_owned(), word: word.to_owned(), known };
+        reading.faults.error(item.place, fault);
+        return None;
+    };
+    let limits = standard.on(&own.key);
+    if limits.is_none() {
+        let kinds = standard.kinds.join("` or `");
+        let fault = Fault::WrongType {
+            what: format!("the limit of `{}`", own.key),
+            expected: "one on its own kind of measure".to_owned(),
+            found: format!("one on `{kinds}`"),
+        };
+        reading.faults.error(item.place, fault);
+    }
+    limits
+}
+
+/// `{ max = "250 g", min = …, from = "EN 1078:2012", mean = true }` or `{ standard = "en-1078" }`.
+fn in_full(
+    reading: &Reading<'_>,
+    own: &OfMeasure<'_>,
+    kind: &MeasureEntry,
+    item: &Item,
+) -> Option<Vec<Limit>> {
+    let owner = format!("the limit of `{}`", own.key);
+    let table = Table::new(item, owner.clone(), own.entry.key_place, reading.faults)?;
+    let word = table.take("standard");
+    let [max, min] = ["max", "min"].map(|key| table.take(key));
+    let from = table.take("from").and_then(|own| text_of(&own.item, "`from`", reading.faults));
+    let of_mean = table.take("mean").is_some_and(|own| {
+        let is_on = matches!(own.item.value, Content::Switch(true));
+        if !is_on {
+            wrong_type(&own.item, "`mean`", "`true`, or left out", reading.faults);
+        }
+        is_on
+    });
+    table.finish();
+    if let Some(word) = word {
+        if let Some(other) = max.or(min) {
+            let fault = Fault::Exclusive { first: "standard", second: "max` or `min" };
+            reading.faults.error(other.key_place, fault);
+        }
+        let text = text_of(&word.item, "`standard`", reading.faults)?;
+        return by_standard(reading, own, &word.item, text);
+    }
+    if max.or(min).is_none() {
+        let example = "max = \"250 g\"".to_owned();
+        let fault = Fault::MissingKey { key: "max` or `min".to_owned(), owner, example };
+        reading.faults.missing(table.place, fault);
+        return None;
+    }
+    let limit = |entry: Option<&Entry>, bound: fn(f64) -> Bound| {
+        let level = level(reading, kind, &entry?.item)?;
+        let from = from.map(str::to_owned);
+        Some(Limit { from, of_mean, ..Limit::new(own.key.clone(), bound(level)) })
+    };
+    Some([limit(max, Bound::Max), limit(min, Bound::Min)].into_iter().flatten().collect())
+}
+
+/// Limits as they are written on a command line: `head.peak-acceleration<=250 g`, `pad.contact-time>=5 ms`,
+/// `head.peak-acceleration=en-1078`. Whether the scene has what they are on is not looked at.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_analysis::Bound;
+/// use dashpot_scene::parse_limits;
+///
+/// let limits = parse_limits("head.peak-acceleration <= 250 g").unwrap();
+/// assert_eq!(limits[0].key, "head.peak-acceleration");
+/// assert_eq!(limits[0].bound, Bound::Max(250.0 * 9.80665));
+/// assert_eq!(parse_limits("pad.peak-force=en-1621-1-level-1").unwrap().len(), 2);
+/// assert!(parse_limits("head.peak-acceleration<=250 mm").unwrap_err().contains("a length"));
+/// ```
+///
+/// # Errors
+///
+/// What is wrong with the text, in a sentence.
+pub fn parse_limits(text: &str) -> Result<Vec<Limit>, String> {
+    let usage = "write a measure, `<=` or `>=` and a quantity, such as \"head.hic15<=700\", or `=` and \
+                 a standard, such as \"head.peak-acceleration=en-1078\"";
+    let place = text.find(['<', '>', '=']).ok_or(usage)?;
+    let (key, rest) = (text[..place].trim(), &text[place..]);
+    let [max, min] = ["<=", ">="].map(|sign| rest.strip_prefix(sign));
+    let by_word = rest.strip_prefix('=').map(str::trim);
+    let Some(kind) = Limit::new(key, Bound::Max(0.0)).measure() else {
+        return Err(format!("`{key}` is no measure; `dashpot list measures` shows them"));
+    };
+    if let Some(rest) = by_word {
+        let known = || STANDARDS.iter().map(|own| own.word);
+        let standard = standard(rest).ok_or_else(|| {
+            let nearest = nearest(rest, known());
+            let meant = nearest.map_or(String::new(), |own| format!("; did you mean `{own}`?"));
+            format!("`{rest}` is no standard{meant}; `dashpot list limits` shows them")
+        })?;
+        let kinds = standard.kinds.join("` or `");
+        return standard.on(key).ok_or(format!("`{rest}` is a limit on `{kinds}`"));
+    }
+    let rest = max.or(min).ok_or(usage)?.trim();
+    let expected = dimension(kind);
+    let quantity = parse_quantity(rest).map_err(|error| error.to_string())?.meant(expected);
+    match quantity.dimension {
+        Some(found) if found != expected => {
+            Err(Fault::WrongDimension { text: rest.to_owned(), found, expected }.to_string())
+        }
+        _ => {
+            let level = quantity.value;
+            let bound = if max.is_some() { Bound::Max(level) } else { Bound::Min(level) };
+            Ok(vec![Limit::new(key, bound)])
+        }
+    }
+}
