@@ -226,7 +226,9 @@ fn home_of(key: &str) -> Option<String> {
     }
     match key {
         "force" | "forces" | "load" => Some("write [loads.name] with `on` and `force`".to_owned()),
-        "mass" | "velocity" | "drop" | "motion" => Some(format!("write [nodes.name] with `{key}`")),
+        "mass" | "velocity" | "drop" | "energy" | "motion" => {
+            Some(format!("write [nodes.name] with `{key}`"))
+        }
         "duration" | "samples" | "rtol" | "stop" | "method" => {
             Some("write it under [run]".to_owned())
         }

@@ -115,7 +115,7 @@ impl<'d> Entries<'d> {
         let keys: &[&str] = match error {
             NetworkError::Invalid { invalid, .. } => &[invalid.parameter],
             NetworkError::BothEndsAtOneNode { .. } => &["between"],
-            NetworkError::StartSpeed { .. } => &["velocity", "drop"],
+            NetworkError::StartSpeed { .. } => &["velocity", "drop", "energy"],
             NetworkError::StepAcrossDashpots { .. } => &["motion"],
             NetworkError::OutsideTable { .. } => &["force", "motion", "acceleration"],
             NetworkError::NotAnEnd { .. } | NetworkError::TwoFaces { .. } => &["at"],

@@ -140,6 +140,13 @@ fn node() -> Value {
                  all that touches it can part, begins that high above, at rest",
             ),
         ),
+        (
+            "energy",
+            described_as(
+                reference("energy"),
+                "kinetic energy at the start [J]: makes it an impactor with the speed sqrt(2 E / m)",
+            ),
+        ),
         ("fixed", json!({ "const": true, "description": "nothing moves it" })),
         ("motion", described_as(reference("length-function"), "its displacement over time")),
         (

@@ -39,23 +39,24 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
     let mass = table
         .take("mass")
         .map(|mass| quantities.within(range, "mass", &mass.item, Dimension::MASS));
-    let velocity = table.take("velocity");
-    let drop = table.take("drop");
-    if let (Some(_), Some(drop)) = (velocity, drop) {
-        let fault = Fault::Exclusive { first: "velocity", second: "drop" };
-        reading.faults.error(drop.key_place, fault);
-    }
+    let [velocity, drop, energy] =
+        one_of(reading, ["velocity", "drop", "energy"].map(|key| (key, table.take(key))));
     let velocity = velocity
         .map(|velocity| quantities.read(&velocity.item, Dimension::VELOCITY).map(Start::Velocity));
     let drop = drop.map(|drop| {
         quantities.within(range, "drop", &drop.item, Dimension::LENGTH).map(Start::Drop)
     });
-    let supports = ["fixed", "motion", "acceleration"].map(|key| (key, table.take(key)));
-    let mut given = supports.iter().filter_map(|(key, entry)| entry.map(|entry| (*key, entry)));
-    if let (Some((first, _)), Some((second, entry))) = (given.next(), given.next()) {
-        reading.faults.error(entry.key_place, Fault::Exclusive { first, second });
-    }
-    let [fixed, motion, acceleration] = supports.map(|(_, entry)| entry);
+    let energy = energy.map(|energy| {
+        let value = quantities.within(range, "energy", &energy.item, Dimension::ENERGY)?;
+        if mass.is_none_or(|mass| mass == Some(0.0)) {
+            let (key, owner) = ("mass".to_owned(), format!("node `{}` with `energy`", entry.key));
+            let example = "mass = \"5 kg\"".to_owned();
+            reading.faults.missing(energy.key_place, Fault::MissingKey { key, owner, example });
+        }
+        Some(Start::Velocity((2.0 * value / mass??).sqrt()))
+    });
+    let [fixed, motion, acceleration] =
+        one_of(reading, ["fixed", "motion", "acceleration"].map(|key| (key, table.take(key))));
     let is_fixed = fixed.map(|fixed| {
         let on = matches!(fixed.item.value, Content::Switch(true));
         if !on {
@@ -75,8 +76,20 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         name: entry.key.to_string(),
         mass: mass.unwrap_or(Some(0.0))?,
         support,
-        start: velocity.or(drop).unwrap_or(Some(Start::Rest))?,
+        start: velocity.or(drop).or(energy).unwrap_or(Some(Start::Rest))?,
     })
+}
+
+/// The entries of keys that exclude each other, with an error where several are given.
+fn one_of<'d, const N: usize>(
+    reading: &Reading<'_>,
+    keys: [(&'static str, Option<&'d Entry>); N],
+) -> [Option<&'d Entry>; N] {
+    let mut given = keys.iter().filter_map(|(key, entry)| entry.map(|entry| (*key, entry)));
+    if let (Some((first, _)), Some((second, entry))) = (given.next(), given.next()) {
+        reading.faults.error(entry.key_place, Fault::Exclusive { first, second });
+    }
+    keys.map(|(_, entry)| entry)
 }
 
 /// The displacement of a node at rest at `t = 0` that has the acceleration in `entry` from then on.

@@ -275,3 +275,19 @@ fn what_has_no_place_stands_in_line_with_its_help() {
     let shown = messages(&text);
     has(&shown, &["has no [run]\n  --> scene.toml\n   = help: for example:"]);
 }
+
+#[test]
+fn an_energy_is_the_speed_that_makes_it() {
+    let of = |node: &str| with(&format!("head = {{ {node} }}\n"), PAD, "");
+    let network = |node: &str| {
+        let scene = read(&of(node), &ReadOptions::default()).unwrap().value;
+        format!("{:?}", scene.network.nodes().collect::<Vec<_>>())
+    };
+    // V = √(2 · 50 J / 4 kg) = 5 m/s.
+    let by_speed = network("mass = \"4 kg\", velocity = \"5 m/s\"");
+    assert_eq!(network("mass = \"4 kg\", energy = \"50 J\""), by_speed);
+    has(&messages(&of("energy = \"50 J\"")), &["node `head` with `energy` has no `mass`"]);
+    let shown = messages(&of("mass = 4, energy = 50, drop = 1"));
+    has(&shown, &["`drop` and `energy` exclude each other"]);
+    has(&messages(&of("mass = 4, energy = -1")), &["`energy` must be zero or positive"]);
+}

@@ -27,8 +27,8 @@ const SECTIONS: [&str; 7] =
     ["values", "models", "materials", "nodes", "elements", "effects", "loads"];
 /// The key under `[run]` that may vary.
 const RUN: (&str, &str) = ("run", "duration");
-/// A node has one of both.
-const START: [&str; 2] = ["drop", "velocity"];
+/// A node has one of these.
+const START: [&str; 3] = ["drop", "velocity", "energy"];
 
 /// A number in the text of a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -167,12 +167,13 @@ impl Tunables {
     /// belongs to another part of the scene.
     fn akin(&self, wanted: &[&str]) -> Option<String> {
         let (last, owner) = wanted.split_last()?;
-        let start = START.iter().find(|own| *own != last).filter(|_| START.contains(last));
-        let end = start.copied().or_else(|| synonym(last)).unwrap_or(last);
-        let with_owner = [owner, &[end]].concat();
-        let found = [self.led_to(&with_owner), self.led_to(&[end])];
-        let only =
-            found.iter().find_map(|own| if let [only] = own[..] { Some(only) } else { None });
+        let starts = START.into_iter().filter(|own| own != last && START.contains(last));
+        let others = [synonym(last).unwrap_or(last)];
+        let only = starts.chain(others).find_map(|end| {
+            let with_owner = [owner, &[end]].concat();
+            let found = [self.led_to(&with_owner), self.led_to(&[end])];
+            found.iter().find_map(|own| if let [only] = own[..] { Some(only) } else { None })
+        });
         only.map(|at| self.all[at].name.clone())
     }
 
