@@ -17,6 +17,7 @@ mod closed_forms;
 mod conformance;
 mod conversions;
 mod cost;
+mod designs;
 mod displaced_starts;
 mod docs;
 mod driven_contacts;

@@ -37,6 +37,19 @@ pub(crate) struct ValueArguments {
     pub(crate) set: Vec<(String, String)>,
 }
 
+/// Values of one design.
+#[derive(Debug, Clone)]
+pub(crate) struct Variant {
+    /// The argument, which is its name.
+    pub(crate) text: String,
+    pub(crate) set: Vec<(String, String)>,
+}
+
+pub(crate) fn variant(text: &str) -> Result<Variant, String> {
+    let set = text.split(',').map(assignment).collect::<Result<_, _>>()?;
+    Ok(Variant { text: text.trim().to_owned(), set })
+}
+
 /// Which limits besides those of the scene.
 #[derive(Debug, Args)]
 pub(crate) struct LimitArguments {

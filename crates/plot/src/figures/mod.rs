@@ -14,7 +14,7 @@ use self::{
     run_series::{limit_lines, quantities, thickness_lines},
     unit::Unit,
 };
-use crate::{Chart, Direction, Pattern, Series, Stroke};
+use crate::{Chart, Direction, Pattern, Series, Stroke, theme::COLOURS};
 
 pub use run_series::{
     ElementSeries, EnergySeries, NodeSeries, Of, RunLimit, RunMarker, RunMarkerKind, RunSeries,
@@ -103,11 +103,17 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// The chart of `runs`, which differ in their method; what they have nothing of stays empty.
+    /// The chart of `runs`, which differ in their method or are designs; what they have nothing of stays empty.
     pub fn chart(&self, runs: &[RunSeries]) -> Chart {
         let mut all = quantities(runs, self.x, self.y);
         let widest = if self.y == Of::Deformation { cut_off(runs, &mut all) } else { None };
+        let are_designs = runs.iter().any(|run| run.is_design);
+        if are_designs {
+            all.retain(|quantity| quantity.curves.iter().any(|curve| !curve.is_empty()));
+        }
         let (shown, left_out) = largest(all, self.y);
+        // Of several designs each has its own peak; the curves tell them.
+        let marked = if are_designs { &[] } else { self.kinds };
         let points = || shown.iter().flat_map(|q| q.curves.iter().flatten());
         let x = self.x.unit(points().map(|p| p.0));
         let y = self.y.unit(points().map(|p| p.1));
@@ -125,7 +131,7 @@ impl Figure {
             note: note(runs, left_out, gaps),
             x_label: x.label(self.x.word()),
             y_label: y.label(self.y.word()),
-            markers: markers(runs, &shown, self.kinds, (self.x, x), (self.y, y)),
+            markers: markers(runs, &shown, marked, (self.x, x), (self.y, y)),
             lines: limits.chain(thicknesses).collect(),
             series: curves(runs, &shown, x.factor, y.factor),
             ..Chart::default()
@@ -187,8 +193,13 @@ fn excerpt(run: &RunSeries) -> Option<String> {
     ))
 }
 
-/// Curves scaled from SI to the units of the axes: one colour per quantity, one pattern per run. Of several runs the
-/// first is broad and pale, so that another one on it stays visible.
+/// Patterns of designs, in turn.
+const DESIGNS: [Pattern; 4] =
+    [Pattern::Solid, Pattern::Dashed, Pattern::Dotted, Pattern::DashDotted];
+
+/// Curves scaled from SI to the units of the axes: one colour per quantity, one pattern per run, and of a single
+/// quantity of several designs one colour per design. Of several methods the first is broad and pale, so that another
+/// one on it stays visible.
 fn curves(
     runs: &[RunSeries],
     quantities: &[Quantity],
@@ -204,9 +215,12 @@ fn curves(
             };
             let name = match (runs.len(), alone) {
                 (0 | 1, _) => quantity.name.clone(),
-                _ => format!("{}, {}", quantity.name, of_run.method),
+                (_, true) if of_run.is_design => of_run.name.clone(),
+                _ => format!("{}, {}", quantity.name, of_run.name),
             };
             let (pattern, colour) = match run {
+                _ if of_run.is_design && alone => (DESIGNS[run / COLOURS % DESIGNS.len()], run),
+                _ if of_run.is_design => (DESIGNS[run % DESIGNS.len()], colour),
                 0 if runs.len() > 1 => (Pattern::Broad, colour),
                 0 => (Pattern::Solid, colour),
                 // A single quantity has colours to spare for its runs.
@@ -268,7 +282,8 @@ pub(crate) mod tests {
             velocity: time.iter().map(|t| 10.0 - 500.0 * t).collect(),
         };
         RunSeries {
-            method: method.into(),
+            name: method.into(),
+            is_design: false,
             elements: vec![
                 element("padding", 40_400.0, Some(0.02)),
                 element("mount <&>", 20_000.0, None),
@@ -318,6 +333,27 @@ pub(crate) mod tests {
                 assert!(figure.chart(&runs).svg().is_ok());
             }
         }
+    }
+
+    #[test]
+    fn designs_have_colours_of_their_own_where_one_quantity_is_shown() {
+        let design = |name: &str, thickness: f64| {
+            let mut own = run(name);
+            own.is_design = true;
+            own.elements.truncate(1);
+            own.elements[0].thickness = Some(thickness);
+            own
+        };
+        let designs = [design("soft", 0.03), design("stiff", 0.02), design("steel", 0.02)];
+        let chart = FORCE_DEFORMATION.chart(&designs);
+        let names: Vec<&str> = chart.series.iter().map(|own| own.name.as_str()).collect();
+        assert_eq!(names, ["soft", "stiff", "steel"]);
+        let colours: Vec<_> =
+            chart.series.iter().map(|own| own.stroke.map(|own| own.colour)).collect();
+        assert_eq!(colours, [Some(0), Some(1), Some(2)]);
+        assert!(chart.markers.is_empty());
+        let lines: Vec<&str> = chart.lines.iter().map(|own| own.label.as_str()).collect();
+        assert_eq!(lines, ["thickness of soft: 30 mm", "thickness of stiff, steel: 20 mm"]);
     }
 
     #[test]

@@ -5,11 +5,13 @@ use super::markers::listed;
 use super::unit::Unit;
 use crate::{Direction, ReferenceLine};
 
-/// Sampled results of one run with one method, in SI units.
+/// Sampled results of one run, in SI units.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunSeries {
-    /// Name of the method.
-    pub method: String,
+    /// What tells it from others: its method, or its design.
+    pub name: String,
+    /// Whether it is one of several designs, and not of several methods of the same scene.
+    pub is_design: bool,
     /// Sample times \[s\], ascending.
     pub time: Vec<f64>,
     /// Elements to be shown.
@@ -22,7 +24,7 @@ pub struct RunSeries {
     pub excerpt_of: Option<f64>,
     /// Points worth a text; of several runs the first one's are drawn.
     pub markers: Vec<RunMarker>,
-    /// Limits; of several runs the first one's are drawn.
+    /// Limits.
     pub limits: Vec<RunLimit>,
 }
 
@@ -164,9 +166,8 @@ impl RunSeries {
     }
 }
 
-/// Per element of the first run, or per part of its energy ledger, one curve of `y` over `x` of each run.
+/// Per element, mass or part of the energy ledger one curve of `y` over `x` of each run.
 pub(super) fn quantities(runs: &[RunSeries], x: Of, y: Of) -> Vec<Quantity> {
-    let Some(first) = runs.first() else { return Vec::new() };
     let curve = |run: &RunSeries, name: &str| {
         if !matches!(y, Of::Force | Of::Deformation) {
             return run.of_others(name, y).map_or_else(Vec::new, |own| zip(&run.time, own));
@@ -179,13 +180,16 @@ pub(super) fn quantities(runs: &[RunSeries], x: Of, y: Of) -> Vec<Quantity> {
         name: name.clone(),
         curves: runs.iter().map(|run| curve(run, name)).collect(),
     };
-    match y {
-        Of::Energy => first.energy.iter().map(|part| of_all(&part.name)).collect(),
-        Of::Acceleration | Of::Velocity => {
-            first.nodes.iter().map(|own| of_all(&own.name)).collect()
-        }
-        _ => first.elements.iter().map(|element| of_all(&element.name)).collect(),
+    let mut names: Vec<&String> = Vec::new();
+    for run in runs {
+        let own: Vec<&String> = match y {
+            Of::Energy => run.energy.iter().map(|own| &own.name).collect(),
+            Of::Acceleration | Of::Velocity => run.nodes.iter().map(|own| &own.name).collect(),
+            _ => run.elements.iter().map(|own| &own.name).collect(),
+        };
+        names.extend(own.into_iter().filter(|name| !names.contains(name)).collect::<Vec<_>>());
     }
+    names.into_iter().map(of_all).collect()
 }
 
 /// Points of two signals of equal times; the longer one is cut.
@@ -200,8 +204,13 @@ pub(super) fn limit_lines(
     (of, unit): (Of, Unit),
     direction: Direction,
 ) -> Vec<ReferenceLine> {
-    let limits = runs.first().map_or(&[][..], |run| &run.limits);
-    let lines = limits.iter().filter(|limit| limit.of == of).filter_map(|limit| {
+    let mut limits: Vec<&RunLimit> = Vec::new();
+    for limit in runs.iter().flat_map(|run| &run.limits).filter(|limit| limit.of == of) {
+        if !limits.contains(&limit) {
+            limits.push(limit);
+        }
+    }
+    let lines = limits.into_iter().filter_map(|limit| {
         let colour = shown.iter().position(|own| own.name == limit.name)?;
         let colour = (shown.len() > 1).then_some(colour);
         let (at, label) = (limit.at / unit.factor, limit.label.clone());
@@ -217,17 +226,29 @@ pub(super) fn thickness_lines(
     direction: Direction,
     unit: Unit,
 ) -> Vec<ReferenceLine> {
-    let elements = runs.first().map_or(&[][..], |run| &run.elements);
+    let is_meant = |(at, run): &(usize, &RunSeries)| *at == 0 || run.is_design;
+    let of_run = |(at, run)| {
+        let run: &RunSeries = run;
+        run.elements.iter().map(move |element| (at, run, element))
+    };
+    let elements = runs.iter().enumerate().filter(is_meant).flat_map(of_run);
     let mut limits: Vec<(f64, Vec<&str>, Option<usize>)> = Vec::new();
-    for element in elements {
+    for (at, run, element) in elements {
         let colour = shown.iter().position(|q| q.name == element.name);
         let (Some(thickness), Some(_)) = (element.thickness, colour) else { continue };
+        let (name, colour) = match run.is_design {
+            true if shown.len() == 1 => (&run.name, Some(at)),
+            true => (&run.name, colour),
+            false => (&element.name, colour),
+        };
         match limits.iter_mut().find(|limit| limit.0.total_cmp(&thickness).is_eq()) {
             Some((_, names, shared)) => {
-                names.push(&element.name);
+                if !names.contains(&name.as_str()) {
+                    names.push(name);
+                }
                 *shared = None;
             }
-            None => limits.push((thickness, vec![&element.name], colour)),
+            None => limits.push((thickness, vec![name], colour)),
         }
     }
     let line = |(thickness, names, colour): (f64, Vec<&str>, Option<usize>)| ReferenceLine {

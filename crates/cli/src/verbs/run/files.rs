@@ -28,7 +28,7 @@ const SCENE: &str = "scene-as-run.toml";
 /// The drawing of the network.
 const DRAWING: &str = "network.svg";
 /// Everything on one page.
-const PAGE: &str = "report.html";
+pub(super) const PAGE: &str = "report.html";
 /// Figures show at least so many points, and at most so many.
 const POINTS: (usize, usize) = (4001, 20_001);
 /// Rows of a table that are in memory at once.
@@ -47,7 +47,7 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
     let is_drawn = network.connections().len() <= MOST_DRAWN;
     let (low, high) = POINTS;
     let count = answer.scene.run.samples.clamp(low, high);
-    let series = curves_and_energies(&answer.runs, count);
+    let series = curves_and_energies(answer.runs.iter(), count);
     let mut figures = Vec::new();
     if is_drawn {
         let svg = sketch(network, answer.scene.run.duration).svg();
@@ -74,7 +74,7 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
 }
 
 /// Regular times where the scene says how many, else times closer to each other in short contacts.
-fn sample_times(run: &RunReport, settings: &RunSettings) -> Vec<f64> {
+pub(super) fn sample_times(run: &RunReport, settings: &RunSettings) -> Vec<f64> {
     let (end, count) = (run.trajectory.t_end, settings.samples);
     if settings.samples_given {
         return regular_times(end, count);
@@ -83,7 +83,7 @@ fn sample_times(run: &RunReport, settings: &RunSettings) -> Vec<f64> {
 }
 
 /// Writes all outputs at these times \[s\] as CSV.
-fn write_table(run: &RunReport, times: &[f64], out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn write_table(run: &RunReport, times: &[f64], out: &mut dyn Write) -> io::Result<()> {
     let at = |times: &[f64]| table_at(&run.assembly, &run.trajectory, times.to_vec());
     let columns = at(&[]).columns.into_iter();
     let header = columns.map(|column| format!("{} [{}]", column.name, column.unit));
@@ -101,7 +101,7 @@ fn write_table(run: &RunReport, times: &[f64], out: &mut dyn Write) -> io::Resul
 
 /// The page with these drawings.
 pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
-    let mut tables = vec![measures_table(answer)];
+    let mut tables = vec![measures_table(&answer.side())];
     tables.extend(Some(Table::list("Remarks", notes(answer))).filter(|own| !own.rows.is_empty()));
     tables.extend(answer.best().map(energy_table));
     let why = reasons(answer).into_iter().map(|(method, why)| vec![method, why]);

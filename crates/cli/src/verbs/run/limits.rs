@@ -30,6 +30,19 @@ pub(super) fn all_pass(runs: &[RunReport]) -> bool {
     all.all(|judged| judged.judgement == Judgement::Pass)
 }
 
+/// What is known of a limit, with its margin: `pass, 62 %`.
+pub(super) fn short(judged: &Judged<'_>) -> String {
+    let word = match judged.judgement {
+        Judgement::Pass => "pass",
+        Judgement::Fail => "FAIL",
+        Judgement::Undecided => "UNDECIDED",
+    };
+    let value = judged.measure.map(|own| value(own, judged.limit));
+    let value = value.map_or(String::new(), |value| format!(", {value}"));
+    let margin = judged.margin().map(|margin| format!(", margin {}", percent_signed(margin)));
+    word.to_owned() + &value + &margin.unwrap_or_default()
+}
+
 fn text(run: &RunReport, judged: &Judged<'_>) -> String {
     let limit = judged.limit;
     let value = judged.measure.map_or("is not reported".to_owned(), |own| value(own, limit));
@@ -65,7 +78,7 @@ fn unit(kind: &str, si: &str, limit: &Limit) -> Unit {
 }
 
 /// `at most 250 g (EN 1078:2012)`.
-fn stated(limit: &Limit, measure: Option<&MeasureReport>) -> String {
+pub(super) fn stated(limit: &Limit, measure: Option<&MeasureReport>) -> String {
     let level = match measure {
         Some(own) => level(limit, own.kind, own.unit),
         None => numbers::significant(limit.bound.level(), MOST_DIGITS),

@@ -15,10 +15,31 @@ use crate::{
     text,
 };
 
+/// A run and what tells it from others: its method, or its design.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Column<'r> {
+    pub(super) name: &'r str,
+    pub(super) run: &'r RunReport,
+}
+
+/// What stands side by side.
+#[derive(Debug)]
+pub(super) struct Side<'r> {
+    pub(super) columns: Vec<Column<'r>>,
+    /// How far apart runs of one scene are; `None` where they are designs, which are to differ.
+    pub(super) differences: Option<Vec<Difference>>,
+}
+
+impl<'r> Side<'r> {
+    fn runs(&self) -> impl Iterator<Item = &'r RunReport> {
+        self.columns.iter().map(|column| column.run)
+    }
+}
+
 /// Runs that stand side by side, and the columns besides names and values.
 #[derive(Debug, Clone, Copy)]
 struct Block<'r> {
-    runs: &'r [RunReport],
+    runs: &'r [Column<'r>],
     errors: bool,
     times: bool,
     /// Whether the differences between all runs stand here.
@@ -26,25 +47,28 @@ struct Block<'r> {
 }
 
 /// All measures with their errors, times and differences.
-pub(super) fn measures_table(answer: &Answer) -> Table {
-    build(answer, &whole(answer))
+pub(super) fn measures_table(side: &Side<'_>) -> Table {
+    build(side, &whole(side))
 }
 
-fn whole(answer: &Answer) -> Block<'_> {
-    let runs = &answer.runs;
+fn whole<'s>(side: &'s Side<'_>) -> Block<'s> {
+    let runs = &side.columns;
+    if side.differences.is_none() {
+        return Block { runs, errors: false, times: false, apart: false };
+    }
     let has_errors =
-        runs.iter().flat_map(|run| &run.measures).any(|measure| measure.error.is_some());
+        side.runs().flat_map(|run| &run.measures).any(|measure| measure.error.is_some());
     Block { runs, errors: has_errors, times: true, apart: runs.len() > 1 }
 }
 
 /// The same in tables of at most `limit` columns of text: where the methods do not fit side by
 /// side, they stand below each other; times are left out to keep the limit.
-pub(super) fn measures_tables(answer: &Answer, limit: usize) -> Vec<Table> {
+pub(super) fn measures_tables(side: &Side<'_>, limit: usize) -> Vec<Table> {
     let fits = |block: &Block<'_>| {
-        let table = build(answer, block);
+        let table = build(side, block);
         (text::width(&table) <= limit).then_some(table)
     };
-    let whole = whole(answer);
+    let whole = whole(side);
     let without_times = Block { times: false, ..whole };
     if let Some(table) = fits(&whole).or_else(|| fits(&without_times)) {
         return vec![table];
@@ -60,7 +84,7 @@ pub(super) fn measures_tables(answer: &Answer, limit: usize) -> Vec<Table> {
         let found = (1..=rest.len()).rev().find_map(|count| Some((count, fits(&block(count))?)));
         let (count, table) = found.unwrap_or_else(|| {
             let narrow = Block { errors: false, ..block(1) };
-            (1, build(answer, &narrow))
+            (1, build(side, &narrow))
         });
         tables.push(table);
         rest = &rest[count..];
@@ -68,10 +92,10 @@ pub(super) fn measures_tables(answer: &Answer, limit: usize) -> Vec<Table> {
     tables
 }
 
-fn build(answer: &Answer, block: &Block<'_>) -> Table {
+fn build(side: &Side<'_>, block: &Block<'_>) -> Table {
     let mut header = vec!["measure".to_owned()];
     for run in block.runs {
-        header.push(run.solver.method.to_owned());
+        header.push(run.name.to_owned());
         if block.errors {
             header.push("error".to_owned());
         }
@@ -83,13 +107,13 @@ fn build(answer: &Answer, block: &Block<'_>) -> Table {
     if block.apart {
         header.push("difference".to_owned());
     }
-    let differences = answer.differences();
+    let differences = side.differences.iter().flatten();
     let apart: HashMap<&str, &Difference> =
-        differences.iter().map(|difference| (difference.key.as_str(), difference)).collect();
-    let [all_runs, shown_runs] = [&answer.runs, block.runs]
-        .map(|runs| runs.iter().map(RunReport::by_key).collect::<Vec<_>>());
-    let kinds = Kinds::of(answer);
-    let zeros = Zeros::of(&answer.runs);
+        differences.map(|difference| (difference.key.as_str(), difference)).collect();
+    let [all_runs, shown_runs] = [&side.columns, block.runs]
+        .map(|runs| runs.iter().map(|own| own.run.by_key()).collect::<Vec<_>>());
+    let kinds = Kinds::of(&side.columns);
+    let zeros = Zeros::of(side.runs());
     let mut rows = Vec::new();
     for (key, first) in &kinds.measures {
         let all = all_runs.iter().filter_map(|run| run.get(key)).copied();
@@ -129,10 +153,10 @@ struct Kinds<'r> {
 }
 
 impl<'r> Kinds<'r> {
-    fn of(answer: &'r Answer) -> Self {
+    fn of(columns: &[Column<'r>]) -> Self {
         let (mut measures, mut counts) = (Vec::new(), HashMap::new());
         let mut known: HashSet<&str> = HashSet::new();
-        for measure in answer.runs.iter().flat_map(|run| &run.measures) {
+        for measure in columns.iter().flat_map(|column| &column.run.measures) {
             if known.insert(&measure.key) {
                 measures.push((measure.key.as_str(), measure));
                 *counts.entry((measure.kind, measure.target.as_str())).or_default() += 1;
@@ -259,7 +283,7 @@ pub(super) struct Zeros {
 
 impl Zeros {
     /// Looks at all measures of these runs, and at the energy that they turn over.
-    pub(super) fn of(runs: &[RunReport]) -> Self {
+    pub(super) fn of<'r>(runs: impl Iterator<Item = &'r RunReport>) -> Self {
         let mut zeros = Self { largest: Vec::new(), tolerance: 0.0 };
         for run in runs {
             zeros.tolerance = zeros.tolerance.max(run.solver.rtol.unwrap_or(0.0));

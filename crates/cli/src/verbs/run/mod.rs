@@ -1,5 +1,6 @@
 //! `dashpot run`.
 
+mod designs;
 mod energy;
 mod files;
 mod limits;
@@ -17,12 +18,13 @@ use dashpot_analysis::{
     Accuracy, Difference, RunError, RunReport, SolveSettings, Warning, differences, solve_partial,
 };
 use dashpot_plot::figures::FORCE_TIME;
-use dashpot_scene::Scene;
+use dashpot_scene::{ModelNote, Scene};
 use serde::Serialize;
 
 use self::{
+    designs::{Design, Designs, Named},
     energy::energy_table,
-    measures::{measures_tables, notes},
+    measures::{Column, Side, measures_tables, notes},
     resolved_scene::Changes,
     series::curves,
     solving::{reasons, solving_table},
@@ -31,7 +33,8 @@ use self::{
 pub(crate) use self::{limits::level, measures::unit_of_kind};
 use crate::{
     args::{
-        LimitArguments, MethodNames, SceneArguments, Switch, When, budget, method_names, share,
+        LimitArguments, MethodNames, Switch, ValueArguments, Variant, When, budget, method_names,
+        share, variant,
     },
     error::{CliError, Status},
     folder::{Folder, Staged},
@@ -56,6 +59,8 @@ const LABELS: usize = 15;
 #[command(after_help = "Examples:\n  \
     dashpot run                                      the built-in reference impact\n  \
     dashpot run pad.toml --set \"K=25 MN/m\"           with another stiffness\n  \
+    dashpot run eps.toml epp.toml foam.toml          designs side by side\n  \
+    dashpot run pad.toml --variant \"K=80 kN/m\"       the same with another value\n  \
     dashpot run pad.toml --method exact,bdf          two methods side by side\n  \
     dashpot run pad.toml --accuracy 0.01%            more digits\n  \
     dashpot run pad.toml --neglect 0.5%              without what matters less\n  \
@@ -64,8 +69,16 @@ const LABELS: usize = 15;
     dashpot run pad.toml --json | jq .runs[0].measures\n\n\
     Units: --accuracy and --neglect are relative (0.1%, 1e-3), --rtol a number; all values of --json are SI.")]
 pub(crate) struct RunArguments {
+    /// Files of scenes, `-` for standard input, or built-in scenes (reference,
+    /// reference-stiff, reference-gravity); several stand side by side as designs [default: reference].
+    #[arg(value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
     #[command(flatten)]
-    scene: SceneArguments,
+    values: ValueArguments,
+    /// A design besides each scene as it is: the same with these values of [values], such as
+    /// "K=80 kN/m" or "K=80 kN/m, C=2 kN s/m"; repeatable.
+    #[arg(long, value_name = "NAME=VALUE,…", value_parser = variant)]
+    variant: Vec<Variant>,
     #[command(flatten)]
     limits: LimitArguments,
     /// Exits with 4 unless every limit is kept, however the errors lie.
@@ -124,6 +137,12 @@ impl Answer {
         self.runs.iter().min_by(|one, other| error(one).total_cmp(&error(other)))
     }
 
+    /// Its runs side by side.
+    fn side(&self) -> Side<'_> {
+        let columns = self.runs.iter().map(|run| Column { name: run.solver.method, run });
+        Side { columns: columns.collect(), differences: Some(self.differences()) }
+    }
+
     /// All warnings, the most important first; those that not every run gives name their methods.
     pub(super) fn warnings(&self) -> Vec<String> {
         self.warnings_of(|_| true)
@@ -175,19 +194,41 @@ impl Answer {
 
 /// Solves a scene by its methods, and reports.
 pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let mut scene = arguments.scene.read(terminal)?;
-    scene.limits.extend(arguments.limits.all());
-    if arguments.enforce && scene.limits.is_empty() {
+    let scenes = designs::scenes(arguments, terminal)?;
+    if arguments.enforce && scenes.iter().all(|own| own.scene.limits.is_empty()) {
         return Err(CliError::NoLimits);
     }
-    print_notes(&scene.notes);
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
-    if let Ok(texts) = undefined(&scene) {
-        texts.iter().for_each(|text| terminal.warn(text));
+    let mut answers = Vec::new();
+    let (mut noted, mut warned) = (Vec::new(), Vec::new());
+    for Named { name, scene, set } in scenes {
+        let new = scene.notes.iter().filter(|own| !noted.contains(*own)).cloned();
+        let new: Vec<ModelNote> = new.collect();
+        print_notes(&new);
+        noted.extend(new);
+        for text in undefined(&scene).unwrap_or_default() {
+            if !warned.contains(&text) {
+                terminal.warn(&text);
+                warned.push(text);
+            }
+        }
+        let answer = solve_all(scene, (arguments, &set), terminal)?;
+        print_failures(&answer, terminal);
+        answers.push(Design { name, answer });
     }
-    let answer = solve_all(scene, arguments, terminal)?;
-    print_failures(&answer, terminal);
-    let status = answer.failed.iter().map(|(_, error)| error.status()).max();
+    let failed = answers.iter().flat_map(|own| &own.answer.failed);
+    let status = failed.map(|(_, error)| error.status()).max();
+    let is_kept = answers.iter().all(|own| limits::all_pass(&own.answer.runs));
+    let own = if arguments.enforce && !is_kept { Status::LimitNotKept } else { Status::Done };
+    if answers.len() > 1 {
+        let designs = Designs { designs: answers, plot: arguments.plot };
+        if arguments.json || designs.is_solved() {
+            let folder = folder.filter(|_| designs.is_solved());
+            emit(&designs, arguments.json, folder, terminal)?;
+        }
+        return Ok(status.unwrap_or(own));
+    }
+    let Some(Design { answer, .. }) = answers.pop() else { return Ok(own) };
     if arguments.json || !answer.runs.is_empty() {
         // The report begins with them, so at one place they would be read twice.
         if arguments.json || !terminal.is_one {
@@ -196,8 +237,6 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
         let folder = folder.filter(|_| !answer.runs.is_empty());
         emit(&answer, arguments.json, folder, terminal)?;
     }
-    let is_enforced = arguments.enforce && !limits::all_pass(&answer.runs);
-    let own = if is_enforced { Status::LimitNotKept } else { Status::Done };
     Ok(status.unwrap_or(own))
 }
 
@@ -220,7 +259,7 @@ fn print_failures(answer: &Answer, terminal: Terminal) {
 
 fn solve_all(
     scene: Scene,
-    arguments: &RunArguments,
+    (arguments, set): (&RunArguments, &[(String, String)]),
     terminal: Terminal,
 ) -> Result<Answer, RunError> {
     let mut asked: Vec<SolveSettings> = Vec::new();
@@ -241,7 +280,7 @@ fn solve_all(
             Err(error) => failed.push((own.method.name(), CliError::Run(error))),
         }
     }
-    let (changes, plot) = (Changes::of(arguments), arguments.plot);
+    let (changes, plot) = (Changes::of(arguments, set), arguments.plot);
     Ok(Answer { scene, changes, asked, runs, failed, plot })
 }
 
@@ -282,7 +321,7 @@ impl Study for Answer {
             text.blank();
             text.lines(&indented(&chart.text(WIDTH - 4, PLOT_HEIGHT)));
         }
-        for table in measures_tables(self, WIDTH - 2) {
+        for table in measures_tables(&self.side(), WIDTH - 2) {
             text.figures(&table);
         }
         notes(self).iter().for_each(|note| text.labelled("", 0, note));

@@ -23,7 +23,7 @@ pub(super) fn object(answer: &Answer) -> impl Serialize {
     }
 }
 
-fn settings(answer: &Answer, asked: &SolveSettings) -> impl Serialize {
+pub(super) fn settings(answer: &Answer, asked: &SolveSettings) -> impl Serialize {
     let single = asked.accuracy.by_measure.iter().map(|(key, &wish)| (key.as_str(), wish));
     let values = answer.scene.values.iter().map(|value| {
         let unit = value.dimension.and_then(Dimension::named).map(|(_, unit)| unit);

@@ -25,9 +25,9 @@ pub(super) struct Changes {
 
 impl Changes {
     /// Those of a command line.
-    pub(super) fn of(arguments: &RunArguments) -> Self {
+    pub(super) fn of(arguments: &RunArguments, given: &[(String, String)]) -> Self {
         let mut set: Vec<(String, String)> = Vec::new();
-        for (name, text) in &arguments.scene.values.set {
+        for (name, text) in given {
             match set.iter_mut().find(|(known, _)| known == name) {
                 // The last one counts.
                 Some((_, known)) => known.clone_from(text),

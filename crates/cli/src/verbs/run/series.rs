@@ -28,11 +28,14 @@ pub(super) fn curves(report: &RunReport, count: usize) -> RunSeries {
 }
 
 /// The same of several runs with their energies, over the same time.
-pub(super) fn curves_and_energies(reports: &[RunReport], count: usize) -> Vec<RunSeries> {
-    let windows = reports.iter().map(|report| excerpt(&report.solution()));
+pub(super) fn curves_and_energies<'r>(
+    reports: impl Iterator<Item = &'r RunReport> + Clone,
+    count: usize,
+) -> Vec<RunSeries> {
+    let windows = reports.clone().map(|report| excerpt(&report.solution()));
     let window = windows.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
     let window = window.unwrap_or_default();
-    reports.iter().map(|report| with_energies(report, window, count)).collect()
+    reports.map(|report| with_energies(report, window, count)).collect()
 }
 
 fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSeries {
@@ -69,7 +72,8 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
         velocity: values(own.velocity),
     });
     RunSeries {
-        method: report.solver.method.to_owned(),
+        name: report.solver.method.to_owned(),
+        is_design: false,
         elements,
         nodes: nodes.collect(),
         energy: Vec::new(),

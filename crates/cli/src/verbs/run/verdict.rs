@@ -48,7 +48,7 @@ pub(super) struct Line {
 /// What a person wants to know first, from the most accurate run.
 pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
     let Some(run) = answer.best() else { return Vec::new() };
-    let words = Words { answer, run, zeros: Zeros::of(&answer.runs) };
+    let words = Words { answer, run, zeros: Zeros::of(answer.runs.iter()) };
     let found = Verdict::of(run);
     let peak_force = || found.peak_force.map(|peak| words.peak(peak, " in "));
     let [force, of_it] = match found.whole_force {

@@ -1,0 +1,301 @@
+//! Designs side by side: several scenes, and a scene with other values.
+
+use std::path::Path;
+
+use dashpot_analysis::{Judged, Judgement, Limit, RunReport};
+use dashpot_plot::{
+    Report, ReportFigure, RunSeries, Table,
+    figures::{FIGURES, FORCE_TIME},
+};
+use dashpot_scene::Scene;
+use serde::Serialize;
+
+use super::{
+    Answer, LABELS, PLOT_HEIGHT, PLOT_POINTS, RunArguments, files, limits,
+    measures::{Column, Side, measures_table, measures_tables},
+    object::settings,
+    series::{curves, curves_and_energies},
+    verdict::Line,
+};
+use crate::{
+    args::When,
+    error::CliError,
+    folder::Staged,
+    input::title,
+    numbers::{bound, duration},
+    operand::read_scene,
+    output::{Study, Text, VERSION, list, object},
+    terminal::{Terminal, WIDTH},
+    text::indented,
+};
+
+/// Points of a curve in a figure.
+const POINTS: usize = 4001;
+
+/// A scene that is to be solved, and what sets it apart.
+pub(super) struct Named {
+    /// What it is called beside others.
+    pub(super) name: String,
+    pub(super) scene: Scene,
+    /// The values that the command line sets.
+    pub(super) set: Vec<(String, String)>,
+}
+
+/// All scenes that the command line names, each as it is and with the values of each variant.
+pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec<Named>, CliError> {
+    let paths: Vec<Option<&Path>> = match &arguments.scenes[..] {
+        [] => vec![None],
+        given => given.iter().map(|path| Some(path.as_path())).collect(),
+    };
+    let names = named(&paths);
+    let mut all = Vec::new();
+    for (path, name) in paths.iter().zip(names) {
+        let mut add = |name: String, set: Vec<(String, String)>| -> Result<(), CliError> {
+            let mut scene = read_scene(*path, &set, terminal)?;
+            scene.limits.extend(arguments.limits.all());
+            all.push(Named { name, scene, set });
+            Ok(())
+        };
+        add(name.clone(), arguments.values.set.clone())?;
+        for variant in &arguments.variant {
+            let name = match paths.len() {
+                1 => variant.text.clone(),
+                _ => format!("{name}, {}", variant.text),
+            };
+            add(name, [&arguments.values.set[..], &variant.set].concat())?;
+        }
+    }
+    Ok(all)
+}
+
+/// The names of files without their ending, or whole where these are not told apart by that.
+fn named(paths: &[Option<&Path>]) -> Vec<String> {
+    let stem = |path: Option<&Path>| {
+        let stem = path.and_then(Path::file_stem).map(|own| own.to_string_lossy().into_owned());
+        stem.unwrap_or_else(|| "reference".to_owned())
+    };
+    let stems: Vec<String> = paths.iter().copied().map(stem).collect();
+    let is_one = |at: usize| stems.iter().filter(|own| **own == stems[at]).count() == 1;
+    let whole = |at: usize| paths[at].map_or_else(String::new, |own| own.display().to_string());
+    (0..paths.len()).map(|at| if is_one(at) { stems[at].clone() } else { whole(at) }).collect()
+}
+
+/// A design and what became of it.
+pub(super) struct Design {
+    pub(super) name: String,
+    pub(super) answer: Answer,
+}
+
+/// Designs side by side, each by its best run.
+pub(super) struct Designs {
+    pub(super) designs: Vec<Design>,
+    pub(super) plot: When,
+}
+
+impl Designs {
+    /// Whether any has a run that went well.
+    pub(super) fn is_solved(&self) -> bool {
+        self.best().next().is_some()
+    }
+
+    fn best(&self) -> impl Iterator<Item = (&Design, &RunReport)> + Clone {
+        self.designs.iter().filter_map(|own| Some((own, own.answer.best()?)))
+    }
+
+    fn side(&self) -> Side<'_> {
+        let columns = self.best().map(|(own, run)| Column { name: &own.name, run }).collect();
+        Side { columns, differences: None }
+    }
+
+    fn as_designs(&self, series: Vec<RunSeries>) -> Vec<RunSeries> {
+        let names = self.best().map(|(own, _)| own.name.clone());
+        let named = series.into_iter().zip(names);
+        named.map(|(own, name)| RunSeries { name, is_design: true, ..own }).collect()
+    }
+
+    /// Of each design whether it keeps its limits; none where there is no limit.
+    fn verdicts(&self) -> Vec<Line> {
+        let line = |(own, run): (&Design, &RunReport)| {
+            let judged = run.judged();
+            let worst = judged.iter().filter(|own| own.judgement != Judgement::Pass);
+            let worst = worst.min_by(|one, other| {
+                let margin = |own: &Judged<'_>| own.margin().unwrap_or(f64::NEG_INFINITY);
+                margin(one).total_cmp(&margin(other))
+            });
+            let count =
+                |which: Judgement| judged.iter().filter(|own| own.judgement == which).count();
+            let [fail, open] = [Judgement::Fail, Judgement::Undecided].map(count);
+            let of = judged.len();
+            let kept = match of - fail - open {
+                kept if kept == of => "keeps all its limits".to_owned(),
+                kept => format!("keeps {kept} of {of} limits"),
+            };
+            let open = match open {
+                0 => String::new(),
+                open => format!(", {open} undecided"),
+            };
+            let worst =
+                worst.map_or(String::new(), |own| format!("; the worst is {}", own.limit.key));
+            let label = match (fail, open.is_empty()) {
+                (0, true) => "PASS",
+                (0, false) => "UNDECIDED",
+                _ => "FAIL",
+            };
+            let text = format!("{} {kept}{open}{worst}", own.name);
+            (of > 0).then_some(Line { label, text })
+        };
+        self.best().filter_map(line).collect()
+    }
+
+    /// What is said of each limit of any design.
+    fn limits(&self) -> Table {
+        let mut all: Vec<&Limit> = Vec::new();
+        for limit in self.best().flat_map(|(_, run)| &run.limits) {
+            if !all.contains(&limit) {
+                all.push(limit);
+            }
+        }
+        let row = |limit: &&Limit| {
+            let cell = |(_, run): (&Design, &RunReport)| {
+                let judged = run.judged().into_iter().find(|own| own.limit == *limit);
+                judged.map_or(String::new(), |own| limits::short(&own))
+            };
+            let kind = self.best().find_map(|(_, run)| run.measure(&limit.key));
+            let name = format!("{} {}", limit.key, limits::stated(limit, kind));
+            [name].into_iter().chain(self.best().map(cell)).collect()
+        };
+        Table {
+            caption: "Limits".to_owned(),
+            header: self.header("limit"),
+            rows: list(all.iter().map(row)),
+        }
+    }
+
+    fn header(&self, first: &str) -> Vec<String> {
+        let names = self.best().map(|(own, _)| own.name.clone());
+        [first.to_owned()].into_iter().chain(names).collect()
+    }
+
+    /// How each was solved.
+    fn solved(&self) -> Table {
+        let row = |(own, run): (&Design, &RunReport)| {
+            let worst = run.worst_relative_error().filter(|worst| worst.is_finite());
+            vec![
+                own.name.clone(),
+                run.solver.method.to_owned(),
+                worst.map_or("not known".to_owned(), |worst| format!("±{}", bound(worst))),
+                duration(run.solver.wall_in_all),
+                title(&own.answer.scene).to_owned(),
+            ]
+        };
+        let header = ["design", "method", "largest error", "time", "scene"];
+        Table::new("Solved", &header, self.best().map(row))
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let of = |own: &Design| {
+            let failed = own.answer.failed.iter();
+            let failed = list(failed.map(|(method, error)| format!("{method} failed: {error}")));
+            let all = failed.into_iter().chain(own.answer.new_warnings());
+            list(all.map(|text| format!("{}: {text}", own.name)))
+        };
+        self.designs.iter().flat_map(of).collect()
+    }
+}
+
+impl Study for Designs {
+    fn text(&self, text: &mut Text) {
+        text.warnings(&self.warnings());
+        text.title(&format!("{} designs side by side", self.designs.len()));
+        text.blank();
+        for line in self.verdicts() {
+            text.labelled(line.label, LABELS, &line.text);
+        }
+        let limits = self.limits();
+        for row in &limits.rows {
+            text.labelled("limit", LABELS, &row[0]);
+            for (name, cell) in limits.header.iter().zip(row).skip(1) {
+                text.labelled("", LABELS, &format!("{name}: {cell}"));
+            }
+        }
+        if text.is_plotted(self.plot) {
+            let series = self.best().map(|(_, run)| curves(run, PLOT_POINTS)).collect();
+            let chart = FORCE_TIME.chart(&self.as_designs(series));
+            text.blank();
+            text.lines(&indented(&chart.text(WIDTH - 4, PLOT_HEIGHT)));
+        }
+        for table in measures_tables(&self.side(), WIDTH - 2) {
+            text.figures(&table);
+        }
+        text.figures(&self.solved());
+    }
+
+    fn notes(&self) -> Vec<String> {
+        self.warnings()
+    }
+
+    /// One entry for each design and method, each with its scene.
+    fn object(&self) -> impl Serialize {
+        let run = |own: &Design, run: &RunReport| {
+            serde_json::to_value(run).map(|mut value| {
+                if let Some(object) = value.as_object_mut() {
+                    let scene = &own.answer.scene;
+                    let named = serde_json::json!({
+                        "name": own.name, "title": scene.title, "file": scene.file,
+                        "values": own.answer.changes.set,
+                    });
+                    object.insert("scene".to_owned(), named);
+                }
+                value
+            })
+        };
+        let runs =
+            self.designs.iter().flat_map(|own| own.answer.runs.iter().map(move |of| (own, of)));
+        object! {
+            dashpot: VERSION,
+            settings: self.designs.first().and_then(|own| {
+                own.answer.asked.first().map(|asked| settings(&own.answer, asked))
+            }),
+            runs: list(runs.filter_map(|(own, of)| run(own, of).ok())),
+            failed: list(self.designs.iter().flat_map(|own| own.answer.failed.iter().map(|failed| object! {
+                scene: &own.name, method: failed.0, error: failed.1.to_string(),
+            }))),
+        }
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        let series = self.as_designs(curves_and_energies(self.best().map(|own| own.1), POINTS));
+        let mut figures = Vec::new();
+        for figure in FIGURES {
+            let chart = figure.chart(&series);
+            if chart.series.is_empty() {
+                continue;
+            }
+            let svg = chart.svg()?;
+            files.add(format!("{}.svg", figure.name), &svg)?;
+            figures.push(ReportFigure { caption: String::new(), svg });
+        }
+        let page = Report {
+            title: format!("{} designs side by side", self.designs.len()),
+            warnings: self.warnings(),
+            verdict: list(
+                self.verdicts().into_iter().map(|line| format!("{}: {}", line.label, line.text)),
+            ),
+            tables: list(
+                [self.limits(), measures_table(&self.side())]
+                    .into_iter()
+                    .filter(|table| !table.rows.is_empty()),
+            ),
+            figures,
+            details: vec![self.solved()],
+            ..Report::default()
+        };
+        files.add(files::PAGE, page.html())?;
+        for (at, (own, run)) in self.best().enumerate() {
+            let times = files::sample_times(run, &own.answer.scene.run);
+            files
+                .add_with(format!("{}.csv", at + 1), |out| files::write_table(run, &times, out))?;
+        }
+        Ok(())
+    }
+}

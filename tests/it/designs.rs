@@ -1,0 +1,95 @@
+//! Designs side by side: several scenes, and a scene with other values.
+
+use std::fs;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::cli::{code, err, file, json, out, run};
+
+/// A mass of 4 kg at 5 m/s on a spring of `stiffness`: the peak force is 5 √(4 K).
+fn scene(title: &str, stiffness: &str) -> String {
+    format!(
+        "title = \"{title}\"\n[values]\nK = \"{stiffness}\"\n[nodes]\n\
+         head = {{ mass = \"4 kg\", energy = \"50 J\" }}\n[elements]\n\
+         pad = {{ between = [\"head\", \"ground\"], spring = \"K\", thickness = \"8 cm\" }}\n\
+         [limits]\npad.peak-force = \"2 kN\"\n[run]\nduration = \"100 ms\"\n"
+    )
+}
+
+fn written() -> (TempDir, [String; 2]) {
+    let folder = TempDir::new().unwrap();
+    let paths = [("soft", "25 kN/m"), ("stiff", "64 kN/m")].map(|(name, stiffness)| {
+        let path = file(&folder, &format!("{name}.toml"), &scene(name, stiffness));
+        path.to_str().unwrap().to_owned()
+    });
+    (folder, paths)
+}
+
+fn words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn scenes_stand_side_by_side_each_with_its_verdict() {
+    let (folder, [soft, stiff]) = written();
+    let results = folder.path().join("results");
+    let output = run(&["run", &soft, &stiff, "--out", results.to_str().unwrap()]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let text = words(&out(&output));
+    // 5 √(4 · 25 000) and 5 √(4 · 64 000) newtons.
+    for told in [
+        "2 designs side by side PASS soft keeps all its limits FAIL stiff keeps 0 of 1 limits; the worst is \
+         pad.peak-force",
+        "soft: pass, 1.581 kN, margin 21 %",
+        "stiff: FAIL, 2.530 kN, margin −26 %",
+        "measure soft stiff unit pad.peak-force 1.581139 2.529822 kN",
+    ] {
+        assert!(text.contains(told), "no {told:?} in {text}");
+    }
+    let page = fs::read_to_string(results.join("report.html")).unwrap();
+    assert!(page.contains("2 designs side by side") && page.contains("FAIL: stiff keeps"));
+    let figure = fs::read_to_string(results.join("acceleration-time.svg")).unwrap();
+    assert!(figure.contains("soft") && figure.contains("stiff"));
+    let rows = |name: &str| fs::read_to_string(results.join(name)).unwrap().lines().count();
+    assert_eq!((rows("1.csv"), rows("2.csv")), (502, 502));
+}
+
+#[test]
+fn variants_are_designs_besides_the_scene_as_it_is() {
+    let (_folder, [soft, stiff]) = written();
+    let told = |more: &[&str]| words(&out(&run(&[&["run"], more].concat())));
+    let of_one = told(&[&soft, "--variant", "K=36 kN/m", "--variant", "K=49 kN/m"]);
+    let row = "measure soft K=36 kN/m K=49 kN/m unit pad.peak-force 1.581139 1.897367 2.213594 kN";
+    assert!(of_one.contains(row), "{of_one}");
+    let of_two = json(&["run", &soft, &stiff, "--variant", "K=36 kN/m", "--json"]);
+    let runs = of_two["runs"].as_array().unwrap();
+    let names: Vec<&Value> = runs.iter().map(|run| &run["scene"]["name"]).collect();
+    assert_eq!(names, ["soft", "soft, K=36 kN/m", "stiff", "stiff, K=36 kN/m"]);
+    let peaks = runs.iter().map(|run| run["measures"]["pad.peak-force"]["value"].as_f64().unwrap());
+    let peaks: Vec<f64> = peaks.collect();
+    assert!((peaks[1] - peaks[3]).abs() < 1e-9 * peaks[1], "{peaks:?}");
+    // Alone, a design says what a run of it says.
+    let alone = json(&["run", &stiff, "--json"]);
+    for key in ["measures", "limits", "energy"] {
+        assert_eq!(runs[2][key], alone["runs"][0][key]);
+    }
+}
+
+#[test]
+fn a_limit_of_one_design_that_is_not_kept_fails_all_where_it_is_enforced() {
+    let (_folder, [soft, stiff]) = written();
+    assert_eq!(code(&run(&["run", &soft, "--variant", "K=36 kN/m", "--enforce"])), 0);
+    assert_eq!(code(&run(&["run", &soft, &stiff, "--enforce"])), 4);
+}
+
+#[test]
+fn a_design_that_cannot_be_read_is_told_by_its_file() {
+    let (_folder, [soft, _]) = written();
+    let output = run(&["run", &soft, "nowhere.toml"]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("`nowhere.toml` cannot be read"), "{}", err(&output));
+    let output = run(&["run", &soft, "--variant", "L=3"]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains('L'), "{}", err(&output));
+}
