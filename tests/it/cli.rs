@@ -508,8 +508,8 @@ fn wrong_input_ends_with_two_and_says_what_to_do() {
         (&["run", "--set", "K=80", "kN/m"], "\"K=25 kN/m\""),
         (&["groups", "reference", "--lab", "drop=2 cm"], "`speed` is that at the end of the drop"),
         (
-            &["vibrate", "reference", "--drive", "ground", "--at", "9 Hz", "--amplitude", "0.7 g"],
-            "\"0.7 g0\"; `g` is the gram",
+            &["vibrate", "reference", "--drive", "ground", "--at", "9 Hz", "--amplitude", "0.7 kg"],
+            "such as \"1 mm\" or \"0.5 g\"",
         ),
         (&["fly"], "unrecognized subcommand"),
     ];

@@ -72,7 +72,7 @@ pub(crate) fn title(scene: &Scene) -> &str {
 /// The value of a setting of this name, in SI units.
 pub(crate) fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64, CliError> {
     let wrong = |reason: String| CliError::WrongSetting { name: name.to_owned(), reason };
-    let found = parse_quantity(text).map_err(|error| wrong(error.to_string()))?;
+    let found = parse_quantity(text).map_err(|error| wrong(error.to_string()))?.meant(expected);
     match found.dimension {
         Some(own) if own != expected => {
             let unit = |dimension: Dimension| dimension.named().map_or("another unit", |own| own.1);

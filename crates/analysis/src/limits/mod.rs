@@ -4,10 +4,7 @@ pub mod standards;
 
 use dashpot_network::parameters::registered;
 
-use crate::{
-    MeasureWish,
-    measures::{MEASURES, MeasureEntry},
-};
+use crate::measures::{MEASURES, MeasureEntry};
 
 /// A limit on a measure.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,12 +123,6 @@ impl Limit {
     /// The kind of the measure, where its word is known.
     pub fn measure(&self) -> Option<&'static MeasureEntry> {
         registered(MEASURES, self.key.rsplit_once('.')?.1)
-    }
-
-    /// The measure that it asks for, with its parameters as they are by default, where its word is known.
-    pub(crate) fn wish(&self) -> Option<MeasureWish> {
-        let measure = (self.measure()?.about.default)();
-        Some(MeasureWish { target: self.key.rsplit_once('.')?.0.to_owned(), measure })
     }
 }
 

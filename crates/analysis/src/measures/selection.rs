@@ -4,13 +4,13 @@ use std::{collections::HashMap, sync::Arc};
 
 use dashpot_network::{
     Assembly,
-    parameters::{Value, WindowWish},
+    parameters::{Value, WindowWish, registered},
 };
 
 use crate::{
     RunError, SolveSettings,
     impact::contacts,
-    measures::{Family, Measure, by_default, of_layers},
+    measures::{Family, MEASURES, Measure, by_default, of_layers},
     memory::is_large,
 };
 
@@ -54,7 +54,7 @@ pub(crate) fn select(
         if selected.iter().any(|own| own.key == limit.key) {
             continue;
         }
-        let Some(wish) = limit.wish() else {
+        let Some(wish) = wish(&limit.key) else {
             let known = selected.into_iter().map(|own| own.key).collect();
             return Err(RunError::UnknownMeasure { key: limit.key.clone(), known });
         };
@@ -63,6 +63,13 @@ pub(crate) fn select(
         selected.push(Selected { key, name, target, measure: wish.measure });
     }
     Ok(selected)
+}
+
+/// The measure that a key asks for, with its parameters as they are by default, where its word is known.
+pub(crate) fn wish(key: &str) -> Option<MeasureWish> {
+    let (target, word) = key.rsplit_once('.')?;
+    let measure = registered(MEASURES, word).map(|own| (own.about.default)())?;
+    Some(MeasureWish { target: target.to_owned(), measure })
 }
 
 fn select_wished(assembly: &Assembly, wishes: &[MeasureWish]) -> Result<Vec<Selected>, RunError> {

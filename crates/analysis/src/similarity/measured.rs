@@ -5,7 +5,8 @@ use dashpot_network::{Network, parameters::Dimension};
 use super::{Scale, Similarity, groups::with_value, scale::similar_measure};
 use crate::{
     MeasureReport, MeasureWish, RunError, RunReport, Solve, SolveSettings, Stop,
-    measures::selection::select, report::over,
+    measures::selection::{select, wish},
+    report::over,
 };
 
 /// Differences below this part of a measure's size are those of rounding.
@@ -66,7 +67,7 @@ pub fn similar_settings(settings: &SolveSettings, scale: &Scale) -> (SolveSettin
     }
     let mut limits = Vec::new();
     for limit in &settings.limits {
-        let own = limit.wish().and_then(|wish| similar_measure(wish.measure.as_ref(), scale));
+        let own = wish(&limit.key).and_then(|wish| similar_measure(wish.measure.as_ref(), scale));
         match own {
             Some(measure) => limits.push(limit.scaled(scale.of_measure(measure.as_ref()))),
             None => left_out.push(limit.key.clone()),

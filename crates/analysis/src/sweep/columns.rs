@@ -9,7 +9,7 @@ use crate::{
     MeasureWish, RunError,
     measures::{
         Family, MEASURES, Measure, PeakDeformation,
-        selection::{Selected, select},
+        selection::{Selected, select, wish},
     },
 };
 
@@ -75,10 +75,4 @@ pub fn columns(
         columns.push(Column { key, unit: "1", is_share: true });
     }
     Ok((columns, wishes))
-}
-
-/// The measure that a key is of, where its word is known.
-fn wish(key: &str) -> Option<MeasureWish> {
-    let (target, word) = key.rsplit_once('.')?;
-    Some(MeasureWish { target: target.to_owned(), measure: measure_named(word)? })
 }

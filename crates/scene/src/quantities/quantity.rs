@@ -152,7 +152,8 @@ impl<'d> Quantities<'d> {
             Content::Text(text) => match self.values.get(text.trim()) {
                 Some(known) => {
                     known.is_used.set(true);
-                    known.quantity?
+                    // Where a value is named, nothing tells that `g` is not the gram.
+                    Quantity { is_gram: false, ..known.quantity? }
                 }
                 None => self.parsed(text, item.place, expected)?,
             },
@@ -297,11 +298,15 @@ impl<'d> Quantities<'d> {
         let expected = self.basis.dimension(in_model);
         let quantity = quantity.meant(expected);
         let found = quantity.dimension.unwrap_or(expected);
+        let is_named = self.values.contains_key(item.text().map_or("", str::trim));
         let shown = || self.shown(item);
         if found != expected {
             let fault = Fault::WrongDimension { text: shown(), found, expected };
             let fault = match found {
                 Dimension::ACCELERATION if self.is_motion => fault.with_help(MOTION_HELP),
+                Dimension::MASS if expected == Dimension::ACCELERATION && is_named => {
+                    fault.with_help("in [values] `g` is the gram: write `g0` there")
+                }
                 Dimension::VELOCITY if self.is_motion => {
                     fault.with_help("a motion is a displacement: integrate the velocity")
                 }

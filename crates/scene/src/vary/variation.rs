@@ -155,6 +155,15 @@ impl Variation {
         }
     }
 
+    /// Takes its values for what they are where this dimension is wanted.
+    pub(crate) fn settle(&mut self, wanted: Dimension) {
+        for at in 0..self.len() {
+            let Ok(quantity) = parse_quantity(&self.text(at)) else { continue };
+            let quantity = quantity.meant(wanted);
+            (self.values[at], self.dimension) = (quantity.value, quantity.dimension);
+        }
+    }
+
     /// How many values there are.
     #[expect(clippy::len_without_is_empty, reason = "there is one at least")]
     pub fn len(&self) -> usize {

@@ -19,7 +19,7 @@ use super::{
 };
 use crate::{
     args::When,
-    error::CliError,
+    error::{CliError, is_unit},
     folder::Staged,
     input::title,
     numbers::{bound, duration},
@@ -47,6 +47,11 @@ pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec
         [] => vec![None],
         given => given.iter().map(|path| Some(path.as_path())).collect(),
     };
+    // What a blank before a unit has divided is told first.
+    let is_divided = |path: &&Path| is_unit(&path.to_string_lossy()) && !path.exists();
+    if let Some(unit) = paths.iter().flatten().copied().find(is_divided) {
+        read_scene(Some(unit), &[], terminal)?;
+    }
     let names = named(&paths);
     let mut all = Vec::new();
     for (path, name) in paths.iter().zip(names) {

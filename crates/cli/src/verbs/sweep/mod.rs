@@ -115,9 +115,9 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
     let tunables = Tunables::of(input.text()?, Some(&input.file)).map_err(CliError::Scene)?;
-    let variations: Vec<Variation> =
+    let mut variations: Vec<Variation> =
         arguments.vary.iter().map(|own| Variation::parse(own)).collect::<Result<_, _>>()?;
-    let matched = tunables.matched(&variations)?;
+    let matched = tunables.matched(&mut variations)?;
     if let Some((name, _)) = set.iter().find(|own| is_varied(&tunables, &matched, &own.0)) {
         return Err(CliError::SetAndVaried { name: name.clone() });
     }

@@ -134,6 +134,8 @@ fn amplitude(vibration: &Vibration, frequency: f64, text: &str) -> Result<f64, C
     let drive = vibration.drive();
     let wrong = |reason: String| CliError::WrongAmplitude { drive: drive.name.clone(), reason };
     let quantity = parse_quantity(text).map_err(|error| wrong(error.to_string()))?;
+    // Only a motion has an acceleration for its amplitude.
+    let quantity = quantity.meant(Dimension::ACCELERATION);
     let omega = TAU * frequency;
     let value = match (drive.kind, quantity.dimension) {
         (DriveKind::Motion, None | Some(Dimension::LENGTH))
@@ -141,12 +143,7 @@ fn amplitude(vibration: &Vibration, frequency: f64, text: &str) -> Result<f64, C
         (DriveKind::Motion, Some(Dimension::ACCELERATION)) => quantity.value / (omega * omega),
         (DriveKind::Motion, Some(_)) => {
             let wanted = "a displacement or an acceleration is wanted, such as \"1 mm\" or";
-            let grams = text.trim().strip_suffix('g').map(str::trim);
-            let grams = grams.filter(|number| number.parse::<f64>().is_ok());
-            let number = grams.unwrap_or("0.5");
-            let gram = "; `g` is the gram, the acceleration of gravity is `g0`";
-            let gram = if grams.is_some() { gram } else { "" };
-            return Err(wrong(format!("{wanted} \"{number} g0\"{gram}")));
+            return Err(wrong(format!("{wanted} \"0.5 g\"")));
         }
         (DriveKind::Load, Some(_)) => {
             return Err(wrong("a force is wanted, such as \"10 N\"".to_owned()));

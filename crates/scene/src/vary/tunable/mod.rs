@@ -91,7 +91,10 @@ impl Tunables {
     fn with(text: Arc<str>, found: Found) -> Self {
         let mut own = Self { text, all: Vec::new(), paths: Vec::new() };
         for (path, span, content) in found.numbers {
-            let Ok(quantity) = parse_quantity(&content) else { continue };
+            let Ok(mut quantity) = parse_quantity(&content) else { continue };
+            if is_acceleration(&path) {
+                quantity = quantity.meant(Dimension::ACCELERATION);
+            }
             own.paths.push((path.clone(), own.all.len()));
             own.all.push(Tunable {
                 path: path.join("."),
@@ -177,16 +180,20 @@ impl Tunables {
         only.map(|at| self.all[at].name.clone())
     }
 
-    /// The number that each variation is of.
+    /// The number that each variation is of; in accelerations `g` is standard gravity from then on.
     ///
     /// # Errors
     ///
     /// A name that leads to none or several, values of another dimension than the number in the text,
     /// bare ones where that has a unit other than that of SI, and two variations of one number.
-    pub fn matched(&self, variations: &[Variation]) -> Result<Vec<usize>, TunableFault> {
+    pub fn matched(&self, variations: &mut [Variation]) -> Result<Vec<usize>, TunableFault> {
         let mut found: Vec<usize> = Vec::with_capacity(variations.len());
-        for variation in variations {
-            let at = self.find(&variation.name)?;
+        for place in 0..variations.len() {
+            let at = self.find(&variations[place].name)?;
+            if let Some(wanted) = self.all[at].dimension {
+                variations[place].settle(wanted);
+            }
+            let variation = &variations[place];
             if let (Some(given), Some(wanted)) = (variation.dimension, self.all[at].dimension)
                 && given != wanted
             {
@@ -300,6 +307,12 @@ fn holds(path: &[String], wanted: &[&str]) -> bool {
         }
     }
     true
+}
+
+/// Whether a number in a text can but be an acceleration, in which `g` is standard gravity.
+fn is_acceleration(path: &[String]) -> bool {
+    let path: Vec<&str> = path.iter().map(String::as_str).collect();
+    matches!(path[..], ["effects", "gravity", "value"] | ["nodes", _, "acceleration", ..])
 }
 
 /// Adds all that stands in an item. Members of a list go by their names, or by their numbers from 1.

@@ -90,9 +90,9 @@ fn the_text_is_that_of_the_scene_with_the_value_in_its_place() {
 fn variations_are_held_to_the_dimension_of_the_number() {
     let own = tunables();
     let matched = |texts: &[&str]| {
-        let all: Vec<Variation> =
+        let mut all: Vec<Variation> =
             texts.iter().map(|text| Variation::parse(text).unwrap()).collect();
-        own.matched(&all).map_err(|fault| fault.to_string())
+        own.matched(&mut all).map_err(|fault| fault.to_string())
     };
     assert!(matched(&["K2=5..30 MN/m", "head.mass=1..2"]).is_ok());
     let fault = matched(&["K2=5..30 mm"]).unwrap_err();
@@ -103,10 +103,22 @@ fn variations_are_held_to_the_dimension_of_the_number() {
         "`padding.thickness=20..40` has no unit: a bare number is in m, and the scene says 2 cm"
     );
     let bare = Variation::parse("padding.thickness=20..40,5,log").unwrap();
-    let help = own.matched(&[bare]).unwrap_err().help();
+    let help = own.matched(&mut [bare]).unwrap_err().help();
     let expected = "write \"padding.thickness=20..40 cm\", or with `m` if that is meant";
     assert_eq!(help.as_deref(), Some(expected));
     assert!(matched(&["padding.parallel.dashpot=1..2"]).is_ok(), "bare in the scene");
     let fault = matched(&["K2=5..30 MN/m", "values.K2=1..2 MN/m"]).unwrap_err();
     assert!(fault.contains("are the same number"), "{fault}");
+}
+
+#[test]
+fn g_is_standard_gravity_where_an_acceleration_varies() {
+    let text = "[effects]\ngravity = { value = \"1 g\" }\n[nodes]\nhead = { mass = \"20 g\" }\n";
+    let own = Tunables::of(text, None).unwrap();
+    let mut all = ["gravity.value=1..3 g,3", "head.mass=10..30 g,3"]
+        .map(|own| Variation::parse(own).unwrap());
+    let found = own.matched(&mut all).unwrap();
+    assert!((own.all()[found[0]].value - 9.80665).abs() < 1e-12);
+    assert!((all[0].values[1] - 19.6133).abs() < 1e-12, "{:?}", all[0].values);
+    assert!((all[1].values[1] - 0.02).abs() < 1e-15, "{:?}", all[1].values);
 }
