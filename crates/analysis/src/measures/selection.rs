@@ -8,7 +8,7 @@ use dashpot_network::{
 };
 
 use crate::{
-    RunError, SolveSettings,
+    Limit, RunError,
     impact::contacts,
     measures::{Family, MEASURES, Measure, by_default, of_layers},
     memory::is_large,
@@ -47,10 +47,11 @@ pub(crate) struct Selected {
 /// looks at the same part of the run.
 pub(crate) fn select(
     assembly: &Assembly,
-    settings: &SolveSettings,
+    wishes: &[MeasureWish],
+    limits: &[Limit],
 ) -> Result<Vec<Selected>, RunError> {
-    let mut selected = select_wished(assembly, &settings.measures)?;
-    for limit in &settings.limits {
+    let mut selected = select_wished(assembly, wishes)?;
+    for limit in limits {
         if selected.iter().any(|own| own.key == limit.key) {
             continue;
         }

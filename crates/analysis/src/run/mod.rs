@@ -37,7 +37,7 @@ pub fn solve_assembly(
     let started = Instant::now();
     settings.validate()?;
     memory::foresee(assembly)?;
-    let selected = select(assembly, settings)?;
+    let selected = select(assembly, &settings.measures, &settings.limits)?;
     check_keys(settings, &selected)?;
     let run = Run {
         t_end: settings.duration,
@@ -101,7 +101,7 @@ pub fn reported_measures(
     settings: &SolveSettings,
 ) -> Result<Vec<String>, RunError> {
     settings.validate()?;
-    let selected = select(assembly, settings)?;
+    let selected = select(assembly, &settings.measures, &settings.limits)?;
     check_keys(settings, &selected)?;
     guards(assembly, settings)?;
     Ok(selected.into_iter().map(|entry| entry.key).collect())
@@ -117,7 +117,7 @@ pub fn undefined_measures(
     assembly: &Assembly,
     settings: &SolveSettings,
 ) -> Result<Vec<(String, Note)>, RunError> {
-    let selected = select(assembly, settings)?;
+    let selected = select(assembly, &settings.measures, &settings.limits)?;
     let undefined = selected.into_iter().filter_map(|own| {
         own.measure.needs().lacking(assembly, own.target).map(|why| (own.key, why))
     });

@@ -165,7 +165,7 @@ fn side_by_side(
     scale: &Scale,
     settings: &SolveSettings,
 ) -> Result<Vec<Measured>, RunError> {
-    let kinds = select(&one.assembly, settings)?;
+    let kinds = select(&one.assembly, &settings.measures, &settings.limits)?;
     let (all, by_key) = (&other.measures, other.by_key());
     let wished = kinds.iter().zip(&one.measures);
     let pairs = wished.enumerate().filter_map(|(at, (selected, own))| {

@@ -31,7 +31,7 @@ pub fn columns(
 ) -> Result<(Vec<Column>, Vec<MeasureWish>), SweepError> {
     let assembly = scene.network.compile(scene.settings.duration).map_err(RunError::from)?;
     let mut settings = scene.settings.clone();
-    let reported = select(&assembly, &settings)?;
+    let reported = select(&assembly, &settings.measures, &settings.limits)?;
     for key in keys.iter().filter(|key| !reported.iter().any(|own| own.key == **key)) {
         let Some(wish) = wish(key) else {
             return Err(SweepError::NoMeasure {
@@ -41,7 +41,7 @@ pub fn columns(
         };
         settings.measures.push(wish);
     }
-    let selected = select(&assembly, &settings)?;
+    let selected = select(&assembly, &settings.measures, &settings.limits)?;
     let is_limited = |key: &String| settings.limits.iter().any(|own| own.key == *key);
     let is_wanted =
         |own: &&Selected| keys.is_empty() || keys.contains(&own.key) || is_limited(&own.key);

@@ -83,7 +83,7 @@ impl<'g> Plan<'g> {
         if assembly.connections.iter().enumerate().any(is_other) {
             return None;
         }
-        let selected = select(&assembly, settings).ok()?;
+        let selected = select(&assembly, &settings.measures, &settings.limits).ok()?;
         let mut wanted = Wanted::default();
         let mut shown = Vec::with_capacity(columns.len());
         for column in columns {

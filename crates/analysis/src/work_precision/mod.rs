@@ -126,7 +126,7 @@ pub fn work_precision_assembly(
     check(ladder)?;
     let first = choice(assembly, settings.duration).0;
     let count = chosen(ladder, first)?.len();
-    let selected = select(assembly, settings)?;
+    let selected = select(assembly, &settings.measures, &settings.limits)?;
     let asked = asked(ladder, &selected)?;
     let total = reference::PARTS + count * ladder.rtols.len();
     let mut watch = Watch::new(observer, settings.duration, total, ladder.most_work);

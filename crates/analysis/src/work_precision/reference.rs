@@ -100,7 +100,7 @@ impl<'a> Judge<'a> {
             (Err(error), None) if !is_final(&error) => None,
             (Err(error), _) => return Err(error),
         };
-        let probe = Probe::new(assembly, &select(assembly, settings)?);
+        let probe = Probe::new(assembly, &select(assembly, &settings.measures, &settings.limits)?);
         let events = timed_events(&report);
         let times: Vec<f64> = events.iter().map(|event| event.time).collect();
         let states = probe.states(&report.trajectory, &times);

@@ -78,7 +78,7 @@ fn by_faulty(factor: f64) -> Result<RunReport, RunError> {
     let settings = SolveSettings::lasting(0.02);
     let assembly = Arc::new(struck(2e3).compile(settings.duration).unwrap());
     let run = Run::to(settings.duration);
-    let selected = select(&assembly, &SolveSettings::lasting(1.0)).unwrap();
+    let selected = select(&assembly, &[], &[]).unwrap();
     let dashpot =
         assembly.primitives.iter().find(|primitive| primitive.element.kind() == "dashpot").unwrap();
     let faulty = Faulty { output: dashpot.force, factor };
