@@ -322,3 +322,73 @@ fn three_parameters_have_no_figure_and_many_lines_are_thinned() {
     let lines = std::fs::read_to_string(folder.path().join("axis/padding.peak-force.svg")).unwrap();
     assert!(lines.contains("padding.maxwell.spring (MN/m)"), "{lines}");
 }
+
+/// A scene on foam or on a spring, with the numbers that a table gives other values.
+fn listed_scene(pad: &str) -> String {
+    format!(
+        "[values]\nK = \"25 kN/m\"\n[nodes]\nhead = {{ mass = \"4 kg\", velocity = \"5 m/s\" }}\n[elements]\n\
+         pad = {{ between = [\"head\", \"ground\"], {pad}, thickness = \"40 mm\" }}\n\
+         [run]\nduration = \"60 ms\"\n"
+    )
+}
+
+#[test]
+fn rows_of_a_table_are_designs_each_as_if_it_were_run_alone() {
+    let folder = TempDir::new().unwrap();
+    let table = "head.velocity [m/s];K [kN/m]\n# a comment\n3;10\n7;80\n\n5;25\n2;200\n";
+    let table = file(&folder, "designs.csv", table);
+    let table = table.to_str().unwrap();
+    let foam = "parallel = [{ spring = \"K\" }, { power-spring = { force = \"1 kN\", at = \"20 mm\", \
+                exponent = 1.5 } }]";
+    for pad in ["spring = \"K\"", foam] {
+        let scene = file(&folder, "scene.toml", &listed_scene(pad));
+        let scene = scene.to_str().unwrap();
+        let found = json(&["sweep", scene, "--points", table, "--json"]);
+        assert_eq!((&found["listed"], &found["points"]), (&true.into(), &4.into()));
+        assert_eq!(found["parameters"][1]["values"], serde_json::json!([1e4, 8e4, 2.5e4, 2e5]));
+        let column = found["measures"].as_array().unwrap().iter();
+        let column = column.clone().find(|own| own["key"] == "pad.peak-force").unwrap();
+        for (at, (velocity, stiffness)) in
+            [("3", "10"), ("7", "80"), ("5", "25"), ("2", "200")].iter().enumerate()
+        {
+            let text = listed_scene(pad).replace("5 m/s", &format!("{velocity} m/s"));
+            let alone = file(&folder, "alone.toml", &text);
+            let set = format!("K={stiffness} kN/m");
+            let alone = json(&["run", alone.to_str().unwrap(), "--set", &set, "--json"]);
+            let right = &alone["runs"][0]["measures"]["pad.peak-force"];
+            let [own, right, error] = [&column["values"][at], &right["value"], &right["error"]]
+                .map(|own| own.as_f64().unwrap());
+            assert!((own - right).abs() <= error + 1e-9 * right, "{own} is not {right}");
+            assert!(column["errors"][at].as_f64().unwrap() > 0.0);
+        }
+        let text = out(&run(&["sweep", scene, "--points", table]));
+        let first = text.lines().nth(1).unwrap();
+        assert!(first.starts_with("3,1e4,") || first.starts_with("3,10000,"), "{first}");
+    }
+}
+
+#[test]
+fn a_table_of_designs_that_does_not_fit_is_refused_with_line_and_column() {
+    let folder = TempDir::new().unwrap();
+    let scene = file(&folder, "scene.toml", &listed_scene("spring = \"K\""));
+    let scene = scene.to_str().unwrap();
+    for (table, told) in [
+        (
+            "K [kN/m],head.velocity [m/s]\n1,2\n1,fast\n",
+            "line 3, column `head.velocity`: `fast` is not a number",
+        ),
+        ("K [mm]\n1\n", "is in m, the value in the scene in N/m"),
+        ("Q [kN/m]\n1\n", "the scene has no number `Q`"),
+        ("K [kN/m],values.K [kN/m]\n1,1\n", "`K` and `values.K`"),
+        ("1,2\n", "names no numbers of the scene"),
+    ] {
+        let path = file(&folder, "designs.csv", table);
+        let output = run(&["sweep", scene, "--points", path.to_str().unwrap()]);
+        assert_eq!(code(&output), 2, "{table:?}: {}", err(&output));
+        let words = err(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(told), "{table:?}: {words}");
+    }
+    let output = run(&["sweep", scene, "--points", "none.csv"]);
+    assert!(err(&output).contains("`none.csv` cannot be read"), "{}", err(&output));
+    assert_eq!(code(&run(&["sweep", scene])), 2);
+}

@@ -15,7 +15,8 @@ use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
 use dashpot_scene::{
-    Diagnostics, TunableFault, Unwritable, VariationFault, suggestion, units::parse_dimension,
+    Diagnostics, ListedFault, TunableFault, Unwritable, VariationFault, suggestion,
+    units::parse_dimension,
 };
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
@@ -47,6 +48,9 @@ pub(crate) enum CliError {
     /// A scene that is not valid.
     #[error("{0}")]
     Scene(Diagnostics),
+    /// A file that is no table of designs.
+    #[error("`{}`: {fault}", .file.display())]
+    Listed { file: PathBuf, fault: Box<ListedFault> },
     /// Limits are to be enforced, and there is none.
     #[error("`--enforce` has no limit to enforce")]
     NoLimits,
@@ -223,6 +227,7 @@ impl CliError {
                 "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`".to_owned(),
             ),
             Self::Variation(fault) => Some(fault.help()),
+            Self::Listed { fault, .. } => Some(fault.help()),
             Self::Tunable(fault) => fault.help(),
             Self::Sweep(SweepError::NoMeasure { key, known })
             | Self::Run(RunError::UnknownMeasure { key, known }) => {

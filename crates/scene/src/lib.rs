@@ -40,6 +40,7 @@ pub use text::library::Loader;
 pub use text::nearest::{nearest, suggestion};
 pub use text::source::Source;
 pub use text::visible::{is_control, visible};
+pub use vary::listed::ListedFault;
 pub use vary::tunable::{Tunable, TunableFault, Tunables};
 pub use vary::variation::{Variation, VariationFault};
 pub use write::rewrite::with_model;

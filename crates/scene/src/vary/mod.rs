@@ -1,4 +1,5 @@
 //! The numbers of a scene that a sweep may give other values.
 
+pub(crate) mod listed;
 pub(crate) mod tunable;
 pub(crate) mod variation;

@@ -7,10 +7,9 @@ use dashpot_analysis::{
     sweep::{Column, SweepReport},
 };
 use dashpot_plot::{Chart, Direction, Map, MapLimit, ReferenceLine, Scale, Series};
-use dashpot_scene::Variation;
 
 use super::{
-    Swept,
+    Swept, Varied,
     words::{self, name, shown},
 };
 use crate::{
@@ -42,8 +41,10 @@ struct Figures {
 }
 
 impl Figures {
-    fn of(variations: &[Variation]) -> Self {
-        match variations {
+    fn of(varied: &Varied) -> Self {
+        match &varied.variations[..] {
+            // Nothing says that rows of a table follow each other.
+            _ if varied.is_listed => Self { lines: false, map: false },
             [_] => Self { lines: true, map: false },
             [first, second] => {
                 let map = first.len() >= LEAST_OF_MAP && second.len() >= LEAST_OF_MAP;
@@ -55,8 +56,8 @@ impl Figures {
 }
 
 /// Why there is no figure, where there is none.
-pub(super) fn undrawn(variations: &[Variation]) -> Option<&'static str> {
-    let figures = Figures::of(variations);
+pub(super) fn undrawn(varied: &Varied) -> Option<&'static str> {
+    let figures = Figures::of(varied);
     let is_drawn = figures.lines || figures.map;
     (!is_drawn).then_some("no figures: lines and maps are drawn over one parameter or two")
 }
@@ -84,8 +85,8 @@ fn stem(column: &Column) -> String {
 }
 
 /// The files that are written besides the result.
-pub(super) fn names(variations: &[Variation], columns: &[Column]) -> Vec<String> {
-    let figures = Figures::of(variations);
+pub(super) fn names(varied: &Varied, columns: &[Column]) -> Vec<String> {
+    let figures = Figures::of(varied);
     let lines = columns.iter().filter(|_| figures.lines).map(line_file);
     let maps = columns.iter().filter(|_| figures.map).map(map_file);
     [TABLE.to_owned()].into_iter().chain(lines).chain(maps).collect()
@@ -94,7 +95,7 @@ pub(super) fn names(variations: &[Variation], columns: &[Column]) -> Vec<String>
 /// Adds all files but the result.
 pub(super) fn write(files: &mut Staged<'_>, swept: &Swept) -> Result<(), CliError> {
     files.add_with(TABLE, |out| table(swept, out))?;
-    let figures = Figures::of(&swept.variations);
+    let figures = Figures::of(&swept.varied);
     for (at, column) in swept.report.columns.iter().enumerate() {
         if figures.lines {
             files.add(line_file(column), lines(swept, at).svg()?)?;
@@ -109,7 +110,7 @@ pub(super) fn write(files: &mut Staged<'_>, swept: &Swept) -> Result<(), CliErro
 /// Writes values and errors at all points, in SI units, what is known of the limits, and the numbers of the
 /// warnings there, as CSV; what is missing is blank.
 pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
-    let Swept { variations, report, .. } = swept;
+    let (variations, report) = (&swept.varied.variations, &swept.report);
     let own = variations.iter().enumerate();
     let own = own.map(|(at, own)| format!("{} [{}]", own.name, swept.unit(at)));
     let found = report.columns.iter().flat_map(|column| {
@@ -126,7 +127,7 @@ pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
     let points = report.values.chunks(width).zip(report.errors.chunks(width));
     let mut warned = list(report.warnings.iter().map(|warning| warning.points.iter().peekable()));
     let rows = points.enumerate().map(|(point, (values, errors))| {
-        let places = swept.grid.places(point).into_iter();
+        let places = swept.varied.places(&swept.grid.places(point)).into_iter();
         let own = places.zip(variations).map(|(place, own)| own.values[place]);
         let both = values.iter().zip(errors).flat_map(|(value, error)| [*value, *error]);
         let raised = warned
@@ -161,7 +162,7 @@ fn label(name: &str, unit: &Unit) -> String {
 
 /// Label, scale and places of a parameter, in the unit of the command line.
 fn axis(swept: &Swept, parameter: usize) -> (String, Scale, Vec<f64>) {
-    let own = &swept.variations[parameter];
+    let own = &swept.varied.variations[parameter];
     let (unit, places) = if own.unit.is_empty() {
         (swept.unit(parameter), &own.values)
     } else {
@@ -183,7 +184,8 @@ fn lines(swept: &Swept, column: usize) -> Chart {
     let (x_label, x_scale, x) = axis(swept, 0);
     let unit = unit(report, column);
     let values: Vec<f64> = report.column(column).map(|own| unit.of(own)).collect();
-    let (count, name_of): (usize, Box<dyn Fn(usize) -> String>) = match &swept.variations[..] {
+    let (count, name_of): (usize, Box<dyn Fn(usize) -> String>) = match &swept.varied.variations[..]
+    {
         [_, second] => {
             (second.len(), Box::new(|at| format!("{} = {}", second.name, shown(second, at))))
         }

@@ -32,6 +32,7 @@ use crate::{
 #[command(after_help = "Examples:\n  \
     dashpot sweep pad.toml --vary \"K=5..30 MN/m,26,log\"\n  \
     dashpot sweep --vary \"head.velocity=2..12 m/s\" --measure padding.peak-force\n  \
+    dashpot sweep pad.toml --points designs.csv\n  \
     dashpot sweep --vary \"padding.maxwell.spring=5..80 MN/m,41,log\" \\\n    \
     --vary \"padding.kelvin.dashpot=1..16 kN s/m,41,log\" --out map\n\n\
     A number of the scene goes by its path, such as head.velocity, mount.dashpot, \
@@ -44,8 +45,12 @@ pub(crate) struct SweepArguments {
     #[command(flatten)]
     limits: LimitArguments,
     /// A number of the scene and the values that it takes; repeatable, for all combinations.
-    #[arg(long, value_name = "NAME=VALUES", required = true)]
+    #[arg(long, value_name = "NAME=VALUES", required_unless_present = "points")]
     vary: Vec<String>,
+    /// Designs from a table in place of all combinations: a CSV file whose first line names numbers of
+    /// the scene with their units, such as `head.velocity [m/s],liner.thickness [mm]`; each row is one.
+    #[arg(long, value_name = "FILE", conflicts_with = "vary")]
+    points: Option<PathBuf>,
     /// Measures, such as padding.peak-force [default: all that the scene reports].
     #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
     measure: Vec<String>,
@@ -58,9 +63,9 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_name = "SHARE", value_parser = share)]
     neglect: Option<f64>,
     /// Where errors are estimated by further solutions; some: at three of 64 points, whose errors stand for
-    /// those near them.
-    #[arg(long, value_enum, value_name = "WHERE", default_value = "some")]
-    estimate: EstimatedPoints,
+    /// those near them [default: some; of a table, whose rows need not be near each other, all].
+    #[arg(long, value_enum, value_name = "WHERE")]
+    estimate: Option<EstimatedPoints>,
     /// Most work of each point, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
     #[arg(long, value_name = "UNITS", value_parser = budget)]
     budget: Option<u64>,
@@ -96,13 +101,65 @@ impl From<EstimatedPoints> for Estimates {
     }
 }
 
-/// What was varied, in what, and what was found.
-struct Swept {
-    scene: Scene,
+/// What varies, and how.
+struct Varied {
     tunables: Tunables,
     variations: Vec<Variation>,
     /// The number of the scene that each variation is of.
     matched: Vec<usize>,
+    /// Whether the values of one row of a table go together, in place of all combinations.
+    is_listed: bool,
+}
+
+impl Varied {
+    /// What the command line names of the scene with this text.
+    fn of(arguments: &SweepArguments, input: &Input) -> Result<Self, CliError> {
+        let tunables = Tunables::of(input.text()?, Some(&input.file)).map_err(CliError::Scene)?;
+        let mut variations: Vec<Variation> = match &arguments.points {
+            Some(file) => Variation::listed(Input::read(file)?.text()?)
+                .map_err(|fault| CliError::Listed { file: file.clone(), fault: Box::new(fault) })?,
+            None => {
+                arguments.vary.iter().map(|own| Variation::parse(own)).collect::<Result<_, _>>()?
+            }
+        };
+        let matched = tunables.matched(&mut variations)?;
+        Ok(Self { tunables, variations, matched, is_listed: arguments.points.is_some() })
+    }
+
+    /// All points; `None` where there are too many.
+    fn grid(&self) -> Option<Grid> {
+        let counts: Vec<usize> = self.variations.iter().map(Variation::len).collect();
+        let counts = if self.is_listed { counts[..1].to_vec() } else { counts };
+        Grid::new(counts).filter(|grid| grid.len() <= MOST)
+    }
+
+    /// Which of its values each parameter takes at a point of the grid.
+    fn places(&self, of_grid: &[usize]) -> Vec<usize> {
+        match of_grid {
+            [row] if self.is_listed => vec![*row; self.variations.len()],
+            places => places.to_vec(),
+        }
+    }
+
+    /// The text of the scene at a point of the grid.
+    fn text_at(&self, of_grid: &[usize]) -> String {
+        let all = self.matched.iter().zip(&self.variations).zip(self.places(of_grid));
+        let values: Vec<(usize, String)> =
+            all.map(|((at, own), place)| (*at, own.text(place))).collect();
+        self.tunables.text_with(&values)
+    }
+
+    /// Whether a named value is among the numbers that vary.
+    fn has(&self, name: &str) -> bool {
+        let path = format!("values.{name}");
+        self.matched.iter().any(|&at| self.tunables.all()[at].path == path)
+    }
+}
+
+/// What was varied, in what, and what was found.
+struct Swept {
+    scene: Scene,
+    varied: Varied,
     grid: Grid,
     report: SweepReport,
 }
@@ -114,16 +171,11 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
-    let tunables = Tunables::of(input.text()?, Some(&input.file)).map_err(CliError::Scene)?;
-    let mut variations: Vec<Variation> =
-        arguments.vary.iter().map(|own| Variation::parse(own)).collect::<Result<_, _>>()?;
-    let matched = tunables.matched(&mut variations)?;
-    if let Some((name, _)) = set.iter().find(|own| is_varied(&tunables, &matched, &own.0)) {
+    let varied = Varied::of(arguments, &input)?;
+    if let Some((name, _)) = set.iter().find(|own| varied.has(&own.0)) {
         return Err(CliError::SetAndVaried { name: name.clone() });
     }
-    let grid = Grid::new(variations.iter().map(Variation::len).collect())
-        .filter(|grid| grid.len() <= MOST)
-        .ok_or(CliError::TooManyPoints { most: MOST })?;
+    let grid = varied.grid().ok_or(CliError::TooManyPoints { most: MOST })?;
     let scene_point = |scene: Scene| {
         let method = match (&arguments.method, &scene.run.methods[..]) {
             (Some(wanted), _) => wanted,
@@ -138,10 +190,10 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     };
     let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
     let (columns, wishes) = columns(&scene_point(scene.clone())?, &keys)?;
-    let names = files::names(&variations, &columns);
+    let names = files::names(&varied, &columns);
     let folder = Folder::wanted(arguments.out.as_deref(), names)?;
     let pose = |places: &[usize]| {
-        let text = text_at(&tunables, &variations, &matched, places);
+        let text = varied.text_at(places);
         let checked = read(&text, &input.options(set)).map_err(|faults| {
             let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
             messages.collect::<Vec<_>>().join("; ")
@@ -154,17 +206,19 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let before = shown.len();
     // A fault at the ends of a range is shown in the scene's text, with the value under a caret.
     for point in grid.corners().into_iter().take(MOST_CORNERS) {
-        let text = text_at(&tunables, &variations, &matched, &grid.places(point));
+        let text = varied.text_at(&grid.places(point));
         let found = read(&text, &input.options(set)).map_err(CliError::Scene)?.warnings;
         let known: Vec<String> = shown.iter().map(dashpot_scene::Diagnostic::message).collect();
         shown.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
     }
     terminal.diagnose(&Diagnostics { list: shown.split_off(before), omitted: 0 });
-    let report = solved(arguments, &grid, &pose, &columns, terminal)?;
-    let swept = Swept { scene, tunables, variations, matched, grid, report };
+    let usual = if varied.is_listed { EstimatedPoints::All } else { EstimatedPoints::Some };
+    let estimates = arguments.estimate.unwrap_or(usual).into();
+    let report = solved((arguments, estimates), &grid, &pose, &columns, terminal)?;
+    let swept = Swept { scene, varied, grid, report };
     let has_folder = folder.is_some();
     emit(&swept, arguments.json, folder, terminal)?;
-    files::undrawn(&swept.variations).filter(|_| has_folder).into_iter().for_each(note);
+    files::undrawn(&swept.varied).filter(|_| has_folder).into_iter().for_each(note);
     let failed = swept.report.gaps.iter().filter(|gap| gap.column.is_none()).count();
     Ok(if failed == swept.report.points() { Status::RunFailed } else { Status::Done })
 }
@@ -174,26 +228,8 @@ const MOST: usize = 10_000_000;
 /// So many corners of the grid are read before anything is solved.
 const MOST_CORNERS: usize = 64;
 
-/// Whether a named value is among the numbers that vary.
-fn is_varied(tunables: &Tunables, matched: &[usize], name: &str) -> bool {
-    let path = format!("values.{name}");
-    matched.iter().any(|&at| tunables.all()[at].path == path)
-}
-
-fn text_at(
-    tunables: &Tunables,
-    variations: &[Variation],
-    matched: &[usize],
-    places: &[usize],
-) -> String {
-    let all = matched.iter().zip(variations).zip(places);
-    let values: Vec<(usize, String)> =
-        all.map(|((at, own), place)| (*at, own.text(*place))).collect();
-    tunables.text_with(&values)
-}
-
 fn solved(
-    arguments: &SweepArguments,
+    (arguments, estimates): (&SweepArguments, Estimates),
     grid: &Grid,
     pose: &Pose<'_>,
     columns: &[Column],
@@ -204,13 +240,7 @@ fn solved(
     let mut bar = Bar::new("sweep", 0.0, terminal.error.attended);
     let mut show =
         |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
-    Ok(solve(
-        grid,
-        pose,
-        columns,
-        SweepOptions { threads, estimates: arguments.estimate.into() },
-        &mut show,
-    )?)
+    Ok(solve(grid, pose, columns, SweepOptions { threads, estimates }, &mut show)?)
 }
 
 impl Study for Swept {
@@ -238,21 +268,25 @@ impl Study for Swept {
             dashpot: &'static str,
             title: &'s Option<String>,
             file: &'s Option<String>,
+            /// Whether their values at a point are those of one place, in place of all combinations.
+            listed: bool,
             parameters: P,
             #[serde(flatten)]
             report: &'s SweepReport,
         }
         let Self { scene, report, .. } = self;
-        let parameters = self.variations.iter().zip(&self.matched).enumerate();
+        let parameters = self.varied.variations.iter().zip(&self.varied.matched).enumerate();
         let parameters = list(parameters.map(|(at, (own, &tunable))| {
             object! {
                 name: &own.name,
-                path: &self.tunables.all()[tunable].path,
+                path: &self.varied.tunables.all()[tunable].path,
                 unit: self.unit(at),
                 values: &own.values,
             }
         }));
-        Object { dashpot: VERSION, title: &scene.title, file: &scene.file, parameters, report }
+        let listed = self.varied.is_listed;
+        let (title, file) = (&scene.title, &scene.file);
+        Object { dashpot: VERSION, title, file, listed, parameters, report }
     }
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {

@@ -20,8 +20,8 @@ const DIGITS: usize = 5;
 impl Swept {
     /// SI unit of a parameter.
     pub(super) fn unit(&self, parameter: usize) -> String {
-        let own = self.tunables.all()[self.matched[parameter]].dimension;
-        let dimension = self.variations[parameter].dimension.or(own);
+        let own = self.varied.tunables.all()[self.varied.matched[parameter]].dimension;
+        let dimension = self.varied.variations[parameter].dimension.or(own);
         dimension
             .filter(|dimension| *dimension != Dimension::NUMBER)
             .map_or("1".to_owned(), si_unit)
@@ -29,7 +29,8 @@ impl Swept {
 
     /// The values of all parameters at a point.
     pub(super) fn at(&self, point: usize) -> String {
-        let places = self.grid.places(point).into_iter().zip(&self.variations);
+        let places =
+            self.varied.places(&self.grid.places(point)).into_iter().zip(&self.varied.variations);
         let all = places.map(|(place, own)| format!("{} = {}", own.name, shown(own, place)));
         all.collect::<Vec<_>>().join(", ")
     }
@@ -38,19 +39,23 @@ impl Swept {
     pub(super) fn in_words(&self) -> Vec<String> {
         let line = |(own, &at): (&Variation, &usize)| {
             let last = own.len() - 1;
+            let of_table = self.varied.is_listed;
             let scale = if own.is_logarithmic { " at equal ratios" } else { "" };
-            let path = &self.tunables.all()[at].path;
+            let path = &self.varied.tunables.all()[at].path;
             let path = if *path == own.name { String::new() } else { format!(" ({path})") };
+            let shown = self.varied.tunables.shown(at);
+            if of_table {
+                return format!("{}{path}: by the table; {shown} in the scene", own.name);
+            }
             format!(
-                "{}{path}: {} values from {} to {}{scale}; {} in the scene",
+                "{}{path}: {} values from {} to {}{scale}; {shown} in the scene",
                 own.name,
                 own.len(),
                 own.text(0),
                 own.text(last),
-                self.tunables.shown(at)
             )
         };
-        self.variations.iter().zip(&self.matched).map(line).collect()
+        self.varied.variations.iter().zip(&self.varied.matched).map(line).collect()
     }
 }
 

@@ -48,7 +48,7 @@ impl Field<'_> {
     }
 
     /// The number that the field is, without a unit.
-    fn number(&self) -> Result<f64, CsvFault> {
+    pub(crate) fn number(&self) -> Result<f64, CsvFault> {
         if self.text.is_empty() {
             return Err(CsvFault::EmptyCell);
         }
@@ -101,6 +101,18 @@ impl<'t> Csv<'t> {
         let start = if is_header { at + first.len() } else { at };
         let header = is_header.then_some(fields);
         Some(Self { text, separator, header, columns, start })
+    }
+
+    /// The fields of each row, with the number of its line from 1.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = (usize, Vec<Field<'t>>)> + '_ {
+        let (mut line, mut counted) = (1, 0);
+        lines(self.text, self.start).map(move |(at, row)| {
+            line += self.text[counted..at].matches('\n').count();
+            counted = at;
+            let mut fields = Vec::with_capacity(self.columns);
+            split(row, at, self.separator, &mut fields);
+            (line, fields)
+        })
     }
 
     /// The rows as pairs of the values in two `columns`, counted from 0, times `factors`, the first
