@@ -89,7 +89,7 @@ impl Bound {
         (self.level() != 0.0).then(|| self.room(value) / self.level().abs())
     }
 
-    /// What a value with this absolute error says; where the error is not known, the value alone. `grows`
+    /// What a value with this absolute error says; where errors are not estimated, the value alone. `grows`
     /// tells that it may still grow.
     pub fn judge(self, value: f64, error: Option<f64>, grows: bool) -> Judgement {
         let (room, error) = (self.room(value), error.unwrap_or(0.0));

@@ -2,7 +2,7 @@
 
 use super::{MeasureReport, RunReport};
 use crate::{
-    Contact,
+    Contact, Warning,
     limits::{Bound, Judgement, Limit},
 };
 
@@ -46,6 +46,14 @@ impl RunReport {
         self.limits.iter().map(|limit| self.judge(limit)).collect()
     }
 
+    /// The error of a measure, without end where errors were estimated and this one is not known.
+    fn error_of(&self, measure: &MeasureReport) -> Option<f64> {
+        let is_failed = |own: &Warning| matches!(own, Warning::ErrorsUnknown { .. });
+        let are_estimated = self.measures.iter().any(|own| own.error.is_some())
+            || self.warnings.iter().any(is_failed);
+        measure.error.or(are_estimated.then_some(f64::INFINITY))
+    }
+
     fn judge<'r>(&'r self, limit: &'r Limit) -> Judged<'r> {
         let measure = self.measure(&limit.key);
         let is_so_far = measure.is_some_and(|own| self.is_so_far(own));
@@ -57,7 +65,7 @@ impl RunReport {
             (Some(f64::INFINITY), Bound::Max(_)) => Judgement::Fail,
             (Some(f64::INFINITY), Bound::Min(_)) => Judgement::Pass,
             (Some(value), bound) => {
-                bound.judge(value, measure.and_then(|own| own.error), is_so_far)
+                bound.judge(value, measure.and_then(|own| self.error_of(own)), is_so_far)
             }
         };
         Judged { limit, measure, judgement, is_so_far }

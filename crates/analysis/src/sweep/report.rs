@@ -92,14 +92,16 @@ impl SweepReport {
     }
 
     /// What is known of the limit at this place among [`limits`](Self::limits), at each point; `None` where
-    /// there is no value.
+    /// there is no value. Where errors are estimated, a value without one decides nothing.
     pub fn judged(&self, limit: usize) -> Vec<Option<Judgement>> {
         let (column, ref limit) = self.limits[limit];
         let mut cut = self.cut.iter().filter(|own| own.1 == column).map(|own| own.0).peekable();
+        let are_estimated = self.errors.iter().any(|error| !error.is_nan());
         let both = self.column(column).zip(self.errors_of(column)).enumerate();
         both.map(|(point, (value, error))| {
             let grows = cut.next_if_eq(&point).is_some();
-            let error = (!error.is_nan()).then_some(error);
+            let unknown = are_estimated.then_some(f64::INFINITY);
+            let error = if error.is_nan() { unknown } else { Some(error) };
             (!value.is_nan()).then(|| limit.bound.judge(value, error, grows))
         })
         .collect()

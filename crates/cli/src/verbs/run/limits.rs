@@ -50,8 +50,10 @@ fn text(run: &RunReport, judged: &Judged<'_>) -> String {
         .margin()
         .map_or(String::new(), |margin| format!("; margin {}", percent_signed(margin)));
     let mean = if limit.of_mean { "; one run stands for the mean of the tests" } else { "" };
+    let is_bare = judged.measure.is_some_and(|own| own.value.is_some() && own.error.is_none());
+    let bare = if is_bare { "; its error is not known" } else { "" };
     let advice = advice(run, judged).map_or(String::new(), |own| format!("; {own}"));
-    format!("{} {value}, {}{margin}{mean}{advice}", limit.key, stated(limit, judged.measure))
+    format!("{} {value}, {}{margin}{bare}{mean}{advice}", limit.key, stated(limit, judged.measure))
 }
 
 /// The value with as many digits as tell it from the bound, and with its error where that reaches across.
