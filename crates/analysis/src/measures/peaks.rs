@@ -170,6 +170,57 @@ impl MeasureKind for EndDeformation {
 }
 
 parameters! {
+    /// An element's force at the end of the window, `F(t_end)` \[N\], positive in compression; at the end of an
+    /// impact it is 0.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct EndForce: "end-force", "force at the end of the window [N]" {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
+    }
+}
+
+impl MeasureKind for EndForce {
+    const UNIT: &'static str = "N";
+    const APPLIES_TO: Family = Family::Element;
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let span = solution.element_span(target, self.window)?;
+        Ok(Reading::end_value(solution.element_force(target)?, &span))
+    }
+}
+
+parameters! {
+    /// The largest magnitude of a node's velocity, `max |v|` \[m/s\], with its time. Where the speed jumps, it is the
+    /// larger one of both sides, also that before the window.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PeakVelocity: "peak-velocity", "largest magnitude of the velocity [m/s]" {
+        /// The part of the run that it looks at.
+        pub window: WindowWish => WINDOW;
+    }
+}
+
+impl MeasureKind for PeakVelocity {
+    const UNIT: &'static str = "m/s";
+    const APPLIES_TO: Family = Family::Node;
+
+    fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
+        let node = &solution.assembly().nodes[target];
+        let velocity = solution.signal(node.velocity.ok_or(Note::NoVelocity)?);
+        let span = solution.node_span(target, self.window)?;
+        let reading = Reading::peak(velocity, &span);
+        let before =
+            match VelocityJump::within(&solution.node_jumps(target), (span.from, span.from)) {
+                [] => 0.0,
+                _ => velocity.left_value(span.from).abs(),
+            };
+        if reading.value.is_none_or(|value| value >= before) {
+            return Ok(reading);
+        }
+        Ok(Reading { value: Some(before), ..reading }.of_size(before).at(span.from))
+    }
+}
+
+parameters! {
     /// A node's displacement at the end of the window, `x(t_end)` \[m\], positive towards the support.
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
     pub struct EndPosition: "end-position", "displacement at the end of the window [m]" {

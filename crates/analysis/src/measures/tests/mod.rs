@@ -119,6 +119,10 @@ fn half_sine_impact_has_its_closed_forms() {
     close(at(&|| read(EndVelocity::default(), 1.6, half_sine)), -0.1 * PI, 1e-12);
     close(at(&|| read(EndPosition::default(), 1.6, half_sine)), 0.0, 1e-9);
     close(at(&|| read(PeakDisplacement::default(), 1.6, half_sine)), 0.1, 1e-12);
+    close(at(&|| read(PeakVelocity::default(), 1.6, half_sine)), 0.1 * PI, 1e-12);
+    let run = WindowWish::Run;
+    let last = 40.0 * g * (1.6 * PI).sin();
+    close(at(&|| read(EndForce { window: run }, 1.6, half_sine)), last, 1e-12);
     let unit = 20.0_f64.powf(2.5);
     close(at(&|| read(SeverityIndex::default(), 1.6, half_sine)), 0.457_655_86 * unit, 1e-8);
     close(at(&|| read(Hic::default(), 1.6, half_sine)), 0.414_645_65 * unit, 1e-8);
