@@ -143,6 +143,9 @@ fn neutral_element(kind: &str) -> (&'static str, &'static str) {
         "bumper" => {
             ("bumper = { force = 100, at = 0.01, restitution = 0.5, speed = 1, gap = 1 }", "")
         }
+        "foundation" => {
+            ("foundation = { law = { spring = 1e4 }, shape = \"flat\", diameter = 0.1 }", spring)
+        }
         kind => panic!("what is the neutral value of `{kind}`?"),
     }
 }

@@ -71,4 +71,8 @@ impl Element for CubicSpring {
         let stiffness = self.stiffness.max(self.cubic * TYPICAL * TYPICAL);
         Law::Nonlinear { stiffness, damping: 0.0 }
     }
+
+    fn cubics(&self) -> Option<Vec<f64>> {
+        Some(Vec::new())
+    }
 }

@@ -7,12 +7,14 @@ mod cubic_spring;
 mod custom;
 mod dashpot;
 mod foam;
+mod foundation;
 mod friction;
 mod hunt_crossley;
 mod hysteresis;
 mod hysteretic_foam;
 mod hysteretic_table;
 mod impact_law;
+mod indenter;
 mod monotone;
 pub mod phases;
 mod power;
@@ -37,10 +39,12 @@ pub use cubic_spring::CubicSpring;
 pub use custom::Custom;
 pub use dashpot::Dashpot;
 pub use foam::Foam;
+pub use foundation::Foundation;
 pub use friction::Friction;
 pub use hunt_crossley::HuntCrossley;
 pub use hysteretic_foam::HystereticFoam;
 pub use hysteretic_table::HystereticTable;
+pub use indenter::{Indenter, Shape};
 pub use power_dashpot::PowerDashpot;
 pub use power_spring::PowerSpring;
 pub use rate_spring::RateSpring;
@@ -128,6 +132,13 @@ pub trait Element: Described {
     fn range(&self) -> Option<(f64, f64)> {
         None
     }
+
+    /// The deformations \[m\] between which the force at rest is a cubic of the deformation, in rising order;
+    /// none where it is one cubic, and before the first and beyond the last it goes on as one. `None` for
+    /// all other laws.
+    fn cubics(&self) -> Option<Vec<f64>> {
+        None
+    }
 }
 
 /// Slopes of a law.
@@ -196,4 +207,5 @@ elements! {
     PowerDashpot,
     HuntCrossley,
     Bumper,
+    Foundation,
 }

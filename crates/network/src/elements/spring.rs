@@ -53,4 +53,8 @@ impl Element for Spring {
     fn law(&self) -> Law {
         Law::Spring(self.stiffness)
     }
+
+    fn cubics(&self) -> Option<Vec<f64>> {
+        Some(Vec::new())
+    }
 }

@@ -132,6 +132,10 @@ impl Element for TableSpring {
     fn range(&self) -> Option<(f64, f64)> {
         Some(self.curve.ends().map(|end| end.0).into())
     }
+
+    fn cubics(&self) -> Option<Vec<f64>> {
+        Some(self.points().iter().map(|point| point.0).collect())
+    }
 }
 
 impl Described for TableSpring {

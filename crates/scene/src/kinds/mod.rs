@@ -16,6 +16,16 @@ pub(crate) fn is_table(parameters: &[Parameter]) -> bool {
     matches!(parameters, [first, ..] if first.kind == ParameterKind::TimeTable)
 }
 
+/// Whether the parameters of a kind hold a model.
+pub(crate) fn has_model(parameters: &[Parameter]) -> bool {
+    parameters.iter().any(is_model)
+}
+
+/// Whether a parameter is a model.
+pub(crate) fn is_model(parameter: &Parameter) -> bool {
+    parameter.kind == ParameterKind::Model
+}
+
 /// The form of this word or alias.
 pub(crate) fn form(word: &str) -> Option<&'static Form> {
     FORMS.iter().find(|form| form.word == word || form.aliases.contains(&word))

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use dashpot_network::{
-    elements::ELEMENTS,
-    parameters::{Dimension, Range, registered},
+    elements::{ELEMENTS, Indenter},
+    parameters::{Dimension, Kind as _, Range, registered},
     shifts::SHIFTS,
 };
 
@@ -30,6 +30,8 @@ pub(super) struct Context {
     pub(super) times: f64,
     /// What is known of the size of the pad.
     pub(super) size: EnclosingPad,
+    /// The body that presses the model in the table, and where it stands.
+    pub(super) pressed_by: Option<(Indenter, Place)>,
 }
 
 /// Where a model stands: its table, and what holds for the values in it.
@@ -61,7 +63,7 @@ impl Context {
             ModelSection::Models => Basis::Model,
             ModelSection::Materials => Basis::MATERIAL,
         };
-        Self { basis, times: 1.0, size: EnclosingPad::default() }
+        Self { basis, times: 1.0, size: EnclosingPad::default(), pressed_by: None }
     }
 }
 
@@ -92,15 +94,16 @@ impl<'d> ContextReader<'d> {
         entries: &'d [Entry],
         law: &Entry,
     ) -> (Context, Option<Shift>) {
-        let mut context = site.context;
+        let mut context = Context { pressed_by: None, ..site.context };
         let find = |key: &str| entries.iter().find(|entry| entry.key == key);
         let shift = find("shift").and_then(|entry| self.shift(site, entry));
         if let Some(shift) = shift {
             context.times *= shift.factor;
         }
         let given = SIZE.map(find);
+        let pressed_by = (Indenter::KIND, find(Indenter::KIND));
         if context.basis.is_material() {
-            for (key, entry) in SIZE.into_iter().zip(given) {
+            for (key, entry) in SIZE.into_iter().zip(given).chain([pressed_by]) {
                 let Some(entry) = entry else { continue };
                 self.faults.error(entry.key_place, Fault::SizeInMaterial { key });
             }
@@ -112,6 +115,13 @@ impl<'d> ContextReader<'d> {
             let (key, entry) = sizes.next()?;
             entry.and_then(|entry| self.size(site, key, entry))
         });
+        let mut is_faulty = [0, 1].map(|at: usize| given[at].is_some() && beside[at].is_none());
+        if let Some(entry) = pressed_by.1 {
+            context.pressed_by = self.indenter(site, entry, given[1]);
+            let area = context.pressed_by.and_then(|(own, place)| Some((own.area().ok()?, place)));
+            beside[1] = area.map(|(value, place)| Size { value, place });
+            is_faulty[1] = beside[1].is_none();
+        }
         context.size.beside = [None; 2];
         context.size.is_faulty = [false; 2];
         let is_element = site.other_keys.contains(&"between");
@@ -119,7 +129,9 @@ impl<'d> ContextReader<'d> {
             for (key, (entry, size)) in SIZE.into_iter().zip(given.into_iter().zip(beside)) {
                 match size {
                     Some(size) => around.check(key, size, self.faults),
-                    None if entry.is_none() => self.missing(site, around, key),
+                    None if entry.is_none() && !is_faulty[usize::from(key != SIZE[0])] => {
+                        self.missing(site, around, key);
+                    }
                     None => {}
                 }
             }
@@ -128,12 +140,14 @@ impl<'d> ContextReader<'d> {
         } else if registered(ELEMENTS, &law.key).is_some_and(|kind| is_sized(kind.parameters)) {
             // The reader of the law checks them with those in its own table.
             context.size.beside = beside;
-            context.size.is_faulty =
-                [0, 1].map(|at: usize| given[at].is_some() && beside[at].is_none());
-        } else if is_element {
-            context.size.around = beside[0].take();
+            context.size.is_faulty = is_faulty;
         } else {
-            for (key, entry) in SIZE.into_iter().zip(given) {
+            context.pressed_by = None;
+            if is_element {
+                context.size.around = beside[0].take();
+            }
+            let sizes = SIZE.into_iter().zip(given).filter(|_| !is_element);
+            for (key, entry) in sizes.chain([pressed_by]) {
                 let Some(entry) = entry else { continue };
                 let fault = Fault::SizeWithoutMaterial { key, owner: site.owner.to_string() };
                 self.faults.error(entry.key_place, fault);
@@ -149,6 +163,26 @@ impl<'d> ContextReader<'d> {
         let dimension = if key == SIZE[0] { Dimension::LENGTH } else { AREA };
         let size = quantities.within(Range::Positive, key, &entry.item, dimension);
         size.map(|value| Size { value, place: entry.item.place })
+    }
+
+    /// The body that presses a pad, which gives the pad its area.
+    fn indenter(
+        &self,
+        site: &Site<'d>,
+        entry: &'d Entry,
+        area: Option<&Entry>,
+    ) -> Option<(Indenter, Place)> {
+        if let Some(area) = area {
+            let message =
+                format!("`area` and `pressed-by` of {} are two sizes of one pad", site.owner);
+            let help = "leave `area` out: the shape says what is loaded; or leave `pressed-by` \
+                        out, if all of the area is loaded at once";
+            self.faults.error(area.key_place, Fault::odd(message, help));
+        }
+        let reader = KindReader::new(self.library.quantities(site.document, self.faults));
+        let what = (Indenter::KIND, Indenter::PARAMETERS);
+        let own = reader.read_as(what, &Indenter::from_values, &entry.item, entry.key_place)?;
+        Some((own, entry.item.place))
     }
 
     /// Notes a size that a material needs.

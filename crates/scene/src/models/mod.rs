@@ -4,6 +4,7 @@ mod context;
 mod laws;
 pub(crate) mod named;
 pub(crate) mod notes;
+mod pressed;
 mod sizes;
 mod tables;
 
@@ -37,10 +38,10 @@ use crate::{
 };
 
 /// The keys of a model or material besides its law.
-const MODEL_KEYS: &[&str] = &["shift", "thickness", "area"];
+const MODEL_KEYS: &[&str] = &["shift", "thickness", "area", "pressed-by"];
 
 /// The keys of a branch besides its law.
-const BRANCH_KEYS: &[&str] = &["name", "shift", "thickness", "area"];
+const BRANCH_KEYS: &[&str] = &["name", "shift", "thickness", "area", "pressed-by"];
 
 /// Reads models from the documents of a library.
 pub(crate) struct ModelReader<'d> {
@@ -77,6 +78,11 @@ impl Pads {
         self.count += parts;
         let at = self.count.saturating_sub(1);
         self.all.extend(thickness.map(|thickness| InnerPad { at, thickness, area }));
+    }
+
+    /// Forgets the areas of those that have been read since: what presses them loads only a part.
+    fn forget_areas(&mut self, from: usize) {
+        self.all.iter_mut().filter(|own| own.at >= from).for_each(|own| own.area = None);
     }
 
     /// Makes one pad of all that has been read since a model was entered.
@@ -197,7 +203,7 @@ impl<'d> ModelReader<'d> {
         }
         descent.levels += 1;
         let read = match self.law(site, descent) {
-            Some(law) => self.of_law(site, law, descent),
+            Some(law) => self.pressed(site, law, descent),
             None => self.uncomposed(ReadBranch::FAILED, site.place, descent),
         };
         descent.levels -= 1;

@@ -6,7 +6,7 @@ use std::{
     sync::Arc,
 };
 
-use dashpot_network::{Element, Model};
+use dashpot_network::{Element, Model, elements::ELEMENTS, parameters::registered};
 use dashpot_rheology::Branch;
 
 use super::{
@@ -16,6 +16,7 @@ use super::{
 };
 use crate::{
     diagnostics::{Faults, fault::Fault},
+    kinds::has_model,
     quantities::basis::Extent,
     text::{
         document::{Entry, Item},
@@ -27,8 +28,8 @@ use crate::{
 
 /// The law in a table, what becomes of its values, and the name of the branch that it is.
 pub(super) struct Law<'d> {
-    entry: &'d Entry,
-    context: Context,
+    pub(super) entry: &'d Entry,
+    pub(super) context: Context,
     given: Given<'d>,
 }
 
@@ -69,6 +70,9 @@ impl<'d> ModelReader<'d> {
                     let own = self.refer(named, context, site.place, descent)?;
                     return Some(ReadBranch { word: &self.library.entry(named).key, given, ..own });
                 }
+            }
+            word if is_foundation(word) && !context.basis.is_material() => {
+                return self.foundation(site, (entry, given), context, descent);
             }
             word => {
                 let made = self.laws.read(site.document, entry, context);
@@ -135,7 +139,7 @@ impl<'d> ModelReader<'d> {
         Some((name, entry.item.place))
     }
 
-    fn reference(
+    pub(super) fn reference(
         &self,
         document: usize,
         section: ModelSection,
@@ -158,6 +162,11 @@ impl<'d> ModelReader<'d> {
         self.faults.error(item.place, Fault::ModelInItself { family: section.word(), names });
         None
     }
+}
+
+/// Whether a word is that of an element with a law of its own, which stands in its table.
+fn is_foundation(word: &str) -> bool {
+    registered(ELEMENTS, word).is_some_and(|kind| has_model(kind.parameters))
 }
 
 /// The name that a branch is given, and its place.

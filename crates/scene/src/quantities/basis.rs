@@ -130,11 +130,14 @@ impl Basis {
     }
 }
 
-/// Whether a kind may stand in a material: what acts across a gap is no material.
+/// Whether a kind may stand in a material: what acts across a gap, or is a pad of its own, is no material.
 pub(crate) fn fits_material(parameters: &[Parameter]) -> bool {
     parameters.iter().all(|parameter| {
         parameter.name != "gap"
-            && !matches!(parameter.kind, ParameterKind::Amplitude | ParameterKind::TimeTable)
+            && !matches!(
+                parameter.kind,
+                ParameterKind::Amplitude | ParameterKind::TimeTable | ParameterKind::Model
+            )
     })
 }
 

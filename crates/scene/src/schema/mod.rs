@@ -9,9 +9,9 @@ use dashpot_dae::methods::METHODS;
 use dashpot_network::{
     composites::COMPOSITES,
     effects::{EFFECTS, EffectEntry},
-    elements::ELEMENTS,
+    elements::{ELEMENTS, Indenter},
     layers::MOST_SEGMENTS,
-    parameters::{Dimension, Registered},
+    parameters::{Dimension, Kind as _, Registered},
     shifts::SHIFTS,
     waveforms::WAVEFORMS,
 };
@@ -298,9 +298,15 @@ fn composed<'k>(
         properties.insert("thickness".to_owned(), thickness());
         let area = described_as(quantity(AREA), "area of the pad [m^2], positive");
         properties.insert("area".to_owned(), area);
+        let values = Values { driven: Dimension::FORCE, basis };
+        let indenter = described_as(values.of_kind(Indenter::PARAMETERS), Indenter::SUMMARY);
+        properties.insert(Indenter::KIND.to_owned(), indenter);
     }
     let one = laws.keys().map(|&word| match word {
-        "material" if !is_material => json!({ "required": [word, "thickness", "area"] }),
+        "material" if !is_material => json!({
+            "required": [word, "thickness"],
+            "anyOf": [{ "required": ["area"] }, { "required": [Indenter::KIND] }],
+        }),
         word => json!({ "required": [word] }),
     });
     let one = one.collect::<Vec<_>>();

@@ -18,7 +18,8 @@ use crate::{
 };
 
 /// The keys of an element besides its law.
-pub(crate) const ELEMENT_KEYS: &[&str] = &["between", "shift", "thickness", "area", "layers"];
+pub(crate) const ELEMENT_KEYS: &[&str] =
+    &["between", "shift", "thickness", "area", "pressed-by", "layers"];
 
 /// Reads the elements into `network`.
 pub(crate) fn read_elements<'d>(

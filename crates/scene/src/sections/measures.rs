@@ -11,7 +11,7 @@ use dashpot_network::{
 use super::Reading;
 use crate::{
     diagnostics::fault::Fault,
-    kinds::parameters::KindReader,
+    kinds::{is_model, parameters::KindReader},
     models::ModelReader,
     text::{
         document::{Content, Entry, Item},
@@ -144,7 +144,6 @@ fn read_table<'d>(
             targets.node(&entry.item)?;
         }
     }
-    let is_model = |parameter: &Parameter| parameter.kind == ParameterKind::Model;
     let model = kind.parameters.iter().position(is_model);
     let entry = model.and_then(|at| given(kind.parameters[at].name));
     let (Some(at), Some(entry)) = (model, entry) else {
