@@ -27,6 +27,7 @@ mod equivalence;
 mod error_bars;
 mod examples;
 mod files;
+mod formulas;
 mod gallery;
 mod hard;
 mod independent;

@@ -71,6 +71,17 @@ impl Dimension {
         Self { mass, length, time, temperature: 0 }
     }
 
+    /// That of a quotient; exponents stay within their range.
+    #[must_use]
+    pub const fn over(self, other: Self) -> Self {
+        Self {
+            mass: self.mass.saturating_sub(other.mass),
+            length: self.length.saturating_sub(other.length),
+            time: self.time.saturating_sub(other.time),
+            temperature: self.temperature.saturating_sub(other.temperature),
+        }
+    }
+
     /// All dimensions that have a name.
     pub fn all_named() -> impl Iterator<Item = Self> {
         Self::NAMED.iter().map(|entry| entry.0)

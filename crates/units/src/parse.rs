@@ -26,6 +26,11 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// The quantity of this value in SI units.
+    pub const fn of(value: f64, dimension: Dimension) -> Self {
+        Self { value, dimension: Some(dimension), angle: 0, is_celsius: false, is_gram: false }
+    }
+
     /// What it is where this dimension is expected: `"250 g"` is an acceleration where one is.
     ///
     /// # Examples

@@ -205,6 +205,8 @@ fn value(kind: ParameterKind, amplitude: Option<Dimension>) -> String {
         ParameterKind::Curve(first, second) => {
             format!("list of points `[{}, {}]`", quantity(first), quantity(second))
         }
+        ParameterKind::LawFormula => "formula over `y` [m] and `v` [m/s]".to_owned(),
+        ParameterKind::TimeFormula => "formula over `t` [s]".to_owned(),
         ParameterKind::Choice(words) => words.iter().map(code).collect::<Vec<_>>().join(" or "),
         ParameterKind::Flag => "`true`".to_owned(),
         ParameterKind::Window => "`\"impact\"`, `\"run\"` or `[from, to]`".to_owned(),

@@ -6,7 +6,7 @@ use dashpot::{
     network::{
         effects::EFFECTS,
         elements::ELEMENTS,
-        parameters::{Dimension, ParameterKind, Value},
+        parameters::{Dimension, Formula, ParameterKind, Value},
         shifts::SHIFTS,
         waveforms::WAVEFORMS,
     },
@@ -117,6 +117,7 @@ fn neutral_element(kind: &str) -> (&'static str, &'static str) {
         "cubic-spring" => ("cubic-spring = { stiffness = 1e4, cubic = 0 }", spring),
         "stiffening-spring" => ("stiffening-spring = { stiffness = 1e4, limit = 1e6 }", spring),
         "table-spring" => ("table-spring = [[-1, -1e4], [0, 0], [1, 1e4]]", spring),
+        "formula" => ("formula = \"10 kN/m * y\"", spring),
         "foam" => (
             "foam = { modulus = 1e6, plateau = 1e20, densification = 0, exponent = 3, thickness = 1, area = 0.01 }",
             spring,
@@ -206,6 +207,7 @@ fn a_load_of_zero_and_a_motion_of_zero_are_none() {
             (Value::Table(points), ParameterKind::TimeTable) => {
                 Value::Table(points.into_iter().map(|(time, _)| (time, 0.0)).collect())
             }
+            (Value::Formula(_), _) => Formula::parse("0", &|_| false).map(Value::Formula).unwrap(),
             (value, _) => value,
         };
         let kinds = kind.parameters.iter().map(|parameter| parameter.kind);

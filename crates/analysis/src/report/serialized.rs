@@ -144,6 +144,7 @@ impl Serialize for Given<'_> {
         match self.0 {
             Value::Number(number) => number.serialize(serializer),
             Value::Word(word) => word.serialize(serializer),
+            Value::Formula(formula) => serializer.collect_str(formula),
             Value::Flag => true.serialize(serializer),
             Value::Table(points) => points.serialize(serializer),
             Value::Model(model) => model.model().map(Branches).serialize(serializer),

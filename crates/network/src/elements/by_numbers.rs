@@ -3,6 +3,7 @@
 use dashpot_numerics::quadrature::integral_to;
 
 use super::{Element, Tangent};
+use crate::parameters::InvalidParameter;
 
 /// Deformation \[m\] and rate \[m/s\] where slopes count as typical unless a law says others.
 pub(super) const TYPICAL: [f64; 2] = [0.01, 1.0];
@@ -15,6 +16,45 @@ const AGREEMENT: f64 = 1e-13;
 /// Places at which a law is looked at, in parts of what is typical, on both sides of zero.
 pub(super) const PLACES: [f64; 13] =
     [-3.0, -1.0, -0.5, -0.1, -0.01, -0.001, 0.0, 0.001, 0.01, 0.1, 0.5, 1.0, 3.0];
+
+/// What a force may fall by, and have at rest, in parts of the largest one: its rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Whether a law, given by `parameter`, has a force at all [`PLACES`], none of it at rest, and falls between none of
+/// them.
+pub(super) fn rises<E: Element + ?Sized>(
+    law: &E,
+    parameter: &'static str,
+) -> Result<(), InvalidParameter> {
+    let places = law.typical().map(|unit| PLACES.map(|part| part * unit));
+    let forces = places[0].map(|y| places[1].map(|v| law.force(y, v)));
+    let all = forces.as_flattened();
+    let size = all.iter().map(|own| own.abs()).fold(0.0, f64::max);
+    let told = |y: usize, v: usize| {
+        let force = forces[y][v];
+        format!("{force:.6} N at {:.6} m and {:.6} m/s", places[0][y], places[1][v])
+    };
+    let invalid = |range: &'static str, found| Err(InvalidParameter::new(parameter, range, found));
+    let middle = PLACES.len() / 2;
+    for y in 0..PLACES.len() {
+        for v in 0..PLACES.len() {
+            let own = forces[y][v];
+            if !own.is_finite() {
+                return invalid("a law with a force everywhere", told(y, v));
+            }
+            for (y_before, v_before) in [(y.saturating_sub(1), v), (y, v.saturating_sub(1))] {
+                if own < forces[y_before][v_before] - ROUNDING * size {
+                    let found = format!("{} after {}", told(y, v), told(y_before, v_before));
+                    return invalid("a law that falls nowhere", found);
+                }
+            }
+        }
+    }
+    if forces[middle][middle].abs() > ROUNDING * size {
+        return invalid("a law without a force at rest", told(middle, middle));
+    }
+    Ok(())
+}
 
 /// The secants of a law at its typical deformation \[N/m\] and rate \[N s/m\]; where one is zero, the largest
 /// at any of the [`PLACES`]: a law that begins beyond a gap, or damps one way only, has a stiffness and a

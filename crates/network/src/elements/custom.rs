@@ -11,14 +11,12 @@ use dashpot_rheology::Tree;
 
 use super::{
     ELEMENTS, Element, Tangent,
-    by_numbers::{PLACES, TYPICAL, central_differences, secants, work_at_rest},
+    by_numbers::{TYPICAL, central_differences, rises, secants, work_at_rest},
 };
 use crate::parameters::{Described, InvalidParameter, registered};
 
 type Parts = Tree<Arc<dyn Element>>;
 
-/// What a force may fall by, and have at rest, in parts of the largest one: its rounding.
-const ROUNDING: f64 = 1e-12;
 /// How well given slopes and energies must fit the force, in parts of its secant.
 const FIT: f64 = 1e-3;
 
@@ -120,7 +118,7 @@ impl Described for Custom {
             let found = format!("{deformation} m and {rate} m/s");
             return Err(self.invalid("typical of positive deformations and rates", found));
         }
-        self.rises()?;
+        rises(self, self.kind)?;
         let [stiffness, damping] = secants(self);
         if stiffness + damping <= 0.0 {
             let [deformation, rate] = self.typical.map(|own| 3.0 * own);
@@ -134,37 +132,6 @@ impl Described for Custom {
 impl Custom {
     fn invalid(&self, range: impl Into<Cow<'static, str>>, found: String) -> InvalidParameter {
         InvalidParameter::new(self.kind, range, found)
-    }
-
-    /// Whether the law has a number at all places that are looked at, and falls between none of them.
-    fn rises(&self) -> Result<(), InvalidParameter> {
-        let places = self.typical.map(|unit| PLACES.map(|part| part * unit));
-        let forces = places[0].map(|y| places[1].map(|v| self.force(y, v)));
-        let all = forces.as_flattened();
-        let size = all.iter().map(|own| own.abs()).fold(0.0, f64::max);
-        let told = |y: usize, v: usize| {
-            format!("{} N at {} m and {} m/s", forces[y][v], places[0][y], places[1][v])
-        };
-        let middle = PLACES.len() / 2;
-        for y in 0..PLACES.len() {
-            for v in 0..PLACES.len() {
-                let own = forces[y][v];
-                if !own.is_finite() {
-                    return Err(self.invalid("a law with a force everywhere", told(y, v)));
-                }
-                for (y_before, v_before) in [(y.saturating_sub(1), v), (y, v.saturating_sub(1))] {
-                    if own < forces[y_before][v_before] - ROUNDING * size {
-                        let found = format!("{} after {}", told(y, v), told(y_before, v_before));
-                        return Err(self.invalid("a law that falls nowhere", found));
-                    }
-                }
-            }
-        }
-        if forces[middle][middle].abs() > ROUNDING * size {
-            let found = told(middle, middle);
-            return Err(self.invalid("a law without a force at rest", found));
-        }
-        Ok(())
     }
 
     /// Whether slopes and energy, where they are given, are those of the force, whose secant is as large as

@@ -7,6 +7,7 @@ mod cubic_spring;
 mod custom;
 mod dashpot;
 mod foam;
+mod formula;
 mod foundation;
 mod friction;
 mod hunt_crossley;
@@ -39,6 +40,7 @@ pub use cubic_spring::CubicSpring;
 pub use custom::Custom;
 pub use dashpot::Dashpot;
 pub use foam::Foam;
+pub use formula::Formula;
 pub use foundation::Foundation;
 pub use friction::Friction;
 pub use hunt_crossley::HuntCrossley;
@@ -200,6 +202,7 @@ elements! {
     CubicSpring,
     StiffeningSpring,
     TableSpring,
+    Formula,
     Foam,
     HystereticFoam,
     HystereticTable,

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::{InvalidParameter, Parameter, Value, WindowWish};
+use super::{Formula, InvalidParameter, Parameter, Value, WindowWish};
 
 /// What things of the registers say about themselves where they are stored.
 pub trait Described: Debug + Send + Sync {
@@ -165,6 +165,18 @@ impl Field for Vec<(f64, f64)> {
     }
 }
 
+impl Field for Formula {
+    const EXPECTED: &'static str = "a formula";
+
+    fn of(value: &Value) -> Option<Self> {
+        if let Value::Formula(formula) = value { Some(formula.clone()) } else { None }
+    }
+
+    fn value(&self) -> Value {
+        Value::Formula(self.clone())
+    }
+}
+
 impl Field for String {
     const EXPECTED: &'static str = "a name";
 
@@ -235,8 +247,8 @@ pub mod words {
     pub use super::super::{
         Dimension,
         ParameterKind::{
-            Amplitude, Choice, Curve, Flag, Model, Node, Quantity, TemperatureDifference,
-            TimeTable, Window,
+            Amplitude, Choice, Curve, Flag, LawFormula, Model, Node, Quantity,
+            TemperatureDifference, TimeFormula, TimeTable, Window,
         },
         Range::{
             AboveAbsoluteZero, AtLeastOne, Count, Finite, NonNegative, NotZero, Part, PartBelowOne,

@@ -6,6 +6,7 @@ mod range;
 
 use std::{any::Any, borrow::Cow, fmt, sync::Arc};
 
+pub use dashpot_formula::{Formula, Variable};
 pub use dashpot_units::Dimension;
 use thiserror::Error;
 
@@ -27,6 +28,10 @@ pub enum ParameterKind {
     TimeTable,
     /// Pairs of two quantities of these dimensions.
     Curve(Dimension, Dimension),
+    /// A formula of a force \[N\] over the deformation `y` and its rate `v`.
+    LawFormula,
+    /// A formula over the time `t`, with the dimension of what is driven.
+    TimeFormula,
     /// One of these words.
     Choice(&'static [&'static str]),
     /// `true`; the key's presence says it all.
@@ -37,6 +42,17 @@ pub enum ParameterKind {
     Node,
     /// A two-terminal model.
     Model,
+}
+
+impl ParameterKind {
+    /// The variables of a formula; none of all else.
+    pub const fn variables(self) -> &'static [Variable] {
+        match self {
+            Self::LawFormula => &[("y", Dimension::LENGTH), ("v", Dimension::VELOCITY)],
+            Self::TimeFormula => &[("t", Dimension::TIME)],
+            _ => &[],
+        }
+    }
 }
 
 /// One parameter of a kind.
@@ -111,6 +127,8 @@ pub enum Value {
     Number(f64),
     /// For [`ParameterKind::TimeTable`] and [`ParameterKind::Curve`].
     Table(Vec<(f64, f64)>),
+    /// For [`ParameterKind::LawFormula`] and [`ParameterKind::TimeFormula`]; its names are their variables.
+    Formula(Formula),
     /// For [`ParameterKind::Choice`] and [`ParameterKind::Node`].
     Word(String),
     /// For [`ParameterKind::Flag`].

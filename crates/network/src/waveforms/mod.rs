@@ -3,6 +3,7 @@
 
 mod chirp;
 mod constant;
+mod formula;
 mod half_sine;
 mod haversine;
 mod ramp;
@@ -14,6 +15,7 @@ mod trapezoid;
 pub use chirp::Chirp;
 pub use constant::Constant;
 use dashpot_dae::Waveform;
+pub use formula::Formula;
 pub use half_sine::HalfSine;
 pub use haversine::Haversine;
 pub use ramp::Ramp;
@@ -48,6 +50,7 @@ pub static WAVEFORMS: &[Registered<Waveform>] = &[
     function::<Trapezoid>(),
     function::<Chirp>(),
     function::<Table>(),
+    function::<Formula>(),
 ];
 
 /// A time before `start` and before 0, for the piece that holds until then.

@@ -1,5 +1,6 @@
 //! What can be wrong with a scene, in words.
 
+use dashpot_formula::FormulaFault;
 use dashpot_network::{
     NetworkError,
     parameters::{Dimension, InvalidParameter},
@@ -65,6 +66,9 @@ pub enum Fault {
     /// A named value that cannot be read.
     #[error("{error}")]
     BadValue { error: UnitError, example: &'static str },
+    /// A formula that has no value.
+    #[error("{0}")]
+    Formula(FormulaFault),
     /// A quantity of a wrong dimension.
     #[error("`{text}` is {}; {} is expected here", described(*.found), described(*.expected))]
     WrongDimension { text: String, found: Dimension, expected: Dimension },
@@ -95,6 +99,12 @@ pub enum Fault {
     /// A value that refers to itself.
     #[error("the value `{}` refers to itself ({})", .names.first().map_or("", String::as_str), .names.join(" → "))]
     SelfReference { names: Vec<String> },
+    /// A variable of a formula that is the name of a value, too.
+    #[error("`{name}` is a variable of this formula, and a value under [values]")]
+    VariableAndValue { name: String },
+    /// Values that refer to others, too many in a row.
+    #[error("this value refers to others in a chain of more than {limit}")]
+    ValuesTooDeep { limit: usize },
     /// A model that contains itself.
     #[error("the {family} `{}` contains itself ({})", .names.first().map_or("", String::as_str), .names.join(" → "))]
     ModelInItself {
@@ -261,6 +271,8 @@ impl Fault {
                 (!example.is_empty()).then(|| format!("for example `{example}`"))
             }
             Self::Unreadable { error, expected } => Some(unreadable_help(error, *expected)),
+            Self::Formula(fault) => fault.help(),
+            Self::VariableAndValue { .. } => Some("give the value another name".to_owned()),
             Self::BadValue { error, example } => Some(bad_value_help(error, example)),
             Self::WrongDimension { expected, .. } => {
                 Some(example(*expected))

@@ -157,6 +157,19 @@ impl Faults {
             .map_or_else(String::new, |source| source.text[source.clamp(&place.span())].to_owned())
     }
 
+    /// The bytes `span` of the text that stands at `place`, in quotes or without; all of them where it is written
+    /// with escapes.
+    pub(crate) fn within(&self, place: Place, span: &Range<usize>) -> Place {
+        let text = self.text(place);
+        if text.contains('\\') {
+            return place;
+        }
+        let quotes = ["\"\"\"", "'''", "\"", "'"].into_iter().find(|own| text.starts_with(own));
+        let start = place.start as usize + quotes.map_or(0, str::len);
+        let end = place.end as usize;
+        Place::new(place.source, &((start + span.start).min(end)..(start + span.end).min(end)))
+    }
+
     /// Where a value comes from, in words.
     pub(crate) fn origin(&self, place: Place) -> String {
         let state = self.state.borrow();

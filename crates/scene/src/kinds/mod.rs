@@ -83,6 +83,14 @@ impl Example {
                 let point = format!("[{}, {}]", self.quantity(first), self.quantity(second));
                 format!("[{point}, …]")
             }
+            ParameterKind::LawFormula if self.basis.is_material() => {
+                "\"200 kPa * tanh(y / 20 %)\"".to_owned()
+            }
+            ParameterKind::LawFormula => "\"2 kN * tanh(y / 5 mm)\"".to_owned(),
+            ParameterKind::TimeFormula => {
+                let amplitude = self.amplitude();
+                format!("\"{} * (t / 1 ms)^2\"", amplitude.trim_matches('"'))
+            }
             ParameterKind::Choice(words) => format!("\"{}\"", words.first().unwrap_or(&"")),
             ParameterKind::Flag => "true".to_owned(),
             ParameterKind::Window => "\"impact\"".to_owned(),

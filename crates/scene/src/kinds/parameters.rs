@@ -1,7 +1,7 @@
 //! Values of a kind's parameters, read as the kind declares them.
 
 use dashpot_network::parameters::{
-    Dimension, InvalidParameter, Parameter, ParameterKind, Registered, Value, WindowWish,
+    Dimension, Formula, InvalidParameter, Parameter, ParameterKind, Registered, Value, WindowWish,
 };
 
 use super::Example;
@@ -9,7 +9,7 @@ use crate::{
     diagnostics::fault::Fault,
     quantities::{
         basis::{Basis, EnclosingPad, SIZE, Size, is_size},
-        quantity::{Quantities, Values},
+        quantity::{Definition, Quantities, Values},
     },
     text::{
         document::{Content, Entry, Item},
@@ -252,6 +252,13 @@ impl<'d> KindReader<'d> {
             ParameterKind::Curve(first, second) => {
                 self.points(item, parameter, [first, second]).map(Value::Table)
             }
+            ParameterKind::LawFormula => {
+                let expected = Dimension::FORCE;
+                self.formula(parameter, item, expected).map(Value::Formula)
+            }
+            ParameterKind::TimeFormula => {
+                self.formula(parameter, item, self.driven).map(Value::Formula)
+            }
             ParameterKind::Choice(words) => {
                 let word = text_of(item, &what(), faults)?;
                 if words.contains(&word) {
@@ -311,6 +318,15 @@ impl<'d> KindReader<'d> {
         };
         self.size.check(key, size, faults);
         Some(size.value)
+    }
+
+    /// A formula over the variables of the parameter, with the named values in it replaced.
+    fn formula(self, parameter: &Parameter, item: &Item, expected: Dimension) -> Option<Formula> {
+        let what = format!("`{}`", parameter.name);
+        let text = text_of(item, &what, self.quantities.faults)?;
+        let variables = parameter.kind.variables();
+        let own = Definition { text: text.to_owned(), place: item.place };
+        self.quantities.formula(&own, variables, expected)
     }
 
     fn amplitude(self, item: &Item) -> Option<f64> {

@@ -4,12 +4,14 @@
 //! quantity of a law, N^f m^d s^k, is written Pa^f s^k in a material, and a pad has A^f h^d times as
 //! much: moduli become stiffnesses by A/h, stresses forces by A, strains deformations by h.
 
-use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Value};
+use dashpot_network::parameters::{
+    Dimension, Formula, InvalidParameter, Parameter, ParameterKind, Value,
+};
 
 use crate::{
     diagnostics::{Faults, fault::Fault},
     text::source::Place,
-    units::format_short,
+    units::{Quantity, format_short},
 };
 
 /// Area \[m²\].
@@ -108,10 +110,21 @@ impl Basis {
             (ParameterKind::Curve(first, second), Value::Table(points)) => {
                 table(parameter.name, points, first, second)
             }
+            (ParameterKind::LawFormula, Value::Formula(formula)) => {
+                Ok(Value::Formula(self.of_pad_formula(parameter.kind, formula)))
+            }
             (_, Value::Table(points)) => table(parameter.name, points, Dimension::TIME, driven),
             (_, other) => Ok(other.clone()),
         });
         all.collect()
+    }
+
+    /// A stress over the strain and its rate as a force over those of the pad.
+    fn of_pad_formula(self, kind: ParameterKind, formula: &Formula) -> Formula {
+        let Self::Material(Pad { thickness, area }) = self else { return formula.clone() };
+        let names: Vec<&str> = kind.variables().iter().map(|own| own.0).collect();
+        let thickness = Quantity::of(thickness, Dimension::LENGTH);
+        formula.scaled(Quantity::of(area, AREA), &names, thickness)
     }
 
     /// Refuses strains that no pad can have: they are written where `in_model` is a length.

@@ -1,5 +1,6 @@
 //! Quantities: numbers with units, named values, and the pads whose values they are.
 
+pub(crate) mod arithmetic;
 pub(crate) mod basis;
 pub(crate) mod plausible;
 pub(crate) mod quantity;

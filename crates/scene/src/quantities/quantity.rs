@@ -2,9 +2,11 @@
 
 use std::{cell::Cell, collections::HashMap};
 
+use dashpot_formula::{Formula, FormulaError, Variable};
 use dashpot_network::parameters::{Dimension, Range};
 
 use super::{
+    arithmetic::{self, formula},
     basis::{Basis, powers},
     plausible,
 };
@@ -155,7 +157,14 @@ impl<'d> Quantities<'d> {
                     // Where a value is named, nothing tells that `g` is not the gram.
                     Quantity { is_gram: false, ..known.quantity? }
                 }
-                None => self.parsed(text, item.place, expected)?,
+                None => match formula(text, &|name| self.values.contains_key(name)) {
+                    Some(formula) => {
+                        let text = text.to_string();
+                        let own = Definition { text, place: item.place };
+                        self.computed(formula, &own, expected)?
+                    }
+                    None => self.parsed(text, item.place, expected)?,
+                },
             },
             _ => {
                 let fault = Fault::NoQuantity { found: item.type_name(), expected };
@@ -224,10 +233,7 @@ impl<'d> Quantities<'d> {
     fn meant(self, item: &Item) -> Option<Quantity> {
         match &item.value {
             Content::Number(digits) => parse_quantity(digits).ok(),
-            Content::Text(text) => match self.values.get(text.trim()) {
-                Some(known) => known.quantity,
-                None => parse_quantity(text).ok(),
-            },
+            Content::Text(text) => arithmetic::quietly(text, self.values),
             _ => None,
         }
     }
@@ -247,13 +253,15 @@ impl<'d> Quantities<'d> {
         definition.map_or_else(|| self.shown(item), |definition| definition.text.clone())
     }
 
-    /// `fault`, which is about `item`, with the definition of the name that stands there.
+    /// `fault`, which is about `item`, with the definitions of the names that stand there.
     pub(crate) fn traced(self, item: &Item, fault: Fault) -> Fault {
-        let name = item.text().map_or("", str::trim);
-        let known = self.values.get(name).and_then(|known| known.definition.as_ref());
-        let Some(Definition { text, place }) = known else { return fault };
-        let origin = self.faults.origin(*place);
-        fault.with_note(format!("`{name}` is \"{}\", {origin}", text.trim()))
+        let text = item.text().map_or("", str::trim);
+        let names = if self.values.contains_key(text) {
+            vec![text.to_owned()]
+        } else {
+            arithmetic::names(text, self.values)
+        };
+        arithmetic::told_with(fault, &names, self.values, self.faults)
     }
 
     /// Warns of the value of `item`, in SI units, where it is unusual.
@@ -274,6 +282,78 @@ impl<'d> Quantities<'d> {
         }
     }
 
+    /// The formula `own` over `variables`, with the named values in it replaced; `expected` is the dimension of its
+    /// value in a model, as those of the variables are.
+    pub(crate) fn formula(
+        self,
+        own: &Definition,
+        variables: &[Variable],
+        expected: Dimension,
+    ) -> Option<Formula> {
+        let expected = self.basis.dimension(expected);
+        let variables: Vec<Variable> =
+            variables.iter().map(|own| (own.0, self.basis.dimension(own.1))).collect();
+        let is_variable = |name: &str| variables.iter().any(|own| own.0 == name);
+        let is_name = |name: &str| is_variable(name) || self.values.contains_key(name);
+        let found = Formula::parse(&own.text, &is_name).and_then(|formula| {
+            for name in formula.names() {
+                if let Some(known) = self.values.get(name) {
+                    known.is_used.set(true);
+                    if is_variable(name) {
+                        let fault = Fault::VariableAndValue { name: name.to_owned() };
+                        self.faults.error(own.place, fault);
+                        return Ok(None);
+                    }
+                    // What is wrong with a value has been told where it stands.
+                    if known.quantity.is_none() {
+                        return Ok(None);
+                    }
+                }
+            }
+            let formula = formula.with(&|name| arithmetic::constant(self.values, name));
+            formula.law(&variables, expected).map(|_| Some(formula))
+        });
+        found.unwrap_or_else(|error| {
+            let known = variables.iter().map(|own| own.0.to_owned()).chain(self.known());
+            arithmetic::note(error, own, expected, (self.values, known.collect()), self.faults);
+            None
+        })
+    }
+
+    /// The value of a formula.
+    fn computed(
+        self,
+        formula: Result<Formula, FormulaError>,
+        own: &Definition,
+        expected: Dimension,
+    ) -> Option<Quantity> {
+        let found = formula.and_then(|formula| {
+            for known in formula.names().iter().filter_map(|&name| self.values.get(name)) {
+                known.is_used.set(true);
+            }
+            let is_known =
+                |name: &&str| self.values.get(*name).is_none_or(|own| own.quantity.is_some());
+            if formula.names().iter().all(is_known) {
+                formula.quantity(&|name| arithmetic::constant(self.values, name)).map(Some)
+            } else {
+                // What is wrong with a value has been told where it stands.
+                Ok(None)
+            }
+        });
+        found.unwrap_or_else(|error| {
+            let names = (self.values, self.known());
+            arithmetic::note(error, own, expected, names, self.faults);
+            None
+        })
+    }
+
+    /// The names of values, sorted.
+    fn known(self) -> Vec<String> {
+        let mut known: Vec<String> = self.values.keys().cloned().collect();
+        known.sort();
+        known
+    }
+
     fn parsed(self, text: &str, place: Place, expected: Dimension) -> Option<Quantity> {
         let error = match parse_quantity(text) {
             Ok(quantity) => return Some(quantity),
@@ -284,9 +364,7 @@ impl<'d> Quantities<'d> {
             return None;
         }
         let fault = if matches!(error, UnitError::NoNumber { .. }) && could_be_name(name) {
-            let mut known: Vec<String> = self.values.keys().cloned().collect();
-            known.sort();
-            Fault::UnknownName { family: "value", name: name.to_owned(), known }
+            Fault::UnknownName { family: "value", name: name.to_owned(), known: self.known() }
         } else {
             Fault::Unreadable { error, expected }
         };
@@ -298,15 +376,16 @@ impl<'d> Quantities<'d> {
         let expected = self.basis.dimension(in_model);
         let quantity = quantity.meant(expected);
         let found = quantity.dimension.unwrap_or(expected);
-        let is_named = self.values.contains_key(item.text().map_or("", str::trim));
+        let text = item.text().map_or("", str::trim);
+        let is_named =
+            self.values.contains_key(text) || !text.is_empty() && parse_quantity(text).is_err();
         let shown = || self.shown(item);
         if found != expected {
             let fault = Fault::WrongDimension { text: shown(), found, expected };
             let fault = match found {
                 Dimension::ACCELERATION if self.is_motion => fault.with_help(MOTION_HELP),
-                Dimension::MASS if expected == Dimension::ACCELERATION && is_named => {
-                    fault.with_help("in [values] `g` is the gram: write `g0` there")
-                }
+                Dimension::MASS if expected == Dimension::ACCELERATION && is_named => fault
+                    .with_help("in [values] and in arithmetic `g` is the gram: write `g0` there"),
                 Dimension::VELOCITY if self.is_motion => {
                     fault.with_help("a motion is a displacement: integrate the velocity")
                 }

@@ -9,6 +9,7 @@ use std::{
 use dashpot_network::parameters::Dimension;
 
 use super::{
+    arithmetic::{constant, formula, note},
     quantity::{Definition, Known, Values},
     words::example_text,
 };
@@ -20,7 +21,7 @@ use crate::{
         source::{Place, SET, Source},
         table::{entries_of, wrong_type},
     },
-    units::{Quantity, parse_quantity},
+    units::{Quantity, UnitError, parse_quantity},
 };
 
 /// A value that a scene gives a name.
@@ -108,64 +109,120 @@ pub(crate) fn read(item: Option<&Item>, overrides: &Overrides, faults: &Faults) 
     resolve(&order, &definitions, faults)
 }
 
+/// So many values may refer to each other in a row.
+const LONGEST_CHAIN: usize = 100;
+
 /// Follows every name to its quantity.
 fn resolve(
     order: &[&str],
     definitions: &HashMap<&str, Option<Definition>>,
     faults: &Faults,
 ) -> Values {
-    let mut values = Values::with_capacity(order.len());
-    let mut referred = HashSet::new();
-    for &start in order {
-        let mut path = Vec::new();
-        let mut name = start;
-        let found = loop {
-            if let Some(known) = values.get(name) {
-                break (known.quantity, known.definition.clone());
-            }
-            if let Some(at) = path.iter().position(|&(passed, _)| passed == name) {
-                let names = path[at..].iter().map(|&(name, _)| name).chain([name]);
-                let names = names.map(str::to_owned).collect();
-                faults.error(path.last().map(|entry| entry.1), Fault::SelfReference { names });
-                break (None, None);
-            }
-            let Some(Some(definition)) = definitions.get(name) else {
-                break (None, None);
-            };
-            path.push((name, definition.place));
-            let Some((next, _)) = definitions.get_key_value(definition.text.trim()) else {
-                let quantity = quantity(definition, order, faults);
-                break (quantity, Some(definition.clone()));
-            };
-            referred.insert(*next);
-            name = *next;
-        };
-        let (quantity, definition) = found;
-        for name in path.into_iter().map(|entry| entry.0).chain([start]) {
-            let (definition, is_used) = (definition.clone(), Cell::new(false));
-            values.insert(name.to_owned(), Known { quantity, definition, is_used });
-        }
+    let values = Values::with_capacity(order.len());
+    let mut resolver =
+        Resolver { order, definitions, faults, values, open: Vec::new(), referred: HashSet::new() };
+    for &name in order {
+        resolver.value(name);
     }
+    let Resolver { values, referred, .. } = resolver;
     for known in referred.into_iter().filter_map(|name| values.get(name)) {
         known.is_used.set(true);
     }
     values
 }
 
-fn quantity(definition: &Definition, names: &[&str], faults: &Faults) -> Option<Quantity> {
-    use crate::units::UnitError;
-    let error = match parse_quantity(&definition.text) {
-        Ok(quantity) => return Some(quantity),
-        Err(error) => error,
-    };
-    let word = definition.text.trim();
-    let is_name = matches!(error, UnitError::NoNumber { .. }) && !word.is_empty();
-    let fault = if is_name && names.len() > 1 {
-        let known = names.iter().map(|&name| name.to_owned()).collect();
-        Fault::UnknownName { family: "value", name: word.to_owned(), known }
-    } else {
-        Fault::BadValue { error, example: example_text(Dimension::STIFFNESS) }
-    };
-    faults.error(definition.place, fault);
-    None
+struct Resolver<'r> {
+    order: &'r [&'r str],
+    definitions: &'r HashMap<&'r str, Option<Definition>>,
+    faults: &'r Faults,
+    values: Values,
+    /// The values that are being followed.
+    open: Vec<(&'r str, Place)>,
+    /// Those that others refer to.
+    referred: HashSet<&'r str>,
+}
+
+impl<'r> Resolver<'r> {
+    /// Makes the value of this name known, with those that it refers to.
+    fn value(&mut self, name: &'r str) {
+        if self.values.contains_key(name) {
+            return;
+        }
+        if let Some(at) = self.open.iter().position(|own| own.0 == name) {
+            let names = self.open[at..].iter().map(|own| own.0).chain([name]);
+            let names = names.map(str::to_owned).collect();
+            self.faults.error(self.open.last().map(|own| own.1), Fault::SelfReference { names });
+            return;
+        }
+        let definition = self.definitions.get(name).and_then(Option::as_ref);
+        if let Some(definition) = definition.filter(|_| self.open.len() >= LONGEST_CHAIN) {
+            let fault = Fault::ValuesTooDeep { limit: LONGEST_CHAIN };
+            self.faults.error(definition.place, fault);
+            return;
+        }
+        let (quantity, definition) = match definition {
+            None => (None, None),
+            Some(definition) => {
+                self.open.push((name, definition.place));
+                let found = self.followed(definition);
+                self.open.pop();
+                found
+            }
+        };
+        let known = Known { quantity, definition, is_used: Cell::new(false) };
+        self.values.entry(name.to_owned()).or_insert(known);
+    }
+
+    /// The quantity of a definition, and where that stands in the end.
+    fn followed(&mut self, own: &Definition) -> (Option<Quantity>, Option<Definition>) {
+        let definitions = self.definitions;
+        if let Some((next, _)) = definitions.get_key_value(own.text.trim()) {
+            self.refer(next);
+            let known = self.values.get(*next);
+            return known.map_or((None, None), |own| (own.quantity, own.definition.clone()));
+        }
+        (self.quantity(own), Some(own.clone()))
+    }
+
+    fn refer(&mut self, name: &'r str) {
+        self.referred.insert(name);
+        self.value(name);
+    }
+
+    fn quantity(&mut self, own: &Definition) -> Option<Quantity> {
+        let known = |order: &[&str]| order.iter().map(|&name| name.to_owned()).collect();
+        let expected = Dimension::STIFFNESS;
+        let definitions = self.definitions;
+        if let Some(formula) = formula(&own.text, &|name| definitions.contains_key(name)) {
+            let found = formula.and_then(|formula| {
+                for name in formula.names() {
+                    if let Some((name, _)) = definitions.get_key_value(name) {
+                        self.refer(name);
+                        // What is wrong with it has been told.
+                        if self.values.get(*name).is_none_or(|known| known.quantity.is_none()) {
+                            return Ok(None);
+                        }
+                    }
+                }
+                formula.quantity(&|name| constant(&self.values, name)).map(Some)
+            });
+            return found.unwrap_or_else(|error| {
+                note(error, own, expected, (&self.values, known(self.order)), self.faults);
+                None
+            });
+        }
+        let error = match parse_quantity(&own.text) {
+            Ok(quantity) => return Some(quantity),
+            Err(error) => error,
+        };
+        let word = own.text.trim();
+        let is_name = matches!(error, UnitError::NoNumber { .. }) && !word.is_empty();
+        let fault = if is_name && self.order.len() > 1 {
+            Fault::UnknownName { family: "value", name: word.to_owned(), known: known(self.order) }
+        } else {
+            Fault::BadValue { error, example: example_text(expected) }
+        };
+        self.faults.error(own.place, fault);
+        None
+    }
 }

@@ -65,7 +65,9 @@ impl Values {
             ParameterKind::Window => {
                 json!({ "anyOf": [{ "enum": ["impact", "run"] }, pair(&time, &time)] })
             }
-            ParameterKind::Node => json!({ "type": "string" }),
+            ParameterKind::LawFormula | ParameterKind::TimeFormula | ParameterKind::Node => {
+                json!({ "type": "string" })
+            }
             ParameterKind::Model => json!({ "anyOf": [{ "type": "string" }, reference("model")] }),
         };
         if parameter.follows {

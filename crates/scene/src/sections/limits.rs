@@ -13,6 +13,7 @@ use super::{
 };
 use crate::{
     diagnostics::fault::Fault,
+    quantities::arithmetic::names,
     text::{
         document::{Content, Entry, Item},
         table::{Table, one_or_many, text_of, wrong_type},
@@ -64,7 +65,8 @@ fn one(reading: &Reading<'_>, own: &OfMeasure<'_>, item: &Item) -> Option<Vec<Li
 
 /// Whether a text can but be the word of a standard.
 fn is_word(reading: &Reading<'_>, text: &str) -> bool {
-    let is_value = reading.library.values().contains_key(text.trim());
+    let values = reading.library.values();
+    let is_value = values.contains_key(text.trim()) || !names(text, values).is_empty();
     let begins = text.trim_start().starts_with(|first: char| first.is_alphabetic());
     standard(text).is_some() || begins && !is_value && text.contains('-')
 }

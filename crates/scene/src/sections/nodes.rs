@@ -98,16 +98,17 @@ fn displacement<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Waveform>
     let twice = acceleration.integral().and_then(|velocity| velocity.integral());
     if twice.is_none() {
         let is_swept = acceleration.pieces().iter().any(Piece::is_swept);
-        let (range, found) = if is_swept {
-            ("such that its displacement has a closed form", "a chirp")
+        let is_cubic =
+            acceleration.pieces().iter().any(|own| !own.is_constant(1) && !own.is_wave());
+        let (range, found) = if is_swept || is_cubic {
+            let found = if is_swept { "a chirp" } else { "a formula with powers of t" };
+            ("such that its displacement has a closed form", found)
         } else {
             ("such that its displacement fits into double precision", "too large")
         };
         let fault = Fault::Invalid(InvalidParameter::new("acceleration", range, found));
-        let fault = if is_swept {
-            fault.with_help(
-                "give the chirp as `motion`, a displacement, or its acceleration as a table",
-            )
+        let fault = if is_swept || is_cubic {
+            fault.with_help("give it as `motion`, a displacement, or the acceleration as a table")
         } else {
             fault
         };

@@ -10,6 +10,7 @@ use dashpot_network::{
 use super::Reading;
 use crate::{
     diagnostics::fault::Fault,
+    quantities::arithmetic::names,
     text::{
         document::{Content, Entry, Item},
         source::Place,
@@ -151,8 +152,9 @@ fn stop(reading: &Reading<'_>, item: &Item) -> Option<StopText> {
         return None;
     };
     // It is read when the unit of the output is known.
-    let value = level.item.text().and_then(|text| reading.library.values().get(text.trim()));
-    if let Some(known) = value {
+    let (text, values) = (level.item.text().unwrap_or_default(), reading.library.values());
+    let names = names(text, values).into_iter().chain([text.trim().to_owned()]);
+    for known in names.filter_map(|name| values.get(&name)) {
         known.is_used.set(true);
     }
     let direction = if falls.is_some() { Direction::Falling } else { Direction::Rising };

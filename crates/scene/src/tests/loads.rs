@@ -180,10 +180,7 @@ fn an_acceleration_is_the_second_derivative_of_the_motion() {
 fn accelerations_that_cannot_be_integrated_are_refused() {
     let chirp = "chirp = { amplitude = \"1 g0\", from = 1, to = 2, duration = 1 }";
     let shown = beside(&shaken("acceleration", chirp), "").unwrap_err().render(false);
-    has(
-        &shown,
-        &["`acceleration` must be such that", "but it is a chirp", "give the chirp as `motion`"],
-    );
+    has(&shown, &["`acceleration` must be such that", "but it is a chirp", "give it as `motion`"]);
     let chirp = "chirp = { amplitude = \"1 mm\", from = 1, to = 20, duration = 0.4 }";
     assert!(motion(&shaken("motion", chirp), "").pieces().iter().any(dashpot_dae::Piece::is_swept));
     let shown = beside(&shaken("acceleration", "constant = \"2 mm\""), "").unwrap_err();

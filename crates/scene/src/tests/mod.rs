@@ -1,5 +1,6 @@
 //! Tests of the whole way from text to scene.
 
+mod arithmetic;
 mod effects;
 mod equality;
 mod hints;

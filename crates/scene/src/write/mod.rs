@@ -7,13 +7,13 @@ use std::collections::HashMap;
 
 use dashpot_network::{
     Effect, Element, Model,
-    parameters::{Dimension, Parameter, ParameterKind, Value, WindowWish},
+    parameters::{Dimension, Formula, Parameter, ParameterKind, Value, WindowWish},
 };
 use dashpot_rheology::{Branch, Tree};
 
 use crate::{
     quantities::basis::{Basis, is_size},
-    units::{exact_quantity, tidy},
+    units::{Quantity, exact_quantity, tidy},
 };
 
 /// A model as an inline table, for instance `{ parallel = [{ spring = "20 MN/m" }, …] }`.
@@ -171,6 +171,9 @@ fn write_parameter(
     value: &Value,
     driven: Dimension,
 ) -> String {
+    if let Value::Formula(formula) = value {
+        return quoted(&written_formula(basis, parameter.kind, formula, driven).to_string());
+    }
     let (beside, dimension) = match parameter.kind {
         ParameterKind::Quantity(dimension) => (Dimension::TIME, dimension),
         ParameterKind::TemperatureDifference => (Dimension::TIME, Dimension::TEMPERATURE),
@@ -178,6 +181,21 @@ fn write_parameter(
         _ => (Dimension::TIME, driven),
     };
     write_value(value, basis.dimension(dimension), basis.dimension(beside))
+}
+
+/// A formula in the dimensions in which it is read: in those of a material, or with those of what is driven.
+fn written_formula(
+    basis: Basis,
+    kind: ParameterKind,
+    formula: &Formula,
+    driven: Dimension,
+) -> Formula {
+    let own = formula.dimension(kind.variables()).unwrap_or(driven);
+    if kind == ParameterKind::TimeFormula && own != driven {
+        let one = Quantity::of(1.0, driven.over(own));
+        return formula.scaled(one, &[], one);
+    }
+    formula.renumbered(&mut |dimension, value| (basis.dimension(dimension), value))
 }
 
 /// An effect as it stands under `[effects]`.
@@ -224,6 +242,7 @@ fn write_value(value: &Value, dimension: Dimension, beside: Dimension) -> String
             format!("[{}]", points.collect::<Vec<_>>().join(", "))
         }
         Value::Word(word) => quoted(word),
+        Value::Formula(formula) => quoted(&formula.to_string()),
         Value::Flag => "true".to_owned(),
         Value::LeftOut => String::new(),
         Value::Model(value) => value.model().map_or_else(String::new, write_model),

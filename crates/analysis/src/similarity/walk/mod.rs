@@ -321,6 +321,13 @@ fn walk_value(
             };
             Value::Table(points.iter().enumerate().map(point).collect())
         }
+        (_, Value::Formula(formula)) => {
+            let mut at = 0;
+            Value::Formula(formula.renumbered(&mut |dimension, value| {
+                at += 1;
+                (dimension, visit.quantity(&format!("{name}[{at}]"), dimension, value))
+            }))
+        }
         (_, Value::Window(WindowWish::Times(from, to))) => {
             let mut time =
                 |key: &str, own| visit.quantity(&format!("{name}.{key}"), Dimension::TIME, own);

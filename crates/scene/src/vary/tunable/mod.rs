@@ -14,12 +14,17 @@ use super::variation::{Written, in_words, other_dimension};
 use crate::{
     Variation,
     diagnostics::{Diagnostics, Faults},
+    quantities::{
+        arithmetic::quietly,
+        quantity::Values,
+        values::{Overrides, read as read_values},
+    },
     text::{
         document::{Content, Item, parse},
         nearest::{list, nearest, synonym},
         source::Source,
     },
-    units::{parse_quantity, si_unit},
+    units::{Quantity, parse_quantity, si_unit},
 };
 
 /// The tables whose numbers may vary.
@@ -55,11 +60,13 @@ pub struct Tunables {
     paths: Vec<(Vec<String>, usize)>,
 }
 
-/// What stands in a text: numbers, and words that may be names of values.
+/// What stands in a text: numbers with their units, and words that may be names of values.
 #[derive(Default)]
 struct Found {
-    numbers: Vec<(Vec<String>, Range<usize>, String)>,
+    numbers: Vec<(Vec<String>, Range<usize>, String, Quantity)>,
     words: Vec<(Vec<String>, String)>,
+    /// The values that numbers may be computed of.
+    values: Values,
 }
 
 impl Tunables {
@@ -75,7 +82,10 @@ impl Tunables {
         let Some(root) = root.filter(|_| faults.errors() == 0) else {
             return Err(faults.finish());
         };
-        let mut found = Found::default();
+        let named = root.table().unwrap_or(&[]).iter().find(|entry| entry.key == "values");
+        let unheard = Faults::default();
+        let values = read_values(named.map(|entry| &entry.item), &Overrides::default(), &unheard);
+        let mut found = Found { values, ..Found::default() };
         for entry in root.table().unwrap_or(&[]) {
             if SECTIONS.contains(&entry.key.as_str()) {
                 collect(&entry.item, &mut vec![entry.key.to_string()], &mut found);
@@ -90,8 +100,7 @@ impl Tunables {
 
     fn with(text: Arc<str>, found: Found) -> Self {
         let mut own = Self { text, all: Vec::new(), paths: Vec::new() };
-        for (path, span, content) in found.numbers {
-            let Ok(mut quantity) = parse_quantity(&content) else { continue };
+        for (path, span, unit, mut quantity) in found.numbers {
             if is_acceleration(&path) {
                 quantity = quantity.meant(Dimension::ACCELERATION);
             }
@@ -101,7 +110,7 @@ impl Tunables {
                 name: String::new(),
                 value: quantity.value,
                 dimension: quantity.dimension,
-                unit: Written::of(&content).map_or("", |own| own.unit).to_owned(),
+                unit,
                 span,
             });
         }
@@ -319,12 +328,24 @@ fn is_acceleration(path: &[String]) -> bool {
 fn collect(item: &Item, path: &mut Vec<String>, found: &mut Found) {
     match &item.value {
         Content::Number(digits) => {
-            found.numbers.push((path.clone(), item.place.span(), digits.to_string()));
+            let number = parse_quantity(digits).ok();
+            found
+                .numbers
+                .extend(number.map(|own| (path.clone(), item.place.span(), String::new(), own)));
         }
-        Content::Text(text) if parse_quantity(text).is_ok() => {
-            found.numbers.push((path.clone(), item.place.span(), text.to_string()));
+        Content::Text(text) => {
+            let is_name = found.values.contains_key(text.trim());
+            match quietly(text, &found.values).filter(|_| !is_name) {
+                Some(own) => {
+                    let unit = match (parse_quantity(text), Written::of(text)) {
+                        (Ok(_), Ok(written)) => written.unit.to_owned(),
+                        _ => own.dimension.map_or(String::new(), si_unit),
+                    };
+                    found.numbers.push((path.clone(), item.place.span(), unit, own));
+                }
+                None => found.words.push((path.clone(), text.trim().to_owned())),
+            }
         }
-        Content::Text(text) => found.words.push((path.clone(), text.trim().to_owned())),
         Content::Table(entries) => {
             for entry in entries {
                 path.push(entry.key.to_string());
