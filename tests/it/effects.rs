@@ -7,6 +7,7 @@
 mod balance;
 mod bouncing;
 mod claims;
+mod corners;
 mod faces;
 mod foam_cycles;
 mod friction;

@@ -277,7 +277,7 @@ mod tests {
             stiffness: None,
             damping: 0.0,
         };
-        let mut network = on(part(Friction { force: 200.0 }));
+        let mut network = on(part(Friction { force: 200.0, ratio: 1.0 }));
         network.add_effect(stop);
         let svg = sketch(&network, 1.0).svg();
         for text in ["slides at 200 N", "at 20 mm, e = 0.5"] {

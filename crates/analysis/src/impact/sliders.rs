@@ -124,7 +124,8 @@ impl fmt::Display for SliderFault {
 /// The first thing that a slider does and cannot.
 pub(crate) fn slider_fault(solution: &Solution<'_>, energy: &Ledger) -> Option<SliderFault> {
     let mut sliders = solution.assembly().primitives.iter().filter_map(|primitive| {
-        let capacity = primitive.element.phases()?.capacity()?;
+        let own = primitive.element.phases()?;
+        let capacity = own.capacity()? * own.static_to_kinetic();
         (solution.keeps(primitive.force) && solution.keeps(primitive.deformation))
             .then_some((primitive, capacity))
     });
@@ -188,8 +189,10 @@ mod tests {
         let mut network = Network::new();
         let head = network.add_node(Node::mass("head", 1.0).moving(2.0));
         let ground = network.ground();
-        let own =
-            Model::parallel([part(Spring { stiffness: 100.0 }), part(Friction { force: 3.0 })]);
+        let own = Model::parallel([
+            part(Spring { stiffness: 100.0 }),
+            part(Friction { force: 3.0, ratio: 1.0 }),
+        ]);
         network.connect("pad", head, ground, own);
         if stops {
             network.connect("stop", head, ground, part(Contact { gap: 0.1, restitution: 0.0 }));
@@ -231,9 +234,9 @@ mod tests {
             let head = network.add_node(Node::mass("head", 1.0).moving(3.0));
             let panel = network.add_node(Node::mass("panel", 2.0));
             let ground = network.ground();
-            network.connect("pad", head, panel, part(Friction { force: 1.0 }));
-            network.connect("mount", panel, ground, part(Friction { force: 5.0 }));
-            network.connect("guide", head, ground, part(Friction { force: 2.0 }));
+            network.connect("pad", head, panel, part(Friction { force: 1.0, ratio: 1.0 }));
+            network.connect("mount", panel, ground, part(Friction { force: 5.0, ratio: 1.0 }));
+            network.connect("guide", head, ground, part(Friction { force: 2.0, ratio: 1.0 }));
             let report = solved(&network, method);
             // 3 N brake 1 kg from 3 m/s in 1 s, and leave the panel where it is.
             let solution = report.solution();
@@ -250,7 +253,7 @@ mod tests {
         let head = network.add_node(Node::mass("head", 1.0).moving(2.0));
         let ground = network.ground();
         network.connect("spring", head, ground, part(Spring { stiffness: 100.0 }));
-        network.connect("guard", head, ground, part(Friction { force: 3.0 }));
+        network.connect("guard", head, ground, part(Friction { force: 3.0, ratio: 1.0 }));
         let mut report =
             network.solve_with(&SolveSettings::lasting(2.0).by_name("exact").unwrap()).unwrap();
         let energy = ledger(&report.solution(), 2.0);
@@ -262,7 +265,7 @@ mod tests {
             .iter_mut()
             .find(|primitive| primitive.name == "guard.friction")
             .unwrap();
-        own.element = Arc::new(Friction { force: 1.5 });
+        own.element = Arc::new(Friction { force: 1.5, ratio: 1.0 });
         report.assembly = Arc::new(assembly);
         let fault = slider_fault(&report.solution(), &energy).unwrap();
         assert!(matches!(fault, SliderFault::Overloaded { capacity: 1.5, .. }), "{fault}");

@@ -185,8 +185,22 @@ impl Expansion {
                         Some(size) => size.law(element.as_ref()),
                         None => element.law(),
                     };
+                    primitive.push = element.push();
                     primitive.element = element;
                 }
+            }
+        }
+        copy
+    }
+
+    /// The same for balances at rest: what has one law of the deformation has the whole of it.
+    pub(crate) fn at_rest(&self, parts: &[usize], phases: &[Phase]) -> Self {
+        let mut copy = self.in_phases(parts, phases);
+        for &part in parts {
+            let primitive = &mut copy.primitives[part];
+            if let Some(law) = primitive.origin.phases().and_then(Phases::at_rest) {
+                (primitive.law, primitive.push) = (law, 0.0);
+                primitive.element = Arc::clone(&primitive.origin);
             }
         }
         copy

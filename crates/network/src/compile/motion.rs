@@ -129,10 +129,11 @@ fn without_slopes(
         let ends = primitive.ends.map(|joint| given.bodies.of_joint[joint]);
         let [a, b] = primitive.ends.map(|joint| given.bodies.offset[joint]);
         let offset = inputs.constant(a - b);
-        if ends[0] == ends[1] && (a - b).abs() > 0.0 && primitive.law != Law::Rigid {
+        let is_pressed = (a - b).abs() > 0.0 || primitive.element.push() != 0.0;
+        if ends[0] == ends[1] && is_pressed && primitive.law != Law::Rigid {
             // Held at a deformation, it pushes all the same.
             let [stiffness, _] = primitive.slopes();
-            let force = if primitive.is_nonlinear() {
+            let force = if primitive.is_nonlinear() || primitive.element.push() != 0.0 {
                 inputs.constant(primitive.element.force(a - b, 0.0))
             } else {
                 offset.times(stiffness)

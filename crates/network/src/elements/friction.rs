@@ -10,16 +10,20 @@ parameters! {
     /// A slider with dry friction, `F = F_c sgn ẏ` while it slides and `|F| ≤ F_c` while it sticks
     /// (Coulomb).
     ///
-    /// | symbol | field   | unit | range |
-    /// |--------|---------|------|-------|
-    /// | `F_c`  | `force` | N    | ≥ 0   |
+    /// | symbol    | field   | unit | range |
+    /// |-----------|---------|------|-------|
+    /// | `F_c`     | `force` | N    | ≥ 0   |
+    /// | `F_s/F_c` | `ratio` | 1    | ≥ 1, 1 where left out |
     ///
     /// It sticks where its rate comes to zero, and slides again where the force that holds it would
-    /// exceed `F_c`: sticking is exact, not a creep. It stores no energy and dissipates `F_c |ẏ|`. Static
-    /// and kinetic friction are the same. `F_c = 0` is no slider at all. A mass that it holds to a given motion
+    /// exceed that of static friction, `F_s`: sticking is exact, not a creep. It stores no energy and
+    /// dissipates `F_c |ẏ|`. `F_c = 0` is no slider at all. A mass that it holds to a given motion
     /// slides where that has a kink.
     ///
     /// # Limits
+    ///
+    /// Where static friction is greater than kinetic, the force drops as it lets go, so one of its ends must
+    /// have a mass or a dashpot beside it that takes the difference.
     ///
     /// `F_c` does not depend on a normal force, on the speed or on the time of rest. Between two given
     /// motions it cannot stick: it slides the way they go, and while they pause it keeps the force that
@@ -33,10 +37,12 @@ parameters! {
     /// `coulomb1785` in `docs/references.bib`.
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Friction: "friction", "dry friction, F = F_c sgn ẏ, with true stick" {
-        /// force F_c at which it slides [N], zero or positive
+        /// force F_c of kinetic friction, while it slides [N], zero or positive
         pub force as "friction": f64 = Quantity(Dimension::FORCE), range NonNegative;
+        /// static friction F_s in parts of F_c [1], 1 or more
+        pub ratio as "static-to-kinetic": f64 = Quantity(Dimension::NUMBER), default "1", range AtLeastOne;
     }
-    sample { force: 50.0 }
+    sample { force: 50.0, ratio: 1.0 }
 }
 
 const STUCK: usize = 0;
@@ -78,12 +84,19 @@ impl Phases for Friction {
         match phase.index {
             FORWARD => vec![stop(false)],
             BACKWARD => vec![stop(true)],
-            _ => vec![slip(self.force, true, FORWARD), slip(-self.force, false, BACKWARD)],
+            _ => {
+                let holds = self.force * self.ratio;
+                vec![slip(holds, true, FORWARD), slip(-holds, false, BACKWARD)]
+            }
         }
     }
 
     fn capacity(&self) -> Option<f64> {
         Some(self.force)
+    }
+
+    fn static_to_kinetic(&self) -> f64 {
+        self.ratio
     }
 }
 

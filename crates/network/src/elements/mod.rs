@@ -16,11 +16,14 @@ mod hysteretic_foam;
 mod hysteretic_table;
 mod impact_law;
 mod indenter;
+mod line;
 mod monotone;
 pub mod phases;
+mod piecewise_spring;
 mod power;
 mod power_dashpot;
 mod power_spring;
+mod preloaded_spring;
 mod rate_spring;
 mod rigid;
 mod spring;
@@ -47,8 +50,10 @@ pub use hunt_crossley::HuntCrossley;
 pub use hysteretic_foam::HystereticFoam;
 pub use hysteretic_table::HystereticTable;
 pub use indenter::{Indenter, Shape};
+pub use piecewise_spring::PiecewiseSpring;
 pub use power_dashpot::PowerDashpot;
 pub use power_spring::PowerSpring;
+pub use preloaded_spring::PreloadedSpring;
 pub use rate_spring::RateSpring;
 pub use rigid::Rigid;
 pub use spring::Spring;
@@ -128,6 +133,11 @@ pub trait Element: Described {
         false
     }
 
+    /// What a law of [`Law::Spring`] adds to its force \[N\], `F = F₀ + k y`. Only that of a phase may.
+    fn push(&self) -> f64 {
+        0.0
+    }
+
     /// The deformations \[m\] between which the force is that of the law: of one of measured points those
     /// of its points, of one that grows without bound as far as it is followed. The force beyond is
     /// extrapolated. `None` where the law holds for all deformations.
@@ -201,6 +211,8 @@ elements! {
     PowerSpring,
     CubicSpring,
     StiffeningSpring,
+    PiecewiseSpring,
+    PreloadedSpring,
     TableSpring,
     Formula,
     Foam,

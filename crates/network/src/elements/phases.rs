@@ -7,7 +7,7 @@
 
 use std::{fmt::Debug, sync::Arc};
 
-use super::Element;
+use super::{Element, Law};
 
 /// One phase of an element, with what it remembers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +75,17 @@ pub trait Phases: Debug + Send + Sync {
     /// The force \[N\] at which it slides, of a dry slider. Those between the same two places share a
     /// force in this proportion.
     fn capacity(&self) -> Option<f64> {
+        None
+    }
+
+    /// The force up to which a dry slider sticks, in parts of that at which it slides; 1 or more.
+    fn static_to_kinetic(&self) -> f64 {
+        1.0
+    }
+
+    /// The law as the compiler of networks sees it, of an element whose force is one of the deformation
+    /// alone whatever its phase. Balances at the start need the whole of it.
+    fn at_rest(&self) -> Option<Law> {
         None
     }
 

@@ -80,8 +80,21 @@ impl TableSpring {
     }
 }
 
-/// Refuses points that are no curve of a spring.
+/// Refuses points that are no curve of a spring through (0, 0).
 pub(super) fn check(name: &'static str, points: &[(f64, f64)]) -> Result<(), InvalidParameter> {
+    check_order(name, points)?;
+    if points.iter().any(|point| point.0.abs() <= 0.0 && point.1.abs() <= 0.0) {
+        return Ok(());
+    }
+    let range = "a curve through [0, 0], given as one of its points";
+    Err(InvalidParameter::new(name, range, "without that point"))
+}
+
+/// Refuses points of which the forces fall, or are the same everywhere.
+pub(super) fn check_order(
+    name: &'static str,
+    points: &[(f64, f64)],
+) -> Result<(), InvalidParameter> {
     let invalid = |range: &'static str, found: String| InvalidParameter::new(name, range, found);
     if points.len() < 2 {
         return Err(invalid("two points or more", format!("{}", points.len())));
@@ -103,12 +116,7 @@ pub(super) fn check(name: &'static str, points: &[(f64, f64)]) -> Result<(), Inv
     if points[points.len() - 1].1 <= points[0].1 {
         return Err(invalid("of forces that rise", format!("{:?} everywhere", points[0].1)));
     }
-    if points.iter().any(|point| point.0.abs() <= 0.0 && point.1.abs() <= 0.0) {
-        Ok(())
-    } else {
-        let range = "a curve through [0, 0], given as one of its points";
-        Err(invalid(range, "without that point".to_owned()))
-    }
+    Ok(())
 }
 
 impl Element for TableSpring {

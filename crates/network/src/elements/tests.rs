@@ -90,7 +90,9 @@ fn forces_never_fall_with_the_deformation_nor_with_the_rate() {
 #[test]
 fn what_is_stored_rises_by_no_more_than_the_work_done() {
     for_each_law(|law| {
-        assert!(law.stored(0.0).abs() <= 0.0, "{law:?}");
+        // One that has a force at zero deformation stores something there.
+        let is_loaded = law.force(0.0, 0.0) != 0.0;
+        assert!(is_loaded || law.stored(0.0).abs() <= 0.0, "{law:?}");
         for y in DEFORMATIONS {
             let (stored, error) = slope(|y| law.stored(y), y);
             for v in RATES {
@@ -99,7 +101,8 @@ fn what_is_stored_rises_by_no_more_than_the_work_done() {
                 let is_first = first_curve(law)
                     .is_some_and(|own| law.force(y, v).to_bits() == own.force(y, v).to_bits());
                 assert!(is_first && v < 0.0 || excess <= error, "{law:?} at {y}, {v}: {excess}");
-                assert!(law.stored(y) >= 0.0, "{law:?} at {y}");
+                // A straight line may be that between corners away from where it has no force.
+                assert!(law.stored(y) >= 0.0 || law.push() != 0.0, "{law:?} at {y}");
             }
         }
     });

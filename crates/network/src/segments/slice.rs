@@ -26,10 +26,26 @@ pub(super) fn slice(layer: &Model, count: f64) -> Model {
 
 fn slice_of(element: &Arc<dyn Element>, count: f64) -> Arc<dyn Element> {
     match element.law() {
-        Law::Spring(stiffness) => Arc::new(Spring { stiffness: stiffness * count }),
+        Law::Spring(stiffness) if element.push() == 0.0 => {
+            Arc::new(Spring { stiffness: stiffness * count })
+        }
         Law::Dashpot(damping) => Arc::new(Dashpot { damping: damping * count }),
         Law::Rigid => Arc::clone(element),
-        Law::Nonlinear { .. } | Law::Phased => Arc::new(Slice { of: Arc::clone(element), count }),
+        Law::Spring(_) | Law::Nonlinear { .. } | Law::Phased => {
+            Arc::new(Slice { of: Arc::clone(element), count })
+        }
+    }
+}
+
+/// The law with slopes that are `count` times those of `law`.
+fn times(law: Law, count: f64) -> Law {
+    match law {
+        Law::Spring(stiffness) => Law::Spring(stiffness * count),
+        Law::Dashpot(damping) => Law::Dashpot(damping * count),
+        Law::Nonlinear { stiffness, damping } => {
+            Law::Nonlinear { stiffness: stiffness * count, damping: damping * count }
+        }
+        Law::Rigid | Law::Phased => law,
     }
 }
 
@@ -74,12 +90,7 @@ impl Element for Slice {
     }
 
     fn law(&self) -> Law {
-        match self.of.law() {
-            Law::Nonlinear { stiffness, damping } => {
-                Law::Nonlinear { stiffness: stiffness * self.count, damping: damping * self.count }
-            }
-            other => other,
-        }
+        times(self.of.law(), self.count)
     }
 
     fn grows_from(&self) -> Option<f64> {
@@ -93,6 +104,10 @@ impl Element for Slice {
 
     fn phases(&self) -> Option<&dyn Phases> {
         self.of.phases().map(|_| self as &dyn Phases)
+    }
+
+    fn push(&self) -> f64 {
+        self.of.push()
     }
 
     fn range(&self) -> Option<(f64, f64)> {
@@ -134,6 +149,11 @@ impl Phases for Slice {
             Watched::Deformation | Watched::Rate => Exit { level: exit.level / self.count, ..exit },
         });
         scaled.collect()
+    }
+
+    fn at_rest(&self) -> Option<Law> {
+        let whole = self.of.phases().and_then(Phases::at_rest)?;
+        Some(times(whole, self.count))
     }
 
     fn restitution(&self) -> f64 {

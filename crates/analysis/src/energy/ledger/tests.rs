@@ -63,7 +63,7 @@ fn belt() -> Network {
     let run = Waveform::new(vec![Piece { slope: 0.5, ..Piece::default() }]).unwrap();
     let belt = network.add_node(Node::prescribed("belt", run));
     let ground = network.ground();
-    network.connect("grip", block, belt, part(Friction { force: 5.0 }));
+    network.connect("grip", block, belt, part(Friction { force: 5.0, ratio: 1.0 }));
     network.connect("tie", block, ground, spring(100.0));
     network
 }
@@ -85,7 +85,7 @@ fn between_walls() -> Network {
     let ground = network.ground();
     network.connect("right", block, ground, contact(0.2, 0.8));
     network.connect("left", ground, block, contact(0.1, 0.6));
-    network.connect("slide", block, ground, part(Friction { force: 2.0 }));
+    network.connect("slide", block, ground, part(Friction { force: 2.0, ratio: 1.0 }));
     network
 }
 
@@ -109,7 +109,7 @@ fn dragged() -> Network {
     let shoe = network.add_node(Node::massless("shoe"));
     let ground = network.ground();
     network.connect("tie", block, shoe, spring(1.0));
-    network.connect("slide", shoe, ground, part(Friction { force: 0.3 }));
+    network.connect("slide", shoe, ground, part(Friction { force: 0.3, ratio: 1.0 }));
     let force = Waveform::new(vec![Piece { value: -0.2, ..Piece::default() }]).unwrap();
     network.add_load("drag", shoe, force);
     network

@@ -282,7 +282,7 @@ fn block_between_two_walls_has_an_impact_of_each() {
     let ground = network.ground();
     network.connect("right", block, ground, part(Contact { gap: 0.2, restitution: 0.8 }));
     network.connect("left", ground, block, part(Contact { gap: 0.1, restitution: 0.6 }));
-    network.connect("slide", block, ground, part(Friction { force: 2.0 }));
+    network.connect("slide", block, ground, part(Friction { force: 2.0, ratio: 1.0 }));
     let report = solved(&network, 1.0, &["right", "left"], &["block"]);
     let first = f64::sqrt(9.0 - 4.0 * 0.2);
     let second = f64::sqrt(0.64 * first * first - 4.0 * 0.3);

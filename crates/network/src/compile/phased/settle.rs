@@ -167,7 +167,7 @@ impl<'a> Settling<'a> {
 
     /// Places of all joints with contacts in these phases. Sliders hold nothing here.
     fn balanced(&self, phases: &[Phase]) -> Result<Vec<f64>, NetworkErrors> {
-        let mut expansion = self.expansion.in_phases(self.parts, phases);
+        let mut expansion = self.expansion.at_rest(self.parts, phases);
         for primitive in &mut expansion.primitives {
             let [a, b] = primitive.ends;
             let is_slider = primitive.law == Law::Rigid

@@ -13,7 +13,9 @@ use super::{
 };
 use crate::{
     Network, NetworkError, NetworkErrors, Start, Support,
+    error::Subject,
     network::start_velocity,
+    parameters::InvalidParameter,
     phases::{Phase, PhaseLaw, Phases},
 };
 
@@ -49,12 +51,48 @@ pub(super) fn bodies_apart(
     };
     let loosest = expansion.in_phases(parts, &phases(|_| true));
     let apart = Bodies::of(network, &loosest).map_err(NetworkErrors)?;
+    if let Ok(structure) = Structure::of(network, &loosest, &apart, duration) {
+        static_friction(expansion, &apart, &structure)?;
+    }
     let mut untouched = phases(is_contact);
     slip(network, expansion, parts, &apart, &mut untouched)?;
     let untouched = expansion.in_phases(parts, &untouched);
     let bodies = Bodies::of(network, &untouched).map_err(NetworkErrors)?;
     Structure::of(network, &untouched, &bodies, duration).map_err(NetworkErrors)?;
     Ok(apart)
+}
+
+/// Refuses static friction where the drop of the force to that of kinetic friction would move something at
+/// once, and where sliders side by side would let go one by one.
+fn static_friction(
+    expansion: &Expansion,
+    apart: &Bodies,
+    structure: &Structure,
+) -> Result<(), NetworkErrors> {
+    let ratio = |at: usize| {
+        let own = expansion.primitives[at].origin.phases();
+        own.map_or(1.0, Phases::static_to_kinetic)
+    };
+    let refused = |at: usize| -> Option<NetworkError> {
+        let primitive = &expansion.primitives[at];
+        let follows = |&joint: &usize| structure.algebraic_cluster(apart.of_joint[joint]).is_some();
+        let range = match &primitive.share {
+            Some(share) if ratio(share.of).to_bits() != ratio(at).to_bits() => {
+                "that of the sliders beside it"
+            }
+            _ if ratio(at) > 1.0 && primitive.ends.iter().any(follows) => {
+                "1 where an end has neither a mass nor a dashpot beside the slider"
+            }
+            _ => return None,
+        };
+        let invalid = InvalidParameter::new("static-to-kinetic", range, ratio(at));
+        let (element, path) = primitive.name.split_once('.').unwrap_or((&primitive.name, ""));
+        let path = path.split('.').map(str::to_owned).collect();
+        let subject = Subject::Element { name: element.to_owned(), path };
+        Some(NetworkError::Invalid { subject, invalid })
+    };
+    let errors: Vec<NetworkError> = (0..expansion.primitives.len()).filter_map(refused).collect();
+    if errors.is_empty() { Ok(()) } else { Err(NetworkErrors(errors)) }
 }
 
 /// Lets those sliders slide that would hold together what is given different motions, or what others
@@ -166,9 +204,11 @@ pub(super) fn state(
             slip(network, expansion, parts, apart, &mut first)?;
         }
         let remembered = phases(&deformation)?;
-        for (own, remembered) in first.iter_mut().zip(remembered) {
-            if own.index == remembered.index {
-                own.memory = remembered.memory;
+        for ((own, remembered), &at) in first.iter_mut().zip(remembered).zip(parts) {
+            let has_one_law =
+                expansion.primitives[at].origin.phases().is_some_and(|own| own.at_rest().is_some());
+            if own.index == remembered.index || has_one_law {
+                *own = remembered;
             }
         }
     }

@@ -46,7 +46,7 @@ impl Loads<'_> {
         let mut phases = self.with_impactors_sliding(phases, velocity);
         let mut forces = self.weights();
         self.give_way(&mut phases, &mut forces, unloaded, velocity)?;
-        let expansion = self.expansion.in_phases(self.parts, &phases);
+        let expansion = self.expansion.at_rest(self.parts, &phases);
         self.places(&expansion, &phases, &forces, unloaded, balance::UNBALANCED)
     }
 
@@ -119,7 +119,7 @@ impl Loads<'_> {
         unloaded: &[f64],
         velocity: &[f64],
     ) -> Result<(), NetworkErrors> {
-        let mut expansion = self.expansion.in_phases(self.parts, phases);
+        let mut expansion = self.expansion.at_rest(self.parts, phases);
         let stiffest = expansion.primitives.iter().map(|own| match own.element.law() {
             Law::Spring(stiffness) | Law::Nonlinear { stiffness, .. } => stiffness,
             _ => 0.0,
@@ -129,10 +129,10 @@ impl Loads<'_> {
         for (at, (&part, &phase)) in self.parts.iter().zip(&*phases).enumerate() {
             let primitive = &mut expansion.primitives[part];
             let Some(own) = primitive.origin.phases() else { continue };
-            let Some(strength) = own.capacity() else { continue };
+            let Some(capacity) = own.capacity() else { continue };
             // It stands for all others between the same joints.
             let part = primitive.share.map_or(1.0, |share| share.part);
-            let strength = strength / part;
+            let strength = capacity * own.static_to_kinetic() / part;
             let [a, b] = primitive.ends;
             // What strikes or is driven moves it, not the weights.
             if !matches!(own.law(phase), PhaseLaw::Held(_))

@@ -72,7 +72,10 @@ fn driven_slider(phase: f64) -> Network {
     let motion = Sine { amplitude: 0.005, frequency: 10.0, phase }.waveform().unwrap();
     let mut network = Network::new();
     let node = network.add_node(Node::prescribed("node", motion));
-    let model = Tree::parallel([part(Friction { force: 50.0 }), part(Dashpot { damping: 20.0 })]);
+    let model = Tree::parallel([
+        part(Friction { force: 50.0, ratio: 1.0 }),
+        part(Dashpot { damping: 20.0 }),
+    ]);
     network.connect("slider", node, network.ground(), model);
     network
 }
@@ -102,7 +105,7 @@ fn a_driven_slider_keeps_its_force_while_the_motion_pauses_and_turns_with_it() {
     let motion = Trapezoid { peak: 0.005, rise: 0.05, hold: 0.1, fall: 0.05, start: 0.0 };
     let mut network = Network::new();
     let node = network.add_node(Node::prescribed("node", motion.waveform().unwrap()));
-    network.connect("slider", node, network.ground(), part(Friction { force: 50.0 }));
+    network.connect("slider", node, network.ground(), part(Friction { force: 50.0, ratio: 1.0 }));
     for method in ["exact", "bdf"] {
         let solved = solve_by(method, &network, 0.4);
         assert_eq!(solved.what(), ["sliding backward"], "{method}");
@@ -116,7 +119,7 @@ fn a_driven_slider_keeps_its_force_while_the_motion_pauses_and_turns_with_it() {
 fn a_slider_whose_ends_are_at_rest_by_given_motions_is_refused_with_what_to_do() {
     let mut network = Network::new();
     let node = network.add_node(Node::prescribed("node", Waveform::constant(0.0)));
-    network.connect("slider", node, network.ground(), part(Friction { force: 50.0 }));
+    network.connect("slider", node, network.ground(), part(Friction { force: 50.0, ratio: 1.0 }));
     let refusal = network.compile(1.0).unwrap_err().to_string();
     assert!(refusal.contains("`slider"), "{refusal}");
     assert!(refusal.contains("give one of the parts a stiffness"), "{refusal}");
@@ -128,7 +131,10 @@ fn of_two_sliders_in_a_row_that_are_driven_the_weaker_one_slides() {
     for (first, second) in [(20.0, 30.0), (30.0, 20.0)] {
         let mut network = Network::new();
         let node = network.add_node(Node::prescribed("node", motion.clone()));
-        let pad = Tree::series([part(Friction { force: first }), part(Friction { force: second })]);
+        let pad = Tree::series([
+            part(Friction { force: first, ratio: 1.0 }),
+            part(Friction { force: second, ratio: 1.0 }),
+        ]);
         network.connect("pad", node, network.ground(), pad);
         let solved = solve(&network, 0.02);
         assert!((solved.at("pad.force", 0.01) - 20.0).abs() < 1e-12);

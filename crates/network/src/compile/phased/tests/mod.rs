@@ -238,7 +238,7 @@ fn a_slider_behind_a_pad_that_can_part_is_no_loose_end() {
     let head = network.add_node(Node::mass("head", 1.0).moving(1.0));
     let face = network.add_node(Node::massless("face"));
     network.connect("contact", head, face, contact(0.0, 0.0));
-    let pad = Tree::series([spring(1e4), part(Friction { force: 20.0 })]);
+    let pad = Tree::series([spring(1e4), part(Friction { force: 20.0, ratio: 1.0 })]);
     network.connect("pad", face, network.ground(), pad);
     let solved = solve(&network, 0.2);
     // Elastic to 20 N, plastic to the turn, elastic back: it leaves with F_c/√(k m).
