@@ -22,6 +22,7 @@ mod designs;
 mod displaced_starts;
 mod docs;
 mod driven_contacts;
+mod durations;
 mod effects;
 mod equivalence;
 mod error_bars;

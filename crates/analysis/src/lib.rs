@@ -5,6 +5,7 @@
 //! [`RunReport`]. All measures are read off the continuous solution, never off samples.
 
 pub mod contribution;
+mod duration;
 mod energy;
 mod error;
 mod errors;
@@ -26,6 +27,7 @@ pub mod vibration;
 mod wording;
 pub mod work_precision;
 
+pub use duration::{FoundDuration, found_duration};
 pub use energy::ledger;
 pub use energy::ledger::{EnergySeries, Leak, Ledger, Place};
 pub use error::{NoValue, RunError};

@@ -13,6 +13,8 @@ pub struct SolveSettings {
     pub method: Choice,
     /// Length of the run \[s\], zero or positive.
     pub duration: f64,
+    /// Whether the length was found for this network, so that another one has another.
+    pub is_duration_found: bool,
     /// The method's own relative tolerance, that of the finest of four solutions where errors are
     /// estimated, from 1e-13 to 1e-3 (to 1e-1 without estimate); `None` finds one that gives the
     /// accuracy wanted.
@@ -158,6 +160,7 @@ impl SolveSettings {
         Self {
             method: Choice::Auto,
             duration,
+            is_duration_found: false,
             rtol: None,
             accuracy: Accuracy::default(),
             estimate: true,

@@ -16,8 +16,8 @@ use crate::{
     models::{ModelReader, notes::ModelNote},
     quantities::values::{NamedValue, Overrides},
     sections::{
-        Reading, Targets, check_stops, read_accuracy, read_effects, read_elements, read_limits,
-        read_loads, read_measures, read_nodes, read_run,
+        Reading, Targets, check_stops, find_duration, read_accuracy, read_effects, read_elements,
+        read_limits, read_loads, read_measures, read_nodes, read_run,
     },
     text::{
         document::{Entry, MAX_BYTES, parse},
@@ -80,6 +80,7 @@ impl Scene {
         Ok(SolveSettings {
             method: Choice::named(method)?,
             duration: self.run.duration,
+            is_duration_found: self.run.at_most.is_some(),
             rtol: self.run.rtol,
             accuracy: self.accuracy.clone(),
             estimate: true,
@@ -283,7 +284,19 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     if faults.errors() > 0 {
         return None;
     }
-    let before = faults.counts();
+    let compiled = |duration: f64| {
+        let compiled = network.compile(duration);
+        compiled.map_err(|errors| note_errors(&reading, &errors)).ok()
+    };
+    if let Some(at_most) = run.at_most {
+        run.stops = check_stops(&reading, &stops, &compiled(0.0)?);
+        if faults.errors() > 0 {
+            return None;
+        }
+        run.duration = find_duration(&reading, &network, &run, at_most)?;
+    }
+    // What is odd about a scene is of no interest while it has no answer.
+    let assembly = compiled(run.duration)?;
     review(&reading, &network, run.duration);
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
@@ -298,18 +311,11 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         })
         .collect();
     values.sort_by(|a, b| a.name.cmp(&b.name));
-    let assembly = match network.compile(run.duration) {
-        Ok(assembly) => assembly,
-        Err(errors) => {
-            // What is odd about a scene is of no interest while it has no answer.
-            faults.take_back(before);
-            note_errors(&reading, &errors);
-            return None;
-        }
-    };
     note_held(&reading, &assembly.held);
     note_warnings(&reading, &assembly.warnings);
-    run.stops = check_stops(&reading, &stops, &assembly);
+    if run.at_most.is_none() {
+        run.stops = check_stops(&reading, &stops, &assembly);
+    }
     Some(Scene {
         title,
         file: options.file.map(str::to_owned),

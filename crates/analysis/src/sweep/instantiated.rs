@@ -60,6 +60,9 @@ impl<'g> Plan<'g> {
         columns: &[Column],
     ) -> Option<Self> {
         let settings = &first.settings;
+        if settings.is_duration_found {
+            return None;
+        }
         let is_exact = matches!(settings.method.name(), "auto" | "exact");
         if !is_exact || !settings.stops.is_empty() || settings.accuracy.neglect_below.is_some() {
             return None;

@@ -227,13 +227,14 @@ fn solving(scene: &Scene) -> Result<Vec<(&'static str, String)>, CliError> {
     let (method, why) = choice(&scene.assembly, scene.run.duration);
     let first = scene.run.methods.first().map_or("auto", String::as_str);
     let measures = reported_measures(&scene.assembly, &scene.settings(first)?)?;
+    let found = if scene.run.at_most.is_some() { ", found" } else { "" };
     let algebraic = match system.algebraic() {
         0 => "no algebraic unknown is left".to_owned(),
         count => format!("{count} algebraic unknowns stay"),
     };
     Ok(vec![
         ("system", format!("{} states; {algebraic}", system.states())),
-        ("duration", constant(scene.run.duration, "s")),
+        ("duration", constant(scene.run.duration, "s") + found),
         ("methods", scene.run.methods.join(", ")),
         ("auto", format!("would choose `{method}`: {why}")),
         ("measures", measures.join(", ")),

@@ -192,19 +192,6 @@ impl Faults {
         })
     }
 
-    /// How many faults are kept so far, and how many are not.
-    pub(crate) fn counts(&self) -> (usize, usize) {
-        let state = self.state.borrow();
-        (state.list.len(), state.omitted)
-    }
-
-    /// Takes back what was noted after these [`counts`](Self::counts).
-    pub(crate) fn take_back(&self, (kept, omitted): (usize, usize)) {
-        let mut state = self.state.borrow_mut();
-        state.list.truncate(kept);
-        state.omitted = omitted;
-    }
-
     /// All that was found, errors first, in the order of the text.
     pub(crate) fn finish(self) -> Diagnostics {
         let mut state = self.state.into_inner();

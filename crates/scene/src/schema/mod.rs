@@ -242,7 +242,11 @@ fn run() -> Value {
         "description": "how long, by which methods, and when to stop",
         "type": "object",
         "properties": {
-            "duration": described_as(reference("time"), "length of the run [s]"),
+            "duration": described_as(
+                reference("time"),
+                "length of the run [s]; `auto` until the impact is over and nothing larger follows",
+            ),
+            "at-most": described_as(reference("time"), "the longest run that `auto` finds [s]"),
             "samples": {
                 "description": "points of the output grid; the solution does not depend on it",
                 "type": "integer", "minimum": 1, "maximum": 10_000_000, "default": 501,

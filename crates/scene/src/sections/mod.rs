@@ -1,6 +1,7 @@
 //! The tables of a scene, one file each.
 
 mod accuracy;
+mod duration;
 mod effects;
 mod elements;
 mod files;
@@ -11,6 +12,7 @@ mod of_measures;
 mod run;
 
 pub(crate) use accuracy::read_accuracy;
+pub(crate) use duration::find_duration;
 pub(crate) use effects::read_effects;
 pub(crate) use elements::{ELEMENT_KEYS, read_elements};
 pub use limits::parse_limits;

@@ -7,7 +7,7 @@ use dashpot_network::{
     parameters::{Dimension, InvalidParameter, Range},
 };
 
-use super::Reading;
+use super::{Reading, duration::read_at_most};
 use crate::{
     diagnostics::fault::Fault,
     quantities::arithmetic::names,
@@ -30,6 +30,8 @@ const MAX_SAMPLES: usize = 10_000_000;
 pub struct RunSettings {
     /// Length of the run \[s\], zero or positive.
     pub duration: f64,
+    /// The longest that it might have been \[s\], where the length was found.
+    pub at_most: Option<f64>,
     /// Points of the output grid, 1 … 10⁷; the solution does not depend on it.
     pub samples: usize,
     /// Whether the scene says how many: they then lie at regular times, else where they resolve
@@ -57,6 +59,7 @@ pub(crate) fn read_run(reading: &Reading<'_>) -> (RunSettings, Vec<StopText>) {
     let methods = vec!["auto".to_owned()];
     let mut run = RunSettings {
         duration: 0.0,
+        at_most: None,
         samples: SAMPLES,
         samples_given: false,
         methods,
@@ -71,7 +74,9 @@ pub(crate) fn read_run(reading: &Reading<'_>) -> (RunSettings, Vec<StopText>) {
         return (run, Vec::new());
     };
     let quantities = reading.quantities();
-    let duration = table.require("duration", "duration = \"20 ms\"").and_then(|own| {
+    let given = table.require("duration", "duration = \"20 ms\"");
+    run.at_most = read_at_most(reading, &table, given);
+    let duration = given.filter(|_| run.at_most.is_none()).and_then(|own| {
         let check = |time| Range::NonNegative.check("duration", time);
         quantities.of("run.duration").read_checked(&own.item, Dimension::TIME, check)
     });

@@ -244,7 +244,12 @@ fn measure(measure: &dyn Measure) -> String {
 }
 
 fn settings(run: &RunSettings) -> String {
-    let mut text = format!("\n[run]\nduration = {}\n", said(run.duration, Dimension::TIME));
+    let mut text = match run.at_most {
+        Some(at_most) => {
+            format!("\n[run]\nduration = \"auto\"\nat-most = {}\n", said(at_most, Dimension::TIME))
+        }
+        None => format!("\n[run]\nduration = {}\n", said(run.duration, Dimension::TIME)),
+    };
     if run.samples_given {
         let _ = writeln!(text, "samples = {}", run.samples);
     }

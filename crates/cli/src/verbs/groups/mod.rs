@@ -153,6 +153,7 @@ fn write(
 ) -> Result<(), CliError> {
     let run = dashpot_scene::RunSettings {
         duration: settings.duration,
+        at_most: None,
         stops: settings.stops.clone(),
         ..scene.run.clone()
     };
