@@ -392,3 +392,97 @@ fn a_table_of_designs_that_does_not_fit_is_refused_with_line_and_column() {
     assert!(err(&output).contains("`none.csv` cannot be read"), "{}", err(&output));
     assert_eq!(code(&run(&["sweep", scene])), 2);
 }
+
+const LINERS: &str = r#"
+[materials]
+soft = { spring = "1 MPa" }
+firm = { spring = "4 MPa" }
+[nodes]
+head = { mass = "5 kg", velocity = "5 m/s" }
+[elements]
+liner = { between = ["head", "ground"], material = "soft", thickness = "20 mm", area = "40 cm^2" }
+[run]
+duration = "60 ms"
+"#;
+
+/// V √(m E A/h).
+fn liner_force(modulus: f64, thickness: f64) -> f64 {
+    5.0 * (5.0 * modulus * 40e-4 / thickness).sqrt()
+}
+
+#[test]
+fn words_are_swept_beside_numbers() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "liners.toml", LINERS);
+    let measure = ["--measure", "liner.peak-force"];
+    let ranges = ["--vary", "liner.material=soft,firm", "--vary", "thickness=10,20,40 mm"];
+    let swept = run(&[&["sweep", text(&path)], &ranges[..], &measure].concat());
+    assert_eq!(code(&swept), 0, "{}", err(&swept));
+    let table = out(&swept);
+    let records = records(&table);
+    assert_eq!(records[0][..2], ["liner.material", "thickness [m]"]);
+    assert_eq!(records.len(), 7);
+    for record in &records[1..] {
+        let modulus = if record[0] == "soft" { 1e6 } else { 4e6 };
+        let right = liner_force(modulus, record[1].parse().unwrap());
+        let value: f64 = record[2].parse().unwrap();
+        assert!((value / right - 1.0).abs() < 1e-9, "{record:?} against {right}");
+    }
+    // One line for each word over the numbers, whichever comes first.
+    let drawn = folder.path().join("drawn");
+    let to = ["--out", text(&drawn)];
+    let turned = [ranges[2], ranges[3], ranges[0], ranges[1]];
+    let swept = run(&[&["sweep", text(&path)], &turned[..], &measure, &to].concat());
+    assert_eq!(code(&swept), 0, "{}", err(&swept));
+    let figure = std::fs::read_to_string(drawn.join("liner.peak-force.svg")).unwrap();
+    for word in ["soft", "firm"] {
+        assert!(figure.contains(&format!("data-name=\"{word}\"")), "{word}");
+    }
+    let object = json(&[&["sweep", text(&path), "--json"], &ranges[..], &measure].concat());
+    assert_eq!(object["parameters"][0]["values"], serde_json::json!(["soft", "firm"]));
+}
+
+#[test]
+fn words_that_are_none_are_told_by_their_place() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "liners.toml", LINERS);
+    for (vary, told) in [
+        ("liner.material=soft,frim,firm", "did you mean `firm`?"),
+        ("liner.materal=soft,firm", "did you mean `liner.material`?"),
+        ("liner.thickness=soft,firm", "`liner.thickness` is a number, 20 mm in the scene"),
+        ("liner.material=1,2", "`liner.material` is a word, `soft` in the scene"),
+    ] {
+        let swept = run(&["sweep", text(&path), "--vary", vary]);
+        assert_eq!(code(&swept), 2);
+        assert!(err(&swept).contains(told), "{vary}: {}", err(&swept));
+    }
+}
+
+#[test]
+fn a_sample_is_a_latin_hypercube_that_repeats() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "liners.toml", LINERS);
+    let sampled = |seed: &str| {
+        let ranges = ["--vary", "thickness=10..30 mm", "--vary", "liner.material=soft,firm"];
+        let wishes = ["--measure", "liner.peak-force", "--sample", "40", "--seed", seed];
+        let swept = run(&[&["sweep", text(&path)], &ranges[..], &wishes].concat());
+        assert_eq!(code(&swept), 0, "{}", err(&swept));
+        out(&swept)
+    };
+    let table = sampled("5");
+    assert_eq!(table, sampled("5"));
+    assert_ne!(table, sampled("6"));
+    let records = records(&table);
+    let mut parts: Vec<usize> = Vec::new();
+    for record in &records[1..] {
+        let modulus = if record[1] == "soft" { 1e6 } else { 4e6 };
+        let thickness: f64 = record[0].parse().unwrap();
+        let value: f64 = record[2].parse().unwrap();
+        let right = liner_force(modulus, thickness);
+        assert!((value / right - 1.0).abs() < 1e-9, "{record:?} against {right}");
+        parts.push(((thickness - 0.01) / 0.02 * 40.0) as usize);
+    }
+    parts.sort_unstable();
+    assert_eq!(parts, (0..40).collect::<Vec<_>>());
+    assert_eq!(records[1..].iter().filter(|own| own[1] == "soft").count(), 20);
+}

@@ -203,7 +203,7 @@ fn rounded_up(time: f64) -> f64 {
     if time <= 0.0 {
         return SHORTEST;
     }
-    let digit = 10_f64.powi(time.log10().floor() as i32 - 1);
+    let digit = 10_f64.powf(time.log10().floor() - 1.0);
     // Divided by a whole number where the digit is a small one: 21 ms, not 21.000000000000004 ms.
     let count = (time / digit * (1.0 - 4.0 * f64::EPSILON)).ceil();
     if digit < 1.0 { count / (1.0 / digit).round() } else { count * digit }

@@ -83,6 +83,8 @@ impl Variation {
                 values: Vec::new(),
                 dimension: None,
                 is_logarithmic: false,
+                is_range: false,
+                words: Vec::new(),
             });
         }
         for (line, fields) in csv.rows() {

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::{
     text::nearest::nearest,
-    units::{UnitError, format_short, parse_quantity, si_unit},
+    units::{Quantity, UnitError, format_short, parse_quantity, si_unit},
 };
 
 /// Values in a range where their number is not given.
@@ -30,6 +30,10 @@ pub struct Variation {
     pub dimension: Option<Dimension>,
     /// Whether they stand at equal ratios.
     pub is_logarithmic: bool,
+    /// Whether they are a range whose count is not given.
+    pub is_range: bool,
+    /// The words that it takes in place of numbers, which are then their positions.
+    pub words: Vec<String>,
 }
 
 /// Why a text does not say how a parameter varies.
@@ -129,10 +133,18 @@ impl Variation {
             return Err(nothing());
         }
         let parts: Vec<&str> = values.split(',').map(str::trim).collect();
+        let is_number = |part: &&str| {
+            let begins = part.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+            begins || part.contains("..")
+        };
+        if !parts.iter().any(is_number) && !parts.contains(&"") {
+            return Ok(Self::of_words(name, parts.iter().map(|&own| own.to_owned()).collect()));
+        }
         let (numbers, unit, is_logarithmic) = match parts[0].split_once("..") {
             Some((first, last)) => range(first, last, &parts[1..])?,
             None => list(&parts)?,
         };
+        let is_scale = |own: &&str| own.is_empty() || SCALES.contains(own);
         let mut own = Self {
             name: name.to_owned(),
             unit: unit.to_owned(),
@@ -140,6 +152,8 @@ impl Variation {
             numbers,
             dimension: None,
             is_logarithmic,
+            is_range: parts[0].contains("..") && parts[1..].iter().all(|own| is_scale(own)),
+            words: Vec::new(),
         };
         for at in 0..own.numbers.len() {
             let quantity = parse_quantity(&own.text(at))
@@ -157,11 +171,36 @@ impl Variation {
 
     /// Takes its values for what they are where this dimension is wanted.
     pub(crate) fn settle(&mut self, wanted: Dimension) {
+        self.revalue(|quantity| quantity.meant(wanted));
+    }
+
+    /// Takes its values from its numbers, each as `meant`.
+    pub(crate) fn revalue(&mut self, meant: impl Fn(Quantity) -> Quantity) {
         for at in 0..self.len() {
             let Ok(quantity) = parse_quantity(&self.text(at)) else { continue };
-            let quantity = quantity.meant(wanted);
+            let quantity = meant(quantity);
             (self.values[at], self.dimension) = (quantity.value, quantity.dimension);
         }
+    }
+
+    /// A parameter that takes words.
+    pub(crate) fn of_words(name: &str, words: Vec<String>) -> Self {
+        let numbers: Vec<f64> = (0..words.len()).map(|at| at as f64).collect();
+        Self {
+            name: name.to_owned(),
+            unit: String::new(),
+            values: numbers.clone(),
+            numbers,
+            dimension: None,
+            is_logarithmic: false,
+            is_range: false,
+            words,
+        }
+    }
+
+    /// Whether it takes words in place of numbers.
+    pub fn is_of_words(&self) -> bool {
+        !self.words.is_empty()
     }
 
     /// How many values there are.
@@ -179,6 +218,9 @@ impl Variation {
 
     /// A value as it would be written in a scene.
     pub fn text(&self, at: usize) -> String {
+        if let Some(word) = self.words.get(at) {
+            return word.clone();
+        }
         let number = self.numbers[at];
         let (plain, scientific) = (number.to_string(), format!("{number:e}"));
         let number = if scientific.len() < plain.len() { scientific } else { plain };
@@ -231,7 +273,7 @@ fn range<'t>(first: &'t str, last: &'t str, rest: &[&str]) -> Result<Numbers<'t>
 }
 
 /// A number without the rounding in its last digit.
-fn handy(number: f64) -> f64 {
+pub(crate) fn handy(number: f64) -> f64 {
     format!("{number:.14e}").parse().unwrap_or(number)
 }
 
@@ -282,6 +324,14 @@ mod tests {
         assert_eq!(own.values, [2e3, 4e3, 6.5e3]);
         assert_eq!(own.text(2), "6.5 kN s/m");
         assert_eq!(Variation::parse("h=8 mm,2 cm").unwrap().numbers, [0.8, 2.0]);
+    }
+
+    #[test]
+    fn words_are_taken_where_none_is_a_quantity() {
+        let own = Variation::parse("liner.material = eps, epp,vn").unwrap();
+        assert_eq!(own.words, ["eps", "epp", "vn"]);
+        assert_eq!((own.text(2), own.len()), ("vn".to_owned(), 3));
+        assert!(fault("liner.material=eps,5 mm").contains("does not begin with a number"));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use dashpot_analysis::{
     sweep::{Column, SweepReport},
 };
 use dashpot_plot::{Chart, Direction, Map, MapLimit, ReferenceLine, Scale, Series};
+use dashpot_scene::Variation;
 
 use super::{
     Swept, Varied,
@@ -44,7 +45,11 @@ impl Figures {
     fn of(varied: &Varied) -> Self {
         match &varied.variations[..] {
             // Nothing says that rows of a table follow each other.
-            _ if varied.is_listed => Self { lines: false, map: false },
+            _ if varied.is_of_rows() => Self { lines: false, map: false },
+            [one, rest @ ..] | [rest @ .., one] if one.is_of_words() => {
+                let lines = rest.len() == 1 && !rest[0].is_of_words();
+                Self { lines, map: false }
+            }
             [_] => Self { lines: true, map: false },
             [first, second] => {
                 let map = first.len() >= LEAST_OF_MAP && second.len() >= LEAST_OF_MAP;
@@ -58,8 +63,15 @@ impl Figures {
 /// Why there is no figure, where there is none.
 pub(super) fn undrawn(varied: &Varied) -> Option<&'static str> {
     let figures = Figures::of(varied);
-    let is_drawn = figures.lines || figures.map;
-    (!is_drawn).then_some("no figures: lines and maps are drawn over one parameter or two")
+    if figures.lines || figures.map {
+        return None;
+    }
+    Some(match &varied.variations[..] {
+        [_, _] | [_] if varied.variations.iter().all(Variation::is_of_words) => {
+            "no figures over words alone; `dashpot run SCENE --variant …` draws curves over each other"
+        }
+        _ => "no figures: lines and maps are drawn over one parameter or two",
+    })
 }
 
 fn line_file(column: &Column) -> String {
@@ -112,7 +124,10 @@ pub(super) fn write(files: &mut Staged<'_>, swept: &Swept) -> Result<(), CliErro
 pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
     let (variations, report) = (&swept.varied.variations, &swept.report);
     let own = variations.iter().enumerate();
-    let own = own.map(|(at, own)| format!("{} [{}]", own.name, swept.unit(at)));
+    let own = own.map(|(at, own)| match own.is_of_words() {
+        true => own.name.clone(),
+        false => format!("{} [{}]", own.name, swept.unit(at)),
+    });
     let found = report.columns.iter().flat_map(|column| {
         let (name, unit) = (name(column), column.unit);
         [format!("{name} [{unit}]"), format!("error of {name} [{unit}]")]
@@ -128,7 +143,9 @@ pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
     let mut warned = list(report.warnings.iter().map(|warning| warning.points.iter().peekable()));
     let rows = points.enumerate().map(|(point, (values, errors))| {
         let places = swept.varied.places(&swept.grid.places(point)).into_iter();
-        let own = places.zip(variations).map(|(place, own)| own.values[place]);
+        let own = places.zip(variations).map(|(place, own)| {
+            own.words.get(place).cloned().unwrap_or_else(|| number(own.values[place]))
+        });
         let both = values.iter().zip(errors).flat_map(|(value, error)| [*value, *error]);
         let raised = warned
             .iter_mut()
@@ -136,7 +153,7 @@ pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
             .filter_map(|(at, points)| points.next_if_eq(&&point).map(|_| (at + 1).to_string()));
         let raised = list(raised).join(" ");
         let judged = judged.iter().map(|own| own[point].map_or("", Judgement::word).to_owned());
-        list(own.chain(both).map(number).chain(judged).chain([raised]))
+        list(own.chain(both.map(number)).chain(judged).chain([raised]))
     });
     csv(out, header, rows)
 }
@@ -178,21 +195,26 @@ fn drawn(count: usize) -> Vec<usize> {
     (0..wanted).map(|at| at * (count - 1) / (wanted - 1).max(1)).collect()
 }
 
-/// A column over the first parameter, one line for each value of the second.
+/// A column over the first parameter, one line for each value of the second; over that which takes numbers,
+/// where the other takes words.
 fn lines(swept: &Swept, column: usize) -> Chart {
     let report = &swept.report;
-    let (x_label, x_scale, x) = axis(swept, 0);
+    let variations = &swept.varied.variations;
+    let over = usize::from(variations[0].is_of_words());
+    let (x_label, x_scale, x) = axis(swept, over);
     let unit = unit(report, column);
     let values: Vec<f64> = report.column(column).map(|own| unit.of(own)).collect();
-    let (count, name_of): (usize, Box<dyn Fn(usize) -> String>) = match &swept.varied.variations[..]
-    {
-        [_, second] => {
-            (second.len(), Box::new(|at| format!("{} = {}", second.name, shown(second, at))))
-        }
-        _ => (1, Box::new(|_| String::new())),
+    let family = variations.get(1 - over);
+    let count = family.map_or(1, Variation::len);
+    let name_of = |at: usize| match family {
+        Some(own) if own.is_of_words() => own.text(at),
+        Some(own) => format!("{} = {}", own.name, shown(own, at)),
+        None => String::new(),
     };
+    let [along, across] = if over == 0 { [count, 1] } else { [1, x.len()] };
     let line = |at: usize| {
-        let points = x.iter().enumerate().map(|(place, x)| (*x, values[place * count + at]));
+        let value = |place: usize| values[place * along + at * across];
+        let points = x.iter().enumerate().map(|(place, x)| (*x, value(place)));
         Series::new(name_of(at), points.collect())
     };
     let own = &report.columns[column];

@@ -34,10 +34,13 @@ use crate::{
     dashpot sweep --vary \"head.velocity=2..12 m/s\" --measure padding.peak-force\n  \
     dashpot sweep pad.toml --points designs.csv\n  \
     dashpot sweep --vary \"padding.maxwell.spring=5..80 MN/m,41,log\" \\\n    \
-    --vary \"padding.kelvin.dashpot=1..16 kN s/m,41,log\" --out map\n\n\
+    --vary \"padding.kelvin.dashpot=1..16 kN s/m,41,log\" --out map\n  \
+    dashpot sweep helmet.toml --vary liner.material=eps,epp,vn --vary \"drop=0.5..2 m\"\n  \
+    dashpot sweep pad.toml --vary \"K=5..30 MN/m\" --vary \"C=2..9 kN s/m\" --sample 200\n\n\
     A number of the scene goes by its path, such as head.velocity, mount.dashpot, \
     padding.maxwell.spring or padding.thickness, or by its name under [values]. Its values are a \
-    range, with their count and `lin` or `log`, or a list: \"K=5,10,20 MN/m\". Without `--out` the \
+    range, with their count and `lin` or `log`, or a list: \"K=5,10,20 MN/m\". A word of it, such as \
+    that of a material, takes a list of words. Without `--out` the \
     table is printed as CSV, in SI units.")]
 pub(crate) struct SweepArguments {
     #[command(flatten)]
@@ -51,6 +54,13 @@ pub(crate) struct SweepArguments {
     /// the scene with their units, such as `head.velocity [m/s],liner.thickness [mm]`; each row is one.
     #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     points: Option<PathBuf>,
+    /// So many designs in place of all combinations: a Latin hypercube of the ranges; of a list, and of a range
+    /// with a count, each value is taken equally often.
+    #[arg(long, value_name = "NUMBER", requires = "vary", value_parser = samples)]
+    sample: Option<usize>,
+    /// Which designs `--sample` takes; the same number gives the same ones.
+    #[arg(long, value_name = "NUMBER", requires = "sample", default_value_t = 1)]
+    seed: u64,
     /// Measures, such as padding.peak-force [default: all that the scene reports].
     #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
     measure: Vec<String>,
@@ -107,8 +117,19 @@ struct Varied {
     variations: Vec<Variation>,
     /// The number of the scene that each variation is of.
     matched: Vec<usize>,
-    /// Whether the values of one row of a table go together, in place of all combinations.
-    is_listed: bool,
+    form: Form,
+}
+
+/// Which values go together.
+enum Form {
+    /// All combinations.
+    Combined,
+    /// All combinations of these; with words among them no number says how near points are to each other.
+    Mixed(Grid),
+    /// Those of one row of a table.
+    Listed,
+    /// Those of one design of a sample.
+    Sampled,
 }
 
 impl Varied {
@@ -123,22 +144,67 @@ impl Varied {
             }
         };
         let matched = tunables.matched(&mut variations)?;
-        Ok(Self { tunables, variations, matched, is_listed: arguments.points.is_some() })
+        let mut form = if arguments.points.is_some() { Form::Listed } else { Form::Combined };
+        if let Some(count) = arguments.sample {
+            variations = Variation::sampled(&variations, count, arguments.seed);
+            // They are numbers of the scene once more.
+            tunables.matched(&mut variations)?;
+            form = Form::Sampled;
+        } else if variations.iter().any(Variation::is_of_words) && variations.len() > 1 {
+            form = Grid::new(counts(&variations)).map_or(form, Form::Mixed);
+        }
+        Ok(Self { tunables, variations, matched, form })
+    }
+
+    /// Whether the values of a row go together, in place of all combinations.
+    fn is_of_rows(&self) -> bool {
+        matches!(self.form, Form::Listed | Form::Sampled)
+    }
+
+    /// Whether nothing says how near its points are to each other.
+    fn is_apart(&self) -> bool {
+        self.is_of_rows() || self.variations.iter().any(Variation::is_of_words)
     }
 
     /// All points; `None` where there are too many.
     fn grid(&self) -> Option<Grid> {
-        let counts: Vec<usize> = self.variations.iter().map(Variation::len).collect();
-        let counts = if self.is_listed { counts[..1].to_vec() } else { counts };
-        Grid::new(counts).filter(|grid| grid.len() <= MOST)
+        let grid = match &self.form {
+            Form::Combined => Grid::new(counts(&self.variations)),
+            Form::Mixed(all) => Grid::new(vec![all.len()]),
+            Form::Listed | Form::Sampled => Grid::new(vec![self.variations[0].len()]),
+        };
+        grid.filter(|grid| grid.len() <= MOST)
     }
 
     /// Which of its values each parameter takes at a point of the grid.
     fn places(&self, of_grid: &[usize]) -> Vec<usize> {
-        match of_grid {
-            [row] if self.is_listed => vec![*row; self.variations.len()],
-            places => places.to_vec(),
+        match &self.form {
+            Form::Combined => of_grid.to_vec(),
+            Form::Mixed(all) => all.places(of_grid[0]),
+            Form::Listed | Form::Sampled => vec![of_grid[0]; self.variations.len()],
         }
+    }
+
+    /// The points at which something wrong with the values shows, rising: the corners of the grid, and every
+    /// word.
+    fn telling(&self, grid: &Grid) -> Vec<usize> {
+        let mut points: Vec<usize> = grid.corners().into_iter().take(MOST_CORNERS).collect();
+        for (axis, own) in self.variations.iter().enumerate().filter(|own| own.1.is_of_words()) {
+            let mut known: Vec<&str> = Vec::new();
+            for (place, word) in own.words.iter().enumerate() {
+                if known.contains(&word.as_str()) || known.len() >= MOST_CORNERS {
+                    continue;
+                }
+                known.push(word);
+                points.push(match &self.form {
+                    Form::Mixed(all) => all.on_axis(axis, place),
+                    _ => place,
+                });
+            }
+        }
+        points.sort_unstable();
+        points.dedup();
+        points
     }
 
     /// The text of the scene at a point of the grid.
@@ -161,6 +227,8 @@ struct Swept {
     scene: Scene,
     varied: Varied,
     grid: Grid,
+    /// Where errors were to be estimated.
+    estimates: Estimates,
     report: SweepReport,
 }
 
@@ -205,22 +273,32 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let mut shown = checked.warnings.list;
     let before = shown.len();
     // A fault at the ends of a range is shown in the scene's text, with the value under a caret.
-    for point in grid.corners().into_iter().take(MOST_CORNERS) {
+    for point in varied.telling(&grid) {
         let text = varied.text_at(&grid.places(point));
         let found = read(&text, &input.options(set)).map_err(CliError::Scene)?.warnings;
         let known: Vec<String> = shown.iter().map(dashpot_scene::Diagnostic::message).collect();
         shown.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
     }
     terminal.diagnose(&Diagnostics { list: shown.split_off(before), omitted: 0 });
-    let usual = if varied.is_listed { EstimatedPoints::All } else { EstimatedPoints::Some };
-    let estimates = arguments.estimate.unwrap_or(usual).into();
+    let usual = if varied.is_apart() { EstimatedPoints::All } else { EstimatedPoints::Some };
+    let estimates: Estimates = arguments.estimate.unwrap_or(usual).into();
     let report = solved((arguments, estimates), &grid, &pose, &columns, terminal)?;
-    let swept = Swept { scene, varied, grid, report };
+    let swept = Swept { scene, varied, grid, estimates, report };
     let has_folder = folder.is_some();
     emit(&swept, arguments.json, folder, terminal)?;
     files::undrawn(&swept.varied).filter(|_| has_folder).into_iter().for_each(note);
     let failed = swept.report.gaps.iter().filter(|gap| gap.column.is_none()).count();
     Ok(if failed == swept.report.points() { Status::RunFailed } else { Status::Done })
+}
+
+fn counts(variations: &[Variation]) -> Vec<usize> {
+    variations.iter().map(Variation::len).collect()
+}
+
+/// The number of designs of a sample.
+fn samples(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| (1..=MOST).contains(count));
+    count.ok_or_else(|| format!("a whole number from 1 to {MOST} is wanted"))
 }
 
 /// More points are not solved in one sweep.
@@ -243,11 +321,19 @@ fn solved(
     Ok(solve(grid, pose, columns, SweepOptions { threads, estimates }, &mut show)?)
 }
 
+/// What a parameter takes.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Values<'v> {
+    Numbers(&'v [f64]),
+    Words(&'v [String]),
+}
+
 impl Study for Swept {
     fn text(&self, text: &mut Text) {
         text.title(title(&self.scene));
         self.in_words().iter().for_each(|in_word| text.faint(in_word));
-        text.table(&summary(&self.report));
+        text.table(&summary(&self.report, matches!(self.varied.form, Form::Sampled)));
         text.paragraphs(notes(self));
     }
 
@@ -281,10 +367,10 @@ impl Study for Swept {
                 name: &own.name,
                 path: &self.varied.tunables.all()[tunable].path,
                 unit: self.unit(at),
-                values: &own.values,
+                values: if own.is_of_words() { Values::Words(&own.words) } else { Values::Numbers(&own.values) },
             }
         }));
-        let listed = self.varied.is_listed;
+        let listed = self.varied.is_of_rows();
         let (title, file) = (&scene.title, &scene.file);
         Object { dashpot: VERSION, title, file, listed, parameters, report }
     }

@@ -2,13 +2,13 @@
 
 use dashpot_analysis::{
     Judgement, Limit, Warning,
-    sweep::{Column, PartialOfSweep, SweepReport, SweepWarning},
+    sweep::{Column, Estimates, PartialOfSweep, SweepReport, SweepWarning},
 };
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
 use dashpot_scene::{Variation, units::si_unit};
 
-use super::Swept;
+use super::{Form, Swept};
 use crate::{
     numbers::{Unit, apart, bound, duration, estimate},
     verbs::run::{level, unit_of_kind},
@@ -39,17 +39,23 @@ impl Swept {
     pub(super) fn in_words(&self) -> Vec<String> {
         let line = |(own, &at): (&Variation, &usize)| {
             let last = own.len() - 1;
-            let of_table = self.varied.is_listed;
             let scale = if own.is_logarithmic { " at equal ratios" } else { "" };
             let path = &self.varied.tunables.all()[at].path;
             let path = if *path == own.name { String::new() } else { format!(" ({path})") };
             let shown = self.varied.tunables.shown(at);
-            if of_table {
-                return format!("{}{path}: by the table; {shown} in the scene", own.name);
+            let name = &own.name;
+            match self.varied.form {
+                Form::Listed => return format!("{name}{path}: by the table; {shown} in the scene"),
+                Form::Sampled => {
+                    return format!("{name}{path}: by a Latin hypercube; {shown} in the scene");
+                }
+                Form::Combined | Form::Mixed(_) => {}
+            }
+            if own.is_of_words() {
+                return format!("{name}{path}: {}; {shown} in the scene", own.words.join(", "));
             }
             format!(
-                "{}{path}: {} values from {} to {}{scale}; {shown} in the scene",
-                own.name,
+                "{name}{path}: {} values from {} to {}{scale}; {shown} in the scene",
                 own.len(),
                 own.text(0),
                 own.text(last),
@@ -69,18 +75,34 @@ pub(super) fn unit(column: &Column, largest: f64) -> Unit {
     unit_of_kind(kind, column.unit).unwrap_or_else(|| Unit::suiting(largest, column.unit))
 }
 
-/// The smallest and the largest value of each measure.
-pub(super) fn summary(report: &SweepReport) -> Table {
+/// The smallest and the largest value of each measure; of a sample what 5 %, half and 95 % of the designs stay
+/// below as well.
+pub(super) fn summary(report: &SweepReport, is_sample: bool) -> Table {
+    let header: &[(&str, f64)] = if is_sample {
+        &[("lowest", 0.0), ("5 %", 0.05), ("median", 0.5), ("95 %", 0.95), ("highest", 1.0)]
+    } else {
+        &[("lowest", 0.0), ("highest", 1.0)]
+    };
     let rows = report.columns.iter().enumerate().map(|(at, column)| {
-        let finite = || report.column(at).filter(|own| own.is_finite());
-        let ends = [finite().reduce(f64::min), finite().reduce(f64::max)];
+        let mut finite: Vec<f64> = report.column(at).filter(|own| own.is_finite()).collect();
+        finite.sort_by(f64::total_cmp);
         let text = |own: Option<f64>| {
             own.map_or("–".to_owned(), |own| unit(column, own).text(own, DIGITS))
         };
-        let [low, high] = ends.map(text);
-        vec![name(column), low, high]
+        let values = header.iter().map(|(_, share)| text(quantile(&finite, *share)));
+        [name(column)].into_iter().chain(values).collect()
     });
-    Table::new("", &["measure", "lowest", "highest"], rows)
+    let header: Vec<&str> = ["measure"].into_iter().chain(header.iter().map(|own| own.0)).collect();
+    Table::new("", &header, rows)
+}
+
+/// What this share of rising values stays below, linear between them; `None` of none.
+fn quantile(rising: &[f64], share: f64) -> Option<f64> {
+    let last = rising.len().checked_sub(1)?;
+    let place = share * last as f64;
+    let at = (0..last).rev().find(|at| *at as f64 <= place).unwrap_or(0);
+    let next = (at + 1).min(last);
+    Some(rising[at] + (place - at as f64) * (rising[next] - rising[at]))
 }
 
 /// A limit on the measure of a column: `limit 250 g (EN 1078:2012)`.
@@ -109,6 +131,9 @@ fn kept(report: &SweepReport) -> Vec<String> {
 
 /// A value of a parameter to four digits.
 pub(super) fn shown(variation: &Variation, at: usize) -> String {
+    if let Some(word) = variation.words.get(at) {
+        return word.clone();
+    }
     let unit = Unit::new(&variation.unit, 1.0);
     let text = unit.text(variation.numbers[at], 4);
     let (number, rest) = text.split_once(' ').unwrap_or((&text, ""));
@@ -136,7 +161,8 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
             bound(report.largest_difference)
         ));
     }
-    if (1..points - report.instantiated).contains(&report.estimated) {
+    let is_of_some = matches!(swept.estimates, Estimates::Some);
+    if is_of_some && (1..points - report.instantiated).contains(&report.estimated) {
         all.push(format!(
             "errors estimated at {} of them; the others have those of points near them \
              (`--estimate all` for all)",

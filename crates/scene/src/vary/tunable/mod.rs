@@ -35,28 +35,30 @@ const RUN: (&str, &str) = ("run", "duration");
 /// A node has one of these.
 const START: [&str; 3] = ["drop", "velocity", "energy"];
 
-/// A number in the text of a scene.
+/// A number or a word in the text of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tunable {
     /// Its path in full.
     pub path: String,
     /// The shortest end of the path that tells it from all others.
     pub name: String,
-    /// Its value in SI units.
+    /// Its value in SI units; that of a word is no number.
     pub value: f64,
     /// What it measures, where a unit is given.
     pub dimension: Option<Dimension>,
     /// Its unit as written, empty where there is none.
     pub unit: String,
+    /// The word that stands in place of a number, such as that of a material.
+    pub word: Option<String>,
     span: Range<usize>,
 }
 
-/// The numbers of a scene's text.
+/// The numbers of a scene's text, and its words.
 #[derive(Debug, Clone)]
 pub struct Tunables {
     text: Arc<str>,
     all: Vec<Tunable>,
-    /// Every path, the alternative ones included, and the number that it leads to.
+    /// Every path, the alternative ones included, and the number or word that it leads to.
     paths: Vec<(Vec<String>, usize)>,
 }
 
@@ -64,7 +66,7 @@ pub struct Tunables {
 #[derive(Default)]
 struct Found {
     numbers: Vec<(Vec<String>, Range<usize>, String, Quantity)>,
-    words: Vec<(Vec<String>, String)>,
+    words: Vec<(Vec<String>, Range<usize>, String)>,
     /// The values that numbers may be computed of.
     values: Values,
 }
@@ -111,17 +113,18 @@ impl Tunables {
                 value: quantity.value,
                 dimension: quantity.dimension,
                 unit,
+                word: None,
                 span,
             });
         }
         // Where a word is the name of a value, it stands for its number.
-        for (path, word) in &found.words {
+        for (path, _, word) in &found.words {
             let value = ["values".to_owned(), word.clone()];
             let known = own.paths.iter().find(|known| known.0 == value).map(|known| known.1);
             own.paths.extend(known.map(|at| (path.clone(), at)));
         }
         // An element of a model has the numbers of the model.
-        for (path, word) in &found.words {
+        for (path, _, word) in &found.words {
             let [section, element, key] = path.as_slice() else { continue };
             let shared = if key == "material" { "materials" } else { "models" };
             if section != "elements" || !["model", "material"].contains(&key.as_str()) {
@@ -139,13 +142,28 @@ impl Tunables {
                 .collect();
             own.paths.extend(inner);
         }
+        let is_ruled = |own: &&(Vec<String>, Range<usize>, String)| {
+            own.0[0] != RUN.0 && !own.0.iter().any(|part| part == "between")
+        };
+        for (path, span, word) in found.words.iter().filter(is_ruled).cloned() {
+            own.paths.push((path.clone(), own.all.len()));
+            own.all.push(Tunable {
+                path: path.join("."),
+                name: String::new(),
+                value: f64::NAN,
+                dimension: None,
+                unit: String::new(),
+                word: Some(word),
+                span,
+            });
+        }
         for at in 0..own.all.len() {
             own.all[at].name = own.shortest(at);
         }
         own
     }
 
-    /// All numbers, in the order of the text.
+    /// All numbers in the order of the text, and all words behind them.
     pub fn all(&self) -> &[Tunable] {
         &self.all
     }
@@ -156,17 +174,32 @@ impl Tunables {
     ///
     /// Where none or several go by it.
     pub fn find(&self, name: &str) -> Result<usize, TunableFault> {
+        self.find_one(name, false)
+    }
+
+    /// The position of the number, or of the word, of this name.
+    fn find_one(&self, name: &str, is_word: bool) -> Result<usize, TunableFault> {
         let wanted: Vec<&str> = name.split('.').map(str::trim).collect();
-        match self.led_to(&wanted)[..] {
+        match self.led_to(&wanted, is_word)[..] {
             [only] => Ok(only),
             [] => {
-                let known: Vec<String> = self.all.iter().map(|own| own.name.clone()).collect();
-                let near = self.akin(&wanted).or_else(|| {
-                    let paths = self.paths.iter().map(|path| path.0[1..].join("."));
+                if let [other] = self.led_to(&wanted, !is_word)[..] {
+                    let (name, own) = (name.to_owned(), &self.all[other]);
+                    return Err(match own.word.clone() {
+                        Some(word) => TunableFault::IsWord { name, word },
+                        None => TunableFault::IsNumber { name, number: self.shown(other) },
+                    });
+                }
+                let of_kind = |at: usize| self.all[at].word.is_some() == is_word;
+                let own = (0..self.all.len()).filter(|at| of_kind(*at));
+                let known: Vec<String> = own.map(|at| self.all[at].name.clone()).collect();
+                let near = self.akin(&wanted).filter(|_| !is_word).or_else(|| {
+                    let own = self.paths.iter().filter(|path| of_kind(path.1));
+                    let paths = own.map(|path| path.0[1..].join("."));
                     let words: Vec<String> = known.iter().cloned().chain(paths).collect();
                     nearest(name, words.iter().map(String::as_str)).map(str::to_owned)
                 });
-                Err(TunableFault::Unknown { name: name.to_owned(), near, known })
+                Err(TunableFault::Unknown { name: name.to_owned(), is_word, near, known })
             }
             ref several => {
                 let names = several.iter().map(|&at| format!("`{}`", self.all[at].name)).collect();
@@ -183,7 +216,7 @@ impl Tunables {
         let others = [synonym(last).unwrap_or(last)];
         let only = starts.chain(others).find_map(|end| {
             let with_owner = [owner, &[end]].concat();
-            let found = [self.led_to(&with_owner), self.led_to(&[end])];
+            let found = [self.led_to(&with_owner, false), self.led_to(&[end], false)];
             found.iter().find_map(|own| if let [only] = own[..] { Some(only) } else { None })
         });
         only.map(|at| self.all[at].name.clone())
@@ -198,7 +231,7 @@ impl Tunables {
     pub fn matched(&self, variations: &mut [Variation]) -> Result<Vec<usize>, TunableFault> {
         let mut found: Vec<usize> = Vec::with_capacity(variations.len());
         for place in 0..variations.len() {
-            let at = self.find(&variations[place].name)?;
+            let at = self.find_one(&variations[place].name, variations[place].is_of_words())?;
             if let Some(wanted) = self.all[at].dimension {
                 variations[place].settle(wanted);
             }
@@ -249,7 +282,8 @@ impl Tunables {
         for (span, value) in values {
             text.push_str(&self.text[from..span.start]);
             // Counts have to stand without quotes, quantities with their units within.
-            let quote = if value.parse::<f64>().is_ok() { "" } else { "\"" };
+            let is_bare = value.parse::<f64>().is_ok_and(f64::is_finite);
+            let quote = if is_bare { "" } else { "\"" };
             text.extend([quote, value, quote]);
             from = span.end;
         }
@@ -257,22 +291,19 @@ impl Tunables {
         text
     }
 
-    /// The value of a number in words.
+    /// The value of a number in words, or the word.
     pub fn shown(&self, at: usize) -> String {
-        in_words(self.all[at].value, self.all[at].dimension)
+        let own = &self.all[at];
+        own.word.clone().unwrap_or_else(|| in_words(own.value, own.dimension))
     }
 
-    /// The numbers that a path leads to, rising.
-    fn led_to(&self, wanted: &[&str]) -> Vec<usize> {
-        let whole = self.paths.iter().filter(|path| path.0[1..] == *wanted || path.0 == *wanted);
+    /// The numbers that a path leads to, or the words, rising.
+    fn led_to(&self, wanted: &[&str], is_word: bool) -> Vec<usize> {
+        let of_kind = || self.paths.iter().filter(|own| self.all[own.1].word.is_some() == is_word);
+        let whole = of_kind().filter(|path| path.0[1..] == *wanted || path.0 == *wanted);
         let mut found: Vec<usize> = whole.map(|whole| whole.1).collect();
         if found.is_empty() {
-            found = self
-                .paths
-                .iter()
-                .filter(|path| holds(&path.0, wanted))
-                .map(|path| path.1)
-                .collect();
+            found = of_kind().filter(|own| holds(&own.0, wanted)).map(|own| own.1).collect();
         }
         found.sort_unstable();
         found.dedup();
@@ -292,7 +323,7 @@ impl Tunables {
             picks.push((1..=last).collect());
             for pick in picks {
                 let parts: Vec<&str> = pick.iter().map(|&part| path[part].as_str()).collect();
-                if self.led_to(&parts) == [at] {
+                if self.led_to(&parts, self.all[at].word.is_some()) == [at] {
                     names.entry((parts.len(), order)).or_insert_with(|| parts.join("."));
                     break;
                 }
@@ -335,16 +366,15 @@ fn collect(item: &Item, path: &mut Vec<String>, found: &mut Found) {
         }
         Content::Text(text) => {
             let is_name = found.values.contains_key(text.trim());
-            match quietly(text, &found.values).filter(|_| !is_name) {
-                Some(own) => {
-                    let unit = match (parse_quantity(text), Written::of(text)) {
-                        (Ok(_), Ok(written)) => written.unit.to_owned(),
-                        _ => own.dimension.map_or(String::new(), si_unit),
-                    };
-                    found.numbers.push((path.clone(), item.place.span(), unit, own));
-                }
-                None => found.words.push((path.clone(), text.trim().to_owned())),
-            }
+            let word = || (path.clone(), item.place.span(), text.trim().to_owned());
+            let Some(own) = quietly(text, &found.values).filter(|_| !is_name) else {
+                return found.words.push(word());
+            };
+            let unit = match (parse_quantity(text), Written::of(text)) {
+                (Ok(_), Ok(written)) => written.unit.to_owned(),
+                _ => own.dimension.map_or(String::new(), si_unit),
+            };
+            found.numbers.push((path.clone(), item.place.span(), unit, own));
         }
         Content::Table(entries) => {
             for entry in entries {
@@ -373,8 +403,14 @@ fn collect(item: &Item, path: &mut Vec<String>, found: &mut Found) {
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum TunableFault {
     /// No number goes by this name.
-    #[error("the scene has no number `{name}`")]
-    Unknown { name: String, near: Option<String>, known: Vec<String> },
+    #[error("the scene has no {} `{name}`", if *.is_word { "word" } else { "number" })]
+    Unknown { name: String, is_word: bool, near: Option<String>, known: Vec<String> },
+    /// Words for what is a number.
+    #[error("`{name}` is a number, {number} in the scene, and its values are none")]
+    IsNumber { name: String, number: String },
+    /// Numbers for what is a word.
+    #[error("`{name}` is a word, `{word}` in the scene, and its values are numbers")]
+    IsWord { name: String, word: String },
     /// Several numbers do.
     #[error("`{name}` may be {}", .names.join(" or "))]
     Ambiguous { name: String, names: Vec<String> },
@@ -393,8 +429,9 @@ impl TunableFault {
     /// What to do.
     pub fn help(&self) -> Option<String> {
         match self {
-            Self::Unknown { near, known, .. } => {
-                let listed = format!("its numbers are {}", list(known));
+            Self::Unknown { near, known, is_word, .. } => {
+                let kind = if *is_word { "words" } else { "numbers" };
+                let listed = format!("its {kind} are {}", list(known));
                 Some(match near {
                     Some(near) => format!("did you mean `{near}`? {listed}"),
                     None => listed,
@@ -403,7 +440,7 @@ impl TunableFault {
             Self::Ambiguous { .. } => {
                 Some("write so much of the path that it is the only one".to_owned())
             }
-            Self::OtherDimension { .. } => None,
+            Self::OtherDimension { .. } | Self::IsNumber { .. } | Self::IsWord { .. } => None,
             Self::NoUnit { si, meant, .. } => {
                 Some(format!("write \"{meant}\", or with `{si}` if that is meant"))
             }
