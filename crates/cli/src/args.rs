@@ -32,7 +32,8 @@ pub(crate) struct SceneArguments {
 /// Which named values.
 #[derive(Debug, Args)]
 pub(crate) struct ValueArguments {
-    /// Sets a value of the scene's table [values]: `--set "K=25 MN/m"`; repeatable.
+    /// Sets a value of the scene's table [values], `--set "K=25 MN/m"`, or any number or word by its path,
+    /// `--set "head.mass=6 kg"`, `--set liner.material=epp`; repeatable.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
 }

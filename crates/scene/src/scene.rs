@@ -22,9 +22,10 @@ use crate::{
     text::{
         document::{Entry, MAX_BYTES, parse},
         library::{Library, Loader},
-        source::Source,
+        source::{Place, Source, set_source},
         table::{text_of, unknown_key},
     },
+    vary::{set::Settled, tunable::TunableFault},
 };
 
 /// The sections of a scene and of a file of models.
@@ -97,7 +98,8 @@ impl Scene {
 pub struct ReadOptions<'o> {
     /// Path of the file, for messages and for finding others beside it.
     pub file: Option<&'o str>,
-    /// Named values that override those of the text: name and quantity.
+    /// What overrides the text: a name under `[values]`, or the path of a number or a word such as
+    /// `head.mass` or `liner.material`, and what stands there then.
     pub set: &'o [(String, String)],
     /// Gives the text of other files, for `model = "pads.toml:valox-pad"`.
     pub loader: Option<Loader<'o>>,
@@ -208,10 +210,28 @@ pub(crate) fn load(
     faults: &Faults,
 ) -> Option<(Library, Arc<Source>)> {
     let name = options.file.unwrap_or("scene");
-    let source = Arc::new(Source::new(name, text));
+    let Settled { text: settled, named, astray } = Settled::new(text, options.set);
+    let shown = if settled == text { name.to_owned() } else { format!("{name}, as set") };
+    let source = Arc::new(Source::new(shown, &*settled));
     let root = parse(&source, faults)?;
-    let overrides = Overrides::new(options.set, faults);
+    for (own, fault) in astray {
+        let place = Place::new(faults.add_source(set_source(&own)), &(0..own.0.len()));
+        let help = fault.help();
+        faults.error(place, astray_fault(own.0, fault).with_any_help(help));
+    }
+    let overrides = Overrides::new(&named, faults);
     Some((Library::load(name, root, options.loader, &overrides, faults), source))
+}
+
+/// What is wrong with the path of something that is set.
+fn astray_fault(name: String, fault: TunableFault) -> Fault {
+    match fault {
+        TunableFault::Ambiguous { names, .. } => Fault::AmbiguousPath { name, names },
+        TunableFault::Unknown { known, .. } => {
+            Fault::UnknownName { family: "number or word", name, known }
+        }
+        _ => Fault::UnknownName { family: "number or word", name, known: Vec::new() },
+    }
 }
 
 /// Where a key belongs that stands at the top of a scene.

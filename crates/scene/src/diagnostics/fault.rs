@@ -82,6 +82,9 @@ pub enum Fault {
     /// A temperature in place of a difference of temperatures.
     #[error("`{text}` is a temperature; a difference of temperatures (K) is expected here")]
     CelsiusDifference { text: String },
+    /// A path that leads to several numbers or words.
+    #[error("`{name}` may be {}", .names.join(" or "))]
+    AmbiguousPath { name: String, names: Vec<String> },
     /// A name that stands for nothing.
     #[error("there is no {family} named `{name}`")]
     UnknownName {

@@ -3,7 +3,6 @@
 use std::{
     cell::Cell,
     collections::{HashMap, HashSet},
-    sync::Arc,
 };
 
 use dashpot_network::parameters::Dimension;
@@ -17,8 +16,7 @@ use crate::{
     diagnostics::{Faults, fault::Fault},
     text::{
         document::{Content, Item},
-        nearest::list,
-        source::{Place, SET, Source},
+        source::{Place, set_source},
         table::{entries_of, wrong_type},
     },
     units::{Quantity, UnitError, parse_quantity},
@@ -44,10 +42,11 @@ pub(crate) struct Overrides {
 impl Overrides {
     /// The values in `set`, pairs of name and quantity; the last one of a name counts.
     pub(crate) fn new(set: &[(String, String)], faults: &Faults) -> Self {
-        let definition = |(name, text): &(String, String)| {
-            let source = Source::new(SET, format!("{name}={text}"));
+        let definition = |own: &(String, String)| {
+            let (name, text) = own;
+            let source = set_source(own);
             let span = name.len() + 1..source.text.len();
-            let number = faults.add_source(Arc::new(source));
+            let number = faults.add_source(source);
             (name.clone(), Definition { text: text.clone(), place: Place::new(number, &span) })
         };
         Self { definitions: set.iter().map(definition).collect() }
@@ -60,27 +59,12 @@ impl Overrides {
                 let mut names: Vec<String> =
                     known.iter().flat_map(|values| values.keys().cloned()).collect();
                 names.sort();
-                let help = name.contains('.').then(|| path_help(name, &definition.text, &names));
                 let name = name.clone();
                 let fault = Fault::UnknownName { family: "value", name, known: names };
-                let fault = fault.with_any_help(help);
                 faults.error(Place { start: 0, ..definition.place }, fault);
             }
         }
     }
-}
-
-/// What to do where a path into the scene stands for the name of a value.
-fn path_help(path: &str, text: &str, names: &[String]) -> String {
-    let known = match names {
-        [] => "of which this scene has none".to_owned(),
-        names => format!("here {}", list(names)),
-    };
-    format!(
-        "`--set` takes names under [values], {known}; a path goes with \
-         `dashpot sweep --vary \"{path}={}\"`, one value or many",
-        text.trim()
-    )
 }
 
 /// The values of the table `item`, where the scene has one.

@@ -257,16 +257,33 @@ fn a_unit_that_is_not_read_is_told_with_its_factor() {
 }
 
 #[test]
-fn a_path_in_place_of_a_named_value_is_told_where_it_goes() {
-    let told = |values: &str| {
-        let set = [("pad.spring".to_owned(), "3 kN/m".to_owned())];
-        let text = format!("{values}{}", on_model("spring = \"1 kN/m\""));
-        let read = read(&text, &ReadOptions { set: &set, ..ReadOptions::default() });
-        read.unwrap_err().render(false)
+fn paths_are_set_in_the_text_and_those_that_lead_nowhere_are_told() {
+    let text = "[values]\nK = \"1 kN/m\"\n[materials]\nsoft = { spring = \"1 MPa\" }\nfirm = { spring = \"4 MPa\" }\n\
+        [nodes]\nhead = { mass = \"5 kg\", velocity = \"1 m/s\" }\n[elements]\n\
+        pad = { between = [\"head\", \"ground\"], material = \"soft\", thickness = \"1 cm\", area = \"10 cm^2\" }\n\
+        mat = { between = [\"head\", \"ground\"], spring = \"K\", thickness = \"3 cm\" }\n[run]\nduration = \"9 ms\"\n";
+    let read_with = |set: &[(&str, &str)]| {
+        let set: Vec<(String, String)> =
+            set.iter().map(|own| (own.0.to_owned(), own.1.to_owned())).collect();
+        read(text, &ReadOptions { set: &set, ..ReadOptions::default() })
+            .map(|checked| checked.value)
+            .map_err(|faults| faults.render(false))
     };
-    has(&told("[values]\nK = 1\n"), &["names under [values], here K; a path goes with"]);
-    let shown = told("");
-    has(&shown, &["of which this scene has none", "`dashpot sweep --vary \"pad.spring=3 kN/m\"`"]);
+    let own = read_with(&[
+        ("head.mass", "1 kg"),
+        ("pad.material", "firm"),
+        ("K", "2 kN/m"),
+        ("head.mass", "2 * 3 kg"),
+    ])
+    .unwrap();
+    let head = own.network.nodes().find(|node| node.1.name == "head").unwrap().1;
+    assert!((head.mass - 6.0).abs() < 1e-12 && (own.values[0].value - 2e3).abs() < 1e-9);
+    assert!(own.text.contains("mass = \"2 * 3 kg\"") && own.text.contains("material = \"firm\""));
+    let told = |name: &str, value: &str| read_with(&[(name, value)]).unwrap_err();
+    has(&told("pad.materal", "firm"), &["--set:1:1", "did you mean `pad.material`?"]);
+    has(&told("elements.thickness", "1 cm"), &["may be `pad.thickness` or `mat.thickness`"]);
+    has(&told("velocty", "1 m/s"), &["no value named `velocty`"]);
+    has(&told("head.mass", "6 m"), &["scene, as set:", "`6 m` is a length"]);
 }
 
 #[test]

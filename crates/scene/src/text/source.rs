@@ -5,6 +5,11 @@ use std::{ops::Range, sync::Arc};
 /// Name of the texts that set values from outside.
 pub(crate) const SET: &str = "--set";
 
+/// What is set from outside, a name and a value, as a text of its own.
+pub(crate) fn set_source((name, value): &(String, String)) -> Arc<Source> {
+    Arc::new(Source::new(SET, format!("{name}={value}")))
+}
+
 /// A text and what to call it in messages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {

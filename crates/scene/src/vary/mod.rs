@@ -1,6 +1,7 @@
-//! The numbers of a scene that a sweep may give other values.
+//! The numbers and words of a scene that may have other values: set, or varied in sweeps.
 
 pub(crate) mod listed;
 mod sample;
+pub(crate) mod set;
 pub(crate) mod tunable;
 pub(crate) mod variation;

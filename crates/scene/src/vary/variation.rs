@@ -152,7 +152,7 @@ impl Variation {
             numbers,
             dimension: None,
             is_logarithmic,
-            is_range: parts[0].contains("..") && parts[1..].iter().all(|own| is_scale(own)),
+            is_range: parts[0].contains("..") && parts[1..].iter().all(is_scale),
             words: Vec::new(),
         };
         for at in 0..own.numbers.len() {

@@ -102,8 +102,11 @@ fn below_directive(text: &str, comment: &str) -> String {
 fn written(scene: &Scene, changes: &Changes) -> Option<(String, Changes)> {
     let mut document: DocumentMut = scene.text.parse().ok()?;
     let mut rest = changes.clone();
-    rest.set
-        .retain(|(name, value)| !replace(&mut document, "values", name, &value.as_str().into()));
+    // What is set by a path stands in the text already.
+    let is_named = |name: &str| scene.values.iter().any(|known| known.name == name);
+    rest.set.retain(|(name, value)| {
+        is_named(name) && !replace(&mut document, "values", name, &value.as_str().into())
+    });
     // One accuracy for all measures goes where the scene says nothing that it would override.
     let run = document.get("run").and_then(Item::as_table_like);
     let has_tolerance = run.is_some_and(|run| run.contains_key("rtol"));
@@ -213,6 +216,10 @@ mod tests {
     #[test]
     fn nothing_changes_where_nothing_was_asked() {
         assert_eq!(resolved_scene(SCENE, &Changes::default()), SCENE);
+        let set = vec![("head.mass".to_owned(), "6 kg".to_owned())];
+        let text = resolved_scene(SCENE, &Changes { set, ..Changes::default() });
+        assert!(text.contains("# as run with --set \"head.mass=6 kg\"\n"), "{text}");
+        assert!(text.contains("mass = \"6 kg\"") && !text.contains("add:"), "{text}");
         let changes = Changes { set: set_k("1 N/m"), ..Changes::default() };
         assert_eq!(changes.description().as_deref(), Some("with K = 1 N/m"));
     }

@@ -124,9 +124,12 @@ pub(super) fn write(files: &mut Staged<'_>, swept: &Swept) -> Result<(), CliErro
 pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
     let (variations, report) = (&swept.varied.variations, &swept.report);
     let own = variations.iter().enumerate();
-    let own = own.map(|(at, own)| match own.is_of_words() {
-        true => own.name.clone(),
-        false => format!("{} [{}]", own.name, swept.unit(at)),
+    let own = own.map(|(at, own)| {
+        if own.is_of_words() {
+            own.name.clone()
+        } else {
+            format!("{} [{}]", own.name, swept.unit(at))
+        }
     });
     let found = report.columns.iter().flat_map(|column| {
         let (name, unit) = (name(column), column.unit);

@@ -134,8 +134,8 @@ enum Form {
 
 impl Varied {
     /// What the command line names of the scene with this text.
-    fn of(arguments: &SweepArguments, input: &Input) -> Result<Self, CliError> {
-        let tunables = Tunables::of(input.text()?, Some(&input.file)).map_err(CliError::Scene)?;
+    fn of(arguments: &SweepArguments, text: &str, file: &str) -> Result<Self, CliError> {
+        let tunables = Tunables::of(text, Some(file)).map_err(CliError::Scene)?;
         let mut variations: Vec<Variation> = match &arguments.points {
             Some(file) => Variation::listed(Input::read(file)?.text()?)
                 .map_err(|fault| CliError::Listed { file: file.clone(), fault: Box::new(fault) })?,
@@ -215,10 +215,9 @@ impl Varied {
         self.tunables.text_with(&values)
     }
 
-    /// Whether a named value is among the numbers that vary.
+    /// Whether what is set by this name is among what varies.
     fn has(&self, name: &str) -> bool {
-        let path = format!("values.{name}");
-        self.matched.iter().any(|&at| self.tunables.all()[at].path == path)
+        self.tunables.anything(name).is_ok_and(|at| self.matched.contains(&at))
     }
 }
 
@@ -239,10 +238,13 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
-    let varied = Varied::of(arguments, &input)?;
+    let varied = Varied::of(arguments, &scene.text, &input.file)?;
     if let Some((name, _)) = set.iter().find(|own| varied.has(&own.0)) {
         return Err(CliError::SetAndVaried { name: name.clone() });
     }
+    // What is set by a path stands in that text.
+    let is_named = |own: &&(String, String)| scene.values.iter().any(|known| known.name == own.0);
+    let set: Vec<(String, String)> = set.iter().filter(is_named).cloned().collect();
     let grid = varied.grid().ok_or(CliError::TooManyPoints { most: MOST })?;
     let scene_point = |scene: Scene| {
         let method = match (&arguments.method, &scene.run.methods[..]) {
@@ -262,7 +264,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let folder = Folder::wanted(arguments.out.as_deref(), names)?;
     let pose = |places: &[usize]| {
         let text = varied.text_at(places);
-        let checked = read(&text, &input.options(set)).map_err(|faults| {
+        let checked = read(&text, &input.options(&set)).map_err(|faults| {
             let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
             messages.collect::<Vec<_>>().join("; ")
         })?;
@@ -275,7 +277,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     // A fault at the ends of a range is shown in the scene's text, with the value under a caret.
     for point in varied.telling(&grid) {
         let text = varied.text_at(&grid.places(point));
-        let found = read(&text, &input.options(set)).map_err(CliError::Scene)?.warnings;
+        let found = read(&text, &input.options(&set)).map_err(CliError::Scene)?.warnings;
         let known: Vec<String> = shown.iter().map(dashpot_scene::Diagnostic::message).collect();
         shown.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
     }

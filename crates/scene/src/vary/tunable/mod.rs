@@ -177,6 +177,18 @@ impl Tunables {
         self.find_one(name, false)
     }
 
+    /// The position of the number or, where there is none, of the word of this name.
+    ///
+    /// # Errors
+    ///
+    /// Where none or several go by it.
+    pub fn anything(&self, name: &str) -> Result<usize, TunableFault> {
+        match self.find(name) {
+            Err(TunableFault::IsWord { .. }) => self.find_one(name, true),
+            found => found,
+        }
+    }
+
     /// The position of the number, or of the word, of this name.
     fn find_one(&self, name: &str, is_word: bool) -> Result<usize, TunableFault> {
         let wanted: Vec<&str> = name.split('.').map(str::trim).collect();

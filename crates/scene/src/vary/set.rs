@@ -1,0 +1,62 @@
+//! Numbers and words of a text that are set from outside, by their paths.
+
+use std::borrow::Cow;
+
+use super::tunable::{TunableFault, Tunables};
+use crate::{
+    diagnostics::Faults,
+    text::{document::parse, source::Source},
+};
+
+/// A text with what is set in it.
+pub(crate) struct Settled<'t> {
+    /// With what was set by a path.
+    pub(crate) text: Cow<'t, str>,
+    /// The rest of what was set: names under `[values]`.
+    pub(crate) named: Vec<(String, String)>,
+    /// What leads to nothing, as it was set, and why.
+    pub(crate) astray: Vec<((String, String), TunableFault)>,
+}
+
+impl<'t> Settled<'t> {
+    /// Sets numbers and words in the text: `head.mass`, `liner.material`. A name under `[values]` is no
+    /// path, and neither is one without a point that nothing in the text has.
+    pub(crate) fn new(text: &'t str, set: &[(String, String)]) -> Self {
+        let text = Cow::Borrowed(text);
+        let mut own = Self { text, named: set.to_vec(), astray: Vec::new() };
+        if set.is_empty() || all_are_named(&own.text, set) {
+            return own;
+        }
+        // What is wrong with the text is told where it is read.
+        let Ok(tunables) = Tunables::of(&own.text, None) else { return own };
+        let mut changes: Vec<(usize, String)> = Vec::new();
+        own.named.retain(|(name, value)| {
+            match tunables.anything(name) {
+                Ok(at) if tunables.all()[at].path == format!("values.{name}") => return true,
+                Ok(at) => {
+                    // The last one counts.
+                    changes.retain(|known| known.0 != at);
+                    changes.push((at, value.trim().to_owned()));
+                }
+                Err(fault) if name.contains('.') => {
+                    own.astray.push(((name.clone(), value.clone()), fault));
+                }
+                Err(_) => return true,
+            }
+            false
+        });
+        if !changes.is_empty() {
+            own.text = Cow::Owned(tunables.text_with(&changes));
+        }
+        own
+    }
+}
+
+/// Whether all of `set` are names under `[values]`.
+fn all_are_named(text: &str, set: &[(String, String)]) -> bool {
+    let root = parse(&Source::new("", text).into(), &Faults::default());
+    let sections = root.as_ref().and_then(|root| root.table()).unwrap_or(&[]);
+    let values = sections.iter().find(|own| own.key == "values");
+    let known = values.and_then(|own| own.item.table()).unwrap_or(&[]);
+    set.iter().all(|(name, _)| known.iter().any(|own| own.key == name.as_str()))
+}
