@@ -185,6 +185,13 @@ impl Tunables {
     pub fn anything(&self, name: &str) -> Result<usize, TunableFault> {
         match self.find(name) {
             Err(TunableFault::IsWord { .. }) => self.find_one(name, true),
+            // No number is like it; a word may be.
+            Err(fault @ TunableFault::Unknown { near: None, .. }) => {
+                match self.find_one(name, true) {
+                    Err(of_words @ TunableFault::Unknown { near: Some(_), .. }) => Err(of_words),
+                    _ => Err(fault),
+                }
+            }
             found => found,
         }
     }
