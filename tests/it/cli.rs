@@ -155,7 +155,6 @@ fn json_has_one_shape_and_si_values() {
             "jacobian_calls",
             "factorizations",
             "solves_for_error",
-            "wall_s",
         ] {
             assert!(run["solver"].get(key).is_some(), "{key}");
         }

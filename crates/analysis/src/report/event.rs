@@ -81,13 +81,6 @@ pub enum Event {
         /// Word for the phase.
         phase: &'static str,
     },
-    /// Further switchings, which are not listed.
-    More {
-        /// How many.
-        count: usize,
-        /// Time of the last one \[s\].
-        until: f64,
-    },
 }
 
 /// An impulse with which masses meet.
@@ -112,7 +105,6 @@ impl Event {
             Self::Impact { .. } => "impact",
             Self::PassesOn { .. } => "passes-on",
             Self::Phase { .. } => "phase",
-            Self::More { .. } => "more",
         }
     }
 }
@@ -156,9 +148,6 @@ impl fmt::Display for Event {
                 write!(f, "{contact} passes on {}", quantity(*impulse, "N s"))
             }
             Self::Phase { part, phase } => write!(f, "{part}: {phase}"),
-            Self::More { count, until } => {
-                write!(f, "… {count} more until {}", quantity(*until, "s"))
-            }
         }
     }
 }

@@ -1,4 +1,5 @@
-//! Reports as data for programs: `serde`, in SI units. A number that is not finite is none.
+//! Reports as data for programs: `serde`, in SI units. A number that is not finite is none. What a run
+//! took by the clock is left out, so that the same run gives the same text.
 
 use dashpot_network::{Model, parameters::Value};
 use dashpot_rheology::Tree;
@@ -59,9 +60,6 @@ serialized!(SolverReport, own => {
     "linear_solves" => own.statistics.linear_solves,
     "work" => own.work,
     "solves_for_error" => own.solves_for_error,
-    "wall_s" => own.statistics.wall.as_secs_f64(),
-    "wall_for_error_s" => own.wall_for_error.as_secs_f64(),
-    "wall_in_all_s" => own.wall_in_all.as_secs_f64(),
 });
 
 serialized!(Partial, own => {
@@ -72,7 +70,6 @@ serialized!(Partial, own => {
     "moved" => Pairs(own.costs.iter().map(|own| (&own.measure, finite(own.relative))).collect()),
     "unreported" => own.unreported,
     "further_runs" => own.verification.solves,
-    "wall_of_further_runs_s" => own.verification.wall.as_secs_f64(),
 });
 
 serialized!(Neglected, own => {

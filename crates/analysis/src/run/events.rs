@@ -11,9 +11,6 @@ use crate::{
     },
 };
 
-/// Most switchings that are listed one by one.
-const LISTED: usize = 20;
-
 /// Conditions that were met, contacts that end, and what switched.
 pub(super) fn collect(
     run: &Run,
@@ -36,13 +33,8 @@ pub(super) fn collect(
     let pulls =
         pulls.map(|pull| event(pull.impact.end, Event::Tension { element: pull.element.clone() }));
     let switchings = switchings(assembly, trajectory);
-    let rest = switchings.get(LISTED..).unwrap_or(&[]);
-    let summary = rest
-        .first()
-        .zip(rest.last())
-        .map(|(first, last)| event(first.0, Event::More { count: rest.len(), until: last.0 }));
-    let listed = switchings.iter().take(LISTED).map(|(time, what)| event(*time, what.clone()));
-    let mut events: Vec<EventReport> = pulls.chain(guards).chain(listed).chain(summary).collect();
+    let switchings = switchings.into_iter().map(|(time, what)| event(time, what));
+    let mut events: Vec<EventReport> = pulls.chain(guards).chain(switchings).collect();
     events.sort_by(|one, other| one.time.total_cmp(&other.time));
     events
 }

@@ -23,6 +23,8 @@ use crate::{
     sketch::{MOST_DRAWN, sketch},
 };
 
+/// What happened, in order of time.
+const EVENTS: &str = "events.csv";
 /// The scene with what the command line changed.
 const SCENE: &str = "scene-as-run.toml";
 /// The drawing of the network.
@@ -37,7 +39,7 @@ const CHUNK: usize = 4096;
 /// The files that are written besides the result and the tables of the methods.
 pub(super) fn names() -> impl Iterator<Item = String> {
     let figures = FIGURES.iter().map(|figure| format!("{}.svg", figure.name));
-    figures.chain([SCENE, DRAWING, PAGE].map(str::to_owned))
+    figures.chain([SCENE, DRAWING, EVENTS, PAGE].map(str::to_owned))
 }
 
 /// Adds everything that an answer holds but the result.
@@ -65,6 +67,7 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
         figures.push(ReportFigure { caption: String::new(), svg });
     }
     files.add(PAGE, page(answer, figures).html())?;
+    files.add_with(EVENTS, |out| write_events(&answer.runs, out))?;
     for run in &answer.runs {
         let times = sample_times(run, &answer.scene.run);
         let name = format!("{}.csv", run.solver.method);
@@ -97,6 +100,16 @@ pub(super) fn write_table(run: &RunReport, times: &[f64], out: &mut dyn Write) -
         list(table.times.iter().enumerate().map(row))
     });
     csv(out, ["time [s]".to_owned()].into_iter().chain(header), rows)
+}
+
+/// Writes all events of the runs as CSV.
+fn write_events(runs: &[RunReport], out: &mut dyn Write) -> io::Result<()> {
+    let header = ["method", "time [s]", "event", "what"].map(str::to_owned);
+    let rows = runs.iter().flat_map(|run| {
+        let method = run.solver.method;
+        run.events.iter().map(move |own| (method, own.time, own.what.code(), own.what.to_string()))
+    });
+    csv(out, header, rows)
 }
 
 /// The page with these drawings.
