@@ -20,6 +20,7 @@ mod scene;
 mod schema;
 mod sections;
 mod shipped;
+mod tables;
 mod text;
 mod vary;
 mod write;
@@ -34,7 +35,7 @@ pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network,
 pub use schema::schema;
 pub use sections::parse_limits;
 pub use shipped::{Shipped, reference, references, template, templates};
-pub use text::csv::{CsvFault, text_cell};
+pub use tables::{DataTable, Heading, TableError, TableFault, table_text, text_cell};
 pub use text::document::MAX_BYTES;
 pub use text::library::Loader;
 pub use text::nearest::{nearest, suggestion};

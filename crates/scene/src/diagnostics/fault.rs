@@ -10,10 +10,8 @@ use thiserror::Error;
 use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help};
 use crate::{
     quantities::words::{described, example},
-    text::{
-        csv::CsvFault,
-        nearest::{list, suggestion},
-    },
+    tables::TableFault,
+    text::nearest::{list, suggestion},
     units::UnitError,
 };
 
@@ -197,7 +195,7 @@ pub enum Fault {
     Unloadable { path: String, reason: String },
     /// A file of numbers that is no table.
     #[error("{0}")]
-    Csv(CsvFault),
+    Table(TableFault),
     /// Something that is odd but not wrong.
     #[error("{message}")]
     Odd { message: String, help: Option<String> },
@@ -322,7 +320,7 @@ impl Fault {
                 "for example:\n\n[elements]\npadding = { between = [\"head\", \"ground\"], spring = \"20 MN/m\" }"
                     .to_owned(),
             ),
-            Self::Csv(fault) => fault.help(),
+            Self::Table(fault) => fault.help(),
             Self::EmptyList { .. } => Some("leave the key out, or give an entry".to_owned()),
             _ => None,
         }

@@ -10,8 +10,8 @@ use crate::{
     diagnostics::fault::Fault,
     kinds::parameters::KindReader,
     quantities::quantity::Quantities,
+    tables::{DataTable, Field, Scale, TableError, TableFault},
     text::{
-        csv::{Csv, CsvFault, Field},
         document::{Content, Item},
         library::TableFile,
         source::Place,
@@ -49,29 +49,39 @@ impl<'d> Reading<'d> {
         let tell = |span: Range<usize>, fault: Fault| {
             self.faults.error(Place::new(file.number, &span), fault.with_note(&*note));
         };
-        let is_empty = || Fault::Csv(CsvFault::Empty { path: path.to_owned() });
-        let Some(csv) = Csv::new(&file.source.text) else {
-            self.faults.error(name.place, is_empty());
-            return None;
+        let is_empty = || {
+            let fault = TableError::new("", 0..0, TableFault::Empty).fault;
+            self.faults.error(name.place, Fault::Table(fault));
         };
-        if csv.columns < 2 {
-            tell(0..0, Fault::Csv(CsvFault::OneColumn));
+        let tell_error = |error: TableError| tell(error.span, Fault::Table(error.fault));
+        let csv = match DataTable::read(&file.source.text) {
+            Ok(csv) => csv,
+            Err(error) if error.fault == TableFault::Empty => {
+                is_empty();
+                return None;
+            }
+            Err(error) => {
+                tell_error(error);
+                return None;
+            }
+        };
+        if csv.columns() < 2 {
+            tell(0..0, Fault::Table(TableFault::OneColumn));
             return None;
         }
         let columns = self.columns(&csv, &wishes, name.place)?;
         let dimensions = [Dimension::TIME, driven];
         let quantities = Quantities { is_motion: driven == Dimension::LENGTH, ..self.quantities() };
         let [time, value] = [0, 1].map(|at| {
-            let header = csv.header.as_ref().and_then(|header| header.get(columns[at]));
-            let header = header.and_then(|field| field.name_and_unit().1);
             let given = wishes.units.map(|units| units[at]);
-            self.unit(file, header, given, dimensions[at], quantities)
+            self.unit(file, csv.unit(columns[at]), given, dimensions[at], quantities)
         });
         let units = [time?, value?];
-        let factors = units.map(|factor| factor.unwrap_or(1.0));
-        let points = csv.points(columns, factors, |span, fault| tell(span, Fault::Csv(fault)))?;
+        let scales =
+            units.map(|factor| factor.map_or(Scale::SI, |factor| Scale { factor, offset: 0.0 }));
+        let points = csv.samples(columns, scales, tell_error)?.points;
         if points.is_empty() {
-            self.faults.error(name.place, is_empty());
+            is_empty();
             return None;
         }
         if points.len() == 1 {
@@ -114,11 +124,20 @@ impl<'d> Reading<'d> {
     }
 
     /// The columns of time and value, counted from 0; `place` is that of the file's name.
-    fn columns(&self, csv: &Csv<'_>, wishes: &Wishes<'_>, place: Place) -> Option<[usize; 2]> {
+    fn columns(
+        &self,
+        csv: &DataTable<'_>,
+        wishes: &Wishes<'_>,
+        place: Place,
+    ) -> Option<[usize; 2]> {
         match wishes.columns {
-            None if csv.columns > 2 => {
-                let fault = CsvFault::WhichColumns { count: csv.columns };
-                self.faults.error(place, Fault::Csv(fault));
+            None if csv.columns() > 2 => {
+                let fault = TableFault::WhichColumns {
+                    count: csv.columns(),
+                    wanted: "time and value".to_owned(),
+                    names: Vec::new(),
+                };
+                self.faults.error(place, Fault::Table(fault));
                 None
             }
             None => Some([0, 1]),
@@ -159,21 +178,20 @@ impl<'d> Reading<'d> {
     }
 
     /// The column that `wanted` names or counts from 1.
-    fn column(&self, csv: &Csv<'_>, wanted: &Item) -> Option<usize> {
+    fn column(&self, csv: &DataTable<'_>, wanted: &Item) -> Option<usize> {
         match &wanted.value {
             Content::Number(digits) => {
                 let number = digits.parse::<usize>().ok().and_then(|own| own.checked_sub(1));
-                let found = number.filter(|number| *number < csv.columns);
+                let found = number.filter(|number| *number < csv.columns());
                 if found.is_none() {
-                    let (wanted_text, count) = (digits.to_string(), csv.columns);
-                    let fault = CsvFault::NoColumn { wanted: wanted_text, count };
-                    self.faults.error(wanted.place, Fault::Csv(fault));
+                    let (wanted_text, count) = (digits.to_string(), csv.columns());
+                    let fault = TableFault::NoColumn { wanted: wanted_text, count };
+                    self.faults.error(wanted.place, Fault::Table(fault));
                 }
                 found
             }
             Content::Text(name) => {
-                let header = csv.header.as_deref().unwrap_or(&[]);
-                let names = || header.iter().map(|field| field.name_and_unit().0);
+                let names = || (0..csv.columns()).map(|at| csv.heading(at).name);
                 let found = names().position(|own| own == name.trim());
                 if found.is_none() {
                     let known = names().map(str::to_owned).collect();
@@ -216,8 +234,8 @@ impl<'d> Reading<'d> {
             && (said.value - factor).abs() > 1e-12 * factor.abs()
         {
             let (header, text) = (header.text.to_owned(), text.to_owned());
-            let fault = CsvFault::Contradiction { header, given: text };
-            self.faults.error(given.place, Fault::Csv(fault));
+            let fault = TableFault::Contradiction { header, given: text };
+            self.faults.error(given.place, Fault::Table(fault));
             return None;
         }
         Some(Some(factor))
