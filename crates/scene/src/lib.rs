@@ -12,6 +12,7 @@
 //! Quantities carry [`units`]; inside all values are SI.
 
 mod check;
+mod curves;
 mod diagnostics;
 mod kinds;
 mod models;
@@ -25,6 +26,7 @@ mod text;
 mod vary;
 mod write;
 
+pub use curves::CurveChange;
 pub use dashpot_units as units;
 pub use diagnostics::fault::Fault;
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};

@@ -99,7 +99,7 @@ pub struct ReadOptions<'o> {
     pub file: Option<&'o str>,
     /// Named values that override those of the text: name and quantity.
     pub set: &'o [(String, String)],
-    /// Gives the text of other files, for `model = "pads.toml:valox-pad"`.
+    /// Gives the bytes of other files, for `model = "pads.toml:valox-pad"` and `table = "pulse.csv"`.
     pub loader: Option<Loader<'o>>,
 }
 
@@ -301,6 +301,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
     notes.extend(upward(&network));
+    notes.extend(library.curve_notes());
     let mut values: Vec<NamedValue> = library
         .values()
         .iter()

@@ -9,6 +9,7 @@ use thiserror::Error;
 
 use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help};
 use crate::{
+    curves::CurveChange,
     quantities::words::{described, example},
     tables::TableFault,
     text::nearest::{list, suggestion},
@@ -196,6 +197,12 @@ pub enum Fault {
     /// A file of numbers that is no table.
     #[error("{0}")]
     Table(TableFault),
+    /// A file of numbers without numbers.
+    #[error("`{path}` has no row of numbers")]
+    NoRows { path: String },
+    /// A measured curve that was changed by more than noise.
+    #[error("{0}")]
+    CurveChanged(CurveChange),
     /// Something that is odd but not wrong.
     #[error("{message}")]
     Odd { message: String, help: Option<String> },
@@ -321,6 +328,11 @@ impl Fault {
                     .to_owned(),
             ),
             Self::Table(fault) => fault.help(),
+            Self::CurveChanged(_) => Some(
+                "look at these rows: a law of the deformation alone never falls, so a drop after yield, a slip or \
+                 rows of another test are averaged"
+                    .to_owned(),
+            ),
             Self::EmptyList { .. } => Some("leave the key out, or give an entry".to_owned()),
             _ => None,
         }

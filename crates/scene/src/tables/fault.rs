@@ -99,6 +99,21 @@ pub enum TableFault {
     /// A time before the one of the row above.
     #[error("the time {found} stands after {before}: times never fall")]
     OutOfOrder { found: String, before: String },
+    /// Forces or stresses of the other sign.
+    #[error("the largest value of `{curve}` is negative; compression is positive here")]
+    Negative { curve: &'static str },
+    /// A curve of one branch that goes back.
+    #[error("the deformation of `{curve}` turns back here; the law has one branch")]
+    TurnsBack { curve: &'static str },
+    /// A record of more than one cycle.
+    #[error("a second cycle begins here; a record is loaded and unloaded once")]
+    SecondCycle,
+    /// A record without unloading.
+    #[error("the record ends here and never turns back: it has no unloading")]
+    NoUnloading,
+    /// Rows of which no curve can be made.
+    #[error("no curve of `{curve}` can be made of these rows and those of loading")]
+    NoCurve { curve: &'static str },
     /// More rows than a table may have.
     #[error("the file has more than {MOST_ROWS} rows")]
     TooManyRows,
@@ -163,6 +178,13 @@ impl TableFault {
                 "sort the rows by time; two rows of the same time are a jump"
             }
             Self::TooManyRows => "leave out rows that lie on the line between their neighbours",
+            Self::Negative { .. } => "turn the signs of both columns in the file",
+            Self::TurnsBack { .. } => {
+                "cut the file here, or give the whole record to `hysteretic-table`"
+            }
+            Self::SecondCycle => "cut the file to the cycle that is meant",
+            Self::NoUnloading => "use `table-spring`, or a record that goes back",
+            Self::NoCurve { .. } => "look at the loading: it needs two rows, and forces that rise",
             Self::Contradiction { .. } => "leave `units` out, or correct one of the two",
             Self::Empty | Self::NoColumn { .. } => return None,
         };

@@ -29,7 +29,7 @@ pub use self::{
 };
 
 /// After so many faults the rest of a file is not looked at.
-const TOLD: usize = 10;
+pub(crate) const TOLD: usize = 10;
 
 /// A table of numbers in a text.
 ///
@@ -218,6 +218,14 @@ impl<'t> DataTable<'t> {
             split(row, at, self.layout.separator, &mut fields);
             (at, fields)
         })
+    }
+
+    /// A field of the row that begins at byte `start`.
+    pub(crate) fn cell(&self, start: usize, column: usize) -> Option<Field<'t>> {
+        let (at, row) = lines(self.text, start).next()?;
+        let mut fields = Vec::new();
+        split(row, at, self.layout.separator, &mut fields);
+        fields.get(column).copied()
     }
 
     /// The number that a field is, without a unit.
