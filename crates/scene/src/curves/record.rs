@@ -37,11 +37,11 @@ pub(crate) fn split(rows: &[Row]) -> Result<(Vec<Row>, Vec<Row>), usize> {
     if turn(rows).is_none() {
         return Err(rows.len());
     }
-    let back: Vec<Row> = back.iter().rev().copied().collect();
-    if let Some(at) = turn(&back) {
-        return Err(rows.len() - at);
+    let inward: Vec<Row> = back.iter().map(|own| Row { at: -own.at, ..*own }).collect();
+    if let Some(at) = turn(&inward) {
+        return Err(last + at);
     }
     // It never pulls: what the machine did before it touched is no part of it.
     let pressed = |rows: &[Row]| rows.iter().filter(|own| own.at >= 0.0).copied().collect();
-    Ok((pressed(loading), pressed(&back)))
+    Ok((pressed(loading), pressed(back)))
 }

@@ -154,6 +154,10 @@ fn every_input_is_the_same_in_every_dialect() {
         let inline =
             beside(&(input.scene)(input.inline), b"").unwrap_or_else(|errors| panic!("{errors}"));
         let expected = numbers(&inline.value);
+        // Between points a function of time is a difference of its values.
+        let largest = expected.iter().fold(0.0, |most: f64, own| most.max(own.abs()));
+        let scale =
+            |own: f64| if inline.value.network.loads().is_empty() { own.abs() } else { largest };
         assert!(input.dialects().len() >= 12);
         for (dialect, bytes) in input.dialects() {
             let checked = beside(&(input.scene)("\"curve.csv\""), &bytes)
@@ -165,7 +169,7 @@ fn every_input_is_the_same_in_every_dialect() {
             assert_eq!(found.len(), expected.len(), "{dialect}: {found:?} for {expected:?}");
             for (own, other) in found.iter().zip(&expected) {
                 assert!(
-                    (own - other).abs() <= 4.0 * f64::EPSILON * other.abs(),
+                    (own - other).abs() <= 4.0 * f64::EPSILON * scale(*other),
                     "{dialect}: {own} for {other}"
                 );
             }
@@ -296,7 +300,7 @@ fn a_record_is_split_where_it_turns() {
     let text = pad("hysteretic-table = { file = \"curve.csv\", columns = [\"x\", \"F\"] }");
     // It is held at 10 mm, where the force relaxes, and taken off before the force is gone.
     let rows =
-        "t [s],x [mm],F [N]\n0,-1,0\n1,0,0\n2,5,100\n3,10,400\n4,10,360\n5,8,120\n6,5,50\n7,4,10\n";
+        "t [s],x [mm],F [N]\n0,-1,0\n1,0,0\n2,5,100\n3,10,400\n4,10,360\n5,8,200\n6,5,50\n7,4,10\n";
     let scene = beside(&text, rows.as_bytes()).unwrap().value;
     let dashpot_rheology::Tree::Part(element) = &scene.network.connections()[0].model else {
         panic!()
