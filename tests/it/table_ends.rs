@@ -14,7 +14,7 @@ const POINTS: &str = "[[\"0 ms\", 0], [\"20 ms\", \"1 kN\"]]";
 
 fn read_beside(text: &str, csv: &str) -> Result<Checked<Scene>, Diagnostics> {
     let loader = |path: &str| match path {
-        "pulse.csv" => Ok(csv.to_owned()),
+        "pulse.csv" => Ok(csv.into()),
         other => Err(format!("no {other}")),
     };
     read(text, &ReadOptions { loader: Some(&loader), ..ReadOptions::default() })

@@ -98,14 +98,9 @@ fn similar(path: &Path) -> Option<String> {
     nearest(&stem, references().iter().map(|shipped| shipped.name)).map(str::to_owned)
 }
 
-/// The text of a file of models.
-pub(crate) fn load(path: &str) -> Result<String, String> {
-    let bytes = bytes_of(Path::new(path)).map_err(|error| reason(&error))?;
-    let text = text_of_bytes(&bytes, None).map_err(|faults| {
-        let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
-        messages.collect::<Vec<_>>().join("; ")
-    })?;
-    Ok(text.to_owned())
+/// The bytes of a file that a scene names.
+pub(crate) fn load(path: &str) -> Result<Vec<u8>, String> {
+    bytes_of(Path::new(path)).map_err(|error| reason(&error))
 }
 
 fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {

@@ -4,6 +4,7 @@
 //! - [`chebyshev`]: polynomials, their zeros and their interpolation;
 //! - [`quadrature`]: rules of Gauss and Legendre, and of Gauss and Kronrod on halved intervals;
 //! - [`roots`] and [`extrema`]: bisection, bracketed Newton steps, false position, golden section;
+//! - [`isotonic`]: the nearest sequence that never falls;
 //! - [`small`] and [`exponential`]: matrices on the stack, exponentials of any real matrix;
 //! - [`LinearForm`]: sparse linear forms.
 
@@ -12,6 +13,7 @@ pub mod chebyshev;
 mod double_double;
 pub mod exponential;
 pub mod extrema;
+pub mod isotonic;
 mod linear_form;
 pub mod quadrature;
 pub mod roots;

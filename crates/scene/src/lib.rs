@@ -12,6 +12,7 @@
 //! Quantities carry [`units`]; inside all values are SI.
 
 mod check;
+mod curves;
 mod diagnostics;
 mod kinds;
 mod models;
@@ -20,10 +21,12 @@ mod scene;
 mod schema;
 mod sections;
 mod shipped;
+mod tables;
 mod text;
 mod vary;
 mod write;
 
+pub use curves::CurveChange;
 pub use dashpot_units as units;
 pub use diagnostics::fault::Fault;
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
@@ -34,7 +37,7 @@ pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network,
 pub use schema::schema;
 pub use sections::parse_limits;
 pub use shipped::{Shipped, reference, references, template, templates};
-pub use text::csv::{CsvFault, text_cell};
+pub use tables::{DataTable, Heading, TableError, TableFault, table_text, text_cell};
 pub use text::document::MAX_BYTES;
 pub use text::library::Loader;
 pub use text::nearest::{nearest, suggestion};

@@ -101,7 +101,7 @@ pub struct ReadOptions<'o> {
     /// What overrides the text: a name under `[values]`, or the path of a number or a word such as
     /// `head.mass` or `liner.material`, and what stands there then.
     pub set: &'o [(String, String)],
-    /// Gives the text of other files, for `model = "pads.toml:valox-pad"`.
+    /// Gives the bytes of other files, for `model = "pads.toml:valox-pad"` and `table = "pulse.csv"`.
     pub loader: Option<Loader<'o>>,
 }
 
@@ -321,6 +321,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
     notes.extend(upward(&network));
+    notes.extend(library.curve_notes());
     let mut values: Vec<NamedValue> = library
         .values()
         .iter()

@@ -62,7 +62,7 @@ pub(super) fn check_quantity(text: &str) -> Result<(), String> {
 
 /// What is wrong with how a table is read.
 pub(super) fn check_table(text: &str) -> Result<(), String> {
-    let load = |_: &str| Ok(text.to_owned());
+    let load = |_: &str| Ok(text.into());
     let options =
         ReadOptions { file: Some("scene.toml"), loader: Some(&load), ..ReadOptions::default() };
     match read(TABLE, &options) {

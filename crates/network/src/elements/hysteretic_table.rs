@@ -12,7 +12,8 @@ use super::{
 };
 use crate::{
     parameters::{
-        Described, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
+        CurveRole, Described, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind,
+        Value,
     },
     phases::{Exit, Phase, PhaseLaw, Phases},
 };
@@ -283,13 +284,15 @@ impl Kind for HystereticTable {
             CURVE,
             "points of deformation [m] and force [N], rising from [0, 0]; straight on beyond them, \
              which a run warns of",
-        ),
+        )
+        .curve(CurveRole::FromRest),
         Parameter::new(
             UNLOADING,
             CURVE,
             "points of deformation [m] and force [N], rising from the set, where the force is zero, \
              to a point of the curve of loading; nowhere above that",
-        ),
+        )
+        .curve(CurveRole::Unloading),
     ];
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {

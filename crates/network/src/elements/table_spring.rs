@@ -2,7 +2,7 @@
 
 use super::{Element, Law, Tangent, monotone::MonotoneCurve};
 use crate::parameters::{
-    Described, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
+    CurveRole, Described, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
 };
 
 /// A spring whose force is interpolated between points `(y_i, F_i)` of a measured curve.
@@ -173,7 +173,8 @@ impl Kind for TableSpring {
         ParameterKind::Curve(Dimension::LENGTH, Dimension::FORCE),
         "points of deformation [m] and force [N], rising, one of them [0, 0]; straight on beyond \
          them, which a run warns of",
-    )];
+    )
+    .curve(CurveRole::FromRest)];
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         Self::new(Given::new(Self::PARAMETERS, values).take()?)

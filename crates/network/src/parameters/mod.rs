@@ -55,6 +55,18 @@ impl ParameterKind {
     }
 }
 
+/// What a curve of a law is, beyond its dimensions: what a measured one is fitted to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CurveRole {
+    /// It never falls.
+    Rising,
+    /// It never falls, and goes through (0, 0).
+    FromRest,
+    /// What is given back from the depth of its last point, on the curve that is the parameter before it. Its
+    /// share of that never falls.
+    Unloading,
+}
+
 /// One parameter of a kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameter {
@@ -70,6 +82,8 @@ pub struct Parameter {
     pub follows: bool,
     /// The range of its number.
     pub range: Range,
+    /// What it is where it is a [`ParameterKind::Curve`].
+    pub curve: CurveRole,
     /// One line of help with symbol, unit and range.
     pub help: &'static str,
 }
@@ -77,7 +91,8 @@ pub struct Parameter {
 impl Parameter {
     /// A parameter that is required, of any finite numbers.
     pub const fn new(name: &'static str, kind: ParameterKind, help: &'static str) -> Self {
-        Self { name, kind, default: None, follows: false, range: Range::Finite, help }
+        let (range, curve) = (Range::Finite, CurveRole::Rising);
+        Self { name, kind, default: None, follows: false, range, curve, help }
     }
 
     /// The same where it may be left out and is then `text`.
@@ -97,6 +112,12 @@ impl Parameter {
     #[must_use]
     pub const fn range(self, range: Range) -> Self {
         Self { range, ..self }
+    }
+
+    /// The same as a curve of this role.
+    #[must_use]
+    pub const fn curve(self, curve: CurveRole) -> Self {
+        Self { curve, ..self }
     }
 
     /// Checks a value.

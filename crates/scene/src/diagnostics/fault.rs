@@ -9,11 +9,10 @@ use thiserror::Error;
 
 use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help};
 use crate::{
+    curves::CurveChange,
     quantities::words::{described, example},
-    text::{
-        csv::CsvFault,
-        nearest::{list, suggestion},
-    },
+    tables::TableFault,
+    text::nearest::{list, suggestion},
     units::UnitError,
 };
 
@@ -200,7 +199,13 @@ pub enum Fault {
     Unloadable { path: String, reason: String },
     /// A file of numbers that is no table.
     #[error("{0}")]
-    Csv(CsvFault),
+    Table(TableFault),
+    /// A file of numbers without numbers.
+    #[error("`{path}` has no row of numbers")]
+    NoRows { path: String },
+    /// A measured curve that was changed by more than noise.
+    #[error("{0}")]
+    CurveChanged(CurveChange),
     /// Something that is odd but not wrong.
     #[error("{message}")]
     Odd { message: String, help: Option<String> },
@@ -325,7 +330,12 @@ impl Fault {
                 "for example:\n\n[elements]\npadding = { between = [\"head\", \"ground\"], spring = \"20 MN/m\" }"
                     .to_owned(),
             ),
-            Self::Csv(fault) => fault.help(),
+            Self::Table(fault) => fault.help(),
+            Self::CurveChanged(_) => Some(
+                "look at these rows: a law of the deformation alone never falls, so a drop after yield, a slip or \
+                 rows of another test are averaged"
+                    .to_owned(),
+            ),
             Self::EmptyList { .. } => Some("leave the key out, or give an entry".to_owned()),
             _ => None,
         }

@@ -1,5 +1,6 @@
 //! What readers ask of the registers, and how their kinds are written.
 
+mod files;
 pub(crate) mod parameters;
 
 use dashpot_network::{
@@ -14,6 +15,11 @@ use crate::quantities::{basis::Basis, words::example_text};
 /// Whether the parameters of a kind are a table of amplitudes over time.
 pub(crate) fn is_table(parameters: &[Parameter]) -> bool {
     matches!(parameters, [first, ..] if first.kind == ParameterKind::TimeTable)
+}
+
+/// Whether a parameter is a list of points, which a file may hold.
+pub(crate) fn is_points(parameter: &Parameter) -> bool {
+    matches!(parameter.kind, ParameterKind::TimeTable | ParameterKind::Curve(..))
 }
 
 /// Whether the parameters of a kind hold a model.

@@ -4,7 +4,7 @@ use dashpot_network::parameters::{
     Dimension, Formula, InvalidParameter, Parameter, ParameterKind, Registered, Value, WindowWish,
 };
 
-use super::Example;
+use super::{Example, is_points};
 use crate::{
     diagnostics::fault::Fault,
     quantities::{
@@ -13,6 +13,7 @@ use crate::{
     },
     text::{
         document::{Content, Entry, Item},
+        library::names_file,
         source::Place,
         table::{Table, text_of, wrong_type},
     },
@@ -27,6 +28,12 @@ type Given<'i> = (Place, Option<&'i Item>);
 
 fn given(entry: Option<&Entry>, place: Place) -> Given<'_> {
     entry.map_or((place, None), |entry| (entry.item.place, Some(&entry.item)))
+}
+
+/// Whether a file may stand for the values of these parameters: alone, where all that is required is points.
+fn takes_file(parameters: &[Parameter], item: &Item) -> bool {
+    let mut required = parameters.iter().filter(|own| own.default.is_none());
+    parameters.iter().any(is_points) && (item.text().is_none() || required.all(is_points))
 }
 
 /// Reads things of the kinds in the registers.
@@ -197,6 +204,9 @@ impl<'d> KindReader<'d> {
             let values = parameters.iter().map(read).collect::<Option<Vec<_>>>()?;
             return Some((values, vec![(item.place, Some(item)); parameters.len()]));
         }
+        if names_file(item) && takes_file(parameters, item) {
+            return self.with_file((word, parameters), item, place);
+        }
         if !is_table {
             let expected = format!("a table, for example `{}`", self.example().value(parameters));
             wrong_type(item, &format!("`{word}`"), &expected, faults);
@@ -215,7 +225,10 @@ impl<'d> KindReader<'d> {
                     let entry =
                         table.require(parameter.name, &format!("{} = {value}", parameter.name));
                     places.push(given(entry, place));
-                    values.push(entry.and_then(|entry| self.value(parameter, &entry.item)));
+                    let before = values.last().and_then(Option::as_ref);
+                    let value =
+                        entry.and_then(|entry| self.value_after(parameter, &entry.item, before));
+                    values.push(value);
                     continue;
                 }
                 Some(_) => table.take(parameter.name),
@@ -235,7 +248,93 @@ impl<'d> KindReader<'d> {
         Some((values.into_iter().collect::<Option<Vec<_>>>()?, places))
     }
 
+    /// The values of a kind whose points are in the file that `item` names. A kind with two curves takes a record
+    /// that goes out and back.
+    fn with_file<'i>(
+        self,
+        (word, parameters): (&str, &[Parameter]),
+        item: &'i Item,
+        place: Place,
+    ) -> Option<(Vec<Value>, Vec<Given<'i>>)>
+    where
+        'd: 'i,
+    {
+        let curve = parameters.iter().find(|own| is_points(own))?;
+        let others = parameters.iter().filter(|own| !is_points(own));
+        let (rows, others) = if item.text().is_some() {
+            let default = |own| (self.default(own), given(None, place));
+            (self.rows_of(item, curve), others.map(default).collect::<Vec<_>>())
+        } else {
+            let table = Table::new(item, format!("`{word}`"), place, self.quantities.faults)?;
+            for key in self.other_keys {
+                table.take(key);
+            }
+            let rows = self.rows_in(&table, curve);
+            let others = others.map(|own| self.beside_file(own, &table, place)).collect();
+            table.finish();
+            (rows, others)
+        };
+        let mut others = others.into_iter();
+        let rows = rows?;
+        let rows = match parameters.iter().filter(|own| is_points(own)).count() {
+            1 => vec![rows],
+            _ => self.branches(&rows)?.into(),
+        };
+        let mut rows = rows.iter();
+        let (mut values, mut places) = (Vec::new(), Vec::new());
+        for parameter in parameters {
+            let (value, place) = if is_points(parameter) {
+                let value = self.of_rows(parameter, rows.next()?, values.last());
+                (value, (item.place, Some(item)))
+            } else {
+                others.next()?
+            };
+            values.push(value?);
+            places.push(place);
+        }
+        Some((values, places))
+    }
+
+    /// A value that stands beside the name of a file.
+    fn beside_file<'i>(
+        self,
+        parameter: &Parameter,
+        table: &Table<'i>,
+        place: Place,
+    ) -> (Option<Value>, Given<'i>) {
+        let entry = match parameter.default {
+            None => {
+                let value = self.example().value(std::slice::from_ref(parameter));
+                table.require(parameter.name, &format!("{} = {value}", parameter.name))
+            }
+            Some(_) => table.take(parameter.name),
+        };
+        let value = match (entry, parameter.default) {
+            (Some(entry), _) => self.value(parameter, &entry.item),
+            (None, None) => None,
+            (None, Some(_)) => self.default(parameter),
+        };
+        (value, given(entry, place))
+    }
+
+    /// A value that may depend on that of the parameter before it, as unloading does on loading.
+    fn value_after(
+        self,
+        parameter: &Parameter,
+        item: &Item,
+        before: Option<&Value>,
+    ) -> Option<Value> {
+        if !is_points(parameter) || !names_file(item) {
+            return self.value(parameter, item);
+        }
+        let rows = self.rows_of(item, parameter)?;
+        self.of_rows(parameter, &rows, before)
+    }
+
     pub(crate) fn value(self, parameter: &Parameter, item: &Item) -> Option<Value> {
+        if is_points(parameter) && names_file(item) {
+            return self.value_after(parameter, item, None);
+        }
         let faults = self.quantities.faults;
         let what = || format!("`{}`", parameter.name);
         match parameter.kind {

@@ -5,6 +5,8 @@ use std::{cell::RefCell, fmt};
 use dashpot_network::{composites::CompositeNote, parameters::Dimension};
 use dashpot_units::format_short;
 
+use crate::curves::CurveChange;
+
 /// A remark on a model or on a part of a scene, and what that is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelNote {
@@ -37,6 +39,8 @@ pub enum Remark {
     SharedName(String),
     /// A node is dropped from a height \[m\], and has no weight.
     Weightless(f64),
+    /// The curve of a law is not that of the rows of its file.
+    Curve(CurveChange),
     /// Gravity \[m/s²\] pulls away from the support.
     Upward(f64),
 }
@@ -49,6 +53,7 @@ impl Remark {
             Self::Shift { .. } => "shift",
             Self::SharedName(_) => "shared-name",
             Self::Weightless(_) => "weightless",
+            Self::Curve(_) => "curve",
             Self::Upward(_) => "upward",
         }
     }
@@ -76,6 +81,7 @@ impl fmt::Display for Remark {
                  [effects] gives it its weight",
                 format_short(*height, Dimension::LENGTH, 4)
             ),
+            Self::Curve(change) => write!(f, "{change}"),
             Self::Upward(acceleration) => write!(
                 f,
                 "{} pulls away from the support; positive is towards it",

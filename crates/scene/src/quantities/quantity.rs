@@ -14,6 +14,7 @@ use crate::{
     diagnostics::{Faults, fault::Fault},
     text::{
         document::{Content, Item},
+        library::Files,
         source::Place,
     },
     units::{Quantity, UnitError, format_short, parse_quantity, si_unit},
@@ -89,6 +90,8 @@ pub(crate) struct Quantities<'d> {
     pub(crate) element: Option<Target<'d>>,
     /// What is said of those that are unusual.
     pub(crate) subject: Subject<'d>,
+    /// The files of numbers that stand beside their document.
+    pub(crate) files: Files<'d>,
 }
 
 /// What a quantity is called where it is unusual.

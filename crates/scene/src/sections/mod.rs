@@ -4,7 +4,6 @@ mod accuracy;
 mod duration;
 mod effects;
 mod elements;
-mod files;
 mod limits;
 mod measures;
 mod nodes;
@@ -32,11 +31,11 @@ use dashpot_network::{
 
 use crate::{
     diagnostics::{Faults, fault::Fault},
-    kinds::{Example, is_table, parameters::KindReader},
+    kinds::{Example, parameters::KindReader},
     quantities::quantity::Quantities,
     text::{
         document::{Entry, Item},
-        library::{Library, names_file},
+        library::Library,
         source::Place,
         table::{Table, entries_of, text_of, unknown_key, wrong_type},
     },
@@ -148,9 +147,6 @@ impl<'d> Reading<'d> {
             self.faults.error(entry.item.place, fault);
         }
         let (kind, own) = found?;
-        if is_table(kind.parameters) && names_file(&own.item) {
-            return self.read_file(kind, &own.item, own.key_place, (&entry.key, driven));
-        }
         KindReader { driven, ..KindReader::new(self.quantities()) }.read(
             kind,
             &own.item,

@@ -29,7 +29,7 @@ fn shaken(key: &str, function: &str) -> String {
 /// Reads `text` as `lib/scene.toml` beside the file `pulse.csv`.
 fn beside(text: &str, csv: &str) -> Result<Checked<Scene>, Diagnostics> {
     let loader = |path: &str| match path {
-        "lib/pulse.csv" => Ok(csv.to_owned()),
+        "lib/pulse.csv" => Ok(csv.into()),
         other => Err(format!("no {other}")),
     };
     let file = Some("lib/scene.toml");
@@ -271,12 +271,13 @@ fn a_file_without_units_is_read_in_si_and_that_is_said() {
 fn faults_of_a_file_name_the_file_the_line_the_key_and_the_value() {
     let name = "\"pulse.csv\"";
     let shown = told(name, "time [ms], force [kN]\n0, 0\n1, x5\n2, 3\n1.5, 4\n");
-    has(&shown, &["--> lib/pulse.csv:3:4", "`x5` is not a number"]);
+    has(&shown, &["--> lib/pulse.csv:3:4", "`x5` is not a number", "in column `force`"]);
+    let shown = told(name, "time [ms], force [kN]\n0, 0\n1, 5\n2, 3\n1.5, 4\n");
     has(&shown, &["--> lib/pulse.csv:5:1", "the time 1.5 stands after 2: times never fall"]);
-    has(&shown, &["note: the scene's `force`, defined in line 7, is read from this file"]);
+    has(&shown, &["note: the file is named in line 7 of lib/scene.toml"]);
     has(&told(name, "0,0\n1;2\n"), &["--> lib/pulse.csv:2:1", "`1;2` is not a number"]);
-    has(&told(name, "0;0\n1;2,5\n"), &["`2,5` has a comma", "help: write `2.5`"]);
-    has(&told(name, "0\n1\n"), &["the file has one column", "commas, semicolons or tabs"]);
+    has(&told(name, "0;0.5\n1;2,5\n"), &["`2,5` has a comma", "help: write `2.5`"]);
+    has(&told(name, "0\n1\n"), &["the file has one column", "semicolons, tabs, commas or spaces"]);
     has(&told(name, "# nothing\n"), &["`pulse.csv` has no row of numbers", "lib/scene.toml:7"]);
     has(&told(name, "t [s], F [N]\n"), &["`pulse.csv` has no row of numbers"]);
     has(
@@ -314,7 +315,7 @@ fn what_is_said_of_a_file_is_checked() {
     );
     has(&file("units = [\"s\", \"kN\"]"), &["the header of the file says `ms`, but `s` is given"]);
     has(&file("unit = \"ms\""), &["unknown key `unit` in `table`", "did you mean `units`?"]);
-    has(&told("{ units = [\"ms\", \"kN\"] }", csv), &["`table` has no `file`", "pulse.csv"]);
+    has(&told("{ units = [\"ms\", \"kN\"] }", csv), &["`table` has no `file`", "curve.csv"]);
 }
 
 #[test]

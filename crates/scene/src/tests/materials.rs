@@ -88,8 +88,8 @@ fn a_model_may_be_made_of_materials_and_be_used_by_name() {
 #[test]
 fn materials_come_from_other_files() {
     let loader = |path: &str| match path {
-        "pads.toml" => Ok(format!("{FOAM}[materials.bar]\nmaterial = \"more.toml:iron\"\n")),
-        "more.toml" => Ok("[materials]\niron = { spring = \"200 GPa\" }\n".to_owned()),
+        "pads.toml" => Ok(format!("{FOAM}[materials.bar]\nmaterial = \"more.toml:iron\"\n").into()),
+        "more.toml" => Ok("[materials]\niron = { spring = \"200 GPa\" }\n".into()),
         other => Err(format!("no {other}")),
     };
     let options = ReadOptions { loader: Some(&loader), ..ReadOptions::default() };

@@ -1,6 +1,7 @@
 //! Tests of the whole way from text to scene.
 
 mod arithmetic;
+mod curves;
 mod effects;
 mod equality;
 mod hints;

@@ -31,8 +31,8 @@ fn models_come_from_other_files_with_their_own_values() {
     let deeper = "[models]\ncore = { series = [{ spring = 7 }, { model = \"own\" }] }\n\
                   own = { dashpot = 2 }\n";
     let loader = |path: &str| match path {
-        "lib/pads.toml" => Ok(pads.to_owned()),
-        "lib/deep/er.toml" => Ok(deeper.to_owned()),
+        "lib/pads.toml" => Ok(pads.into()),
+        "lib/deep/er.toml" => Ok(deeper.into()),
         other => Err(format!("no {other}")),
     };
     let options =
@@ -50,7 +50,7 @@ fn another_file_that_cannot_be_read_is_told_at_its_name() {
     let text = on_model("model = \"pads.toml:foam\"");
     let shown = messages(&text);
     assert!(shown.contains("`pads.toml` cannot be read: no other files can be read here"));
-    let loader = |_: &str| Ok("[models]\nfaom = { sprin = 1 }\n".to_owned());
+    let loader = |_: &str| Ok("[models]\nfaom = { sprin = 1 }\n".into());
     let options = ReadOptions { loader: Some(&loader), ..Default::default() };
     let shown = read(&text, &options).unwrap_err().render(false);
     assert!(shown.contains("there is no model named `foam`"), "{shown}");

@@ -159,7 +159,7 @@ fn driven(driven: &str, csv: &str) -> String {
         "[nodes]\nhead = {{ mass = 1 }}\nbase = {driven}\n[elements]\n\
          pad = {{ between = [\"head\", \"base\"], spring = 1 }}\n[run]\nduration = \"0.5 s\"\n"
     );
-    let loader = |_: &str| Ok(csv.to_owned());
+    let loader = |_: &str| Ok(csv.into());
     let options = crate::ReadOptions { loader: Some(&loader), ..crate::ReadOptions::default() };
     crate::read(&text, &options).unwrap().warnings.render(false)
 }
@@ -197,7 +197,7 @@ fn a_pulse_that_does_not_end_at_zero_is_told_with_what_holds() {
         let load = "[loads]\nf = { on = \"head\", force = { table = \"f.csv\" } }\n";
         let text = format!("{RUN}{load}[nodes]\n{HEAD}\n[elements]\n{PAD}\n");
         let csv = format!("time [ms],f [N]\n0,0\n10,30\n20,{last}\n");
-        let loader = |_: &str| Ok(csv.clone());
+        let loader = |_: &str| Ok(csv.clone().into());
         let options = crate::ReadOptions { loader: Some(&loader), ..crate::ReadOptions::default() };
         crate::read(&text, &options).unwrap().warnings.render(false)
     };

@@ -1,7 +1,9 @@
 //! The documents of a scene: its own, and those whose models it uses.
 
 use std::{
-    collections::{HashMap, VecDeque},
+    cell::RefCell,
+    collections::{HashMap, HashSet, VecDeque},
+    ops::Range,
     sync::Arc,
 };
 
@@ -11,18 +13,27 @@ use super::{
     table::{check_name, entries_of},
 };
 use crate::{
-    diagnostics::{Faults, fault::Fault},
+    curves::CurveChange,
+    diagnostics::{Diagnostic, Faults, fault::Fault},
     kinds,
+    models::notes::{ModelNote, Remark},
     quantities::{
         basis::Basis,
         quantity::{Quantities, Subject, Values},
         values::{self, Overrides},
     },
+    scene::text_of_bytes,
+    tables::table_text,
 };
-use dashpot_network::{parameters::registered, waveforms::WAVEFORMS};
+use dashpot_network::{
+    composites::COMPOSITES, elements::ELEMENTS, parameters::registered, waveforms::WAVEFORMS,
+};
 
-/// Gives the text of another file by its path.
-pub type Loader<'l> = &'l dyn Fn(&str) -> Result<String, String>;
+/// Gives the bytes of another file by its path, or says why there are none.
+pub type Loader<'l> = &'l dyn Fn(&str) -> Result<Vec<u8>, String>;
+
+/// The key of a file of numbers.
+pub(crate) const FILE: &str = "file";
 
 /// A scene may use models from so many files.
 const MAX_FILES: usize = 1000;
@@ -88,13 +99,51 @@ struct Document {
     models: HashMap<(ModelSection, String), usize>,
 }
 
-/// A file of numbers that a driving function is read from.
+/// A file of numbers that points are read from.
 #[derive(Debug)]
 pub(crate) struct TableFile {
     /// Number of its text among the sources.
     pub(crate) number: u32,
     /// Its text.
     pub(crate) source: Arc<Source>,
+    /// What became of curves in it, each told once.
+    remarks: RefCell<Vec<CurveChange>>,
+}
+
+impl TableFile {
+    /// Takes up what became of a curve.
+    pub(crate) fn remark(&self, change: CurveChange) {
+        let mut all = self.remarks.borrow_mut();
+        if !all.contains(&change) {
+            all.push(change);
+        }
+    }
+
+    /// The bytes of the line at which a row begins.
+    pub(crate) fn row(&self, start: usize) -> Range<usize> {
+        let rest = self.source.text.get(start..).unwrap_or_default();
+        start..start + rest.find(['\n', '\r']).unwrap_or(rest.len())
+    }
+
+    /// The number of the line, from 1, at which a byte is.
+    pub(crate) fn line(&self, at: usize) -> usize {
+        self.source.line_and_column(at).0
+    }
+}
+
+/// The files of numbers that a document names.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Files<'d> {
+    library: &'d Library,
+    document: usize,
+}
+
+impl<'d> Files<'d> {
+    /// The file of this path as seen from the document; `None` where it could not be read.
+    pub(crate) fn get(self, path: &str) -> Option<&'d TableFile> {
+        let document = self.library.documents.get(self.document)?;
+        self.library.tables.get(&beside(&document.path, path))?.as_ref()
+    }
 }
 
 /// All documents of one reading, the scene's own first.
@@ -132,28 +181,28 @@ impl Library {
         library
     }
 
-    /// Reads the files of numbers that the loads and nodes of the scene name.
+    /// Reads the files of numbers that the documents name.
     pub(crate) fn load_tables(&mut self, loader: Option<Loader<'_>>, faults: &Faults) {
         for (path, place) in self.tables_wanted() {
             if self.tables.contains_key(&path) {
                 continue;
             }
-            let text = match loader {
+            let bytes = match loader {
                 None => Err("no other files can be read here".to_owned()),
                 Some(_) if self.tables.len() >= MAX_FILES => {
                     Err(format!("a scene may use {MAX_FILES} files of numbers"))
                 }
                 Some(loader) => loader(&path),
             };
-            let text = text.and_then(|text| match text.len() {
-                0..=MAX_BYTES => Ok(text),
-                bytes => Err(format!("it has {bytes} bytes; the limit is 64 MB")),
+            let bytes = bytes.and_then(|bytes| match bytes.len() {
+                0..=MAX_BYTES => Ok(bytes),
+                count => Err(format!("it has {count} bytes; the limit is 64 MB")),
             });
-            let file = match text {
-                Ok(text) => {
-                    let source = Arc::new(Source::new(&*path, text));
+            let file = match bytes {
+                Ok(bytes) => {
+                    let source = Arc::new(Source::new(&*path, &*table_text(&bytes)));
                     let number = faults.add_source(Arc::clone(&source));
-                    Some(TableFile { number, source })
+                    Some(TableFile { number, source, remarks: RefCell::default() })
                 }
                 Err(reason) => {
                     faults.error(place, Fault::Unloadable { path: path.clone(), reason });
@@ -164,9 +213,20 @@ impl Library {
         }
     }
 
-    /// The file of numbers that the scene calls `path`; `None` where it could not be read.
-    pub(crate) fn table_file(&self, path: &str) -> Option<&TableFile> {
-        self.tables.get(&beside(&self.documents.first()?.path, path))?.as_ref()
+    /// What became of the curves in files of numbers.
+    pub(crate) fn curve_notes(&self) -> Vec<ModelNote> {
+        let mut files: Vec<&TableFile> = self.tables.values().flatten().collect();
+        files.sort_by_key(|file| file.number);
+        let notes = files.into_iter().flat_map(|file| {
+            let subject = format!("file `{}`", file.source.name);
+            let remarks = file.remarks.borrow().clone();
+            remarks.into_iter().map(move |change| ModelNote {
+                subject: subject.clone(),
+                what: Remark::Curve(change),
+                until: None,
+            })
+        });
+        notes.collect()
     }
 
     /// The entry of a key of the scene's own document.
@@ -189,6 +249,7 @@ impl Library {
             basis: Basis::Model,
             element: None,
             subject: Subject::Value,
+            files: Files { library: self, document },
         }
     }
 
@@ -299,7 +360,7 @@ impl Library {
             Some(_) if self.documents.len() >= MAX_FILES => {
                 Err(format!("a scene may use models from {MAX_FILES} files"))
             }
-            Some(loader) => loader(path),
+            Some(loader) => loader(path).and_then(|bytes| utf8(&bytes)),
         };
         match text {
             Err(reason) => {
@@ -314,20 +375,23 @@ impl Library {
         }
     }
 
-    /// The paths in `table = "path"` and `table = { file = "path" }` in the scene's loads and nodes,
-    /// with their places.
+    /// The paths in `table-spring = "path"` and `table-spring = { file = "path" }` anywhere in a document, with
+    /// their places.
     fn tables_wanted(&self) -> Vec<(String, Place)> {
-        let sections = ["loads", "nodes"].into_iter().filter_map(|key| self.section(key));
-        let mut queue: VecDeque<&Item> = sections.map(|entry| &entry.item).collect();
+        let words = words_of_points();
         let mut wanted = Vec::new();
-        while let Some(item) = queue.pop_front() {
-            for entry in item.table().unwrap_or(&[]) {
-                let named = file_named(&entry.item).filter(|_| is_table(&entry.key));
-                match named.and_then(|named| Some((named.text()?, named.place))) {
-                    Some((path, place)) => {
-                        wanted.push((beside(&self.documents[0].path, path), place));
+        for document in &self.documents {
+            let mut queue = VecDeque::from([&document.root]);
+            while let Some(item) = queue.pop_front() {
+                if let Content::List(items) = &item.value {
+                    queue.extend(items.iter().filter(|own| own.table().is_some()));
+                }
+                for entry in item.table().unwrap_or(&[]) {
+                    let is_file = entry.key == FILE || words.contains(&entry.key.as_str());
+                    match entry.item.text().filter(|_| is_file) {
+                        Some(path) => wanted.push((beside(&document.path, path), entry.item.place)),
+                        None => queue.push_back(&entry.item),
                     }
-                    None => queue.push_back(&entry.item),
                 }
             }
         }
@@ -368,18 +432,47 @@ pub(crate) fn is_table(word: &str) -> bool {
     registered(WAVEFORMS, word).is_some_and(|kind| kinds::is_table(kind.parameters))
 }
 
-/// Whether a table is given by `item` as a file, and not as its `points`.
-pub(crate) fn names_file(item: &Item) -> bool {
-    let has_points = |entries: &[Entry]| entries.iter().any(|entry| entry.key == "points");
-    item.text().is_some() || item.table().is_some_and(|entries| !has_points(entries))
+/// The words after which a text is the name of a file of points: those of kinds that take points alone, and those
+/// of their parameters.
+fn words_of_points() -> HashSet<&'static str> {
+    let waveforms = WAVEFORMS.iter().map(|kind| (kind.word, kind.parameters));
+    let elements = ELEMENTS.iter().map(|kind| (kind.word, kind.parameters));
+    let composites = COMPOSITES.iter().map(|kind| (kind.word, kind.parameters));
+    let mut words = HashSet::new();
+    for (word, parameters) in waveforms.chain(elements).chain(composites) {
+        let points = parameters.iter().filter(|own| kinds::is_points(own));
+        words.extend(points.map(|own| own.name));
+        let mut required = parameters.iter().filter(|own| own.default.is_none());
+        if parameters.iter().any(kinds::is_points) && required.all(kinds::is_points) {
+            words.insert(word);
+        }
+    }
+    words
 }
 
-/// The file that a table is read from, where `item` names one.
+/// Whether points are given by `item` as a file.
+pub(crate) fn names_file(item: &Item) -> bool {
+    let has_file = |entries: &[Entry]| {
+        entries.iter().any(|entry| [FILE, "columns", "units"].contains(&entry.key.as_str()))
+    };
+    item.text().is_some() || item.table().is_some_and(has_file)
+}
+
+/// The file that points are read from, where `item` names one.
 pub(crate) fn file_named(item: &Item) -> Option<&Item> {
     let named = item.table().map_or(Some(item), |entries| {
-        entries.iter().find(|entry| entry.key == "file").map(|entry| &entry.item)
+        entries.iter().find(|entry| entry.key == FILE).map(|entry| &entry.item)
     });
     named.filter(|item| item.text().is_some())
+}
+
+/// The text of a file of models.
+fn utf8(bytes: &[u8]) -> Result<String, String> {
+    let text = text_of_bytes(bytes, None).map_err(|faults| {
+        let messages = faults.list.iter().map(Diagnostic::message);
+        messages.collect::<Vec<_>>().join("; ")
+    })?;
+    Ok(text.to_owned())
 }
 
 fn top_entry<'r>(root: &'r Item, key: &str) -> Option<&'r Entry> {

@@ -1,6 +1,5 @@
-//! What is read: TOML and CSV texts, as values that know their places.
+//! What is read: TOML texts, as values that know their places.
 
-pub(crate) mod csv;
 pub(crate) mod document;
 pub(crate) mod library;
 pub(crate) mod nearest;

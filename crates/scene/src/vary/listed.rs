@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::variation::Variation;
 use crate::{
-    text::csv::{Csv, CsvFault},
+    tables::{DataTable, TableError, TableFault, is_no_unit},
     units::{UnitError, parse_quantity},
 };
 
@@ -31,9 +31,9 @@ pub enum ListedFault {
     /// A row has more or fewer fields than the first line.
     #[error("line {line} has {found} fields, but the first line has {wanted}")]
     Uneven { line: usize, found: usize, wanted: usize },
-    /// A field is no number.
-    #[error("line {line}, column `{column}`: {fault}")]
-    BadCell { line: usize, column: String, fault: CsvFault },
+    /// The table cannot be read.
+    #[error("{0}")]
+    Unreadable(TableError),
     /// More rows than a table may have.
     #[error("the table has more than {MOST} rows")]
     TooMany,
@@ -43,7 +43,8 @@ impl ListedFault {
     /// What to write.
     pub fn help(&self) -> String {
         match self {
-            Self::Uneven { .. } | Self::BadCell { .. } => {
+            Self::Unreadable(error) if error.help().is_some() => error.help().unwrap_or_default(),
+            Self::Uneven { .. } | Self::Unreadable(_) => {
                 "numbers are bare, with a point for decimals; their unit stands in the first line, \
                  such as `liner.thickness [mm]`"
                     .to_owned()
@@ -66,18 +67,22 @@ impl Variation {
     ///
     /// What is wrong with the table, with its line and column.
     pub fn listed(text: &str) -> Result<Vec<Self>, ListedFault> {
-        let csv = Csv::new(text).ok_or(ListedFault::Empty)?;
-        let header = csv.header.as_ref().ok_or(ListedFault::NoHeader)?;
-        let mut columns = Vec::with_capacity(header.len());
-        for (at, field) in header.iter().enumerate() {
-            let (name, unit) = field.name_and_unit();
-            if name.is_empty() {
+        let table = DataTable::read(text).map_err(|error| match error.fault {
+            TableFault::Empty => ListedFault::Empty,
+            _ => ListedFault::Unreadable(error),
+        })?;
+        if !table.has_header() {
+            return Err(ListedFault::NoHeader);
+        }
+        let mut columns = Vec::with_capacity(table.columns());
+        for at in 0..table.columns() {
+            let heading = table.heading(at);
+            if heading.name.is_empty() {
                 return Err(ListedFault::Nameless { column: at + 1 });
             }
-            let unit = unit.map_or("", |unit| unit.text);
-            let unit = if unit == "1" { "" } else { unit };
+            let unit = heading.unit.filter(|unit| !is_no_unit(unit)).unwrap_or_default();
             columns.push(Self {
-                name: name.to_owned(),
+                name: heading.name.to_owned(),
                 unit: unit.to_owned(),
                 numbers: Vec::new(),
                 values: Vec::new(),
@@ -87,15 +92,15 @@ impl Variation {
                 words: Vec::new(),
             });
         }
-        for (line, fields) in csv.rows() {
+        for ((at, fields), line) in table.rows().zip(table.lines()) {
             if fields.len() != columns.len() {
                 let (found, wanted) = (fields.len(), columns.len());
                 return Err(ListedFault::Uneven { line, found, wanted });
             }
-            for (own, field) in columns.iter_mut().zip(&fields) {
-                let number = field.number().map_err(|fault| {
-                    let column = own.name.clone();
-                    ListedFault::BadCell { line, column, fault }
+            for (column, (own, field)) in columns.iter_mut().zip(&fields).enumerate() {
+                let number = table.number(field).map_err(|fault| {
+                    let span = at..field.span().end;
+                    ListedFault::Unreadable(table.error(span, column, fault))
                 })?;
                 own.numbers.push(number);
             }
@@ -151,7 +156,7 @@ mod tests {
             ("K,C\n1,2\n# no\n1\n", "line 4 has 1 fields, but the first line has 2"),
             ("K,C\n1,2\n1,2,3\n", "line 3 has 3 fields"),
             ("K,C\n1,2\n1,two\n", "line 3, column `C`: `two` is not a number"),
-            ("K;C\n1;2,5\n", "line 2, column `C`: `2,5` has a comma"),
+            ("K;C\n1;2,5\n2;1.5\n", "line 3, column `C`: `1.5` has a point, but"),
             ("K,C\n1,5 mm\n", "line 2, column `C`: `5 mm` has a unit"),
         ] {
             let fault = Variation::listed(text).unwrap_err();

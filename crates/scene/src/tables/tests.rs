@@ -5,12 +5,20 @@ type Told = (String, String);
 
 /// The points of two columns, or the faults.
 fn points(text: &str, columns: [usize; 2]) -> Result<Vec<(f64, f64)>, Vec<Told>> {
-    let csv = Csv::new(text).unwrap();
+    scaled(text, columns, [1.0; 2])
+}
+
+fn scaled(
+    text: &str,
+    columns: [usize; 2],
+    factors: [f64; 2],
+) -> Result<Vec<(f64, f64)>, Vec<Told>> {
+    let told = |error: TableError| (text[error.span].to_owned(), error.fault.to_string());
+    let table = DataTable::read(text).map_err(|error| vec![told(error)])?;
     let mut faults = Vec::new();
-    let found = csv.points(columns, [1.0, 1.0], |span, fault| {
-        faults.push((text[span].to_owned(), fault.to_string()));
-    });
-    found.ok_or(faults)
+    let scales = factors.map(|factor| Scale { factor, offset: 0.0 });
+    let found = table.samples(columns, scales, |error| faults.push(told(error)));
+    found.map(|own| own.points).ok_or(faults)
 }
 
 fn first(text: &str) -> Told {
@@ -18,7 +26,7 @@ fn first(text: &str) -> Told {
 }
 
 #[test]
-fn columns_are_separated_by_commas_semicolons_or_tabs() {
+fn columns_are_separated_by_commas_semicolons_tabs_or_spaces() {
     let expected = vec![(0.0, 1.5), (0.5, -2e3)];
     for text in [
         "0,1.5\n0.5,-2e3\n",
@@ -26,30 +34,32 @@ fn columns_are_separated_by_commas_semicolons_or_tabs() {
         "0\t1.5\n\n0.5\t-2e3\n",
         "\u{feff}# from a logger, at 10 kHz\n0,1.5\n  # in between\n+.5,-2000.0,\n",
         "\"0\",\"1.5\"\n\"0.5\",\"-2e3\"\n",
+        "0 1.5\n 0.5   -2e3\n",
+        "0;1,5;;;\n0,5;-2E3;;;\n;;;;\n",
+        "0 1,5\n0,5 -2,0e3\n",
     ] {
         assert_eq!(points(text, [0, 1]).unwrap(), expected, "{text}");
     }
-    assert_eq!(points("9,0,1.5\n9,0.5,-2e3\n", [1, 2]).unwrap(), expected);
-    assert_eq!(points("1.5;9;0\n-2e3;9;0.5\n", [2, 0]).unwrap(), expected);
 }
 
 #[test]
-fn a_header_names_columns_and_units() {
-    let csv = Csv::new("# measured\ntime [ms];\"head; force (kN)\"; state\n0;1;2\n").unwrap();
-    let header = csv.header.as_ref().unwrap();
-    let named = header.iter().map(Field::name_and_unit).collect::<Vec<_>>();
-    let named = named.iter().map(|(name, unit)| (*name, unit.as_ref().map(|unit| unit.text)));
-    let expected = [("time", Some("ms")), ("head; force", Some("kN")), ("state", None)];
-    assert_eq!(named.collect::<Vec<_>>(), expected);
-    assert_eq!(csv.columns, 3);
-    let unit = header[1].name_and_unit().1.unwrap();
-    assert_eq!(&csv.text[unit.span()], "kN");
-    assert_eq!(csv.points([0, 1], [1e-3, 1e3], |_, _| {}).unwrap(), [(0.0, 1e3)]);
-    // Numbers that are none are not taken for names.
-    for text in ["nan,1\n", "0,0\n", "-,.5\n", "1e999,2\n"] {
-        assert!(Csv::new(text).unwrap().header.is_none(), "{text}");
+fn any_two_columns_may_be_taken() {
+    let text = "# measured\ntime [ms];\"head; force (kN)\"; state\n0;1;2\n";
+    let table = DataTable::read(text).unwrap();
+    let heading = |at| table.heading(at);
+    assert_eq!((heading(0).name, heading(0).unit), ("time", Some("ms")));
+    assert_eq!((heading(1).name, heading(1).unit), ("head; force", Some("kN")));
+    assert_eq!((heading(2).name, heading(2).unit), ("state", None));
+    assert_eq!(points(text, [2, 0]).unwrap(), [(2.0, 0.0)]);
+    assert_eq!(scaled(text, [0, 1], [1e-3, 1e3]).unwrap(), [(0.0, 1e3)]);
+}
+
+#[test]
+fn a_first_line_with_a_number_is_no_header() {
+    for text in ["0,1\n", "x,1\n", "time,1e3\n", "NaN,2\n", "-inf,2\n", "1e999,2\n"] {
+        assert!(!DataTable::read(text).unwrap().has_header(), "{text}");
     }
-    assert!(Csv::new("# nothing\n\n").is_none());
+    assert_eq!(DataTable::read("# nothing\n\n").unwrap_err().fault, TableFault::Empty);
 }
 
 #[test]
@@ -57,19 +67,10 @@ fn a_name_that_begins_like_a_formula_is_read_as_it_was_written() {
     for name in ["=1+1", "-pad", "+x", "@sum", "'=quoted", "a;b", "plain"] {
         let text = format!("time [s],{},z\n0,1,2\n", text_cell(&format!("{name} [kN]")));
         assert!(!text.contains(",=") && !text.contains(",-") && !text.contains(",@"), "{text}");
-        let csv = Csv::new(&text).unwrap();
-        let (found, unit) = csv.header.as_ref().unwrap()[1].name_and_unit();
-        assert_eq!((found, csv.columns), (name, 3));
-        assert_eq!(&csv.text[unit.unwrap().span()], "kN");
+        let table = DataTable::read(&text).unwrap();
+        assert_eq!((table.heading(1).name, table.columns()), (name, 3));
+        assert_eq!(&text[table.unit(1).unwrap().span()], "kN");
     }
-}
-
-#[test]
-fn equal_times_stay_and_falling_ones_are_told() {
-    assert_eq!(points("0,1\n1,2\n1,3\n", [0, 1]).unwrap().len(), 3);
-    let (place, message) = first("0,1\n1e0,2\n0.5,3\n");
-    assert_eq!(place, "0.5");
-    assert_eq!(message, "the time 0.5 stands after 1e0: times never fall");
 }
 
 #[test]
@@ -79,7 +80,7 @@ fn cells_that_are_no_numbers_are_told_where_they_stand() {
         assert_eq!((found.0.as_str(), found.1.as_str()), (place, message));
     };
     is(message("0,1\nabc,2\n"), "abc", "`abc` is not a number");
-    is(message("0;1\n1;0,5\n"), "0,5", "`0,5` has a comma: decimals are written with a point");
+    is(message("0;1.5\n1;0,5\n"), "0,5", "`0,5` has a comma: decimals are written with a point");
     is(
         message("0,1\n1,5 kN\n"),
         "5 kN",
@@ -93,7 +94,11 @@ fn cells_that_are_no_numbers_are_told_where_they_stand() {
     is(message("0,1\n1;2\n"), "1;2", "`1;2` is not a number");
     is(message("0,1\n1,\n"), "1,", "a number is missing here");
     is(message("0,1,2\n1,,2\n"), "", "a number is missing here");
-    is(message("0,1\n1,5,5\n"), "1,5,5", "this row has 3 fields, but the first line has 2");
+    is(
+        message("0,1\n1,5,5\n"),
+        "1,5,5",
+        "this row has 3 fields, but the first line of the table has 2",
+    );
     is(message("0,1\n1,NaN\n"), "NaN", "`NaN` is not finite: every quantity is a finite number");
     is(
         message("0,1\n1,1e400\n"),
@@ -101,15 +106,12 @@ fn cells_that_are_no_numbers_are_told_where_they_stand() {
         "`1e400` is too large: it does not fit into double precision",
     );
     // In other units it is too large.
-    let csv = Csv::new("0,1e300\n").unwrap();
-    let mut told = 0;
-    assert_eq!(csv.points([0, 1], [1.0, 1e10], |_, _| told += 1), None);
-    assert_eq!(told, 1);
+    assert_eq!(scaled("0,1e300\n", [0, 1], [1.0, 1e10]).unwrap_err().len(), 1);
 }
 
 #[test]
 fn a_file_full_of_faults_is_not_read_to_its_end() {
-    let text = "0;0,5\n".repeat(1000);
+    let text = "0;a\n1;b\n".repeat(1000);
     assert_eq!(points(&text, [0, 1]).unwrap_err().len(), TOLD);
 }
 

@@ -1,0 +1,414 @@
+//! Points from files: `table = "pulse.csv"`, `table-spring = { file = "curve.csv", units = ["%", "kPa"] }`.
+
+use std::ops::Range;
+
+use dashpot_network::parameters::{CurveRole, Dimension, Parameter, ParameterKind, Value};
+
+use super::parameters::KindReader;
+use crate::{
+    curves::{CurveChange, Difference, Fitted, Row, fit, is_outward, split, unloading},
+    diagnostics::fault::Fault,
+    quantities::quantity::Quantities,
+    tables::{DataTable, Field, Samples, Scale, TOLD, TableFault, is_no_unit},
+    text::{
+        document::{Content, Item},
+        library::{FILE, TableFile},
+        source::Place,
+        table::{Table, text_of, wrong_type},
+    },
+    units::{parse_quantity, si_unit},
+};
+
+/// What a scene says of a file beside its name.
+#[derive(Default)]
+struct Wishes<'i> {
+    columns: Option<[&'i Item; 2]>,
+    units: Option<[&'i Item; 2]>,
+}
+
+/// Rows of two columns of a file, with where they are from.
+#[derive(Clone)]
+pub(super) struct FileRows<'d> {
+    file: &'d TableFile,
+    rows: Vec<Row>,
+    /// The place of the file's name.
+    place: Place,
+}
+
+impl<'d> KindReader<'d> {
+    /// The rows of the file that `item` names, by its name alone or in a table of its own.
+    pub(super) fn rows_of(self, item: &Item, parameter: &Parameter) -> Option<FileRows<'d>> {
+        if item.text().is_some() {
+            return self.rows(item, &Wishes::default(), parameter);
+        }
+        let owner = format!("`{}`", parameter.name);
+        let table = Table::new(item, owner, item.place, self.quantities.faults)?;
+        let rows = self.rows_in(&table, parameter);
+        table.finish();
+        rows
+    }
+
+    /// The rows of the file that a table names with its key `file`.
+    pub(super) fn rows_in(self, table: &Table<'_>, parameter: &Parameter) -> Option<FileRows<'d>> {
+        let name = table.require(FILE, "file = \"curve.csv\"");
+        let pair = |key: &'static str, expected: &str| {
+            let Some(entry) = table.take(key) else { return Some(None) };
+            if let Content::List(items) = &entry.item.value
+                && let [first, second] = &**items
+            {
+                return Some(Some([first, second]));
+            }
+            wrong_type(&entry.item, &format!("`{key}`"), expected, self.quantities.faults);
+            None
+        };
+        let columns = pair("columns", "a pair of numbers or names, for example `[1, 2]`");
+        let units = pair("units", "a pair of units, for example `[\"mm\", \"kN\"]`");
+        self.rows(&name?.item, &Wishes { columns: columns?, units: units? }, parameter)
+    }
+
+    fn rows(self, name: &Item, wishes: &Wishes<'_>, parameter: &Parameter) -> Option<FileRows<'d>> {
+        let faults = self.quantities.faults;
+        let path = text_of(name, &format!("`{FILE}`"), faults)?;
+        // Where there is none, a fault has been noted.
+        let file = self.quantities.files.get(path)?;
+        let note = |column: Option<&str>| {
+            let column = column.map_or_else(String::new, |own| format!("in column `{own}`; "));
+            format!("{column}the file is named in {}", faults.whereabouts(name.place))
+        };
+        let tell = |span: Range<usize>, fault: Fault, column: Option<&str>| {
+            faults.error(Place::new(file.number, &span), fault.with_note(note(column)));
+        };
+        let table = match DataTable::read(&file.source.text) {
+            Ok(table) => table,
+            Err(error) if error.fault == TableFault::Empty => {
+                return self.without_rows(path, name.place);
+            }
+            Err(error) => {
+                tell(error.span, Fault::Table(error.fault), error.column.as_deref());
+                return None;
+            }
+        };
+        if table.columns() < 2 {
+            tell(0..0, Fault::Table(TableFault::OneColumn), None);
+            return None;
+        }
+        let dimensions = self.dimensions(parameter);
+        let columns = self.columns(&table, wishes, parameter, name.place)?;
+        let is_motion =
+            parameter.kind == ParameterKind::TimeTable && self.driven == Dimension::LENGTH;
+        let [first, second] = [0, 1].map(|at| {
+            let quantities = Quantities { is_motion: is_motion && at == 1, ..self.quantities };
+            let given = wishes.units.map(|units| units[at]);
+            unit(file, table.unit(columns[at]), given, dimensions[at], quantities.unwatched())
+        });
+        let units = [first?, second?];
+        let scales = units.map(|own| own.map_or(Scale::SI, |factor| Scale { factor, offset: 0.0 }));
+        let samples = table.samples(columns, scales, |error| {
+            tell(error.span, Fault::Table(error.fault), error.column.as_deref());
+        })?;
+        if samples.points.is_empty() {
+            return self.without_rows(path, name.place);
+        }
+        self.without_units(units.map(|own| own.is_none()), parameter, name.place);
+        if parameter.kind == ParameterKind::TimeTable {
+            let errors = out_of_order(&table, columns[0], &samples);
+            if !errors.is_empty() {
+                errors.into_iter().for_each(|(span, fault)| tell(span, Fault::Table(fault), None));
+                return None;
+            }
+        }
+        let points = samples.points.into_iter().zip(samples.starts);
+        let rows: Vec<Row> = points.map(|((at, value), start)| Row { at, value, start }).collect();
+        for row in &rows {
+            let basis = self.quantities.basis;
+            if let Err(invalid) = basis.check(parameter.name, dimensions[0], row.at) {
+                let help = "give its unit: `[%]` in the header, or `units = [\"%\", \"kPa\"]` in the scene";
+                tell(file.row(row.start), Fault::Invalid(invalid).with_help(help), None);
+                return None;
+            }
+        }
+        Some(FileRows { file, rows, place: name.place })
+    }
+
+    fn without_rows<T>(self, path: &str, place: Place) -> Option<T> {
+        let fault = Fault::NoRows { path: path.to_owned() };
+        self.quantities.faults.error(place, fault);
+        None
+    }
+
+    /// What the two columns measure, in a model.
+    fn dimensions(self, parameter: &Parameter) -> [Dimension; 2] {
+        match parameter.kind {
+            ParameterKind::Curve(first, second) => [first, second],
+            _ => [Dimension::TIME, self.driven],
+        }
+    }
+
+    /// What the two columns measure, as they are written here.
+    fn written(self, parameter: &Parameter) -> [Dimension; 2] {
+        self.dimensions(parameter).map(|own| self.quantities.basis.dimension(own))
+    }
+
+    /// What the two columns are called.
+    fn columns_in_words(parameter: &Parameter) -> &'static str {
+        match parameter.kind {
+            ParameterKind::TimeTable => "time and value",
+            _ => "deformation and force, or strain and stress",
+        }
+    }
+
+    /// The two columns, counted from 0: those that the scene names, those that their units tell, or the only two.
+    fn columns(
+        self,
+        table: &DataTable<'_>,
+        wishes: &Wishes<'_>,
+        parameter: &Parameter,
+        place: Place,
+    ) -> Option<[usize; 2]> {
+        if let Some(wanted) = wishes.columns {
+            let [first, second] = wanted.map(|wanted| self.column(table, wanted));
+            return Some([first?, second?]);
+        }
+        let found = self.written(parameter).map(|own| table.measuring(own));
+        if let [[first], [second]] = found.each_ref().map(Vec::as_slice) {
+            return Some([*first, *second]);
+        }
+        if table.columns() == 2 {
+            return Some([0, 1]);
+        }
+        let names = (0..table.columns()).map(|at| table.heading(at).name.to_owned());
+        let fault = TableFault::WhichColumns {
+            count: table.columns(),
+            wanted: Self::columns_in_words(parameter).to_owned(),
+            names: names.filter(|name| !name.is_empty()).collect(),
+        };
+        self.quantities.faults.error(place, Fault::Table(fault));
+        None
+    }
+
+    /// The column that `wanted` names or counts from 1.
+    fn column(self, table: &DataTable<'_>, wanted: &Item) -> Option<usize> {
+        let faults = self.quantities.faults;
+        match &wanted.value {
+            Content::Number(digits) => {
+                let number = digits.parse::<usize>().ok().and_then(|own| own.checked_sub(1));
+                let found = number.filter(|number| *number < table.columns());
+                if found.is_none() {
+                    let (wanted_text, count) = (digits.to_string(), table.columns());
+                    let fault = TableFault::NoColumn { wanted: wanted_text, count };
+                    faults.error(wanted.place, Fault::Table(fault));
+                }
+                found
+            }
+            Content::Text(name) => match table.position(name) {
+                Ok(found) => Some(found),
+                Err(error) if matches!(error.fault, TableFault::SharedName { .. }) => {
+                    faults.error(wanted.place, Fault::Table(error.fault));
+                    None
+                }
+                Err(_) => {
+                    let names = (0..table.columns()).map(|at| table.heading(at).name.to_owned());
+                    let known = names.filter(|name| !name.is_empty()).collect();
+                    let (family, name) = ("column", name.to_string());
+                    faults.error(wanted.place, Fault::UnknownName { family, name, known });
+                    None
+                }
+            },
+            _ => {
+                wrong_type(wanted, "a column", "a number from 1, or a name", faults);
+                None
+            }
+        }
+    }
+
+    /// Warns of numbers whose unit nothing says, so that they are read in SI units. Parts have none.
+    fn without_units(self, missing: [bool; 2], parameter: &Parameter, place: Place) {
+        let dimensions = self.written(parameter);
+        let names = match (parameter.kind, self.quantities.basis.is_material()) {
+            (ParameterKind::Curve(..), false) => ["deformations", "forces"],
+            (ParameterKind::Curve(..), true) => ["strains", "stresses"],
+            _ => ["times", "values"],
+        };
+        let is_read = |at: &usize| missing[*at] && dimensions[*at] != Dimension::NUMBER;
+        let read: Vec<String> = (0..2)
+            .filter(is_read)
+            .map(|at| format!("{} are read in {}", names[at], si_unit(dimensions[at])))
+            .collect();
+        let read = match &read[..] {
+            [] => return,
+            [first, second] => format!("{first}, {}", second.replacen(" are read", "", 1)),
+            [one, ..] => one.clone(),
+        };
+        let message = format!("the file does not say all its units: {read}");
+        let [first, second] = dimensions.map(|own| match own {
+            Dimension::NUMBER => "%".to_owned(),
+            other => si_unit(other),
+        });
+        let [one, other] = names.map(|own| {
+            own.strip_suffix("es")
+                .filter(|own| own.ends_with("ss"))
+                .unwrap_or(&own[..own.len() - 1])
+        });
+        let help = format!(
+            "write a header line `{one} [{first}], {other} [{second}]`, or \
+             `{{ file = \"…\", units = [\"{first}\", \"{second}\"] }}` in place of the name"
+        );
+        self.quantities.faults.warning(place, Fault::odd(message, help));
+    }
+
+    /// The value of a parameter from the rows of a file; `before` is that of the parameter before it.
+    pub(super) fn of_rows(
+        self,
+        parameter: &Parameter,
+        found: &FileRows<'_>,
+        before: Option<&Value>,
+    ) -> Option<Value> {
+        let FileRows { file, rows, place } = found;
+        let faults = self.quantities.faults;
+        if parameter.kind == ParameterKind::TimeTable {
+            return Some(Value::Table(self.over_time(found)));
+        }
+        let name = parameter.name;
+        let tell = |start: usize, fault: TableFault| {
+            let note = format!("the file is named in {}", faults.whereabouts(*place));
+            let place = Place::new(file.number, &file.row(start));
+            faults.error(place, Fault::Table(fault).with_note(note));
+        };
+        let largest =
+            rows.iter().max_by(|one, other| one.value.abs().total_cmp(&other.value.abs()));
+        if let Some(row) = largest.filter(|row| row.value < 0.0) {
+            tell(row.start, TableFault::Negative { curve: name });
+            return None;
+        }
+        if parameter.curve != CurveRole::Unloading
+            && let Err(at) = is_outward(rows)
+        {
+            tell(rows[at].start, TableFault::TurnsBack { curve: name });
+            return None;
+        }
+        let fitted = match (parameter.curve, before) {
+            (CurveRole::Unloading, Some(Value::Table(loading))) => unloading(loading, rows),
+            (role, _) => Some(fit(rows, role)),
+        };
+        let Some(Fitted { points, difference }) = fitted else {
+            tell(rows[0].start, TableFault::NoCurve { curve: name });
+            return None;
+        };
+        self.change(parameter, found, &points, difference);
+        Some(Value::Table(points))
+    }
+
+    /// Tells how far the points of a curve are from the rows, as a note or, where it is no noise, as a warning.
+    fn change(
+        self,
+        parameter: &Parameter,
+        found: &FileRows<'_>,
+        points: &[(f64, f64)],
+        own: Difference,
+    ) {
+        let change = CurveChange {
+            curve: parameter.name,
+            rows: own.rows,
+            points: points.len(),
+            largest: own.largest,
+            line: found.file.line(own.start),
+            mean: own.mean,
+            peak: own.peak,
+            dimension: self.written(parameter)[1],
+            begins: own.begins,
+        };
+        if change.is_large() {
+            self.quantities.faults.warning(found.place, Fault::CurveChanged(change));
+        } else if change.is_any() {
+            found.file.remark(change);
+        }
+    }
+
+    /// The loading and the unloading of a record that goes out and back.
+    pub(super) fn branches(self, found: &FileRows<'d>) -> Option<[FileRows<'d>; 2]> {
+        let FileRows { file, rows, place } = found;
+        match split(rows) {
+            Ok((loading, unloading)) => {
+                Some([loading, unloading].map(|rows| FileRows { file, rows, place: *place }))
+            }
+            Err(at) => {
+                let fault = match rows.get(at) {
+                    Some(_) => TableFault::SecondCycle,
+                    None => TableFault::NoUnloading,
+                };
+                let row = rows.get(at).or(rows.last())?;
+                let place = Place::new(file.number, &file.row(row.start));
+                self.quantities.faults.error(place, Fault::Table(fault));
+                None
+            }
+        }
+    }
+
+    /// The points of rows in order of time.
+    fn over_time(self, FileRows { rows, place, .. }: &FileRows<'_>) -> Vec<(f64, f64)> {
+        if rows.len() == 1 {
+            let message = "a table with one point is a constant for ever";
+            let help = "give at least two rows, or write `constant`";
+            self.quantities.faults.warning(*place, Fault::odd(message, help));
+        }
+        rows.iter().map(|row| (row.at, row.value)).collect()
+    }
+}
+
+/// The times that stand after later ones.
+fn out_of_order(
+    table: &DataTable<'_>,
+    column: usize,
+    samples: &Samples,
+) -> Vec<(Range<usize>, TableFault)> {
+    let (mut before, mut errors) = (0, Vec::new());
+    for (at, point) in samples.points.iter().enumerate() {
+        if point.0 >= samples.points[before].0 {
+            before = at;
+        } else if let [Some(own), Some(earlier)] =
+            [at, before].map(|row| table.cell(samples.starts[row], column))
+        {
+            let (found, before) = (own.text.to_owned(), earlier.text.to_owned());
+            errors.push((own.span(), TableFault::OutOfOrder { found, before }));
+        }
+        if errors.len() >= TOLD {
+            break;
+        }
+    }
+    errors
+}
+
+/// What the numbers of a column are multiplied by: the unit in the scene or else in the header,
+/// `Some(None)` where there is neither.
+#[expect(clippy::option_option, reason = "a fault, no unit, or the factor of one")]
+fn unit(
+    file: &TableFile,
+    header: Option<Field<'_>>,
+    given: Option<&Item>,
+    expected: Dimension,
+    reader: Quantities<'_>,
+) -> Option<Option<f64>> {
+    let header = header.filter(|own| !is_no_unit(own.text));
+    let one = |unit: &str, place| {
+        let text = if is_no_unit(unit) { "1".to_owned() } else { format!("1 {unit}") };
+        reader.read(&Item { value: Content::Text(text.into()), place }, expected)
+    };
+    let Some(given) = given else {
+        let Some(header) = header else { return Some(None) };
+        return one(header.text, Place::new(file.number, &header.span())).map(Some);
+    };
+    let text = text_of(given, "a unit", reader.faults)?;
+    let factor = one(text, given.place)?;
+    if let Some(header) = header
+        && let Ok(said) = parse_quantity(&format!("1 {}", header.text))
+        && let said = said.meant(reader.basis.dimension(expected))
+        && said.dimension == Some(reader.basis.dimension(expected))
+        && (said.value - factor).abs() > 1e-12 * factor.abs()
+    {
+        let (header, text) = (header.text.to_owned(), text.to_owned());
+        let fault = TableFault::Contradiction { header, given: text };
+        reader.faults.error(given.place, Fault::Table(fault));
+        return None;
+    }
+    Some(Some(factor))
+}
