@@ -115,7 +115,7 @@ fn set(points: &[(f64, f64)], depth: f64) -> f64 {
 fn levels(rows: &[Row]) -> Vec<Level> {
     let mut sorted: Vec<&Row> = rows.iter().collect();
     sorted.sort_by(|one, other| one.at.total_cmp(&other.at));
-    let same = sorted.chunk_by(|one, other| one.at == other.at);
+    let same = sorted.chunk_by(|one, other| one.at >= other.at);
     let level = |own: &[&Row]| {
         let count: f64 = own.iter().map(|_| 1.0).sum();
         // One row stays as it is.
@@ -140,7 +140,7 @@ fn difference(rows: &[Row], levels: &[Level], values: &[f64]) -> Difference {
     let mut sum = 0.0;
     for row in rows {
         let at = levels.partition_point(|own| own.at < row.at);
-        let Some(value) = values.get(at).filter(|_| levels[at].at == row.at) else { continue };
+        let Some(value) = values.get(at).filter(|_| levels[at].at <= row.at) else { continue };
         let off = (value - row.value).abs();
         sum += off;
         if off > found.largest {

@@ -80,11 +80,11 @@ impl<'d> KindReader<'d> {
         };
         let table = match DataTable::read(&file.source.text) {
             Ok(table) => table,
-            Err(error) if error.fault == TableFault::Empty => {
+            Err(error) if *error.fault == TableFault::Empty => {
                 return self.without_rows(path, name.place);
             }
             Err(error) => {
-                tell(error.span, Fault::Table(error.fault), error.column.as_deref());
+                tell(error.span, Fault::Table(*error.fault), error.column.as_deref());
                 return None;
             }
         };
@@ -104,7 +104,7 @@ impl<'d> KindReader<'d> {
         let units = [first?, second?];
         let scales = units.map(|own| own.map_or(Scale::SI, |factor| Scale { factor, offset: 0.0 }));
         let samples = table.samples(columns, scales, |error| {
-            tell(error.span, Fault::Table(error.fault), error.column.as_deref());
+            tell(error.span, Fault::Table(*error.fault), error.column.as_deref());
         })?;
         if samples.points.is_empty() {
             return self.without_rows(path, name.place);
@@ -202,8 +202,8 @@ impl<'d> KindReader<'d> {
             }
             Content::Text(name) => match table.position(name) {
                 Ok(found) => Some(found),
-                Err(error) if matches!(error.fault, TableFault::SharedName { .. }) => {
-                    faults.error(wanted.place, Fault::Table(error.fault));
+                Err(error) if matches!(*error.fault, TableFault::SharedName { .. }) => {
+                    faults.error(wanted.place, Fault::Table(*error.fault));
                     None
                 }
                 Err(_) => {

@@ -157,14 +157,13 @@ pub(super) fn decimal_of(field: &Field<'_>) -> Option<Result<Decimal, ()>> {
         (false, 0) => None,
         // A point between thousands stands before a decimal comma: `1.234,5`.
         (true, _) if mantissa.rfind('.') < mantissa.rfind(',') => Some(Ok(Decimal::Comma)),
-        (true, _) => Some(Ok(Decimal::Point)),
         (false, 1) => {
             let (whole, decimals) = mantissa.split_once(',')?;
             let may_be_thousands =
                 decimals.len() == 3 && (1..=3).contains(&whole.len()) && !whole.starts_with('0');
             Some(if may_be_thousands { Err(()) } else { Ok(Decimal::Comma) })
         }
-        // Between thousands, twice.
+        // A point for decimals, or commas between thousands.
         _ => Some(Ok(Decimal::Point)),
     }
 }

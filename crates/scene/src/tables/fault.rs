@@ -19,7 +19,7 @@ pub struct TableError {
     /// Name of the column, or its number from 1, where it is about one.
     pub column: Option<String>,
     /// What is wrong.
-    pub fault: TableFault,
+    pub fault: Box<TableFault>,
     /// The bytes of the text that it is about.
     pub span: Range<usize>,
 }
@@ -28,7 +28,7 @@ impl TableError {
     /// A fault at the bytes `span` of `text`.
     pub(crate) fn new(text: &str, span: Range<usize>, fault: TableFault) -> Self {
         let line = 1 + text.get(..span.start).map_or(0, |before| before.matches('\n').count());
-        Self { line, column: None, fault, span }
+        Self { line, column: None, fault: Box::new(fault), span }
     }
 
     /// The same, about a column.

@@ -59,7 +59,7 @@ fn a_first_line_with_a_number_is_no_header() {
     for text in ["0,1\n", "x,1\n", "time,1e3\n", "NaN,2\n", "-inf,2\n", "1e999,2\n"] {
         assert!(!DataTable::read(text).unwrap().has_header(), "{text}");
     }
-    assert_eq!(DataTable::read("# nothing\n\n").unwrap_err().fault, TableFault::Empty);
+    assert_eq!(*DataTable::read("# nothing\n\n").unwrap_err().fault, TableFault::Empty);
 }
 
 #[test]

@@ -318,12 +318,6 @@ fn a_record_is_split_where_it_turns() {
 
 #[test]
 fn any_bytes_are_read_or_refused() {
-    // A linear congruential generator: the same bytes in every run.
-    let mut state = 7_u32;
-    let mut next = |below: usize| {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        usize::try_from(state >> 8).unwrap() % below
-    };
     const PIECES: [&[u8]; 24] = [
         b"0",
         b"1",
@@ -350,6 +344,12 @@ fn any_bytes_are_read_or_refused() {
         b"\xef\xbb\xbf",
         b"%",
     ];
+    // A linear congruential generator: the same bytes in every run.
+    let mut state = 7_u32;
+    let mut next = |below: usize| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        usize::try_from(state >> 8).unwrap() % below
+    };
     let text = [
         pad("table-spring = \"curve.csv\""),
         pad("hysteretic-table = \"curve.csv\""),

@@ -67,7 +67,7 @@ impl Variation {
     ///
     /// What is wrong with the table, with its line and column.
     pub fn listed(text: &str) -> Result<Vec<Self>, ListedFault> {
-        let table = DataTable::read(text).map_err(|error| match error.fault {
+        let table = DataTable::read(text).map_err(|error| match *error.fault {
             TableFault::Empty => ListedFault::Empty,
             _ => ListedFault::Unreadable(error),
         })?;
