@@ -147,6 +147,13 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
 }
 
 /// Units of work: a whole number, or one such as 1e9.
+/// A time \[s\] within a run.
+pub(crate) fn time(text: &str) -> Result<f64, String> {
+    let time = crate::input::setting("at", text.trim(), Dimension::TIME);
+    let time = time.map_err(|error| error.to_string())?;
+    if time >= 0.0 { Ok(time) } else { Err("a run begins at 0 s".to_owned()) }
+}
+
 pub(crate) fn budget(text: &str) -> Result<u64, String> {
     const MOST: f64 = 1e18;
     #[expect(

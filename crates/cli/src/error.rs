@@ -21,6 +21,8 @@ use dashpot_scene::{
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
+use crate::numbers::constant;
+
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Status {
@@ -54,6 +56,13 @@ pub(crate) enum CliError {
     /// Limits are to be enforced, and there is none.
     #[error("`--enforce` has no limit to enforce")]
     NoLimits,
+    /// A time is asked for that the run does not reach \[s\].
+    #[error(
+        "`--at {}` lies beyond the end of the run, {}",
+        constant(*.time, "s"),
+        constant(*.end, "s")
+    )]
+    BeyondEnd { time: f64, end: f64 },
     /// A scene that cannot be read.
     #[error("`{name}` cannot be read: {reason}")]
     Unreadable { name: String, reason: String, similar: Option<String> },
@@ -222,6 +231,9 @@ impl CliError {
             }
             Self::Unreadable { similar: Some(similar), .. } => {
                 Some(format!("did you mean `{similar}`?"))
+            }
+            Self::BeyondEnd { .. } => {
+                Some("give a time within it, or a longer `duration` in [run]".to_owned())
             }
             Self::NoLimits => Some(
                 "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`".to_owned(),

@@ -10,6 +10,7 @@ mod input;
 mod non_identifiable;
 mod numbers;
 mod operand;
+mod origin;
 mod output;
 mod part;
 mod progress;

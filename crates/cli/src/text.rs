@@ -8,8 +8,8 @@ const GAP: usize = 2;
 /// Columns that a wrapped column has at least.
 const LEAST_ROOM: usize = 20;
 
-/// The table as lines: its heading and its header, if any, and its rows; numbers are set to the
-/// right.
+/// The table as lines: its header, if any, and its rows; numbers are set to the right. Headings of several
+/// lines stand on the rows.
 pub(crate) fn table(table: &Table) -> (String, Vec<String>) {
     let count = table.rows.iter().map(Vec::len).fold(table.header.len(), usize::max);
     let cells = |column: usize| {
@@ -17,7 +17,7 @@ pub(crate) fn table(table: &Table) -> (String, Vec<String>) {
         rows.chain(table.header.get(column))
     };
     let widths: Vec<usize> = (0..count)
-        .map(|column| cells(column).map(|cell| columns(cell)).max().unwrap_or(0))
+        .map(|column| cells(column).flat_map(|cell| cell.lines()).map(columns).max().unwrap_or(0))
         .collect();
     let right: Vec<bool> = (0..count).map(|column| is_numeric(table, column)).collect();
     let line = |row: &Vec<String>| {
@@ -31,13 +31,22 @@ pub(crate) fn table(table: &Table) -> (String, Vec<String>) {
         }
         text.trim_end().to_owned()
     };
-    (line(&table.header), table.rows.iter().map(line).collect())
+    let height = table.header.iter().map(|cell| cell.lines().count()).max().unwrap_or(0);
+    let header = (0..height.max(1)).map(|at| {
+        let part = |cell: &String| {
+            let above = height - cell.lines().count();
+            at.checked_sub(above).and_then(|at| cell.lines().nth(at)).unwrap_or("").to_owned()
+        };
+        line(&table.header.iter().map(part).collect())
+    });
+    let header: Vec<String> = header.collect();
+    (header.join("\n"), table.rows.iter().map(line).collect())
 }
 
 /// Columns that the table takes as text.
 pub(crate) fn width(table: &Table) -> usize {
     let (header, rows) = self::table(table);
-    rows.iter().chain([&header]).map(|line| columns(line)).max().unwrap_or(0)
+    header.lines().chain(rows.iter().map(String::as_str)).map(columns).max().unwrap_or(0)
 }
 
 /// `text` broken at blanks into lines of at most `width` columns.

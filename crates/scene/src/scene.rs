@@ -69,6 +69,8 @@ pub struct Scene {
     pub values: Vec<NamedValue>,
     /// The text.
     pub text: Arc<str>,
+    /// Paths of the other files of which it is made, as they were asked of the [`Loader`].
+    pub files: Vec<String>,
 }
 
 impl Scene {
@@ -349,5 +351,6 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         notes,
         values,
         text: Arc::clone(&source.text),
+        files: library.paths(),
     })
 }

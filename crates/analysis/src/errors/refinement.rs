@@ -12,6 +12,7 @@ use crate::{
             Evidence, SMALL, SOLUTIONS, excess, is_as_good_as_zero, is_determined,
             is_lost_in_noise, of_energy, rounding,
         },
+        instants::Instants,
         open_ends::{OpenEnd, cover_switching},
         solved::{Solved, Task},
     },
@@ -46,6 +47,8 @@ pub(crate) struct Outcome {
     pub(crate) of_method: Vec<Option<f64>>,
     /// Whether it is open when an impact ends.
     pub(crate) open_end: Option<OpenEnd>,
+    /// The errors of the times of events, as other solutions tell them; `None` where there are none.
+    pub(crate) instants: Option<Instants>,
     pub(crate) solves_for_error: usize,
     pub(crate) wall_for_error: Duration,
     /// What kept the accuracy from being reached.
@@ -209,6 +212,7 @@ impl Task<'_> {
             of_method: errors.clone(),
             errors,
             open_end: None,
+            instants: None,
             solved,
             solves_for_error: 0,
             wall_for_error: Duration::ZERO,
@@ -237,6 +241,7 @@ impl Task<'_> {
         for &at in open_end.iter().flat_map(|own| &own.undecided) {
             errors[at] = Some(f64::INFINITY);
         }
+        let instants = Instants::of_solutions(&last, self.method.fall());
         let Some(solved) = last.pop() else {
             return Err(obstacle.unwrap_or(SolveError::NotApplicable {
                 method: self.method.name(),
@@ -250,6 +255,7 @@ impl Task<'_> {
             errors,
             of_method,
             open_end,
+            instants,
             obstacle,
         })
     }

@@ -11,6 +11,9 @@ use crate::{Stop, wording::quantity};
 pub struct EventReport {
     /// When \[s\].
     pub time: f64,
+    /// Its absolute error \[s\], as that of a measure: a bound, or from further solutions; infinite where the event comes
+    /// and goes with the tolerance, `None` where nothing is known of it.
+    pub error: Option<f64>,
     /// What.
     pub what: Event,
     /// Whether it ended the run.
@@ -111,8 +114,9 @@ impl Event {
 
 impl Serialize for EventReport {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut object = serializer.serialize_struct("EventReport", 3)?;
+        let mut object = serializer.serialize_struct("EventReport", 4)?;
         object.serialize_field("time", &self.time)?;
+        object.serialize_field("error", &self.error)?;
         object.serialize_field("what", &self.what.to_string())?;
         object.serialize_field("code", self.what.code())?;
         object.end()

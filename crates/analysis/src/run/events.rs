@@ -5,35 +5,47 @@ use dashpot_network::{Assembly, NodeId};
 
 use crate::{
     Collision, ContactReport, Event, EventReport, Stop,
+    errors::instants::Instants,
     impact::{
         contacts::{is_contact, stays_closed},
         interval::Contact,
     },
 };
 
-/// Conditions that were met, contacts that end, and what switched.
+/// Conditions that were met, contacts that end, and what switched, with what is known of the errors of their times:
+/// of what the trajectory holds, and of the release of an element.
 pub(super) fn collect(
     run: &Run,
     assembly: &Assembly,
     trajectory: &Trajectory,
     contacts: &[ContactReport],
+    (instants, release): (&Instants, &dyn Fn(&str) -> Option<f64>),
 ) -> Vec<EventReport> {
-    let guards = trajectory.events.iter().filter_map(|event| {
+    let crossings = trajectory.events.iter().zip(&instants.crossings);
+    let guards = crossings.filter_map(|(event, error)| {
         let guard = run.guards.get(event.guard)?;
         let output = assembly.system.outputs.at(guard.output);
         let (name, unit) = (output.name.to_owned(), output.unit);
         let stop = Stop { output: name, level: guard.level, direction: guard.direction };
         let what = Event::Condition { stop, unit };
-        Some(EventReport { time: event.time, what, stops: guard.stops })
+        Some(EventReport { time: event.time, error: *error, what, stops: guard.stops })
     });
-    let event = |time: f64, what: Event| EventReport { time, what, stops: false };
+    let event = |time: f64, error: Option<f64>, what: Event| EventReport {
+        time,
+        error,
+        what,
+        stops: false,
+    };
     let pulls = contacts
         .iter()
         .filter(|contact| contact.is_glued && contact.impact.contact == Contact::Released);
-    let pulls =
-        pulls.map(|pull| event(pull.impact.end, Event::Tension { element: pull.element.clone() }));
+    let pulls = pulls.map(|pull| {
+        let what = Event::Tension { element: pull.element.clone() };
+        event(pull.impact.end, release(&pull.element), what)
+    });
     let switchings = switchings(assembly, trajectory);
-    let switchings = switchings.into_iter().map(|(time, what)| event(time, what));
+    let switchings = switchings.into_iter().zip(&instants.switches);
+    let switchings = switchings.map(|((time, what), error)| event(time, *error, what));
     let mut events: Vec<EventReport> = pulls.chain(guards).chain(switchings).collect();
     events.sort_by(|one, other| one.time.total_cmp(&other.time));
     events

@@ -18,6 +18,7 @@ use crate::{
     energy::ledger::ledger,
     errors::{
         accuracy::{excess, is_open, largest},
+        instants::Instants,
         refinement::Outcome,
         solved::Task,
     },
@@ -25,7 +26,7 @@ use crate::{
         contacts::{self, meetings_after},
         sliders::idle_times,
     },
-    measures::{Impulse, PeakForce, selection::Selected},
+    measures::{ContactTime, Impulse, PeakForce, selection::Selected},
     memory::is_large,
 };
 
@@ -61,7 +62,17 @@ pub(super) fn report(
     let is_known = solved.trajectory.digest().is_none() || impact.end >= solution.end();
     let energy_after_impact =
         (impact.has_ended() && is_known).then(|| ledger(&solution, impact.end));
-    let events = events::collect(run, assembly, &solved.trajectory, &contacts);
+    let instants = match &outcome.instants {
+        Some(told) => told.clone(),
+        None if task.method.is_exact() && settings.estimate => Instants::bounded(run, &solution),
+        None => Instants::unknown(&solved.trajectory),
+    };
+    let release = |element: &str| {
+        let key = format!("{element}.{}", ContactTime::KIND);
+        measures.iter().find(|own| own.key == key).and_then(|own| own.error)
+    };
+    let events =
+        events::collect(run, assembly, &solved.trajectory, &contacts, (&instants, &release));
     let mut warnings = warnings::collect(&Findings {
         solution: &solution,
         accuracy: &settings.accuracy,

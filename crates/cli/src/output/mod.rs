@@ -74,8 +74,9 @@ pub(crate) trait Study {
     /// The object for programs: what `--json` prints, and what a folder holds as its result.
     fn object(&self) -> impl Serialize;
 
-    /// A table for programs that is printed where no folder is asked for, in place of the text.
-    fn data(&self) -> Option<String> {
+    /// A table for programs that is printed where no folder is asked for, in place of the text; `None` where this
+    /// terminal is read by people.
+    fn data(&self, _terminal: Terminal) -> Option<String> {
         None
     }
 
@@ -98,7 +99,7 @@ pub(crate) fn emit(
     terminal: Terminal,
 ) -> Result<(), CliError> {
     let object = || Ok::<_, CliError>(serde_json::to_string_pretty(&study.object())? + "\n");
-    let data = || study.data().filter(|_| folder.is_none());
+    let data = || study.data(terminal).filter(|_| folder.is_none());
     match if json { Some(object()?) } else { data() } {
         Some(data) => {
             print_data(&data)?;

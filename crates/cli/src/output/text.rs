@@ -124,15 +124,25 @@ impl Text {
     /// A table without its caption after an empty line, with a faint header.
     pub(crate) fn figures(&mut self, content: &Table) {
         let (header, rows) = table(content);
-        self.line(&format!("\n  {}", self.terminal.toned(Tone::Faint, &header)));
+        self.blank();
+        for line in header.lines() {
+            self.line(&format!("  {}", self.terminal.toned(Tone::Faint, line)));
+        }
         rows.iter().for_each(|row| self.line(&format!("  {row}")));
+    }
+
+    /// The header and the rows of a table after an empty line, in parts where it is too wide.
+    pub(crate) fn rows_below(&mut self, content: &Table) {
+        self.blank();
+        self.rows(content);
     }
 
     /// The header and the rows of a table.
     pub(crate) fn rows(&mut self, content: &Table) {
         for part in side_by_side(content, WIDTH - 2) {
             let (header, rows) = table(&part);
-            for line in [header].iter().chain(&rows).filter(|line| columns(line) > 0) {
+            let lines = header.lines().chain(rows.iter().map(String::as_str));
+            for line in lines.filter(|line| columns(line) > 0) {
                 self.line(&format!("  {line}"));
             }
         }

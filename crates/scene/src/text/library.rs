@@ -213,6 +213,16 @@ impl Library {
         }
     }
 
+    /// The paths of all other files that were read, in order of their names.
+    pub(crate) fn paths(&self) -> Vec<String> {
+        let models = self.files.iter().filter(|own| own.1.is_some()).map(|own| own.0);
+        let tables = self.tables.iter().filter(|own| own.1.is_some()).map(|own| own.0);
+        let mut all: Vec<String> = models.chain(tables).cloned().collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
     /// What became of the curves in files of numbers.
     pub(crate) fn curve_notes(&self) -> Vec<ModelNote> {
         let mut files: Vec<&TableFile> = self.tables.values().flatten().collect();

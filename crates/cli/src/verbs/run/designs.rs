@@ -11,7 +11,9 @@ use dashpot_scene::Scene;
 use serde::Serialize;
 
 use super::{
-    Answer, LABELS, PLOT_HEIGHT, PLOT_POINTS, RunArguments, files, limits,
+    Answer, LABELS, PLOT_HEIGHT, PLOT_POINTS, RunArguments, files,
+    files::Written,
+    limits,
     measures::{Column, Side, measures_table, measures_tables},
     object::settings,
     series::{curves, curves_and_energies},
@@ -24,6 +26,7 @@ use crate::{
     input::title,
     numbers::{bound, duration},
     operand::read_scene,
+    origin,
     output::{Study, Text, VERSION, list, object},
     terminal::{Terminal, WIDTH},
     text::indented,
@@ -242,11 +245,12 @@ impl Study for Designs {
     /// One entry for each design and method, each with its scene.
     fn object(&self) -> impl Serialize {
         let run = |own: &Design, run: &RunReport| {
-            serde_json::to_value(run).map(|mut value| {
+            serde_json::to_value(own.answer.object_of(run)).map(|mut value| {
                 if let Some(object) = value.as_object_mut() {
                     let scene = &own.answer.scene;
                     let named = serde_json::json!({
                         "name": own.name, "title": scene.title, "file": scene.file,
+                        "sha256": origin::of_text(scene), "files": origin::of_files(scene),
                         "values": own.answer.changes.set,
                     });
                     object.insert("scene".to_owned(), named);
@@ -271,13 +275,17 @@ impl Study for Designs {
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
         let series = self.as_designs(curves_and_energies(self.best().map(|own| own.1), POINTS));
         let mut figures = Vec::new();
-        for figure in FIGURES {
+        let wished = self.designs.first().map_or(&[][..], |own| &own.answer.wishes.written);
+        let has = |kind: Written| kind.is_in(wished);
+        for figure in FIGURES.iter().filter(|_| has(Written::Figures) || has(Written::Page)) {
             let chart = figure.chart(&series);
             if chart.series.is_empty() {
                 continue;
             }
             let svg = chart.svg()?;
-            files.add(format!("{}.svg", figure.name), &svg)?;
+            if has(Written::Figures) {
+                files.add(format!("{}.svg", figure.name), &svg)?;
+            }
             figures.push(ReportFigure { caption: String::new(), svg });
         }
         let page = Report {
@@ -295,8 +303,10 @@ impl Study for Designs {
             details: vec![self.solved()],
             ..Report::default()
         };
-        files.add(files::PAGE, page.html())?;
-        for (at, (own, run)) in self.best().enumerate() {
+        if has(Written::Page) {
+            files.add(files::PAGE, page.html())?;
+        }
+        for (at, (own, run)) in self.best().enumerate().filter(|_| has(Written::Curves)) {
             let times = files::sample_times(run, &own.answer.scene.run);
             files
                 .add_with(format!("{}.csv", at + 1), |out| files::write_table(run, &times, out))?;

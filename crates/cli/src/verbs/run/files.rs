@@ -2,7 +2,10 @@
 
 use std::io::{self, Write};
 
-use dashpot_analysis::{RunReport, regular_times, resolving_times, table_at, touching};
+use clap::ValueEnum;
+use dashpot_analysis::{
+    EventReport, RunReport, regular_times, resolving_times, table_at, touching,
+};
 use dashpot_plot::{Report, ReportFigure, Table, figures::FIGURES};
 use dashpot_scene::RunSettings;
 
@@ -36,6 +39,28 @@ const POINTS: (usize, usize) = (4001, 20_001);
 /// Rows of a table that are in memory at once.
 const CHUNK: usize = 4096;
 
+/// What is written into a folder besides the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Written {
+    /// All outputs over time as CSV, a file for each method.
+    Curves,
+    /// What happened, as CSV.
+    Events,
+    /// The figures as SVG, and the drawing of the network.
+    Figures,
+    /// Everything on one page.
+    Page,
+    /// The scene as it was run.
+    Scene,
+}
+
+impl Written {
+    /// Whether it is among what is wished for; nothing stands for all.
+    pub(super) fn is_in(self, wished: &[Self]) -> bool {
+        wished.is_empty() || wished.contains(&self)
+    }
+}
+
 /// The files that are written besides the result and the tables of the methods.
 pub(super) fn names() -> impl Iterator<Item = String> {
     let figures = FIGURES.iter().map(|figure| format!("{}.svg", figure.name));
@@ -44,7 +69,30 @@ pub(super) fn names() -> impl Iterator<Item = String> {
 
 /// Adds everything that an answer holds but the result.
 pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError> {
-    files.add(SCENE, resolved_scene::text(&answer.scene, &answer.changes))?;
+    let has = |kind: Written| kind.is_in(&answer.wishes.written);
+    if has(Written::Scene) {
+        files.add(SCENE, resolved_scene::text(&answer.scene, &answer.changes))?;
+    }
+    if has(Written::Figures) || has(Written::Page) {
+        write_figures(files, answer)?;
+    }
+    if has(Written::Events) {
+        files.add_with(EVENTS, |out| write_events(&answer.runs, out))?;
+    }
+    for run in answer.runs.iter().filter(|_| has(Written::Curves)) {
+        let times = sample_times(run, &answer.scene.run);
+        let name = format!("{}.csv", run.solver.method);
+        files.add_with(name, |out| write_table(run, &times, out))?;
+    }
+    Ok(())
+}
+
+/// Adds the figures and the page that holds them, as far as they are asked for.
+fn write_figures(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError> {
+    let has = |kind: Written| kind.is_in(&answer.wishes.written);
+    let add = |files: &mut Staged<'_>, name: &str, svg: &str| {
+        if has(Written::Figures) { files.add(name, svg) } else { Ok(()) }
+    };
     let network = &answer.scene.network;
     let is_drawn = network.connections().len() <= MOST_DRAWN;
     let (low, high) = POINTS;
@@ -53,7 +101,7 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
     let mut figures = Vec::new();
     if is_drawn {
         let svg = sketch(network, answer.scene.run.duration).svg();
-        files.add(DRAWING, &svg)?;
+        add(files, DRAWING, &svg)?;
         figures.push(ReportFigure { caption: "The network".to_owned(), svg });
     }
     for figure in FIGURES {
@@ -63,15 +111,11 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
             continue;
         }
         let svg = chart.svg()?;
-        files.add(format!("{}.svg", figure.name), &svg)?;
+        add(files, &format!("{}.svg", figure.name), &svg)?;
         figures.push(ReportFigure { caption: String::new(), svg });
     }
-    files.add(PAGE, page(answer, figures).html())?;
-    files.add_with(EVENTS, |out| write_events(&answer.runs, out))?;
-    for run in &answer.runs {
-        let times = sample_times(run, &answer.scene.run);
-        let name = format!("{}.csv", run.solver.method);
-        files.add_with(name, |out| write_table(run, &times, out))?;
+    if has(Written::Page) {
+        files.add(PAGE, page(answer, figures).html())?;
     }
     Ok(())
 }
@@ -104,10 +148,14 @@ pub(super) fn write_table(run: &RunReport, times: &[f64], out: &mut dyn Write) -
 
 /// Writes all events of the runs as CSV.
 fn write_events(runs: &[RunReport], out: &mut dyn Write) -> io::Result<()> {
-    let header = ["method", "time [s]", "event", "what"].map(str::to_owned);
+    let header = ["method", "time [s]", "error [s]", "event", "what"].map(str::to_owned);
     let rows = runs.iter().flat_map(|run| {
         let method = run.solver.method;
-        run.events.iter().map(move |own| (method, own.time, own.what.code(), own.what.to_string()))
+        let row = move |own: &EventReport| {
+            let error = own.error.filter(|error| error.is_finite());
+            (method, own.time, error, own.what.code(), own.what.to_string())
+        };
+        run.events.iter().map(row)
     });
     csv(out, header, rows)
 }

@@ -1,5 +1,6 @@
 //! `dashpot run`.
 
+mod curves;
 mod designs;
 mod energy;
 mod files;
@@ -24,6 +25,7 @@ use serde::Serialize;
 use self::{
     designs::{Design, Designs, Named},
     energy::energy_table,
+    files::Written,
     measures::{Column, Side, measures_tables, notes},
     resolved_scene::Changes,
     series::curves,
@@ -34,7 +36,7 @@ pub(crate) use self::{limits::level, measures::unit_of_kind};
 use crate::{
     args::{
         LimitArguments, MethodNames, Switch, ValueArguments, Variant, When, budget, method_names,
-        share, variant,
+        share, time, variant,
     },
     error::{CliError, Status},
     folder::{Folder, Staged},
@@ -66,6 +68,8 @@ const LABELS: usize = 15;
     dashpot run pad.toml --neglect 0.5%              without what matters less\n  \
     dashpot run pad.toml --limit \"head.hic15<=700\"   pass, fail, or undecided\n  \
     dashpot run pad.toml --out results               CSV, JSON, SVG and HTML\n  \
+    dashpot run pad.toml --out results --write page  the page alone\n  \
+    dashpot run pad.toml --at \"5 ms, 20 ms\"         every output at these times\n  \
     dashpot run pad.toml --json | jq .runs[0].measures\n\n\
     Units: --accuracy and --neglect are relative (0.1%, 1e-3), --rtol a number; all values of --json are SI.")]
 pub(crate) struct RunArguments {
@@ -106,9 +110,18 @@ pub(crate) struct RunArguments {
     /// Folder for CSV, JSON, SVG and HTML; it is made if need be.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// What the folder holds besides result.json [default: all].
+    #[arg(long, value_enum, value_name = "KIND,…", value_delimiter = ',', requires = "out")]
+    write: Vec<Written>,
+    /// The values of all outputs at these times, such as "5 ms, 20 ms", in the text and the JSON object.
+    #[arg(long, value_name = "TIME,…", value_delimiter = ',', value_parser = time)]
+    at: Vec<f64>,
     /// Prints one JSON object, in SI units, in place of text.
     #[arg(long)]
     json: bool,
+    /// All outputs over time in the JSON object as well, at the times of the CSV.
+    #[arg(long)]
+    curves: bool,
     /// A plot of the forces in the text; `auto` draws it on terminals.
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     plot: When,
@@ -128,6 +141,27 @@ struct Answer {
     pub(super) failed: Vec<(&'static str, CliError)>,
     /// Whether forces are plotted.
     plot: When,
+    /// What is shown and written besides.
+    pub(super) wishes: Wishes,
+}
+
+/// What the command line asks for besides the measures.
+#[derive(Debug, Clone, Default)]
+struct Wishes {
+    /// All outputs over time in the object.
+    curves: bool,
+    /// Times \[s\] at which all outputs are shown, rising.
+    at: Vec<f64>,
+    /// What a folder holds.
+    written: Vec<Written>,
+}
+
+impl Wishes {
+    fn of(arguments: &RunArguments) -> Self {
+        let mut at = arguments.at.clone();
+        at.sort_by(f64::total_cmp);
+        Self { curves: arguments.curves, at, written: arguments.write.clone() }
+    }
 }
 
 impl Answer {
@@ -212,6 +246,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
                 warned.push(text);
             }
         }
+        curves::reached(&arguments.at, scene.run.duration)?;
         let answer = solve_all(scene, (arguments, &set), terminal)?;
         print_failures(&answer, terminal);
         answers.push(Design { name, answer });
@@ -281,7 +316,7 @@ fn solve_all(
         }
     }
     let (changes, plot) = (Changes::of(arguments, set), arguments.plot);
-    Ok(Answer { scene, changes, asked, runs, failed, plot })
+    Ok(Answer { scene, changes, asked, runs, failed, plot, wishes: Wishes::of(arguments) })
 }
 
 fn is_new(runs: &[RunReport], report: &RunReport) -> bool {
@@ -325,6 +360,7 @@ impl Study for Answer {
             text.figures(&table);
         }
         notes(self).iter().for_each(|note| text.labelled("", 0, note));
+        self.values_at().iter().for_each(|table| text.rows_below(table));
         self.best().iter().for_each(|best| text.figures(&energy_table(best)));
         text.figures(&solving_table(self));
         for (method, why) in reasons(self) {

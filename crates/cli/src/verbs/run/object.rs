@@ -5,7 +5,10 @@ use dashpot_network::parameters::Dimension;
 use serde::Serialize;
 
 use super::{Answer, solving::direction};
-use crate::output::{Pairs, VERSION, list, object};
+use crate::{
+    origin,
+    output::{Pairs, VERSION, list, object},
+};
 
 /// The whole answer, with the largest difference between the first run and any other, relative.
 pub(super) fn object(answer: &Answer) -> impl Serialize {
@@ -13,9 +16,12 @@ pub(super) fn object(answer: &Answer) -> impl Serialize {
     let differences = answer.differences().into_iter();
     object! {
         dashpot: VERSION,
-        scene: object! { title: &scene.title, file: &scene.file },
+        scene: object! {
+            title: &scene.title, file: &scene.file,
+            sha256: origin::of_text(scene), files: origin::of_files(scene),
+        },
         settings: answer.asked.first().map(|asked| settings(answer, asked)),
-        runs: &answer.runs,
+        runs: list(answer.runs.iter().map(|run| answer.object_of(run))),
         failed: list(answer.failed.iter().map(|(method, error)| object! {
             method, error: error.to_string(),
         })),

@@ -6,7 +6,11 @@ use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
 
 use super::Answer;
-use crate::numbers::{constant, duration, share, tolerance};
+use crate::{
+    numbers::{constant, duration, share, tolerance},
+    origin,
+    output::VERSION,
+};
 
 /// What the columns of times mean.
 const TIMES: &str = "`time`: integration alone (of `exact`: its set-up); `in all`: everything";
@@ -110,6 +114,11 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
         let unit = value.dimension.and_then(Dimension::named).map_or("1", |(_, unit)| unit);
         (format!("value {}", value.name), constant(value.value, unit))
     }));
+    let scene = &answer.scene;
+    rows.push(("dashpot".to_owned(), VERSION.to_owned()));
+    rows.push(("SHA-256 of the scene".to_owned(), origin::of_text(scene)));
+    let files = origin::of_files(scene).into_iter();
+    rows.extend(files.map(|own| (format!("SHA-256 of {}", own.file), own.sha256)));
     Table::new("Settings", &[], rows.into_iter().map(|(name, value)| vec![name, value]))
 }
 

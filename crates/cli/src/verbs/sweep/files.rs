@@ -171,7 +171,7 @@ fn number(value: f64) -> String {
 }
 
 /// The unit in which a column is drawn: that of its largest value.
-fn unit(report: &SweepReport, column: usize) -> Unit {
+pub(super) fn unit(report: &SweepReport, column: usize) -> Unit {
     let most = report.column(column).filter(|own| own.is_finite()).map(f64::abs);
     words::unit(&report.columns[column], most.fold(0.0, f64::max))
 }
@@ -183,13 +183,9 @@ fn label(name: &str, unit: &Unit) -> String {
 /// Label, scale and places of a parameter, in the unit of the command line.
 fn axis(swept: &Swept, parameter: usize) -> (String, Scale, Vec<f64>) {
     let own = &swept.varied.variations[parameter];
-    let (unit, places) = if own.unit.is_empty() {
-        (swept.unit(parameter), &own.values)
-    } else {
-        (own.unit.clone(), &own.numbers)
-    };
+    let (unit, places) = swept.in_unit(parameter);
     let scale = if own.is_logarithmic { Scale::logarithmic("") } else { Scale::Linear };
-    (label(&own.name, &Unit::plain(&unit)), scale, places.clone())
+    (label(&own.name, &Unit::plain(&unit)), scale, places.to_vec())
 }
 
 /// Positions of at most [`MOST_LINES`] lines of a family, from its first to its last one.

@@ -1,6 +1,7 @@
 //! `dashpot sweep`.
 
 mod files;
+mod points;
 mod words;
 
 use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
@@ -18,10 +19,11 @@ use serde::Serialize;
 
 use self::words::{notes, summary};
 use crate::{
-    args::{LimitArguments, SceneArguments, budget, method_names, share},
+    args::{LimitArguments, SceneArguments, When, budget, method_names, share},
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
+    origin::{self, Source},
     output::{Study, Text, VERSION, emit, list, object},
     progress::Bar,
     terminal::{Terminal, note},
@@ -40,8 +42,8 @@ use crate::{
     A number of the scene goes by its path, such as head.velocity, mount.dashpot, \
     padding.maxwell.spring or padding.thickness, or by its name under [values]. Its values are a \
     range, with their count and `lin` or `log`, or a list: \"K=5,10,20 MN/m\". A word of it, such as \
-    that of a material, takes a list of words. Without `--out` the \
-    table is printed as CSV, in SI units.")]
+    that of a material, takes a list of words. In a pipe or file \
+    the table is CSV, in SI units.")]
 pub(crate) struct SweepArguments {
     #[command(flatten)]
     scene: SceneArguments,
@@ -88,6 +90,9 @@ pub(crate) struct SweepArguments {
     /// Prints one JSON object, in SI units, in place of the table.
     #[arg(long)]
     json: bool,
+    /// A table in handy units for people, in place of CSV in SI units; `auto` prints it on terminals.
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    table: When,
 }
 
 /// The points of a sweep at which errors are estimated.
@@ -229,6 +234,8 @@ struct Swept {
     /// Where errors were to be estimated.
     estimates: Estimates,
     report: SweepReport,
+    /// When its table is for people.
+    table: When,
 }
 
 /// Solves a scene for many values of its parameters.
@@ -285,7 +292,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let usual = if varied.is_apart() { EstimatedPoints::All } else { EstimatedPoints::Some };
     let estimates: Estimates = arguments.estimate.unwrap_or(usual).into();
     let report = solved((arguments, estimates), &grid, &pose, &columns, terminal)?;
-    let swept = Swept { scene, varied, grid, estimates, report };
+    let swept = Swept { scene, varied, grid, estimates, report, table: arguments.table };
     let has_folder = folder.is_some();
     emit(&swept, arguments.json, folder, terminal)?;
     files::undrawn(&swept.varied).filter(|_| has_folder).into_iter().for_each(note);
@@ -335,11 +342,22 @@ impl Study for Swept {
     fn text(&self, text: &mut Text) {
         text.title(title(&self.scene));
         self.in_words().iter().for_each(|in_word| text.faint(in_word));
+        let (table, more) = points::table(self);
+        text.table(&table);
+        if more > 0 {
+            text.faint(&format!(
+                "… and {more} more points; all of them are in the CSV of a pipe or of `--out`"
+            ));
+        }
         text.table(&summary(&self.report, matches!(self.varied.form, Form::Sampled)));
-        text.paragraphs(notes(self));
+        text.blank();
+        text.items(notes(self));
     }
 
-    fn data(&self) -> Option<String> {
+    fn data(&self, terminal: Terminal) -> Option<String> {
+        if self.table.is_now(terminal.output.attended) {
+            return None;
+        }
         let mut bytes = Vec::new();
         files::table(self, &mut bytes).ok()?;
         String::from_utf8(bytes).ok()
@@ -356,6 +374,8 @@ impl Study for Swept {
             dashpot: &'static str,
             title: &'s Option<String>,
             file: &'s Option<String>,
+            sha256: String,
+            files: Vec<Source>,
             /// Whether their values at a point are those of one place, in place of all combinations.
             listed: bool,
             parameters: P,
@@ -374,7 +394,8 @@ impl Study for Swept {
         }));
         let listed = self.varied.is_of_rows();
         let (title, file) = (&scene.title, &scene.file);
-        Object { dashpot: VERSION, title, file, listed, parameters, report }
+        let (sha256, files) = (origin::of_text(scene), origin::of_files(scene));
+        Object { dashpot: VERSION, title, file, sha256, files, listed, parameters, report }
     }
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {

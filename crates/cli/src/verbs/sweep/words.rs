@@ -10,7 +10,7 @@ use dashpot_scene::{Variation, units::si_unit};
 
 use super::{Form, Swept};
 use crate::{
-    numbers::{Unit, apart, bound, duration, estimate},
+    numbers::{Unit, apart, bound, duration, estimate, significant},
     verbs::run::{level, unit_of_kind},
 };
 
@@ -25,6 +25,16 @@ impl Swept {
         dimension
             .filter(|dimension| *dimension != Dimension::NUMBER)
             .map_or("1".to_owned(), si_unit)
+    }
+
+    /// The unit of a parameter as the command line says it, else the SI unit, and its values therein.
+    pub(super) fn in_unit(&self, parameter: usize) -> (String, &[f64]) {
+        let own = &self.varied.variations[parameter];
+        if own.unit.is_empty() {
+            (self.unit(parameter), &own.values)
+        } else {
+            (own.unit.clone(), &own.numbers)
+        }
     }
 
     /// The values of all parameters at a point.
@@ -114,6 +124,12 @@ pub(super) fn limit(report: &SweepReport, column: usize, limit: &Limit) -> Strin
     format!("{} {level}{of_mean}{from}", limit.bound.word())
 }
 
+/// The level of a limit with its sign: `≤ 250 g`.
+pub(super) fn level_of(report: &SweepReport, column: usize, limit: &Limit) -> String {
+    let kind = limit.key.rsplit_once('.').map_or("", |own| own.1);
+    format!("{} {}", limit.bound.sign(), level(limit, kind, report.columns[column].unit))
+}
+
 /// How many points keep each limit.
 fn kept(report: &SweepReport) -> Vec<String> {
     let sentence = |at: usize| {
@@ -131,17 +147,23 @@ fn kept(report: &SweepReport) -> Vec<String> {
 
 /// A value of a parameter to four digits.
 pub(super) fn shown(variation: &Variation, at: usize) -> String {
-    if let Some(word) = variation.words.get(at) {
-        return word.clone();
+    match variation.words.get(at) {
+        Some(word) => word.clone(),
+        None => {
+            format!("{} {}", short(variation.numbers[at]), variation.unit).trim_end().to_owned()
+        }
     }
-    let unit = Unit::new(&variation.unit, 1.0);
-    let text = unit.text(variation.numbers[at], 4);
-    let (number, rest) = text.split_once(' ').unwrap_or((&text, ""));
-    let short = match number.split_once('.') {
-        Some(_) if !number.contains('e') => number.trim_end_matches('0').trim_end_matches('.'),
-        _ => number,
-    };
-    format!("{short} {rest}").trim_end().to_owned()
+}
+
+/// A number to four digits, without zeros at its end.
+pub(super) fn short(number: f64) -> String {
+    let text = significant(number, 4);
+    match text.split_once('.') {
+        Some(_) if !text.contains('e') => {
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        }
+        _ => text,
+    }
 }
 
 /// Faults of so many kinds are counts.

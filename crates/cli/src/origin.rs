@@ -1,0 +1,44 @@
+//! What a result is made of, so that it can be told years later whether that is still the same.
+
+use dashpot_scene::Scene;
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use crate::{input::load, output::list};
+
+/// A text or file with its SHA-256, as `sha256sum` prints it.
+#[derive(Debug, Serialize)]
+pub(crate) struct Source {
+    pub(crate) file: String,
+    pub(crate) sha256: String,
+}
+
+/// The SHA-256 of the scene's text, with what the command line sets by its path.
+pub(crate) fn of_text(scene: &Scene) -> String {
+    sha256(scene.text.as_bytes())
+}
+
+/// The other files of which the scene is made; one that is gone meanwhile is left out.
+pub(crate) fn of_files(scene: &Scene) -> Vec<Source> {
+    let source = |file: &String| {
+        let sha256 = sha256(&load(file).ok()?);
+        Some(Source { file: file.clone(), sha256 })
+    };
+    list(scene.files.iter().filter_map(source))
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// FIPS 180-2, appendix B.1.
+    #[test]
+    fn hash_is_that_of_the_standard() {
+        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(sha256(b"abc"), expected);
+    }
+}

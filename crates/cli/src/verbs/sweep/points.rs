@@ -1,0 +1,59 @@
+//! The points of a sweep as a table for people: parameters in the units of the command line, measures with the
+//! digits that their errors justify.
+
+use dashpot_analysis::Judgement;
+use dashpot_plot::Table;
+
+use super::{Swept, files, words};
+use crate::{numbers::digits, output::list};
+
+/// So many points are shown, the first ones of more.
+const MOST_SHOWN: usize = 30;
+/// Digits of a value, whatever its error.
+const MOST_DIGITS: usize = 5;
+/// What stands where there is no value.
+const NONE: &str = "–";
+
+/// The first points, and how many more there are.
+pub(super) fn table(swept: &Swept) -> (Table, usize) {
+    let (report, variations) = (&swept.report, &swept.varied.variations);
+    let axes = list((0..variations.len()).map(|at| swept.in_unit(at)));
+    let units = list((0..report.columns.len()).map(|at| files::unit(report, at)));
+    let judged = list((0..report.limits.len()).map(|at| report.judged(at)));
+    let names = variations.iter().zip(&axes).map(|(own, (unit, _))| match unit.as_str() {
+        "1" | "" => own.name.clone(),
+        unit => format!("{}\n{unit}", own.name),
+    });
+    let measures = report.columns.iter().zip(&units);
+    let measures =
+        measures.map(|(own, unit)| format!("{}\n{}", in_lines(&words::name(own)), unit.symbol));
+    let limits = report.limits.iter().map(|(column, own)| {
+        format!("{}\n{}", in_lines(&own.key), words::level_of(report, *column, own))
+    });
+    let header = list(names.chain(measures).chain(limits));
+    let row = |point: usize| {
+        let places = swept.varied.places(&swept.grid.places(point)).into_iter().enumerate();
+        let own = places.map(|(at, place)| match variations[at].words.get(place) {
+            Some(word) => word.clone(),
+            None => words::short(axes[at].1[place]),
+        });
+        let of_point = point * units.len()..(point + 1) * units.len();
+        let found = report.values[of_point.clone()].iter().zip(&report.errors[of_point]);
+        let values = units.iter().zip(found).map(|(unit, (value, error))| {
+            let error = Some(*error).filter(|own| own.is_finite());
+            let text = || unit.number(*value, digits(*value, error, MOST_DIGITS));
+            if value.is_finite() { text() } else { NONE.to_owned() }
+        });
+        let judged = judged.iter().map(|own| own[point].map_or(NONE, Judgement::word).to_owned());
+        list(own.chain(values).chain(judged))
+    };
+    let header = list(header.iter().map(String::as_str));
+    let points = report.points();
+    let rows = (0..points.min(MOST_SHOWN)).map(row);
+    (Table::new("", &header, rows), points.saturating_sub(MOST_SHOWN))
+}
+
+/// A key in lines: what is measured below what it is of.
+fn in_lines(key: &str) -> String {
+    key.rsplit_once('.').map_or(key.to_owned(), |(of, measure)| format!("{of}\n{measure}"))
+}
