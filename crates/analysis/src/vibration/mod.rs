@@ -33,6 +33,7 @@ mod contacts;
 mod curve;
 mod drive;
 mod error;
+mod modes;
 mod observed;
 mod resonance;
 mod steady;
@@ -50,6 +51,7 @@ pub use self::{
     contacts::{Limit, LimitKind, Onset},
     drive::{Drive, DriveKind, drives},
     error::{VibrationError, VibrationWarning},
+    modes::{Displacement, Mode},
     resonance::Resonance,
     steady::{Steady, SteadyElement, SteadyNode, SteadySupport},
     sweep::{Sweep, SweepSettings, Transmission},

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{
-    Drive, DriveKind, Onset, Resonance, Swing, Vibration, VibrationError, VibrationWarning,
+    Drive, DriveKind, Mode, Onset, Resonance, Swing, Vibration, VibrationError, VibrationWarning,
     curve::Curve,
     observed::{Observed, selected, supports},
     resonance::resonances,
@@ -56,6 +56,8 @@ pub struct Sweep {
     pub transmissions: Vec<Transmission>,
     /// Where each contact parts and each stop is reached first, at its smallest drive.
     pub onsets: Vec<Onset>,
+    /// The free oscillations.
+    pub modes: Vec<Mode>,
     /// What should be known about it.
     pub notes: Vec<VibrationWarning>,
 }
@@ -121,7 +123,7 @@ impl Vibration {
         };
         let transmissions = self.receivers(&settings.of)?.iter().map(transmission).collect();
         let drive = self.drive.clone();
-        Ok(Sweep { drive, frequencies, transmissions, onsets, notes })
+        Ok(Sweep { drive, frequencies, transmissions, onsets, modes: self.modes(), notes })
     }
 
     /// What is looked at: masses, or supports.

@@ -1,4 +1,5 @@
 mod contacts;
+mod modes;
 mod near_pole;
 
 use std::f64::consts::TAU;

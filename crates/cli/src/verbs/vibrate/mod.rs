@@ -14,7 +14,9 @@ use dashpot_plot::{VibrationCurve, VibrationSeries};
 use dashpot_scene::{Scene, units::parse_quantity};
 use serde::Serialize;
 
-use self::tables::{degrees, drive, range_notes, resonances, response, steady, steady_notes};
+use self::tables::{
+    degrees, drive, modes, range_notes, resonances, response, steady, steady_notes,
+};
 use crate::{
     args::{SceneArguments, When},
     error::{CliError, Status},
@@ -165,6 +167,7 @@ impl Study for Shaken {
             steady(own).iter().for_each(|own| text.table(own));
             text.paragraphs(steady_notes(own));
         }
+        text.table(&modes(sweep));
         text.table(&resonances(sweep));
         let notes = sweep.notes.iter().map(VibrationWarning::to_string);
         text.paragraphs(range_notes(sweep).into_iter().chain(notes));
@@ -194,6 +197,7 @@ impl Study for Shaken {
             drive: object! { name, kind, node, unit },
             frequencies: &sweep.frequencies,
             responses: list(sweep.transmissions.iter().map(response_object)),
+            modes: &sweep.modes,
             steady: &self.steady,
             notes: list(sweep.notes.iter().map(VibrationWarning::to_string)),
             note_codes: list(sweep.notes.iter().map(VibrationWarning::code)),

@@ -56,6 +56,41 @@ fn watts(value: f64) -> String {
     Unit::new(symbol, factor).text(value, DIGITS)
 }
 
+/// The modes, each with what its masses do.
+pub(super) fn modes(sweep: &Sweep) -> Table {
+    let names = sweep.modes.iter().filter_map(|mode| mode.shape.as_ref()).next();
+    let names: Vec<&str> =
+        names.map(|all| all.iter().map(|own| own.node.as_str()).collect()).unwrap_or_default();
+    let rows = sweep.modes.iter().enumerate().map(|(at, mode)| {
+        let cell = |place: usize| {
+            let own = mode.shape.as_ref().and_then(|all| all.get(place));
+            own.map_or_else(|| NONE.to_owned(), |own| part_of_mode(own.swing))
+        };
+        let own = [
+            (at + 1).to_string(),
+            hertz(mode.frequency),
+            Unit::plain("1").number(mode.damping_ratio, 3),
+        ];
+        own.into_iter().chain((0..names.len()).map(cell)).collect()
+    });
+    let header: Vec<&str> =
+        ["mode", "frequency", "damping ζ"].into_iter().chain(names.clone()).collect();
+    Table::new("Modes, with the displacement of each mass", &header, rows.take(MOST_ROWS))
+}
+
+/// A displacement relative to the largest one: with its sign where it is in phase or opposed, else with its phase.
+fn part_of_mode(swing: Swing) -> String {
+    let text = Unit::plain("1").number(swing.amplitude, 3);
+    let rounded = degrees(swing.phase).round();
+    if swing.amplitude <= swing.error || rounded == 0.0 {
+        text
+    } else if rounded.abs() == 180.0 {
+        format!("−{text}")
+    } else {
+        format!("{text} ∠{}°", Unit::plain("1").decimal(degrees(swing.phase), 0))
+    }
+}
+
 /// The resonances of every response, up to a number of them.
 pub(super) fn resonances(sweep: &Sweep) -> Table {
     let rows = sweep.transmissions.iter().flat_map(|transmission| {
