@@ -224,7 +224,8 @@ impl CliError {
                 Some(format!("did you mean `{similar}`?"))
             }
             Self::NoLimits => Some(
-                "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`".to_owned(),
+                "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
+                    .to_owned(),
             ),
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
@@ -248,8 +249,8 @@ impl CliError {
                     .to_owned(),
             ),
             Self::NotLinear { .. } => Some(
-                "only linear models can be converted, compared and put on the rheometer; run it in \
-                 a scene"
+                "only linear models can be converted and compared; `dashpot rheometer` tests any \
+                 model, and a scene runs it"
                     .to_owned(),
             ),
             Self::MovingMasses { .. } => {
@@ -264,7 +265,9 @@ impl CliError {
             Self::Similarity(SimilarityError::UnknownQuantity { name, known }) => {
                 let known = known.join(", ");
                 Some(if name == "drop" {
-                    format!("`speed` is that at the end of the drop, sqrt(2 g0 h); there are {known}")
+                    format!(
+                        "`speed` is that at the end of the drop, sqrt(2 g0 h); there are {known}"
+                    )
                 } else {
                     format!("there are {known}")
                 })
