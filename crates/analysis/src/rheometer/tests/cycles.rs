@@ -54,7 +54,8 @@ fn judge(model: &Model, expected: &Expected) -> RheometerReport {
         let (found, error) = (figure.computed.unwrap(), figure.error.unwrap());
         let off = (found - value).abs();
         assert!(off <= error + 1e-14 * scale, "{name}: {found:e} for {value:e}, {error:e} stated");
-        let most = if name == "residual deformation" { 1e-6 } else { WORK };
+        // A force that comes to zero without a slope tells little of where.
+        let most = if name == "residual deformation" { 1e-3 } else { WORK };
         assert!(error <= most * scale, "{name}: {error:e} of {scale:e}");
         if is_linear {
             let off = (figure.model.unwrap() - value).abs();
