@@ -236,7 +236,8 @@ impl CliError {
                 Some("give a time within it, or a longer `duration` in [run]".to_owned())
             }
             Self::NoLimits => Some(
-                "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`".to_owned(),
+                "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
+                    .to_owned(),
             ),
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
@@ -260,8 +261,8 @@ impl CliError {
                     .to_owned(),
             ),
             Self::NotLinear { .. } => Some(
-                "only linear models can be converted, compared and put on the rheometer; run it in \
-                 a scene"
+                "only linear models can be converted and compared; `dashpot rheometer` tests any \
+                 model, and a scene runs it"
                     .to_owned(),
             ),
             Self::MovingMasses { .. } => {
@@ -276,7 +277,9 @@ impl CliError {
             Self::Similarity(SimilarityError::UnknownQuantity { name, known }) => {
                 let known = known.join(", ");
                 Some(if name == "drop" {
-                    format!("`speed` is that at the end of the drop, sqrt(2 g0 h); there are {known}")
+                    format!(
+                        "`speed` is that at the end of the drop, sqrt(2 g0 h); there are {known}"
+                    )
                 } else {
                     format!("there are {known}")
                 })

@@ -28,7 +28,7 @@ pub(crate) struct Operand {
 
 /// A model, or the response of a network.
 pub(crate) enum Subject {
-    /// A series-parallel model of linear elements.
+    /// A series-parallel model.
     Model(NamedModel),
     /// The response of a network at two of its nodes.
     Response(Response),
@@ -40,6 +40,21 @@ impl Operand {
     /// Whatever is done with an operand takes its linear response, so one with an element that is
     /// not linear is an error.
     pub(crate) fn read(
+        word: &str,
+        set: &[(String, String)],
+        terminal: Terminal,
+    ) -> Result<Self, CliError> {
+        let own = Self::read_any(word, set, terminal)?;
+        match own.model().and_then(first_nonlinear) {
+            Some(element) => {
+                Err(CliError::NotLinear { word: word.to_owned(), kind: element.kind() })
+            }
+            None => Ok(own),
+        }
+    }
+
+    /// The same, with elements that are not linear as well.
+    pub(crate) fn read_any(
         word: &str,
         set: &[(String, String)],
         terminal: Terminal,
@@ -62,9 +77,6 @@ impl Operand {
             terminal.diagnose(&checked.warnings);
             print_notes(&checked.value.notes);
             note_effects(&checked.value, input.text()?, &options);
-            if let Some(element) = first_nonlinear(&checked.value.model) {
-                return Err(CliError::NotLinear { word: word.to_owned(), kind: element.kind() });
-            }
             Subject::Model(checked.value)
         };
         Ok(Self { word: word.to_owned(), input, subject })

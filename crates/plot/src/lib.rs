@@ -26,7 +26,8 @@ pub use chart::{
     Chart, Direction, Marker, Pattern, PlotError, ReferenceLine, Scale, Series, Stroke,
 };
 pub use figures::model::{
-    Measured, ModelCurve, ModelFigure, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
+    Loop, LoopSeries, Measured, ModelCurve, ModelFigure, ModelSeries, ModelSubject, RheometerLine,
+    RheometerSeries,
 };
 pub use figures::{
     ElementSeries, EnergySeries, Figure, NodeSeries, Of, PrecisionCurve, PrecisionSeries, RunLimit,

@@ -90,6 +90,15 @@ impl History {
         Self { corners: vec![start, Corner { time: end, before: rate * end, after: rate * end }] }
     }
 
+    /// A straight way to `height` with `rate` from the time 0 on, and back to zero with `back`, both
+    /// rates positive.
+    pub(super) fn there_and_back(height: f64, rate: f64, back: f64) -> Self {
+        let turn = height.abs() / rate;
+        let corner = |time, value| Corner { time, before: value, after: value };
+        let end = turn + height.abs() / back;
+        Self { corners: vec![corner(0.0, 0.0), corner(turn, height), corner(end, 0.0)] }
+    }
+
     fn edge(time: f64, rise: f64, from: f64, to: f64) -> Vec<Corner> {
         if rise > 0.0 {
             let foot = Corner { time, before: from, after: from };

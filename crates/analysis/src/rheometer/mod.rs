@@ -3,7 +3,8 @@
 //! Each protocol of the register puts a force or a deformation on a model and looks at the answer,
 //! twice: from the model object ([`dashpot_rheology::LinearModel`]) as a sum of modes, and from the
 //! network of the model, which is compiled and solved without knowledge of the modes. The report
-//! holds both, and how far they are apart.
+//! holds both, and how far they are apart. A model that is not linear has no modes: of it the report
+//! holds what the network gives, with its error.
 //!
 //! # Examples
 //!
@@ -18,12 +19,14 @@
 //! # Ok::<(), dashpot_analysis::rheometer::RheometerError>(())
 //! ```
 
+mod cycle;
 mod history;
 mod note;
 mod perturbation;
 mod protocols;
 mod report;
 mod simulation;
+mod solved;
 mod specimen;
 mod trial;
 
@@ -35,15 +38,23 @@ use dashpot_network::parameters::{Described, Kind, Registered, Value, registered
 
 pub use note::RheometerError;
 pub use note::{Note, Obstacle};
-pub use protocols::{ConstantRate, Creep, CreepRecovery, LoadHoldUnload, Relaxation, Sweep};
+pub use protocols::{
+    ConstantRate, Creep, CreepRecovery, LoadHoldUnload, LoadUnload, Relaxation, Sweep,
+};
 pub use report::{Computation, Computed, Disagreement, Figure, RheometerReport, Series, Setting};
 pub use specimen::Specimen;
 
 use crate::Choice;
 
-/// The methods by which tests are simulated where nothing else is asked for.
+/// The methods by which tests of a linear model are simulated where nothing else is asked for.
 pub fn default_methods() -> [Choice; 1] {
     [Choice::from(methods::Exact)]
+}
+
+/// The methods by which tests of this specimen are simulated where nothing else is asked for: `exact` for a
+/// linear model, else the one that suits.
+pub fn methods_for(specimen: &Specimen) -> [Choice; 1] {
+    if specimen.linear().is_some() { default_methods() } else { [Choice::Auto] }
 }
 
 /// A test of a model with all its settings.
@@ -105,6 +116,7 @@ pub static PROTOCOLS: &[ProtocolEntry] = &[
     entry::<LoadHoldUnload>(),
     entry::<Relaxation>(),
     entry::<ConstantRate>(),
+    entry::<LoadUnload>(),
     entry::<Sweep>(),
 ];
 

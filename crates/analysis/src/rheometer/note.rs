@@ -6,7 +6,7 @@ use dashpot_dae::SolveError;
 use dashpot_network::{NetworkErrors, parameters::InvalidParameter};
 use thiserror::Error;
 
-use crate::wording::quantity;
+use crate::{RunError, wording::quantity};
 
 /// What is special about a model under a test, or why one of its figures has no value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +33,10 @@ pub enum Note {
     DashpotLoss,
     /// Its loss factor has no peak.
     NoLossPeak,
+    /// On the way back the force does not come to zero.
+    ForceLeft,
+    /// The force comes to zero as the motion turns.
+    NothingBack,
     /// A dashpot beside all else lets the force jump as the motion begins.
     ForceJumps,
     /// A dashpot beside all else allows no sudden deformation: it rises within this time \[s\] instead.
@@ -54,6 +58,8 @@ impl Note {
             Self::LiquidLoss => "liquid-loss",
             Self::DashpotLoss => "dashpot-loss",
             Self::NoLossPeak => "no-loss-peak",
+            Self::ForceLeft => "force-left",
+            Self::NothingBack => "nothing-back",
             Self::ForceJumps => "force-jumps",
             Self::Rise(_) => "rise",
         }
@@ -83,6 +89,10 @@ impl fmt::Display for Note {
                  frequencies"
             }
             Self::NoLossPeak => "the loss factor has no peak at a finite frequency",
+            Self::ForceLeft => "the force does not come to zero on the way back",
+            Self::NothingBack => {
+                "the force comes to zero as the motion turns: the model follows more slowly than it is let go"
+            }
             Self::ForceJumps => "a dashpot beside all else: the force jumps as the motion begins",
             Self::Rise(time) => {
                 let time = quantity(*time, "s");
@@ -106,6 +116,9 @@ pub enum Obstacle {
     /// The method does not deliver a trajectory.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// The run of the network fails.
+    #[error(transparent)]
+    Run(#[from] RunError),
     /// Two changes of the test are at one instant.
     #[error("two changes of the test cannot be told apart")]
     ChangesAtOnce,
@@ -134,6 +147,7 @@ impl Obstacle {
         match self {
             Self::Network(_) => "network",
             Self::Solve(_) => "solve",
+            Self::Run(_) => "run",
             Self::ChangesAtOnce => "changes-at-once",
             Self::Undetermined => "undetermined",
             Self::OutOfRange => "out-of-range",
@@ -167,11 +181,32 @@ pub enum RheometerError {
     /// A parameter of the test or of the model is out of its range.
     #[error(transparent)]
     Invalid(#[from] InvalidParameter),
-    /// The model is not linear.
-    #[error("`{kind}` is not linear: run it in a scene")]
-    NotLinear {
-        /// Word of the first element that is not.
+    /// The test is one of linear models only.
+    #[error(
+        "`{protocol}` needs a linear model, and `{kind}` is not linear: `load-unload` takes any model"
+    )]
+    NeedsLinear {
+        /// The protocol.
+        protocol: &'static str,
+        /// Word of the first element that is not linear.
         kind: &'static str,
+    },
+    /// The force at which the test is to turn is not reached.
+    #[error(
+        "the force does not reach {} up to a deformation of {}: give a lower force, or a deformation",
+        quantity(*.force, "N"), quantity(*.deformation, "m")
+    )]
+    ForceNotReached {
+        /// The force \[N\].
+        force: f64,
+        /// How far was looked \[m\].
+        deformation: f64,
+    },
+    /// The deformation at which the force is reached is not found.
+    #[error("the deformation at which the force is reached is not found: {obstacle}")]
+    NoTurn {
+        /// Why not.
+        obstacle: Box<Obstacle>,
     },
     /// The constants of the model or of the test are too far apart for double precision.
     #[error("the constants of the model or the test are too far apart for double precision")]

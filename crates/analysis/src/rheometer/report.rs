@@ -3,8 +3,8 @@
 use super::{Note, Obstacle, simulation::Track};
 use crate::Column;
 
-/// What a test of a model found: the same quantities from the model object in closed form, and
-/// from independent computations with the network of the model.
+/// What a test of a model found: the same quantities from the model object in closed form, where it is
+/// linear, and from independent computations with the network of the model.
 ///
 /// Values that are infinite (the loss factor of a dashpot) are infinite here as well.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,7 +67,7 @@ pub struct Series {
     pub name: &'static str,
     /// SI unit.
     pub unit: &'static str,
-    /// From the model object, in closed form.
+    /// From the model object, in closed form; empty where the model is not linear.
     pub model: Vec<f64>,
     /// From the independent computations, in the order of [`RheometerReport::computations`].
     pub computed: Vec<Computed>,
@@ -80,6 +80,9 @@ pub struct Computed {
     pub values: Vec<Option<f64>>,
     /// How far they are from those of the model object; `None` where nothing can be compared.
     pub difference: Option<Disagreement>,
+    /// About how large the error of the values may be, in the unit of the series, as far as it is known;
+    /// see [`Disagreement::stated`].
+    pub error: Option<f64>,
 }
 
 /// How far an independent computation is from the model object.
@@ -121,6 +124,9 @@ pub struct Figure {
     pub model: Option<f64>,
     /// From the first independent computation, where that gives it.
     pub computed: Option<f64>,
+    /// How far that may be off, in the unit of the figure, as far as it is known: a bound for `exact` with
+    /// what rounding changes, for other methods an estimate from three tolerances.
+    pub error: Option<f64>,
     /// Why there is no value.
     pub note: Option<Note>,
 }
@@ -129,12 +135,17 @@ impl Figure {
     /// A figure of the model object; what is not finite is no value.
     pub(super) fn of(name: &'static str, unit: &'static str, model: f64) -> Self {
         let model = Some(model).filter(|value| value.is_finite());
-        Self { name, unit, model, computed: None, note: None }
+        Self { name, unit, model, computed: None, error: None, note: None }
     }
 
     /// The same figure, with the reason why there is no value, should there be none.
     pub(super) fn noting(self, note: Note) -> Self {
         Self { note: self.model.is_none().then_some(note), ..self }
+    }
+
+    /// The same figure with the error of its computed value.
+    pub(super) fn within(self, error: Option<f64>) -> Self {
+        Self { error: error.filter(|error| error.is_finite()), ..self }
     }
 
     /// The same figure with the value of the first computation.
@@ -153,6 +164,7 @@ pub(super) fn series<'a>(
 ) -> Series {
     let compared = |track: &Track| Computed {
         difference: difference(times, &model, track),
+        error: track.error,
         values: track.values.clone(),
     };
     let computed = tracks.into_iter().map(compared).collect();

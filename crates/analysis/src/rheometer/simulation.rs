@@ -1,17 +1,18 @@
 //! The independent way: the network around a model, compiled and solved.
 
 use dashpot_dae::{Method, Run, Signal, Silent, System, Waveform};
-use dashpot_network::{Model, Network, Node};
+use dashpot_network::{Model, Network, Node, first_nonlinear};
 
 use super::{
     Obstacle,
     history::{History, Instant, Side},
     perturbation::{CAUTION, SEEDS, perturb, perturbed},
+    solved,
 };
 use crate::Choice;
 
 /// Tolerances of a method that states no bound; its error follows from their differences.
-const TOLERANCES: [f64; 3] = [1e-7, 1e-8, 1e-9];
+pub(super) const TOLERANCES: [f64; 3] = [1e-7, 1e-8, 1e-9];
 /// Number of coupled unknowns up to which the exact method takes any number of decades.
 const FEW: usize = 8;
 /// Fastest rate times duration up to which it takes more.
@@ -44,17 +45,22 @@ pub(super) struct Track {
 impl Simulation {
     /// Solves the network of `rig` by a method and reads it at `instants`, which
     /// rise. What cannot be solved to its end is solved as far as tenths of the time go.
-    pub(super) fn new(rig: &Rig<'_>, method: &Choice, instants: &[Instant]) -> Self {
-        let method = method.method();
+    pub(super) fn new(rig: &Rig<'_>, choice: &Choice, instants: &[Instant]) -> Self {
+        let method = choice.method();
         let name = method.name();
         let first = instants.iter().map(|instant| instant.time).find(|&time| time > 0.0);
         let first = first.unwrap_or(f64::INFINITY);
         let mut reach = rig.history().end();
         let mut obstacle = None;
         while reach >= first {
-            match solve(rig, method.as_ref(), reach, instants) {
-                Ok(tracks) => {
-                    return Self { method: name, tracks, reach: Some(reach), obstacle };
+            let found = if rig.is_nonlinear() {
+                solved::tracks(rig, choice, reach, instants)
+            } else {
+                solve(rig, method.as_ref(), reach, instants).map(|tracks| (name, tracks))
+            };
+            match found {
+                Ok((method, tracks)) => {
+                    return Self { method, tracks, reach: Some(reach), obstacle };
                 }
                 Err(reason) => {
                     obstacle.get_or_insert(reason);
@@ -139,7 +145,7 @@ fn check_width(system: &System, reach: f64) -> Result<(), Obstacle> {
     Ok(())
 }
 
-fn read(signal: &Signal, reach: f64, instants: &[Instant]) -> Track {
+pub(super) fn read(signal: &Signal, reach: f64, instants: &[Instant]) -> Track {
     let value = |instant: &Instant| {
         (instant.time <= reach).then(|| match instant.side {
             Side::After => signal.value(instant.time),
@@ -151,7 +157,7 @@ fn read(signal: &Signal, reach: f64, instants: &[Instant]) -> Track {
 }
 
 /// The finest of three solutions, with the errors that their differences tell.
-fn estimated(coarse: &[Track], middle: &[Track], fine: Vec<Track>) -> Vec<Track> {
+pub(super) fn estimated(coarse: &[Track], middle: &[Track], fine: Vec<Track>) -> Vec<Track> {
     let tracks = fine.into_iter().zip(middle).zip(coarse);
     let estimated = tracks.map(|((fine, middle), coarse)| {
         let late = difference(&fine.values, &middle.values);
@@ -169,7 +175,7 @@ fn difference(one: &[Option<f64>], other: &[Option<f64>]) -> Option<f64> {
 }
 
 /// Name of the connection that a model becomes.
-const NAME: &str = "model";
+pub(super) const NAME: &str = "model";
 
 /// What is prescribed at the head of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -216,6 +222,11 @@ impl<'a> Rig<'a> {
         let chain =
             self.chain.iter().map(|(name, model)| (*name, perturbed(model, seed))).collect();
         Self { chain, outputs: self.outputs.clone(), ..*self }
+    }
+
+    /// Whether any of the models is not linear.
+    pub(super) fn is_nonlinear(&self) -> bool {
+        self.chain.iter().any(|(_, model)| first_nonlinear(model).is_some())
     }
 
     pub(super) fn history(&self) -> &History {

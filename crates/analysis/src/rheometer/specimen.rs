@@ -19,7 +19,8 @@ const NO_TIME: f64 = 1.0;
 #[derive(Debug, Clone)]
 pub struct Specimen {
     model: Model,
-    linear: LinearModel,
+    linear: Option<LinearModel>,
+    nonlinear: Option<&'static str>,
     relaxation_times: Vec<f64>,
     retardation_times: Vec<f64>,
 }
@@ -30,13 +31,18 @@ impl Specimen {
     /// # Errors
     ///
     /// [`RheometerError::Invalid`] for a constant out of its range or a series or parallel without
-    /// parts, [`RheometerError::NotLinear`] for an element that is not linear, and
-    /// [`RheometerError::OutOfScale`] where constants are so far apart that the model's
+    /// parts, and [`RheometerError::OutOfScale`] where constants of a linear model are so far apart that the model's
     /// own leave the range of numbers.
     pub fn new(model: &Model) -> Result<Self, RheometerError> {
         check(model)?;
         if let Some(element) = first_nonlinear(model) {
-            return Err(RheometerError::NotLinear { kind: element.kind() });
+            return Ok(Self {
+                model: model.clone(),
+                linear: None,
+                nonlinear: Some(element.kind()),
+                relaxation_times: Vec::new(),
+                retardation_times: Vec::new(),
+            });
         }
         let linear = linear_model(model);
         let times = |form: &MaxwellForm| -> Vec<f64> {
@@ -49,7 +55,8 @@ impl Specimen {
             model: model.clone(),
             relaxation_times: linear.maxwell().map(times).unwrap_or_default(),
             retardation_times: linear.kelvin().map(delays).unwrap_or_default(),
-            linear,
+            linear: Some(linear),
+            nonlinear: None,
         };
         if specimen.is_in_range() { Ok(specimen) } else { Err(RheometerError::OutOfScale) }
     }
@@ -59,9 +66,24 @@ impl Specimen {
         &self.model
     }
 
-    /// The model, seen from outside.
-    pub fn linear(&self) -> &LinearModel {
-        &self.linear
+    /// The model, seen from outside; `None` where it is not linear, and simulation alone tells of it.
+    pub fn linear(&self) -> Option<&LinearModel> {
+        self.linear.as_ref()
+    }
+
+    /// Word of the first element that is not linear.
+    pub fn nonlinear(&self) -> Option<&'static str> {
+        self.nonlinear
+    }
+
+    /// Its Maxwell form, where it is linear and has one.
+    pub(super) fn maxwell(&self) -> Option<&MaxwellForm> {
+        self.linear()?.maxwell()
+    }
+
+    /// Its Kelvin form, where it is linear and has one.
+    pub(super) fn kelvin(&self) -> Option<&KelvinForm> {
+        self.linear()?.kelvin()
     }
 
     /// Its relaxation times \[s\], rising.
@@ -74,7 +96,7 @@ impl Specimen {
         &self.retardation_times
     }
 
-    /// The fastest and the slowest of all its times \[s\]; 1 s where it has none.
+    /// The fastest and the slowest of all its times \[s\]; 1 s where it has none, or is not linear.
     pub fn range_of_times(&self) -> (f64, f64) {
         let all = || self.relaxation_times.iter().chain(&self.retardation_times).copied();
         let fastest = all().reduce(f64::min).unwrap_or(NO_TIME);
@@ -89,10 +111,10 @@ impl Specimen {
     /// The parts of the Kelvin form by the names of what they do, from the head on; those that the
     /// model has not are left out.
     pub(super) fn kelvin_chain(&self) -> Vec<(&'static str, Model)> {
-        let Some(form) = self.linear.kelvin() else { return Vec::new() };
+        let Some((linear, form)) = self.linear().zip(self.kelvin()) else { return Vec::new() };
         let mut chain = Vec::new();
         if form.spring_compliance() > 0.0 {
-            let stiffness = self.linear.instantaneous_stiffness();
+            let stiffness = linear.instantaneous_stiffness();
             chain.push(("instantaneous", part(Spring { stiffness })));
         }
         let delayed: Vec<Model> = form
@@ -107,14 +129,14 @@ impl Specimen {
             chain.push(("delayed", Model::series(delayed)));
         }
         if form.fluidity() > 0.0 {
-            chain.push(("viscous", part(Dashpot { damping: self.linear.viscosity() })));
+            chain.push(("viscous", part(Dashpot { damping: linear.viscosity() })));
         }
         chain
     }
 
-    /// What characterises the model whatever the test.
+    /// What characterises a linear model whatever the test.
     pub(super) fn figures(&self) -> Vec<Figure> {
-        let linear = &self.linear;
+        let Some(linear) = self.linear() else { return Vec::new() };
         let figure = |name, unit, value: f64, note| Figure::of(name, unit, value).noting(note);
         vec![
             figure(
@@ -131,7 +153,7 @@ impl Specimen {
     fn is_in_range(&self) -> bool {
         let is_good = |value: f64| value.is_finite() && value >= 0.0;
         let is_positive = |value: f64| value.is_finite() && value > 0.0;
-        let maxwell = self.linear.maxwell().is_none_or(|form| {
+        let maxwell = self.maxwell().is_none_or(|form| {
             let elements = form.elements();
             let mut all = elements.iter().flat_map(|element| {
                 [element.stiffness, element.damping, element.relaxation_time, element.rate.high()]
@@ -139,7 +161,7 @@ impl Specimen {
             is_good(form.spring()) && is_good(form.dashpot()) && all.all(is_positive)
         });
         maxwell
-            && self.linear.kelvin().is_none_or(|form| {
+            && self.kelvin().is_none_or(|form| {
                 let elements = form.elements();
                 let mut all = elements.iter().flat_map(|element| {
                     [
@@ -193,12 +215,13 @@ pub(super) struct Peak {
 /// The highest of the peaks that the loss factor has at finite frequencies; `None` where it has
 /// none.
 pub(super) fn highest_loss_factor(specimen: &Specimen) -> Option<Peak> {
+    let linear = specimen.linear()?;
     let (fastest, slowest) = specimen.range_of_times();
     let (low, high) = (1.0 / (BEYOND * slowest), BEYOND / fastest);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some thousands")]
     let count = (EACH_DECADE * (high / low).log10()).ceil() as usize + 1;
     let places = logarithmic(low, high, count);
-    let factor = |omega: f64| specimen.linear().loss_factor(omega);
+    let factor = |omega: f64| linear.loss_factor(omega);
     let values: Vec<f64> = places.iter().map(|&omega| factor(omega)).collect();
     let tops = (1..places.len().saturating_sub(1))
         .filter(|&at| values[at] > values[at - 1] && values[at] >= values[at + 1]);

@@ -38,13 +38,17 @@ impl<'a> Trial<'a> {
 
     /// The parts of the deformation at an instant, in closed form; zero for what bears no force.
     pub(super) fn parts(&self, at: Instant) -> Parts {
-        let form = self.specimen.linear().kelvin();
+        let form = self.specimen.kelvin();
         form.map_or_else(Parts::default, |form| history::deformation(form, &self.history, at))
     }
 
-    /// The answer of the model at an instant, in closed form: deformation \[m\] or force \[N\].
+    /// The answer of a linear model at an instant, in closed form: deformation \[m\] or force \[N\];
+    /// infinite where it has none.
     pub(super) fn answer(&self, at: Instant) -> f64 {
-        match (self.control, self.specimen.linear().maxwell()) {
+        if self.specimen.linear().is_none() {
+            return f64::INFINITY;
+        }
+        match (self.control, self.specimen.maxwell()) {
             (Control::Force, _) => self.parts(at).total(),
             (Control::Deformation, Some(form)) => history::force(form, &self.history, at),
             (Control::Deformation, None) => f64::INFINITY,
@@ -64,7 +68,9 @@ impl<'a> Trial<'a> {
 
     /// The answer over time.
     pub(super) fn series(&self) -> Series {
-        let model = self.instants.iter().map(|&at| self.answer(at)).collect();
+        let is_linear = self.specimen.linear().is_some();
+        let known = self.instants.iter().filter(|_| is_linear);
+        let model = known.map(|&at| self.answer(at)).collect();
         let tracks = self.simulations.iter().filter_map(|simulation| simulation.tracks.first());
         let (name, unit) = match self.control {
             Control::Force => ("deformation", "m"),

@@ -255,6 +255,12 @@ fn most_in_one_place(solution: &Solution<'_>, window: (f64, f64)) -> f64 {
             Law::Spring(_) | Law::Nonlinear { .. } => {
                 Some(primitive.element.stored(largest(primitive.deformation)))
             }
+            Law::Phased if EnergyRole::of(primitive.element.as_ref()).stores => {
+                let deformation = solution.glance(primitive.deformation);
+                let time = deformation.absolute_maximum(window).time;
+                let there = deformation.left_value(time);
+                Some(roles::stored(solution.run(), primitive, time, there))
+            }
             _ => None,
         });
     masses.chain(springs).fold(0.0, f64::max)

@@ -1,5 +1,6 @@
 //! The tests, and what they have in common.
 
+mod load_unload;
 mod sweep;
 mod under_deformation;
 mod under_force;
@@ -7,6 +8,7 @@ mod under_force;
 use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, ParameterKind, Range};
 
 pub use self::{
+    load_unload::LoadUnload,
     sweep::Sweep,
     under_deformation::{ConstantRate, Relaxation},
     under_force::{Creep, CreepRecovery, LoadHoldUnload},
@@ -80,7 +82,7 @@ const HELD: f64 = 5.0;
 
 /// Refuses to put a force on what bears none.
 fn bears_force(protocol: &'static str, specimen: &Specimen) -> Result<(), RheometerError> {
-    if specimen.linear().kelvin().is_some() {
+    if specimen.linear().is_none_or(|linear| linear.kelvin().is_some()) {
         return Ok(());
     }
     let reason = "the model bears no force, so it would give way without end under any";
@@ -89,7 +91,7 @@ fn bears_force(protocol: &'static str, specimen: &Specimen) -> Result<(), Rheome
 
 /// Refuses to deform what is rigid.
 fn deforms(protocol: &'static str, specimen: &Specimen) -> Result<(), RheometerError> {
-    if specimen.linear().maxwell().is_some() {
+    if specimen.linear().is_none_or(|linear| linear.maxwell().is_some()) {
         return Ok(());
     }
     let reason = "a rigid link does not deform, whatever the force";
@@ -98,8 +100,8 @@ fn deforms(protocol: &'static str, specimen: &Specimen) -> Result<(), RheometerE
 
 /// What is special about the model under a force step.
 fn notes_under_force(specimen: &Specimen) -> Vec<Note> {
-    let Some(form) = specimen.linear().kelvin() else { return Vec::new() };
-    if specimen.linear().maxwell().is_none() {
+    let Some(form) = specimen.kelvin() else { return Vec::new() };
+    if specimen.maxwell().is_none() {
         return vec![Note::NothingDeforms];
     }
     let mut notes = Vec::new();

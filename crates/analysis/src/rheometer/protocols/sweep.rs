@@ -52,6 +52,10 @@ impl ProtocolKind for Sweep {
         specimen: &Specimen,
         methods: &[Choice],
     ) -> Result<RheometerReport, RheometerError> {
+        let Some(linear) = specimen.linear() else {
+            let kind = specimen.nonlinear().unwrap_or("model");
+            return Err(RheometerError::NeedsLinear { protocol: Self::KIND, kind });
+        };
         deforms(Self::KIND, specimen)?;
         let (fastest, slowest) = specimen.range_of_times();
         let from = setting("from", "Hz", self.from, 1.0 / (BEYOND * TAU * slowest));
@@ -61,7 +65,6 @@ impl ProtocolKind for Sweep {
             return Err(InvalidParameter::new("to", range, to.value).into());
         }
         let frequencies = logarithmic(from.value, to.value, self.points);
-        let linear = specimen.linear();
         let own = |frequency: &f64| {
             let omega = TAU * frequency;
             Complex::new(linear.storage(omega), linear.loss(omega))
@@ -120,7 +123,7 @@ fn compute(report: &mut RheometerReport, specimen: &Specimen, model: &[Complex<f
         let difference = quantity.largest(model, &found, frequencies);
         let difference = difference.map(|difference| Disagreement { stated, ..difference });
         let values = found.iter().map(|value| value.map(quantity.read)).collect();
-        series.computed.push(Computed { values, difference });
+        series.computed.push(Computed { values, difference, error: None });
     }
     let reach = frequencies.iter().zip(&found).filter(|(_, value)| value.is_some());
     let reach = reach.map(|(&frequency, _)| frequency).reduce(f64::max);
@@ -185,7 +188,7 @@ fn add_peak(report: &mut RheometerReport, specimen: &Specimen) {
     };
     report.figures.push(figure("peak of the loss factor", "1", peak.map(|peak| peak.value)));
     report.figures.push(figure("frequency of the peak", "Hz", peak.map(|peak| peak.omega / TAU)));
-    let linear = specimen.linear();
+    let Some(linear) = specimen.linear() else { return };
     if linear.kelvin().is_none() {
         report.notes.push(Note::NoForce);
         return;

@@ -47,7 +47,7 @@ impl ProtocolKind for Relaxation {
         methods: &[Choice],
     ) -> Result<RheometerReport, RheometerError> {
         deforms(Self::KIND, specimen)?;
-        let is_blocked = specimen.linear().maxwell().is_some_and(|form| form.dashpot() > 0.0);
+        let is_blocked = specimen.maxwell().is_some_and(|form| form.dashpot() > 0.0);
         let quick = QUICK * specimen.range_of_times().0;
         let height = setting("deformation", "m", self.deformation, USUAL_DEFORMATION);
         let rise = setting("rise", "s", self.rise, if is_blocked { quick } else { 0.0 });
@@ -68,10 +68,12 @@ impl ProtocolKind for Relaxation {
         if rise.is_chosen && is_blocked {
             report.notes.push(Note::Rise(rise.value));
         }
-        if specimen.linear().kelvin().is_none() {
-            report.notes.push(Note::NoForce);
-        } else if specimen.linear().equilibrium_stiffness() == 0.0 {
-            report.notes.push(Note::RelaxesToNothing);
+        match specimen.linear() {
+            Some(linear) if linear.kelvin().is_none() => report.notes.push(Note::NoForce),
+            Some(linear) if linear.equilibrium_stiffness() == 0.0 => {
+                report.notes.push(Note::RelaxesToNothing);
+            }
+            _ => {}
         }
         Ok(report)
     }
@@ -111,10 +113,10 @@ impl ProtocolKind for ConstantRate {
         ];
         let settings = vec![rate, end, points_used(self.points)];
         let mut report = trial.report(Self::KIND, settings, &looks);
-        if specimen.linear().maxwell().is_some_and(|form| form.dashpot() > 0.0) {
+        if specimen.maxwell().is_some_and(|form| form.dashpot() > 0.0) {
             report.notes.push(Note::ForceJumps);
         }
-        if specimen.linear().kelvin().is_none() {
+        if specimen.linear().is_some_and(|linear| linear.kelvin().is_none()) {
             report.notes.push(Note::NoForce);
         }
         Ok(report)

@@ -47,8 +47,10 @@ impl ProtocolKind for Creep {
         ];
         let settings = vec![force, end, points_used(self.points)];
         let mut report = trial.report(Self::KIND, settings, &looks);
-        let flow = specimen.linear().kelvin().map_or(0.0, |form| form.fluidity() * force.value);
-        report.figures.push(Figure::of("rate of flow", "m/s", flow));
+        if specimen.linear().is_some() {
+            let flow = specimen.kelvin().map_or(0.0, |form| form.fluidity() * force.value);
+            report.figures.push(Figure::of("rate of flow", "m/s", flow));
+        }
         report.notes = notes_under_force(specimen);
         Ok(report)
     }
@@ -108,7 +110,8 @@ parameters! {
     /// | `delayed`       | `ε₁`   | `ε̇ + z ε = φ F` for each element | comes back late     |
     /// | `viscous`       | `ε₃`   | `ε̇ = φ₀ F`                       | stays               |
     ///
-    /// The deformation is simulated with the model as it was given, the parts with its Kelvin form.
+    /// The deformation is simulated with the model as it was given, the parts with its Kelvin form. A model
+    /// that is not linear has no such parts: of it the deformation alone is told.
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct LoadHoldUnload: "load-hold-unload",
         "a force put on, held and taken away; what of the deformation comes back at once, late, and not at all"
@@ -145,10 +148,18 @@ impl ProtocolKind for LoadHoldUnload {
         let history = History::pulse(force.value, rise.value, hold.value, end.value);
         let trial = Trial::new(specimen, Control::Force, history, self.points, methods);
         let settings = vec![force, rise, hold, end, points_used(self.points)];
-        let mut report = trial.report(Self::KIND, settings, &[]);
-        report.series.extend(trial.series_of_parts());
         let [held, unloaded, end] =
             [Instant::before(held), Instant::after(unloaded), Instant::before(end.value)];
+        if specimen.linear().is_none() {
+            let looks = [
+                ("deformation at the end of the hold", held),
+                ("deformation just after unloading", unloaded),
+                ("left at the end", end),
+            ];
+            return Ok(trial.report(Self::KIND, settings, &looks));
+        }
+        let mut report = trial.report(Self::KIND, settings, &[]);
+        report.series.extend(trial.series_of_parts());
         report.figures.extend(Self::figures(&trial, &report, [held, unloaded, end]));
         report.notes = notes_under_force(specimen);
         Ok(report)

@@ -2,14 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use dashpot_analysis::rheometer::{RheometerReport, Series, Specimen};
+use dashpot_analysis::rheometer::{LoadUnload, RheometerReport, Series};
+use dashpot_network::parameters::Kind as _;
 use dashpot_plot::{
-    Measured, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
+    Chart, Loop, LoopSeries, Measured, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
     figures::model::{LOSS_FACTOR, MODEL_FIGURES, SWEEP},
 };
 use dashpot_rheology::MaxwellForm;
 
-use super::{Tested, Units};
+use super::{Made, Tested, Units};
 use crate::{
     error::CliError,
     folder::Staged,
@@ -61,52 +62,83 @@ fn measured_under_force(measured: Measured) -> bool {
 }
 
 /// The files of these tests.
-pub(super) fn names(tests: &[String]) -> Vec<String> {
+pub(super) fn names(tests: impl Iterator<Item = String>) -> Vec<String> {
     let models = MODEL_FIGURES.iter().map(|own| format!("model-{}.svg", own.name));
-    let tests = tests.iter().flat_map(|test| [format!("{test}.csv"), format!("{test}.svg")]);
+    let tests = tests.flat_map(|test| [format!("{test}.csv"), format!("{test}.svg")]);
     models.chain(tests).collect()
+}
+
+/// The figures of tests that differ in the values of their parameters alone, with the names of their files: of loops
+/// one for all, else one for each test.
+pub(super) fn charts(tests: &[Made], units: Units) -> Vec<(String, Chart)> {
+    let is_loop = |made: &&Made| made.report.protocol == LoadUnload::KIND;
+    let Some(first) = tests.first().filter(is_loop) else {
+        let one = |made: &Made| Some((made.name.clone(), series(&made.report, units)?.chart()));
+        return tests.iter().filter_map(one).collect();
+    };
+    let loops = tests.iter().filter_map(|made| {
+        let series = made.report.series.first()?;
+        let drive = &made.report.drive.as_ref()?.values;
+        let computed = series.computed.first().map_or(&[][..], |own| &own.values);
+        let points = drive.iter().zip(computed).filter_map(|(&at, value)| Some((at, (*value)?)));
+        let mut points: Vec<(f64, f64)> = points.collect();
+        if points.is_empty() {
+            points = drive.iter().copied().zip(series.model.iter().copied()).collect();
+        }
+        let name = if made.label.is_empty() { "model" } else { &made.label };
+        Some(Loop { name: name.to_owned(), points })
+    });
+    let title = if units.is_material { "Stress over strain" } else { "Force over deformation" };
+    let own =
+        LoopSeries { title: title.to_owned(), subject: subject(units), loops: loops.collect() };
+    vec![(first.report.protocol.to_owned(), own.chart())]
+}
+
+fn subject(units: Units) -> ModelSubject {
+    if units.is_material { ModelSubject::Material } else { ModelSubject::Pad }
 }
 
 /// Adds all files but the result.
 pub(super) fn write(files: &mut Staged<'_>, tested: &Tested) -> Result<(), CliError> {
-    let subject = if tested.units.is_material { ModelSubject::Material } else { ModelSubject::Pad };
-    let curves = curves(&tested.word, &tested.specimen, &tested.reports);
     for own in MODEL_FIGURES {
+        let Some(curves) = curves(tested) else { break };
         let is_swept = [SWEEP.name, LOSS_FACTOR.name].contains(&own.name);
         let shown = if is_swept { &curves[..] } else { &curves[..1] };
-        files.add(format!("model-{}.svg", own.name), own.chart(shown, subject).svg()?)?;
+        let chart = own.chart(shown, subject(tested.units));
+        files.add(format!("model-{}.svg", own.name), chart.svg()?)?;
     }
-    for report in &tested.reports {
-        let columns = columns(report, tested.units);
+    for made in &tested.tests {
+        let columns = columns(&made.report, tested.units);
         let header = columns.iter().map(|column| column.0.clone());
         let value = |own: &(String, Vec<Option<f64>>), row: usize| {
             // A zero has no sign, and what is infinite no number.
             own.1.get(row).copied().flatten().filter(|own| own.is_finite()).map(|own| own + 0.0)
         };
-        let rows = 0..report.abscissa.values.len();
+        let rows = 0..made.report.abscissa.values.len();
         let rows = rows.map(|row| list(columns.iter().map(|column| value(column, row))));
-        files.add_with(format!("{}.csv", report.protocol), |out| csv(out, header, rows))?;
-        if let Some(series) = series(report, tested.units) {
-            files.add(format!("{}.svg", report.protocol), series.chart().svg()?)?;
-        }
+        files.add_with(format!("{}.csv", made.name), |out| csv(out, header, rows))?;
+    }
+    for (name, chart) in tested.groups().flat_map(|group| charts(group, tested.units)) {
+        files.add(format!("{name}.svg"), chart.svg()?)?;
     }
     Ok(())
 }
 
-/// The model's own functions, and what a sweep of the network found.
-fn curves(word: &str, specimen: &Specimen, reports: &[RheometerReport]) -> Vec<ModelSeries> {
+/// The functions of a linear model, and what a sweep of the network found.
+fn curves(tested: &Tested) -> Option<Vec<ModelSeries>> {
+    let specimen = &tested.specimen;
+    let linear = specimen.linear()?;
     let (fastest, slowest) = specimen.range_of_times();
     let (low, high) = (fastest / BEYOND, slowest * BEYOND);
     let times: Vec<f64> =
         (0..=POINTS).map(|at| low * (high / low).powf(f64::from(at) / f64::from(POINTS))).collect();
-    let linear = specimen.linear();
     let over = |value: &dyn Fn(f64) -> f64, places: &[f64]| {
         places.iter().map(|&at| (at, value(at))).filter(|own| own.1.is_finite()).collect::<Vec<_>>()
     };
     let omegas: Vec<f64> = times.iter().rev().map(|time| time.recip()).collect();
     let spectrum = linear.maxwell().map(MaxwellForm::elements).unwrap_or_default();
     let model = ModelSeries {
-        name: word.to_owned(),
+        name: tested.word.clone(),
         relaxation: over(&|t| linear.relaxation(t), &times),
         spectrum: spectrum.iter().map(|own| (own.relaxation_time, own.stiffness)).collect(),
         creep: over(&|t| linear.creep(t), &times),
@@ -114,7 +146,8 @@ fn curves(word: &str, specimen: &Specimen, reports: &[RheometerReport]) -> Vec<M
         loss: over(&|omega| linear.loss(omega), &omegas),
         loss_factor: over(&|omega| linear.loss_factor(omega), &omegas),
     };
-    let sweep = reports.iter().find(|report| report.abscissa.unit == "Hz");
+    let mut reports = tested.tests.iter().map(|made| &made.report);
+    let sweep = reports.find(|report| report.abscissa.unit == "Hz");
     let network = sweep.map(|report| {
         let of = |name: &str| {
             let found = report.series(name).map(|series| points(report, series)[1].clone());
@@ -128,7 +161,7 @@ fn curves(word: &str, specimen: &Specimen, reports: &[RheometerReport]) -> Vec<M
             ..ModelSeries::default()
         }
     });
-    [model].into_iter().chain(network).collect()
+    Some([model].into_iter().chain(network).collect())
 }
 
 /// All that a test has found, in columns.
@@ -143,7 +176,8 @@ fn columns(report: &RheometerReport, units: Units) -> Vec<(String, Vec<Option<f6
             (header(&name, series.unit), own.values.clone())
         });
         let model = (header(series.name, series.unit), all(&series.model));
-        list([model].into_iter().chain(computed))
+        let model = Some(model).filter(|_| !series.model.is_empty());
+        list(model.into_iter().chain(computed))
     });
     list(given.chain(found))
 }

@@ -1,6 +1,8 @@
 //! `dashpot rheometer`.
 
+mod asked;
 mod files;
+mod json;
 mod tables;
 
 use std::path::PathBuf;
@@ -11,22 +13,22 @@ use clap::{
 };
 use dashpot_analysis::{
     Choice,
-    rheometer::{
-        Note, Obstacle, PROTOCOLS, ProtocolEntry, RheometerReport, Series, Specimen, protocol,
-    },
+    rheometer::{Note, PROTOCOLS, ProtocolEntry, RheometerReport, Specimen, methods_for, protocol},
 };
-use dashpot_network::parameters::{Dimension, Parameter, ParameterKind, registered};
 use dashpot_plot::Table;
 use serde::Serialize;
 
-use self::tables::{
-    agreement, characteristics, figure_table, missing, settings, spectra, spectrum_table,
+use self::{
+    asked::{given, summary, tests, variants},
+    tables::{
+        agreement, characteristics, figure_table, missing, settings, side_by_side, spectra,
+        spectrum_table,
+    },
 };
 use crate::{
     args::{MODEL, MethodNames, ValueArguments, When, assignment, method_names},
     error::{CliError, Status},
     folder::{Folder, Staged},
-    input::setting,
     operand::{Operand, canonical_model},
     output::{Study, Text, VERSION, emit, list, object},
     terminal::{Terminal, WIDTH, note},
@@ -44,10 +46,11 @@ const STRAIN_RATE: &str = "1/s";
     dashpot rheometer reference:padding\n  \
     dashpot rheometer pads.toml:felt --test load-hold-unload --with \"hold=5 ms\"\n  \
     dashpot rheometer pads.toml:felt --test sweep --out felt\n  \
+    dashpot rheometer pads.toml:foam --test load-unload --with \"rate=1 mm/s,1 m/s\"\n  \
     dashpot rheometer pads.toml:felt --method exact,bdf\n\n\
-    Each test is computed from the model's poles and residues in closed form, and \
-    independently from the equations of its network; both are shown. `dashpot list tests` \
-    tells of each test and its parameters.")]
+    Each test of a linear model is computed from its poles and residues in closed form, and \
+    independently from the equations of its network; both are shown. Any other model is \
+    simulated. `dashpot list tests` tells of each test and its parameters.")]
 pub(crate) struct RheometerArguments {
     /// The model.
     #[arg(value_name = "MODEL", help = MODEL)]
@@ -55,11 +58,12 @@ pub(crate) struct RheometerArguments {
     /// Tests [default: all].
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = test_names())]
     test: Vec<String>,
-    /// Sets a parameter of the tests that have it: `--with "hold=5 ms"`; repeatable.
+    /// Sets a parameter of the tests that have it: `--with "hold=5 ms"`; several values, as in
+    /// "rate=1 mm/s,10 mm/s", stand side by side; repeatable.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     with: Vec<(String, String)>,
-    /// Methods that simulate the network.
-    #[arg(long, value_name = "NAME,…", value_delimiter = ',', default_value = "exact", value_parser = MethodNames(method_names()))]
+    /// Methods that simulate the network [default: exact for a linear model, else auto].
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = MethodNames(method_names()))]
     method: Vec<String>,
     #[command(flatten)]
     values: ValueArguments,
@@ -86,8 +90,24 @@ struct Tested {
     word: String,
     units: Units,
     specimen: Specimen,
-    reports: Vec<RheometerReport>,
+    tests: Vec<Made>,
     plot: When,
+}
+
+/// A test as it was made.
+struct Made {
+    report: RheometerReport,
+    /// What tells it from others of the same test; empty where it is the only one.
+    label: String,
+    /// The name of its files.
+    name: String,
+}
+
+impl Tested {
+    /// The tests that differ in the values of their parameters alone, together.
+    fn groups(&self) -> impl Iterator<Item = &[Made]> {
+        self.tests.chunk_by(|one, other| one.report.protocol == other.report.protocol)
+    }
 }
 
 /// Tests a model.
@@ -95,26 +115,37 @@ pub(crate) fn rheometer(
     arguments: &RheometerArguments,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
-    let operand = Operand::read(&arguments.model, &arguments.values.set, terminal)?;
+    let operand = Operand::read_any(&arguments.model, &arguments.values.set, terminal)?;
     let model = canonical_model(&operand)?;
     let units = Units { is_material: operand.is_material() };
     let specimen = Specimen::new(&model)?;
     let methods = arguments.method.iter().map(|own| Choice::named(own));
-    let methods = methods.collect::<Result<Vec<Choice>, _>>()?;
-    let folder = Folder::wanted(arguments.out.as_deref(), files::names(&tests(arguments)))?;
+    let mut methods = methods.collect::<Result<Vec<Choice>, _>>()?;
+    if methods.is_empty() {
+        methods.extend(methods_for(&specimen));
+    }
     let given = given(arguments, units)?;
-    let mut reports = Vec::new();
+    let mut asked = Vec::new();
     for test in tests(arguments) {
-        let own: Vec<(&str, f64)> =
-            given.iter().filter(|own| has_parameter(&test, own.0)).copied().collect();
-        match protocol(&test, &own)?.run(&specimen, &methods) {
-            Ok(report) => reports.push(report),
+        let variants = variants(&test, &given)?;
+        let is_alone = variants.len() == 1;
+        asked.extend(variants.into_iter().enumerate().map(|(at, variant)| {
+            let name = if is_alone { test.clone() } else { format!("{test}-{}", at + 1) };
+            (test.clone(), name, variant)
+        }));
+    }
+    let names = asked.iter().flat_map(|(test, name, _)| [test.clone(), name.clone()]);
+    let folder = Folder::wanted(arguments.out.as_deref(), files::names(names))?;
+    let mut made = Vec::new();
+    for (test, name, variant) in asked {
+        match protocol(&test, &variant.given)?.run(&specimen, &methods) {
+            Ok(report) => made.push(Made { report, label: variant.label, name }),
             // One test alone was asked for; of several, the others go on.
             Err(error) if arguments.test.len() != 1 => note(&error.to_string()),
             Err(error) => return Err(error.into()),
         }
     }
-    let tested = Tested { word: operand.word, units, specimen, reports, plot: arguments.plot };
+    let tested = Tested { word: operand.word, units, specimen, tests: made, plot: arguments.plot };
     emit(&tested, arguments.json, folder, terminal)?;
     Ok(Status::Done)
 }
@@ -138,6 +169,7 @@ impl Units {
             "m" => "1",
             "m/s" => STRAIN_RATE,
             "m/N" => "1/Pa",
+            "J" => "J/m³",
             other => other,
         }
     }
@@ -155,25 +187,41 @@ impl Units {
 
 impl Study for Tested {
     fn text(&self, text: &mut Text) {
-        let Self { units, reports, .. } = self;
-        let common = characteristics(reports);
+        let units = self.units;
+        let common = characteristics(&self.tests);
         text.title(&self.word);
-        show(text, &figure_table(common, *units));
-        text.paragraphs(missing(common, *units));
-        let spectra = spectrum_table(&self.specimen, *units);
+        if let Some(kind) = self.specimen.nonlinear() {
+            text.words(&format!("`{kind}` is not linear: the model is simulated"));
+        }
+        show(text, &figure_table(common, units));
+        text.paragraphs(missing(common, units));
+        let spectra = spectrum_table(&self.specimen, units);
         if !spectra.rows.is_empty() {
             text.heading(&spectra.caption);
             show(text, &spectra);
         }
-        for report in reports {
-            text.heading(&format!("{}: {}", report.protocol, summary(report.protocol)));
-            text.faint(&settings(&report.settings, *units));
-            show(text, &figure_table(&report.figures[common.len()..], *units));
-            let notes = report.notes.iter().map(Note::to_string);
-            text.paragraphs(agreement(report).into_iter().chain(notes));
-            let series = files::series(report, *units).filter(|_| text.is_plotted(self.plot));
-            if let Some(series) = series {
-                text.chart(&series.chart(), PLOT_HEIGHT);
+        for group in self.groups() {
+            let Some(first) = group.first().map(|made| &made.report) else { continue };
+            text.heading(&format!("{}: {}", first.protocol, summary(first.protocol)));
+            if let [alone] = group {
+                text.faint(&settings(&alone.report.settings, units));
+                let own = &alone.report.figures[common.len()..];
+                show(text, &figure_table(own, units));
+                text.paragraphs(missing(own, units));
+            } else {
+                text.faint(&tables::shared_settings(group, units));
+                show(text, &side_by_side(group, common.len(), units));
+            }
+            for made in group {
+                let notes = made.report.notes.iter().map(Note::to_string);
+                let label = |own: String| {
+                    if made.label.is_empty() { own } else { format!("{}: {own}", made.label) }
+                };
+                text.paragraphs(agreement(&made.report).into_iter().chain(notes).map(label));
+            }
+            let is_plotted = text.is_plotted(self.plot);
+            for chart in files::charts(group, units).into_iter().filter(|_| is_plotted) {
+                text.chart(&chart.1, PLOT_HEIGHT);
             }
         }
     }
@@ -184,57 +232,15 @@ impl Study for Tested {
             dashpot: VERSION,
             model: &self.word,
             material: self.units.is_material,
+            nonlinear: self.specimen.nonlinear(),
             relaxation_spectrum: relaxation,
             retardation_spectrum: retardation,
-            tests: list(self.reports.iter().map(|report| test(report, self.units))),
+            tests: list(self.tests.iter().map(|made| json::test(made, self.units))),
         }
     }
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
         files::write(files, self)
-    }
-}
-
-fn test(report: &RheometerReport, units: Units) -> impl Serialize {
-    object! {
-        test: report.protocol,
-        settings: list(report.settings.iter().map(|setting| object! {
-            name: setting.name, unit: units.of(setting.unit), value: setting.value,
-        })),
-        abscissa: column(&report.abscissa, units),
-        drive: report.drive.as_ref().map(|drive| column(drive, units)),
-        series: list(report.series.iter().map(|own| answers(report, own, units))),
-        figures: list(report.figures.iter().map(|figure| object! {
-            name: units.word(figure.name),
-            unit: units.of(figure.unit),
-            model: figure.model,
-            computed: figure.computed,
-            note: figure.note.as_ref().map(Note::to_string),
-            note_code: figure.note.map(Note::code),
-        })),
-        notes: list(report.notes.iter().map(Note::to_string)),
-        note_codes: list(report.notes.iter().copied().map(Note::code)),
-    }
-}
-
-fn column(own: &dashpot_analysis::Column, units: Units) -> impl Serialize {
-    object! { name: units.word(&own.name), unit: units.of(own.unit), values: &own.values }
-}
-
-fn answers(report: &RheometerReport, own: &Series, units: Units) -> impl Serialize {
-    let computed = own.computed.iter().zip(&report.computations);
-    object! {
-        name: units.word(own.name),
-        unit: units.of(own.unit),
-        model: &own.model,
-        computed: list(computed.map(|(own, by)| object! {
-            method: by.method,
-            obstacle: by.obstacle.as_ref().map(Obstacle::to_string),
-            obstacle_code: by.obstacle.as_ref().map(Obstacle::code),
-            values: &own.values,
-            difference: own.difference.map(|difference| difference.relative),
-            stated: own.difference.and_then(|difference| difference.stated),
-        })),
     }
 }
 
@@ -249,68 +255,5 @@ fn show(text: &mut Text, own: &Table) {
         for (at, part) in wrapped(line, WIDTH - 6).iter().enumerate() {
             text.line(&format!("{}{part}", if at == 0 { "  " } else { "      " }));
         }
-    }
-}
-
-/// The words of the tests that are asked for, all of them by default.
-pub(super) fn tests(arguments: &RheometerArguments) -> Vec<String> {
-    if arguments.test.is_empty() {
-        PROTOCOLS.iter().map(|own| own.word.to_owned()).collect()
-    } else {
-        arguments.test.clone()
-    }
-}
-
-/// What is to be given for a parameter.
-fn dimension(parameter: &Parameter) -> Dimension {
-    match parameter.kind {
-        ParameterKind::Quantity(dimension) => dimension,
-        _ => Dimension::NUMBER,
-    }
-}
-
-/// What a test is.
-pub(super) fn summary(test: &str) -> &'static str {
-    registered(PROTOCOLS, test).map_or("", |own| own.summary)
-}
-
-/// Whether a test has a parameter.
-pub(super) fn has_parameter(test: &str, name: &str) -> bool {
-    registered(PROTOCOLS, test)
-        .is_some_and(|own| own.parameters.iter().any(|parameter| parameter.name == name))
-}
-
-/// The parameters of `--with` in SI units; each must belong to one of the tests.
-pub(super) fn given<'a>(
-    arguments: &'a RheometerArguments,
-    units: Units,
-) -> Result<Vec<(&'a str, f64)>, CliError> {
-    let tests = tests(arguments);
-    let asked: Vec<&Parameter> = PROTOCOLS
-        .iter()
-        .filter(|own| tests.iter().any(|test| test == own.word))
-        .flat_map(|own| own.parameters)
-        .collect();
-    let read = |(name, text): &'a (String, String)| {
-        let Some(parameter) = asked.iter().find(|own| own.name == name) else {
-            let mut known: Vec<&'static str> = asked.iter().map(|own| own.name).collect();
-            known.sort_unstable();
-            known.dedup();
-            return Err(CliError::UnknownSetting { name: name.clone(), known });
-        };
-        let expected = dimension(parameter);
-        let expected = if units.is_material { per_material(expected) } else { expected };
-        Ok((name.as_str(), setting(name, text, expected)?))
-    };
-    arguments.with.iter().map(read).collect()
-}
-
-/// What a force, deformation or velocity becomes per area and thickness.
-fn per_material(dimension: Dimension) -> Dimension {
-    match dimension {
-        Dimension::FORCE => Dimension::PRESSURE,
-        Dimension::LENGTH => Dimension::NUMBER,
-        Dimension::VELOCITY => Dimension::FREQUENCY,
-        other => other,
     }
 }

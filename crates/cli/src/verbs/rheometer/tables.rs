@@ -5,9 +5,9 @@ use dashpot_plot::Table;
 use dashpot_rheology::{KelvinForm, MaxwellForm};
 use serde::Serialize;
 
-use super::{STRAIN_RATE, Units};
+use super::{Made, STRAIN_RATE, Units};
 use crate::{
-    numbers::{Unit, bound, constant, quantity, rounded},
+    numbers::{Unit, bound, constant, digits, quantity, rounded},
     output::list,
 };
 
@@ -31,8 +31,9 @@ pub(super) struct Line {
 /// The elements of the Maxwell and of the Kelvin form.
 pub(super) fn spectra(specimen: &Specimen) -> [Vec<Line>; 2] {
     let linear = specimen.linear();
-    let relaxation = linear.maxwell().map(MaxwellForm::elements).unwrap_or_default();
-    let retardation = linear.kelvin().map(KelvinForm::elements).unwrap_or_default();
+    let (maxwell, kelvin) = (|| linear?.maxwell(), || linear?.kelvin());
+    let relaxation = maxwell().map(MaxwellForm::elements).unwrap_or_default();
+    let retardation = kelvin().map(KelvinForm::elements).unwrap_or_default();
     let line = |time, stiffness, damping| Line { time, stiffness, damping };
     [
         list(relaxation.iter().map(|own| line(own.relaxation_time, own.stiffness, own.damping))),
@@ -63,38 +64,88 @@ pub(super) fn spectrum_table(specimen: &Specimen, units: Units) -> Table {
 }
 
 /// What characterises the model: the figures that all its tests begin with.
-pub(super) fn characteristics(reports: &[RheometerReport]) -> &[Figure] {
-    let Some((first, others)) = reports.split_first() else { return &[] };
+pub(super) fn characteristics(tests: &[Made]) -> &[Figure] {
+    let Some((first, others)) = tests.split_first() else { return &[] };
     let is_common = |figure: &&Figure| {
-        figure.computed.is_none() && others.iter().all(|other| other.figures.contains(figure))
+        figure.computed.is_none()
+            && others.iter().all(|other| other.report.figures.contains(figure))
     };
-    let count = first.figures.iter().take_while(is_common).count();
+    let count = first.report.figures.iter().take_while(is_common).count();
     // A single test has no others to tell its own figures by; those of a model are three.
-    &first.figures[..count.min(3)]
+    &first.report.figures[..count.min(3)]
 }
 
 /// Figures as a table, with the values of the model and of the network; those that do not exist are
 /// left out.
 pub(super) fn figure_table(figures: &[Figure], units: Units) -> Table {
-    let scale = |unit: &str| {
-        let same =
-            figures.iter().filter(|figure| figure.unit == unit).filter_map(|figure| figure.model);
-        same.fold(0.0_f64, |scale, value| scale.max(value.abs()))
-    };
-    let value = |own: &Figure, value: Option<f64>| {
-        let shown = |value: f64| {
-            // What rounding leaves of a zero is none of the figure's.
-            let value = if value.abs() <= NOISE * scale(own.unit) { 0.0 } else { value };
-            in_unit(value, units.of(own.unit), DIGITS)
-        };
-        value.map_or_else(String::new, shown)
-    };
+    let is = |has: fn(&Figure) -> bool| figures.iter().any(has);
+    let (has_model, has_error) = (is(|own| own.model.is_some()), is(|own| own.error.is_some()));
+    let has_computed = is(|own| own.computed.is_some());
     let rows = figures.iter().filter(|figure| figure.note.is_none()).map(|figure| {
-        vec![units.word(figure.name), value(figure, figure.model), value(figure, figure.computed)]
+        let mut row = vec![units.word(figure.name)];
+        row.extend(has_model.then(|| value(figures, figure, figure.model, None, units)));
+        row.extend(
+            has_computed.then(|| value(figures, figure, figure.computed, figure.error, units)),
+        );
+        row.extend(has_error.then(|| error(figure, units)));
+        row
     });
-    let is_computed = figures.iter().any(|figure| figure.computed.is_some());
-    let header = if is_computed { &["", "model", "network"][..] } else { &[] };
-    Table::new("", header, rows)
+    let words = [("model", has_model), ("network", has_computed), ("error", has_error)];
+    let words = words.into_iter().filter(|own| own.1).map(|own| own.0);
+    let header: Vec<&str> = [""].into_iter().chain(words).collect();
+    Table::new("", if has_computed { &header } else { &[] }, rows)
+}
+
+/// The figures of tests that differ in their parameters, side by side: those of the network, or else of the
+/// model; of each test without its first `common` ones.
+pub(super) fn side_by_side(tests: &[Made], common: usize, units: Units) -> Table {
+    let of = |made: &Made| made.report.figures[common.min(made.report.figures.len())..].to_vec();
+    let all: Vec<Vec<Figure>> = tests.iter().map(of).collect();
+    let count = all.iter().map(Vec::len).max().unwrap_or(0);
+    let rows = (0..count).map(|at| {
+        let name = all.iter().find_map(|own| Some(own.get(at)?.name)).unwrap_or_default();
+        let cell = |own: &Vec<Figure>| {
+            let Some(figure) = own.get(at) else { return String::new() };
+            match (figure.note, figure.computed) {
+                (Some(_), _) => "–".to_owned(),
+                (None, Some(_)) => value(own, figure, figure.computed, figure.error, units),
+                (None, None) => value(own, figure, figure.model, None, units),
+            }
+        };
+        [units.word(name)].into_iter().chain(all.iter().map(cell)).collect()
+    });
+    let labels = tests.iter().map(|made| made.label.as_str());
+    let header: Vec<&str> = [""].into_iter().chain(labels).collect();
+    Table::new("", &header, rows)
+}
+
+/// A value of a figure, with the digits that its error justifies; none where there is none.
+fn value(
+    figures: &[Figure],
+    own: &Figure,
+    value: Option<f64>,
+    error: Option<f64>,
+    units: Units,
+) -> String {
+    let Some(value) = value else { return String::new() };
+    let same = figures.iter().filter(|figure| figure.unit == own.unit);
+    let sizes = same.flat_map(|figure| [figure.model, figure.computed]).flatten().map(f64::abs);
+    let scale = sizes.fold(0.0_f64, f64::max);
+    // What rounding or the error leaves of a zero is none of the figure's.
+    let floor = (NOISE * scale).max(error.unwrap_or(0.0));
+    let value = if value.abs() <= floor { 0.0 } else { value };
+    let shown = if error.is_some() { digits(value, error, DIGITS) } else { DIGITS };
+    in_unit(value, units.of(own.unit), shown)
+}
+
+/// How far a figure of the network may be off: relative, or where its value is zero in its unit.
+fn error(own: &Figure, units: Units) -> String {
+    match (own.computed, own.error) {
+        (Some(value), Some(error)) if error < value.abs() => bound(error / value.abs()),
+        (Some(_), Some(error)) => in_unit(error, units.of(own.unit), 1),
+        (Some(_), None) => "unknown".to_owned(),
+        _ => String::new(),
+    }
 }
 
 /// Figures that do not exist, and why.
@@ -108,7 +159,7 @@ pub(super) fn missing(figures: &[Figure], units: Units) -> Vec<String> {
 
 /// A value in its unit; a strain rate is no frequency.
 fn in_unit(value: f64, unit: &'static str, digits: usize) -> String {
-    if unit == STRAIN_RATE {
+    if [STRAIN_RATE, "J/m³"].contains(&unit) {
         Unit::plain(unit).text(value, digits)
     } else {
         quantity(value, unit, digits)
@@ -134,6 +185,14 @@ pub(super) fn settings(settings: &[Setting], units: Units) -> String {
     settings.iter().map(one).collect::<Vec<_>>().join(", ").replace(", to ", " to ")
 }
 
+/// The parameters that tests of one kind have in common, in words.
+pub(super) fn shared_settings(tests: &[Made], units: Units) -> String {
+    let Some((first, others)) = tests.split_first() else { return String::new() };
+    let is_shared = |own: &&Setting| others.iter().all(|made| made.report.settings.contains(own));
+    let shared: Vec<Setting> = first.report.settings.iter().filter(is_shared).copied().collect();
+    settings(&shared, units)
+}
+
 /// How far the independent computations are from the model, in whole sentences.
 pub(super) fn agreement(report: &RheometerReport) -> Vec<String> {
     let of = |(at, by): (usize, &Computation)| {
@@ -142,6 +201,7 @@ pub(super) fn agreement(report: &RheometerReport) -> Vec<String> {
         });
         let worst = differences.max_by(|a, b| a.1.relative.total_cmp(&b.1.relative));
         let place = if report.abscissa.unit == "Hz" { "Hz" } else { "s" };
+        let is_alone = report.series.iter().all(|series| series.model.is_empty());
         let found = worst.map_or_else(String::new, |(_, own)| {
             let stated = own.stated.map_or_else(String::new, |stated| {
                 format!("; rounding and its own error may be {}", bound(stated))
@@ -149,6 +209,15 @@ pub(super) fn agreement(report: &RheometerReport) -> Vec<String> {
             let at = quantity(own.at, place, 3);
             format!("differs by {} at most, at {at}{stated}", bound(own.relative))
         });
+        let largest = |at: usize| {
+            let series = report.series.first().filter(|_| is_alone)?;
+            let values = series.computed.get(at)?.values.iter().flatten();
+            let size = values.fold(0.0_f64, |size, value| size.max(value.abs()));
+            let error = series.computed.get(at)?.error?;
+            (size > 0.0)
+                .then(|| format!("its error may be {} of the largest value", bound(error / size)))
+        };
+        let found = if is_alone { largest(at).unwrap_or_default() } else { found };
         let obstacle = by.obstacle.as_ref().map(|reason| match by.reach {
             Some(reach) => format!("reaches to {}, because {reason}", quantity(reach, place, 3)),
             None => format!("gives nothing, because {reason}"),

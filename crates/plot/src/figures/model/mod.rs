@@ -5,12 +5,14 @@
 //! of it.
 
 mod curves;
+mod loading;
 mod rheometer;
 
 use self::curves::{Kind, draw};
 use crate::{Chart, Pattern, Scale, Series, Stroke};
 
 pub use curves::{ModelCurve, ModelSeries, ModelSubject};
+pub use loading::{Loop, LoopSeries};
 pub use rheometer::{Measured, RheometerLine, RheometerSeries};
 
 /// Every figure of linear models, in the order of a report. **A new one is registered here.**

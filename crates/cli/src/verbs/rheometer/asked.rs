@@ -1,0 +1,120 @@
+//! The tests that are asked for, with the values of their parameters.
+
+use dashpot_analysis::rheometer::PROTOCOLS;
+use dashpot_network::parameters::{Dimension, Parameter, ParameterKind, registered};
+
+use super::{RheometerArguments, Units};
+use crate::{error::CliError, input::setting};
+
+/// Combinations of values of one test; more are no table any more.
+const MOST_VARIANTS: usize = 24;
+
+/// The words of the tests that are asked for, all of them by default.
+pub(super) fn tests(arguments: &RheometerArguments) -> Vec<String> {
+    if arguments.test.is_empty() {
+        PROTOCOLS.iter().map(|own| own.word.to_owned()).collect()
+    } else {
+        arguments.test.clone()
+    }
+}
+
+/// What is to be given for a parameter.
+fn dimension(parameter: &Parameter) -> Dimension {
+    match parameter.kind {
+        ParameterKind::Quantity(dimension) => dimension,
+        _ => Dimension::NUMBER,
+    }
+}
+
+/// What a test is.
+pub(super) fn summary(test: &str) -> &'static str {
+    registered(PROTOCOLS, test).map_or("", |own| own.summary)
+}
+
+/// Whether a test has a parameter.
+pub(super) fn has_parameter(test: &str, name: &str) -> bool {
+    registered(PROTOCOLS, test)
+        .is_some_and(|own| own.parameters.iter().any(|parameter| parameter.name == name))
+}
+
+/// The parameters of `--with` in SI units; each must belong to one of the tests.
+pub(super) fn given<'a>(
+    arguments: &'a RheometerArguments,
+    units: Units,
+) -> Result<Vec<Given<'a>>, CliError> {
+    let tests = tests(arguments);
+    let asked: Vec<&Parameter> = PROTOCOLS
+        .iter()
+        .filter(|own| tests.iter().any(|test| test == own.word))
+        .flat_map(|own| own.parameters)
+        .collect();
+    let read = |(name, text): &'a (String, String)| {
+        let Some(parameter) = asked.iter().find(|own| own.name == name) else {
+            let mut known: Vec<&'static str> = asked.iter().map(|own| own.name).collect();
+            known.sort_unstable();
+            known.dedup();
+            return Err(CliError::UnknownSetting { name: name.clone(), known });
+        };
+        let expected = dimension(parameter);
+        let expected = if units.is_material { per_material(expected) } else { expected };
+        let values = text.split(',').map(str::trim);
+        let values = values.map(|text| Ok((text, setting(name, text, expected)?)));
+        Ok(Given { name, values: values.collect::<Result<_, CliError>>()? })
+    };
+    let mut all: Vec<Given<'a>> = Vec::new();
+    for own in arguments.with.iter().map(read) {
+        let own: Given<'a> = own?;
+        all.retain(|before| before.name != own.name);
+        all.push(own);
+    }
+    Ok(all)
+}
+
+/// The values of a parameter, as they are written and in SI units.
+pub(super) struct Given<'a> {
+    name: &'a str,
+    values: Vec<(&'a str, f64)>,
+}
+
+/// A test with one value for each parameter.
+#[derive(Clone, Default)]
+pub(super) struct Variant<'a> {
+    /// What was given.
+    pub(super) given: Vec<(&'a str, f64)>,
+    /// What tells it from others of the same test; empty where it is the only one.
+    pub(super) label: String,
+}
+
+/// A test with every combination of the values of its parameters.
+pub(super) fn variants<'a>(test: &str, given: &[Given<'a>]) -> Result<Vec<Variant<'a>>, CliError> {
+    let mut all = vec![Variant::default()];
+    for own in given.iter().filter(|own| has_parameter(test, own.name)) {
+        if all.len().saturating_mul(own.values.len()) > MOST_VARIANTS {
+            return Err(CliError::TooManyPoints { most: MOST_VARIANTS });
+        }
+        let with = |before: &Variant<'a>, &(text, value): &(&'a str, f64)| {
+            let mut next = before.clone();
+            next.given.push((own.name, value));
+            if own.values.len() > 1 {
+                let comma = if next.label.is_empty() { "" } else { ", " };
+                next.label = format!("{}{comma}{} {text}", next.label, own.name);
+            }
+            next
+        };
+        all = all
+            .iter()
+            .flat_map(|one| own.values.iter().map(|value| with(one, value)).collect::<Vec<_>>())
+            .collect();
+    }
+    Ok(all)
+}
+
+/// What a force, deformation or velocity becomes per area and thickness.
+fn per_material(dimension: Dimension) -> Dimension {
+    match dimension {
+        Dimension::FORCE => Dimension::PRESSURE,
+        Dimension::LENGTH => Dimension::NUMBER,
+        Dimension::VELOCITY => Dimension::FREQUENCY,
+        other => other,
+    }
+}
