@@ -41,6 +41,7 @@ mod partial;
 mod power_laws;
 mod properties;
 mod random_networks;
+mod scatter;
 mod scenes;
 mod signs;
 mod similarity;
