@@ -172,8 +172,11 @@ fn cut_text(own: &ScatterSource) -> Option<String> {
 /// The probability to keep a limit: `; probability to pass 97.6 % (95.8 to 98.6 %)`.
 pub(super) fn chance(judged: &Judged<'_>) -> Option<String> {
     let own = judged.chance?;
-    let word =
-        if judged.limit.of_mean { "single designs pass with" } else { "probability to pass" };
+    let word = if judged.limit.of_mean {
+        "probability of a single design to pass"
+    } else {
+        "probability to pass"
+    };
     Some(format!("{word} {}", probability(own)))
 }
 
