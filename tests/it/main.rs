@@ -47,6 +47,7 @@ mod signs;
 mod similarity;
 mod sizes;
 mod small_files;
+mod start_positions;
 mod sweeps;
 mod table_ends;
 mod terminal;

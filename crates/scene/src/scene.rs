@@ -249,7 +249,7 @@ fn home_of(key: &str) -> Option<String> {
     }
     match key {
         "force" | "forces" | "load" => Some("write [loads.name] with `on` and `force`".to_owned()),
-        "mass" | "velocity" | "drop" | "energy" | "motion" => {
+        "mass" | "velocity" | "drop" | "energy" | "position" | "motion" => {
             Some(format!("write [nodes.name] with `{key}`"))
         }
         "duration" | "samples" | "rtol" | "stop" | "method" => {

@@ -129,7 +129,15 @@ fn nodes(scene: &Scene) -> Table {
                 }
             }
         };
-        vec![node.name.clone(), kind, start]
+        let place = match node.position {
+            0.0 => String::new(),
+            own => format!("begins at {}", constant(own, "m")),
+        };
+        vec![
+            node.name.clone(),
+            kind,
+            [start, place].into_iter().filter(|own| !own.is_empty()).collect::<Vec<_>>().join(", "),
+        ]
     };
     let network = &scene.network;
     let is_used = network
