@@ -162,7 +162,7 @@ fn json_has_one_shape_and_si_values() {
         for key in ["work-in", "kinetic", "stored", "dissipated", "closure"] {
             assert!(run["energy"].get(key).is_some(), "{key}");
         }
-        assert_eq!(keys(&run["events"][0]), ["code", "time", "what"]);
+        assert_eq!(keys(&run["events"][0]), ["code", "error", "time", "what"]);
         assert!(run["warnings"][0].as_str().unwrap().contains("in tension"));
         let peak = &run["measures"]["padding.peak-force"];
         assert_eq!(keys(peak), ["error", "time", "unit", "value", "window"]);

@@ -79,6 +79,15 @@ fn limits(text: &str) -> Result<Limits, String> {
     Ok(Limits { text: text.trim().to_owned(), list: parse_limits(text)? })
 }
 
+/// More points are not solved in one sweep.
+pub(crate) const MOST_POINTS: usize = 10_000_000;
+
+/// The number of designs of a sample.
+pub(crate) fn samples(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| (1..=MOST_POINTS).contains(count));
+    count.ok_or_else(|| format!("a whole number from 1 to {MOST_POINTS} is wanted"))
+}
+
 /// When something is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum When {

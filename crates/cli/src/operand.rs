@@ -7,7 +7,8 @@ use dashpot_network::{
 };
 use dashpot_rheology::{Canonical, LinearModel};
 use dashpot_scene::{
-    ModelNote, NamedModel, ReadOptions, Scene, read, read_named_model, read_network, references,
+    ModelNote, NamedModel, ReadOptions, Remark, Scene, read, read_named_model, read_network,
+    references,
 };
 
 use crate::{
@@ -147,6 +148,13 @@ impl SceneArguments {
     /// Reads the scene that the command line names.
     pub(crate) fn read(&self, terminal: Terminal) -> Result<Scene, CliError> {
         read_scene(self.scene.as_deref(), &self.values.set, terminal)
+    }
+}
+
+/// Says which numbers of a scene have scatter, where that is not looked at.
+pub(crate) fn note_means(scene: &Scene) {
+    for own in &scene.scatter {
+        note(&format!("{}: {}", own.name, Remark::Mean(own.text.clone())));
     }
 }
 

@@ -73,6 +73,9 @@ pub enum NetworkError {
     /// A mass is asked to start with a speed that it cannot have.
     #[error("`{node}` has a start speed but {reason}")]
     StartSpeed { node: String, reason: &'static str },
+    /// A node is asked to begin at a place where it cannot.
+    #[error("`{node}` begins at a `position` of its own, but {reason}")]
+    StartPosition { node: String, reason: &'static str },
     /// Rigidly linked nodes are asked to move differently.
     #[error("`{first}` and `{second}` are rigidly linked, but {difference}")]
     ContradictingMotions { first: String, second: String, difference: &'static str },
@@ -173,6 +176,7 @@ impl NetworkError {
             }
             Self::IsolatedNode { node: name }
             | Self::StartSpeed { node: name, .. }
+            | Self::StartPosition { node: name, .. }
             | Self::ContradictingMotions { second: name, .. }
             | Self::MotionOfMass { node: name, .. }
             | Self::StepThroughContact { node: name, .. }

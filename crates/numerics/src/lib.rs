@@ -5,6 +5,7 @@
 //! - [`quadrature`]: rules of Gauss and Legendre, and of Gauss and Kronrod on halved intervals;
 //! - [`roots`] and [`extrema`]: bisection, bracketed Newton steps, false position, golden section;
 //! - [`isotonic`]: the nearest sequence that never falls;
+//! - [`normal`]: the normal distribution and its quantiles;
 //! - [`small`] and [`exponential`]: matrices on the stack, exponentials of any real matrix;
 //! - [`LinearForm`]: sparse linear forms.
 
@@ -15,6 +16,7 @@ pub mod exponential;
 pub mod extrema;
 pub mod isotonic;
 mod linear_form;
+pub mod normal;
 pub mod quadrature;
 pub mod roots;
 pub mod small;

@@ -25,7 +25,7 @@ use crate::{
         source::{Place, Source, set_source},
         table::{text_of, unknown_key},
     },
-    vary::{set::Settled, tunable::TunableFault},
+    vary::{scatter::ScatteredNumber, set::Settled, tunable::TunableFault},
 };
 
 /// The sections of a scene and of a file of models.
@@ -65,6 +65,8 @@ pub struct Scene {
     pub limits: Vec<Limit>,
     /// What is to be said about its models, besides warnings.
     pub notes: Vec<ModelNote>,
+    /// Its numbers with scatter, which are read as their means.
+    pub scatter: Vec<ScatteredNumber>,
     /// Named values, those set from outside included, by name.
     pub values: Vec<NamedValue>,
     /// The text.
@@ -249,7 +251,7 @@ fn home_of(key: &str) -> Option<String> {
     }
     match key {
         "force" | "forces" | "load" => Some("write [loads.name] with `on` and `force`".to_owned()),
-        "mass" | "velocity" | "drop" | "energy" | "motion" => {
+        "mass" | "velocity" | "drop" | "energy" | "position" | "motion" => {
             Some(format!("write [nodes.name] with `{key}`"))
         }
         "duration" | "samples" | "rtol" | "stop" | "method" => {
@@ -334,6 +336,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         })
         .collect();
     values.sort_by(|a, b| a.name.cmp(&b.name));
+    let scatter = ScatteredNumber::all(&source.text, options.file).unwrap_or_default();
     note_held(&reading, &assembly.held);
     note_warnings(&reading, &assembly.warnings);
     if run.at_most.is_none() {
@@ -349,6 +352,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         measures,
         limits,
         notes,
+        scatter,
         values,
         text: Arc::clone(&source.text),
         files: library.paths(),

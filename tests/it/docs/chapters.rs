@@ -3,13 +3,14 @@
 use super::shown;
 
 /// Chapters with how many texts and figures they show.
-const CHAPTERS: [(&str, usize, usize); 6] = [
+const CHAPTERS: [(&str, usize, usize); 7] = [
     ("quick-start", 4, 1),
     ("vibration", 2, 1),
     ("thesis", 1, 4),
     ("sweeps", 6, 3),
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
+    ("scatter", 1, 0),
 ];
 
 #[test]

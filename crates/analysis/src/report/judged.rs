@@ -2,7 +2,7 @@
 
 use super::{MeasureReport, RunReport};
 use crate::{
-    Contact, Warning,
+    Band, Chance, Contact, Warning,
     limits::{Bound, Judgement, Limit},
 };
 
@@ -20,12 +20,43 @@ pub struct Judged<'r> {
     pub judgement: Judgement,
     /// Whether the run ends before the value is whole.
     pub is_so_far: bool,
+    /// How often it is kept, where a sample of the scene's scatter was drawn.
+    pub chance: Option<&'r Chance>,
+    /// The measure over that sample, where the limit is one on the mean of several tests: the mean of the sample
+    /// is what is judged then, and one run stands for it no more.
+    pub sampled: Option<&'r Band>,
 }
 
 impl Judged<'_> {
     /// What is left in parts of the bound, negative where it is exceeded; `None` where that is not a number.
     pub fn margin(&self) -> Option<f64> {
-        self.limit.bound.margin(self.measure?.value?)
+        self.limit.bound.margin(self.value()?)
+    }
+
+    /// The value that is judged: that of the run, or the mean of the sample.
+    pub fn value(&self) -> Option<f64> {
+        match self.sampled {
+            Some(band) => band.mean,
+            None => self.measure?.value,
+        }
+    }
+
+    /// What the mean of the sample says; some designs may end before their values are whole.
+    fn of_sample(&self) -> Judgement {
+        let is_open = self.chance.is_none_or(|own| own.kept + own.exceeded < own.designs);
+        match self.value().zip(self.error()) {
+            Some((value, error)) => self.limit.bound.judge(value, Some(error), is_open),
+            None => Judgement::Undecided,
+        }
+    }
+
+    /// Its absolute error, where that is known; of the mean of a sample the standard error besides.
+    pub fn error(&self) -> Option<f64> {
+        let error = self.measure?.error;
+        match self.sampled {
+            Some(band) => Some(band.error_of_mean()? + error.unwrap_or(0.0)),
+            None => error,
+        }
     }
 }
 
@@ -68,6 +99,13 @@ impl RunReport {
                 bound.judge(value, measure.and_then(|own| self.error_of(own)), is_so_far)
             }
         };
-        Judged { limit, measure, judgement, is_so_far }
+        let chance = self.scatter.as_ref().and_then(|own| own.chance(limit));
+        let band = || self.scatter.as_ref().and_then(|own| own.band(&limit.key));
+        let sampled = if limit.of_mean { band() } else { None };
+        let judged = Judged { limit, measure, judgement, is_so_far, chance, sampled };
+        match sampled {
+            None => judged,
+            Some(_) => Judged { judgement: judged.of_sample(), ..judged },
+        }
     }
 }

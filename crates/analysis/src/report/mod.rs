@@ -20,7 +20,8 @@ use dashpot_network::{
 use serde::Serialize;
 
 use crate::{
-    EventReport, Impact, Ledger, Limit, NoValue, Note, Partial, Segmentation, Solution, Warning,
+    EventReport, Impact, Ledger, Limit, NoValue, Note, Partial, ScatterReport, Segmentation,
+    Solution, Warning,
 };
 
 /// Error in parts of a value whose first digit is just known.
@@ -54,6 +55,8 @@ pub struct RunReport {
     pub warnings: Vec<Warning>,
     /// The limits that were asked for.
     pub limits: Vec<Limit>,
+    /// What a sample of the scene's scatter tells, where it has any and one was drawn.
+    pub scatter: Option<Box<ScatterReport>>,
     /// The equations.
     pub assembly: Arc<Assembly>,
     /// The solution that is reported, the finest one.

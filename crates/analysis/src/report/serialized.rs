@@ -6,7 +6,9 @@ use dashpot_rheology::Tree;
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use super::partial::{Neglected, Partial, PutBack, Why};
-use crate::{Judged, Ledger, MeasureReport, Note, RunReport, SolverReport, Warning};
+use crate::{
+    Chance, Judged, Ledger, MeasureReport, Note, RunReport, ScatterReport, SolverReport, Warning,
+};
 
 /// States what a type is serialised as: a map of these keys, in this order.
 macro_rules! serialized {
@@ -23,17 +25,47 @@ macro_rules! serialized {
 }
 pub(crate) use serialized;
 
-serialized!(RunReport, own => {
-    "solver" => own.solver,
-    "system" => own.system,
-    "measures" => Pairs(own.measures.iter().map(|own| (&own.key, own)).collect()),
-    "limits" => own.judged(),
-    "energy" => Energy { at_end: &own.energy, after_impact: own.energy_after_impact.as_ref() },
-    "events" => own.events,
-    "partial" => own.partial,
-    "segmentation" => own.segmentation,
-    "warnings" => list(&own.warnings, Warning::to_string),
-    "warning_codes" => list(&own.warnings, Warning::code),
+impl Serialize for RunReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("solver", &self.solver)?;
+        map.serialize_entry("system", &self.system)?;
+        let measures = self.measures.iter().map(|own| (&own.key, own));
+        map.serialize_entry("measures", &Pairs(measures.collect()))?;
+        map.serialize_entry("limits", &self.judged())?;
+        if let Some(scatter) = &self.scatter {
+            map.serialize_entry("scatter", scatter)?;
+        }
+        let after_impact = self.energy_after_impact.as_ref();
+        map.serialize_entry("energy", &Energy { at_end: &self.energy, after_impact })?;
+        map.serialize_entry("events", &self.events)?;
+        map.serialize_entry("partial", &self.partial)?;
+        map.serialize_entry("segmentation", &self.segmentation)?;
+        map.serialize_entry("warnings", &list(&self.warnings, Warning::to_string))?;
+        map.serialize_entry("warning_codes", &list(&self.warnings, Warning::code))?;
+        map.end()
+    }
+}
+
+serialized!(ScatterReport, own => {
+    "designs" => own.designs,
+    "seed" => own.seed,
+    "sources" => own.sources,
+    "measures" => Pairs(own.bands.iter().map(|own| (&own.key, own)).collect()),
+    "limits" => own.limits,
+    "instantiated" => own.instantiated,
+    "unsolved" => own.unsolved,
+    "why" => own.why,
+});
+
+serialized!(Chance, own => {
+    "key" => own.limit.key,
+    own.limit.bound.word() => own.limit.bound.level(),
+    "of_mean" => own.limit.of_mean,
+    "kept" => own.kept,
+    "exceeded" => own.exceeded,
+    "probability" => own.share(),
+    "range" => own.range(),
 });
 
 serialized!(Judged<'_>, own => {
@@ -42,8 +74,8 @@ serialized!(Judged<'_>, own => {
     "from" => own.limit.from,
     "of_mean" => own.limit.of_mean,
     "unit" => own.measure.map(|own| own.unit),
-    "value" => own.measure.and_then(|own| own.value),
-    "error" => own.measure.and_then(|own| own.error).and_then(finite),
+    "value" => own.value(),
+    "error" => own.error().and_then(finite),
     "verdict" => own.judgement.word(),
     "margin" => own.margin(),
 });

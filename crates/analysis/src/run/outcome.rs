@@ -106,6 +106,7 @@ pub(super) fn report(
         segmentation: None,
         warnings,
         limits: settings.limits.clone(),
+        scatter: None,
         assembly: Arc::clone(assembly),
         trajectory: outcome.solved.trajectory,
     })

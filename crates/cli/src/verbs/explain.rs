@@ -16,7 +16,7 @@ use dashpot_network::{
     Detail, Node, NodeId, Situation, Start, Support, elements::Law, segments::resolved,
 };
 use dashpot_plot::Table;
-use dashpot_scene::{Scene, write_effect};
+use dashpot_scene::{Scene, units::si_unit, write_effect};
 
 use crate::{
     args::SceneArguments,
@@ -68,9 +68,7 @@ pub(crate) fn explain(
         text.title(title(&scene));
         text.blank();
         text.lines(&indented(&drawn));
-        for content in
-            [nodes(&scene), elements(&scene), layers(&scene), parts(&scene), loads(&scene)]
-        {
+        for content in [nodes, elements, layers, parts, loads, scattered].map(|of| of(&scene)) {
             section(text, &content);
         }
         let notes_of_models = notes(&scene);
@@ -131,7 +129,15 @@ fn nodes(scene: &Scene) -> Table {
                 }
             }
         };
-        vec![node.name.clone(), kind, start]
+        let place = match node.position {
+            0.0 => String::new(),
+            own => format!("begins at {}", constant(own, "m")),
+        };
+        vec![
+            node.name.clone(),
+            kind,
+            [start, place].into_iter().filter(|own| !own.is_empty()).collect::<Vec<_>>().join(", "),
+        ]
     };
     let network = &scene.network;
     let is_used = network
@@ -206,6 +212,15 @@ fn loads(scene: &Scene) -> Table {
         ]
     });
     rows("Loads", described.collect())
+}
+
+fn scattered(scene: &Scene) -> Table {
+    let described = scene.scatter.iter().map(|own| {
+        let unit = own.dimension.map_or_else(|| "1".to_owned(), si_unit);
+        let [mean, deviation] = [own.mean, own.deviation].map(|value| constant(value, &unit));
+        vec![own.name.clone(), format!("mean {mean}"), format!("standard deviation {deviation}")]
+    });
+    rows("Numbers with scatter, used as their means; `run` samples them", described.collect())
 }
 
 fn unknowns(scene: &Scene) -> Table {

@@ -25,7 +25,7 @@ use super::{
     unknowns::{self, Inputs, Places},
 };
 use crate::{
-    error::NetworkErrors,
+    error::{NetworkError, NetworkErrors},
     network::Network,
     outputs::{ConnectionOutputs, DriveOutputs, NodeOutputs, PrimitiveOutputs},
     warning::NetworkWarning,
@@ -43,6 +43,10 @@ pub(super) struct Compiled {
     /// See [`Structure::kinks`].
     pub(super) kinks: Vec<f64>,
 }
+
+/// Why nothing tells where what is between masses begins.
+pub(super) const DASHPOTS_IN_A_ROW: &str = "dashpots in a row lead from it elsewhere, and nothing tells how far each has given way: \
+                                 give a mass to what is between them, with its own `position`";
 
 /// The graph of a network, and the scales of what moves in it.
 struct Graph<'n> {
@@ -71,6 +75,8 @@ pub(super) fn assemble(
         let impulse = largest * duration;
         sizes.forces.extend(ends.map(|body| Force { body, largest, impulse }));
     }
+    let displaced = bodies.all.iter().enumerate().filter(|own| own.1.position != 0.0);
+    sizes.motions.extend(displaced.map(|(body, own)| (body, own.position.abs())));
     let scales = Scales::of(&bodies, &structure, &sizes, duration, expansion.switches)?;
     let graph = Graph { network, expansion, bodies, structure, scales };
     let (mut places, motion) = graph.equations(&drives, &motions, &mut inputs);
@@ -166,6 +172,39 @@ impl Graph<'_> {
         Ok(Compiled { system, nodes, connections, primitives, drives, warnings, transfer, kinks })
     }
 
+    /// Sets the initial positions where masses begin displaced. What dashpots hold to one of them begins beside it.
+    ///
+    /// # Errors
+    ///
+    /// [`NetworkError::StartPosition`] where dashpots in a row lead from one place to another: which of them
+    /// has given way does not follow from the places of the masses.
+    fn displace(&self, places: &mut Places) -> Result<(), NetworkErrors> {
+        let Self { network, bodies, structure, .. } = self;
+        let mut position: Vec<f64> = bodies.all.iter().map(|body| body.position).collect();
+        let Some(first) = network.nodes.iter().find(|node| node.position != 0.0) else {
+            return Ok(());
+        };
+        for cluster in &structure.clusters {
+            let mut anchors = cluster.anchors.iter().map(|&body| position[body]);
+            let place = anchors.next().unwrap_or(0.0);
+            if anchors.any(|other| (other - place).abs() > 0.0) {
+                let displaced = cluster.anchors.iter().flat_map(|&body| &bodies.all[body].joints);
+                let mut displaced = displaced.filter_map(|&joint| network.nodes.get(joint));
+                let node =
+                    displaced.find(|node| node.position != 0.0).unwrap_or(first).name.clone();
+                return Err(NetworkError::StartPosition { node, reason: DASHPOTS_IN_A_ROW }.into());
+            }
+            cluster.bodies.iter().for_each(|&body| position[body] = place);
+        }
+        for body in 0..bodies.all.len() {
+            if let Some(unknown) = places.unknown[body] {
+                let base = places.parent[body].map_or(0.0, |parent| position[parent]);
+                places.drafts[unknown].initial = position[body] - base;
+            }
+        }
+        Ok(())
+    }
+
     /// Sets the initial positions where parts begin in balance.
     fn start(
         &self,
@@ -175,7 +214,7 @@ impl Graph<'_> {
     ) -> Result<(), NetworkErrors> {
         let Self { network, expansion, bodies, structure, .. } = self;
         if !network.effects.iter().any(|effect| effect.starts_in_balance()) {
-            return Ok(());
+            return self.displace(places);
         }
         let at_start: Vec<f64> = inputs
             .entries

@@ -11,6 +11,8 @@ pub(crate) struct Body {
     pub(crate) role: Role,
     /// Start velocity \[m/s\].
     pub(crate) velocity: f64,
+    /// Where it begins \[m\], where it has mass and nothing else says so.
+    pub(crate) position: f64,
     pub(crate) is_impactor: bool,
     /// Sum of the masses of its nodes \[kg\], whatever rules its motion.
     pub(crate) whole_mass: f64,
@@ -179,6 +181,14 @@ impl Body {
                 {
                     errors.push(contradiction(network, other, node, "their start speeds differ"));
                 }
+                let place = |node: usize| network.nodes[node].position;
+                if let Some(other) = moving
+                    && !switches
+                    && (place(other) - place(node)).abs() > 0.0
+                {
+                    let difference = "their start positions differ";
+                    errors.push(contradiction(network, other, node, difference));
+                }
                 moving = moving.or(Some(node));
             }
         }
@@ -206,8 +216,12 @@ impl Body {
         let speeds = massive.map(|&node| start_velocity(network, network.nodes[node].start));
         let velocity =
             speeds.fold(0.0, |most: f64, own| if own.abs() > most.abs() { own } else { most });
+        let position = match role {
+            Role::Mass(_) => moving.map_or(0.0, |node| network.nodes[node].position),
+            _ => 0.0,
+        };
         let is_impactor = impactor.is_some();
-        Self { joints, role, velocity, is_impactor, whole_mass: mass }
+        Self { joints, role, velocity, position, is_impactor, whole_mass: mass }
     }
 
     pub(crate) fn is_massless(&self) -> bool {

@@ -37,6 +37,7 @@ impl Size {
             let speed = start_velocity(network, node.start).abs();
             size.energy += 0.5 * node.mass * speed * speed;
             size.speed = size.speed.max(if node.mass > 0.0 { speed } else { 0.0 });
+            size.way = size.way.max(node.position.abs());
             if let Support::Prescribed(motion) = &node.support {
                 size.way = size.way.max(motion.bound(duration));
                 size.speed = size.speed.max(fastest(motion, duration));

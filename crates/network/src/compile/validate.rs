@@ -6,7 +6,7 @@ use dashpot_rheology::MOST_LEVELS;
 
 use super::{bodies::node_subject, expand::Expansion};
 use crate::{
-    Network, NetworkError, Start, Subject, Support,
+    Network, NetworkError, Node, Start, Subject, Support,
     parameters::{InvalidParameter, Range},
 };
 
@@ -61,15 +61,34 @@ fn nodes(network: &Network, expansion: &Expansion, errors: &mut Vec<NetworkError
             Start::Velocity(velocity) => Range::Finite.check("velocity", velocity),
             Start::Drop(height) => Range::NonNegative.check("drop", height),
         };
-        for invalid in
-            [Range::NonNegative.check("mass", node.mass), start].into_iter().filter_map(Result::err)
+        let position = Range::Finite.check("position", node.position);
+        for invalid in [Range::NonNegative.check("mass", node.mass), start, position]
+            .into_iter()
+            .filter_map(Result::err)
         {
             errors.push(NetworkError::Invalid { subject: subject(), invalid });
+        }
+        if let Some(reason) = displaced_fault(network, node) {
+            errors.push(NetworkError::StartPosition { node: node.name.clone(), reason });
         }
         let is_isolated = node.mass == 0.0 && node.support == Support::Free && !touched[at];
         if is_isolated {
             errors.push(NetworkError::IsolatedNode { node: node.name.clone() });
         }
+    }
+}
+
+/// Why a node cannot begin at a position of its own.
+fn displaced_fault(network: &Network, node: &Node) -> Option<&'static str> {
+    let is_balanced = || network.effects.iter().any(|effect| effect.starts_in_balance());
+    match (&node.support, node.start) {
+        _ if node.position == 0.0 => None,
+        (Support::Fixed, _) => Some("nothing moves it: it is fixed"),
+        (Support::Prescribed(_), _) => Some("its motion is prescribed: give that another start"),
+        _ if node.mass == 0.0 => Some("it has no mass: its place follows from the forces on it"),
+        (_, Start::Drop(_)) => Some("it is dropped: its height says where it begins"),
+        _ if is_balanced() => Some("gravity has it begin in balance"),
+        _ => None,
     }
 }
 

@@ -78,12 +78,12 @@ impl Face {
             let (element, face, separation) = (self.element.clone(), at.clone(), name.clone());
             return Err(NetworkError::TwoFaces { element, face, separation });
         }
-        let start = match self.touch {
-            Touch::Impact => Start::Rest,
-            Touch::Moving => start_with(network, body),
+        let (start, position) = match self.touch {
+            Touch::Impact => (Start::Rest, 0.0),
+            Touch::Moving => (start_with(network, body), network.node(body).position),
         };
         let face = &mut network.nodes[face.0];
-        (face.mass, face.start) = (self.mass, start);
+        (face.mass, face.start, face.position) = (self.mass, start, position);
         Ok(())
     }
 }
@@ -109,7 +109,8 @@ impl Effect for Face {
         }
         let site = Site::of(network, Self::KIND, &self.element, self.at.as_deref())?;
         let start = start_with(network, site.node(network));
-        let face = Node { start, ..Node::mass(face_of(&self.element), self.mass) };
+        let position = network.node(site.node(network)).position;
+        let face = Node { start, position, ..Node::mass(face_of(&self.element), self.mass) };
         site.put_face(network, face, part(Rigid));
         Ok(())
     }

@@ -41,6 +41,9 @@ pub struct Node {
     pub support: Support,
     /// How a free mass begins; a node with a start speed is an impactor.
     pub start: Start,
+    /// Where a free mass begins \[m\], in displacements: positive towards the support. What is between it and
+    /// others is deformed then, springs at once and dashpots that are in a row with them not yet.
+    pub position: f64,
 }
 
 /// What rules the motion of a node.
@@ -71,7 +74,7 @@ pub enum Start {
 impl Node {
     /// A free node of the given mass \[kg\] at rest; 0 makes it massless.
     pub fn mass(name: impl Into<String>, mass: f64) -> Self {
-        Self { name: name.into(), mass, support: Support::Free, start: Start::Rest }
+        Self { name: name.into(), mass, support: Support::Free, start: Start::Rest, position: 0.0 }
     }
 
     /// A free massless node.
@@ -99,6 +102,12 @@ impl Node {
     #[must_use]
     pub fn dropped(self, height: f64) -> Self {
         Self { start: Start::Drop(height), ..self }
+    }
+
+    /// The same node, beginning at `position` \[m\].
+    #[must_use]
+    pub fn at(self, position: f64) -> Self {
+        Self { position, ..self }
     }
 
     /// Whether the node starts with a speed of its own.

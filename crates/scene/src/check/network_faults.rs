@@ -116,6 +116,7 @@ impl<'d> Entries<'d> {
             NetworkError::Invalid { invalid, .. } => &[invalid.parameter],
             NetworkError::BothEndsAtOneNode { .. } => &["between"],
             NetworkError::StartSpeed { .. } => &["velocity", "drop", "energy"],
+            NetworkError::StartPosition { .. } => &["position"],
             NetworkError::StepAcrossDashpots { .. } => &["motion"],
             NetworkError::OutsideTable { .. } => &["force", "motion", "acceleration"],
             NetworkError::NotAnEnd { .. } | NetworkError::TwoFaces { .. } => &["at"],

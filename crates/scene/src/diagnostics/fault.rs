@@ -10,7 +10,10 @@ use thiserror::Error;
 use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help};
 use crate::{
     curves::CurveChange,
-    quantities::words::{described, example},
+    quantities::{
+        scatter::ScatterFault,
+        words::{described, example},
+    },
     tables::TableFault,
     text::nearest::{list, suggestion},
     units::UnitError,
@@ -68,6 +71,9 @@ pub enum Fault {
     /// A formula that has no value.
     #[error("{0}")]
     Formula(FormulaFault),
+    /// A number with scatter that cannot be read, or cannot have any.
+    #[error("{0}")]
+    Scatter(ScatterFault),
     /// A quantity of a wrong dimension.
     #[error("`{text}` is {}; {} is expected here", described(*.found), described(*.expected))]
     WrongDimension { text: String, found: Dimension, expected: Dimension },
@@ -280,6 +286,7 @@ impl Fault {
             }
             Self::Unreadable { error, expected } => Some(unreadable_help(error, *expected)),
             Self::Formula(fault) => fault.help(),
+            Self::Scatter(fault) => Some(fault.help()),
             Self::VariableAndValue { .. } => Some("give the value another name".to_owned()),
             Self::BadValue { error, example } => Some(bad_value_help(error, example)),
             Self::WrongDimension { expected, .. } => {

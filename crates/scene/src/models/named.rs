@@ -18,6 +18,7 @@ use crate::{
         library::{Library, MODEL_SECTIONS, ModelSection},
         source::Source,
     },
+    vary::scatter::ScatteredNumber,
 };
 
 /// A two-terminal model that a text gives a name.
@@ -108,6 +109,7 @@ pub fn read_named_model(
         let is_material = matches!(found, Found::Model(reference) if reference.section == ModelSection::Materials);
         let (name, mut notes, span) =
             (entry.key.to_string(), models.notes(), lines_of(&source, entry));
+        notes.extend(means(&source.text, entry));
         if is_shared {
             let subject = match found {
                 Found::Model(reference) => format!("{} `{name}`", reference.section.word()),
@@ -164,6 +166,17 @@ fn known(library: &Library, elements: &[Entry]) -> Vec<String> {
     known.sort();
     known.dedup();
     known
+}
+
+/// What is to be said of numbers with scatter that may stand in this model.
+fn means(text: &str, entry: &Entry) -> impl Iterator<Item = ModelNote> {
+    let name = entry.key.to_string();
+    let all = ScatteredNumber::all(text, None).unwrap_or_default().into_iter();
+    let own = all.filter(move |own| {
+        let mut parts = own.path.split('.');
+        parts.next() == Some("values") || parts.next() == Some(&name)
+    });
+    own.map(|own| ModelNote { subject: own.name, what: Remark::Mean(own.text), until: None })
 }
 
 /// The whole lines that an entry takes.

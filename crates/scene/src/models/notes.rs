@@ -43,6 +43,8 @@ pub enum Remark {
     Curve(CurveChange),
     /// Gravity \[m/s²\] pulls away from the support.
     Upward(f64),
+    /// The mean of a number with scatter, as it is written, stands for it.
+    Mean(String),
 }
 
 impl Remark {
@@ -55,6 +57,7 @@ impl Remark {
             Self::Weightless(_) => "weightless",
             Self::Curve(_) => "curve",
             Self::Upward(_) => "upward",
+            Self::Mean(_) => "mean",
         }
     }
 }
@@ -87,6 +90,7 @@ impl fmt::Display for Remark {
                 "{} pulls away from the support; positive is towards it",
                 format_short(*acceleration, Dimension::ACCELERATION, 4)
             ),
+            Self::Mean(text) => write!(f, "the mean of {text} stands for it here"),
         }
     }
 }

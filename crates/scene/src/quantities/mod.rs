@@ -4,5 +4,6 @@ pub(crate) mod arithmetic;
 pub(crate) mod basis;
 pub(crate) mod plausible;
 pub(crate) mod quantity;
+pub(crate) mod scatter;
 pub(crate) mod values;
 pub(crate) mod words;

@@ -147,6 +147,13 @@ fn node() -> Value {
                 "kinetic energy at the start [J]: makes it an impactor with the speed sqrt(2 E / m)",
             ),
         ),
+        (
+            "position",
+            described_as(
+                reference("length"),
+                "where a mass begins, as a displacement: what is between it and others is deformed then",
+            ),
+        ),
         ("fixed", json!({ "const": true, "description": "nothing moves it" })),
         ("motion", described_as(reference("length-function"), "its displacement over time")),
         (

@@ -55,6 +55,9 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         }
         Some(Start::Velocity((2.0 * value / mass??).sqrt()))
     });
+    let position = table
+        .take("position")
+        .map(|own| quantities.of("position").read(&own.item, Dimension::LENGTH));
     let [fixed, motion, acceleration] =
         one_of(reading, ["fixed", "motion", "acceleration"].map(|key| (key, table.take(key))));
     let is_fixed = fixed.map(|fixed| {
@@ -77,6 +80,7 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         mass: mass.unwrap_or(Some(0.0))?,
         support,
         start: velocity.or(drop).or(energy).unwrap_or(Some(Start::Rest))?,
+        position: position.unwrap_or(Some(0.0))?,
     })
 }
 

@@ -8,7 +8,7 @@ use std::{
 };
 
 use super::{
-    document::{Content, Entry, Item, MAX_BYTES, parse},
+    document::{Content, Entry, Item, MAX_BYTES, parse_scattered, scattered::note},
     source::{Place, Source},
     table::{check_name, entries_of},
 };
@@ -20,6 +20,7 @@ use crate::{
     quantities::{
         basis::Basis,
         quantity::{Quantities, Subject, Values},
+        scatter::ScatterFault,
         values::{self, Overrides},
     },
     scene::text_of_bytes,
@@ -377,7 +378,11 @@ impl Library {
                 faults.error(place, Fault::Unloadable { path: path.to_owned(), reason });
             }
             Ok(text) => {
-                if let Some(root) = parse(&Arc::new(Source::new(path, text)), faults) {
+                let source = Arc::new(Source::new(path, text));
+                if let Some((root, scattered)) = parse_scattered(&source, faults) {
+                    for (place, _) in scattered {
+                        note(faults, place, ScatterFault::OtherFile);
+                    }
                     self.files.insert(path.to_owned(), Some(self.documents.len()));
                     self.add(path, root, overrides, faults);
                 }

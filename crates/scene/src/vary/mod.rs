@@ -2,6 +2,7 @@
 
 pub(crate) mod listed;
 mod sample;
+pub(crate) mod scatter;
 pub(crate) mod set;
 pub(crate) mod tunable;
 pub(crate) mod variation;

@@ -57,7 +57,7 @@ impl Variation {
 }
 
 /// One place in each of `count` equal parts of the range from 0 to 1, in random order.
-fn stratified(random: &mut ChaCha8Rng, count: usize) -> Vec<f64> {
+pub(super) fn stratified(random: &mut ChaCha8Rng, count: usize) -> Vec<f64> {
     // 53 bits: all that a number from 0 to 1 holds.
     let mut unit = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
     let mut places: Vec<f64> =

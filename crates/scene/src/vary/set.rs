@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::tunable::{TunableFault, Tunables};
 use crate::{
     diagnostics::Faults,
+    quantities::scatter::Scatter,
     text::{document::parse, source::Source},
 };
 
@@ -24,7 +25,9 @@ impl<'t> Settled<'t> {
     pub(crate) fn new(text: &'t str, set: &[(String, String)]) -> Self {
         let text = Cow::Borrowed(text);
         let mut own = Self { text, named: set.to_vec(), astray: Vec::new() };
-        if set.is_empty() || all_are_named(&own.text, set) {
+        let is_scattered = |text: &str| Scatter::is_possible(text);
+        let has_scatter = is_scattered(&own.text) || set.iter().any(|own| is_scattered(&own.1));
+        if set.is_empty() || !has_scatter && all_are_named(&own.text, set) {
             return own;
         }
         // What is wrong with the text is told where it is read.
@@ -32,11 +35,16 @@ impl<'t> Settled<'t> {
         let mut changes: Vec<(usize, String)> = Vec::new();
         own.named.retain(|(name, value)| {
             match tunables.anything(name) {
-                Ok(at) if tunables.all()[at].path == format!("values.{name}") => return true,
                 Ok(at) => {
+                    let is_value = tunables.all()[at].path == format!("values.{name}");
+                    if is_value && !has_scatter {
+                        return true;
+                    }
                     // The last one counts.
                     changes.retain(|known| known.0 != at);
                     changes.push((at, value.trim().to_owned()));
+                    // Values of other files go by the name, too.
+                    return is_value && !is_scattered(value);
                 }
                 Err(fault) if name.contains('.') => {
                     own.astray.push(((name.clone(), value.clone()), fault));

@@ -84,7 +84,9 @@ impl VariationFault {
 
 /// A number, its unit, and the text of both.
 pub(crate) struct Written<'t> {
-    number: f64,
+    pub(crate) number: f64,
+    /// The number as it is written.
+    pub(crate) digits: &'t str,
     /// Its unit, empty where it has none.
     pub(crate) unit: &'t str,
     text: &'t str,
@@ -92,18 +94,23 @@ pub(crate) struct Written<'t> {
 
 impl<'t> Written<'t> {
     pub(crate) fn of(text: &'t str) -> Result<Self, VariationFault> {
-        let text = text.trim();
         parse_quantity(text).map_err(|error| VariationFault::BadValue { error })?;
+        Ok(Self::split(text))
+    }
+
+    /// The number and the unit of a text that is a quantity.
+    pub(crate) fn split(text: &'t str) -> Self {
+        let text = text.trim();
         // The longest beginning that is a number.
         let borders = text.char_indices().map(|char_index| char_index.0).chain([text.len()]);
         let mut found =
-            borders.filter_map(|at| Some((text[..at].trim().parse().ok()?, &text[at..])));
-        let (number, unit) = found.next_back().unwrap_or((f64::NAN, text));
-        Ok(Self { number, unit: unit.trim(), text })
+            borders.filter_map(|at| Some((text[..at].trim().parse().ok()?, text.split_at(at))));
+        let (number, (digits, unit)) = found.next_back().unwrap_or((f64::NAN, ("", text)));
+        Self { number, digits: digits.trim(), unit: unit.trim(), text }
     }
 
     /// The number in another unit, where it has one of its own.
-    fn in_unit(&self, unit: &str) -> Result<f64, VariationFault> {
+    pub(crate) fn in_unit(&self, unit: &str) -> Result<f64, VariationFault> {
         if self.unit.is_empty() || self.unit == unit {
             return Ok(self.number);
         }
@@ -221,11 +228,15 @@ impl Variation {
         if let Some(word) = self.words.get(at) {
             return word.clone();
         }
-        let number = self.numbers[at];
-        let (plain, scientific) = (number.to_string(), format!("{number:e}"));
-        let number = if scientific.len() < plain.len() { scientific } else { plain };
-        if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
+        number_text(self.numbers[at], &self.unit)
     }
+}
+
+/// A number with its unit as it would be written in a scene.
+pub(crate) fn number_text(number: f64, unit: &str) -> String {
+    let (plain, scientific) = (number.to_string(), format!("{number:e}"));
+    let number = if scientific.len() < plain.len() { scientific } else { plain };
+    if unit.is_empty() { number } else { format!("{number} {unit}") }
 }
 
 type Numbers<'t> = (Vec<f64>, &'t str, bool);

@@ -103,6 +103,9 @@ fn node(node: &Node) -> Result<String, Unwritable> {
         }
         Start::Drop(own) => parts.push(format!("drop = {}", said(own, Dimension::LENGTH))),
     }
+    if node.position != 0.0 {
+        parts.push(format!("position = {}", said(node.position, Dimension::LENGTH)));
+    }
     match &node.support {
         Support::Free => {}
         Support::Fixed => parts.push("fixed = true".to_owned()),

@@ -158,6 +158,9 @@ pub(super) fn read(network: &Network) -> Result<FourParameterImpact, &'static st
     if !(is_mass(head.1) && is_mass(panel.1)) {
         return Err("the impactor and the support are not both free masses");
     }
+    if [head.1, panel.1].iter().any(|node| node.position != 0.0) {
+        return Err("a mass begins at a position of its own");
+    }
     let between = |ends: [NodeId; 2]| {
         let mut found =
             network.connections().iter().filter(move |connection| connection.between == ends);

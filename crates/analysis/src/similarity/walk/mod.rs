@@ -105,6 +105,10 @@ fn walk_node(
         // Only its speed counts, and that is one parameter instead of two.
         Start::Drop(height) => Start::Velocity(velocity(speed_of_fall(network, height))),
     };
+    let position = match node.position {
+        0.0 => 0.0,
+        own => visit.quantity(&format!("{name}.position"), Dimension::LENGTH, own),
+    };
     let support = match &node.support {
         Support::Free => Support::Free,
         Support::Fixed => {
@@ -117,7 +121,7 @@ fn walk_node(
         }
     };
     visit.word(name, &word);
-    Ok(Node { name: name.clone(), mass, support, start })
+    Ok(Node { name: name.clone(), mass, support, start, position })
 }
 
 fn walk_connection(

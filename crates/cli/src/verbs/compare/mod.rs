@@ -21,7 +21,7 @@ use crate::{
     args::ValueArguments,
     error::{CliError, Status},
     non_identifiable::{combinations, groups},
-    operand::{Operand, Subject, canonical_model, parted, read_scene},
+    operand::{Operand, Subject, canonical_model, note_means, parted, read_scene},
     output::{Study, Text, emit},
     terminal::{Terminal, Tone},
 };
@@ -201,6 +201,7 @@ fn same_impact(
 ) -> Result<Impact, CliError> {
     let (path, element) = parted(word);
     let scene = read_scene(Some(std::path::Path::new(path)), set, terminal)?;
+    note_means(&scene);
     let names = || scene.network.connections().iter().map(|connection| connection.name.clone());
     let element =
         if element.is_empty() { names().next().unwrap_or_default() } else { element.to_owned() };

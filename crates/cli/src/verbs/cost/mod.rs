@@ -20,7 +20,7 @@ use crate::{
     folder::{Folder, Staged},
     input::title,
     numbers::rounded,
-    operand::print_notes,
+    operand::{note_means, print_notes},
     output::{Study, Text, VERSION, emit, list, object},
     progress::Bar,
     terminal::Terminal,
@@ -76,6 +76,7 @@ struct Costs {
 pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Status, CliError> {
     let scene = arguments.scene.read(terminal)?;
     print_notes(&scene.notes);
+    note_means(&scene);
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let assembly = Arc::new(scene.assembly.clone());
     let mut settings = scene.settings("auto")?;

@@ -23,7 +23,7 @@ use crate::{
     error::{CliError, Status},
     input::{setting, title},
     numbers::{constant, significant},
-    operand::{print_notes, read_scene},
+    operand::{note_means, print_notes, read_scene},
     output::{Study, Text, emit, list, object},
     part::write_text,
     terminal::{Terminal, note},
@@ -132,6 +132,7 @@ fn read(
 ) -> Result<Scene, CliError> {
     let scene = read_scene(path, &arguments.values.set, terminal)?;
     print_notes(&scene.notes);
+    note_means(&scene);
     Ok(scene)
 }
 

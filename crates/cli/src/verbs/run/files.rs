@@ -13,7 +13,7 @@ use super::{
     Answer,
     energy::energy_table,
     measures::{measures_table, notes},
-    resolved_scene,
+    resolved_scene, scatter,
     series::curves_and_energies,
     solving::{reasons, settings_table, solving_table},
     verdict::verdict,
@@ -163,6 +163,7 @@ fn write_events(runs: &[RunReport], out: &mut dyn Write) -> io::Result<()> {
 /// The page with these drawings.
 pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
     let mut tables = vec![measures_table(&answer.side())];
+    tables.extend(answer.best().and_then(scatter::table));
     tables.extend(Some(Table::list("Remarks", notes(answer))).filter(|own| !own.rows.is_empty()));
     tables.extend(answer.best().map(energy_table));
     let why = reasons(answer).into_iter().map(|(method, why)| vec![method, why]);

@@ -4,6 +4,7 @@ use dashpot_analysis::{Bound, Judged, Judgement, Limit, MeasureReport, RunReport
 
 use super::{
     measures::{is_index, unit_of_kind},
+    scatter,
     verdict::{Line, TIME_DIGITS},
 };
 use crate::numbers::{self, MOST_DIGITS, Unit, bound, percent_signed};
@@ -37,36 +38,44 @@ pub(super) fn short(judged: &Judged<'_>) -> String {
         Judgement::Fail => "FAIL",
         Judgement::Undecided => "UNDECIDED",
     };
-    let value = judged.measure.map(|own| value(own, judged.limit));
+    let value = judged.measure.map(|own| value(own, judged));
     let value = value.map_or(String::new(), |value| format!(", {value}"));
     let margin = judged.margin().map(|margin| format!(", margin {}", percent_signed(margin)));
-    word.to_owned() + &value + &margin.unwrap_or_default()
+    let chance = scatter::chance(judged).map_or(String::new(), |own| format!(", {own}"));
+    word.to_owned() + &value + &margin.unwrap_or_default() + &chance
 }
 
 fn text(run: &RunReport, judged: &Judged<'_>) -> String {
     let limit = judged.limit;
-    let value = judged.measure.map_or("is not reported".to_owned(), |own| value(own, limit));
+    let value = judged.measure.map_or("is not reported".to_owned(), |own| value(own, judged));
     let margin = judged
         .margin()
         .map_or(String::new(), |margin| format!("; margin {}", percent_signed(margin)));
-    let mean = if limit.of_mean { "; one run stands for the mean of the tests" } else { "" };
-    let is_bare = judged.measure.is_some_and(|own| own.value.is_some() && own.error.is_none());
+    let mean = match judged.sampled {
+        Some(_) => "; judged by the mean of the sample",
+        None if limit.of_mean => "; one run stands for the mean of the tests",
+        None => "",
+    };
+    let chance = scatter::chance(judged).map_or(String::new(), |own| format!("; {own}"));
+    let is_bare = judged.value().is_some() && judged.error().is_none();
     let bare = if is_bare { "; its error is not known" } else { "" };
     let advice = advice(run, judged).map_or(String::new(), |own| format!("; {own}"));
-    format!("{} {value}, {}{margin}{bare}{mean}{advice}", limit.key, stated(limit, judged.measure))
+    let stated = stated(limit, judged.measure);
+    format!("{} {value}, {stated}{margin}{chance}{bare}{mean}{advice}", limit.key)
 }
 
 /// The value with as many digits as tell it from the bound, and with its error where that reaches across.
-fn value(measure: &MeasureReport, limit: &Limit) -> String {
-    let Some(value) = measure.value else {
-        let is_infinite = measure.time.is_some();
+fn value(measure: &MeasureReport, judged: &Judged<'_>) -> String {
+    let (limit, error) = (judged.limit, judged.error());
+    let Some(value) = judged.value() else {
+        let is_infinite = measure.time.is_some() && judged.sampled.is_none();
         return if is_infinite { "is infinite" } else { "is not determined" }.to_owned();
     };
     let unit = unit(measure.kind, measure.unit, limit);
     let apart = (value - limit.bound.level()).abs();
     let wanted = numbers::digits(value, Some(0.1 * apart), MOST_DIGITS).max(DIGITS);
-    let digits = numbers::digits(value, measure.error, wanted);
-    match measure.error.filter(|error| *error >= apart && error.is_finite()) {
+    let digits = numbers::digits(value, error, wanted);
+    match error.filter(|error| *error >= apart && error.is_finite()) {
         Some(error) => format!("{} ± {}", unit.text(value, digits), unit.text(error, 2)),
         None => unit.text(value, digits),
     }
@@ -108,9 +117,12 @@ pub(crate) fn level(limit: &Limit, kind: &str, si: &str) -> String {
 /// What may decide what is open.
 fn advice(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
     let measure = judged.measure.filter(|_| judged.judgement == Judgement::Undecided)?;
-    if judged.is_so_far {
+    if judged.is_so_far && judged.sampled.is_none() {
         let end = numbers::quantity(run.trajectory.t_end, "s", TIME_DIGITS);
         return Some(format!("the run ends in contact at {end}: make `duration` longer"));
+    }
+    if judged.sampled.is_some() {
+        return Some("a larger `--sample` may decide".to_owned());
     }
     let value = measure.value?;
     let apart = (value - judged.limit.bound.level()).abs() / value.abs();

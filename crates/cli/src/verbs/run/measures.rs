@@ -302,7 +302,8 @@ impl Zeros {
         }
     }
 
-    fn largest(&self, unit: &str) -> f64 {
+    /// The largest value that is measured in a unit.
+    pub(super) fn largest(&self, unit: &str) -> f64 {
         self.largest.iter().find(|(known, _)| *known == unit).map_or(0.0, |own| own.1)
     }
 

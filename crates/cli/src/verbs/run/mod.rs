@@ -8,6 +8,7 @@ mod limits;
 mod measures;
 mod object;
 mod resolved_scene;
+mod scatter;
 mod series;
 mod solving;
 mod verdict;
@@ -28,6 +29,7 @@ use self::{
     files::Written,
     measures::{Column, Side, measures_tables, notes},
     resolved_scene::Changes,
+    scatter::ScatterArguments,
     series::curves,
     solving::{reasons, solving_table},
     verdict::verdict,
@@ -67,6 +69,7 @@ const LABELS: usize = 15;
     dashpot run pad.toml --accuracy 0.01%            more digits\n  \
     dashpot run pad.toml --neglect 0.5%              without what matters less\n  \
     dashpot run pad.toml --limit \"head.hic15<=700\"   pass, fail, or undecided\n  \
+    dashpot run pad.toml --sample 2000               numbers with scatter: more designs\n  \
     dashpot run pad.toml --out results               CSV, JSON, SVG and HTML\n  \
     dashpot run pad.toml --out results --write page  the page alone\n  \
     dashpot run pad.toml --at \"5 ms, 20 ms\"         every output at these times\n  \
@@ -85,6 +88,8 @@ pub(crate) struct RunArguments {
     variant: Vec<Variant>,
     #[command(flatten)]
     limits: LimitArguments,
+    #[command(flatten)]
+    scatter: ScatterArguments,
     /// Exits with 4 unless every limit is kept, however the errors lie.
     #[arg(long)]
     enforce: bool,
@@ -296,7 +301,7 @@ fn solve_all(
     scene: Scene,
     (arguments, set): (&RunArguments, &[(String, String)]),
     terminal: Terminal,
-) -> Result<Answer, RunError> {
+) -> Result<Answer, CliError> {
     let mut asked: Vec<SolveSettings> = Vec::new();
     let methods = if arguments.method.is_empty() { &scene.run.methods } else { &arguments.method };
     for method in methods {
@@ -305,12 +310,21 @@ fn solve_all(
         }
     }
     let assembly = Arc::new(scene.assembly.clone());
+    let plain = scatter::plainly_set(&scene, set);
+    let sample = scatter::drawn(&scene, arguments.scatter, &plain)?;
     let (mut runs, mut failed) = (Vec::<RunReport>::new(), Vec::new());
     for own in &asked {
         let mut bar = Bar::new(own.method.name(), own.duration, terminal.error.attended);
         match solve_partial(&scene.network, &assembly, own, &mut bar) {
             // `auto` may choose what is asked for by name as well.
-            Ok(report) if is_new(&runs, &report) => runs.push(report),
+            Ok(mut report) if is_new(&runs, &report) => {
+                if let Some(sample) = &sample {
+                    let drawn = (sample, arguments.scatter.seed());
+                    let found = scatter::solved(&scene, drawn, (own, &plain), terminal)?;
+                    report.scatter = found.map(Box::new);
+                }
+                runs.push(report);
+            }
             Ok(_) => {}
             Err(error) => failed.push((own.method.name(), CliError::Run(error))),
         }
@@ -359,6 +373,7 @@ impl Study for Answer {
         for table in measures_tables(&self.side(), WIDTH - 2) {
             text.figures(&table);
         }
+        self.best().and_then(scatter::table).iter().for_each(|table| text.figures(table));
         notes(self).iter().for_each(|note| text.labelled("", 0, note));
         self.values_at().iter().for_each(|table| text.rows_below(table));
         self.best().iter().for_each(|best| text.figures(&energy_table(best)));

@@ -12,6 +12,7 @@ use dashpot_units::percent;
 use super::{
     Answer, limits,
     measures::{Zeros, is_hic, is_index},
+    scatter,
 };
 use crate::numbers::{
     self, Unit, apart, bound, constant, duration, estimate, quantity, rounded, share, significant,
@@ -83,7 +84,7 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
         ("next digit", next_digit(answer, run)),
     ];
     let lines = lines.into_iter().filter_map(|(label, text)| Some(Line { label, text: text? }));
-    limits::lines(run).into_iter().chain(lines).collect()
+    limits::lines(run).into_iter().chain(scatter::lines(run)).chain(lines).collect()
 }
 
 /// What words are found for.

@@ -19,7 +19,10 @@ use serde::Serialize;
 
 use self::words::{notes, summary};
 use crate::{
-    args::{LimitArguments, SceneArguments, When, budget, method_names, share},
+    args::{
+        LimitArguments, MOST_POINTS as MOST, SceneArguments, When, budget, method_names, samples,
+        share,
+    },
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
@@ -304,14 +307,6 @@ fn counts(variations: &[Variation]) -> Vec<usize> {
     variations.iter().map(Variation::len).collect()
 }
 
-/// The number of designs of a sample.
-fn samples(text: &str) -> Result<usize, String> {
-    let count = text.parse().ok().filter(|count| (1..=MOST).contains(count));
-    count.ok_or_else(|| format!("a whole number from 1 to {MOST} is wanted"))
-}
-
-/// More points are not solved in one sweep.
-const MOST: usize = 10_000_000;
 /// So many corners of the grid are read before anything is solved.
 const MOST_CORNERS: usize = 64;
 

@@ -6,9 +6,9 @@ use dashpot_analysis::{
 };
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
-use dashpot_scene::{Variation, units::si_unit};
+use dashpot_scene::{Remark, Variation, units::si_unit};
 
-use super::{Form, Swept};
+use super::{Form, Swept, Varied};
 use crate::{
     numbers::{Unit, apart, bound, duration, estimate, significant},
     verbs::run::{level, unit_of_kind},
@@ -175,6 +175,7 @@ const MOST_WARNED: usize = 8;
 pub(super) fn notes(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
     let mut all = kept(report);
+    all.extend(means(swept));
     all.push(solved(report, points));
     if !report.checked.is_empty() {
         all.push(format!(
@@ -195,6 +196,14 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
     all.extend(report.partial.iter().flat_map(|own| left_out(own, report)));
     all.extend(missing(report, points));
     all
+}
+
+/// The numbers with scatter that do not vary here.
+fn means(swept: &Swept) -> impl Iterator<Item = String> {
+    let Varied { tunables, matched, .. } = &swept.varied;
+    let is_varied = |path: &str| matched.iter().any(|at| tunables.all()[*at].path == path);
+    let held = swept.scene.scatter.iter().filter(move |own| !is_varied(&own.path));
+    held.map(|own| format!("{}: {}", own.name, Remark::Mean(own.text.clone())))
 }
 
 fn counted(points: usize) -> String {

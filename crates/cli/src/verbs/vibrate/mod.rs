@@ -23,6 +23,7 @@ use crate::{
     folder::{Folder, Staged},
     input::title,
     numbers::{Unit, quantity},
+    operand::note_means,
     output::{Study, Text, VERSION, csv, emit, list, object},
     terminal::{Terminal, WIDTH},
 };
@@ -108,6 +109,7 @@ pub(crate) fn vibrate(
     terminal: Terminal,
 ) -> Result<Status, CliError> {
     let scene = arguments.scene.read(terminal)?;
+    note_means(&scene);
     let vibration = Vibration::new(&scene.network, scene.run.duration, arguments.drive.as_deref())?;
     let names = FIGURES.iter().chain([&TABLE]).map(|own| (*own).to_owned());
     let folder = Folder::wanted(arguments.out.as_deref(), names)?;

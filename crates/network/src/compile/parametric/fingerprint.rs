@@ -19,7 +19,8 @@ pub(super) struct Fingerprint {
 /// free and fixed nodes, or is not valid.
 pub(super) fn fingerprint(network: &Network, expansion: &Expansion) -> Option<Fingerprint> {
     let is_plain = network.connections.iter().all(|connection| connection.layers.is_none());
-    if !is_plain || !validate::faults(network, expansion).is_empty() {
+    let is_displaced = network.nodes.iter().any(|node| node.position != 0.0);
+    if !is_plain || is_displaced || !validate::faults(network, expansion).is_empty() {
         return None;
     }
     let word = |law: Law| match law {

@@ -1,16 +1,18 @@
-//! Where things without mass are at the start, if a motion begins displaced: it has jumped there, and they
-//! have followed at once.
+//! Where things without mass are at the start, if a motion or a mass begins displaced: it has jumped there, and
+//! they have followed at once.
 
 use dashpot_dae::Waveform;
 
 use super::{
     super::{
+        assemble::DASHPOTS_IN_A_ROW,
         balance::{self, Surroundings, UNBALANCED},
         bodies::{Bodies, Body, Groups, Role, joint_name},
         expand::Expansion,
         structure::{Structure, jumps},
     },
     is_contact,
+    start::THROUGH_CONTACT,
 };
 use crate::{
     Network, NetworkError, NetworkErrors, Support,
@@ -53,7 +55,7 @@ pub(super) struct Settled {
 
 impl<'a> Settling<'a> {
     /// The start at which joints are at `position`, those that follow a jump not yet; `None` where no motion
-    /// begins displaced.
+    /// and no mass begins displaced.
     pub(super) fn of(
         network: &'a Network,
         expansion: &'a Expansion,
@@ -65,7 +67,7 @@ impl<'a> Settling<'a> {
             Support::Prescribed(motion) => {
                 jumps(network, motion, duration).first().is_some_and(|&time| time <= 0.0)
             }
-            _ => false,
+            _ => network.nodes[*node].position != 0.0,
         };
         let jumped: Vec<usize> = (0..network.nodes.len()).filter(has_jumped).collect();
         if jumped.is_empty() {
@@ -250,9 +252,13 @@ impl<'a> Settling<'a> {
         !matches!(role, Role::Fixed | Role::Prescribed(_))
     }
 
-    /// Refuses jumps across a dashpot alone.
+    /// Refuses jumps of motions across a dashpot alone; a mass begins where it is, and has not come there.
     fn check_dashpots(&self) -> Result<(), NetworkErrors> {
-        let way = |joint: usize| self.after[joint] - self.before[joint];
+        let is_mass =
+            |joint: usize| matches!(self.apart.all[self.apart.of_joint[joint]].role, Role::Mass(_));
+        let way = |joint: usize| {
+            if is_mass(joint) { 0.0 } else { self.after[joint] - self.before[joint] }
+        };
         for primitive in
             self.expansion.primitives.iter().filter(|primitive| primitive.slopes()[1] > 0.0)
         {
@@ -281,6 +287,9 @@ impl<'a> Settling<'a> {
             _ => None,
         });
         match contradiction {
+            Some((node, _)) if self.is_placed(&node) => {
+                NetworkError::StartPosition { node, reason: DASHPOTS_IN_A_ROW }.into()
+            }
             Some((node, other)) => {
                 NetworkError::StepAcrossDashpots { node, other, time: 0.0 }.into()
             }
@@ -290,6 +299,14 @@ impl<'a> Settling<'a> {
 
     fn through_contact(&self) -> NetworkErrors {
         let node = self.network.nodes[self.jumped[0]].name.clone();
+        if self.is_placed(&node) {
+            return NetworkError::StartPosition { node, reason: THROUGH_CONTACT }.into();
+        }
         NetworkError::StepThroughContact { node, time: 0.0 }.into()
+    }
+
+    /// Whether the node of this name is a mass with a position of its own.
+    fn is_placed(&self, name: &str) -> bool {
+        self.network.nodes.iter().any(|node| node.name == name && node.position != 0.0)
     }
 }

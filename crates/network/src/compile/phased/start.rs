@@ -22,6 +22,10 @@ use crate::{
 /// Overlap at the start that is rounding, in parts of the places.
 const NEAR: f64 = 1e-9;
 
+/// Why a mass cannot begin beyond a contact.
+pub(super) const THROUGH_CONTACT: &str = "it is beyond a contact there, or within what remembers how it was deformed: begin at \
+                                          touch, or give what it meets a spring";
+
 /// The bodies of the network in its loosest state, in which no part that switches holds anything.
 ///
 /// # Errors
@@ -170,6 +174,7 @@ pub(super) fn state(
     apart: &Bodies,
     duration: f64,
 ) -> Result<(State, Vec<Phase>), NetworkErrors> {
+    placed_alike(network, apart)?;
     let (mut position, velocity) = given(network, expansion, apart);
     let deformations = |position: &[f64]| -> Vec<f64> {
         let ends = expansion.primitives.iter().map(|primitive| primitive.ends);
@@ -242,12 +247,33 @@ fn given(network: &Network, expansion: &Expansion, apart: &Bodies) -> (Vec<f64>,
                 position[joint] = position[given];
                 velocity[joint] = velocity[given];
             } else {
-                position[joint] = -height.unwrap_or(0.0);
+                position[joint] = body.position - height.unwrap_or(0.0);
                 velocity[joint] = if height.is_some() { 0.0 } else { speed };
             }
         }
     }
     (position, velocity)
+}
+
+/// The node of a body that begins at a position of its own.
+fn displaced(network: &Network, body: &Body) -> Option<String> {
+    let mut nodes = body.joints.iter().filter_map(|&joint| network.nodes.get(joint));
+    nodes.find(|node| node.position != 0.0).map(|node| node.name.clone())
+}
+
+/// Refuses masses that are rigidly linked and begin at different positions.
+fn placed_alike(network: &Network, apart: &Bodies) -> Result<(), NetworkErrors> {
+    for body in &apart.all {
+        let nodes = body.joints.iter().filter_map(|&joint| network.nodes.get(joint));
+        let masses: Vec<_> = nodes.filter(|node| node.mass > 0.0).collect();
+        let differs = |pair: &&[&crate::Node]| (pair[0].position - pair[1].position).abs() > 0.0;
+        if let Some(pair) = masses.windows(2).find(differs) {
+            let [first, second] = [pair[0], pair[1]].map(|node| node.name.clone());
+            let difference = "their start positions differ";
+            return Err(NetworkError::ContradictingMotions { first, second, difference }.into());
+        }
+    }
+    Ok(())
 }
 
 /// Closes the contacts that balance brings together; whether there are any.
@@ -292,7 +318,8 @@ fn overlaps(
                 node: network.nodes[node].name.clone(),
                 time: 0.0,
             }),
-            _ => None,
+            _ => displaced(network, body)
+                .map(|node| NetworkError::StartPosition { node, reason: THROUGH_CONTACT }),
         })
     };
     let errors: Vec<NetworkError> = parts.iter().filter_map(overlap).collect();

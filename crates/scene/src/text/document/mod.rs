@@ -1,6 +1,7 @@
 //! A TOML text as a tree of values that know their places.
 
 mod blocks;
+pub(crate) mod scattered;
 mod tree;
 
 use std::sync::Arc;
@@ -8,13 +9,16 @@ use std::sync::Arc;
 use toml::de::DeTable;
 
 use self::tree::{Builder, Words};
-pub(crate) use self::tree::{Content, Entry, Item};
+pub(crate) use self::tree::{Content, Entry, Item, Word};
 use super::{
     nesting,
     repair::repaired,
     source::{Place, Source},
 };
-use crate::diagnostics::{Faults, fault::Fault};
+use crate::{
+    diagnostics::{Faults, fault::Fault},
+    quantities::scatter::Scatter,
+};
 
 /// A text may have so many bytes.
 pub const MAX_BYTES: usize = 64 << 20;
@@ -23,8 +27,26 @@ pub const MAX_BYTES: usize = 64 << 20;
 /// stack.
 pub(crate) const MAX_LEVELS: usize = 128;
 
-/// Parses `source`; `None` when there is nothing to go on with.
+/// Parses `source`; `None` when there is nothing to go on with. Numbers with scatter are read as their means.
 pub(crate) fn parse(source: &Arc<Source>, faults: &Faults) -> Option<Item> {
+    parse_scattered(source, faults).map(|own| own.0)
+}
+
+/// A document and the numbers with scatter whose means stand in it, with their places.
+pub(crate) type Scattered = (Item, Vec<(Place, Scatter)>);
+
+/// The same, with the numbers that have scatter.
+pub(crate) fn parse_scattered(source: &Arc<Source>, faults: &Faults) -> Option<Scattered> {
+    let mut root = parse_plain(source, faults)?;
+    let found = if Scatter::is_possible(&source.text) {
+        scattered::take(&mut root, faults)
+    } else {
+        Vec::new()
+    };
+    Some((root, found))
+}
+
+fn parse_plain(source: &Arc<Source>, faults: &Faults) -> Option<Item> {
     let number = faults.add_source(Arc::clone(source));
     let text = &source.text;
     if text.len() > MAX_BYTES {

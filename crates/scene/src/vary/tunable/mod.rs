@@ -17,10 +17,11 @@ use crate::{
     quantities::{
         arithmetic::quietly,
         quantity::Values,
+        scatter::Scatter,
         values::{Overrides, read as read_values},
     },
     text::{
-        document::{Content, Item, parse},
+        document::{Content, Item, parse_scattered},
         nearest::{list, nearest, synonym},
         source::Source,
     },
@@ -28,7 +29,7 @@ use crate::{
 };
 
 /// The tables whose numbers may vary.
-const SECTIONS: [&str; 7] =
+pub(crate) const SECTIONS: [&str; 7] =
     ["values", "models", "materials", "nodes", "elements", "effects", "loads"];
 /// The key under `[run]` that may vary.
 const RUN: (&str, &str) = ("run", "duration");
@@ -50,6 +51,8 @@ pub struct Tunable {
     pub unit: String,
     /// The word that stands in place of a number, such as that of a material.
     pub word: Option<String>,
+    /// Mean and standard deviation as they are written, where it has scatter.
+    pub(crate) scatter: Option<Scatter>,
     span: Range<usize>,
 }
 
@@ -80,8 +83,8 @@ impl Tunables {
     pub fn of(text: &str, file: Option<&str>) -> Result<Self, Diagnostics> {
         let faults = Faults::default();
         let source = Arc::new(Source::new(file.unwrap_or("scene"), text));
-        let root = parse(&source, &faults);
-        let Some(root) = root.filter(|_| faults.errors() == 0) else {
+        let root = parse_scattered(&source, &faults);
+        let Some((root, scattered)) = root.filter(|_| faults.errors() == 0) else {
             return Err(faults.finish());
         };
         let named = root.table().unwrap_or(&[]).iter().find(|entry| entry.key == "values");
@@ -97,7 +100,12 @@ impl Tunables {
                 own.for_each(|own| collect(&own.item, &mut path(), &mut found));
             }
         }
-        Ok(Self::with(Arc::clone(&source.text), found))
+        let mut own = Self::with(Arc::clone(&source.text), found);
+        for (place, scatter) in scattered {
+            let number = own.all.iter_mut().find(|number| number.span == place.span());
+            number.into_iter().for_each(|number| number.scatter = Some(scatter.clone()));
+        }
+        Ok(own)
     }
 
     fn with(text: Arc<str>, found: Found) -> Self {
@@ -114,6 +122,7 @@ impl Tunables {
                 dimension: quantity.dimension,
                 unit,
                 word: None,
+                scatter: None,
                 span,
             });
         }
@@ -154,6 +163,7 @@ impl Tunables {
                 dimension: None,
                 unit: String::new(),
                 word: Some(word),
+                scatter: None,
                 span,
             });
         }

@@ -1,0 +1,247 @@
+//! What scatter of the numbers of a scene makes of its measures: bands, and probabilities to keep limits.
+
+use serde::Serialize;
+
+use crate::{
+    Judgement, Limit,
+    sweep::{Gap, SweepReport},
+};
+
+/// Half of the part of a sample that its 95 % range leaves out.
+const TAIL: f64 = 0.025;
+/// Standard deviations of the normal distribution within which 95 % lie.
+const WITHIN: f64 = 1.959_963_984_540_054;
+
+/// A number of the scene that is normally distributed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ScatterSource {
+    /// Its name.
+    pub name: String,
+    /// As it is written: `20 ± 2 MN/m`.
+    pub text: String,
+    /// Its SI unit.
+    pub unit: String,
+    /// The mean, with which the run itself is solved.
+    pub mean: f64,
+    /// The standard deviation.
+    pub deviation: f64,
+    /// Below this the distribution is cut off; `None` where it is not.
+    pub cut_below: Option<f64>,
+    /// Above this it is.
+    pub cut_above: Option<f64>,
+    /// The part of the normal distribution that is cut off.
+    pub beyond: f64,
+}
+
+/// What a measure is over the sample, in its SI unit. The numerical errors of single designs are not in it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Band {
+    /// Key of the measure.
+    pub key: String,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// The mean of the sample; `None` where any design has no value.
+    pub mean: Option<f64>,
+    /// The standard deviation of the sample, of n − 1; `None` where any design has no value.
+    pub deviation: Option<f64>,
+    /// Below this lie 2.5 % of the designs, those without a value left out; `None` where none has one.
+    pub low: Option<f64>,
+    /// Above this lie 2.5 %.
+    pub high: Option<f64>,
+    /// Designs that have no value.
+    pub without: usize,
+    /// Designs in all.
+    #[serde(skip)]
+    designs: usize,
+}
+
+/// How often a limit is kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chance {
+    /// The limit.
+    pub limit: Limit,
+    /// Designs that keep it.
+    pub kept: usize,
+    /// Designs that exceed it.
+    pub exceeded: usize,
+    /// Designs in all; what is neither kept nor exceeded is not known.
+    pub designs: usize,
+}
+
+/// What a sample of designs tells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScatterReport {
+    /// The numbers with scatter, in the order of the scene.
+    pub sources: Vec<ScatterSource>,
+    /// How many designs were drawn.
+    pub designs: usize,
+    /// What they were drawn with.
+    pub seed: u64,
+    /// The measures, in the order of the run.
+    pub bands: Vec<Band>,
+    /// The limits, in the order of the run.
+    pub limits: Vec<Chance>,
+    /// How many of the designs were instantiated of one compiled form.
+    pub instantiated: usize,
+    /// How many could not be solved.
+    pub unsolved: usize,
+    /// Why the first of those could not.
+    pub why: Option<String>,
+}
+
+impl Band {
+    /// A band of these values; NaN where there is none.
+    fn of(key: &str, unit: &'static str, values: impl Iterator<Item = f64>) -> Self {
+        let all: Vec<f64> = values.collect();
+        let mut known: Vec<f64> = all.iter().copied().filter(|own| own.is_finite()).collect();
+        known.sort_by(f64::total_cmp);
+        let is_whole = known.len() == all.len() && !known.is_empty();
+        let count = known.len() as f64;
+        let mean = known.iter().sum::<f64>() / count;
+        let squares: f64 = known.iter().map(|own| (own - mean).powi(2)).sum();
+        Self {
+            key: key.to_owned(),
+            unit,
+            mean: is_whole.then_some(mean),
+            deviation: (is_whole && known.len() > 1).then(|| (squares / (count - 1.0)).sqrt()),
+            low: share_below(&known, TAIL),
+            high: share_below(&known, 1.0 - TAIL),
+            without: all.len() - known.len(),
+            designs: all.len(),
+        }
+    }
+
+    /// The standard error of the mean, of independent designs; that of a Latin hypercube is smaller.
+    pub fn error_of_mean(&self) -> Option<f64> {
+        Some(self.deviation? / (self.designs as f64).sqrt())
+    }
+}
+
+/// The value below which this part of a rising sample lies, between its members by straight lines: the i-th of n
+/// is the quantile of (i − 1/2)/n.
+///
+/// Source: R. J. Hyndman, Y. Fan, The American Statistician 50 (1996) 361–365, definition 5.
+fn share_below(rising: &[f64], share: f64) -> Option<f64> {
+    let last = rising.len().checked_sub(1)?;
+    let place = (share * rising.len() as f64 - 0.5).clamp(0.0, last as f64);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a position in the sample"
+    )]
+    let below = place as usize;
+    let part = place - below as f64;
+    let above = rising[(below + 1).min(last)];
+    Some(rising[below] + part * (above - rising[below]))
+}
+
+impl Chance {
+    /// The part of the designs that keeps the limit, from 0 to 1.
+    pub fn share(&self) -> f64 {
+        self.kept as f64 / self.designs as f64
+    }
+
+    /// Between which values the probability lies with 95 %, for independent designs. What is not known of some
+    /// designs widens it.
+    ///
+    /// Source: E. B. Wilson, Journal of the American Statistical Association 22 (1927) 209–212.
+    pub fn range(&self) -> (f64, f64) {
+        let count = self.designs as f64;
+        let wilson = |kept: usize, sign: f64| {
+            let share = kept as f64 / count;
+            let square = WITHIN * WITHIN / count;
+            let half = (share * (1.0 - share) * square + 0.25 * square * square).sqrt();
+            ((share + 0.5 * square + sign * half) / (1.0 + square)).clamp(0.0, 1.0)
+        };
+        (wilson(self.kept, -1.0), wilson(self.designs - self.exceeded, 1.0))
+    }
+}
+
+impl ScatterReport {
+    /// What a sweep over the designs of a sample tells.
+    pub fn of(sources: Vec<ScatterSource>, seed: u64, sweep: &SweepReport) -> Self {
+        let columns = sweep.columns.iter().enumerate().filter(|own| !own.1.is_share);
+        let bands = columns.map(|(at, own)| Band::of(&own.key, own.unit, sweep.column(at)));
+        let chance = |(column, limit): &(usize, Limit)| {
+            let judge = |(design, value): (usize, f64)| {
+                let grows = sweep.cut.contains(&(design, *column));
+                limit.bound.judge(value, None, grows)
+            };
+            let judged: Vec<Judgement> = sweep.column(*column).enumerate().map(judge).collect();
+            let count = |which| judged.iter().filter(|own| **own == which).count();
+            Chance {
+                limit: limit.clone(),
+                kept: count(Judgement::Pass),
+                exceeded: count(Judgement::Fail),
+                designs: judged.len(),
+            }
+        };
+        let unsolved = || sweep.gaps.iter().filter(|gap| gap.column.is_none());
+        let why = |gap: &Gap| gap.reason.clone();
+        Self {
+            sources,
+            designs: sweep.points(),
+            seed,
+            bands: bands.collect(),
+            limits: sweep.limits.iter().map(chance).collect(),
+            instantiated: sweep.instantiated,
+            unsolved: unsolved().count(),
+            why: unsolved().next().map(why),
+        }
+    }
+
+    /// The band of the measure with this key.
+    pub fn band(&self, key: &str) -> Option<&Band> {
+        self.bands.iter().find(|own| own.key == key)
+    }
+
+    /// How often this limit is kept.
+    pub fn chance(&self, limit: &Limit) -> Option<&Chance> {
+        self.limits.iter().find(|own| own.limit == *limit)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Bound;
+
+    #[test]
+    fn a_band_has_the_mean_the_deviation_and_the_quantiles_of_its_sample() {
+        let values = (1..=1000).map(f64::from);
+        let own = Band::of("pad.peak-force", "N", values);
+        assert_eq!(own.mean, Some(500.5));
+        // (n² − 1)/12 · n/(n − 1)
+        let right = (1000.0_f64 * 1001.0 / 12.0).sqrt();
+        assert!((own.deviation.unwrap() / right - 1.0).abs() < 1e-14);
+        assert!((own.low.unwrap() - 25.5).abs() < 1e-9 && (own.high.unwrap() - 975.5).abs() < 1e-9);
+        assert!((own.error_of_mean().unwrap() - right / 1000.0_f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_design_without_a_value_leaves_no_mean() {
+        let own = Band::of("pad.contact-time", "s", [1.0, f64::NAN, 3.0].into_iter());
+        assert_eq!((own.mean, own.deviation, own.without), (None, None, 1));
+        assert_eq!((own.low, own.high), (Some(1.0), Some(3.0)));
+        assert_eq!(own.error_of_mean(), None);
+        let none = Band::of("pad.contact-time", "s", [f64::NAN].into_iter());
+        assert_eq!((none.mean, none.low), (None, None));
+    }
+
+    #[test]
+    fn the_range_of_a_probability_is_wilsons_and_is_widened_by_what_is_not_known() {
+        let limit = Limit::new("pad.peak-force", Bound::Max(1.0));
+        let of = |kept: usize, exceeded: usize| {
+            Chance { limit: limit.clone(), kept, exceeded, designs: 100 }.range()
+        };
+        // Brown, Cai, DasGupta, Statistical Science 16 (2001) 101–133: 0 of n ends at z²/(n + z²).
+        let square = WITHIN * WITHIN;
+        let (low, high) = of(100, 0);
+        assert!((low - 100.0 / (100.0 + square)).abs() < 1e-14 && (high - 1.0).abs() < 1e-14);
+        let (low, high) = of(50, 50);
+        let half = (0.25 * square / 100.0 + 0.25 * (square / 100.0).powi(2)).sqrt();
+        assert!((high - low - 2.0 * half / (1.0 + square / 100.0)).abs() < 1e-14);
+        assert!((low + high - 1.0).abs() < 1e-14);
+        assert!(of(50, 40).1 > high && (of(50, 40).0 - low).abs() < 1e-15);
+    }
+}

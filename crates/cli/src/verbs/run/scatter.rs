@@ -1,0 +1,225 @@
+//! What scatter of the scene's numbers makes of a run: a sample of designs, and its words.
+
+use std::{num::NonZero, thread::available_parallelism};
+
+use clap::Args;
+use dashpot_analysis::{
+    Band, Chance, Judged, RunError, RunReport, ScatterReport, ScatterSource, SolveSettings,
+    sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, columns, sweep},
+};
+use dashpot_plot::Table;
+use dashpot_scene::{Diagnostic, Drawn, ReadOptions, Sample, Scene, read, units::si_unit};
+use dashpot_units::percent;
+
+use super::{
+    measures::{Zeros, unit_of_kind},
+    verdict::Line,
+};
+use crate::{
+    args::samples,
+    error::CliError,
+    input::load,
+    numbers::{self, MOST_DIGITS, Unit, rounded},
+    progress::Bar,
+    terminal::Terminal,
+};
+
+/// What is smaller than this part of the largest value of its unit is what rounding leaves of zero.
+const ROUNDING: f64 = 1e-12;
+/// Digits of a standard deviation.
+const FEW: usize = 2;
+/// Digits of what is beside one.
+const DIGITS: usize = 4;
+
+/// How scatter is sampled.
+#[derive(Debug, Clone, Copy, Args)]
+pub(super) struct ScatterArguments {
+    /// So many designs are drawn where numbers of the scene have scatter, such as "20 ± 2 MN/m": a Latin hypercube.
+    #[arg(long, value_name = "NUMBER", value_parser = samples, default_value_t = 500)]
+    sample: usize,
+    /// Which designs are drawn; the same number gives the same ones.
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    seed: u64,
+}
+
+impl ScatterArguments {
+    /// What the designs are drawn with.
+    pub(super) fn seed(self) -> u64 {
+        self.seed
+    }
+}
+
+/// The designs that are drawn from the scatter of a scene, `None` where it has none.
+pub(super) fn drawn(
+    scene: &Scene,
+    arguments: ScatterArguments,
+    plain: &[(String, String)],
+) -> Result<Option<Sample>, CliError> {
+    if scene.scatter.is_empty() {
+        return Ok(None);
+    }
+    let accepts = |text: &str| read(text, &options(scene, plain)).is_ok();
+    Sample::of(&scene.text, arguments.sample, arguments.seed, &accepts).map_err(CliError::Scene)
+}
+
+/// How the text of a scene with scatter is read once more: what is set by a path, and all that has scatter, stands
+/// in it.
+fn options<'o>(scene: &'o Scene, set: &'o [(String, String)]) -> ReadOptions<'o> {
+    ReadOptions { file: scene.file.as_deref(), set, loader: Some(&load) }
+}
+
+/// What is set from outside and has no scatter: names under `[values]`.
+pub(super) fn plainly_set(scene: &Scene, set: &[(String, String)]) -> Vec<(String, String)> {
+    let is_named = |name: &String| scene.values.iter().any(|known| known.name == *name);
+    let has_scatter =
+        |name: &String| scene.scatter.iter().any(|own| own.path == format!("values.{name}"));
+    set.iter().filter(|own| is_named(&own.0) && !has_scatter(&own.0)).cloned().collect()
+}
+
+/// What the designs of a sample give, solved with the settings of a run but without estimates of their errors.
+pub(super) fn solved(
+    scene: &Scene,
+    (sample, seed): (&Sample, u64),
+    (settings, plain): (&SolveSettings, &[(String, String)]),
+    terminal: Terminal,
+) -> Result<Option<ScatterReport>, RunError> {
+    let point = |scene: Scene| {
+        let mut settings = settings.clone();
+        settings.duration = scene.run.duration;
+        ScenePoint { network: scene.network, settings }
+    };
+    let columns = match columns(&point(scene.clone()), &[]) {
+        Ok((columns, _)) => columns.into_iter().filter(|own| !own.is_share).collect::<Vec<_>>(),
+        Err(SweepError::Run(error)) => return Err(error),
+        Err(_) => return Ok(None),
+    };
+    let pose = |places: &[usize]| {
+        let checked = read(&sample.text(places[0]), &options(scene, plain)).map_err(|faults| {
+            faults.list.iter().map(Diagnostic::message).collect::<Vec<_>>().join("; ")
+        })?;
+        Ok(point(checked.value))
+    };
+    let Some(grid) = Grid::new(vec![sample.len()]) else { return Ok(None) };
+    let threads = available_parallelism().map_or(1, NonZero::get);
+    let mut bar = Bar::new("scatter", 0.0, terminal.error.attended);
+    let mut show =
+        |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
+    let options = SweepOptions { threads, estimates: Estimates::Off };
+    let sources = || sample.drawn().iter().map(source).collect();
+    match sweep(&grid, &pose, &columns, options, &mut show) {
+        Ok(report) => Ok(Some(ScatterReport::of(sources(), seed, &report))),
+        Err(SweepError::Run(error)) => Err(error),
+        Err(_) => Ok(None),
+    }
+}
+
+fn source(drawn: &Drawn) -> ScatterSource {
+    let number = &drawn.number;
+    ScatterSource {
+        name: number.name.clone(),
+        text: number.text.clone(),
+        unit: number.dimension.map_or_else(|| "1".to_owned(), si_unit),
+        mean: number.mean,
+        deviation: number.deviation,
+        cut_below: drawn.cut[0],
+        cut_above: drawn.cut[1],
+        beyond: drawn.beyond,
+    }
+}
+
+/// What was drawn, and how it was solved.
+pub(super) fn lines(run: &RunReport) -> Vec<Line> {
+    let Some(own) = &run.scatter else { return Vec::new() };
+    let how = if own.instantiated == own.designs {
+        "instantiated of one compiled form".to_owned()
+    } else if own.instantiated == 0 {
+        "each solved by itself".to_owned()
+    } else {
+        format!("{} of them instantiated of one compiled form", own.instantiated)
+    };
+    let numbers: Vec<String> =
+        own.sources.iter().map(|of| format!("{} = {}", of.name, of.text)).collect();
+    let first = format!(
+        "{}; {} designs (Latin hypercube, seed {}), {how}, without error bars of their own",
+        numbers.join(", "),
+        own.designs,
+        own.seed
+    );
+    let unsolved = own.why.as_ref().map(|why| {
+        format!("{} of the designs could not be solved, the first because {why}", own.unsolved)
+    });
+    let texts = [first].into_iter().chain(own.sources.iter().filter_map(cut_text)).chain(unsolved);
+    texts.map(|text| Line { label: "scatter", text }).collect()
+}
+
+/// Where the distribution of a number is cut off.
+fn cut_text(own: &ScatterSource) -> Option<String> {
+    let bound = |word: &str, at: Option<f64>| {
+        at.map(|at| format!("{word} {}", rounded(at, &own.unit, MOST_DIGITS)))
+    };
+    let bounds = [bound("below", own.cut_below), bound("above", own.cut_above)];
+    let bounds: Vec<String> = bounds.into_iter().flatten().collect();
+    (!bounds.is_empty()).then(|| {
+        format!(
+            "{} is cut off {}, which the scene does not allow: {} of its distribution",
+            own.name,
+            bounds.join(" and "),
+            percent(own.beyond, FEW)
+        )
+    })
+}
+
+/// The probability to keep a limit: `; probability to pass 97.6 % (95.8 to 98.6 %)`.
+pub(super) fn chance(judged: &Judged<'_>) -> Option<String> {
+    let own = judged.chance?;
+    let word = if judged.limit.of_mean {
+        "probability of a single design to pass"
+    } else {
+        "probability to pass"
+    };
+    Some(format!("{word} {}", probability(own)))
+}
+
+fn probability(own: &Chance) -> String {
+    let (low, high) = own.range();
+    let unknown = own.designs - own.kept - own.exceeded;
+    let unknown = match unknown {
+        0 => String::new(),
+        count => format!(", {count} of {} designs not known", own.designs),
+    };
+    let [share, low, high] = [own.share(), low, high].map(in_percent);
+    format!("{share} % ({low} to {high} %{unknown})")
+}
+
+/// A probability in percent to one decimal.
+fn in_percent(share: f64) -> String {
+    let text = format!("{:.1}", 100.0 * share);
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
+}
+
+/// The bands of all measures; nothing where there is no scatter.
+pub(super) fn table(run: &RunReport) -> Option<Table> {
+    let own = run.scatter.as_ref()?;
+    let header = ["measure", "mean", "std. deviation", "2.5 %", "97.5 %", "unit"];
+    let zeros = Zeros::of(std::iter::once(run));
+    let rows = own.bands.iter().map(|band| row(run, band, &zeros));
+    Some(Table::new("Scatter", &header, rows))
+}
+
+fn row(run: &RunReport, band: &Band, zeros: &Zeros) -> Vec<String> {
+    let kind = run.measure(&band.key).map_or("", |own| own.kind);
+    let rounding = ROUNDING * zeros.largest(band.unit);
+    let tidy = |own: f64| if own.abs() <= rounding { 0.0 } else { own };
+    let all = [band.mean, band.deviation, band.low, band.high].map(|own| own.map(tidy));
+    let [mean, deviation, low, high] = all;
+    let largest = all.iter().flatten().fold(0.0, |most: f64, own| most.max(own.abs()));
+    let unit = unit_of_kind(kind, band.unit).unwrap_or_else(|| Unit::suiting(largest, band.unit));
+    // Digits beyond the scatter tell nothing.
+    let digits = |value: f64| numbers::digits(value, deviation.map(|own| 0.01 * own), MOST_DIGITS);
+    let cell = |value: Option<f64>| {
+        value.map_or_else(|| "–".to_owned(), |own| unit.number(own, digits(own).max(DIGITS)))
+    };
+    let deviation = deviation.map_or_else(|| "–".to_owned(), |own| unit.number(own, FEW));
+    let [mean, low, high] = [mean, low, high].map(cell);
+    vec![band.key.clone(), mean, deviation, low, high, unit.symbol.clone()]
+}

@@ -1,0 +1,292 @@
+//! Numbers with scatter, and designs drawn from them.
+
+use dashpot_network::parameters::Dimension;
+use dashpot_numerics::normal::{distribution, quantile};
+use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
+
+use super::{
+    sample::stratified,
+    tunable::{Tunable, Tunables},
+    variation::{handy, number_text},
+};
+use crate::{
+    diagnostics::Diagnostics,
+    quantities::scatter::Scatter,
+    units::{Quantity, parse_quantity},
+};
+
+/// A number of a scene that is normally distributed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScatteredNumber {
+    /// Its path in full.
+    pub path: String,
+    /// The shortest end of the path that tells it from all others.
+    pub name: String,
+    /// The mean in SI units, with which the scene is read.
+    pub mean: f64,
+    /// The standard deviation in SI units, positive.
+    pub deviation: f64,
+    /// What it measures, where a unit is given.
+    pub dimension: Option<Dimension>,
+    /// As it is written, mean and standard deviation in one unit: `20 ± 2 MN/m`.
+    pub text: String,
+}
+
+impl ScatteredNumber {
+    /// The numbers with scatter of a scene's text, in its order; those of no deviation are not among them.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use dashpot_scene::ScatteredNumber;
+    ///
+    /// let own = ScatteredNumber::all("[values]\nK = \"20 ± 2 MN/m\"\nC = \"6 kN s/m\"\n", None)?;
+    /// assert_eq!((own.len(), &*own[0].path, own[0].mean), (1, "values.K", 2e7));
+    /// # Ok::<(), dashpot_scene::Diagnostics>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the text as TOML.
+    pub fn all(text: &str, file: Option<&str>) -> Result<Vec<Self>, Diagnostics> {
+        if !Scatter::is_possible(text) {
+            return Ok(Vec::new());
+        }
+        let tunables = Tunables::of(text, file)?;
+        Ok(scattered(&tunables).map(|(_, own, scatter)| Self::of(own, scatter)).collect())
+    }
+
+    fn of(own: &Tunable, scatter: &Scatter) -> Self {
+        let meant = |quantity: Quantity| match own.dimension {
+            Some(dimension) => quantity.meant(dimension),
+            None => quantity,
+        };
+        let parsed = |number: f64| {
+            parse_quantity(&number_text(number, &scatter.unit))
+                .map_or(f64::NAN, |own| meant(own).value)
+        };
+        // What a unit of its own zero, such as that of degrees Celsius, makes of nothing.
+        let deviation = parsed(scatter.deviation) - parsed(0.0);
+        let spread = number_text(scatter.deviation, &scatter.unit);
+        Self {
+            path: own.path.clone(),
+            name: own.name.clone(),
+            mean: own.value,
+            deviation,
+            dimension: own.dimension,
+            text: format!("{} ± {spread}", number_text(scatter.mean, "")),
+        }
+    }
+}
+
+fn scattered(tunables: &Tunables) -> impl Iterator<Item = (usize, &Tunable, &Scatter)> {
+    let all = tunables.all().iter().enumerate();
+    let known = all.filter_map(|(at, own)| Some((at, own, own.scatter.as_ref()?)));
+    known.filter(|own| own.2.deviation > 0.0)
+}
+
+/// What was drawn for a number with scatter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawn {
+    /// The number.
+    pub number: ScatteredNumber,
+    /// Between which values in SI units the distribution is cut off, because the scene allows no others while
+    /// all else has its mean; `None` where it is not.
+    pub cut: [Option<f64>; 2],
+    /// The part of the normal distribution that is cut off.
+    pub beyond: f64,
+    at: usize,
+    unit: String,
+    values: Vec<f64>,
+}
+
+/// Designs drawn from the scatter of a scene.
+#[derive(Debug, Clone)]
+pub struct Sample {
+    tunables: Tunables,
+    drawn: Vec<Drawn>,
+    count: usize,
+}
+
+/// The bounds of what is allowed are sought to this part of the standard deviation.
+const FINEST: f64 = 1e-6;
+/// Halvings until then, from as far as any value is drawn.
+const HALVINGS: usize = 30;
+/// No value is drawn nearer to the ends of its distribution than this part of it.
+const OUTERMOST: f64 = 1e-12;
+
+impl Sample {
+    /// `count` designs of a Latin hypercube of the numbers with scatter in a scene's text: each distribution is
+    /// cut into `count` parts of equal probability, one value lies at a random place in each, and their order is
+    /// random, independently for each number. The values of a number depend on `seed`, on `count`, on its
+    /// position among those with scatter, and on nothing else. `accepts` tells whether a text can be read; where
+    /// it refuses the outermost values of a number, its distribution is cut off at the first that it refuses.
+    /// `None` where no number has scatter.
+    ///
+    /// Source: M. D. `McKay`, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239–245.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the text as TOML.
+    pub fn of(
+        text: &str,
+        count: usize,
+        seed: u64,
+        accepts: &dyn Fn(&str) -> bool,
+    ) -> Result<Option<Self>, Diagnostics> {
+        if !Scatter::is_possible(text) {
+            return Ok(None);
+        }
+        let tunables = Tunables::of(text, None)?;
+        let drawn: Vec<Drawn> = scattered(&tunables)
+            .zip(0..)
+            .map(|((at, own, scatter), stream)| {
+                let mut random = ChaCha8Rng::seed_from_u64(seed);
+                random.set_stream(stream);
+                let places = stratified(&mut random, count);
+                let number = ScatteredNumber::of(own, scatter);
+                let reads = |value: f64| {
+                    accepts(&tunables.text_with(&[(at, number_text(value, &scatter.unit))]))
+                };
+                drawn((at, number), scatter, &places, &reads)
+            })
+            .collect();
+        Ok((!drawn.is_empty()).then_some(Self { tunables, drawn, count }))
+    }
+
+    /// How many designs there are.
+    #[expect(clippy::len_without_is_empty, reason = "there is one at least")]
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// What was drawn for each number.
+    pub fn drawn(&self) -> &[Drawn] {
+        &self.drawn
+    }
+
+    /// The text of the scene in a design, counted from 0.
+    pub fn text(&self, design: usize) -> String {
+        let value = |own: &Drawn| (own.at, number_text(own.values[design], &own.unit));
+        self.tunables.text_with(&self.drawn.iter().map(value).collect::<Vec<_>>())
+    }
+}
+
+/// The values of a number at these places of its distribution, from 0 to 1.
+fn drawn(
+    (at, number): (usize, ScatteredNumber),
+    scatter: &Scatter,
+    places: &[f64],
+    reads: &dyn Fn(f64) -> bool,
+) -> Drawn {
+    let &Scatter { mean, deviation, .. } = scatter;
+    let values = |[low, high]: [f64; 2]| -> Vec<f64> {
+        let value = |place: &f64| {
+            let share = (low + (high - low) * place).clamp(OUTERMOST, 1.0 - OUTERMOST);
+            handy(mean + deviation * quantile(share))
+        };
+        places.iter().map(value).collect()
+    };
+    let whole = values([0.0, 1.0]);
+    let ends = [f64::min, f64::max].map(|pick| whole.iter().copied().reduce(pick).unwrap_or(mean));
+    let cut = ends.map(|end| (!reads(end)).then(|| bound(mean, end, deviation, reads)));
+    let share = |cut: Option<f64>, none: f64| {
+        cut.map_or(none, |own| distribution((own - mean) / deviation))
+    };
+    let [low, high] = [share(cut[0], 0.0), share(cut[1], 1.0)];
+    let values = if cut == [None, None] { whole } else { values([low, high]) };
+    let per_unit = number.deviation / deviation;
+    Drawn {
+        cut: cut.map(|own| own.map(|own| number.mean + (own - mean) * per_unit)),
+        beyond: low + (1.0 - high),
+        number,
+        at,
+        unit: scatter.unit.clone(),
+        values,
+    }
+}
+
+/// Where what is read ends, between a value that is and one that is not; zero, where that is in between.
+fn bound(read: f64, refused: f64, deviation: f64, reads: &dyn Fn(f64) -> bool) -> f64 {
+    let (mut inner, mut outer) = (read, refused);
+    for _ in 0..HALVINGS {
+        if (outer - inner).abs() <= FINEST * deviation {
+            break;
+        }
+        let middle = 0.5 * (inner + outer);
+        if reads(middle) { inner = middle } else { outer = middle }
+    }
+    let is_between = |own: f64| (own - inner) * (own - outer) <= 0.0;
+    let short = |digits: usize| format!("{inner:.digits$e}").parse::<f64>();
+    let round = (0..6).filter_map(|digits| short(digits).ok());
+    [0.0].into_iter().chain(round).find(|own| is_between(*own)).unwrap_or(inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str =
+        "[values]\nK = \"20 ± 2 MN/m\"\n[nodes]\nhead = { mass = \"5 kg ± 10 %\" }\n";
+
+    fn sample(text: &str, count: usize, accepts: &dyn Fn(&str) -> bool) -> Sample {
+        Sample::of(text, count, 1, accepts).unwrap().unwrap()
+    }
+
+    #[test]
+    fn values_are_quantiles_of_their_distributions_one_in_each_part() {
+        let count = 400;
+        let own = sample(TEXT, count, &|_| true);
+        for drawn in own.drawn() {
+            let mut shares: Vec<f64> = (0..count)
+                .map(|at| {
+                    let unit = drawn.number.mean / if drawn.at == 0 { 20.0 } else { 5.0 };
+                    let value = drawn.values[at] * unit;
+                    distribution((value - drawn.number.mean) / drawn.number.deviation)
+                })
+                .collect();
+            assert!(shares.windows(2).any(|pair| pair[0] > pair[1]), "in random order");
+            shares.sort_by(f64::total_cmp);
+            for (part, share) in shares.iter().enumerate() {
+                let within = share * count as f64 - part as f64;
+                assert!((-1e-9..=1.0 + 1e-9).contains(&within), "{part}: {within}");
+            }
+            assert_eq!((drawn.cut, drawn.beyond), ([None, None], 0.0));
+        }
+        assert_eq!(own.drawn()[1].number.text, "5 ± 0.5 kg");
+        assert!((own.drawn()[1].number.deviation - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_distribution_is_cut_off_where_the_scene_refuses_it() {
+        let text = "[nodes]\nhead = { mass = \"5 ± 4 kg\" }\n";
+        let mass = |text: &str| {
+            let number = text.split('"').nth(1).unwrap();
+            parse_quantity(number).unwrap().value
+        };
+        let own = sample(text, 1000, &|text| mass(text) >= 0.0 && mass(text) < 10.125);
+        let drawn = &own.drawn()[0];
+        assert_eq!(drawn.cut[0], Some(0.0));
+        assert!((drawn.cut[1].unwrap() - 10.125).abs() < 4e-6, "{:?}", drawn.cut);
+        let [low, high] = [-1.25, 5.125 / 4.0].map(distribution);
+        assert!((drawn.beyond - (low + 1.0 - high)).abs() < 1e-6);
+        let values: Vec<f64> = (0..1000).map(|design| mass(&own.text(design))).collect();
+        assert!(values.iter().all(|own| (0.0..10.126).contains(own)));
+        // The median of what is left.
+        let below = values.iter().filter(|own| **own < 5.0 + 4.0 * quantile(0.5 * (low + high)));
+        assert_eq!(below.count(), 500);
+    }
+
+    #[test]
+    fn a_seed_repeats_and_a_scene_without_scatter_has_no_sample() {
+        let texts = |seed: u64| {
+            let own = Sample::of(TEXT, 20, seed, &|_| true).unwrap().unwrap();
+            (0..20).map(|at| own.text(at)).collect::<Vec<_>>()
+        };
+        assert_eq!(texts(1), texts(1));
+        assert_ne!(texts(1), texts(2));
+        for text in ["[values]\nK = \"20 MN/m\"\n", "[values]\nK = \"20 ± 0 MN/m\"\n"] {
+            assert!(Sample::of(text, 20, 1, &|_| true).unwrap().is_none());
+        }
+    }
+}
