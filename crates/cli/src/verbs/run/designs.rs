@@ -276,9 +276,9 @@ impl Study for Designs {
             if chart.series.is_empty() {
                 continue;
             }
-            let svg = chart.svg()?;
-            files.add(format!("{}.svg", figure.name), &svg)?;
-            figures.push(ReportFigure { caption: String::new(), svg });
+            let drawing = ReportFigure::of(&chart)?;
+            files.add(format!("{}.svg", figure.name), &drawing.svg)?;
+            figures.push(drawing);
         }
         let page = Report {
             title: format!("{} designs side by side", self.designs.len()),

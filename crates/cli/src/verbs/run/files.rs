@@ -51,10 +51,11 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
     let count = answer.scene.run.samples.clamp(low, high);
     let series = curves_and_energies(answer.runs.iter(), count);
     let mut figures = Vec::new();
+    let mut drawn = None;
     if is_drawn {
         let svg = sketch(network, answer.scene.run.duration).svg();
         files.add(DRAWING, &svg)?;
-        figures.push(ReportFigure { caption: "The network".to_owned(), svg });
+        drawn = Some(ReportFigure::of_sketch("The network", svg));
     }
     for figure in FIGURES {
         let chart = figure.chart(&series);
@@ -62,11 +63,11 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
         if chart.series.is_empty() {
             continue;
         }
-        let svg = chart.svg()?;
-        files.add(format!("{}.svg", figure.name), &svg)?;
-        figures.push(ReportFigure { caption: String::new(), svg });
+        let drawing = ReportFigure::of(&chart)?;
+        files.add(format!("{}.svg", figure.name), &drawing.svg)?;
+        figures.push(drawing);
     }
-    files.add(PAGE, page(answer, figures).html())?;
+    files.add(PAGE, Report { network: drawn, figures, ..page(answer) }.html())?;
     files.add_with(EVENTS, |out| write_events(&answer.runs, out))?;
     for run in &answer.runs {
         let times = sample_times(run, &answer.scene.run);
@@ -112,8 +113,8 @@ fn write_events(runs: &[RunReport], out: &mut dyn Write) -> io::Result<()> {
     csv(out, header, rows)
 }
 
-/// The page with these drawings.
-pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
+/// The page without its drawings.
+fn page(answer: &Answer) -> Report {
     let mut tables = vec![measures_table(&answer.side())];
     tables.extend(Some(Table::list("Remarks", notes(answer))).filter(|own| !own.rows.is_empty()));
     tables.extend(answer.best().map(energy_table));
@@ -132,9 +133,9 @@ pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
         warnings: failed.chain(answer.warnings()).collect(),
         verdict: changes.chain(lines).collect(),
         tables,
-        figures,
         details,
         scene_text: resolved_scene::text(&answer.scene, &answer.changes),
+        ..Report::default()
     }
 }
 

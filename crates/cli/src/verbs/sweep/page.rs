@@ -1,0 +1,144 @@
+//! The page of a sweep.
+
+use dashpot_analysis::Judgement;
+use dashpot_plot::{Report, ReportFigure, Table};
+
+use super::{
+    Form, Swept,
+    best::{best, best_table},
+    figures::unit,
+    titles::{capital, quantity},
+    words,
+};
+use crate::{
+    input::title,
+    output::list,
+    sketch::{MOST_DRAWN, sketch},
+};
+
+/// So many points stand in a table, and so many of their columns.
+const MOST_POINTS: usize = 40;
+/// Digits of what is computed.
+const DIGITS: usize = 4;
+
+/// Everything that a sweep says, on one page with these figures.
+pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
+    let network = &swept.scene.network;
+    let is_drawn = network.connections().len() <= MOST_DRAWN;
+    let drawing = || sketch(network, swept.scene.run.duration).svg();
+    let (limits, best) = (limits(swept), best(swept));
+    let tables = [
+        Table::list("What varies", swept.in_words()),
+        limits,
+        best_table(swept, &best),
+        extremes(swept),
+        points(swept),
+    ];
+    let details = [settings(swept), Table::list("How it was solved", words::solving(swept))];
+    let has_rows = |table: &Table| !table.rows.is_empty();
+    Report {
+        title: title(&swept.scene).to_owned(),
+        warnings: words::warned(swept),
+        verdict: verdict(swept, &best),
+        network: is_drawn.then(|| ReportFigure::of_sketch("The network", drawing())),
+        tables: tables.into_iter().filter(has_rows).collect(),
+        figures,
+        details: details.into_iter().filter(has_rows).collect(),
+        scene_text: swept.scene.text.to_string(),
+    }
+}
+
+/// How many points there are, how many keep the limits, and the best of them.
+fn verdict(swept: &Swept, best: &[super::best::Design]) -> Vec<String> {
+    let count = swept.report.points();
+    let what = if swept.varied.is_of_rows() { "designs" } else { "points" };
+    let mut lines = vec![format!("{count} {what} solved")];
+    lines.extend(words::kept(&swept.report));
+    if let Some(first) = best.first().filter(|_| !swept.report.limits.is_empty()) {
+        let word = if first.passes { "best" } else { "nearest to passing" };
+        lines.push(format!("{word}: {}, {}", swept.at(first.point), first.margin_in_words()));
+    }
+    lines
+}
+
+/// How many points keep each limit.
+fn limits(swept: &Swept) -> Table {
+    let report = &swept.report;
+    let row = |at: usize| {
+        let (column, limit) = &report.limits[at];
+        let judged = report.judged(at);
+        let count = |which: Option<Judgement>| {
+            judged.iter().filter(|own| **own == which).count().to_string()
+        };
+        let name = capital(&quantity(&report.columns[*column]));
+        let bound = words::limit(report, *column, limit);
+        let own = [Judgement::Pass, Judgement::Fail, Judgement::Undecided].map(Some);
+        list([name, bound].into_iter().chain(own.map(count)).chain([count(None)]))
+    };
+    let header = ["measure", "limit", "pass", "fail", "undecided", "no value"];
+    Table::new("Limits", &header, (0..report.limits.len()).map(row))
+}
+
+/// The lowest and the highest value of each measure, and where they are.
+fn extremes(swept: &Swept) -> Table {
+    let report = &swept.report;
+    let row = |at: usize| {
+        let known = || report.column(at).enumerate().filter(|own| own.1.is_finite());
+        let ends = [
+            known().min_by(|one, other| one.1.total_cmp(&other.1)),
+            known().max_by(|one, other| one.1.total_cmp(&other.1)),
+        ];
+        let unit = unit(report, at);
+        let told = |own: Option<(usize, f64)>| match own {
+            Some((point, value)) => [unit.text(value, DIGITS), swept.at(point)],
+            None => ["–".to_owned(), String::new()],
+        };
+        let name = capital(&quantity(&report.columns[at]));
+        list([name].into_iter().chain(ends.into_iter().flat_map(told)))
+    };
+    let header = ["measure", "lowest", "at", "highest", "at"];
+    Table::new("Lowest and highest", &header, (0..report.columns.len()).map(row))
+}
+
+/// All points with their values, where they are few.
+fn points(swept: &Swept) -> Table {
+    let report = &swept.report;
+    if report.points() > MOST_POINTS {
+        return Table::default();
+    }
+    let units = list((0..report.columns.len()).map(|at| unit(report, at)));
+    let names = swept.varied.variations.iter().map(|own| own.name.clone());
+    let measures = report.columns.iter().zip(&units).map(|(column, unit)| {
+        let name = words::name(column);
+        if unit.symbol.is_empty() { name } else { format!("{name} ({})", unit.symbol) }
+    });
+    let row = |point: usize| {
+        let given = swept.values_at(point).into_iter();
+        let own = units.iter().enumerate().map(|(at, unit)| {
+            let value = report.values[point * units.len() + at];
+            if value.is_finite() { unit.number(value, DIGITS) } else { "–".to_owned() }
+        });
+        list(given.chain(own))
+    };
+    Table {
+        caption: "All points".to_owned(),
+        header: list(names.chain(measures)),
+        rows: list((0..report.points()).map(row)),
+    }
+}
+
+/// What was asked for.
+fn settings(swept: &Swept) -> Table {
+    let form = match swept.varied.form {
+        Form::Combined | Form::Mixed(_) => "all combinations",
+        Form::Listed => "the rows of a table",
+        Form::Sampled => "a Latin hypercube",
+    };
+    let own = [
+        ("scene", swept.scene.file.clone().unwrap_or_default()),
+        ("points", format!("{}, {form}", swept.report.points())),
+    ];
+    let asked = swept.asked.iter().map(|(name, value)| (*name, value.clone()));
+    let rows = own.into_iter().chain(asked).filter(|own| !own.1.is_empty());
+    Table::new("Settings", &[], rows.map(|(name, value)| vec![name.to_owned(), value]))
+}
