@@ -1,17 +1,17 @@
 //! Arrowheads on curves: in which direction they are run through.
 
-use super::Chart;
+use super::{Chart, Pattern};
 use crate::{axis::Frame, decimation::Path, theme::Colour};
 
 /// Length and half the width of an arrowhead \[px\].
 const SIZE: (f64, f64) = (12.0, 4.6);
 /// Distance of the first one from the beginning of a curve, and of each from the one before, along the curve \[px\].
 const FIRST: f64 = 70.0;
-const APART: f64 = 150.0;
+const APART: f64 = 170.0;
 /// Least distance of two arrowheads from each other, and from a marker \[px\].
 const CLEAR: f64 = 20.0;
 /// So many stand on one curve at most.
-const MOST: usize = 6;
+const MOST: usize = 5;
 /// Steps in which a place is looked for \[px\].
 const STEP: f64 = 5.0;
 /// A curve bends less than this within an arrowhead: the chord as a part of the way.
@@ -33,7 +33,13 @@ impl Chart {
             return all;
         }
         let mut taken: Path = self.marked().map(|own| frame.at(own.x, own.y)).collect();
+        // What is drawn on a broad curve runs as that does.
+        let is_broad = |index: &usize| self.pen(*index).pattern == Pattern::Broad;
+        let are_broad = (0..curves.len()).any(|index| is_broad(&index));
         for (index, paths) in curves.iter().enumerate() {
+            if are_broad && !is_broad(&index) {
+                continue;
+            }
             let colour = self.pen(index).colour;
             let mut left = MOST;
             for path in paths {
@@ -133,6 +139,6 @@ mod tests {
             assert!(along(&path, &mut Path::new(), 6).is_empty());
         }
         let long: Path = (0..9000).map(|i| (f64::from(i), 0.0)).collect();
-        assert_eq!(along(&long, &mut Path::new(), 6).len(), 6);
+        assert_eq!(along(&long, &mut Path::new(), MOST).len(), MOST);
     }
 }

@@ -17,7 +17,7 @@ use plotters::{
 /// Distance of two names below each other \[px\].
 const ROW: f64 = 1.3 * theme::TICK_SIZE;
 /// Curves whose ends are nearer than this are not told apart there \[px\].
-const APART: f64 = 4.0;
+const APART: f64 = 2.6;
 /// No name is further from the height of its end than this \[px\].
 const FAR: f64 = 44.0;
 /// No name is wider than this part of the drawing.

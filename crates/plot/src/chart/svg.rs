@@ -99,32 +99,8 @@ impl Chart {
             }
             svg += &layer(size, "class=\"names\"", |area| ends.draw(area, corner))?;
         }
-        svg += &self.draw_texts(size, &self.place_texts(&frame, &curves, &arrowheads))?;
+        svg += &drawn_texts(size, &self.place_texts(&frame, &curves, &arrowheads))?;
         Ok(svg + "</svg>\n")
-    }
-
-    /// What stands within the frame beside curves.
-    fn draw_texts(&self, size: (f64, f64), texts: &Texts) -> Result<String, Fault> {
-        let halo = |class: &str| {
-            format!(
-                "class=\"{class}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" \
-                 paint-order=\"stroke\"",
-                theme::PAPER.hex(),
-                pixels(theme::HALO_WIDTH)
-            )
-        };
-        let mut svg = layer(size, "class=\"leaders\"", |area| {
-            let style = line(theme::FAINT, theme::HAIR_WIDTH);
-            texts.leaders.iter().try_for_each(|ends| area.draw(&path(ends, style)))
-        })?;
-        svg += &layer(size, &halo("limit-labels"), |area| draw_texts(area, &texts.limits))?;
-        svg += &layer(size, &halo("labels"), |area| {
-            let disc =
-                |at| Circle::new(at, pixels(theme::MARKER_RADIUS), theme::INK.rgb().filled());
-            texts.discs.iter().try_for_each(|at| area.draw(&disc(canvas(*at))))?;
-            draw_texts(area, &texts.markers)
-        })?;
-        Ok(svg)
     }
 
     /// Where everything is on a sheet.
@@ -216,6 +192,29 @@ fn draw_sample(area: &Area<'_>, entry: &Entry, origin: (f64, f64)) -> Drawn {
     }
     let style = text_style(theme::TICK_SIZE, theme::INK, Pos::new(HPos::Left, VPos::Center));
     area.draw(&Text::new(entry.text.clone(), canvas((x + Legend::SAMPLE + 6.0, y)), style))
+}
+
+/// What stands within the frame beside curves.
+fn drawn_texts(size: (f64, f64), texts: &Texts) -> Result<String, Fault> {
+    let halo = |class: &str| {
+        format!(
+            "class=\"{class}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" \
+             paint-order=\"stroke\"",
+            theme::PAPER.hex(),
+            pixels(theme::HALO_WIDTH)
+        )
+    };
+    let mut svg = layer(size, "class=\"leaders\"", |area| {
+        let style = line(theme::FAINT, theme::HAIR_WIDTH);
+        texts.leaders.iter().try_for_each(|ends| area.draw(&path(ends, style)))
+    })?;
+    svg += &layer(size, &halo("limit-labels"), |area| draw_texts(area, &texts.limits))?;
+    svg += &layer(size, &halo("labels"), |area| {
+        let disc = |at| Circle::new(at, pixels(theme::MARKER_RADIUS), theme::INK.rgb().filled());
+        texts.discs.iter().try_for_each(|at| area.draw(&disc(canvas(*at))))?;
+        draw_texts(area, &texts.markers)
+    })?;
+    Ok(svg)
 }
 
 #[cfg(test)]

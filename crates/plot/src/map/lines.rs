@@ -93,19 +93,24 @@ impl Map {
             let lines = self.on_canvas(frame, shares, colours.axis.fraction(level));
             lines.iter().for_each(|line| draw_path(svg, line));
             if lines.iter().any(|line| length(line) >= LEAST_LABELLED) {
-                texts.put(&colours.axis.label_apart(level), &lines, false);
+                texts.put(&colours.axis.label_apart(level), &lines, None);
             }
         }
         svg.push_str("</g>\n");
     }
 
-    /// Draws the line of a limit over a hatching of what lies beyond it, and puts its text.
+    /// The lines of a limit on the canvas.
+    pub(super) fn limit_lines(&self, frame: &Frame, limit: &MapLimit) -> Vec<Vec<(f64, f64)>> {
+        self.on_canvas(frame, &limit.values, limit.at)
+    }
+
+    /// Draws the lines of a limit over a hatching of what lies beyond it.
     pub(super) fn draw_limit(
         &self,
         svg: &mut String,
         frame: &Frame,
-        (limit, pattern): (&MapLimit, &str),
-        texts: &mut Texts<'_>,
+        (limit, lines): (&MapLimit, &[Vec<(f64, f64)>]),
+        pattern: &str,
     ) {
         if !self.are_on_grid(&limit.values) {
             return;
@@ -126,7 +131,6 @@ impl Map {
                 );
             }
         }
-        let lines = self.on_canvas(frame, &limit.values, limit.at);
         for (class, colour, width) in
             [("halo", theme::PAPER, LINES[2]), ("limits", theme::LIMIT, LINES[1])]
         {
@@ -139,23 +143,24 @@ impl Map {
             lines.iter().for_each(|line| draw_path(svg, line));
             svg.push_str("</g>\n");
         }
-        texts.put(&one_line(&limit.label), &lines, true);
     }
+}
 
-    /// What is to be said of a limit without a line: that all of the map lies on one side of it.
-    pub(super) fn unlined(&self, limit: &MapLimit) -> Option<String> {
-        let mut known = limit.values.iter().filter(|own| own.is_finite()).peekable();
+impl MapLimit {
+    /// What is to be said of it without a line: that all of the map lies on one side of it.
+    pub(super) fn unlined(&self) -> Option<String> {
+        let mut known = self.values.iter().filter(|own| own.is_finite()).peekable();
         known.peek()?;
         let [above, below] =
-            [known.clone().all(|own| *own >= limit.at), known.clone().all(|own| *own <= limit.at)];
-        let word = match limit.kept {
+            [known.clone().all(|own| *own >= self.at), known.clone().all(|own| *own <= self.at)];
+        let word = match self.kept {
             Side::Below if below => "kept everywhere",
             Side::Above if above => "kept everywhere",
             Side::Below if above => "kept nowhere",
             Side::Above if below => "kept nowhere",
             _ => return None,
         };
-        Some(format!("{}: {word}", one_line(&limit.label)))
+        Some(format!("{}: {word}", one_line(&self.label)))
     }
 }
 
@@ -163,16 +168,16 @@ impl Map {
 pub(super) fn hatch(pattern: &str) -> String {
     let line = |colour: theme::Colour, width: f64, opacity: f64| {
         format!(
-            "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"9\" stroke=\"{}\" stroke-width=\"{width}\" \
+            "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"14\" stroke=\"{}\" stroke-width=\"{width}\" \
              stroke-opacity=\"{opacity}\"/>",
             colour.hex()
         )
     };
     format!(
-        "<defs><pattern id=\"{pattern}\" width=\"9\" height=\"9\" patternUnits=\"userSpaceOnUse\" \
+        "<defs><pattern id=\"{pattern}\" width=\"14\" height=\"14\" patternUnits=\"userSpaceOnUse\" \
          patternTransform=\"rotate(45)\">{}{}</pattern></defs>\n",
-        line(theme::PAPER, 5.0, 0.35),
-        line(theme::LIMIT, 2.0, 0.8),
+        line(theme::PAPER, 3.4, 0.3),
+        line(theme::LIMIT, 1.3, 0.6),
     )
 }
 

@@ -19,7 +19,7 @@ use crate::{
     Scale,
     axis::{Axis, Frame},
     chart::Heading,
-    text_metrics::{clip_width, escape, text_width},
+    text_metrics::{clip_width, escape, one_line, text_width},
     theme::{self, Sheet},
 };
 
@@ -164,8 +164,16 @@ impl Map {
         let mut texts = Texts::new(&frame);
         self.draw_bands(&mut svg, &frame, &shares);
         let mut own = String::new();
-        for limit in &self.limits {
-            self.draw_limit(&mut own, &frame, (limit, &pattern), &mut texts);
+        let lines: Vec<_> =
+            self.limits.iter().map(|limit| self.limit_lines(&frame, limit)).collect();
+        for (limit, of_limit) in self.limits.iter().zip(&lines) {
+            self.draw_limit(&mut own, &frame, (limit, of_limit), &pattern);
+        }
+        for (at, limit) in self.limits.iter().enumerate() {
+            let others = lines.iter().enumerate().filter(|other| other.0 != at);
+            let others: Vec<_> =
+                others.flat_map(|other| other.1.iter().flatten().copied()).collect();
+            texts.put(&one_line(&limit.label), &lines[at], Some(&others));
         }
         self.draw_lines(&mut svg, &frame, (&shares, &colours), &mut texts);
         svg += &own;
@@ -188,7 +196,7 @@ impl Map {
 
     /// The remark, and which limits are kept everywhere or nowhere.
     fn remark(&self) -> String {
-        let unlined = self.limits.iter().filter_map(|limit| self.unlined(limit));
+        let unlined = self.limits.iter().filter_map(MapLimit::unlined);
         let own = Some(self.note.clone()).filter(|own| !own.is_empty());
         own.into_iter().chain(unlined).collect::<Vec<_>>().join("; ")
     }

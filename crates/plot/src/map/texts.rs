@@ -12,6 +12,8 @@ use crate::{
 const ROOM: f64 = 7.0;
 /// How much wider bold letters are.
 const BOLD: f64 = 1.12;
+/// So many places of other lines are as bad under a text as another text.
+const WORSE: usize = 1000;
 /// So many places along a line are looked at.
 const PLACES: usize = 24;
 
@@ -25,6 +27,11 @@ struct Placed {
 }
 
 impl Placed {
+    fn holds(&self, (x, y): &(f64, f64)) -> bool {
+        (self.at.0 - x).abs() < self.half + 3.0
+            && (self.at.1 - y).abs() < 0.5 * theme::TICK_SIZE + 3.0
+    }
+
     fn covers(&self, other: &Self) -> bool {
         (self.at.0 - other.at.0).abs() < self.half + other.half + ROOM
             && (self.at.1 - other.at.1).abs() < theme::TICK_SIZE + 0.5 * ROOM
@@ -43,9 +50,15 @@ impl<'f> Texts<'f> {
         Self { frame, placed: Vec::new() }
     }
 
-    /// Puts a text on one of the lines, as near to its middle as it is free; longer lines come first. A bold one that
-    /// finds no free place stands where it covers the fewest.
-    pub(super) fn put(&mut self, text: &str, lines: &[Vec<(f64, f64)>], is_bold: bool) {
+    /// Puts a text on one of the lines or beside it, as near to its middle as it is free; longer lines come first. One
+    /// that keeps off `others` is bold, and where no place is free stands where it covers the least.
+    pub(super) fn put(
+        &mut self,
+        text: &str,
+        lines: &[Vec<(f64, f64)>],
+        others: Option<&[(f64, f64)]>,
+    ) {
+        let is_bold = others.is_some();
         let room = self.frame.right - self.frame.left - 2.0 * ROOM;
         let text = clip_width(text, theme::TICK_SIZE, room / BOLD);
         let bold = if is_bold { BOLD } else { 1.0 };
@@ -53,9 +66,14 @@ impl<'f> Texts<'f> {
         let mut longest: Vec<&Vec<(f64, f64)>> = lines.iter().collect();
         longest.sort_by(|one, other| length(other).total_cmp(&length(one)));
         let mut best: Option<(usize, Placed)> = None;
-        for at in longest.into_iter().flat_map(|line| places(line)) {
+        let on_lines: Vec<_> = longest.into_iter().flat_map(|line| places(line)).collect();
+        let aside = |shift: f64| on_lines.iter().map(move |at| (at.0 + shift, at.1));
+        let beside = [half + ROOM, -half - ROOM].map(aside).into_iter().flatten();
+        for at in aside(0.0).chain(beside.filter(|_| is_bold)) {
             let placed = Placed { at: self.within(at, half), half, text: text.clone(), is_bold };
-            let covered = self.placed.iter().filter(|own| own.covers(&placed)).count();
+            let texts = self.placed.iter().filter(|own| own.covers(&placed)).count();
+            let struck = others.unwrap_or_default().iter().filter(|own| placed.holds(own)).count();
+            let covered = WORSE * texts + struck;
             if best.as_ref().is_none_or(|own| covered < own.0) {
                 best = Some((covered, placed));
             }

@@ -6,7 +6,7 @@ use dashpot_scene::Variation;
 
 use super::{
     Swept, Varied,
-    titles::{capital, parameter, quantity},
+    titles::{capital, parameter, parameters, quantity},
     words::{self, shown},
 };
 use crate::{input::title, numbers::Unit};
@@ -126,13 +126,11 @@ pub(super) fn lines(swept: &Swept, column: usize) -> Chart {
     };
     let drawn = drawn(count, is_of_words);
     let own = quantity(&report.columns[column]);
-    let mut heading = format!("{} over {}", capital(&own), parameter(&variations[over].name));
-    if let Some(family) = family {
-        heading += &match drawn.len() {
-            all if all == count => format!(", for each {}", parameter(&family.name)),
-            some => format!(", for {some} of {count} values of {}", parameter(&family.name)),
-        };
-    }
+    let for_each = family.map_or_else(String::new, |family| match drawn.len() {
+        all if all == count => format!(", for each {}", parameter(&family.name)),
+        some => format!(", for {some} of {count} values of {}", parameter(&family.name)),
+    });
+    let heading = format!("{} over {}{for_each}", capital(&own), parameter(&variations[over].name));
     let line_at = |at: f64, label: String| {
         let direction = Direction::Horizontal;
         ReferenceLine { direction, at, label, colour: None }
@@ -193,10 +191,10 @@ pub(super) fn map(swept: &Swept, column: usize) -> Map {
     let values = turned(report.column(column).map(|own| unit.of(own)).collect());
     let shown = limits_of(report, column).map(|own| unit.of(own.bound.level()));
     let shown = shown.chain(own.is_share.then_some(1.0)).collect();
-    let names = swept.varied.variations.iter().map(|own| parameter(&own.name));
+    let names: Vec<&str> = swept.varied.variations.iter().map(|own| own.name.as_str()).collect();
     let quantity = quantity(own);
     Map {
-        title: format!("{} over {}", capital(&quantity), names.collect::<Vec<_>>().join(" and ")),
+        title: format!("{} over {}", capital(&quantity), parameters(&names)),
         note: title(&swept.scene).to_owned(),
         x_label,
         y_label,

@@ -48,6 +48,18 @@ pub(super) fn parameter(path: &str) -> String {
     }
 }
 
+/// Parameters in words, with what they have in common told once: `maxwell spring and kelvin dashpot of padding`.
+pub(super) fn parameters(paths: &[&str]) -> String {
+    let words: Vec<String> = paths.iter().map(|path| parameter(path)).collect();
+    let owner = |own: &String| own.rsplit_once(" of ").map(|own| own.1.to_owned());
+    let last = words.last().and_then(owner);
+    let shared = last.filter(|last| words.iter().all(|own| owner(own).as_ref() == Some(last)));
+    let Some(shared) = shared else { return words.join(" and ") };
+    let end = format!(" of {shared}");
+    let bare: Vec<&str> = words.iter().map(|own| own.strip_suffix(&end).unwrap_or(own)).collect();
+    bare.join(" and ") + &end
+}
+
 fn spaced(word: &str) -> String {
     word.replace('-', " ")
 }
@@ -88,5 +100,8 @@ mod tests {
         ] {
             assert_eq!(parameter(path), right);
         }
+        let both = parameters(&["padding.maxwell.spring", "padding.kelvin.dashpot"]);
+        assert_eq!(both, "maxwell spring and kelvin dashpot of padding");
+        assert_eq!(parameters(&["head.velocity", "K"]), "velocity of head and K");
     }
 }
