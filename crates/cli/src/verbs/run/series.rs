@@ -294,7 +294,7 @@ mod tests {
         assert!((peak.time - quarter).abs() < 1e-9, "{} {quarter}", peak.time);
         assert_eq!(peak.moment, "3.15 ms");
         let chart = FORCE_TIME.chart(&[series]);
-        assert_eq!(chart.note, "first touch at 451.5 ms of 600 ms");
+        assert_eq!(chart.note, "first touch at 451.52 ms of 600 ms");
         assert_eq!(chart.x_label, "time from first touch (ms)");
     }
 
