@@ -2,6 +2,8 @@
 
 mod logarithmic;
 
+use crate::{text_metrics::text_width, theme};
+
 /// Values beyond this magnitude are drawn at it, so that a span never overflows.
 const LARGEST: f64 = 1e290;
 /// Ranges narrower than this part of their values hold nothing but round-off and are drawn as a constant.
@@ -286,6 +288,13 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
+    /// The middle of a label below the frame, in a drawing of this width \[px\]: that of the frame, unless the label
+    /// would reach beyond the margin.
+    pub(crate) fn middle_of(&self, label: &str, width: f64) -> f64 {
+        let half = 0.5 * text_width(label, theme::LABEL_SIZE) + theme::MARGIN;
+        (0.5 * (self.left + self.right)).min(width - half).max(half)
+    }
+
     /// Where the point (`x`, `y`) of the data lies.
     pub(crate) fn at(&self, x: f64, y: f64) -> (f64, f64) {
         (

@@ -51,15 +51,16 @@ impl Chart {
         }
         let border = [(left, top), (left, bottom), (right, bottom)];
         area.draw(&path(&border, line(theme::INK, theme::LINE_WIDTH)))?;
-        self.draw_labels(area, frame)
+        self.draw_labels(area, frame, width)
     }
 
-    fn draw_labels(&self, area: &Area<'_>, frame: &Frame) -> Drawn {
-        let Frame { left, right, top, bottom, .. } = *frame;
+    fn draw_labels(&self, area: &Area<'_>, frame: &Frame, width: f64) -> Drawn {
+        let Frame { top, bottom, .. } = *frame;
         let text = |text: &str, size: f64, room: f64| clip_width(&one_line(text), size, room);
-        let x_label = text(&frame.x.title(&self.x_label), theme::LABEL_SIZE, right - left);
+        let x_label =
+            text(&frame.x.title(&self.x_label), theme::LABEL_SIZE, width - 2.0 * theme::MARGIN);
         let below = text_style(theme::LABEL_SIZE, theme::INK, Pos::new(HPos::Center, VPos::Top));
-        let at = canvas((0.5 * (left + right), bottom + 13.0 + theme::TICK_SIZE));
+        let at = canvas((frame.middle_of(&x_label, width), bottom + 13.0 + theme::TICK_SIZE));
         area.draw(&Text::new(x_label, at, below))?;
         let y_label = text(&frame.y.title(&self.y_label), theme::LABEL_SIZE, bottom - top);
         let beside = text_style(theme::LABEL_SIZE, theme::INK, Pos::new(HPos::Center, VPos::Top))

@@ -178,7 +178,7 @@ impl Map {
         self.draw_lines(&mut svg, &frame, (&shares, &colours), &mut texts);
         svg += &own;
         texts.draw(&mut svg);
-        self.draw_axes(&mut svg, &frame, &heading);
+        self.draw_axes(&mut svg, &frame, &heading, sheet.width);
         bar::draw(&mut svg, &frame, &colours, &self.value_label);
         svg + "</svg>\n"
     }
@@ -230,7 +230,7 @@ impl Map {
         svg.push_str("</g>\n");
     }
 
-    fn draw_axes(&self, svg: &mut String, frame: &Frame, heading: &Heading) {
+    fn draw_axes(&self, svg: &mut String, frame: &Frame, heading: &Heading, width: f64) {
         let Frame { left, right, top, bottom, .. } = *frame;
         let _ = writeln!(
             svg,
@@ -270,8 +270,9 @@ impl Map {
             if *size > theme::TICK_SIZE { texts.push(own) } else { svg.push_str(&own) }
         }
         svg.push_str("</g>\n");
-        let x_label = clip_width(&frame.x.title(&self.x_label), theme::LABEL_SIZE, right - left);
-        let middle = (0.5 * (left + right), bottom + 18.0 + 1.6 * theme::LABEL_SIZE);
+        let room = width - 2.0 * theme::MARGIN;
+        let x_label = clip_width(&frame.x.title(&self.x_label), theme::LABEL_SIZE, room);
+        let middle = (frame.middle_of(&x_label, width), bottom + 18.0 + 1.6 * theme::LABEL_SIZE);
         texts.push(text(middle, "middle", theme::LABEL_SIZE, &x_label));
         let y_label = clip_width(&frame.y.title(&self.y_label), theme::LABEL_SIZE, bottom - top);
         texts.push(upright(theme::MARGIN + theme::LABEL_SIZE, 0.5 * (top + bottom), &y_label));
