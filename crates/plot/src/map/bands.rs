@@ -88,7 +88,7 @@ impl Field {
     }
 
     /// Whether values run smoothly in the square whose lowest corner is this point.
-    fn is_smooth(&self, (column, row): (usize, usize)) -> bool {
+    pub(super) fn is_smooth(&self, (column, row): (usize, usize)) -> bool {
         column + 1 < self.columns
             && row + 1 < self.rows
             && self.smooth[row * (self.columns - 1) + column]

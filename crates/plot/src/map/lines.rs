@@ -43,11 +43,16 @@ impl Map {
         !self.x.is_empty() && values.len() == self.x.len() * self.y.len()
     }
 
-    fn on_canvas(&self, frame: &Frame, values: &[f64], level: f64) -> Vec<Vec<(f64, f64)>> {
+    fn on_canvas(
+        &self,
+        frame: &Frame,
+        (values, level): (&[f64], f64),
+        wanted: impl Fn((usize, usize)) -> bool,
+    ) -> Vec<Vec<(f64, f64)>> {
         if !self.are_on_grid(values) {
             return Vec::new();
         }
-        let lines = contours(values, self.x.len(), level);
+        let lines = contours(values, self.x.len(), level, wanted);
         let on_canvas = |line: Vec<(f64, f64)>| {
             line.into_iter().map(|own| self.place(frame, own)).collect::<Vec<_>>()
         };
@@ -79,7 +84,7 @@ impl Map {
         &self,
         svg: &mut String,
         frame: &Frame,
-        (shares, colours): (&[f64], &Colours),
+        (field, shares, colours): (&Field, &[f64], &Colours),
         texts: &mut Texts<'_>,
     ) {
         let _ = writeln!(
@@ -90,7 +95,10 @@ impl Map {
             LINES[0]
         );
         for &level in colours.axis.ticks() {
-            let lines = self.on_canvas(frame, shares, colours.axis.fraction(level));
+            let lines = {
+                let level = (shares, colours.axis.fraction(level));
+                self.on_canvas(frame, level, |own| field.is_smooth(own))
+            };
             lines.iter().for_each(|line| draw_path(svg, line));
             if lines.iter().any(|line| length(line) >= LEAST_LABELLED) {
                 texts.put(&colours.axis.label_apart(level), &lines, None);
@@ -101,7 +109,7 @@ impl Map {
 
     /// The lines of a limit on the canvas.
     pub(super) fn limit_lines(&self, frame: &Frame, limit: &MapLimit) -> Vec<Vec<(f64, f64)>> {
-        self.on_canvas(frame, &limit.values, limit.at)
+        self.on_canvas(frame, (&limit.values, limit.at), |_| true)
     }
 
     /// Draws the lines of a limit over a hatching of what lies beyond it.

@@ -162,7 +162,8 @@ impl Map {
             .map(|at| self.values.get(at).map_or(f64::NAN, |own| colours.share(*own)))
             .collect();
         let mut texts = Texts::new(&frame);
-        self.draw_bands(&mut svg, &frame, &shares);
+        let field = Field::new(shares.clone(), self.x.len());
+        self.draw_bands(&mut svg, &frame, &field);
         let mut own = String::new();
         let lines: Vec<_> =
             self.limits.iter().map(|limit| self.limit_lines(&frame, limit)).collect();
@@ -175,7 +176,7 @@ impl Map {
                 others.flat_map(|other| other.1.iter().flatten().copied()).collect();
             texts.put(&one_line(&limit.label), &lines[at], Some(&others));
         }
-        self.draw_lines(&mut svg, &frame, (&shares, &colours), &mut texts);
+        self.draw_lines(&mut svg, &frame, (&field, &shares, &colours), &mut texts);
         svg += &own;
         texts.draw(&mut svg);
         self.draw_axes(&mut svg, &frame, &heading, sheet.width);
@@ -202,8 +203,7 @@ impl Map {
     }
 
     /// Draws bands of colour where values run smoothly, each over the one below, and blocks elsewhere.
-    fn draw_bands(&self, svg: &mut String, frame: &Frame, shares: &[f64]) {
-        let field = Field::new(shares.to_vec(), self.x.len());
+    fn draw_bands(&self, svg: &mut String, frame: &Frame, field: &Field) {
         svg.push_str("<g class=\"blocks\" shape-rendering=\"crispEdges\">\n");
         for (point, middle) in field.blocks() {
             let (x, y) = self.place(frame, (point.0 as f64, point.1 as f64));
