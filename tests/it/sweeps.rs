@@ -163,10 +163,12 @@ fn a_folder_holds_table_object_lines_and_maps() {
     assert_eq!(records(&read("sweep.csv")).len(), 1 + 20);
     assert!(read("result.json").starts_with("{\n  \"dashpot\""));
     let lines = read("padding.peak-force.svg");
-    assert!(lines.contains("padding.kelvin.dashpot = 2 kN s/m"));
+    assert!(lines.contains("Peak force of padding over maxwell spring of padding"), "{lines}");
+    assert!(lines.contains("data-name=\"2 kN s/m\""));
     let map = read("padding.peak-force-map.svg");
     assert!(
-        map.contains("padding.peak-force (kN)") && map.contains("padding.kelvin.dashpot (kN s/m)")
+        map.contains("peak force of padding (kN)")
+            && map.contains("kelvin dashpot of padding (kN s/m)")
     );
     let shown = out(&done);
     assert!(shown.lines().all(|line| line.chars().count() <= 80), "{shown}");
@@ -304,7 +306,7 @@ fn three_parameters_have_no_figure_and_many_lines_are_thinned() {
     let into = |name: &str| folder.path().join(name).display().to_string();
     let [one, two, three] = [
         "head.velocity=8,9 m/s",
-        "padding.maxwell.spring=5..80 MN/m,12,log",
+        "padding.maxwell.spring=5..80 MN/m,13,log",
         "panel.mass=50,100 kg",
     ];
     let force = ["--measure", "padding.peak-force", "--out"];
@@ -314,13 +316,13 @@ fn three_parameters_have_no_figure_and_many_lines_are_thinned() {
     let done = run(&[&all[..6], &force, &[&into("two")]].concat());
     assert_eq!(code(&done), 0, "{}", err(&done));
     let lines = std::fs::read_to_string(folder.path().join("two/padding.peak-force.svg")).unwrap();
-    assert!(lines.contains("7 of 12 lines"), "{lines}");
-    assert!(lines.contains("= 5 MN/m") && lines.contains("= 80 MN/m"));
+    assert!(lines.contains("for 7 of 13 values of maxwell"), "{lines}");
+    assert!(lines.contains("=\"5 MN/m\"") && lines.contains("=\"80 MN/m\""));
     let flipped = ["sweep", "reference", "--vary", two, "--vary", "padding.thickness=100,400 mm"];
     let done = run(&[&flipped[..], &force, &[&into("axis")]].concat());
     assert_eq!(code(&done), 0, "{}", err(&done));
     let lines = std::fs::read_to_string(folder.path().join("axis/padding.peak-force.svg")).unwrap();
-    assert!(lines.contains("padding.maxwell.spring (MN/m)"), "{lines}");
+    assert!(lines.contains("maxwell spring of padding (MN/m)"), "{lines}");
 }
 
 /// A scene on foam or on a spring, with the numbers that a table gives other values.

@@ -36,7 +36,8 @@ fn the_folder_holds_every_figure_its_numbers_and_the_report() {
         assert_eq!(target.join(format!("{stem}.csv")).is_file(), ![1, 21].contains(&number));
         assert!(markdown.contains(&format!("({stem}.svg)")), "{stem}");
     }
-    assert_eq!(page.matches("<svg").count(), 20);
+    // Two networks, and each chart for pages and for phones.
+    assert_eq!(page.matches("<svg").count(), 2 + 2 * 18);
     // Beside each curve stand its padding and what it does; beyond the thickness it is marked.
     let curves = fs::read_to_string(target.join("figure-06.svg")).unwrap();
     for words in ["b = 80: K1 ", "C2 ", "q ", "ξmax 1.03, exceeds", "b = 80: ξ = 1", "thickness"]

@@ -102,7 +102,7 @@ fn results_leave_none_of_the_earlier_ones_behind() {
     let vary = "head.velocity=1..5 m/s,3";
     let third = run(&["sweep", &path, "--vary", vary, "--out", to]);
     assert_eq!(code(&third), 0, "{}", err(&third));
-    for name in ["bdf.csv", "report.html", "force-time.svg"] {
+    for name in ["bdf.csv", "events.csv", "force-time.svg"] {
         assert!(!results.join(name).exists(), "{name}");
     }
     assert_eq!(fs::read_to_string(results.join("notes.txt")).unwrap(), "mine");

@@ -1,10 +1,15 @@
 //! What a result is made of, so that it can be told years later whether that is still the same.
 
+use std::fmt::Write as _;
+
 use dashpot_scene::Scene;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::{input::load, output::list};
+use crate::{
+    input::load,
+    output::{VERSION, list},
+};
 
 /// A text or file with its SHA-256, as `sha256sum` prints it.
 #[derive(Debug, Serialize)]
@@ -27,8 +32,25 @@ pub(crate) fn of_files(scene: &Scene) -> Vec<Source> {
     list(scene.files.iter().filter_map(source))
 }
 
+/// The version of the program and all hashes, as rows of a table of settings.
+pub(crate) fn rows(scene: &Scene) -> Vec<Vec<String>> {
+    let own = [
+        vec!["dashpot".to_owned(), VERSION.to_owned()],
+        vec!["SHA-256 of the scene".to_owned(), of_text(scene)],
+    ];
+    let files = of_files(scene).into_iter();
+    list(
+        own.into_iter()
+            .chain(files.map(|own| vec![format!("SHA-256 of {}", own.file), own.sha256])),
+    )
+}
+
 fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    let mut text = String::new();
+    for byte in Sha256::digest(bytes) {
+        let _ = write!(text, "{byte:02x}");
+    }
+    text
 }
 
 #[cfg(test)]

@@ -33,7 +33,7 @@ pub use figures::{
     ElementSeries, EnergySeries, Figure, NodeSeries, Of, PrecisionCurve, PrecisionSeries, RunLimit,
     RunMarker, RunMarkerKind, RunSeries, VibrationCurve, VibrationSeries,
 };
-pub use map::{Map, MapLimit};
+pub use map::{Map, MapLimit, Side};
 pub use report::{Report, ReportFigure, Table};
 pub use sketch::{
     Sketch, SketchGravity, SketchKind, SketchLaw, SketchLink, SketchNode, SketchTree,

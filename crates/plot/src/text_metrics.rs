@@ -85,6 +85,27 @@ pub(crate) fn clip_width(text: &str, size: f64, limit: f64) -> String {
     clip(text, |part| text_width(part, size) <= limit)
 }
 
+/// `text` in at most `most` lines of `limit` \[px\] at font size `size` \[px\], broken at blanks; the last one is cut
+/// where something is left. No line of nothing.
+pub(crate) fn wrap_width(text: &str, size: f64, limit: f64, most: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) => {
+                let longer = format!("{line} {word}");
+                if lines.len() == most || text_width(&longer, size) <= limit {
+                    let last = lines.len() - 1;
+                    lines[last] = longer;
+                } else {
+                    lines.push(word.to_owned());
+                }
+            }
+            None => lines.push(word.to_owned()),
+        }
+    }
+    lines.iter().map(|line| clip_width(line, size, limit)).collect()
+}
+
 fn clip(text: &str, fits: impl Fn(&str) -> bool) -> String {
     if fits(text) {
         return text.to_owned();
@@ -115,6 +136,17 @@ mod tests {
         assert_eq!(columns("Köpfe"), 5);
         assert_eq!(columns("頭部"), 4);
         assert_eq!(columns("o\u{308}"), 1);
+    }
+
+    #[test]
+    fn wrapped_text_keeps_its_words_and_its_width() {
+        let text = "Peak force of padding over velocity of head";
+        let lines = wrap_width(text, 17.0, 200.0, 3);
+        assert_eq!(lines.join(" "), text);
+        assert!(lines.len() > 1 && lines.iter().all(|own| text_width(own, 17.0) <= 200.0));
+        let cut = wrap_width(text, 17.0, 150.0, 1);
+        assert!(cut.len() == 1 && cut[0].ends_with('…'), "{cut:?}");
+        assert!(wrap_width(" ", 17.0, 150.0, 2).is_empty());
     }
 
     #[test]

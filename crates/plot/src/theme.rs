@@ -8,10 +8,23 @@ use plotters::style::RGBColor;
 /// The back-end writes whole numbers: charts are drawn on a canvas this many times as large as shown.
 pub(crate) const OVERSAMPLING: f64 = 10.0;
 
-/// Width of a chart \[px\].
-pub(crate) const CHART_WIDTH: f64 = 760.0;
-/// Height of a chart's plotting frame \[px\].
-pub(crate) const FRAME_HEIGHT: f64 = 330.0;
+/// What a chart or a map is drawn on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sheet {
+    /// Width of the drawing \[px\].
+    pub(crate) width: f64,
+    /// Height of the plotting frame \[px\].
+    pub(crate) height: f64,
+    /// Number of tick marks aimed at on the horizontal axis.
+    pub(crate) x_ticks: usize,
+    /// Number of tick marks aimed at on the vertical axis.
+    pub(crate) y_ticks: usize,
+}
+
+/// A page, a screen, paper.
+pub(crate) const PAGE: Sheet = Sheet { width: 760.0, height: 330.0, x_ticks: 8, y_ticks: 6 };
+/// The screen of a phone of 390 px, without the margins of a page.
+pub(crate) const PHONE: Sheet = Sheet { width: 358.0, height: 270.0, x_ticks: 4, y_ticks: 5 };
 /// Empty border around a drawing \[px\].
 pub(crate) const MARGIN: f64 = 16.0;
 
@@ -38,11 +51,6 @@ pub(crate) const MINOR_LENGTH: f64 = 4.0;
 pub(crate) const HALO_WIDTH: f64 = 6.0;
 /// Radius of a marker \[px\].
 pub(crate) const MARKER_RADIUS: f64 = 4.5;
-
-/// Number of tick marks aimed at on the horizontal axis.
-pub(crate) const X_TICKS: usize = 8;
-/// Number of tick marks aimed at on the vertical axis.
-pub(crate) const Y_TICKS: usize = 6;
 
 /// A colour as three bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,6 +91,21 @@ const PALETTE: [Colour; 7] = [
     Colour(0x8C, 0x6D, 0x53),
 ];
 
+/// Colours of a family of curves from its lowest to its highest parameter, dark to bright on paper and, made brighter,
+/// on a dark page: each has a contrast of 3 or so on both.
+const RAMP: [Colour; 5] = [
+    Colour(0x4A, 0x34, 0xA4),
+    Colour(0x2D, 0x66, 0xA8),
+    Colour(0x1F, 0x7F, 0x8A),
+    Colour(0x4F, 0x94, 0x40),
+    Colour(0xBE, 0x8A, 0x10),
+];
+
+/// The colour at a share, 0…1, of a family of curves.
+pub(crate) fn ramp_colour(share: f64) -> Colour {
+    along(&RAMP, share)
+}
+
 /// The line of a limit in a map.
 pub(crate) const LIMIT: Colour = Colour(0xC2, 0x18, 0x1E);
 
@@ -102,15 +125,20 @@ const MAP: [Colour; 9] = [
 
 /// The colour of a map at a share of its range, 0…1.
 pub(crate) fn map_colour(share: f64) -> Colour {
-    let place = share.clamp(0.0, 1.0) * (MAP.len() - 1) as f64;
+    along(&MAP, share)
+}
+
+/// The colour at a share, 0…1, of the way through colours.
+fn along(colours: &[Colour], share: f64) -> Colour {
+    let place = share.clamp(0.0, 1.0) * (colours.len() - 1) as f64;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a place between the colours of the map"
     )]
-    let first = (place.floor() as usize).min(MAP.len() - 2);
+    let first = (place.floor() as usize).min(colours.len() - 2);
     let share = place - first as f64;
-    let (one, other) = (MAP[first], MAP[first + 1]);
+    let (one, other) = (colours[first], colours[first + 1]);
     let mixed = |one: u8, other: u8| {
         let value = (1.0 - share) * f64::from(one) + share * f64::from(other);
         #[expect(
@@ -144,6 +172,27 @@ mod tests {
     #[test]
     fn colours_are_spelt_as_in_css() {
         assert_eq!(INK.hex(), "#1F2933");
+    }
+
+    /// Relative luminance (IEC 61966-2-1).
+    fn luminance(colour: Colour) -> f64 {
+        let linear = |byte: u8| {
+            let share = f64::from(byte) / 255.0;
+            if share <= 0.04045 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * linear(colour.0) + 0.7152 * linear(colour.1) + 0.0722 * linear(colour.2)
+    }
+
+    #[test]
+    fn ramps_rise_in_lightness_and_stand_out_on_paper() {
+        let rising = |colour: fn(f64) -> Colour| {
+            let all: Vec<f64> = (0..=32).map(|i| luminance(colour(f64::from(i) / 32.0))).collect();
+            assert!(all.is_sorted_by(|one, next| one < next), "{all:?}");
+            all
+        };
+        rising(map_colour);
+        let contrast = |light: f64| (luminance(PAPER) + 0.05) / (light + 0.05);
+        assert!(rising(ramp_colour).into_iter().all(|own| contrast(own) >= 3.0));
     }
 
     #[test]

@@ -19,7 +19,8 @@ pub(super) fn collect(
     assembly: &Assembly,
     trajectory: &Trajectory,
     contacts: &[ContactReport],
-    (instants, release): (&Instants, &dyn Fn(&str) -> Option<f64>),
+    instants: &Instants,
+    release: impl Fn(&str) -> Option<f64>,
 ) -> Vec<EventReport> {
     let crossings = trajectory.events.iter().zip(&instants.crossings);
     let guards = crossings.filter_map(|(event, error)| {

@@ -71,8 +71,7 @@ pub(super) fn report(
         let key = format!("{element}.{}", ContactTime::KIND);
         measures.iter().find(|own| own.key == key).and_then(|own| own.error)
     };
-    let events =
-        events::collect(run, assembly, &solved.trajectory, &contacts, (&instants, &release));
+    let events = events::collect(run, assembly, &solved.trajectory, &contacts, &instants, release);
     let mut warnings = warnings::collect(&Findings {
         solution: &solution,
         accuracy: &settings.accuracy,

@@ -92,10 +92,10 @@ impl Study for Recomputation {
         let figures = figures(&self.study)?;
         let mut drawings = Vec::new();
         for figure in &figures {
-            let svg = svg(figure)?;
-            files.add(format!("{}.svg", figure.stem()), &svg)?;
+            let drawing = drawing(figure)?;
+            files.add(format!("{}.svg", figure.stem()), &drawing.svg)?;
             let caption = format!("Figure {}. {}", figure.number, figure.title);
-            drawings.push(ReportFigure { caption, svg });
+            drawings.push(ReportFigure { caption, ..drawing });
             if figure.columns.is_empty() {
                 continue;
             }
@@ -149,9 +149,12 @@ fn member(member: &Member) -> impl Serialize {
     }
 }
 
-fn svg(figure: &Figure) -> Result<String, CliError> {
+fn drawing(figure: &Figure) -> Result<ReportFigure, CliError> {
     Ok(match &figure.drawing {
-        Drawing::Chart(chart) => chart.svg()?,
-        Drawing::Network(network) => sketch(network, DURATION * Scales::CHAPTER_4.time()).svg(),
+        Drawing::Chart(chart) => ReportFigure::of(chart)?,
+        Drawing::Network(network) => {
+            let svg = sketch(network, DURATION * Scales::CHAPTER_4.time()).svg();
+            ReportFigure::of_sketch("", svg)
+        }
     })
 }

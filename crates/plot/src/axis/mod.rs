@@ -2,6 +2,8 @@
 
 mod logarithmic;
 
+use crate::{text_metrics::text_width, theme};
+
 /// Values beyond this magnitude are drawn at it, so that a span never overflows.
 const LARGEST: f64 = 1e290;
 /// Ranges narrower than this part of their values hold nothing but round-off and are drawn as a constant.
@@ -211,6 +213,9 @@ fn decimals_of(step: f64) -> usize {
 /// Decades by which a line may widen a logarithmic axis whatever the range of the data.
 const LEAST_ROOM: f64 = 1.0;
 
+/// Values of this ratio and more are laid out by their ratios.
+const LEAST_RATIO: f64 = 100.0 * (1.0 - 1e-9);
+
 /// How values are laid out along an axis.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Scale {
@@ -234,6 +239,16 @@ impl Scale {
         Self::Logarithmic { unit: unit.to_owned() }
     }
 
+    /// A logarithmic scale without a unit of its own for values that are positive and span two decades or more, else a
+    /// linear one.
+    pub fn suiting(values: impl IntoIterator<Item = f64>) -> Self {
+        let (low, high) = values
+            .into_iter()
+            .filter(|own| own.is_finite())
+            .fold((f64::INFINITY, 0.0_f64), |(low, high), own| (low.min(own), high.max(own)));
+        if low > 0.0 && high >= LEAST_RATIO * low { Self::logarithmic("") } else { Self::Linear }
+    }
+
     /// Whether `value` has a place on the scale.
     pub(crate) fn takes(&self, value: f64) -> bool {
         value.is_finite() && (*self == Self::Linear || value > 0.0)
@@ -242,6 +257,11 @@ impl Scale {
     /// What is proportional to the distance along the axis.
     pub(crate) fn coordinate(&self, value: f64) -> f64 {
         if *self == Self::Linear { value } else { value.log10() }
+    }
+
+    /// The value at this distance along the axis.
+    pub(crate) fn value(&self, coordinate: f64) -> f64 {
+        if *self == Self::Linear { coordinate } else { 10_f64.powf(coordinate) }
     }
 
     /// Distance from data between two coordinates within which a line is near.
@@ -257,6 +277,7 @@ impl Scale {
 pub(crate) type Ends = [(f64, f64); 2];
 
 /// The plotting frame and its axes \[px\].
+#[derive(Debug)]
 pub(crate) struct Frame {
     pub(crate) left: f64,
     pub(crate) right: f64,
@@ -267,6 +288,13 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
+    /// The middle of a label below the frame, in a drawing of this width \[px\]: that of the frame, unless the label
+    /// would reach beyond the margin.
+    pub(crate) fn middle_of(&self, label: &str, width: f64) -> f64 {
+        let half = 0.5 * text_width(label, theme::LABEL_SIZE) + theme::MARGIN;
+        (0.5 * (self.left + self.right)).min(width - half).max(half)
+    }
+
     /// Where the point (`x`, `y`) of the data lies.
     pub(crate) fn at(&self, x: f64, y: f64) -> (f64, f64) {
         (
@@ -332,6 +360,21 @@ mod tests {
                 }
                 assert!(labels(&axis).iter().all(|l| l.len() < 16), "{:?}", labels(&axis));
             }
+        }
+    }
+
+    #[test]
+    fn positive_values_over_two_decades_are_laid_out_by_their_ratios() {
+        let logarithmic = Scale::logarithmic("");
+        for (values, scale) in [
+            (&[1.0, 100.0][..], logarithmic.clone()),
+            (&[1.0, f64::NAN, 3e5], logarithmic),
+            (&[1.0, 90.0], Scale::Linear),
+            (&[0.0, 1e4], Scale::Linear),
+            (&[-1.0, 1e4], Scale::Linear),
+            (&[], Scale::Linear),
+        ] {
+            assert_eq!(Scale::suiting(values.iter().copied()), scale, "{values:?}");
         }
     }
 

@@ -7,11 +7,11 @@ use plotters::{
     backend::SVGBackend,
     coord::Shift,
     drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea},
-    element::{Circle, PathElement},
+    element::{Circle, PathElement, Polygon},
     style::{Color, FontFamily, IntoFont, ShapeStyle, TextStyle, text_anchor::Pos},
 };
 
-use super::{Chart, Pattern, Stroke, naming::Place};
+use super::{Chart, Pattern, naming::Place};
 use crate::{
     axis::Frame,
     decimation::{Path, decimate, stretches},
@@ -65,15 +65,29 @@ pub(super) fn dashes(pattern: Pattern) -> &'static str {
     }
 }
 
-pub(super) fn pen(stroke: Stroke) -> ShapeStyle {
-    let colour = theme::curve_colour(stroke.colour);
-    let width = match stroke.pattern {
-        Pattern::Broad => theme::BROAD_WIDTH,
-        Pattern::Stems => theme::LINE_WIDTH,
-        _ => theme::CURVE_WIDTH,
-    };
-    let alpha = if stroke.pattern == Pattern::Broad { 0.4 } else { 1.0 };
-    ShapeStyle { color: colour.rgb().mix(alpha), filled: false, stroke_width: pixels(width) }
+/// What a curve is drawn with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pen {
+    pub(super) colour: Colour,
+    pub(super) pattern: Pattern,
+}
+
+impl Pen {
+    pub(super) fn style(self) -> ShapeStyle {
+        let width = match self.pattern {
+            Pattern::Broad => theme::BROAD_WIDTH,
+            Pattern::Stems => theme::LINE_WIDTH,
+            _ => theme::CURVE_WIDTH,
+        };
+        let alpha = if self.pattern == Pattern::Broad { 0.4 } else { 1.0 };
+        let color = self.colour.rgb().mix(alpha);
+        ShapeStyle { color, filled: false, stroke_width: pixels(width) }
+    }
+}
+
+/// A filled shape.
+pub(super) fn shape(corners: &[(f64, f64)], colour: Colour) -> Polygon<(i32, i32)> {
+    Polygon::new(corners.iter().map(|p| canvas(*p)).collect::<Vec<_>>(), colour.rgb().filled())
 }
 
 pub(super) fn line(colour: Colour, width: f64) -> ShapeStyle {
@@ -153,26 +167,26 @@ fn pixel(length: f64) -> usize {
 }
 
 /// Draws the stretches of one curve.
-pub(super) fn draw_curve(area: &Area<'_>, paths: &[Path], stroke: Stroke) -> Drawn {
+pub(super) fn draw_curve(area: &Area<'_>, paths: &[Path], pen: Pen) -> Drawn {
     for points in paths {
         match points[..] {
-            [foot, end] if stroke.pattern == Pattern::Stems => {
-                draw_stem(area, &[foot, end], stroke)?;
+            [foot, end] if pen.pattern == Pattern::Stems => {
+                draw_stem(area, &[foot, end], pen)?;
             }
-            [point] => draw_disc(area, point, stroke)?,
-            _ => area.draw(&path(points, pen(stroke)))?,
+            [point] => draw_disc(area, point, pen)?,
+            _ => area.draw(&path(points, pen.style()))?,
         }
     }
     Ok(())
 }
 
 /// Draws a line from its foot to its end, with a disc there.
-pub(super) fn draw_stem(area: &Area<'_>, stem: &[(f64, f64); 2], stroke: Stroke) -> Drawn {
-    area.draw(&path(stem, pen(stroke)))?;
-    draw_disc(area, stem[1], stroke)
+pub(super) fn draw_stem(area: &Area<'_>, stem: &[(f64, f64); 2], pen: Pen) -> Drawn {
+    area.draw(&path(stem, pen.style()))?;
+    draw_disc(area, stem[1], pen)
 }
 
-fn draw_disc(area: &Area<'_>, point: (f64, f64), stroke: Stroke) -> Drawn {
-    let colour = theme::curve_colour(stroke.colour).rgb().filled();
+fn draw_disc(area: &Area<'_>, point: (f64, f64), pen: Pen) -> Drawn {
+    let colour = pen.colour.rgb().filled();
     area.draw(&Circle::new(canvas(point), pixels(DISC * theme::MARKER_RADIUS), colour))
 }

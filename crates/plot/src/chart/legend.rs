@@ -6,8 +6,9 @@ use plotters::{
 };
 
 use super::{
-    Chart, Direction, ReferenceLine, Stroke,
-    canvas::{Area, Fault, canvas, text_style},
+    Chart, Direction, ReferenceLine,
+    arrows::Arrowhead,
+    canvas::{Area, Fault, Pen, canvas, text_style},
     labels::{self, Leader},
 };
 use crate::{
@@ -21,7 +22,7 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Sample {
     /// A curve.
-    Curve(Stroke),
+    Curve(Pen),
     /// A reference line of a curve's colour, if of any.
     Line(Option<usize>),
 }
@@ -103,7 +104,12 @@ pub(super) fn draw_texts(area: &Area<'_>, texts: &[PlacedText]) -> Result<(), Fa
 
 impl Chart {
     /// Places for the texts at limits and markers, and for what belongs to them.
-    pub(super) fn place_texts(&self, frame: &Frame, curves: &[Vec<Path>]) -> Texts {
+    pub(super) fn place_texts(
+        &self,
+        frame: &Frame,
+        curves: &[Vec<Path>],
+        arrowheads: &[Arrowhead],
+    ) -> Texts {
         let bounds = labels::Area {
             left: frame.left + 0.5 * theme::HALO_WIDTH,
             right: frame.right,
@@ -111,6 +117,7 @@ impl Chart {
             bottom: frame.bottom - 0.5 * theme::HALO_WIDTH,
         };
         let mut placer = labels::Placer::new(bounds, curves);
+        arrowheads.iter().for_each(|own| placer.avoid_path(&own.corners));
         let limits = self.limits(frame);
         limits.iter().for_each(|(_, ends)| placer.avoid_line(*ends));
         let (x_zero, y_zero) = frame.at(0.0, 0.0);

@@ -1,6 +1,10 @@
 //! Charts: curves over an axis, as SVG and as text.
 
+mod arrows;
+mod axes;
 mod canvas;
+mod ends;
+mod heading;
 mod labels;
 mod legend;
 mod naming;
@@ -9,9 +13,11 @@ mod text;
 
 use thiserror::Error;
 
-use crate::axis::Axis;
+use self::canvas::Pen;
+use crate::{axis::Axis, theme};
 
 pub use crate::axis::Scale;
+pub(crate) use heading::Heading;
 
 /// A chart in the units of its labels.
 ///
@@ -54,6 +60,11 @@ pub struct Chart {
     pub markers: Vec<Marker>,
     /// Limits and other constants.
     pub lines: Vec<ReferenceLine>,
+    /// Whether the curves belong to rising values of one number. Those without a stroke of their own then have colours
+    /// from dark to bright in place of colours that are only told apart.
+    pub is_family: bool,
+    /// Whether arrowheads tell in which direction curves are run through, as where a loop is loaded and unloaded.
+    pub has_arrows: bool,
 }
 
 /// One curve.
@@ -140,11 +151,24 @@ impl Chart {
     /// The stroke of the `index`-th curve.
     fn stroke(&self, index: usize) -> Stroke {
         let pattern = match index % 3 {
+            _ if self.is_family => Pattern::Solid,
             0 => Pattern::Solid,
             1 => Pattern::Dashed,
             _ => Pattern::Dotted,
         };
         self.series[index].stroke.unwrap_or(Stroke { colour: index, pattern })
+    }
+
+    /// Colour and pattern of the `index`-th curve.
+    fn pen(&self, index: usize) -> Pen {
+        let Stroke { colour, pattern } = self.stroke(index);
+        let colour = if self.is_family && self.series[index].stroke.is_none() {
+            let last = self.series.len().saturating_sub(1).max(1);
+            theme::ramp_colour(index as f64 / last as f64)
+        } else {
+            theme::curve_colour(colour)
+        };
+        Pen { colour, pattern }
     }
 
     /// Horizontal and vertical axis with about so many ticks each.

@@ -1,21 +1,34 @@
 //! A chart as SVG, through plotters' SVG back-end.
 
 use plotters::element::{Circle, Text};
+use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontTransform};
 
+use super::axes::draw_heading;
 use super::canvas::{
-    Area, Drawn, Fault, canvas, dashes, draw_curve, draw_stem, layer, line, opening, path, pen,
-    pixels, places, text_style,
+    Area, Drawn, Fault, canvas, dashes, draw_curve, draw_stem, layer, line, opening, path, pixels,
+    places, shape, text_style,
 };
-use super::legend::{Entry, Legend, Sample, draw_texts};
+use super::ends::{EndNames, draw_sample as draw_end};
+use super::legend::{Entry, Legend, Sample, Texts, draw_texts};
 use super::naming::{same_curves, same_name};
-use super::{Chart, Direction, Pattern, ReferenceLine};
+use super::{Chart, Direction, Heading, Pattern, ReferenceLine};
 use crate::PlotError;
 use crate::axis::{Ends, Frame};
 use crate::decimation::Path;
-use crate::text_metrics::{clip_width, escape, one_line, text_width};
-use crate::theme;
+use crate::text_metrics::{escape, one_line, text_width};
+use crate::theme::{self, Sheet};
+
+/// Where everything is in a drawing \[px\].
+struct Layout {
+    size: (f64, f64),
+    heading: Heading,
+    frame: Frame,
+    ends: Option<EndNames>,
+    legend: Legend,
+    /// Upper left corner of the legend.
+    origin: (f64, f64),
+}
 
 impl Chart {
     /// The chart as one SVG element, 760 pixels wide, without any outer resource.
@@ -24,79 +37,96 @@ impl Chart {
     ///
     /// [`PlotError::Backend`] when the drawing back-end refuses a shape.
     pub fn svg(&self) -> Result<String, PlotError> {
-        self.draw().map_err(|fault| PlotError::Backend {
+        self.on(theme::PAGE)
+    }
+
+    /// The same for a phone, 358 pixels wide, with texts of the same size.
+    ///
+    /// # Errors
+    ///
+    /// As those of [`Chart::svg`].
+    pub fn narrow_svg(&self) -> Result<String, PlotError> {
+        self.on(theme::PHONE)
+    }
+
+    fn on(&self, sheet: Sheet) -> Result<String, PlotError> {
+        self.draw(sheet).map_err(|fault| PlotError::Backend {
             title: self.title.clone(),
             reason: fault.to_string(),
         })
     }
 
-    fn draw(&self) -> Result<String, Fault> {
-        let (x, y) = self.axes(theme::X_TICKS, theme::Y_TICKS);
+    fn draw(&self, sheet: Sheet) -> Result<String, Fault> {
+        let Layout { size, heading, frame, ends, legend, origin } = self.layout(sheet);
+        let curves: Vec<Vec<Path>> =
+            (0..self.series.len()).map(|index| self.curve(&frame, index)).collect();
+        let mut svg = opening(size, &self.title);
+        svg += &layer(size, "class=\"axes\"", |area| {
+            draw_heading(area, &heading, frame.left)?;
+            self.draw_axes(area, &frame, size.0)
+        })?;
+        svg += &layer(size, "class=\"limits\" stroke-dasharray=\"70 50\"", |area| {
+            self.draw_lines(area, &frame)
+        })?;
+        for (index, paths) in curves.iter().enumerate() {
+            let pen = self.pen(index);
+            let attributes = format!(
+                "class=\"series\" data-name=\"{}\" stroke-linejoin=\"round\"{}",
+                escape(&self.series[index].name),
+                dashes(pen.pattern)
+            );
+            svg += &layer(size, &attributes, |area| draw_curve(area, paths, pen))?;
+        }
+        let arrowheads = self.arrowheads(&frame, &curves);
+        if !arrowheads.is_empty() {
+            svg += &layer(size, "class=\"arrows\"", |area| {
+                arrowheads.iter().try_for_each(|own| area.draw(&shape(&own.corners, own.colour)))
+            })?;
+        }
+        for entry in legend.entries() {
+            let dashes = match entry.sample {
+                Sample::Curve(pen) => dashes(pen.pattern),
+                Sample::Line(_) => " stroke-dasharray=\"70 50\"",
+            };
+            let attributes = format!("class=\"sample\"{dashes}");
+            svg += &layer(size, &attributes, |area| draw_sample(area, entry, origin))?;
+        }
+        if let Some(ends) = ends {
+            let corner = (frame.right, frame.top);
+            for sample in ends.samples() {
+                let attributes = format!("class=\"end\"{}", dashes(sample.0.pattern));
+                svg += &layer(size, &attributes, |area| draw_end(area, sample, corner))?;
+            }
+            svg += &layer(size, "class=\"names\"", |area| ends.draw(area, corner))?;
+        }
+        svg += &drawn_texts(size, &self.place_texts(&frame, &curves, &arrowheads))?;
+        Ok(svg + "</svg>\n")
+    }
+
+    /// Where everything is on a sheet.
+    fn layout(&self, sheet: Sheet) -> Layout {
+        let (x, y) = self.axes(sheet.x_ticks, sheet.y_ticks);
         let widest_tick = y
             .ticks()
             .iter()
             .map(|t| text_width(&y.tick_label(*t), theme::TICK_SIZE))
             .fold(0.0_f64, f64::max);
         let left = theme::MARGIN + 1.5 * theme::LABEL_SIZE + widest_tick + 12.0;
-        let right = theme::CHART_WIDTH - theme::MARGIN - 8.0;
-        let note_height = if self.note.is_empty() { 0.0 } else { 1.4 * theme::TICK_SIZE };
-        let heading = theme::MARGIN + 1.5 * theme::TITLE_SIZE + note_height;
-        let mut frame = Frame { left, right, top: 0.0, bottom: theme::FRAME_HEIGHT, x, y };
-        let legend = Legend::new(self.entries(&frame), right - left);
-        frame.top = heading + legend.height() + 10.0;
-        frame.bottom = frame.top + theme::FRAME_HEIGHT;
-        let size =
-            (theme::CHART_WIDTH, frame.bottom + 2.6 * theme::LABEL_SIZE + theme::MARGIN + 8.0);
-
-        let curves: Vec<Vec<Path>> =
-            (0..self.series.len()).map(|index| self.curve(&frame, index)).collect();
-        let mut svg = opening(size, &self.title);
-        svg += &layer(size, "class=\"axes\"", |area| self.draw_axes(area, &frame))?;
-        svg += &layer(size, "class=\"limits\" stroke-dasharray=\"70 50\"", |area| {
-            self.draw_lines(area, &frame)
-        })?;
-        for (index, paths) in curves.iter().enumerate() {
-            let stroke = self.stroke(index);
-            let attributes = format!(
-                "class=\"series\" data-name=\"{}\" stroke-linejoin=\"round\"{}",
-                escape(&self.series[index].name),
-                dashes(stroke.pattern)
-            );
-            svg += &layer(size, &attributes, |area| draw_curve(area, paths, stroke))?;
-        }
-        for entry in legend.entries() {
-            let dashes = match entry.sample {
-                Sample::Curve(stroke) => dashes(stroke.pattern),
-                Sample::Line(_) => " stroke-dasharray=\"70 50\"",
-            };
-            let attributes = format!("class=\"sample\"{dashes}");
-            svg += &layer(size, &attributes, |area| draw_sample(area, entry, (left, heading)))?;
-        }
-        let halo = |class: &str| {
-            format!(
-                "class=\"{class}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" \
-                 paint-order=\"stroke\"",
-                theme::PAPER.hex(),
-                pixels(theme::HALO_WIDTH)
-            )
-        };
-        let texts = self.place_texts(&frame, &curves);
-        svg += &layer(size, "class=\"leaders\"", |area| {
-            let style = line(theme::FAINT, theme::HAIR_WIDTH);
-            texts.leaders.iter().try_for_each(|ends| area.draw(&path(ends, style)))
-        })?;
-        svg += &layer(size, &halo("limit-labels"), |area| draw_texts(area, &texts.limits))?;
-        svg += &layer(size, &halo("labels"), |area| {
-            let disc =
-                |at| Circle::new(at, pixels(theme::MARKER_RADIUS), theme::INK.rgb().filled());
-            texts.discs.iter().try_for_each(|at| area.draw(&disc(canvas(*at))))?;
-            draw_texts(area, &texts.markers)
-        })?;
-        svg += "</svg>\n";
-        Ok(svg)
+        let right = sheet.width - theme::MARGIN - 8.0;
+        let heading = Heading::new(&self.title, &self.note, right - left);
+        let mut frame = Frame { left, right, top: 0.0, bottom: sheet.height, x, y };
+        let ends = self.end_names(&frame, sheet.width);
+        frame.right -= ends.as_ref().map_or(0.0, |ends| ends.width() - 8.0);
+        let legend = Legend::new(self.entries(&frame, ends.is_none()), right - left);
+        frame.top = heading.bottom + legend.height() + 10.0;
+        frame.bottom = frame.top + sheet.height;
+        let height = frame.bottom + 2.6 * theme::LABEL_SIZE + theme::MARGIN + 8.0;
+        let origin = (left, heading.bottom);
+        Layout { size: (sheet.width, height), heading, frame, ends, legend, origin }
     }
 
-    fn entries(&self, frame: &Frame) -> Vec<(Sample, String)> {
+    /// What stands in the legend: the curves, where they are `named` there, and the lines that are not drawn.
+    fn entries(&self, frame: &Frame, named: bool) -> Vec<(Sample, String)> {
         let (x, y) = (&frame.x, &frame.y);
         let places: Vec<_> =
             (0..self.series.len()).map(|index| places(&self.curve(frame, index))).collect();
@@ -106,8 +136,8 @@ impl Chart {
             Some(host) => same_name(&name(index), &name(host), self.is_linear()),
             None => name(index),
         };
-        let curves = self.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty());
-        let curves = curves.map(|(i, _)| (Sample::Curve(self.stroke(i)), text(i)));
+        let curves = self.series.iter().enumerate().filter(|(_, s)| named && !s.name.is_empty());
+        let curves = curves.map(|(i, _)| (Sample::Curve(self.pen(i)), text(i)));
         let far = self.lines.iter().filter(|line| match line.direction {
             Direction::Horizontal => !y.holds(line.at),
             Direction::Vertical => !x.holds(line.at),
@@ -117,63 +147,6 @@ impl Chart {
                 (Sample::Line(l.colour), format!("{} (off the axis)", one_line(&l.label)))
             }))
             .collect()
-    }
-
-    fn draw_axes(&self, area: &Area<'_>, frame: &Frame) -> Drawn {
-        let Frame { left, right, top, bottom, .. } = *frame;
-        let grid = line(theme::GRID, theme::HAIR_WIDTH);
-        let tick = |pos| text_style(theme::TICK_SIZE, theme::INK, pos);
-        for value in frame.x.ticks() {
-            let (at, _) = frame.at(*value, 0.0);
-            area.draw(&path(&[(at, top), (at, bottom)], grid))?;
-            let style = tick(Pos::new(HPos::Center, VPos::Top));
-            let label = frame.x.tick_label(*value);
-            let room = 0.5 * text_width(&label, theme::TICK_SIZE);
-            let at = at.min(theme::CHART_WIDTH - room - 1.0);
-            area.draw(&Text::new(label, canvas((at, bottom + 7.0)), style))?;
-        }
-        for value in frame.y.ticks() {
-            let at = bottom - frame.y.fraction(*value) * (bottom - top);
-            area.draw(&path(&[(left, at), (right, at)], grid))?;
-            let style = tick(Pos::new(HPos::Right, VPos::Center));
-            area.draw(&Text::new(frame.y.tick_label(*value), canvas((left - 7.0, at)), style))?;
-        }
-        draw_minor_ticks(area, frame)?;
-        let (x_zero, y_zero) = frame.at(0.0, 0.0);
-        if frame.x.holds(0.0) {
-            let ends = [(x_zero, top), (x_zero, bottom)];
-            area.draw(&path(&ends, line(theme::FAINT, theme::HAIR_WIDTH)))?;
-        }
-        if frame.y.holds(0.0) {
-            let ends = [(left, y_zero), (right, y_zero)];
-            area.draw(&path(&ends, line(theme::FAINT, theme::HAIR_WIDTH)))?;
-        }
-        let border = [(left, top), (left, bottom), (right, bottom)];
-        area.draw(&path(&border, line(theme::INK, theme::LINE_WIDTH)))?;
-        self.draw_headings(area, frame)
-    }
-
-    fn draw_headings(&self, area: &Area<'_>, frame: &Frame) -> Drawn {
-        let Frame { left, right, top, bottom, .. } = *frame;
-        let width = theme::CHART_WIDTH - 2.0 * theme::MARGIN;
-        let text = |text: &str, size: f64, room: f64| clip_width(&one_line(text), size, room);
-
-        let corner = Pos::new(HPos::Left, VPos::Top);
-        let title = text_style(theme::TITLE_SIZE, theme::INK, corner);
-        let at = canvas((left, theme::MARGIN));
-        area.draw(&Text::new(text(&self.title, theme::TITLE_SIZE, width - left), at, title))?;
-        let note = text_style(theme::TICK_SIZE, theme::FAINT, corner);
-        let at = canvas((left, theme::MARGIN + 1.5 * theme::TITLE_SIZE));
-        area.draw(&Text::new(text(&self.note, theme::TICK_SIZE, width - left), at, note))?;
-
-        let x_label = text(&frame.x.title(&self.x_label), theme::LABEL_SIZE, right - left);
-        let below = text_style(theme::LABEL_SIZE, theme::INK, Pos::new(HPos::Center, VPos::Top));
-        let at = canvas((0.5 * (left + right), bottom + 13.0 + theme::TICK_SIZE));
-        area.draw(&Text::new(x_label, at, below))?;
-        let y_label = text(&frame.y.title(&self.y_label), theme::LABEL_SIZE, bottom - top);
-        let beside = text_style(theme::LABEL_SIZE, theme::INK, Pos::new(HPos::Center, VPos::Top))
-            .transform(FontTransform::Rotate270);
-        area.draw(&Text::new(y_label, canvas((theme::MARGIN, 0.5 * (top + bottom))), beside))
     }
 
     fn draw_lines(&self, area: &Area<'_>, frame: &Frame) -> Drawn {
@@ -203,36 +176,45 @@ impl Chart {
     }
 }
 
-/// Short marks at the values between the labelled ones.
-fn draw_minor_ticks(area: &Area<'_>, frame: &Frame) -> Drawn {
-    let style = line(theme::FAINT, theme::HAIR_WIDTH);
-    for value in frame.x.minor() {
-        let at = frame.left + frame.x.fraction(*value) * (frame.right - frame.left);
-        area.draw(&path(&[(at, frame.bottom - theme::MINOR_LENGTH), (at, frame.bottom)], style))?;
-    }
-    for value in frame.y.minor() {
-        let at = frame.bottom - frame.y.fraction(*value) * (frame.bottom - frame.top);
-        area.draw(&path(&[(frame.left, at), (frame.left + theme::MINOR_LENGTH, at)], style))?;
-    }
-    Ok(())
-}
-
 fn draw_sample(area: &Area<'_>, entry: &Entry, origin: (f64, f64)) -> Drawn {
     let (x, y) = (origin.0 + entry.x, origin.1 + entry.y);
     let ends = [(x, y), (x + Legend::SAMPLE, y)];
     match entry.sample {
-        Sample::Curve(stroke) if stroke.pattern == Pattern::Stems => {
+        Sample::Curve(pen) if pen.pattern == Pattern::Stems => {
             let middle = x + 0.5 * Legend::SAMPLE;
             let reach = 0.4 * theme::TICK_SIZE;
-            draw_stem(area, &[(middle, y + reach), (middle, y - reach)], stroke)?;
+            draw_stem(area, &[(middle, y + reach), (middle, y - reach)], pen)?;
         }
-        Sample::Curve(stroke) => area.draw(&path(&ends, pen(stroke)))?,
+        Sample::Curve(pen) => area.draw(&path(&ends, pen.style()))?,
         Sample::Line(colour) => {
             area.draw(&path(&ends, line(theme::limit_colour(colour), theme::LINE_WIDTH)))?;
         }
     }
     let style = text_style(theme::TICK_SIZE, theme::INK, Pos::new(HPos::Left, VPos::Center));
     area.draw(&Text::new(entry.text.clone(), canvas((x + Legend::SAMPLE + 6.0, y)), style))
+}
+
+/// What stands within the frame beside curves.
+fn drawn_texts(size: (f64, f64), texts: &Texts) -> Result<String, Fault> {
+    let halo = |class: &str| {
+        format!(
+            "class=\"{class}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" \
+             paint-order=\"stroke\"",
+            theme::PAPER.hex(),
+            pixels(theme::HALO_WIDTH)
+        )
+    };
+    let mut svg = layer(size, "class=\"leaders\"", |area| {
+        let style = line(theme::FAINT, theme::HAIR_WIDTH);
+        texts.leaders.iter().try_for_each(|ends| area.draw(&path(ends, style)))
+    })?;
+    svg += &layer(size, &halo("limit-labels"), |area| draw_texts(area, &texts.limits))?;
+    svg += &layer(size, &halo("labels"), |area| {
+        let disc = |at| Circle::new(at, pixels(theme::MARKER_RADIUS), theme::INK.rgb().filled());
+        texts.discs.iter().try_for_each(|at| area.draw(&disc(canvas(*at))))?;
+        draw_texts(area, &texts.markers)
+    })?;
+    Ok(svg)
 }
 
 #[cfg(test)]

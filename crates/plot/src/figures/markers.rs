@@ -13,6 +13,9 @@ const LONGEST: usize = 64;
 /// Samples this near to a marker in time, relative to it, are of its instant: the two sides of a jump.
 const INSTANT: f64 = 1e-11;
 
+/// So many names stand in one text.
+pub(super) const MOST_LISTED: usize = 3;
+
 /// What is marked at one place.
 struct Spot<'a> {
     x: f64,
@@ -113,7 +116,7 @@ fn place(run: &RunSeries, marker: &RunMarker, x: Of, y: Of) -> Option<(f64, f64)
         };
         run.signal(element, of).get(*at).map_or(0.0, |value| value.abs())
     };
-    let reach = INSTANT * marker.time.abs();
+    let reach = INSTANT * (marker.time.abs() + run.first_touch.unwrap_or(0.0));
     let from = run.time.partition_point(|time| *time < marker.time - reach);
     let to = run.time.partition_point(|time| *time <= marker.time + reach);
     let at = match marker.kind {
@@ -139,10 +142,10 @@ fn extent(values: impl Iterator<Item = f64>) -> f64 {
 
 /// Names in one text; of many the first ones and how many more there are.
 pub(super) fn listed(names: &[&str]) -> String {
-    const MOST: usize = 3;
+    const LAST: usize = MOST_LISTED - 1;
     match names.len() {
-        0..=MOST => names.join(", "),
-        count => format!("{} and {} more", names[..MOST - 1].join(", "), count - (MOST - 1)),
+        0..=MOST_LISTED => names.join(", "),
+        count => format!("{} and {} more", names[..LAST].join(", "), count - LAST),
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod markers;
 pub mod model;
+mod notes;
 mod run_series;
 mod unit;
 mod vibration;
@@ -11,8 +12,8 @@ mod work_precision;
 
 use self::{
     markers::markers,
+    notes::note,
     run_series::{limit_lines, quantities, thickness_lines},
-    unit::Unit,
 };
 use crate::{Chart, Direction, Pattern, Series, Stroke, theme::COLOURS};
 
@@ -129,14 +130,21 @@ impl Figure {
         Chart {
             title: self.title.into(),
             note: note(runs, left_out, gaps),
-            x_label: x.label(self.x.word()),
+            x_label: x.label(&word(runs, self.x)),
             y_label: y.label(self.y.word()),
             markers: markers(runs, &shown, marked, (self.x, x), (self.y, y)),
             lines: limits.chain(thicknesses).collect(),
             series: curves(runs, &shown, x.factor, y.factor),
+            has_arrows: self.x != Of::Time,
             ..Chart::default()
         }
     }
+}
+
+/// What an axis is labelled with.
+fn word(runs: &[RunSeries], of: Of) -> String {
+    let is_shifted = of == Of::Time && runs.iter().any(|run| run.first_touch.is_some());
+    if is_shifted { "time from first touch".into() } else { of.word().into() }
 }
 
 /// The widest gap that is shown, as a part of the largest deformation.
@@ -171,26 +179,6 @@ fn largest(mut quantities: Vec<Quantity>, of: Of) -> (Vec<Quantity>, String) {
         _ => "elements",
     };
     (quantities, format!("the {MOST_CURVES} largest of {total} {kind}"))
-}
-
-/// What stands below a heading: which part of the run is shown, what is left out and cut off.
-fn note(runs: &[RunSeries], left_out: String, gaps: Option<String>) -> String {
-    let parts = [runs.first().and_then(excerpt), Some(left_out), gaps].into_iter().flatten();
-    parts.filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; ")
-}
-
-/// Which part of a run is shown, as in `from 552.1 to 564.5 ms of 600 ms`.
-fn excerpt(run: &RunSeries) -> Option<String> {
-    let (end, from, to) = (run.excerpt_of?, *run.time.first()?, *run.time.last()?);
-    let unit = Unit::time(run.time.iter().copied());
-    let number = |time: f64| unit.number_within(time, to - from);
-    Some(format!(
-        "from {} to {} {} of {}",
-        number(from),
-        number(to),
-        unit.symbol(),
-        unit.print(end)
-    ))
 }
 
 /// Patterns of designs, in turn.
@@ -306,6 +294,7 @@ pub(crate) mod tests {
                 moment: "1.00 ms".into(),
             }],
             excerpt_of: None,
+            first_touch: None,
             nodes: ["head", "plate"].map(node).to_vec(),
             limits: Vec::new(),
             time,
@@ -450,22 +439,6 @@ pub(crate) mod tests {
         let names: Vec<&str> = chart.series.iter().map(|s| s.name.as_str()).collect();
         assert_eq!(names, ["e24", "e25", "e26", "e27", "e28", "e29"]);
         assert_eq!(chart.note, "the 6 largest of 30 elements");
-    }
-
-    #[test]
-    fn every_figure_says_which_part_of_the_run_it_shows() {
-        let mut runs = runs();
-        assert!(FIGURES.iter().all(|figure| figure.chart(&runs).note.is_empty()));
-        runs[0].excerpt_of = Some(1.0);
-        runs[0].time.iter_mut().for_each(|time| *time += 0.5);
-        for figure in FIGURES {
-            assert_eq!(
-                figure.chart(&runs).note,
-                "from 500 to 520 ms of 1000 ms",
-                "{}",
-                figure.name
-            );
-        }
     }
 
     #[test]

@@ -12,8 +12,11 @@ pub struct RunSeries {
     pub name: String,
     /// Whether it is one of several designs, and not of several methods of the same scene.
     pub is_design: bool,
-    /// Sample times \[s\], ascending.
+    /// Sample times \[s\], ascending: from the start of the run, or from the first touch.
     pub time: Vec<f64>,
+    /// When in the run \[s\] an impactor that falls or flies first touches something: 0 of `time` and of the times of
+    /// markers. `None` where these count from the start of the run.
+    pub first_touch: Option<f64>,
     /// Elements to be shown.
     pub elements: Vec<ElementSeries>,
     /// Masses to be shown.
@@ -84,7 +87,7 @@ pub struct RunMarker {
     pub element: String,
     /// What happens there; decides which figures show it.
     pub kind: RunMarkerKind,
-    /// Time \[s\].
+    /// Time \[s\], counted as those of the samples.
     pub time: f64,
     /// Text beside the point, as in `peak 38.4 kN`.
     pub label: String,

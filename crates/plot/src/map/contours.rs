@@ -10,8 +10,13 @@ type Crossing = (usize, usize, bool);
 /// half-way between the points 3 and 4 of row 2.
 ///
 /// Values stand row by row, `columns` in each. Between points they run straight; squares with a corner
-/// that is not finite are left out. A line that closes ends where it begins.
-pub(super) fn contours(values: &[f64], columns: usize, level: f64) -> Vec<Vec<(f64, f64)>> {
+/// that is not finite are left out, and those that are not `wanted`, by their lowest corner as (column, row). A line that closes ends where it begins.
+pub(super) fn contours(
+    values: &[f64],
+    columns: usize,
+    level: f64,
+    wanted: impl Fn((usize, usize)) -> bool,
+) -> Vec<Vec<(f64, f64)>> {
     let rows = values.len().checked_div(columns).unwrap_or(0);
     let mut links: BTreeMap<Crossing, Vec<Crossing>> = BTreeMap::new();
     let mut join = |one: Crossing, other: Crossing| {
@@ -23,7 +28,7 @@ pub(super) fn contours(values: &[f64], columns: usize, level: f64) -> Vec<Vec<(f
             let (i, j) = (column - 1, row - 1);
             let at = |column: usize, row: usize| values[row * columns + column];
             let corners = [at(i, j), at(column, j), at(column, row), at(i, row)];
-            if corners.iter().any(|corner| !corner.is_finite()) {
+            if corners.iter().any(|corner| !corner.is_finite()) || !wanted((i, j)) {
                 continue;
             }
             let above = corners.map(|corner| corner >= level);
@@ -96,31 +101,33 @@ mod tests {
     #[test]
     fn a_slope_is_crossed_by_one_line_at_the_right_place() {
         let values: Vec<f64> = (0..12).map(|at| f64::from(at % 4)).collect();
-        let lines = contours(&values, 4, 1.25);
+        let lines = contours(&values, 4, 1.25, |_| true);
         assert_eq!(lines.len(), 1);
         assert_eq!(lines[0].len(), 3);
         assert!(lines[0].iter().all(|place| (place.0 - 1.25).abs() < 1e-15));
+        let upper = contours(&values, 4, 1.25, |(_, row)| row == 1);
+        assert_eq!(upper[0].len(), 2);
     }
 
     #[test]
     fn a_hill_is_ringed() {
         let mut values = vec![0.0; 25];
         values[12] = 1.0;
-        let lines = contours(&values, 5, 0.5);
+        let lines = contours(&values, 5, 0.5, |_| true);
         assert_eq!(lines.len(), 1);
         assert_eq!((lines[0].len(), lines[0][0]), (5, lines[0][4]));
     }
 
     #[test]
     fn gaps_and_flat_grids_have_no_lines() {
-        assert!(contours(&[1.0, f64::NAN, 2.0, 3.0], 2, 1.5).is_empty());
-        assert!(contours(&[1.0; 9], 3, 2.0).is_empty());
-        assert!(contours(&[], 0, 2.0).is_empty());
+        assert!(contours(&[1.0, f64::NAN, 2.0, 3.0], 2, 1.5, |_| true).is_empty());
+        assert!(contours(&[1.0; 9], 3, 2.0, |_| true).is_empty());
+        assert!(contours(&[], 0, 2.0, |_| true).is_empty());
     }
 
     #[test]
     fn a_saddle_is_crossed_by_two_lines() {
-        let lines = contours(&[1.0, 0.0, 0.0, 1.0], 2, 0.4);
+        let lines = contours(&[1.0, 0.0, 0.0, 1.0], 2, 0.4, |_| true);
         assert_eq!(lines.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
     }
 }

@@ -1,26 +1,24 @@
-//! The lines of a map: those of equal value, and those of limits.
+//! The lines of a map: those of equal value, and those of limits with what lies beyond them.
 
 use std::fmt::Write as _;
 
-use super::{Map, MapLimit, contours::contours};
-use crate::{
-    axis::{Axis, Frame},
-    text_metrics::{escape, one_line, text_width},
-    theme,
+use super::{
+    Map, MapLimit, Side,
+    bands::Field,
+    colours::Colours,
+    contours::contours,
+    texts::{Texts, length},
 };
+use crate::{axis::Frame, text_metrics::one_line, theme};
 
-/// Width of the lines of equal value and of limits \[px\].
-const LINES: [f64; 2] = [0.9, 2.6];
+/// Width of the lines of equal value, of limits, and of what surrounds these \[px\].
+const LINES: [f64; 3] = [0.9, 2.6, 5.0];
 /// A line of equal value carries its number if it is longer than this \[px\].
-const LEAST_LABELLED: f64 = 90.0;
-/// Room between a text and the frame \[px\].
-const ROOM: f64 = 7.0;
-/// How much wider bold letters are.
-const BOLD: f64 = 1.12;
+const LEAST_LABELLED: f64 = 70.0;
 
 impl Map {
     /// A place in units of the grid's steps on the canvas.
-    fn place(&self, frame: &Frame, (column, row): (f64, f64)) -> (f64, f64) {
+    pub(super) fn place(&self, frame: &Frame, (column, row): (f64, f64)) -> (f64, f64) {
         let between = |places: &[f64], at: f64, canvas: &dyn Fn(f64) -> f64| {
             let first = at.floor();
             #[expect(
@@ -40,18 +38,55 @@ impl Map {
         )
     }
 
-    fn on_canvas(&self, frame: &Frame, values: &[f64], level: f64) -> Vec<Vec<(f64, f64)>> {
-        if self.x.is_empty() || self.y.is_empty() || values.len() != self.x.len() * self.y.len() {
+    /// Whether these are values at the points of the map.
+    fn are_on_grid(&self, values: &[f64]) -> bool {
+        !self.x.is_empty() && values.len() == self.x.len() * self.y.len()
+    }
+
+    fn on_canvas(
+        &self,
+        frame: &Frame,
+        (values, level): (&[f64], f64),
+        wanted: impl Fn((usize, usize)) -> bool,
+    ) -> Vec<Vec<(f64, f64)>> {
+        if !self.are_on_grid(values) {
             return Vec::new();
         }
-        let lines = contours(values, self.x.len(), level);
+        let lines = contours(values, self.x.len(), level, wanted);
         let on_canvas = |line: Vec<(f64, f64)>| {
             line.into_iter().map(|own| self.place(frame, own)).collect::<Vec<_>>()
         };
         lines.into_iter().map(on_canvas).collect()
     }
 
-    pub(super) fn draw_lines(&self, svg: &mut String, frame: &Frame, values: &Axis) {
+    /// Outlines of a region as the data of one path.
+    pub(super) fn outlines(&self, frame: &Frame, region: Vec<Vec<(f64, f64)>>) -> String {
+        let mut data = String::new();
+        for outline in region {
+            let places: Vec<(f64, f64)> =
+                outline.into_iter().map(|own| self.place(frame, own)).collect();
+            for (at, place) in straightened(&places).into_iter().enumerate() {
+                let _ = write!(
+                    data,
+                    "{}{:.1} {:.1}",
+                    if at == 0 { "M" } else { "L" },
+                    place.0,
+                    place.1
+                );
+            }
+            data.push('Z');
+        }
+        data
+    }
+
+    /// Draws the lines of equal value at the ticks of the bar, and puts their numbers.
+    pub(super) fn draw_lines(
+        &self,
+        svg: &mut String,
+        frame: &Frame,
+        (field, shares, colours): (&Field, &[f64], &Colours),
+        texts: &mut Texts<'_>,
+    ) {
         let _ = writeln!(
             svg,
             "<g class=\"contours\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" \
@@ -59,90 +94,121 @@ impl Map {
             theme::PAPER.hex(),
             LINES[0]
         );
-        let mut texts = Vec::new();
-        for &level in values.ticks() {
-            let lines = self.on_canvas(frame, &self.values, level);
+        for &level in colours.axis.ticks() {
+            let lines = {
+                let level = (shares, colours.axis.fraction(level));
+                self.on_canvas(frame, level, |own| field.is_smooth(own))
+            };
             lines.iter().for_each(|line| draw_path(svg, line));
-            let longest = lines.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
-            if let Some(line) = longest.filter(|line| length(line) >= LEAST_LABELLED) {
-                texts.push((line[line.len() / 2], values.label_apart(level)));
+            if lines.iter().any(|line| length(line) >= LEAST_LABELLED) {
+                texts.put(&colours.axis.label_apart(level), &lines, None);
             }
         }
         svg.push_str("</g>\n");
-        draw_texts(svg, frame, "labels", &texts, false);
     }
 
-    pub(super) fn draw_limit(&self, svg: &mut String, frame: &Frame, limit: &MapLimit) {
-        let lines = self.on_canvas(frame, &limit.values, limit.at);
-        let _ = writeln!(
-            svg,
-            "<g class=\"limits\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" \
-             stroke-linejoin=\"round\">",
-            theme::LIMIT.hex(),
-            LINES[1]
-        );
-        lines.iter().for_each(|line| draw_path(svg, line));
-        svg.push_str("</g>\n");
-        if let Some(line) = lines.iter().max_by(|a, b| length(a).total_cmp(&length(b))) {
-            let text = (line[line.len() / 3], one_line(&limit.label));
-            draw_texts(svg, frame, "limit-labels", &[text], true);
+    /// The lines of a limit on the canvas.
+    pub(super) fn limit_lines(&self, frame: &Frame, limit: &MapLimit) -> Vec<Vec<(f64, f64)>> {
+        self.on_canvas(frame, (&limit.values, limit.at), |_| true)
+    }
+
+    /// Draws the lines of a limit over a hatching of what lies beyond it.
+    pub(super) fn draw_limit(
+        &self,
+        svg: &mut String,
+        frame: &Frame,
+        (limit, lines): (&MapLimit, &[Vec<(f64, f64)>]),
+        pattern: &str,
+    ) {
+        if !self.are_on_grid(&limit.values) {
+            return;
+        }
+        let sign = match limit.kept {
+            Side::Below => 1.0,
+            Side::Above => -1.0,
+            Side::Either => 0.0,
+        };
+        if limit.kept != Side::Either {
+            let signed = limit.values.iter().map(|own| sign * own).collect();
+            let region = Field::whole(signed, self.x.len()).region(sign * limit.at);
+            let data = self.outlines(frame, region);
+            if !data.is_empty() {
+                let _ = writeln!(
+                    svg,
+                    "<path class=\"beyond\" d=\"{data}\" fill=\"url(#{pattern})\" fill-rule=\"evenodd\"/>"
+                );
+            }
+        }
+        for (class, colour, width) in
+            [("halo", theme::PAPER, LINES[2]), ("limits", theme::LIMIT, LINES[1])]
+        {
+            let _ = writeln!(
+                svg,
+                "<g class=\"{class}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{width}\" \
+                 stroke-linejoin=\"round\">",
+                colour.hex(),
+            );
+            lines.iter().for_each(|line| draw_path(svg, line));
+            svg.push_str("</g>\n");
         }
     }
 }
 
-fn length(line: &[(f64, f64)]) -> f64 {
-    line.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum()
+impl MapLimit {
+    /// What is to be said of it without a line: that all of the map lies on one side of it.
+    pub(super) fn unlined(&self) -> Option<String> {
+        let mut known = self.values.iter().filter(|own| own.is_finite()).peekable();
+        known.peek()?;
+        let [above, below] =
+            [known.clone().all(|own| *own >= self.at), known.clone().all(|own| *own <= self.at)];
+        let word = match self.kept {
+            Side::Below if below => "kept everywhere",
+            Side::Above if above => "kept everywhere",
+            Side::Below if above => "kept nowhere",
+            Side::Above if below => "kept nowhere",
+            _ => return None,
+        };
+        Some(format!("{}: {word}", one_line(&self.label)))
+    }
 }
 
-/// Texts on the map, with a border in the colour of the paper.
-fn draw_texts(
-    svg: &mut String,
-    frame: &Frame,
-    class: &str,
-    texts: &[((f64, f64), String)],
-    is_bold: bool,
-) {
-    let weight = if is_bold { " font-weight=\"bold\"" } else { "" };
-    let _ = writeln!(
-        svg,
-        "<g class=\"{class}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"3\" \
-         stroke-linejoin=\"round\" paint-order=\"stroke\"{weight}>",
-        theme::INK.hex(),
-        theme::PAPER.hex()
-    );
-    for (at, label) in texts {
-        let width = text_width(label, theme::TICK_SIZE) * if is_bold { BOLD } else { 1.0 };
-        let half = 0.5 * width + ROOM;
-        let x = at.0.clamp(frame.left + half, (frame.right - half).max(frame.left + half));
-        let y = (at.1 + 4.5).clamp(frame.top + theme::TICK_SIZE + 0.5 * ROOM, frame.bottom - ROOM);
-        svg.push_str(&text((x, y), "middle", theme::TICK_SIZE, label));
+/// The pattern of what a limit forbids, of this name: lines that are seen on dark and on bright colours.
+pub(super) fn hatch(pattern: &str) -> String {
+    let line = |colour: theme::Colour, width: f64, opacity: f64| {
+        format!(
+            "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"14\" stroke=\"{}\" stroke-width=\"{width}\" \
+             stroke-opacity=\"{opacity}\"/>",
+            colour.hex()
+        )
+    };
+    format!(
+        "<defs><pattern id=\"{pattern}\" width=\"14\" height=\"14\" patternUnits=\"userSpaceOnUse\" \
+         patternTransform=\"rotate(45)\">{}{}</pattern></defs>\n",
+        line(theme::PAPER, 3.4, 0.3),
+        line(theme::LIMIT, 1.3, 0.6),
+    )
+}
+
+/// A closed outline without the places that lie straight between their neighbours.
+fn straightened(places: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = Vec::with_capacity(places.len());
+    for (at, &place) in places.iter().enumerate() {
+        let next = places.get(at + 1);
+        let is_between = kept.last().zip(next).is_some_and(|(last, next)| {
+            let (dx, dy) = (next.0 - last.0, next.1 - last.1);
+            let aside = dx * (place.1 - last.1) - dy * (place.0 - last.0);
+            let ahead = dx * (place.0 - last.0) + dy * (place.1 - last.1);
+            aside.abs() <= 0.02 * dx.hypot(dy) && ahead >= 0.0 && ahead <= dx * dx + dy * dy
+        });
+        if !is_between {
+            kept.push(place);
+        }
     }
-    svg.push_str("</g>\n");
+    kept
 }
 
 /// A line through places on the canvas.
 pub(super) fn draw_path(svg: &mut String, line: &[(f64, f64)]) {
     let places: Vec<String> = line.iter().map(|own| format!("{:.1},{:.1}", own.0, own.1)).collect();
     let _ = writeln!(svg, "<polyline points=\"{}\"/>", places.join(" "));
-}
-
-/// A text at a place on the canvas.
-pub(super) fn text((x, y): (f64, f64), anchor: &str, size: f64, content: &str) -> String {
-    if content.is_empty() {
-        return String::new();
-    }
-    format!(
-        "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" font-size=\"{size}\">{}</text>\n",
-        escape(content)
-    )
-}
-
-/// A text along the vertical, which reads upwards.
-pub(super) fn upright(x: f64, y: f64, content: &str) -> String {
-    format!(
-        "<text transform=\"translate({x:.1} {y:.1}) rotate(-90)\" text-anchor=\"middle\" \
-         font-size=\"{}\">{}</text>\n",
-        theme::LABEL_SIZE,
-        escape(content)
-    )
 }

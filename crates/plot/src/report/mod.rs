@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::text_metrics::escape;
+use crate::{Chart, Map, PlotError, text_metrics::escape};
 
 /// The style sheet; colours of the theme are turned for dark pages there.
 const STYLE: &str = include_str!("style.css");
@@ -39,7 +39,9 @@ pub struct Report {
     pub verdict: Vec<String>,
     /// Results, such as measures and the energy ledger.
     pub tables: Vec<Table>,
-    /// Drawings: first the network, which stands above the tables, then the figures, which stand below them.
+    /// The network, which stands above the tables.
+    pub network: Option<ReportFigure>,
+    /// The figures, which stand below the tables.
     pub figures: Vec<ReportFigure>,
     /// How the results came about: methods, steps, times, resolved settings.
     pub details: Vec<Table>,
@@ -84,6 +86,44 @@ pub struct ReportFigure {
     /// SVG element as [`Chart::svg`](crate::Chart::svg) and [`Sketch::svg`](crate::Sketch::svg) write it. It is taken
     /// over as it stands.
     pub svg: String,
+    /// The same for a phone, as [`Chart::narrow_svg`] writes it; empty where there is none, and `svg` keeps its size there.
+    pub narrow: String,
+}
+
+impl ReportFigure {
+    /// A chart, for pages and for phones, without a caption.
+    ///
+    /// # Errors
+    ///
+    /// As those of [`Chart::svg`].
+    pub fn of(chart: &Chart) -> Result<Self, PlotError> {
+        Ok(Self { caption: String::new(), svg: chart.svg()?, narrow: chart.narrow_svg()? })
+    }
+
+    /// A map, for pages and for phones, without a caption.
+    pub fn of_map(map: &Map) -> Self {
+        Self { caption: String::new(), svg: map.svg(), narrow: map.narrow_svg() }
+    }
+
+    /// A drawing that keeps its size.
+    pub fn of_sketch(caption: impl Into<String>, svg: String) -> Self {
+        Self { caption: caption.into(), svg, narrow: String::new() }
+    }
+
+    fn html(&self) -> String {
+        let mut html = if self.narrow.is_empty() {
+            format!("<figure class=\"sketch\"><div class=\"drawing\">\n{}</div>", self.svg)
+        } else {
+            format!(
+                "<figure><div class=\"drawing wide\">\n{}</div><div class=\"drawing narrow\">\n{}</div>",
+                self.svg, self.narrow
+            )
+        };
+        if !self.caption.is_empty() {
+            let _ = write!(html, "<figcaption>{}</figcaption>", phrase(&self.caption));
+        }
+        html + "</figure>\n"
+    }
 }
 
 impl Report {
@@ -99,23 +139,16 @@ impl Report {
         );
         page += &list("warnings", &self.warnings);
         page += &list("verdict", &self.verdict);
-        let mut figures = self.figures.iter();
-        if let Some(network) = figures.next() {
+        if let Some(network) = &self.network {
             let _ = writeln!(
                 page,
-                "<figure class=\"network\" aria-label=\"{}\"><div class=\"drawing\">\n{}</div></figure>",
+                "<figure class=\"sketch\" aria-label=\"{}\"><div class=\"drawing\">\n{}</div></figure>",
                 escape(&network.caption),
                 network.svg
             );
         }
         self.tables.iter().for_each(|table| page += &table.html());
-        for figure in figures {
-            let _ = write!(page, "<figure><div class=\"drawing\">\n{}</div>", figure.svg);
-            if !figure.caption.is_empty() {
-                let _ = write!(page, "<figcaption>{}</figcaption>", phrase(&figure.caption));
-            }
-            page += "</figure>\n";
-        }
+        self.figures.iter().for_each(|figure| page += &figure.html());
         self.details.iter().for_each(|table| page += &table.html());
         if !self.scene_text.is_empty() {
             let _ = writeln!(
@@ -217,10 +250,10 @@ mod tests {
 
     fn report() -> Report {
         let row = |cells: &[&str]| cells.iter().map(|c| (*c).to_owned()).collect::<Vec<_>>();
-        let network = ReportFigure { caption: "Network".into(), svg: tangled().svg() };
+        let network = ReportFigure::of_sketch("Network", tangled().svg());
         let figures = FIGURES.iter().map(|figure| ReportFigure {
             caption: figure.title.into(),
-            svg: figure.chart(&runs()).svg().unwrap(),
+            ..ReportFigure::of(&figure.chart(&runs())).unwrap()
         });
         Report {
             title: "Head <of 10 kg> & panel".into(),
@@ -234,7 +267,8 @@ mod tests {
                     row(&["padding.peak-deformation", "mm", "6.852 ms", "17.539", "17.538"]),
                 ],
             }],
-            figures: std::iter::once(network).chain(figures).collect(),
+            network: Some(network),
+            figures: figures.collect(),
             details: vec![Table {
                 caption: "Settings".into(),
                 header: vec![],
@@ -251,7 +285,7 @@ mod tests {
         assert!(!page.contains("<script") && !page.contains("href") && !page.contains("src="));
         let outer = page.replace("http://www.w3.org/2000/svg", "");
         assert!(!outer.contains("http"), "an outer resource");
-        assert_eq!(page.matches("<svg").count(), 1 + FIGURES.len());
+        assert_eq!(page.matches("<svg").count(), 1 + 2 * FIGURES.len());
     }
 
     #[test]
@@ -274,8 +308,8 @@ mod tests {
     fn the_network_stands_above_the_tables_and_the_figures_below() {
         let page = report().html();
         let at = |text: &str| page.find(text).unwrap();
-        assert!(at("peak force 38.4") < at("class=\"network\""));
-        assert!(at("class=\"network\"") < at("padding.peak-force"));
+        assert!(at("peak force 38.4") < at("class=\"sketch\""));
+        assert!(at("class=\"sketch\"") < at("padding.peak-force"));
         assert!(at("padding.peak-force") < at("Force over time"));
         assert!(!page.contains("<figcaption>Network"));
     }

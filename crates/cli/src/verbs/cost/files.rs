@@ -46,7 +46,7 @@ fn series(report: &CostReport, title: &str, error: impl Fn(&CostPoint) -> f64) -
 }
 
 /// The three figures: name and drawing.
-fn figures(report: &CostReport) -> Result<Vec<(String, String)>, CliError> {
+fn figures(report: &CostReport) -> Result<Vec<(String, ReportFigure)>, CliError> {
     let worst = match report.asked.as_slice() {
         [only] => {
             let key = report.measures.get(*only).map_or("", |measure| measure.key.as_str());
@@ -60,7 +60,7 @@ fn figures(report: &CostReport) -> Result<Vec<(String, String)>, CliError> {
     });
     let charts = [of_measures.time_chart(), of_state.time_chart(), of_measures.work_chart()];
     let drawn = FIGURES.into_iter().zip(charts);
-    drawn.map(|(name, chart)| Ok((name.to_owned(), chart.svg()?))).collect()
+    drawn.map(|(name, chart)| Ok((name.to_owned(), ReportFigure::of(&chart)?))).collect()
 }
 
 /// Adds all files but the result.
@@ -69,17 +69,12 @@ pub(super) fn write(files: &mut Staged<'_>, costs: &Costs) -> Result<(), CliErro
     let rows = costs.report.points.iter().map(row);
     files.add_with(TABLE, |out| csv(out, header(&costs.report), rows))?;
     files.add(PAGE, page(costs, &figures).html())?;
-    figures.into_iter().try_for_each(|(name, svg)| files.add(name, svg))
+    figures.into_iter().try_for_each(|(name, own)| files.add(name, own.svg))
 }
 
-fn page(costs: &Costs, figures: &[(String, String)]) -> Report {
+fn page(costs: &Costs, figures: &[(String, ReportFigure)]) -> Report {
     let Costs { scene, report, accuracies } = costs;
-    let network = ReportFigure {
-        caption: "The network".to_owned(),
-        svg: sketch(&scene.network, scene.run.duration).svg(),
-    };
-    let charts =
-        figures.iter().map(|(_, svg)| ReportFigure { caption: String::new(), svg: svg.clone() });
+    let drawing = sketch(&scene.network, scene.run.duration).svg();
     let faults = costs.faults().map(|(caption, lines)| Table::list(caption, lines));
     let details =
         [Table::list("What is true", reference_notes(report)), work(report), measures(report)];
@@ -89,7 +84,8 @@ fn page(costs: &Costs, figures: &[(String, String)]) -> Report {
         warnings: Vec::new(),
         verdict: vec![answer(report, accuracies)],
         tables: vec![errors(report), cheapest(report, accuracies)],
-        figures: std::iter::once(network).chain(charts).collect(),
+        network: Some(ReportFigure::of_sketch("The network", drawing)),
+        figures: figures.iter().map(|own| own.1.clone()).collect(),
         details: details.filter(|detail| !detail.rows.is_empty()).collect(),
         scene_text: scene.text.to_string(),
     }

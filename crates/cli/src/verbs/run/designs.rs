@@ -282,11 +282,11 @@ impl Study for Designs {
             if chart.series.is_empty() {
                 continue;
             }
-            let svg = chart.svg()?;
+            let drawing = ReportFigure::of(&chart)?;
             if has(Written::Figures) {
-                files.add(format!("{}.svg", figure.name), &svg)?;
+                files.add(format!("{}.svg", figure.name), &drawing.svg)?;
             }
-            figures.push(ReportFigure { caption: String::new(), svg });
+            figures.push(drawing);
         }
         let page = Report {
             title: format!("{} designs side by side", self.designs.len()),

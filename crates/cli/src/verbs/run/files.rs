@@ -99,10 +99,11 @@ fn write_figures(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError
     let count = answer.scene.run.samples.clamp(low, high);
     let series = curves_and_energies(answer.runs.iter(), count);
     let mut figures = Vec::new();
+    let mut drawn = None;
     if is_drawn {
         let svg = sketch(network, answer.scene.run.duration).svg();
         add(files, DRAWING, &svg)?;
-        figures.push(ReportFigure { caption: "The network".to_owned(), svg });
+        drawn = Some(ReportFigure::of_sketch("The network", svg));
     }
     for figure in FIGURES {
         let chart = figure.chart(&series);
@@ -110,12 +111,12 @@ fn write_figures(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError
         if chart.series.is_empty() {
             continue;
         }
-        let svg = chart.svg()?;
-        add(files, &format!("{}.svg", figure.name), &svg)?;
-        figures.push(ReportFigure { caption: String::new(), svg });
+        let drawing = ReportFigure::of(&chart)?;
+        add(files, &format!("{}.svg", figure.name), &drawing.svg)?;
+        figures.push(drawing);
     }
     if has(Written::Page) {
-        files.add(PAGE, page(answer, figures).html())?;
+        files.add(PAGE, Report { network: drawn, figures, ..page(answer) }.html())?;
     }
     Ok(())
 }
@@ -160,8 +161,8 @@ fn write_events(runs: &[RunReport], out: &mut dyn Write) -> io::Result<()> {
     csv(out, header, rows)
 }
 
-/// The page with these drawings.
-pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
+/// The page without its drawings.
+fn page(answer: &Answer) -> Report {
     let mut tables = vec![measures_table(&answer.side())];
     tables.extend(answer.best().and_then(scatter::table));
     tables.extend(Some(Table::list("Remarks", notes(answer))).filter(|own| !own.rows.is_empty()));
@@ -181,9 +182,9 @@ pub(super) fn page(answer: &Answer, figures: Vec<ReportFigure>) -> Report {
         warnings: failed.chain(answer.warnings()).collect(),
         verdict: changes.chain(lines).collect(),
         tables,
-        figures,
         details,
         scene_text: resolved_scene::text(&answer.scene, &answer.changes),
+        ..Report::default()
     }
 }
 

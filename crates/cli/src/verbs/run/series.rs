@@ -1,7 +1,7 @@
 //! Runs as the plain numbers that figures are drawn from.
 
 use dashpot_analysis::{
-    Judged, RunReport, excerpt,
+    ContactReport, Judged, RunReport, excerpt,
     ledger::energy_series,
     measures::{PeakAcceleration, PeakDeformation, PeakForce},
     resolving_times, table_at, touching,
@@ -24,22 +24,45 @@ const JUMP: f64 = 4e-12;
 
 /// Forces and deformations of `report` at `count` times of its [`excerpt`], or a few more.
 pub(super) fn curves(report: &RunReport, count: usize) -> RunSeries {
-    curves_within(report, excerpt(&report.solution()), count)
+    let (from, to) = excerpt(&report.solution());
+    let origin = first_touch(report).unwrap_or(0.0);
+    curves_within(report, (from - origin, to - origin), count)
 }
 
-/// The same of several runs with their energies, over the same time.
+/// The same of several runs with their energies, over the same time, which counts from the first touch of each.
 pub(super) fn curves_and_energies<'r>(
     reports: impl Iterator<Item = &'r RunReport> + Clone,
     count: usize,
 ) -> Vec<RunSeries> {
-    let windows = reports.clone().map(|report| excerpt(&report.solution()));
+    let windows = reports.clone().map(|report| {
+        let (from, to) = excerpt(&report.solution());
+        let origin = first_touch(report).unwrap_or(0.0);
+        (from - origin, to - origin)
+    });
     let window = windows.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
     let window = window.unwrap_or_default();
     reports.map(|report| with_energies(report, window, count)).collect()
 }
 
+/// When the first impactor that falls or flies first touches something \[s\]; `None` where all do from the start.
+fn first_touch(report: &RunReport) -> Option<f64> {
+    let is_struck = |contact: &&ContactReport| {
+        use dashpot_analysis::Contact::{Lasting, Parted, Released};
+        matches!(contact.impact.contact, Released | Parted | Lasting)
+    };
+    let struck = report.contacts.iter().filter(is_struck);
+    let first = struck.min_by(|one, other| one.impact.start.total_cmp(&other.impact.start))?;
+    let start = first.impact.start;
+    (!first.is_glued && start > SAME * report.trajectory.t_end).then_some(start)
+}
+
+/// Of a window that counts from the first touch, where there is one.
 fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSeries {
-    let markers = markers(report);
+    let first_touch = first_touch(report);
+    let origin = first_touch.unwrap_or(0.0);
+    let end = report.trajectory.t_end;
+    let window = ((window.0 + origin).max(0.0), (window.1 + origin).min(end));
+    let markers = markers(report, origin);
     let times = times(report, window, &markers, count);
     let table = table_at(&report.assembly, &report.trajectory, times);
     let outputs = &report.assembly.system.outputs;
@@ -77,19 +100,20 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
         elements,
         nodes: nodes.collect(),
         energy: Vec::new(),
-        excerpt_of: (window.0 > 0.0 || window.1 < report.trajectory.t_end)
-            .then_some(report.trajectory.t_end),
-        markers,
+        excerpt_of: (window.0 > 0.0 || window.1 < end).then_some(end),
+        first_touch,
+        markers: markers
+            .into_iter()
+            .map(|own| RunMarker { time: own.time - origin, ..own })
+            .collect(),
         limits: limits(report),
-        time: table.times,
+        time: table.times.into_iter().map(|time| time - origin).collect(),
     }
 }
 
 /// About `count` times that resolve short contacts, and those at which something is marked or
 /// switches; these last ones twice, since values may jump there.
 fn times(report: &RunReport, window: (f64, f64), markers: &[RunMarker], count: usize) -> Vec<f64> {
-    let end = report.trajectory.t_end;
-    let window = (window.0, window.1.min(end));
     let mut times = resolving_times(window, &touching(&report.solution()), count);
     times.extend(markers.iter().map(|marker| marker.time));
     let switches = report.trajectory.switches.iter().map(|switch| switch.time);
@@ -130,7 +154,10 @@ fn with_energies(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
     if report.trajectory.digest().is_some() {
         return series;
     }
-    let energies = energy_series(&report.solution(), &series.time);
+    let origin = series.first_touch.unwrap_or(0.0);
+    let end = report.trajectory.t_end;
+    let times: Vec<f64> = series.time.iter().map(|time| (time + origin).clamp(0.0, end)).collect();
+    let energies = energy_series(&report.solution(), &times);
     let part = |name: &str, values: Vec<f64>| EnergySeries { name: name.to_owned(), values };
     let mut energy = vec![
         part("kinetic", energies.kinetic),
@@ -175,7 +202,8 @@ fn limits(report: &RunReport) -> Vec<RunLimit> {
     report.judged().into_iter().filter_map(limit).collect()
 }
 
-fn markers(report: &RunReport) -> Vec<RunMarker> {
+/// What is marked, at times of the run; texts tell them from `origin` \[s\].
+fn markers(report: &RunReport, origin: f64) -> Vec<RunMarker> {
     let peak = |kind: &str, marker: RunMarkerKind, word: &str| -> Vec<RunMarker> {
         let of_kind = report.measures.iter().filter(|measure| measure.kind == kind);
         let marked = of_kind.filter_map(|measure| {
@@ -184,7 +212,7 @@ fn markers(report: &RunReport) -> Vec<RunMarker> {
             // Measures tell magnitudes; a figure has the sign too.
             let sign = if pulls(report, &measure.target, marker, time) { "−" } else { "" };
             let (element, label) = (measure.target.clone(), format!("{word} {sign}{amount}"));
-            let moment = quantity(time, "s", DIGITS);
+            let moment = quantity(time - origin, "s", DIGITS);
             Some(RunMarker { element, kind: marker, time, label, moment })
         });
         marked.collect()
@@ -223,7 +251,7 @@ fn markers(report: &RunReport) -> Vec<RunMarker> {
         element: contact.element.clone(),
         kind: RunMarkerKind::TensionStart,
         time: contact.impact.end,
-        label: format!("tension from {}", quantity(contact.impact.end, "s", DIGITS)),
+        label: format!("tension from {}", quantity(contact.impact.end - origin, "s", DIGITS)),
         moment: String::new(),
     }));
     markers
@@ -255,11 +283,19 @@ mod tests {
         let met = (2.0_f64 / 9.81).sqrt();
         let length = std::f64::consts::PI * (4.0_f64 / 1e6).sqrt();
         let (first, last) = (series.time[0], *series.time.last().unwrap());
-        assert!(first < met && met - first < 0.2 * length, "{first}");
-        assert!(last > met + length && last - met - length < 0.2 * length, "{last}");
+        assert!(first < 0.0 && -first < 0.2 * length, "{first}");
+        assert!(last > length && last - length < 0.2 * length, "{last}");
         assert_eq!(series.excerpt_of, Some(0.6));
-        let note = FORCE_TIME.chart(&[series]).note;
-        assert!(note.starts_with("from 450.") && note.ends_with(" ms of 600 ms"), "{note}");
+        assert!((series.first_touch.unwrap() - met).abs() < 1e-12, "{:?}", series.first_touch);
+        // From the touch on the spring is m a = m g − k y: half a period and the time that gravity adds.
+        let [peak, ..] = &series.markers[..] else { panic!("{:?}", series.markers) };
+        let (omega, speed) = ((1e6_f64 / 4.0).sqrt(), 9.81 * met);
+        let quarter = (std::f64::consts::FRAC_PI_2 + (9.81 / omega / speed).atan()) / omega;
+        assert!((peak.time - quarter).abs() < 1e-9, "{} {quarter}", peak.time);
+        assert_eq!(peak.moment, "3.15 ms");
+        let chart = FORCE_TIME.chart(&[series]);
+        assert_eq!(chart.note, "first touch at 451.52 ms of 600 ms");
+        assert_eq!(chart.x_label, "time from first touch (ms)");
     }
 
     #[test]
@@ -292,7 +328,8 @@ mod tests {
             [run]\nduration = \"10 ms\"\n";
         let scene = read(pulled, &ReadOptions::default()).unwrap().value;
         let report = scene.network.solve_with(&scene.settings("exact").unwrap()).unwrap();
-        let labels: Vec<String> = markers(&report).into_iter().map(|marker| marker.label).collect();
+        let labels: Vec<String> =
+            markers(&report, 0.0).into_iter().map(|marker| marker.label).collect();
         assert!(labels.iter().any(|label| label == "peak −2.00 kN"), "{labels:?}");
     }
 }

@@ -9,7 +9,6 @@ use super::Answer;
 use crate::{
     numbers::{constant, duration, share, tolerance},
     origin,
-    output::VERSION,
 };
 
 /// What the columns of times mean.
@@ -114,12 +113,8 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
         let unit = value.dimension.and_then(Dimension::named).map_or("1", |(_, unit)| unit);
         (format!("value {}", value.name), constant(value.value, unit))
     }));
-    let scene = &answer.scene;
-    rows.push(("dashpot".to_owned(), VERSION.to_owned()));
-    rows.push(("SHA-256 of the scene".to_owned(), origin::of_text(scene)));
-    let files = origin::of_files(scene).into_iter();
-    rows.extend(files.map(|own| (format!("SHA-256 of {}", own.file), own.sha256)));
-    Table::new("Settings", &[], rows.into_iter().map(|(name, value)| vec![name, value]))
+    let rows = rows.into_iter().map(|(name, value)| vec![name, value]);
+    Table::new("Settings", &[], rows.chain(origin::rows(&answer.scene)))
 }
 
 fn stop_text(stop: &Stop) -> String {

@@ -1,7 +1,11 @@
 //! `dashpot sweep`.
 
+mod best;
+mod figures;
 mod files;
+mod page;
 mod points;
+mod titles;
 mod words;
 
 use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
@@ -26,6 +30,7 @@ use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
+    numbers,
     origin::{self, Source},
     output::{Study, Text, VERSION, emit, list, object},
     progress::Bar,
@@ -87,7 +92,8 @@ pub(crate) struct SweepArguments {
     /// How many threads share the points; the results are the same [default: one per core].
     #[arg(long, value_name = "NUMBER")]
     threads: Option<NonZero<usize>>,
-    /// Folder for CSV, JSON and SVG: lines over one parameter, maps over two.
+    /// Folder for CSV, JSON, SVG and HTML: lines over one parameter, maps over two, and report.html with
+    /// everything on one page.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Prints one JSON object, in SI units, in place of the table.
@@ -236,9 +242,31 @@ struct Swept {
     grid: Grid,
     /// Where errors were to be estimated.
     estimates: Estimates,
+    /// What the command line asked for, in words.
+    asked: Vec<(&'static str, String)>,
     report: SweepReport,
     /// When its table is for people.
     table: When,
+}
+
+impl SweepArguments {
+    /// What is asked for, in words.
+    fn in_words(&self, estimates: Estimates) -> Vec<(&'static str, String)> {
+        let estimated = match estimates {
+            Estimates::All => "estimated at all points",
+            Estimates::Some => "estimated at some points",
+            Estimates::Off => "not estimated",
+        };
+        let own = [("errors", Some(estimated.to_owned()))];
+        let asked = [
+            ("method", self.method.clone()),
+            ("neglect below", self.neglect.map(numbers::share)),
+            ("most work of a point", self.budget.map(|own| own.to_string())),
+            ("sample, seed", self.sample.map(|count| format!("{count}, {}", self.seed))),
+            ("table", self.points.as_ref().map(|own| own.display().to_string())),
+        ];
+        own.into_iter().chain(asked).filter_map(|(name, own)| Some((name, own?))).collect()
+    }
 }
 
 /// Solves a scene for many values of its parameters.
@@ -295,10 +323,11 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let usual = if varied.is_apart() { EstimatedPoints::All } else { EstimatedPoints::Some };
     let estimates: Estimates = arguments.estimate.unwrap_or(usual).into();
     let report = solved((arguments, estimates), &grid, &pose, &columns, terminal)?;
-    let swept = Swept { scene, varied, grid, estimates, report, table: arguments.table };
+    let asked = arguments.in_words(estimates);
+    let swept = Swept { scene, varied, grid, estimates, asked, report, table: arguments.table };
     let has_folder = folder.is_some();
     emit(&swept, arguments.json, folder, terminal)?;
-    files::undrawn(&swept.varied).filter(|_| has_folder).into_iter().for_each(note);
+    figures::undrawn(&swept.varied).filter(|_| has_folder).into_iter().for_each(note);
     let failed = swept.report.gaps.iter().filter(|gap| gap.column.is_none()).count();
     Ok(if failed == swept.report.points() { Status::RunFailed } else { Status::Done })
 }
@@ -337,6 +366,8 @@ impl Study for Swept {
     fn text(&self, text: &mut Text) {
         text.title(title(&self.scene));
         self.in_words().iter().for_each(|in_word| text.faint(in_word));
+        text.blank();
+        text.items(page::verdict(self, &best::best(self)));
         let (table, more) = points::table(self);
         text.table(&table);
         if more > 0 {
@@ -344,9 +375,12 @@ impl Study for Swept {
                 "… and {more} more points; all of them are in the CSV of a pipe or of `--out`"
             ));
         }
-        text.table(&summary(&self.report, matches!(self.varied.form, Form::Sampled)));
+        let is_sample = matches!(self.varied.form, Form::Sampled);
+        if more > 0 || is_sample {
+            text.table(&summary(&self.report, is_sample));
+        }
         text.blank();
-        text.items(notes(self));
+        text.items(notes(self).into_iter().skip(self.report.limits.len()));
     }
 
     fn data(&self, terminal: Terminal) -> Option<String> {

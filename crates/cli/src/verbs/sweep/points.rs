@@ -4,7 +4,7 @@
 use dashpot_analysis::Judgement;
 use dashpot_plot::Table;
 
-use super::{Swept, files, words};
+use super::{Swept, figures, words};
 use crate::{numbers::digits, output::list};
 
 /// So many points are shown, the first ones of more.
@@ -18,7 +18,7 @@ const NONE: &str = "–";
 pub(super) fn table(swept: &Swept) -> (Table, usize) {
     let (report, variations) = (&swept.report, &swept.varied.variations);
     let axes = list((0..variations.len()).map(|at| swept.in_unit(at)));
-    let units = list((0..report.columns.len()).map(|at| files::unit(report, at)));
+    let units = list((0..report.columns.len()).map(|at| figures::unit(report, at)));
     let judged = list((0..report.limits.len()).map(|at| report.judged(at)));
     let names = variations.iter().zip(&axes).map(|(own, (unit, _))| match unit.as_str() {
         "1" | "" => own.name.clone(),

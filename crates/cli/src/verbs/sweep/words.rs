@@ -39,10 +39,15 @@ impl Swept {
 
     /// The values of all parameters at a point.
     pub(super) fn at(&self, point: usize) -> String {
-        let places =
-            self.varied.places(&self.grid.places(point)).into_iter().zip(&self.varied.variations);
-        let all = places.map(|(place, own)| format!("{} = {}", own.name, shown(own, place)));
+        let all = self.values_at(point).into_iter().zip(&self.varied.variations);
+        let all = all.map(|(value, own)| format!("{} = {value}", own.name));
         all.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The same without the names.
+    pub(super) fn values_at(&self, point: usize) -> Vec<String> {
+        let places = self.varied.places(&self.grid.places(point)).into_iter();
+        places.zip(&self.varied.variations).map(|(place, own)| shown(own, place)).collect()
     }
 
     /// One line for each parameter.
@@ -131,7 +136,7 @@ pub(super) fn level_of(report: &SweepReport, column: usize, limit: &Limit) -> St
 }
 
 /// How many points keep each limit.
-fn kept(report: &SweepReport) -> Vec<String> {
+pub(super) fn kept(report: &SweepReport) -> Vec<String> {
     let sentence = |at: usize| {
         let (column, own) = &report.limits[at];
         let judged = report.judged(at);
@@ -176,7 +181,25 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
     let mut all = kept(report);
     all.extend(means(swept));
-    all.push(solved(report, points));
+    all.extend(solving(swept));
+    all.extend(warnings(swept, report, points));
+    all.extend(report.partial.iter().flat_map(|own| left_out(own, report)));
+    all.extend(missing(report, points));
+    all
+}
+
+/// What a reader must know before any number: warnings, and what is missing.
+pub(super) fn warned(swept: &Swept) -> Vec<String> {
+    let (report, points) = (&swept.report, swept.report.points());
+    let partial = report.partial.iter().flat_map(|own| left_out(own, report));
+    let all = warnings(swept, report, points).into_iter().chain(missing(report, points));
+    all.chain(partial).collect()
+}
+
+/// How it was solved.
+pub(super) fn solving(swept: &Swept) -> Vec<String> {
+    let (report, points) = (&swept.report, swept.report.points());
+    let mut all = vec![solved(report, points)];
     if !report.checked.is_empty() {
         all.push(format!(
             "{} of them solved in full as well: the largest difference is {}",
@@ -192,9 +215,6 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
             report.estimated
         ));
     }
-    all.extend(warnings(swept, report, points));
-    all.extend(report.partial.iter().flat_map(|own| left_out(own, report)));
-    all.extend(missing(report, points));
     all
 }
 

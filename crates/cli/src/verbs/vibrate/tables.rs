@@ -58,7 +58,7 @@ fn watts(value: f64) -> String {
 
 /// The modes, each with what its masses do.
 pub(super) fn modes(sweep: &Sweep) -> Table {
-    let names = sweep.modes.iter().filter_map(|mode| mode.shape.as_ref()).next();
+    let names = sweep.modes.iter().find_map(|mode| mode.shape.as_ref());
     let names: Vec<&str> =
         names.map(|all| all.iter().map(|own| own.node.as_str()).collect()).unwrap_or_default();
     let rows = sweep.modes.iter().enumerate().map(|(at, mode)| {
@@ -84,7 +84,7 @@ fn part_of_mode(swing: Swing) -> String {
     let rounded = degrees(swing.phase).round();
     if swing.amplitude <= swing.error || rounded == 0.0 {
         text
-    } else if rounded.abs() == 180.0 {
+    } else if rounded.abs() >= 180.0 {
         format!("−{text}")
     } else {
         format!("{text} ∠{}°", Unit::plain("1").decimal(degrees(swing.phase), 0))

@@ -1,0 +1,243 @@
+//! What `sweep` draws: lines over one parameter, and maps over two.
+
+use dashpot_analysis::{Bound, Limit, sweep::SweepReport};
+use dashpot_plot::{Chart, Direction, Map, MapLimit, ReferenceLine, Scale, Series, Side};
+use dashpot_scene::Variation;
+
+use super::{
+    Swept, Varied,
+    titles::{capital, parameter, parameters, quantity},
+    words::{self, shown},
+};
+use crate::{input::title, numbers::Unit};
+
+/// A family of at most so many lines is drawn besides its map, and wholly …
+const MOST_FAMILY: usize = 12;
+/// … and of a larger one, and of words, so many lines.
+const MOST_LINES: usize = 7;
+/// A map has at least so many rows and columns.
+const LEAST_OF_MAP: usize = 4;
+/// What is to be said of a padding that is as deep as it is thick.
+const PRESSED: &str = "ξmax = 1";
+/// Ratios of neighbours are equal within this part of them.
+const EQUAL: f64 = 1e-3;
+
+/// The figures of a sweep.
+#[derive(Clone, Copy)]
+pub(super) struct Figures {
+    pub(super) lines: bool,
+    pub(super) map: bool,
+}
+
+impl Figures {
+    pub(super) fn of(varied: &Varied) -> Self {
+        match &varied.variations[..] {
+            // Nothing says that rows of a table follow each other.
+            _ if varied.is_of_rows() => Self { lines: false, map: false },
+            [one, rest @ ..] | [rest @ .., one] if one.is_of_words() => {
+                let lines = rest.len() == 1 && !rest[0].is_of_words();
+                Self { lines, map: false }
+            }
+            [_] => Self { lines: true, map: false },
+            [first, second] => {
+                let map = first.len() >= LEAST_OF_MAP && second.len() >= LEAST_OF_MAP;
+                Self { lines: !map || second.len() <= MOST_FAMILY, map }
+            }
+            _ => Self { lines: false, map: false },
+        }
+    }
+}
+
+/// Why there is no figure, where there is none.
+pub(super) fn undrawn(varied: &Varied) -> Option<&'static str> {
+    let figures = Figures::of(varied);
+    if figures.lines || figures.map {
+        return None;
+    }
+    Some(match &varied.variations[..] {
+        [_, _] | [_] if varied.variations.iter().all(Variation::is_of_words) => {
+            "no figures over words alone; `dashpot run SCENE --variant …` draws curves over each other"
+        }
+        _ => "no figures: lines and maps are drawn over one parameter or two",
+    })
+}
+
+/// The unit in which a column is drawn: that of its largest value.
+pub(super) fn unit(report: &SweepReport, column: usize) -> Unit {
+    let most = report.column(column).filter(|own| own.is_finite()).map(f64::abs);
+    words::unit(&report.columns[column], most.fold(0.0, f64::max))
+}
+
+fn label(name: &str, unit: &Unit) -> String {
+    if unit.symbol.is_empty() { name.to_owned() } else { format!("{name} ({})", unit.symbol) }
+}
+
+/// Label, scale and places of a parameter, in the unit of the command line.
+fn axis(swept: &Swept, at: usize) -> (String, Scale, Vec<f64>) {
+    let own = &swept.varied.variations[at];
+    let (unit, places) = swept.in_unit(at);
+    let is_of_ratios = own.is_logarithmic || are_of_ratios(places);
+    let scale =
+        if is_of_ratios { Scale::logarithmic("") } else { Scale::suiting(places.iter().copied()) };
+    (label(&parameter(&own.name), &Unit::plain(&unit)), scale, places.to_vec())
+}
+
+/// Whether rising values stand at equal ratios, which are not nearly equal differences as well.
+fn are_of_ratios(values: &[f64]) -> bool {
+    let [first, second, .., last] = values else { return false };
+    let ratio = second / first;
+    let is_equal = |pair: &[f64]| (pair[1] / pair[0] / ratio - 1.0).abs() <= EQUAL;
+    *first > 0.0 && last / first >= 4.0 && values.windows(2).all(is_equal)
+}
+
+/// Positions of the lines of a family that are drawn, from its first to its last one.
+fn drawn(count: usize, is_of_words: bool) -> Vec<usize> {
+    let most = if is_of_words || count > MOST_FAMILY { MOST_LINES } else { MOST_FAMILY };
+    let wanted = count.min(most);
+    (0..wanted).map(|at| at * (count - 1) / (wanted - 1).max(1)).collect()
+}
+
+/// A column over the first parameter, one line for each value of the second; over that which takes numbers,
+/// where the other takes words.
+pub(super) fn lines(swept: &Swept, column: usize) -> Chart {
+    let report = &swept.report;
+    let variations = &swept.varied.variations;
+    let over = usize::from(variations[0].is_of_words());
+    let (x_label, x_scale, x) = axis(swept, over);
+    let unit = unit(report, column);
+    let values: Vec<f64> = report.column(column).map(|own| unit.of(own)).collect();
+    let family = variations.get(1 - over);
+    let count = family.map_or(1, Variation::len);
+    let is_of_words = family.is_some_and(Variation::is_of_words);
+    let name_of = |at: usize| match family {
+        Some(own) if own.is_of_words() => own.text(at),
+        Some(own) => shown(own, at),
+        None => String::new(),
+    };
+    let [along, across] = if over == 0 { [count, 1] } else { [1, x.len()] };
+    let line = |at: usize| {
+        let value = |place: usize| values[place * along + at * across];
+        let points = x.iter().enumerate().map(|(place, x)| (*x, value(place)));
+        Series::new(name_of(at), points.collect())
+    };
+    let drawn = drawn(count, is_of_words);
+    let own = quantity(&report.columns[column]);
+    let for_each = family.map_or_else(String::new, |family| match drawn.len() {
+        all if all == count => format!(", for each {}", parameter(&family.name)),
+        some => format!(", for {some} of {count} values of {}", parameter(&family.name)),
+    });
+    let heading = format!("{} over {}{for_each}", capital(&own), parameter(&variations[over].name));
+    let line_at = |at: f64, label: String| {
+        let direction = Direction::Horizontal;
+        ReferenceLine { direction, at, label, colour: None }
+    };
+    let pressed = report.columns[column].is_share.then(|| line_at(1.0, PRESSED.to_owned()));
+    let limits = limits_of(report, column)
+        .map(|limit| line_at(unit.of(limit.bound.level()), words::limit(report, column, limit)));
+    Chart {
+        title: heading,
+        note: title(&swept.scene).to_owned(),
+        x_label,
+        x_scale,
+        y_label: label(&own, &unit),
+        y_scale: Scale::suiting(values.iter().copied()),
+        is_family: family.is_some() && !is_of_words,
+        series: drawn.into_iter().map(line).collect(),
+        lines: pressed.into_iter().chain(limits).collect(),
+        ..Chart::default()
+    }
+}
+
+/// A column over both parameters, with the lines of limits and that on which a padding is pressed to nothing.
+pub(super) fn map(swept: &Swept, column: usize) -> Map {
+    let report = &swept.report;
+    let (x_label, x_scale, x) = axis(swept, 0);
+    let (y_label, y_scale, y) = axis(swept, 1);
+    let turned = |values: Vec<f64>| -> Vec<f64> {
+        let place = |at: usize| (at % x.len()) * y.len() + at / x.len();
+        (0..values.len()).map(|at| values[place(at)]).collect()
+    };
+    let own = &report.columns[column];
+    let element = own.key.rsplit_once('.').map(|key| key.0);
+    let pressed = report.columns.iter().enumerate().filter(|(_, other)| {
+        let other_element = other.key.rsplit_once('.').map(|key| key.0);
+        other.is_share && (other_element == element || shares(report) == 1)
+    });
+    let pressed = pressed.map(|(at, _)| MapLimit {
+        values: turned(report.column(at).collect()),
+        at: 1.0,
+        label: PRESSED.to_owned(),
+        kept: Side::Below,
+    });
+    let bounds = report.limits.iter().map(|(of, limit)| MapLimit {
+        values: turned(report.column(*of).collect()),
+        at: limit.bound.level(),
+        label: if *of == column {
+            words::limit(report, *of, limit)
+        } else {
+            format!("{} {}", quantity(&report.columns[*of]), words::limit(report, *of, limit))
+        },
+        kept: match limit.bound {
+            Bound::Max(_) => Side::Below,
+            Bound::Min(_) => Side::Above,
+        },
+    });
+    let limits = pressed.chain(bounds).collect();
+    let unit = unit(report, column);
+    let values = turned(report.column(column).map(|own| unit.of(own)).collect());
+    let shown = limits_of(report, column).map(|own| unit.of(own.bound.level()));
+    let shown = shown.chain(own.is_share.then_some(1.0)).collect();
+    let names: Vec<&str> = swept.varied.variations.iter().map(|own| own.name.as_str()).collect();
+    let quantity = quantity(own);
+    Map {
+        title: format!("{} over {}", capital(&quantity), parameters(&names)),
+        note: title(&swept.scene).to_owned(),
+        x_label,
+        y_label,
+        x_scale,
+        y_scale,
+        value_label: label(&quantity, &unit),
+        value_scale: Scale::suiting(values.iter().copied()),
+        shown,
+        values,
+        limits,
+        x,
+        y,
+    }
+}
+
+/// The limits on the measure of a column.
+fn limits_of(report: &SweepReport, column: usize) -> impl Iterator<Item = &Limit> {
+    report.limits.iter().filter(move |own| own.0 == column).map(|own| &own.1)
+}
+
+/// How many columns are shares of a thickness.
+fn shares(report: &SweepReport) -> usize {
+    report.columns.iter().filter(|column| column.is_share).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_ratios_are_told_from_equal_differences() {
+        for (values, right) in [
+            (&[5.0, 10.0, 20.0][..], true),
+            (&[1.0, 1.1, 1.21], false),
+            (&[5.0, 10.0, 15.0], false),
+            (&[0.0, 10.0, 20.0], false),
+            (&[5.0, 50.0], false),
+        ] {
+            assert_eq!(are_of_ratios(values), right, "{values:?}");
+        }
+    }
+
+    #[test]
+    fn twelve_numbers_are_drawn_and_of_more_and_of_words_seven() {
+        assert_eq!(drawn(1, false), [0]);
+        assert_eq!(drawn(12, false).len(), 12);
+        assert_eq!(drawn(13, false), [0, 2, 4, 6, 8, 10, 12]);
+        assert_eq!(drawn(9, true).len(), 7);
+    }
+}

@@ -1,0 +1,118 @@
+//! The page of a sweep.
+
+use dashpot_analysis::Judgement;
+use dashpot_plot::{Report, ReportFigure, Table};
+
+use super::{
+    Form, Swept,
+    best::{best, best_table},
+    figures::unit,
+    points,
+    titles::{capital, quantity},
+    words,
+};
+use crate::{
+    input::title,
+    origin,
+    output::list,
+    sketch::{MOST_DRAWN, sketch},
+};
+
+/// Digits of what is computed.
+const DIGITS: usize = 4;
+
+/// Everything that a sweep says, on one page with these figures.
+pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
+    let network = &swept.scene.network;
+    let is_drawn = network.connections().len() <= MOST_DRAWN;
+    let drawing = || sketch(network, swept.scene.run.duration).svg();
+    let (limits, best) = (limits(swept), best(swept));
+    let tables = [
+        Table::list("What varies", swept.in_words()),
+        limits,
+        best_table(swept, &best),
+        extremes(swept),
+        Table { caption: "Points".to_owned(), ..points::table(swept).0 },
+    ];
+    let details = [settings(swept), Table::list("How it was solved", words::solving(swept))];
+    let has_rows = |table: &Table| !table.rows.is_empty();
+    Report {
+        title: title(&swept.scene).to_owned(),
+        warnings: words::warned(swept),
+        verdict: verdict(swept, &best),
+        network: is_drawn.then(|| ReportFigure::of_sketch("The network", drawing())),
+        tables: tables.into_iter().filter(has_rows).collect(),
+        figures,
+        details: details.into_iter().filter(has_rows).collect(),
+        scene_text: swept.scene.text.to_string(),
+    }
+}
+
+/// How many points there are, how many keep the limits, and the best of them.
+pub(super) fn verdict(swept: &Swept, best: &[super::best::Design]) -> Vec<String> {
+    let count = swept.report.points();
+    let what = if swept.varied.is_of_rows() { "designs" } else { "points" };
+    let mut lines = vec![format!("{count} {what} solved")];
+    lines.extend(words::kept(&swept.report));
+    if let Some(first) = best.first().filter(|_| !swept.report.limits.is_empty()) {
+        let word = if first.passes { "best" } else { "nearest to passing" };
+        lines.push(format!("{word}: {}, {}", swept.at(first.point), first.margin_in_words()));
+    }
+    lines
+}
+
+/// How many points keep each limit.
+fn limits(swept: &Swept) -> Table {
+    let report = &swept.report;
+    let row = |at: usize| {
+        let (column, limit) = &report.limits[at];
+        let judged = report.judged(at);
+        let count = |which: Option<Judgement>| {
+            judged.iter().filter(|own| **own == which).count().to_string()
+        };
+        let name = capital(&quantity(&report.columns[*column]));
+        let bound = words::limit(report, *column, limit);
+        let own = [Judgement::Pass, Judgement::Fail, Judgement::Undecided].map(Some);
+        list([name, bound].into_iter().chain(own.map(count)).chain([count(None)]))
+    };
+    let header = ["measure", "limit", "pass", "fail", "undecided", "no value"];
+    Table::new("Limits", &header, (0..report.limits.len()).map(row))
+}
+
+/// The lowest and the highest value of each measure, and where they are.
+fn extremes(swept: &Swept) -> Table {
+    let report = &swept.report;
+    let row = |at: usize| {
+        let known = || report.column(at).enumerate().filter(|own| own.1.is_finite());
+        let ends = [
+            known().min_by(|one, other| one.1.total_cmp(&other.1)),
+            known().max_by(|one, other| one.1.total_cmp(&other.1)),
+        ];
+        let unit = unit(report, at);
+        let told = |own: Option<(usize, f64)>| match own {
+            Some((point, value)) => [unit.text(value, DIGITS), swept.at(point)],
+            None => ["–".to_owned(), String::new()],
+        };
+        let name = capital(&quantity(&report.columns[at]));
+        list([name].into_iter().chain(ends.into_iter().flat_map(told)))
+    };
+    let header = ["measure", "lowest", "at", "highest", "at"];
+    Table::new("Lowest and highest", &header, (0..report.columns.len()).map(row))
+}
+
+/// What was asked for.
+fn settings(swept: &Swept) -> Table {
+    let form = match swept.varied.form {
+        Form::Combined | Form::Mixed(_) => "all combinations",
+        Form::Listed => "the rows of a table",
+        Form::Sampled => "a Latin hypercube",
+    };
+    let own = [
+        ("scene", swept.scene.file.clone().unwrap_or_default()),
+        ("points", format!("{}, {form}", swept.report.points())),
+    ];
+    let asked = swept.asked.iter().map(|(name, value)| (*name, value.clone()));
+    let rows = own.into_iter().chain(asked).filter(|own| !own.1.is_empty());
+    let rows = rows.map(|(name, value)| vec![name.to_owned(), value]);
+    Table::new("Settings", &[], rows.chain(origin::rows(&swept.scene)))
+}
