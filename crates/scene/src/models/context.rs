@@ -8,11 +8,11 @@ use dashpot_network::{
     shifts::SHIFTS,
 };
 
-use super::BRANCH_KEYS;
+use super::{BRANCH_KEYS, LOADING, moduli::loading};
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::{Example, parameters::KindReader},
-    quantities::basis::{AREA, Basis, EnclosingPad, Pad, SIZE, Size, is_sized},
+    quantities::basis::{AREA, Basis, EnclosingPad, Loading, Pad, SIZE, Size, is_sized},
     text::{
         document::{Content, Entry, Item},
         library::{Library, ModelSection},
@@ -103,7 +103,8 @@ impl<'d> ContextReader<'d> {
         let given = SIZE.map(find);
         let pressed_by = (Indenter::KIND, find(Indenter::KIND));
         if context.basis.is_material() {
-            for (key, entry) in SIZE.into_iter().zip(given).chain([pressed_by]) {
+            let loading = (LOADING, find(LOADING));
+            for (key, entry) in SIZE.into_iter().zip(given).chain([pressed_by, loading]) {
                 let Some(entry) = entry else { continue };
                 self.faults.error(entry.key_place, Fault::SizeInMaterial { key });
             }
@@ -136,7 +137,10 @@ impl<'d> ContextReader<'d> {
                 }
             }
             let [thickness, area] = beside.map(|size| size.map_or(1.0, |size| size.value));
-            context.basis = Basis::Material(Pad { thickness, area });
+            let loading = find(LOADING)
+                .and_then(|own| loading(own, self.faults).map(|loading| (loading, own.item.place)));
+            let loading = loading.unwrap_or((Loading::Compression, law.item.place));
+            context.basis = Basis::Material(Pad::new(thickness, area).loaded(loading));
         } else if registered(ELEMENTS, &law.key).is_some_and(|kind| is_sized(kind.parameters)) {
             // The reader of the law checks them with those in its own table.
             context.size.beside = beside;
@@ -152,6 +156,11 @@ impl<'d> ContextReader<'d> {
                 let fault = Fault::SizeWithoutMaterial { key, owner: site.owner.to_string() };
                 self.faults.error(entry.key_place, fault);
             }
+        }
+        if let Some(entry) = find(LOADING).filter(|_| law.key != ModelSection::Materials.word()) {
+            let message = format!("`{LOADING}` goes with a material, which {} is not", site.owner);
+            let help = "leave it out: the law stands as it is written";
+            self.faults.error(entry.key_place, Fault::odd(message, help));
         }
         context.size.in_row |= law.key == "series";
         (context, shift)

@@ -16,7 +16,7 @@ use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::{Example, form, parameters::KindReader},
     quantities::{
-        basis::{Basis, Extent, Pad, SIZE, fits_material, is_size},
+        basis::{Basis, Extent, SIZE, fits_material, is_size},
         quantity::Quantities,
     },
     text::{
@@ -96,7 +96,7 @@ impl<'d> LawReader<'d> {
     ) -> Option<Composed> {
         let pad = match quantities.basis {
             Basis::Model => [0; 2],
-            Basis::Material(Pad { thickness, area }) => [thickness, area].map(f64::to_bits),
+            Basis::Material(pad) => pad.to_bits(),
         };
         let key = (law.key_place, pad);
         if let Some(known) = self.composed.borrow().get(&key) {

@@ -2,6 +2,7 @@
 
 mod context;
 mod laws;
+mod moduli;
 pub(crate) mod named;
 pub(crate) mod notes;
 mod pressed;
@@ -22,6 +23,7 @@ use dashpot_rheology::{MOST_LEVELS, Tree};
 use self::{
     context::{Context, Site},
     laws::LawReader,
+    moduli::{MODULI, POISSON},
     notes::{ModelNote, Notes},
     sizes::Sizes,
     tables::{Given, ReadBranch, named_branches},
@@ -38,10 +40,17 @@ use crate::{
 };
 
 /// The keys of a model or material besides its law.
-const MODEL_KEYS: &[&str] = &["shift", "thickness", "area", "pressed-by"];
+const MODEL_KEYS: &[&str] = &["shift", "thickness", "area", "pressed-by", LOADING];
+
+/// The keys of a material besides its law.
+const MATERIAL_KEYS: &[&str] =
+    &["shift", "thickness", "area", "pressed-by", LOADING, MODULI, POISSON];
+
+/// Key of how a pad is loaded.
+pub(crate) const LOADING: &str = "loaded";
 
 /// The keys of a branch besides its law.
-const BRANCH_KEYS: &[&str] = &["name", "shift", "thickness", "area", "pressed-by"];
+const BRANCH_KEYS: &[&str] = &["name", "shift", "thickness", "area", "pressed-by", LOADING];
 
 /// Reads models from the documents of a library.
 pub(crate) struct ModelReader<'d> {
@@ -255,18 +264,21 @@ impl<'d> ModelReader<'d> {
         descent: &mut Descent,
     ) -> Option<ReadBranch<'d>> {
         let entry = self.library.entry(reference);
+        let context = self.in_loading(reference, context);
+        let is_material = reference.section == ModelSection::Materials;
         let site = Site {
             item: &entry.item,
             owner: self.called(reference).into(),
             place: entry.key_place,
             document: reference.document,
             context,
-            other_keys: MODEL_KEYS,
+            other_keys: if is_material { MATERIAL_KEYS } else { MODEL_KEYS },
         };
         let from = descent.pads.count;
         descent.open.push(reference);
         let mut own = self.read(&site, descent)?;
         descent.open.pop();
+        self.check_loading(context, own.model.as_ref());
         if let (ModelSection::Materials, Basis::Material(pad)) = (reference.section, context.basis)
         {
             own.extent = Extent::of(pad);

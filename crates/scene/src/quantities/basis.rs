@@ -27,6 +27,53 @@ pub(crate) struct Pad {
     pub(crate) thickness: f64,
     /// Area A \[m²\].
     pub(crate) area: f64,
+    /// How it is loaded, and where that is said; `None` for a material by itself, whose values are as written.
+    pub(crate) loading: Option<(Loading, Place)>,
+    /// The stress in that loading over that which is written.
+    factor: f64,
+}
+
+/// How a pad is loaded, which says which modulus of its material counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Loading {
+    /// Across its thickness, its sides free: Young's modulus.
+    Compression,
+    /// Along its faces: the shear modulus.
+    Shear,
+    /// Across its thickness, its sides held: the oedometric modulus.
+    Confined,
+}
+
+impl Pad {
+    /// A pad of a material as it is written.
+    pub(crate) const fn new(thickness: f64, area: f64) -> Self {
+        Self { thickness, area, loading: None, factor: 1.0 }
+    }
+
+    /// The same, loaded in this way.
+    pub(crate) fn loaded(self, loading: (Loading, Place)) -> Self {
+        Self { loading: Some(loading), ..self }
+    }
+
+    /// The same in a loading in which stresses are so many times those that are written.
+    pub(crate) fn with_factor(self, factor: f64) -> Self {
+        Self { factor, ..self }
+    }
+
+    /// Whether its stresses are not those that are written.
+    pub(crate) fn is_converted(self) -> bool {
+        self.factor.to_bits() != 1.0_f64.to_bits()
+    }
+
+    /// The area on which the written stresses would act \[m²\].
+    fn effective_area(self) -> f64 {
+        self.factor * self.area
+    }
+
+    /// All of it as bits.
+    pub(crate) fn to_bits(self) -> [u64; 2] {
+        [self.thickness, self.effective_area()].map(f64::to_bits)
+    }
 }
 
 /// What the values of a model measure.
@@ -44,7 +91,7 @@ const STRAINS: [f64; 2] = [-10.0, 1.0];
 
 impl Basis {
     /// The values of a material as they are written: those of a cube of 1 m.
-    pub(crate) const MATERIAL: Self = Self::Material(Pad { thickness: 1.0, area: 1.0 });
+    pub(crate) const MATERIAL: Self = Self::Material(Pad::new(1.0, 1.0));
 
     /// Whether values are those of a material.
     pub(crate) fn is_material(self) -> bool {
@@ -63,7 +110,8 @@ impl Basis {
 
     /// A written value as that of the pad: times A^f h^d.
     fn of_pad(self, value: f64, in_model: Dimension) -> f64 {
-        let Self::Material(Pad { thickness, area }) = self else { return value };
+        let Self::Material(pad) = self else { return value };
+        let (thickness, area) = (pad.thickness, pad.effective_area());
         let [forces, lengths] = powers(in_model);
         let (times, over) = match (forces, lengths) {
             (0, 0) => return value,
@@ -121,7 +169,8 @@ impl Basis {
 
     /// A stress over the strain and its rate as a force over those of the pad.
     fn of_pad_formula(self, kind: ParameterKind, formula: &Formula) -> Formula {
-        let Self::Material(Pad { thickness, area }) = self else { return formula.clone() };
+        let Self::Material(pad) = self else { return formula.clone() };
+        let (thickness, area) = (pad.thickness, pad.effective_area());
         let names: Vec<&str> = kind.variables().iter().map(|own| own.0).collect();
         let thickness = Quantity::of(thickness, Dimension::LENGTH);
         formula.scaled(Quantity::of(area, AREA), &names, thickness)
@@ -257,7 +306,7 @@ impl Extent {
     /// That of what no size is known of.
     pub(crate) const UNKNOWN: Self = Self { thickness: None, area: None, least: 0.0 };
 
-    pub(crate) fn of(Pad { thickness, area }: Pad) -> Self {
+    pub(crate) fn of(Pad { thickness, area, .. }: Pad) -> Self {
         Self { thickness: Some(thickness), area: Some(area), least: thickness }
     }
 
@@ -337,7 +386,7 @@ mod tests {
 
     #[test]
     fn a_pad_has_stress_times_area_at_strain_times_thickness() {
-        let pad = Basis::Material(Pad { thickness: 0.5, area: 0.25 });
+        let pad = Basis::Material(Pad::new(0.5, 0.25));
         let number = |dimension| Parameter::new("a", ParameterKind::Quantity(dimension), "");
         let parameters = [
             number(Dimension::STIFFNESS),

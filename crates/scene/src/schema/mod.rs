@@ -98,7 +98,13 @@ fn definitions() -> Value {
     add("shift", shift());
     add("model", composed("a two-terminal model", [], &[], Basis::Model));
     add("branch", composed("a branch of a model", [name()], &[], Basis::Model));
-    add("material", composed("a model in Pa", [], &[], Basis::MATERIAL));
+    let moduli = json!({
+        "enum": ["compression", "shear"],
+        "description": "what its moduli are: tensile or compressive with free sides, or those of simple shear",
+    });
+    let poisson = described_as(reference("number"), "Poisson's ratio, above -1 and at most 0.5");
+    let own = [("moduli", moduli), ("poisson", poisson)];
+    add("material", composed("a model in Pa", own, &[], Basis::MATERIAL));
     let branch = composed("a branch of a material", [name()], &[], Basis::MATERIAL);
     add("material-branch", branch);
     let between = json!({
@@ -309,6 +315,7 @@ fn composed<'k>(
         properties.insert("thickness".to_owned(), thickness());
         let area = described_as(quantity(AREA), "area of the pad [m^2], positive");
         properties.insert("area".to_owned(), area);
+        properties.insert("loaded".to_owned(), loading());
         let values = Values { driven: Dimension::FORCE, basis };
         let indenter = described_as(values.of_kind(Indenter::PARAMETERS), Indenter::SUMMARY);
         properties.insert(Indenter::KIND.to_owned(), indenter);
@@ -332,6 +339,14 @@ fn composed<'k>(
     })
 }
 
+fn loading() -> Value {
+    json!({
+        "enum": ["compression", "shear", "confined"],
+        "description": "how the pad is loaded: across its thickness with free sides, along its faces, or across it \
+                        with its sides held",
+    })
+}
+
 /// An element made of layers.
 fn layered(between: &Value) -> Value {
     let material = json!({ "type": "string", "description": "a material by name" });
@@ -343,6 +358,7 @@ fn layered(between: &Value) -> Value {
             ("material", material),
             ("thickness", described_as(reference("length"), "thickness [m], positive")),
             ("area", area),
+            ("loaded", loading()),
             ("density", density),
             ("shift", reference("shift")),
         ],

@@ -9,7 +9,7 @@ use dashpot_network::{
 use super::Reading;
 use crate::{
     diagnostics::fault::Fault,
-    models::{ModelReader, Read},
+    models::{LOADING, ModelReader, Read},
     quantities::basis::{AREA, DENSITY, SIZE, Size},
     text::{
         document::{Content, Entry, Item},
@@ -19,7 +19,7 @@ use crate::{
 
 /// The keys of an element besides its law.
 pub(crate) const ELEMENT_KEYS: &[&str] =
-    &["between", "shift", "thickness", "area", "pressed-by", "layers"];
+    &["between", "shift", "thickness", "area", "pressed-by", LOADING, "layers"];
 
 /// Reads the elements into `network`.
 pub(crate) fn read_elements<'d>(
@@ -93,7 +93,7 @@ fn ends(reading: &Reading<'_>, entry: &Entry) -> Option<[NodeId; 2]> {
 }
 
 /// The keys of a layer besides its material.
-const LAYER_KEYS: &[&str] = &["shift", "thickness", "area", "density"];
+const LAYER_KEYS: &[&str] = &["shift", "thickness", "area", LOADING, "density"];
 
 /// The relative error of the speed of waves where a pad does not say it.
 const ACCURACY: f64 = 0.01;
@@ -145,6 +145,7 @@ fn read_layer<'d>(
     let thickness = size("thickness", Dimension::LENGTH);
     let area = size("area", AREA);
     table.take("shift");
+    table.take(LOADING);
     table.finish();
     let name = text_of(&material?.item, "`material`", reading.faults)?;
     let name = name.rsplit(':').next().unwrap_or(name).to_owned();

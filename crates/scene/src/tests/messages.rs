@@ -215,7 +215,8 @@ error: `exat` is not a method
 #[test]
 fn faults_of_the_text_come_all_at_once() {
     // The registers grow.
-    let laws = [&["name", "shift", "thickness", "area", "pressed-by"], &*model_words()].concat();
+    let laws =
+        [&["name", "shift", "thickness", "area", "pressed-by", "loaded"], &*model_words()].concat();
     let methods: Vec<&str> = METHODS.iter().map(|own| own.name).collect();
     let shown = FAULTS_OF_THE_TEXT_SHOWN.replace("LAWS", &list(&laws));
     let shown = shown.replace("METHODS", &methods.join(", "));
