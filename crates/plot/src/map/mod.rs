@@ -276,7 +276,8 @@ impl Map {
         let x_label = clip_width(&frame.x.title(&self.x_label), theme::LABEL_SIZE, room);
         let middle = (frame.middle_of(&x_label, width), bottom + 18.0 + 1.6 * theme::LABEL_SIZE);
         texts.push(text(middle, "middle", theme::LABEL_SIZE, &x_label));
-        let y_label = clip_width(&frame.y.title(&self.y_label), theme::LABEL_SIZE, bottom - top);
+        let room = bottom - top + theme::UPRIGHT_ROOM;
+        let y_label = clip_width(&frame.y.title(&self.y_label), theme::LABEL_SIZE, room);
         texts.push(upright(theme::MARGIN + theme::LABEL_SIZE, 0.5 * (top + bottom), &y_label));
         let _ = writeln!(svg, "<g class=\"texts\" fill=\"{}\">", theme::INK.hex());
         texts.iter().for_each(|text| svg.push_str(text));
