@@ -39,6 +39,7 @@ mod mutated_runs;
 mod order;
 mod pads;
 mod partial;
+mod pictures;
 mod power_laws;
 mod properties;
 mod random_networks;

@@ -37,6 +37,9 @@ pub(crate) const LABEL_SIZE: f64 = 14.0;
 /// Font size of tick labels, notes and values \[px\].
 pub(crate) const TICK_SIZE: f64 = 13.0;
 
+/// How much longer than the frame is high a label along it may be \[px\].
+pub(crate) const UPRIGHT_ROOM: f64 = 80.0;
+
 /// Width of a curve \[px\].
 pub(crate) const CURVE_WIDTH: f64 = 2.2;
 /// Width of a curve on which another one is expected to lie \[px\].

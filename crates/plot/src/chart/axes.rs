@@ -62,7 +62,11 @@ impl Chart {
         let below = text_style(theme::LABEL_SIZE, theme::INK, Pos::new(HPos::Center, VPos::Top));
         let at = canvas((frame.middle_of(&x_label, width), bottom + 13.0 + theme::TICK_SIZE));
         area.draw(&Text::new(x_label, at, below))?;
-        let y_label = text(&frame.y.title(&self.y_label), theme::LABEL_SIZE, bottom - top);
+        let y_label = text(
+            &frame.y.title(&self.y_label),
+            theme::LABEL_SIZE,
+            bottom - top + theme::UPRIGHT_ROOM,
+        );
         let beside = text_style(theme::LABEL_SIZE, theme::INK, Pos::new(HPos::Center, VPos::Top))
             .transform(FontTransform::Rotate270);
         area.draw(&Text::new(y_label, canvas((theme::MARGIN, 0.5 * (top + bottom))), beside))

@@ -60,8 +60,8 @@ pub struct Chart {
     pub markers: Vec<Marker>,
     /// Limits and other constants.
     pub lines: Vec<ReferenceLine>,
-    /// Whether the curves belong to rising values of one number. Those without a stroke of their own then have colours
-    /// from dark to bright in place of colours that are only told apart.
+    /// Whether the curves belong to rising values of one number. Their colours then run from dark to
+    /// bright, in place of those of their strokes.
     pub is_family: bool,
     /// Whether arrowheads tell in which direction curves are run through, as where a loop is loaded and unloaded.
     pub has_arrows: bool,
@@ -162,7 +162,7 @@ impl Chart {
     /// Colour and pattern of the `index`-th curve.
     fn pen(&self, index: usize) -> Pen {
         let Stroke { colour, pattern } = self.stroke(index);
-        let colour = if self.is_family && self.series[index].stroke.is_none() {
+        let colour = if self.is_family {
             let last = self.series.len().saturating_sub(1).max(1);
             theme::ramp_colour(index as f64 / last as f64)
         } else {

@@ -84,7 +84,11 @@ pub(super) fn draw(svg: &mut String, frame: &Frame, colours: &Colours, label: &s
     for (value, at) in ends.filter_map(|(own, at)| Some((own?, at))) {
         svg.push_str(&text((place, at), "start", theme::TICK_SIZE, &end_label(colours, value)));
     }
-    let title = clip_width(&colours.axis.title(label), theme::LABEL_SIZE, frame.bottom - frame.top);
+    let title = clip_width(
+        &colours.axis.title(label),
+        theme::LABEL_SIZE,
+        frame.bottom - frame.top + theme::UPRIGHT_ROOM,
+    );
     let at = left + width(colours) - GAP[0];
     svg.push_str(&upright(at, 0.5 * (frame.top + frame.bottom), &title));
     svg.push_str("</g>\n");

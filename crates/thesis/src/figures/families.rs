@@ -141,6 +141,7 @@ fn figure(number: usize, kind: Kind, family: &Family, curves: &[Vec<[f64; 4]>]) 
         x_label: x_label.to_owned(),
         y_label: y_label.to_owned(),
         series: series.collect(),
+        is_family: true,
         markers: family.members.iter().filter_map(marker).collect(),
         lines,
         ..Chart::default()
