@@ -36,6 +36,7 @@ mod layers;
 mod limits;
 mod moduli;
 mod mutated_runs;
+mod on_demand;
 mod order;
 mod pads;
 mod partial;

@@ -3,7 +3,7 @@
 use super::shown;
 
 /// Chapters with how many texts and figures they show.
-const CHAPTERS: [(&str, usize, usize); 7] = [
+const CHAPTERS: [(&str, usize, usize); 13] = [
     ("quick-start", 4, 1),
     ("vibration", 2, 1),
     ("thesis", 1, 4),
@@ -11,6 +11,12 @@ const CHAPTERS: [(&str, usize, usize); 7] = [
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),
+    ("jobs/protector", 2, 0),
+    ("jobs/parcel", 2, 2),
+    ("jobs/liners", 2, 1),
+    ("jobs/dma", 2, 0),
+    ("jobs/designs", 1, 0),
+    ("jobs/thesis-figure", 0, 2),
 ];
 
 #[test]

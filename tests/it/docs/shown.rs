@@ -1,7 +1,7 @@
 //! Chapters that show what the command prints.
 //!
 //! A code block `toml NAME` is a file of this name; the scenes of the repository are in the folder
-//! `scenes`. A block `console` holds commands, which run in the order of the text. A block `text shown`
+//! `scenes`, and the folder `data` beside the chapter, if there is one, in `data`. A block `console` holds commands, which run in the order of the text. A block `text shown`
 //! after it is what they print: standard output, or the message where the input is refused. A line `…`
 //! in it stands for what is left out. `text verdict` is the same up to the table of measures, and `text
 //! report` up to what it took.
@@ -83,6 +83,15 @@ pub(super) fn labels(drawing: &str) -> Vec<&str> {
     texts.filter_map(|(_, rest)| rest.split_once('<')).map(|(label, _)| label.trim()).collect()
 }
 
+/// Copies the files that a chapter reads, where there are any.
+fn copy_data(from: &Path, to: &Path) {
+    let Ok(entries) = fs::read_dir(from) else { return };
+    fs::create_dir(to).unwrap();
+    for entry in entries.map(Result::unwrap) {
+        fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
+    }
+}
+
 /// Holds a chapter against what its commands print and draw, or brings it up to date. The numbers of
 /// texts and of figures that it shows.
 pub(super) fn check(path: &str) -> (usize, usize) {
@@ -92,6 +101,7 @@ pub(super) fn check(path: &str) -> (usize, usize) {
         let entry = entry.unwrap();
         fs::copy(entry.path(), folder.path().join("scenes").join(entry.file_name())).unwrap();
     }
+    copy_data(&root().join(path).with_file_name("data"), &folder.path().join("data"));
     let mut chapter = text(path);
     let (mut output, mut count) = (String::new(), 0);
     for (kind, block) in parted(&text(path)).1 {

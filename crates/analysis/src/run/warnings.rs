@@ -363,6 +363,10 @@ pub(crate) fn pressed_through(solution: &Solution<'_>) -> Vec<Warning> {
     solution.assembly().connections.iter().flat_map(of_connection).collect()
 }
 
+/// Part of the span of a law beyond which it is not told that it is extrapolated: what is released at its first
+/// point lies beyond it by the error of the solution, and the force there is that of the point.
+const NEXT_TO_NOTHING: f64 = 1e-6;
+
 /// Measured laws that are followed beyond their points: of each element the one that is followed
 /// furthest on either side.
 pub(crate) fn beyond_measured(solution: &Solution<'_>) -> Vec<Warning> {
@@ -388,7 +392,7 @@ impl Beyond {
         let deformation = solution.glance(part.deformation);
         let run = (0.0, solution.end());
         let size = if first.is_finite() { last - first } else { last };
-        let noise = deformation.error.unwrap_or(0.0).max(ROUNDING * size);
+        let noise = deformation.error.unwrap_or(0.0).max(NEXT_TO_NOTHING * size);
         let (deepest, longest) = (deformation.maximum(run), deformation.minimum(run));
         let name = || part.name.clone();
         let pressed = (deepest.value > last + noise).then(|| Self {

@@ -242,7 +242,7 @@ pub(crate) fn does_work(primitive: &PrimitiveOutputs) -> bool {
 }
 
 /// The largest energy \[J\] that any one mass or spring holds within the window: what is driven may
-/// come to rest again with all energy given back.
+/// come to rest again with all energy given back. Where neither holds any it is that of a part that switches.
 fn most_in_one_place(solution: &Solution<'_>, window: (f64, f64)) -> f64 {
     let assembly = solution.assembly();
     let largest = |output: usize| solution.glance(output).absolute_maximum(window).value;
@@ -255,15 +255,21 @@ fn most_in_one_place(solution: &Solution<'_>, window: (f64, f64)) -> f64 {
             Law::Spring(_) | Law::Nonlinear { .. } => {
                 Some(primitive.element.stored(largest(primitive.deformation)))
             }
-            Law::Phased if EnergyRole::of(primitive.element.as_ref()).stores => {
-                let deformation = solution.glance(primitive.deformation);
-                let time = deformation.absolute_maximum(window).time;
-                let there = deformation.left_value(time);
-                Some(roles::stored(solution.run(), primitive, time, there))
-            }
             _ => None,
         });
-    masses.chain(springs).fold(0.0, f64::max)
+    let most = masses.chain(springs).fold(0.0, f64::max);
+    if most > 0.0 {
+        return most;
+    }
+    let storing = assembly.primitives.iter().filter(|own| {
+        own.element.law() == Law::Phased && EnergyRole::of(own.element.as_ref()).stores
+    });
+    let held = storing.map(|primitive| {
+        let deformation = solution.glance(primitive.deformation);
+        let time = deformation.absolute_maximum(window).time;
+        roles::stored(solution.run(), primitive, time, deformation.left_value(time))
+    });
+    held.fold(0.0, f64::max)
 }
 
 /// Adds up the errors of a balance.

@@ -184,6 +184,19 @@ impl Designs {
         [first.to_owned()].into_iter().chain(names).collect()
     }
 
+    /// What the scenes are: once what all are, else one by one.
+    fn titles(&self) -> Vec<String> {
+        let all = list(self.designs.iter().map(|own| title(&own.answer.scene)));
+        match all.split_first() {
+            Some((first, others)) if others.iter().all(|own| own == first) => {
+                vec![(*first).to_owned()]
+            }
+            _ => list(
+                self.designs.iter().zip(all).map(|(own, title)| format!("{}: {title}", own.name)),
+            ),
+        }
+    }
+
     /// How each was solved.
     fn solved(&self) -> Table {
         let row = |(own, run): (&Design, &RunReport)| {
@@ -193,10 +206,9 @@ impl Designs {
                 run.solver.method.to_owned(),
                 worst.map_or("not known".to_owned(), |worst| format!("±{}", bound(worst))),
                 duration(run.solver.wall_in_all),
-                title(&own.answer.scene).to_owned(),
             ]
         };
-        let header = ["design", "method", "largest error", "time", "scene"];
+        let header = ["design", "method", "largest error", "time"];
         Table::new("Solved", &header, self.best().map(row))
     }
 
@@ -215,6 +227,7 @@ impl Study for Designs {
     fn text(&self, text: &mut Text) {
         text.warnings(&self.warnings());
         text.title(&format!("{} designs side by side", self.designs.len()));
+        self.titles().iter().for_each(|own| text.faint(own));
         text.blank();
         for line in self.verdicts() {
             text.labelled(line.label, LABELS, &line.text);
@@ -291,9 +304,11 @@ impl Study for Designs {
         let page = Report {
             title: format!("{} designs side by side", self.designs.len()),
             warnings: self.warnings(),
-            verdict: list(
-                self.verdicts().into_iter().map(|line| format!("{}: {}", line.label, line.text)),
-            ),
+            verdict: {
+                let lines = self.verdicts().into_iter();
+                let lines = lines.map(|line| format!("{}: {}", line.label, line.text));
+                list(self.titles().into_iter().chain(lines))
+            },
             tables: list(
                 [self.limits(), measures_table(&self.side())]
                     .into_iter()

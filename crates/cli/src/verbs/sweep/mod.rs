@@ -369,10 +369,12 @@ impl Study for Swept {
         text.blank();
         text.items(page::verdict(self, &best::best(self)));
         let (table, more) = points::table(self);
-        text.table(&table);
-        if more > 0 {
+        if !table.rows.is_empty() {
+            text.rows_below(&table);
+        }
+        if more > 0 && !table.rows.is_empty() {
             text.faint(&format!(
-                "… and {more} more points; all of them are in the CSV of a pipe or of `--out`"
+                "and {more} more designs: all are in the CSV, in a pipe or by `--out`"
             ));
         }
         let is_sample = matches!(self.varied.form, Form::Sampled);

@@ -32,7 +32,7 @@ pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
         limits,
         best_table(swept, &best),
         extremes(swept),
-        Table { caption: "Points".to_owned(), ..points::table(swept).0 },
+        points::table(swept).0,
     ];
     let details = [settings(swept), Table::list("How it was solved", words::solving(swept))];
     let has_rows = |table: &Table| !table.rows.is_empty();

@@ -7,8 +7,10 @@ use dashpot_plot::Table;
 use super::{Swept, figures, words};
 use crate::{numbers::digits, output::list};
 
-/// So many points are shown, the first ones of more.
+/// So many points are shown; of more the first designs of a list, and none of a grid, which figures show.
 const MOST_SHOWN: usize = 30;
+/// So many designs of a longer list.
+const FIRST_SHOWN: usize = 10;
 /// Digits of a value, whatever its error.
 const MOST_DIGITS: usize = 5;
 /// What stands where there is no value.
@@ -49,8 +51,15 @@ pub(super) fn table(swept: &Swept) -> (Table, usize) {
     };
     let header = list(header.iter().map(String::as_str));
     let points = report.points();
-    let rows = (0..points.min(MOST_SHOWN)).map(row);
-    (Table::new("", &header, rows), points.saturating_sub(MOST_SHOWN))
+    let shown = match points {
+        0..=MOST_SHOWN => points,
+        _ if swept.varied.is_of_rows() => FIRST_SHOWN,
+        _ => 0,
+    };
+    let more = points - shown;
+    let caption =
+        if more > 0 { format!("The first {shown} designs") } else { "All points".to_owned() };
+    (Table::new(caption, &header, (0..shown).map(row)), more)
 }
 
 /// A key in lines: what is measured below what it is of.
