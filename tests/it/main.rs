@@ -34,6 +34,7 @@ mod hard;
 mod independent;
 mod layers;
 mod limits;
+mod loading;
 mod mutated_runs;
 mod order;
 mod pads;

@@ -79,7 +79,7 @@ impl Deviation {
 }
 
 /// The integral of a squared difference, and the length that it is over.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Square {
     sum: f64,
     length: f64,
