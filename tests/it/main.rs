@@ -34,6 +34,7 @@ mod hard;
 mod independent;
 mod layers;
 mod limits;
+mod loading;
 mod moduli;
 mod mutated_runs;
 mod on_demand;

@@ -11,6 +11,7 @@ mod error;
 mod errors;
 mod impact;
 pub mod limits;
+pub mod measured;
 pub mod measures;
 mod memory;
 mod note;

@@ -15,7 +15,7 @@ use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
 use dashpot_scene::{
-    Diagnostics, ListedFault, TunableFault, Unwritable, VariationFault, suggestion,
+    Diagnostics, ListedFault, TableError, TunableFault, Unwritable, VariationFault, suggestion,
     units::parse_dimension,
 };
 use dashpot_thesis::ThesisError;
@@ -123,6 +123,12 @@ pub(crate) enum CliError {
     /// A parameter that no test has.
     #[error("no test has a `{name}`; there are {}", .known.join(", "))]
     UnknownSetting { name: String, known: Vec<&'static str> },
+    /// A file with a measured curve that is no table.
+    #[error("`{file}`, {fault}")]
+    MeasuredTable { file: String, fault: Box<TableError> },
+    /// A measured curve of which it is not clear what it measured.
+    #[error("`--measured {file}`: {reason}")]
+    MeasuredColumn { file: String, reason: String },
     /// A parameter of a test with a value that cannot be used.
     #[error("`{name}`: {reason}")]
     WrongSetting { name: String, reason: String },
@@ -239,6 +245,7 @@ impl CliError {
                 "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
                     .to_owned(),
             ),
+            Self::MeasuredTable { fault, .. } => fault.help(),
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
             Self::Tunable(fault) => fault.help(),

@@ -103,7 +103,7 @@ pub(crate) fn load(path: &str) -> Result<Vec<u8>, String> {
     bytes_of(Path::new(path)).map_err(|error| reason(&error))
 }
 
-fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
+pub(crate) fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
     let found = fs::metadata(path)?;
     if found.is_dir() {
         return Err(io::Error::from(io::ErrorKind::IsADirectory));

@@ -7,6 +7,7 @@ mod args;
 mod error;
 mod folder;
 mod input;
+mod measured;
 mod non_identifiable;
 mod numbers;
 mod operand;

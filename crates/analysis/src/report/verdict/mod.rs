@@ -409,6 +409,8 @@ impl<'r> Found<'r> {
         let (node, speed) = speeds.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
         let returns = speed * node.start_velocity.unwrap_or(0.0) < 0.0;
         let at = self.0.assembly.position(element)?;
+        // A face with mass keeps what strikes it; the element behind it throws both back.
+        let at = self.0.assembly.pad_behind(at).map_or(at, |pad| pad.element);
         let restitution = Measure::read(&CoefficientOfRestitution::default(), &solution, at);
         let restitution = restitution.value.filter(|_| returns);
         Some(Leaving { impactor: &node.name, speed: speed.abs(), returns, restitution })

@@ -8,6 +8,8 @@ use crate::{error::CliError, input::setting};
 
 /// Combinations of values of one test; more are no table any more.
 const MOST_VARIANTS: usize = 24;
+/// Points of a loop that is compared with a measured one: straight lines between them are good to some 1e-7.
+const POINTS_BESIDE: f64 = 4000.0;
 
 /// The words of the tests that are asked for, all of them by default.
 pub(super) fn tests(arguments: &RheometerArguments) -> Vec<String> {
@@ -83,6 +85,18 @@ pub(super) struct Variant<'a> {
     pub(super) given: Vec<(&'a str, f64)>,
     /// What tells it from others of the same test; empty where it is the only one.
     pub(super) label: String,
+}
+
+impl Variant<'_> {
+    /// The same beside a measured loop, which is `depth` deep where it is not said otherwise; with points enough to
+    /// be compared with.
+    pub(super) fn beside(mut self, depth: Option<f64>) -> Self {
+        let is_given = |name: &str| self.given.iter().any(|own| own.0 == name);
+        let depth = depth.filter(|_| !is_given("deformation") && !is_given("force"));
+        let points = (!is_given("points")).then_some(("points", POINTS_BESIDE));
+        self.given.extend(depth.map(|depth| ("deformation", depth)).into_iter().chain(points));
+        self
+    }
 }
 
 /// A test with every combination of the values of its parameters.

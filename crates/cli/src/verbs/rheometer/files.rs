@@ -10,10 +10,11 @@ use dashpot_plot::{
 };
 use dashpot_rheology::MaxwellForm;
 
-use super::{Made, Tested, Units};
+use super::{Made, Tested, Units, beside::MeasuredLoop};
 use crate::{
     error::CliError,
     folder::Staged,
+    numbers::{percent_signed, share},
     output::{csv, list},
 };
 
@@ -70,28 +71,48 @@ pub(super) fn names(tests: impl Iterator<Item = String>) -> Vec<String> {
 
 /// The figures of tests that differ in the values of their parameters alone, with the names of their files: of loops
 /// one for all, else one for each test.
-pub(super) fn charts(tests: &[Made], units: Units) -> Vec<(String, Chart)> {
+pub(super) fn charts(
+    tests: &[Made],
+    measured: Option<&MeasuredLoop>,
+    units: Units,
+) -> Vec<(String, Chart)> {
     let is_loop = |made: &&Made| made.report.protocol == LoadUnload::KIND;
     let Some(first) = tests.first().filter(is_loop) else {
         let one = |made: &Made| Some((made.name.clone(), series(&made.report, units)?.chart()));
         return tests.iter().filter_map(one).collect();
     };
-    let loops = tests.iter().filter_map(|made| {
-        let series = made.report.series.first()?;
-        let drive = &made.report.drive.as_ref()?.values;
-        let computed = series.computed.first().map_or(&[][..], |own| &own.values);
-        let points = drive.iter().zip(computed).filter_map(|(&at, value)| Some((at, (*value)?)));
-        let mut points: Vec<(f64, f64)> = points.collect();
-        if points.is_empty() {
-            points = drive.iter().copied().zip(series.model.iter().copied()).collect();
-        }
+    let loops = tests.iter().map(|made| {
         let name = if made.label.is_empty() { "model" } else { &made.label };
-        Some(Loop { name: name.to_owned(), points })
+        let off = made.deviation.map_or_else(String::new, |own| {
+            format!(": peak {}, rms {}", percent_signed(own.relative_peak()), share(own.rms))
+        });
+        Loop { name: format!("{name}{off}"), points: run_through(&made.report) }
     });
     let title = if units.is_material { "Stress over strain" } else { "Force over deformation" };
-    let own =
-        LoopSeries { title: title.to_owned(), subject: subject(units), loops: loops.collect() };
+    let own = LoopSeries {
+        title: title.to_owned(),
+        subject: subject(units),
+        loops: loops.collect(),
+        measured: measured.map(|own| Loop {
+            name: format!("measured, {}", own.file),
+            points: own.points.clone(),
+        }),
+    };
     vec![(first.report.protocol.to_owned(), own.chart())]
+}
+
+/// The loop of a test as it is run through: that of the network, or else of the model.
+pub(super) fn run_through(report: &RheometerReport) -> Vec<(f64, f64)> {
+    let Some((series, drive)) = report.series.first().zip(report.drive.as_ref()) else {
+        return Vec::new();
+    };
+    let computed = series.computed.first().map_or(&[][..], |own| &own.values);
+    let pairs = drive.values.iter().zip(computed);
+    let points: Vec<(f64, f64)> = pairs.filter_map(|(&at, value)| Some((at, (*value)?))).collect();
+    if points.is_empty() {
+        return drive.values.iter().copied().zip(series.model.iter().copied()).collect();
+    }
+    points
 }
 
 fn subject(units: Units) -> ModelSubject {
@@ -118,7 +139,9 @@ pub(super) fn write(files: &mut Staged<'_>, tested: &Tested) -> Result<(), CliEr
         let rows = rows.map(|row| list(columns.iter().map(|column| value(column, row))));
         files.add_with(format!("{}.csv", made.name), |out| csv(out, header, rows))?;
     }
-    for (name, chart) in tested.groups().flat_map(|group| charts(group, tested.units)) {
+    for (name, chart) in
+        tested.groups().flat_map(|group| charts(group, tested.measured.as_ref(), tested.units))
+    {
         files.add(format!("{name}.svg"), chart.svg()?)?;
     }
     Ok(())

@@ -3,7 +3,7 @@
 use dashpot_analysis::rheometer::{Note, Obstacle, RheometerReport, Series};
 use serde::Serialize;
 
-use super::{Made, Units};
+use super::{Made, Units, beside};
 use crate::output::{list, object};
 
 pub(super) fn test(made: &Made, units: Units) -> impl Serialize {
@@ -26,6 +26,7 @@ pub(super) fn test(made: &Made, units: Units) -> impl Serialize {
             note: figure.note.as_ref().map(Note::to_string),
             note_code: figure.note.map(Note::code),
         })),
+        measured: made.deviation.as_ref().map(beside::object),
         notes: list(report.notes.iter().map(Note::to_string)),
         note_codes: list(report.notes.iter().copied().map(Note::code)),
     }

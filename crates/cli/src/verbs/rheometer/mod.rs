@@ -1,6 +1,7 @@
 //! `dashpot rheometer`.
 
 mod asked;
+mod beside;
 mod files;
 mod json;
 mod tables;
@@ -13,13 +14,19 @@ use clap::{
 };
 use dashpot_analysis::{
     Choice,
-    rheometer::{Note, PROTOCOLS, ProtocolEntry, RheometerReport, Specimen, methods_for, protocol},
+    measured::Deviation,
+    rheometer::{
+        LoadUnload, Note, PROTOCOLS, ProtocolEntry, RheometerReport, Specimen, methods_for,
+        protocol,
+    },
 };
+use dashpot_network::parameters::Kind as _;
 use dashpot_plot::Table;
 use serde::Serialize;
 
 use self::{
     asked::{given, summary, tests, variants},
+    beside::MeasuredLoop,
     tables::{
         agreement, characteristics, figure_table, missing, settings, side_by_side, spectra,
         spectrum_table,
@@ -65,6 +72,10 @@ pub(crate) struct RheometerArguments {
     /// Methods that simulate the network [default: exact for a linear model, else auto].
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = MethodNames(method_names()))]
     method: Vec<String>,
+    /// A measured loop beside that of `load-unload`: a file with a column of deformation and one of force, or
+    /// strain and stress, with their units; the motion turns where the measured one does.
+    #[arg(long, value_name = "FILE")]
+    measured: Option<String>,
     #[command(flatten)]
     values: ValueArguments,
     /// Folder for CSV, JSON and SVG; it is made if need be.
@@ -91,6 +102,7 @@ struct Tested {
     units: Units,
     specimen: Specimen,
     tests: Vec<Made>,
+    measured: Option<MeasuredLoop>,
     plot: When,
 }
 
@@ -101,6 +113,8 @@ struct Made {
     label: String,
     /// The name of its files.
     name: String,
+    /// How far it is from what was measured.
+    deviation: Option<Deviation>,
 }
 
 impl Tested {
@@ -125,11 +139,17 @@ pub(crate) fn rheometer(
         methods.extend(methods_for(&specimen));
     }
     let given = given(arguments, units)?;
+    let measured = arguments.measured.as_deref();
+    let measured = measured.map(|file| MeasuredLoop::read(file, units)).transpose()?;
     let mut asked = Vec::new();
     for test in tests(arguments) {
         let variants = variants(&test, &given)?;
         let is_alone = variants.len() == 1;
-        asked.extend(variants.into_iter().enumerate().map(|(at, variant)| {
+        let variants = variants.into_iter().map(|own| match &measured {
+            Some(measured) if test == LoadUnload::KIND => own.beside(measured.depth()),
+            _ => own,
+        });
+        asked.extend(variants.enumerate().map(|(at, variant)| {
             let name = if is_alone { test.clone() } else { format!("{test}-{}", at + 1) };
             (test.clone(), name, variant)
         }));
@@ -139,13 +159,19 @@ pub(crate) fn rheometer(
     let mut made = Vec::new();
     for (test, name, variant) in asked {
         match protocol(&test, &variant.given)?.run(&specimen, &methods) {
-            Ok(report) => made.push(Made { report, label: variant.label, name }),
+            Ok(report) => {
+                let own = measured.as_ref().filter(|_| test == LoadUnload::KIND);
+                let deviation = own
+                    .and_then(|own| Deviation::of_loops(&own.points, &files::run_through(&report)));
+                made.push(Made { report, label: variant.label, name, deviation });
+            }
             // One test alone was asked for; of several, the others go on.
             Err(error) if arguments.test.len() != 1 => note(&error.to_string()),
             Err(error) => return Err(error.into()),
         }
     }
-    let tested = Tested { word: operand.word, units, specimen, tests: made, plot: arguments.plot };
+    let tested =
+        Tested { word: operand.word, units, specimen, tests: made, measured, plot: arguments.plot };
     emit(&tested, arguments.json, folder, terminal)?;
     Ok(Status::Done)
 }
@@ -219,8 +245,16 @@ impl Study for Tested {
                 };
                 text.paragraphs(agreement(&made.report).into_iter().chain(notes).map(label));
             }
+            if let Some(table) = beside::deviations(group, units) {
+                text.heading(&table.caption);
+                show(text, &table);
+                text.paragraphs(self.measured.iter().filter_map(|own| own.note.as_ref()));
+            }
             let is_plotted = text.is_plotted(self.plot);
-            for chart in files::charts(group, units).into_iter().filter(|_| is_plotted) {
+            for chart in files::charts(group, self.measured.as_ref(), units)
+                .into_iter()
+                .filter(|_| is_plotted)
+            {
                 text.chart(&chart.1, PLOT_HEIGHT);
             }
         }

@@ -158,7 +158,7 @@ pub(super) fn missing(figures: &[Figure], units: Units) -> Vec<String> {
 }
 
 /// A value in its unit; a strain rate is no frequency.
-fn in_unit(value: f64, unit: &'static str, digits: usize) -> String {
+pub(super) fn in_unit(value: f64, unit: &'static str, digits: usize) -> String {
     if [STRAIN_RATE, "J/m³"].contains(&unit) {
         Unit::plain(unit).text(value, digits)
     } else {

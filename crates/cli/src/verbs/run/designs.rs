@@ -191,9 +191,10 @@ impl Designs {
             Some((first, others)) if others.iter().all(|own| own == first) => {
                 vec![(*first).to_owned()]
             }
-            _ => list(
-                self.designs.iter().zip(all).map(|(own, title)| format!("{}: {title}", own.name)),
-            ),
+            _ => {
+                let named = self.designs.iter().zip(all).filter(|(own, title)| own.name != *title);
+                list(named.map(|(own, title)| format!("{}: {title}", own.name)))
+            }
         }
     }
 

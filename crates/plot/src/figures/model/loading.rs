@@ -12,6 +12,8 @@ pub struct LoopSeries {
     pub subject: ModelSubject,
     /// The loops, in the order of the legend.
     pub loops: Vec<Loop>,
+    /// A measured loop, dotted over all others.
+    pub measured: Option<Loop>,
 }
 
 /// One loop.
@@ -29,7 +31,7 @@ const PATTERNS: [Pattern; 3] = [Pattern::Solid, Pattern::Dashed, Pattern::Dotted
 impl LoopSeries {
     /// The chart: each loop as it is run through.
     pub fn chart(&self) -> Chart {
-        let points = || self.loops.iter().flat_map(|own| &own.points);
+        let points = || self.loops.iter().chain(&self.measured).flat_map(|own| &own.points);
         let (xs, ys) = (|| points().map(|p| p.0), || points().map(|p| p.1));
         let (x, y, words) = match self.subject {
             ModelSubject::Pad => (Unit::length(xs()), Unit::force(ys()), ("deformation", "force")),
@@ -37,16 +39,20 @@ impl LoopSeries {
                 (Unit::strain(xs()), Unit::stress(ys()), ("strain", "stress"))
             }
         };
-        let series = self.loops.iter().enumerate().map(|(colour, own)| Series {
+        let one = |own: &Loop, colour: usize, pattern: Pattern| Series {
             name: own.name.clone(),
             points: own.points.iter().map(|p| (p.0 / x.factor, p.1 / y.factor)).collect(),
-            stroke: Some(Stroke { colour, pattern: PATTERNS[colour / COLOURS % PATTERNS.len()] }),
-        });
+            stroke: Some(Stroke { colour, pattern }),
+        };
+        let pattern = |at: usize| PATTERNS[at / COLOURS % PATTERNS.len()];
+        let loops = self.loops.iter().enumerate();
+        let mut series: Vec<Series> = loops.map(|(at, own)| one(own, at, pattern(at))).collect();
+        series.extend(self.measured.iter().map(|own| one(own, self.loops.len(), Pattern::Dotted)));
         Chart {
             title: self.title.clone(),
             x_label: x.label(words.0),
             y_label: y.label(words.1),
-            series: series.collect(),
+            series,
             ..Chart::default()
         }
     }
@@ -66,6 +72,7 @@ mod tests {
             title: "Force over deformation".into(),
             subject: ModelSubject::Pad,
             loops: vec![own("slow", 1e3), own("fast", 2e3)],
+            measured: Some(own("measured", 1.5e3)),
         };
         let chart = loops.chart();
         assert_eq!(
@@ -74,5 +81,6 @@ mod tests {
         );
         assert_eq!(chart.series[1].points, [(0.0, 0.0), (10.0, 2.0), (2.0, 0.0)]);
         assert_ne!(chart.series[0].stroke, chart.series[1].stroke);
+        assert_eq!(chart.series[2].stroke.map(|own| own.pattern), Some(Pattern::Dotted));
     }
 }
