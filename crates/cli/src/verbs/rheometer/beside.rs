@@ -75,8 +75,8 @@ pub(super) fn deviations(tests: &[Made], units: Units) -> Option<Table> {
         row("peak force, measured", &|own| force(own.measured_peak.1)),
         row("peak force, model", &|own| force(own.model_peak.1)),
         row("the model deviates by", &|own| percent_signed(own.relative_peak())),
-        row("energy lost, measured", &|own| energy(areas(own)[0])),
-        row("energy lost, model", &|own| energy(areas(own)[1])),
+        row("area of the loop, measured", &|own| energy(areas(own)[0])),
+        row("area of the loop, model", &|own| energy(areas(own)[1])),
         row("the model deviates by", &|own| percent_signed(areas(own)[1] / areas(own)[0] - 1.0)),
         row("rms of the difference, of the measured peak", &|own| share(own.rms)),
     ];
