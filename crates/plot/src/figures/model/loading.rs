@@ -53,6 +53,7 @@ impl LoopSeries {
             x_label: x.label(words.0),
             y_label: y.label(words.1),
             series,
+            has_arrows: true,
             ..Chart::default()
         }
     }
