@@ -1,6 +1,6 @@
 //! What a run says about its limits, in words, and whether they are kept.
 
-use dashpot_analysis::{Bound, Judged, Judgement, Limit, MeasureReport, RunReport};
+use dashpot_analysis::{Bound, Judged, Judgement, Limit, MeasureReport, RunReport, Warning};
 
 use super::{
     measures::{is_index, unit_of_kind},
@@ -61,7 +61,23 @@ fn text(run: &RunReport, judged: &Judged<'_>) -> String {
     let bare = if is_bare { "; its error is not known" } else { "" };
     let advice = advice(run, judged).map_or(String::new(), |own| format!("; {own}"));
     let stated = stated(limit, judged.measure);
-    format!("{} {value}, {stated}{margin}{chance}{bare}{mean}{advice}", limit.key)
+    let beyond = beyond(run, judged).map_or(String::new(), |own| format!("; {own}"));
+    format!("{} {value}, {stated}{margin}{beyond}{chance}{bare}{mean}{advice}", limit.key)
+}
+
+/// What a limit that is kept hangs on, where something is pressed further than is known of it.
+fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
+    let said = |warning: &Warning| match warning {
+        Warning::BeyondLaw(own) if own.is_pressed => {
+            Some(format!("it hangs on {} beyond the points of its law", own.name))
+        }
+        Warning::PressedThrough { through, .. } => {
+            Some(format!("it hangs on {} beyond its thickness", through.name))
+        }
+        _ => None,
+    };
+    let is_kept = judged.judgement == Judgement::Pass;
+    run.warnings.iter().filter(|_| is_kept).find_map(said)
 }
 
 /// The value with as many digits as tell it from the bound, and with its error where that reaches across.

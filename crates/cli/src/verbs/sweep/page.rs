@@ -53,7 +53,7 @@ pub(super) fn verdict(swept: &Swept, best: &[super::best::Design]) -> Vec<String
     let count = swept.report.points();
     let what = if swept.varied.is_of_rows() { "designs" } else { "points" };
     let mut lines = vec![format!("{count} {what} solved")];
-    lines.extend(words::kept(&swept.report));
+    lines.extend(words::kept(swept));
     if let Some(first) = best.first().filter(|_| !swept.report.limits.is_empty()) {
         let word = if first.passes { "best" } else { "nearest to passing" };
         lines.push(format!("{word}: {}, {}", swept.at(first.point), first.margin_in_words()));

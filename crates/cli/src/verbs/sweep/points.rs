@@ -8,7 +8,7 @@ use super::{Swept, figures, words};
 use crate::{numbers::digits, output::list};
 
 /// So many points are shown; of more the first designs of a list, and none of a grid, which figures show.
-const MOST_SHOWN: usize = 30;
+const MOST_SHOWN: usize = 50;
 /// So many designs of a longer list.
 const FIRST_SHOWN: usize = 10;
 /// Digits of a value, whatever its error.

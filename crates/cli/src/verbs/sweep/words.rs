@@ -136,7 +136,15 @@ pub(super) fn level_of(report: &SweepReport, column: usize, limit: &Limit) -> St
 }
 
 /// How many points keep each limit.
-pub(super) fn kept(report: &SweepReport) -> Vec<String> {
+pub(super) fn kept(swept: &Swept) -> Vec<String> {
+    let report = &swept.report;
+    let unknown: Vec<usize> = report
+        .warnings
+        .iter()
+        .filter(|own| is_beyond(&own.warning))
+        .flat_map(|own| &own.points)
+        .copied()
+        .collect();
     let sentence = |at: usize| {
         let (column, own) = &report.limits[at];
         let judged = report.judged(at);
@@ -145,9 +153,42 @@ pub(super) fn kept(report: &SweepReport) -> Vec<String> {
             [Judgement::Pass, Judgement::Fail, Judgement::Undecided].map(count);
         let open = if open > 0 { format!(", {open} undecided") } else { String::new() };
         let limit = limit(report, *column, own);
-        format!("{} {limit}: {pass} of {} points pass, {fail} fail{open}", own.key, judged.len())
+        let passes = |point: &usize| judged[*point] == Some(Judgement::Pass);
+        let beyond = (0..judged.len()).filter(|point| passes(point) && unknown.contains(point));
+        let beyond = match beyond.count() {
+            0 => String::new(),
+            count => format!(" ({count} of them beyond the points of a law or a thickness)"),
+        };
+        let within = passing(swept, &judged).unwrap_or_default();
+        let of = judged.len();
+        format!(
+            "{} {limit}: {pass} of {of} points pass{within}{beyond}, {fail} fail{open}",
+            own.key
+        )
     };
     (0..report.limits.len()).map(sentence).collect()
+}
+
+/// Whether a run is warned that something is pressed further than is known of it.
+fn is_beyond(warning: &Warning) -> bool {
+    match warning {
+        Warning::BeyondLaw(own) => own.is_pressed,
+        Warning::PressedThrough { .. } => true,
+        _ => false,
+    }
+}
+
+/// From where to where a limit is kept over one number, where that is one stretch.
+fn passing(swept: &Swept, judged: &[Option<Judgement>]) -> Option<String> {
+    let [own] = &swept.varied.variations[..] else { return None };
+    if own.is_of_words() || swept.varied.is_of_rows() {
+        return None;
+    }
+    let passes = |at: &usize| judged[*at] == Some(Judgement::Pass);
+    let first = (0..judged.len()).find(passes)?;
+    let last = (0..judged.len()).rev().find(passes)?;
+    let is_one = (first..=last).all(|at| passes(&at));
+    is_one.then(|| format!(", from {} to {}", shown(own, first), shown(own, last)))
 }
 
 /// A value of a parameter to four digits.
@@ -179,7 +220,7 @@ const MOST_WARNED: usize = 8;
 /// How it was solved, what runs are warned of, what is missing, and what was left out.
 pub(super) fn notes(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
-    let mut all = kept(report);
+    let mut all = kept(swept);
     all.extend(means(swept));
     all.extend(solving(swept));
     all.extend(warnings(swept, report, points));
