@@ -174,3 +174,13 @@ fn what_is_wrong_with_a_limit_is_told_with_its_place() {
         assert!(err(&output).contains(told), "{limit}: {}", err(&output));
     }
 }
+
+#[test]
+fn a_limit_of_the_command_line_has_a_unit_but_for_indices() {
+    let (_folder, path) = written("head.severity-index = 1000");
+    let bare = run(&["run", &path, "--limit", "head.peak-acceleration<=250"]);
+    assert_eq!(code(&bare), 2);
+    assert!(err(&bare).contains("write `250 g` or `250 m/s^2`"), "{}", err(&bare));
+    let index = run(&["run", &path, "--limit", "head.hic15<=700"]);
+    assert_eq!(code(&index), 0, "{}", err(&index));
+}

@@ -18,7 +18,7 @@ use crate::{
         document::{Content, Entry, Item},
         table::{Table, one_or_many, text_of, wrong_type},
     },
-    units::{nearest, parse_dimension, parse_quantity},
+    units::{nearest, parse_dimension, parse_quantity, si_unit},
 };
 
 /// What a table says where it is a limit, and not one of measures.
@@ -78,6 +78,22 @@ fn at_most(
     item: &Item,
 ) -> Option<Limit> {
     Some(Limit::new(own.key.clone(), Bound::Max(level(reading, kind, item)?)))
+}
+
+/// Whether a bare level would be read in a unit that nobody thinks in; indices are plain numbers to the field.
+fn needs_unit(expected: Dimension) -> bool {
+    ![Dimension::NUMBER, Dimension::TIME].contains(&expected)
+}
+
+/// Units in which the field states limits, where they are not those of SI.
+const USUAL: [(Dimension, &str); 3] =
+    [(Dimension::ACCELERATION, "g"), (Dimension::FORCE, "kN"), (Dimension::LENGTH, "mm")];
+
+/// What to write in place of a level without a unit.
+fn with_units(level: &str, expected: Dimension) -> String {
+    let usual = USUAL.iter().find(|own| own.0 == expected);
+    let usual = usual.map_or(String::new(), |own| format!("`{level} {}` or ", own.1));
+    format!("{usual}`{level} {}`", si_unit(expected))
 }
 
 fn level(reading: &Reading<'_>, kind: &MeasureEntry, item: &Item) -> Option<f64> {
@@ -171,6 +187,7 @@ fn in_full(
 /// assert_eq!(limits[0].bound, Bound::Max(250.0 * 9.80665));
 /// assert_eq!(parse_limits("pad.peak-force=en-1621-1-level-1").unwrap().len(), 2);
 /// assert!(parse_limits("head.peak-acceleration<=250 mm").unwrap_err().contains("a length"));
+/// assert!(parse_limits("head.peak-acceleration<=250").unwrap_err().contains("write `250 g`"));
 /// ```
 ///
 /// # Errors
@@ -202,6 +219,9 @@ pub fn parse_limits(text: &str) -> Result<Vec<Limit>, String> {
     match quantity.dimension {
         Some(found) if found != expected => {
             Err(Fault::WrongDimension { text: rest.to_owned(), found, expected }.to_string())
+        }
+        None if needs_unit(expected) => {
+            Err(format!("`{rest}` has no unit: write {}", with_units(rest, expected)))
         }
         _ => {
             let level = quantity.value;
