@@ -2,6 +2,7 @@
 //!
 //! - [`DoubleDouble`] and [`Accumulator`]: double-double arithmetic, for what doubles cannot tell apart;
 //! - [`chebyshev`]: polynomials, their zeros and their interpolation;
+//! - [`dop853`]: an explicit method of order 8;
 //! - [`quadrature`]: rules of Gauss and Legendre, and of Gauss and Kronrod on halved intervals;
 //! - [`roots`] and [`extrema`]: bisection, bracketed Newton steps, false position, golden section;
 //! - [`isotonic`]: the nearest sequence that never falls;
@@ -11,6 +12,7 @@
 
 mod accumulator;
 pub mod chebyshev;
+pub mod dop853;
 mod double_double;
 pub mod exponential;
 pub mod extrema;

@@ -6,21 +6,32 @@ use dashpot_network::{
 };
 
 use super::{
-    Column, Grid, Pose, ScenePoint as Scene,
+    Column, Estimates, Grid, Pose, ScenePoint as Scene,
     report::Notice,
     scene_point::{Figure, Impact, ScenePoint, Wanted},
+    stepped::{Course, Stepped},
     table::Table,
 };
 use crate::{
     Compression,
     measures::{
         STANDARD_GRAVITY,
+        hic_search::optimum,
         selection::{Selected, select},
     },
 };
 
-/// A value that is less certain than this part of itself is left to the full solution.
+/// A value of a linear scene that is less certain than this part of itself is left to the full solution.
 const LOOSEST: f64 = 1e-6;
+/// Tolerances of scenes that are not linear, in parts of the accuracy that is wanted.
+const TOLERANCES: [f64; 3] = [1e-2, 1e-4, 1e-6];
+/// The finest of them.
+const FINEST: f64 = 1e-13;
+/// What is doubted of each value, in parts of the largest relative difference of two solutions: one of them may
+/// agree by chance.
+const DOUBT: f64 = 0.1;
+/// What rounding leaves, in parts of a value.
+const ROUNDING: f64 = 1e-12;
 
 /// What a column shows of an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,6 +45,8 @@ enum Shown {
     Work,
     WorkAtEnd,
     Severity,
+    /// Over intervals of at most so many seconds.
+    Hic(f64),
 }
 
 /// How the points of a sweep are solved by instantiating.
@@ -46,8 +59,10 @@ pub(super) struct Plan<'g> {
     table: Table,
     shown: Vec<Shown>,
     /// For each column the part of a value that it may be off by.
-    loosest: Vec<f64>,
+    wishes: Vec<f64>,
     wanted: Wanted,
+    /// Whether the errors of scenes that are not linear are estimated.
+    has_errors: bool,
     duration: f64,
 }
 
@@ -58,6 +73,7 @@ impl<'g> Plan<'g> {
         pose: &Pose<'_>,
         first: &Scene,
         columns: &[Column],
+        estimates: Estimates,
     ) -> Option<Self> {
         let settings = &first.settings;
         if settings.is_duration_found {
@@ -94,11 +110,11 @@ impl<'g> Plan<'g> {
             let own = shown_by(own, &parametric, &mut wanted)?;
             shown.push(if column.is_share { Shown::Share } else { own });
         }
-        let loosest =
-            columns.iter().map(|column| settings.accuracy.of(&column.key).min(LOOSEST)).collect();
+        let wishes = columns.iter().map(|column| settings.accuracy.of(&column.key)).collect();
+        let has_errors = estimates != Estimates::Off;
         let table = Table::of(&parametric, grid, pose, duration)?;
         let element = first.network.connections()[struck].name.clone();
-        Some(Self { grid, parametric, element, table, shown, loosest, wanted, duration })
+        Some(Self { grid, parametric, element, table, shown, wishes, wanted, has_errors, duration })
     }
 
     /// The element that is struck.
@@ -135,19 +151,14 @@ impl<'g> Plan<'g> {
         }))
     }
 
-    fn notice(&self, impact: &Impact, numbers: &[f64]) -> Notice {
-        let time = self.parametric.time_scale();
-        let thickness = numbers[numbers.len() - 1];
-        let Figure { value: depth, error } = impact.depth;
-        let release = impact.release.value * time;
+    /// What is to be said of an impact whose largest deformation \[m\] with its error is reached at one time \[s\],
+    /// and whose force falls through zero at another.
+    fn notice(&self, (depth, deepest_at): (Figure, f64), release: f64, thickness: f64) -> Notice {
+        let is_glued = !self.parametric.opens();
+        let compression = Compression::new([depth.value, deepest_at], Some(depth.error), thickness);
         Notice {
-            pulls: (release < self.duration).then_some(release),
-            pressed: Some(Compression::new(
-                [depth, impact.deepest_at * time],
-                Some(error),
-                thickness,
-            ))
-            .filter(Compression::is_through),
+            pulls: (is_glued && release < self.duration).then_some(release),
+            pressed: Some(compression).filter(Compression::is_through),
         }
     }
 
@@ -172,7 +183,46 @@ impl<'g> Plan<'g> {
                 let exponent = self.wanted.power.unwrap_or(1.0);
                 times(impact.power, time / (mass * STANDARD_GRAVITY).powf(exponent))
             }
+            Shown::Hic(cap) => {
+                let Some(force) = &impact.course else { return Figure::UNKNOWN };
+                let unit = mass * STANDARD_GRAVITY;
+                let found = optimum(force, (0.0, impact.release.value), cap / time);
+                let length = found.interval.1 - found.interval.0;
+                let growth = 2.5 * (found.value / length).powf(0.6) * length;
+                let error = growth * impact.force.error + found.threshold;
+                times(Figure { value: found.value, error }, time / unit.powf(2.5))
+            }
         }
+    }
+
+    /// The same of a solution in steps.
+    fn read(&self, shown: Shown, course: &Course, numbers: &[f64]) -> f64 {
+        let time = self.parametric.time_scale();
+        let unit = self.parametric.impactor_mass(numbers) * STANDARD_GRAVITY;
+        let thickness = numbers[numbers.len() - 1];
+        let Course { force, depth, speed, release } = course;
+        let impact = (0.0, *release);
+        match shown {
+            Shown::Force => force.maximum(impact).value,
+            Shown::Depth => depth.maximum(impact).value,
+            Shown::Share => depth.maximum(impact).value / thickness,
+            Shown::Acceleration => force.maximum(impact).value * STANDARD_GRAVITY / unit,
+            Shown::ContactTime => release * time,
+            Shown::Impulse => force.integral(impact) * time,
+            Shown::Work => force.integral_of_product(speed, impact),
+            Shown::WorkAtEnd => f64::NAN,
+            Shown::Severity => {
+                let exponent = self.wanted.power.unwrap_or(1.0);
+                let power = |force: f64| (force.max(0.0) / unit).powf(exponent);
+                force.integral_of(impact, &[0.0], power) * time
+            }
+            Shown::Hic(cap) => optimum(force, impact, cap / time).value * time / unit.powf(2.5),
+        }
+    }
+
+    /// What is looked at over the steps of a scene that is not linear.
+    fn seen(&self, course: &Course, numbers: &[f64]) -> Vec<f64> {
+        self.shown.iter().map(|&shown| self.read(shown, course, numbers)).collect()
     }
 }
 
@@ -186,7 +236,9 @@ fn shown_by(
     wanted: &mut Wanted,
 ) -> Option<Shown> {
     let mut numbers = Vec::new();
-    for value in selected.measure.values() {
+    let general = selected.measure.general();
+    let measure = general.as_ref().unwrap_or(&selected.measure);
+    for value in measure.values() {
         match value {
             Value::Window(WindowWish::Impact) => {}
             Value::Number(number) => numbers.push(number),
@@ -194,14 +246,14 @@ fn shown_by(
         }
     }
     let target = match selected.measure.kind() {
-        "peak-force" | "peak-deformation" | "contact-time" | "impulse" | "energy"
-        | "energy-at-end" => parametric.element(),
+        "peak-force" | "peak-deformation" | "peak-strain" | "contact-time" | "impulse"
+        | "energy" | "energy-at-end" => parametric.element(),
         _ => parametric.impactor().index(),
     };
     if selected.target != target {
         return None;
     }
-    match (selected.measure.kind(), numbers.as_slice()) {
+    match (measure.kind(), numbers.as_slice()) {
         ("peak-force", []) => Some(Shown::Force),
         ("peak-deformation", []) => Some(Shown::Depth),
         ("peak-acceleration", []) => Some(Shown::Acceleration),
@@ -214,9 +266,15 @@ fn shown_by(
             wanted.work = true;
             Some(Shown::Work)
         }
-        ("energy-at-end", []) => {
+        // What happens after the impact is another story where it parts, or is not linear.
+        ("energy-at-end", []) if parametric.is_linear() && !parametric.opens() => {
             wanted.work_at_end = true;
             Some(Shown::WorkAtEnd)
+        }
+        ("peak-strain", []) => Some(Shown::Share),
+        ("hic", &[cap]) => {
+            wanted.course = true;
+            Some(Shown::Hic(cap))
         }
         // Below one, a power is too steep where the force is zero.
         ("severity-index", &[exponent])
@@ -249,27 +307,94 @@ impl<const N: usize> Stamper for Sized<'_, N> {
     fn write(&mut self, point: usize, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
         let plan = self.plan;
         plan.grid.locate(point, &mut self.places);
-        if !plan.table.write(&self.places, &mut self.numbers) {
+        let is_known = plan.table.write(&self.places, &mut self.numbers)
+            && plan.parametric.fill(&self.numbers, &mut self.instance);
+        if !is_known {
             return None;
         }
-        plan.parametric.fill(&self.numbers, &mut self.instance);
-        let instance = &self.instance;
+        if plan.parametric.is_linear() {
+            self.carry(values, errors)
+        } else {
+            self.step(values, errors)
+        }
+    }
+}
+
+impl<const N: usize> Sized<'_, N> {
+    /// Solves a linear scene by powers of its exponential.
+    fn carry(&self, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
+        let (plan, instance) = (self.plan, &self.instance);
+        let time = plan.parametric.time_scale();
         let scene_point = ScenePoint {
             matrix: &instance.matrix,
             start: &instance.start,
             force: &instance.force,
             deformation: &instance.deformation,
-            end: plan.duration / plan.parametric.time_scale(),
+            end: plan.duration / time,
+            opens: plan.parametric.opens(),
         };
         let impact = scene_point.solve(plan.wanted)?;
-        let places = plan.shown.iter().zip(&plan.loosest).zip(values).zip(errors);
-        for (((shown, loosest), value), error) in places {
+        let places = plan.shown.iter().zip(&plan.wishes).zip(values).zip(errors);
+        for (((shown, wish), value), error) in places {
             let own = plan.figure(*shown, &impact, &self.numbers);
-            if own.error.is_nan() || own.error > loosest * own.value.abs() {
+            if own.error.is_nan() || own.error > wish.min(LOOSEST) * own.value.abs() {
                 return None;
             }
             (*value, *error) = (own.value, own.error);
         }
-        Some(plan.notice(&impact, &self.numbers))
+        let deepest = (impact.depth, impact.deepest_at * time);
+        Some(plan.notice(deepest, impact.release.value * time, self.thickness()))
+    }
+
+    /// Solves a scene that is not linear in steps, as often as its errors ask for.
+    fn step(&self, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
+        let plan = self.plan;
+        let time = plan.parametric.time_scale();
+        let stepped = Stepped {
+            instance: &self.instance,
+            unknowns: plan.parametric.unknowns(),
+            end: plan.duration / time,
+        };
+        let strictest = plan.wishes.iter().copied().fold(f64::INFINITY, f64::min);
+        let tolerance = |at: usize| (TOLERANCES[at] * strictest).max(FINEST);
+        let mut course = stepped.follow(tolerance(usize::from(!plan.has_errors)))?;
+        let mut seen = plan.seen(&course, &self.numbers);
+        errors.fill(f64::NAN);
+        for at in 1..TOLERANCES.len() {
+            if !plan.has_errors {
+                break;
+            }
+            let finer = stepped.follow(tolerance(at))?;
+            let found = plan.seen(&finer, &self.numbers);
+            let differences = || found.iter().zip(&seen).map(|(one, other)| (one - other).abs());
+            let relative = differences().zip(&found).map(|(off, value)| off / value.abs());
+            let most = relative.fold(0.0, f64::max);
+            for ((error, off), value) in errors.iter_mut().zip(differences()).zip(&found) {
+                *error = off + (DOUBT * most + ROUNDING) * value.abs();
+            }
+            (course, seen) = (finer, found);
+            if self.suffice(&seen, errors) {
+                break;
+            }
+        }
+        if seen.iter().any(|value| !value.is_finite())
+            || plan.has_errors && !self.suffice(&seen, errors)
+        {
+            return None;
+        }
+        values.copy_from_slice(&seen);
+        let deepest = course.depth.maximum((0.0, course.release));
+        let depth = Figure { value: deepest.value, error: strictest * deepest.value };
+        Some(plan.notice((depth, deepest.time * time), course.release * time, self.thickness()))
+    }
+
+    fn suffice(&self, values: &[f64], errors: &[f64]) -> bool {
+        let all = values.iter().zip(errors).zip(&self.plan.wishes);
+        all.map(|((value, error), wish)| (error, wish * value.abs()))
+            .all(|(error, most)| !error.is_nan() && *error <= most)
+    }
+
+    fn thickness(&self) -> f64 {
+        self.numbers[self.numbers.len() - 1]
     }
 }

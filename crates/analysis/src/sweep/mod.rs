@@ -20,6 +20,7 @@ mod propagate;
 mod report;
 mod scene_point;
 mod serialized;
+mod stepped;
 mod sums;
 mod table;
 
@@ -125,7 +126,7 @@ fn solved(
 ) -> Result<SweepReport, SweepError> {
     let &Full { grid, pose, columns } = full;
     let first = pose(&grid.places(0)).map_err(SweepError::NotPosed)?;
-    let plan = Plan::of(grid, pose, &first, columns);
+    let plan = Plan::of(grid, pose, &first, columns, estimates);
     let found = plan.as_ref().and_then(|plan| check(plan, full, threads));
     let plan = plan.filter(|_| found.is_some());
     let count = grid.len();

@@ -8,6 +8,7 @@
 
 use std::ops::ControlFlow;
 
+use dashpot_dae::Signal;
 use dashpot_numerics::{
     exponential::Powers,
     small::{Square, apply, apply_left},
@@ -16,7 +17,7 @@ use dashpot_numerics::{
 use super::{
     bracket::{Flank, Step},
     scene_point::{Figure, Impact, ScenePoint, Wanted},
-    sums::Integrals,
+    sums::{Integrals, Recorder},
 };
 
 /// A step is so long, in units of the shortest time of the system, where only peaks are looked for …
@@ -80,6 +81,7 @@ struct Propagation<'p, const N: usize> {
     /// Force and deformation with two rates each, over the states.
     looks: [[f64; 6]; N],
     sums: Option<Integrals<N>>,
+    recorder: Option<Recorder<N>>,
     /// Steps done, the state there, and what is seen.
     at: u32,
     z: [f64; N],
@@ -100,7 +102,7 @@ impl<'p, const N: usize> Propagation<'p, N> {
         let powers = Powers::of(*scene_point.matrix);
         let rate = powers.rate();
         let integrates = wanted.work || wanted.work_at_end || wanted.power.is_some();
-        let longest = if integrates { FINE } else { COARSE } / rate;
+        let longest = if integrates || wanted.course { FINE } else { COARSE } / rate;
         let step = longest.min(scene_point.end / FEWEST);
         if !(step > 0.0 && scene_point.end / step <= MOST) {
             return None;
@@ -131,6 +133,7 @@ impl<'p, const N: usize> Propagation<'p, N> {
             carry: powers.exponential(step),
             looks,
             sums: integrates.then(|| Integrals::new(scene_point, wanted, step, &speed)),
+            recorder: wanted.course.then(|| Recorder::new(scene_point, step)),
             at: 0,
             z: *scene_point.start,
             seen,
@@ -188,6 +191,9 @@ impl<'p, const N: usize> Propagation<'p, N> {
             }
         }
         self.shallowest = self.shallowest.min(found[3]);
+        if let Some(recorder) = &mut self.recorder {
+            recorder.add(&self.z, start);
+        }
         let ahead = self.scene_point.end - self.start();
         if let Some(sums) = &mut self.sums {
             if until.is_some() && self.wanted.work_at_end {
@@ -222,14 +228,14 @@ impl<'p, const N: usize> Propagation<'p, N> {
     }
 
     /// What is known of the impact that ends so long after the beginning of the last step.
-    fn impact(&self, time: f64) -> Option<Impact> {
+    fn impact(mut self, time: f64) -> Option<Impact> {
         let [force, depth] = self.peaks;
         let release = self.start() + time;
         let is_clear = force.doubtful <= force.value
             && depth.doubtful <= depth.value
             && self.lowest > GRAZING * force.value
             && -self.shallowest <= depth.value;
-        if !is_clear || self.may_strike_again() {
+        if !is_clear || !self.scene_point.opens && self.may_strike_again() {
             return None;
         }
         let steps = f64::from(self.at) + 16.0 + self.rate * release;
@@ -247,6 +253,7 @@ impl<'p, const N: usize> Propagation<'p, N> {
             let speed: [f64; N] = self.looks.map(|look| look[4]);
             sums.finish(&mut impact, self.scene_point.end, noise, grown * size(&speed, &self.most));
         }
+        impact.course = self.recorder.take().map(|own| Signal::new(own.panels, None, noise));
         let all = [impact.force, impact.depth, impact.release, impact.power, impact.work];
         let is_finite = |figure: &Figure| figure.value.is_finite() && figure.error.is_finite();
         all.iter().all(is_finite).then_some(impact)

@@ -1,5 +1,6 @@
 //! An impact that is to be solved, and what becomes known of it.
 
+use dashpot_dae::Signal;
 use dashpot_numerics::small::Square;
 
 /// An impact, ready to be solved: `ż = A z` in any unit of time, and what is looked at.
@@ -15,6 +16,8 @@ pub(super) struct ScenePoint<'s, const N: usize> {
     pub(super) deformation: &'s [f64; N],
     /// Length of the run.
     pub(super) end: f64,
+    /// Whether what strikes is let go for good where the force falls through zero.
+    pub(super) opens: bool,
 }
 
 /// Which integrals are wanted.
@@ -26,6 +29,8 @@ pub(super) struct Wanted {
     pub(super) work: bool,
     /// `∫ F ẏ dt` up to the end of the run as well.
     pub(super) work_at_end: bool,
+    /// The force over time.
+    pub(super) course: bool,
 }
 
 /// A number and how far it may be off.
@@ -35,8 +40,13 @@ pub(super) struct Figure {
     pub(super) error: f64,
 }
 
+impl Figure {
+    /// One that is not known.
+    pub(super) const UNKNOWN: Self = Self { value: f64::NAN, error: f64::NAN };
+}
+
 /// What is known of an impact; times in the unit of the matrix.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Impact {
     /// The largest force \[N\].
     pub(super) force: Figure,
@@ -54,4 +64,6 @@ pub(super) struct Impact {
     pub(super) work: Figure,
     /// The same up to the end of the run \[J\].
     pub(super) work_at_end: Figure,
+    /// The force \[N\] over time, up to some time after the release.
+    pub(super) course: Option<Signal>,
 }

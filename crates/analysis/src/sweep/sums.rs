@@ -1,6 +1,8 @@
-//! Integrals over an impact, as Gauss's sums over the steps of its solution.
+//! Integrals over an impact, as Gauss's sums over the steps of its solution, and its force over time.
 
+use dashpot_dae::Panel;
 use dashpot_numerics::{
+    chebyshev::{Coefficients, Interpolation},
     quadrature::GaussLegendre,
     small::{Square, apply, apply_left, dot},
 };
@@ -220,6 +222,37 @@ impl<const N: usize> Integrals<N> {
     }
 }
 
+/// Degree of the polynomials of a force: with steps of the shortest time they are right to rounding.
+const DEGREE: usize = 11;
+
+/// The force over time, as polynomials of the steps.
+pub(super) struct Recorder<const N: usize> {
+    step: f64,
+    /// The coefficients over the state at the start of a step.
+    rows: [[f64; DEGREE + 1]; N],
+    pub(super) panels: Vec<Panel>,
+}
+
+impl<const N: usize> Recorder<N> {
+    pub(super) fn new(scene_point: &ScenePoint<'_, N>, step: f64) -> Self {
+        let nodes = Interpolation::of_degree(DEGREE);
+        let places: [f64; DEGREE + 1] = std::array::from_fn(|at| 0.5 * (1.0 + nodes.nodes()[at]));
+        let values = rows(&terms(scene_point.force, scene_point.matrix), &places, step);
+        let of_state = |values: [f64; DEGREE + 1]| {
+            let mut row = [0.0; DEGREE + 1];
+            nodes.coefficients(&values, &mut row);
+            row
+        };
+        Self { step, rows: values.map(of_state), panels: Vec::new() }
+    }
+
+    /// Adds a step from the state `z` at a time.
+    pub(super) fn add(&mut self, z: &[f64; N], time: f64) {
+        let coefficients = Coefficients::from(apply(&self.rows, z));
+        self.panels.push(Panel { start: time, end: time + self.step, coefficients });
+    }
+}
+
 /// The exponent of the severity index.
 const GADD: f64 = 2.5;
 
@@ -247,13 +280,13 @@ fn terms<const N: usize>(row: &[f64; N], matrix: &Square<N>) -> [[f64; N]; TERMS
     all
 }
 
-/// The rows at Gauss's points of a step.
-fn rows<const N: usize>(
+/// The rows at these places of a step.
+fn rows<const K: usize, const N: usize>(
     terms: &[[f64; N]; TERMS],
-    places: &[f64; GAUSS],
+    places: &[f64; K],
     step: f64,
-) -> [[f64; GAUSS]; N] {
-    let mut all = [[0.0; GAUSS]; N];
+) -> [[f64; K]; N] {
+    let mut all = [[0.0; K]; N];
     for (place, share) in places.iter().enumerate() {
         let time = share * step;
         for (at, own) in all.iter_mut().enumerate() {

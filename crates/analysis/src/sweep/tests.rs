@@ -5,13 +5,13 @@ use std::ops::ControlFlow;
 use dashpot_network::{
     Network, Node, dashpot,
     effects::{Gravity, GravityStart, Separation},
-    elements::Foam,
+    elements::{CubicSpring, Foam, PowerSpring, StiffeningSpring},
     part, spring,
 };
 use dashpot_rheology::Tree;
 
 use super::*;
-use crate::Solve;
+use crate::{Choice, Solve};
 
 /// Numbers of a generator of its own, so that a failure can be repeated.
 struct Random(u64);
@@ -290,6 +290,135 @@ fn points_that_fail_are_gaps_and_the_others_stand() {
     assert_eq!(finite, [true, true, false, true, true]);
 }
 
+/// What a single body strikes, as a pad that lets go or is glued, with gravity or without.
+fn dropped(pad: dashpot_network::Model, (gravity, opens): (f64, bool)) -> Network {
+    let mut network = Network::new();
+    let head = network.add_node(Node::mass("head", 8.0).moving(4.0));
+    network.connect("pad", head, network.ground(), pad).thickness = Some(0.05);
+    if gravity > 0.0 {
+        network.add_effect(Gravity { acceleration: gravity, start: GravityStart::Equilibrium });
+    }
+    if opens {
+        network.add_effect(Separation { element: "pad".to_owned(), at: None, restitution: 0.0 });
+    }
+    network
+}
+
+/// Runs of all `networks` for so long one by one, to a tolerance far below the errors of a sweep.
+fn are_within_errors(networks: &[Network], keys: &[&str], duration: f64) -> SweepReport {
+    let pose = |network: &Network| {
+        let settings = SolveSettings::lasting(duration);
+        ScenePoint { network: network.clone(), settings }
+    };
+    let keys: Vec<String> = keys.iter().map(|key| (*key).to_owned()).collect();
+    let (columns, wishes) = columns(&pose(&networks[0]), &keys).unwrap();
+    let grid = Grid::new(vec![networks.len()]).unwrap();
+    let at = |places: &[usize]| {
+        let mut own = pose(&networks[places[0]]);
+        own.settings.measures.clone_from(&wishes);
+        Ok(own)
+    };
+    let watch = &mut |_: usize, _: usize| ControlFlow::Continue(());
+    let found = sweep(&grid, &at, &columns, SweepOptions::default(), watch).unwrap();
+    for point in 0..networks.len() {
+        let ScenePoint { network, mut settings } = at(&[point]).unwrap();
+        settings.accuracy = crate::Accuracy::of_all(1e-7);
+        let full = network.solve_with(&settings).unwrap();
+        assert_eq!(warned_at(&found, point), sorted(full.warnings.iter().map(kind)), "{point}");
+        for (place, column) in found.columns.iter().enumerate() {
+            let unit = if column.is_share { 0.05 } else { 1.0 };
+            let measure = full.measure(&column.key).unwrap();
+            let (right, bar) = (measure.value.unwrap() / unit, measure.error.unwrap() / unit);
+            let at = point * found.columns.len() + place;
+            let (value, error) = (found.values[at], found.errors[at]);
+            assert!(
+                (value - right).abs() <= error + bar && error <= 1e-3 * value,
+                "{point} {}: {value} ± {error}, in full {right} ± {bar}",
+                column.key
+            );
+        }
+    }
+    found
+}
+
+const ALL: [&str; 9] = [
+    "pad.peak-force",
+    "pad.peak-deformation",
+    "pad.peak-strain",
+    "pad.contact-time",
+    "pad.impulse",
+    "pad.energy",
+    "head.peak-acceleration",
+    "head.severity-index",
+    "head.hic15",
+];
+
+#[test]
+fn what_lets_go_and_what_falls_is_instantiated_too() {
+    let mut random = Random(11);
+    for surroundings in [(0.0, true), (9.81, false), (9.81, true)] {
+        let networks: Vec<Network> = (0..20)
+            .map(|_| {
+                let stiffness = random.ratio(2e4, 2e5);
+                let damping = random.ratio(0.05, 0.4) * (stiffness * 8.0_f64).sqrt();
+                let behind =
+                    Tree::series([spring(random.ratio(1e4, 1e5)), dashpot(random.ratio(1e2, 1e3))]);
+                dropped(Tree::parallel([spring(stiffness), dashpot(damping), behind]), surroundings)
+            })
+            .collect();
+        let found = are_within_errors(&networks, &ALL, 0.15);
+        assert_eq!(found.instantiated, 20, "{surroundings:?}");
+    }
+}
+
+#[test]
+fn laws_that_are_not_linear_are_instantiated_in_steps() {
+    let mut random = Random(12);
+    for shape in 0..4 {
+        let mut model = || match shape {
+            0 => {
+                let foam = Foam {
+                    modulus: random.ratio(6e5, 2.4e6),
+                    plateau: random.ratio(8e4, 2e5),
+                    densification: 3e4,
+                    exponent: 2.0,
+                    thickness: 0.05,
+                    area: 0.0144,
+                };
+                Tree::parallel([part(foam), dashpot(random.ratio(20.0, 200.0))])
+            }
+            1 => {
+                let hardening = CubicSpring {
+                    stiffness: random.ratio(2e4, 8e4),
+                    cubic: random.ratio(1e7, 1e8),
+                };
+                let kelvin = Tree::parallel([part(hardening), dashpot(random.ratio(1e2, 4e2))]);
+                Tree::series([spring(random.ratio(2e5, 1e6)), kelvin])
+            }
+            2 => {
+                let power = PowerSpring { force: random.ratio(1e3, 4e3), at: 0.01, exponent: 1.5 };
+                Tree::parallel([part(power), dashpot(random.ratio(1e2, 4e2))])
+            }
+            _ => {
+                let stiffening = StiffeningSpring {
+                    stiffness: random.ratio(2e4, 6e4),
+                    limit: random.ratio(0.06, 0.1),
+                };
+                let maxwell =
+                    Tree::series([spring(random.ratio(1e4, 6e4)), dashpot(random.ratio(1e2, 1e3))]);
+                Tree::parallel([part(stiffening), maxwell])
+            }
+        };
+        let networks: Vec<Network> =
+            (0..12).map(|at| dropped(model(), (9.81 * f64::from(at % 2), true))).collect();
+        for (half, gravity) in [(0, "none"), (1, "gravity")] {
+            let own: Vec<Network> = networks.iter().skip(half).step_by(2).cloned().collect();
+            let found = are_within_errors(&own, &ALL, 0.15);
+            assert_eq!(found.instantiated, 6, "{shape}, {gravity}: {:?}", found.warnings);
+        }
+    }
+}
+
 /// A foam that is struck, at one of a hundred thicknesses: with separation, which `exact` declines.
 fn foam(place: usize) -> ScenePoint {
     let mut network = Network::new();
@@ -320,6 +449,7 @@ fn errors_of_some_points_stand_for_those_near_them() {
             let mut own = foam(places[0]);
             own.settings.measures.clone_from(&wishes);
             own.settings.rtol = rtol;
+            own.settings.method = Choice::named("bdf").unwrap();
             Ok(own)
         };
         sweep(&grid, &pose, &columns, options, &mut |_, _| ControlFlow::Continue(())).unwrap()

@@ -2,9 +2,10 @@
 
 use dashpot_numerics::small::Square;
 
-use super::{Eliminated, ParametricSystem};
+use super::{Eliminated, ParametricSystem, PartKind, curve::CurveRow};
 
-/// The system of one network: `ż = A z` in dimensionless time, padded with zeros to `N` unknowns.
+/// The system of one network: `ż = A z` in dimensionless time, padded with zeros to `N` unknowns. Behind the
+/// unknowns stands the number 1 where constant forces act, and the force of each law that is not linear.
 #[derive(Debug, Clone)]
 pub struct Instance<const N: usize> {
     /// `A` by its columns.
@@ -15,6 +16,8 @@ pub struct Instance<const N: usize> {
     pub force: [f64; N],
     /// Its deformation \[m\] over the unknowns.
     pub deformation: [f64; N],
+    /// The laws that are not linear.
+    pub curves: Vec<CurveRow<N>>,
     net: Vec<[f64; N]>,
     velocity: Vec<[f64; N]>,
     conductance: Vec<f64>,
@@ -28,13 +31,16 @@ impl ParametricSystem {
             return None;
         }
         let links = self.eliminated.iter().map(|own| own.neighbours.len()).sum();
-        let mut deformation = [0.0; N];
-        self.deformation.iter().for_each(|&(at, sign)| deformation[at] = sign * self.scales[at]);
+        let mut start = [0.0; N];
+        if let Some(one) = self.one {
+            start[one] = 1.0;
+        }
         Some(Instance {
             matrix: [[0.0; N]; N],
-            start: [0.0; N],
+            start,
             force: [0.0; N],
-            deformation,
+            deformation: self.in_metres(&self.deformation),
+            curves: Vec::with_capacity(self.curves.len()),
             net: vec![[0.0; N]; self.bodies],
             velocity: vec![[0.0; N]; self.bodies],
             conductance: vec![0.0; self.bodies * self.bodies],
@@ -42,13 +48,14 @@ impl ParametricSystem {
         })
     }
 
-    /// Writes the system with these [`numbers`](Self::numbers) into a instance. Nothing is allocated.
+    /// Writes the system with these [`numbers`](Self::numbers) into an instance; false where a law has none
+    /// with them. Nothing is allocated but laws whose numbers differ from those before.
     ///
     /// # Panics
     ///
     /// When the instance or the numbers are those of another form.
-    pub fn fill<const N: usize>(&self, numbers: &[f64], instance: &mut Instance<N>) {
-        self.add_springs(numbers, instance);
+    pub fn fill<const N: usize>(&self, numbers: &[f64], instance: &mut Instance<N>) -> bool {
+        self.add_forces(numbers, instance);
         self.solve_dashpots(instance);
         self.add_dashpots(numbers, instance);
         for own in &self.placed {
@@ -59,7 +66,7 @@ impl ParametricSystem {
             self.set_row(instance, own.unknown, 1.0, &row);
         }
         for own in &self.weighed {
-            let [mass, velocity] = own.numbers.map(|at| numbers[at]);
+            let [mass, velocity, _] = own.numbers.map(|at| numbers[at]);
             let row = instance.net[own.body];
             self.set_row(instance, own.unknown, mass.recip(), &row);
             instance.start[own.unknown] = velocity / self.scales[own.unknown];
@@ -68,35 +75,97 @@ impl ParametricSystem {
         for &at in &self.force {
             let part = &self.parts[at];
             let constant = numbers[part.number];
-            if part.is_dashpot {
-                let [a, b] = part.ends;
-                add(&mut force, constant, &instance.velocity[a]);
-                add(&mut force, -constant, &instance.velocity[b]);
-            } else {
-                part.deformation.iter().for_each(|&(at, sign)| force[at] += constant * sign);
+            match part.kind {
+                PartKind::Dashpot => {
+                    let [a, b] = part.ends;
+                    add(&mut force, constant, &instance.velocity[a]);
+                    add(&mut force, -constant, &instance.velocity[b]);
+                }
+                PartKind::Spring => {
+                    part.deformation.iter().for_each(|&(at, sign)| force[at] += constant * sign);
+                }
+                PartKind::Curve(slot) => force[slot] += 1.0,
             }
         }
         for ((own, value), scale) in instance.force.iter_mut().zip(force).zip(&self.scales) {
             *own = value * scale;
         }
+        self.add_curves(numbers, instance)
     }
 
-    fn add_springs<const N: usize>(&self, numbers: &[f64], instance: &mut Instance<N>) {
+    /// Whether no law depends on a rate to which a law contributes, so that forces follow one from the other.
+    pub(super) fn is_explicit(&self) -> bool {
+        self.curves.iter().filter(|curve| curve.has_rate).all(|curve| {
+            let is_moving = |body: &usize| !self.eliminated.iter().any(|own| own.body == *body);
+            self.parts[curve.part].ends.iter().all(is_moving)
+        })
+    }
+
+    /// Writes the laws that are not linear.
+    fn add_curves<const N: usize>(&self, numbers: &[f64], instance: &mut Instance<N>) -> bool {
+        for (at, curve) in self.curves.iter().enumerate() {
+            let part = &self.parts[curve.part];
+            let own = &numbers[part.number..][..curve.numbers()];
+            let is_same = |row: &CurveRow<N>| row.numbers == own;
+            let mut rate = [0.0; N];
+            if curve.has_rate {
+                let [a, b] = part.ends;
+                add(&mut rate, 1.0, &instance.velocity[a]);
+                add(&mut rate, -1.0, &instance.velocity[b]);
+                rate.iter_mut().zip(&self.scales).for_each(|(own, scale)| *own *= scale);
+            }
+            if let Some(row) = instance.curves.get_mut(at).filter(|row| is_same(row)) {
+                row.rate = rate;
+                continue;
+            }
+            let (PartKind::Curve(slot), Some(law)) = (part.kind, curve.law(own)) else {
+                instance.curves.clear();
+                return false;
+            };
+            let deformation = self.in_metres(&part.deformation);
+            let row = CurveRow { law, slot, deformation, rate, numbers: own.to_vec() };
+            match instance.curves.get_mut(at) {
+                Some(known) => *known = row,
+                None => instance.curves.push(row),
+            }
+        }
+        true
+    }
+
+    /// Differences of places over the unknowns \[m\].
+    fn in_metres<const N: usize>(&self, terms: &[(usize, f64)]) -> [f64; N] {
+        let mut row = [0.0; N];
+        terms.iter().for_each(|&(at, sign)| row[at] = sign * self.scales[at]);
+        row
+    }
+
+    /// What acts on the bodies but for the dashpots.
+    fn add_forces<const N: usize>(&self, numbers: &[f64], instance: &mut Instance<N>) {
         instance.net.fill([0.0; N]);
         instance.conductance.fill(0.0);
         instance.velocity.fill([0.0; N]);
         for own in &self.weighed {
             instance.velocity[own.body][own.unknown] = 1.0;
+            if let Some(one) = self.one {
+                instance.net[own.body][one] += numbers[own.numbers[2]];
+            }
         }
         for part in &self.parts {
             let (constant, [a, b]) = (numbers[part.number], part.ends);
-            if part.is_dashpot {
-                instance.conductance[a * self.bodies + b] += constant;
-                instance.conductance[b * self.bodies + a] += constant;
-            } else {
-                for &(at, sign) in &part.deformation {
-                    instance.net[a][at] -= constant * sign;
-                    instance.net[b][at] += constant * sign;
+            match part.kind {
+                PartKind::Dashpot => {
+                    instance.conductance[a * self.bodies + b] += constant;
+                    instance.conductance[b * self.bodies + a] += constant;
+                }
+                PartKind::Spring => {
+                    for &(at, sign) in &part.deformation {
+                        instance.net[a][at] -= constant * sign;
+                        instance.net[b][at] += constant * sign;
+                    }
+                }
+                PartKind::Curve(slot) => {
+                    instance.net[a][slot] -= 1.0;
+                    instance.net[b][slot] += 1.0;
                 }
             }
         }
@@ -138,7 +207,7 @@ impl ParametricSystem {
 
     /// What the dashpots do to the masses.
     fn add_dashpots<const N: usize>(&self, numbers: &[f64], instance: &mut Instance<N>) {
-        for part in self.parts.iter().filter(|part| part.is_dashpot) {
+        for part in self.parts.iter().filter(|part| part.is_dashpot()) {
             let (constant, [a, b]) = (numbers[part.number], part.ends);
             let mut rate = instance.velocity[a];
             subtract(&mut rate, &instance.velocity[b]);

@@ -32,7 +32,7 @@ pub(super) fn force_parts(
             Shape::Series(children) => {
                 let known = children.iter().filter_map(|&child| found[child].clone());
                 known.min_by_key(|own| {
-                    let dashpots = own.iter().filter(|&&part| parts[part].is_dashpot).count();
+                    let dashpots = own.iter().filter(|&&part| parts[part].is_dashpot()).count();
                     (dashpots, own.len())
                 })
             }
@@ -45,7 +45,7 @@ pub(super) fn force_parts(
 /// The order in which massless bodies are eliminated: the one with the fewest links first.
 pub(super) fn order(bodies: usize, structure: &Structure, parts: &[Part]) -> Vec<Eliminated> {
     let mut links = vec![vec![false; bodies]; bodies];
-    for part in parts.iter().filter(|part| part.is_dashpot) {
+    for part in parts.iter().filter(|part| part.is_dashpot()) {
         let [a, b] = part.ends;
         (links[a][b], links[b][a]) = (true, true);
     }

@@ -4,19 +4,16 @@
 //! output is a polynomial of degree 7 in the differential unknowns; the others follow from it.
 
 mod reduced;
-mod tableau;
 
-use dashpot_numerics::chebyshev::Interpolation;
-
-use self::{
-    reduced::{Rate, Reduced, Unbalanced},
-    tableau::{DENSE, END, FIFTH, FURTHER, LAST, Row, STAGES, Stage, THIRD},
+use dashpot_numerics::{
+    chebyshev::Interpolation,
+    dop853::{DEGREE, DENSE, END, FIFTH, FURTHER, LAST, Row, STAGES, Stage, THIRD},
 };
+
+use self::reduced::{Rate, Reduced, Unbalanced};
 use super::{Stop, Walk, failure::Site, walk::ROUNDINGS};
 use crate::{SolveError, System, budget::Besides, pieces::between};
 
-/// Degree of the dense output.
-const DEGREE: usize = 7;
 /// Part of the step that the estimate of its error allows which is taken.
 const SAFETY: f64 = 0.9;
 /// By what the estimate of a step's error is multiplied: in long oscillations errors add up, and no other method

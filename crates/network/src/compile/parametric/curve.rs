@@ -1,0 +1,80 @@
+//! Laws that are not linear in a form.
+
+use std::sync::Arc;
+
+use crate::{
+    compile::expand::Primitive,
+    elements::{ELEMENTS, Element, Law},
+    parameters::{Registered, Value, registered},
+};
+
+/// A law of the deformation, and of the rate, whose kind is in the register.
+#[derive(Debug, Clone)]
+pub(super) struct Curve {
+    entry: &'static Registered<Arc<dyn Element>>,
+    /// Its values at the first network; the numbers among them differ from network to network.
+    values: Vec<Value>,
+    /// Its place among the parts.
+    pub(super) part: usize,
+    /// Whether it depends on the rate.
+    pub(super) has_rate: bool,
+}
+
+/// A law in the system of one network: its force \[N\] stands in a slot behind the unknowns.
+#[derive(Debug, Clone)]
+pub struct CurveRow<const N: usize> {
+    /// The law.
+    pub law: Arc<dyn Element>,
+    /// The slot of its force.
+    pub slot: usize,
+    /// Its deformation \[m\] over the unknowns.
+    pub deformation: [f64; N],
+    /// Its rate \[m/s\] over the unknowns; zero where it does not depend on that.
+    pub rate: [f64; N],
+    /// The numbers that the law was made of.
+    pub(super) numbers: Vec<f64>,
+}
+
+impl Curve {
+    /// The law of a primitive; `None` where it is not of the register, or its slope is infinite at rest.
+    pub(super) fn of(primitive: &Primitive, part: usize) -> Option<Self> {
+        let element = &primitive.element;
+        let entry = registered(ELEMENTS, element.kind())?;
+        let Law::Nonlinear { damping, .. } = primitive.law else { return None };
+        if primitive.is_reflected() {
+            return None;
+        }
+        Some(Self { entry, values: element.values(), part, has_rate: damping > 0.0 })
+    }
+
+    /// How many numbers it has.
+    pub(super) fn numbers(&self) -> usize {
+        self.values.iter().filter(|value| value.number().is_some()).count()
+    }
+
+    /// Reads the numbers of the same law in another network; `None` where it differs in more.
+    pub(super) fn read(&self, primitive: &Primitive, numbers: &mut Vec<f64>) -> Option<()> {
+        let values = primitive.element.values();
+        if primitive.element.kind() != self.entry.word || values.len() != self.values.len() {
+            return None;
+        }
+        for (own, value) in self.values.iter().zip(&values) {
+            match (own.number(), value.number()) {
+                (Some(_), Some(number)) => numbers.push(number),
+                (None, None) if own == value => {}
+                _ => return None,
+            }
+        }
+        Some(())
+    }
+
+    /// The law with these numbers; `None` where they are out of its range.
+    pub(super) fn law(&self, numbers: &[f64]) -> Option<Arc<dyn Element>> {
+        let mut numbers = numbers.iter();
+        let mut values = self.values.clone();
+        for value in values.iter_mut().filter(|value| value.number().is_some()) {
+            *value = Value::Number(*numbers.next()?);
+        }
+        (self.entry.make)(&values).ok().filter(|law| law.validate().is_ok())
+    }
+}
