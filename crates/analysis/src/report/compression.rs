@@ -6,6 +6,14 @@ use dashpot_dae::Signal;
 /// leave.
 pub(crate) const ROUNDING: f64 = 1e-10;
 
+/// Two thicknesses that differ by less, in parts of themselves, are one.
+const SAME: f64 = 1e-9;
+
+/// Whether a part of a pad is as thick as the whole: then it lies between the same ends.
+pub(crate) fn is_as_thick(part: f64, whole: f64) -> bool {
+    part >= (1.0 - SAME) * whole
+}
+
 /// The largest deformation of something of known thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compression {

@@ -23,7 +23,7 @@ use crate::{
         Clip, Clip3ms, Hic, Hic15, Hic36, Measure as _, PeakAcceleration, PeakForce, PeakStrain,
         Reading, SeverityIndex,
     },
-    report::compression::ROUNDING,
+    report::compression::{ROUNDING, is_as_thick},
 };
 
 /// What warnings are made of.
@@ -316,9 +316,6 @@ fn might_be_zero(measure: &MeasureReport) -> Option<f64> {
     (value.abs() <= error).then_some(error)
 }
 
-/// Two thicknesses that differ by less, in parts of themselves, are one.
-const SAME: f64 = 1e-9;
-
 impl Through {
     fn of(solution: &Solution<'_>, name: &str, output: usize, thickness: f64) -> Option<Self> {
         if !solution.keeps(output) {
@@ -342,8 +339,7 @@ pub(crate) fn pressed_through(solution: &Solution<'_>) -> Vec<Warning> {
             )
         });
         let parts = connection_outputs.segments.iter().filter(|part| {
-            // What is as thick as the whole lies between the same ends.
-            connection_outputs.thickness.is_none_or(|whole| part.thickness < (1.0 - SAME) * whole)
+            !connection_outputs.thickness.is_some_and(|whole| is_as_thick(part.thickness, whole))
         });
         let parts: Vec<Through> = parts
             .filter_map(|part: &SegmentOutputs| match &part.place {

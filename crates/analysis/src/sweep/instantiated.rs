@@ -1,7 +1,7 @@
 //! Points of a sweep that are solved by instantiating: one compiled form, other numbers.
 
 use dashpot_network::{
-    ConnectionOutputs, Instance, ParametricSystem, SegmentPlace,
+    ConnectionOutputs, Instance, ParametricSystem,
     parameters::{Value, WindowWish},
 };
 
@@ -10,7 +10,7 @@ use super::{
     report::Notice,
     scene_point::{Figure, Impact, ScenePoint, Wanted},
     stepped::{Course, Stepped},
-    table::Table,
+    table::{Besides, Table},
 };
 use crate::{
     Compression,
@@ -19,6 +19,7 @@ use crate::{
         hic_search::optimum,
         selection::{Selected, select},
     },
+    report::compression::is_as_thick,
 };
 
 /// A value of a linear scene that is less certain than this part of itself is left to the full solution.
@@ -94,10 +95,9 @@ impl<'g> Plan<'g> {
             .compile(duration)
             .ok()
             .filter(|own| own.warnings.is_empty() && own.held.is_empty())?;
-        // Another padding, or a part of one, would have to be watched as well.
+        // Another padding would have to be watched as well.
         let is_other = |(at, own): (usize, &ConnectionOutputs)| {
-            let has_parts = own.segments.iter().any(|part| part.place != SegmentPlace::Whole);
-            has_parts || at != struck && own.thickness.is_some()
+            at != struck && !(own.segments.is_empty() && own.thickness.is_none())
         };
         if assembly.connections.iter().enumerate().any(is_other) {
             return None;
@@ -151,21 +151,28 @@ impl<'g> Plan<'g> {
         }))
     }
 
-    /// What is to be said of an impact whose largest deformation \[m\] with its error is reached at one time \[s\],
-    /// and whose force falls through zero at another.
-    fn notice(&self, (depth, deepest_at): (Figure, f64), release: f64, thickness: f64) -> Notice {
+    /// What is to be said of an impact whose largest deformation \[m\], with its error, is reached so long \[s\]
+    /// after the touch, and whose force falls through zero so long after it.
+    fn notice(&self, (depth, deepest): (Figure, f64), release: f64, numbers: &[f64]) -> Notice {
+        let Besides { thickness, fall, .. } = Besides::of(numbers);
         let is_glued = !self.parametric.opens();
-        let compression = Compression::new([depth.value, deepest_at], Some(depth.error), thickness);
+        let [deepest, release] = [deepest, release].map(|own| fall + own);
+        let compression = Compression::new([depth.value, deepest], Some(depth.error), thickness);
         Notice {
             pulls: (is_glued && release < self.duration).then_some(release),
             pressed: Some(compression).filter(Compression::is_through),
         }
     }
 
+    /// How long a run with these numbers goes on after the touch, dimensionless.
+    fn end(&self, numbers: &[f64]) -> f64 {
+        (self.duration - Besides::of(numbers).fall) / self.parametric.time_scale()
+    }
+
     fn figure(&self, shown: Shown, impact: &Impact, numbers: &[f64]) -> Figure {
         let time = self.parametric.time_scale();
         let mass = self.parametric.impactor_mass(numbers);
-        let thickness = numbers[numbers.len() - 1];
+        let thickness = Besides::of(numbers).thickness;
         let times = |own: Figure, factor: f64| Figure {
             value: own.value * factor,
             error: own.error * factor,
@@ -199,7 +206,7 @@ impl<'g> Plan<'g> {
     fn read(&self, shown: Shown, course: &Course, numbers: &[f64]) -> f64 {
         let time = self.parametric.time_scale();
         let unit = self.parametric.impactor_mass(numbers) * STANDARD_GRAVITY;
-        let thickness = numbers[numbers.len() - 1];
+        let thickness = Besides::of(numbers).thickness;
         let Course { force, depth, speed, release } = course;
         let impact = (0.0, *release);
         match shown {
@@ -308,6 +315,7 @@ impl<const N: usize> Stamper for Sized<'_, N> {
         let plan = self.plan;
         plan.grid.locate(point, &mut self.places);
         let is_known = plan.table.write(&self.places, &mut self.numbers)
+            && !self.has_thinner_part()
             && plan.parametric.fill(&self.numbers, &mut self.instance);
         if !is_known {
             return None;
@@ -330,7 +338,7 @@ impl<const N: usize> Sized<'_, N> {
             start: &instance.start,
             force: &instance.force,
             deformation: &instance.deformation,
-            end: plan.duration / time,
+            end: plan.end(&self.numbers),
             opens: plan.parametric.opens(),
         };
         let impact = scene_point.solve(plan.wanted)?;
@@ -343,7 +351,7 @@ impl<const N: usize> Sized<'_, N> {
             (*value, *error) = (own.value, own.error);
         }
         let deepest = (impact.depth, impact.deepest_at * time);
-        Some(plan.notice(deepest, impact.release.value * time, self.thickness()))
+        Some(plan.notice(deepest, impact.release.value * time, &self.numbers))
     }
 
     /// Solves a scene that is not linear in steps, as often as its errors ask for.
@@ -353,7 +361,7 @@ impl<const N: usize> Sized<'_, N> {
         let stepped = Stepped {
             instance: &self.instance,
             unknowns: plan.parametric.unknowns(),
-            end: plan.duration / time,
+            end: plan.end(&self.numbers),
         };
         let strictest = plan.wishes.iter().copied().fold(f64::INFINITY, f64::min);
         let tolerance = |at: usize| (TOLERANCES[at] * strictest).max(FINEST);
@@ -385,7 +393,7 @@ impl<const N: usize> Sized<'_, N> {
         values.copy_from_slice(&seen);
         let deepest = course.depth.maximum((0.0, course.release));
         let depth = Figure { value: deepest.value, error: strictest * deepest.value };
-        Some(plan.notice((depth, deepest.time * time), course.release * time, self.thickness()))
+        Some(plan.notice((depth, deepest.time * time), course.release * time, &self.numbers))
     }
 
     fn suffice(&self, values: &[f64], errors: &[f64]) -> bool {
@@ -394,7 +402,9 @@ impl<const N: usize> Sized<'_, N> {
             .all(|(error, most)| !error.is_nan() && *error <= most)
     }
 
-    fn thickness(&self) -> f64 {
-        self.numbers[self.numbers.len() - 1]
+    /// Whether a part of the pad would have to be watched by itself.
+    fn has_thinner_part(&self) -> bool {
+        let Besides { thickness, thinnest, .. } = Besides::of(&self.numbers);
+        !thinnest.is_nan() && !is_as_thick(thinnest, thickness)
     }
 }

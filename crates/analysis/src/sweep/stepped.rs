@@ -62,6 +62,9 @@ impl<const N: usize> Stepped<'_, N> {
         let (mut length, mut time) = (self.first_step(step.first_slopes()), 0.0);
         let mut course: [Vec<Panel>; 3] = Default::default();
         let mut strongest = 0.0_f64;
+        if self.end.is_nan() || self.end <= 0.0 {
+            return None;
+        }
         for _ in 0..MOST {
             length = length.min(self.end - time);
             step.attempt(length, &mut slopes);
@@ -104,7 +107,7 @@ impl<const N: usize> Stepped<'_, N> {
                 return released(course);
             }
             time += length;
-            if time >= self.end {
+            if time.is_nan() || time >= self.end {
                 return None;
             }
             most.iter_mut().zip(step.end()).for_each(|(most, own)| *most = most.max(own.abs()));

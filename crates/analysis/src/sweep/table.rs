@@ -19,7 +19,28 @@ struct Axis {
     values: Vec<Option<Vec<f64>>>,
 }
 
-/// The numbers of a [`ParametricSystem`], and the thickness \[m\] of the element that is struck behind them.
+/// What stands behind the numbers of a [`ParametricSystem`].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Besides {
+    /// Thickness \[m\] of the element that is struck; not a number where it has none.
+    pub(super) thickness: f64,
+    /// That of the thinnest of its parts.
+    pub(super) thinnest: f64,
+    /// How long what strikes falls before \[s\].
+    pub(super) fall: f64,
+}
+
+impl Besides {
+    /// Those of these numbers.
+    pub(super) fn of(numbers: &[f64]) -> Self {
+        let &[.., thickness, thinnest, fall] = numbers else {
+            return Self { thickness: f64::NAN, thinnest: f64::NAN, fall: f64::NAN };
+        };
+        Self { thickness, thinnest, fall }
+    }
+}
+
+/// The numbers of a [`ParametricSystem`], and what stands [behind](Besides) them.
 #[derive(Debug, Clone)]
 pub(super) struct Table {
     base: Vec<f64>,
@@ -108,6 +129,9 @@ impl Table {
 
 fn numbers(parametric: &ParametricSystem, network: &Network) -> Option<Vec<f64>> {
     let mut numbers = parametric.numbers(network)?;
-    numbers.push(network.connections()[parametric.element()].thickness.unwrap_or(f64::NAN));
+    let struck = &network.connections()[parametric.element()];
+    let thinnest = struck.pads.iter().map(|pad| pad.thickness).fold(f64::NAN, f64::min);
+    let fall = if parametric.opens() { network.time_of_fall() } else { 0.0 };
+    numbers.extend([struck.thickness.unwrap_or(f64::NAN), thinnest, fall]);
     Some(numbers)
 }
