@@ -34,7 +34,9 @@ pub use models::named::{NamedModel, read_named_model};
 pub use models::notes::{ModelNote, Remark};
 pub use quantities::scatter::ScatterFault;
 pub use quantities::values::NamedValue;
-pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network, text_of_bytes};
+pub use scene::{
+    Posed, ReadOptions, RunSettings, Scene, pose, read, read_bytes, read_network, text_of_bytes,
+};
 pub use schema::schema;
 pub use sections::parse_limits;
 pub use shipped::{Shipped, reference, references, template, templates};

@@ -82,6 +82,29 @@ impl Scene {
     ///
     /// [`RunError::UnknownMethod`].
     pub fn settings(&self, method: &str) -> Result<SolveSettings, RunError> {
+        Posed::from(self.clone()).settings(method)
+    }
+}
+
+/// What a run of a scene needs.
+#[derive(Debug, Clone)]
+pub struct Posed {
+    /// Nodes, elements, loads and effects.
+    pub network: Network,
+    /// How it is to be run.
+    pub run: RunSettings,
+    accuracy: Accuracy,
+    measures: Vec<MeasureWish>,
+    limits: Vec<Limit>,
+}
+
+impl Posed {
+    /// As [`Scene::settings`].
+    ///
+    /// # Errors
+    ///
+    /// [`RunError::UnknownMethod`].
+    pub fn settings(&self, method: &str) -> Result<SolveSettings, RunError> {
         Ok(SolveSettings {
             method: Choice::named(method)?,
             duration: self.run.duration,
@@ -94,6 +117,13 @@ impl Scene {
             measures: self.measures.clone(),
             limits: self.limits.clone(),
         })
+    }
+}
+
+impl From<Scene> for Posed {
+    fn from(scene: Scene) -> Self {
+        let Scene { network, run, accuracy, measures, limits, .. } = scene;
+        Self { network, run, accuracy, measures, limits }
     }
 }
 
@@ -191,6 +221,29 @@ pub fn read_network(
         }
         Some(parts.network)
     })
+}
+
+/// Reads what a run of a scene needs, and no more: the network need not compile, and nothing that is odd is looked
+/// for. For the many runs of a sweep, of whose scene one was [read](read()).
+///
+/// # Errors
+///
+/// All faults of the text, each with its place.
+pub fn pose(text: &str, options: &ReadOptions<'_>) -> Result<Posed, Diagnostics> {
+    let posed = checked(|faults| {
+        let (mut library, _) = load(text, options, faults)?;
+        library.load_tables(options.loader, faults);
+        let Parts { reading, network, measures, limits, accuracy, .. } =
+            Parts::read(&library, faults);
+        let (run, stops) = read_run(&reading);
+        // Both are found in the compiled network.
+        let needs_more = run.at_most.is_some() || !stops.is_empty();
+        Some((!needs_more).then_some(Posed { network, run, accuracy, measures, limits }))
+    })?;
+    match posed.value {
+        Some(posed) => Ok(posed),
+        None => read(text, options).map(|scene| scene.value.into()),
+    }
 }
 
 /// What `read` returns, unless it notes an error.

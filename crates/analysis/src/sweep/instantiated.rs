@@ -10,6 +10,7 @@ use super::{
     report::Notice,
     scene_point::{Figure, Impact, ScenePoint, Wanted},
     stepped::{Course, Stepped},
+    sums::power_of,
     table::{Besides, Table},
 };
 use crate::{
@@ -220,8 +221,7 @@ impl<'g> Plan<'g> {
             Shown::WorkAtEnd => f64::NAN,
             Shown::Severity => {
                 let exponent = self.wanted.power.unwrap_or(1.0);
-                let power = |force: f64| (force.max(0.0) / unit).powf(exponent);
-                force.integral_of(impact, &[0.0], power) * time
+                power_of(force, *release, exponent) * time / unit.powf(exponent)
             }
             Shown::Hic(cap) => optimum(force, impact, cap / time).value * time / unit.powf(2.5),
         }

@@ -1,6 +1,6 @@
 //! Integrals over an impact, as Gauss's sums over the steps of its solution, and its force over time.
 
-use dashpot_dae::Panel;
+use dashpot_dae::{Panel, Signal};
 use dashpot_numerics::{
     chebyshev::{Coefficients, Interpolation},
     quadrature::GaussLegendre,
@@ -251,6 +251,27 @@ impl<const N: usize> Recorder<N> {
         let coefficients = Coefficients::from(apply(&self.rows, z));
         self.panels.push(Panel { start: time, end: time + self.step, coefficients });
     }
+}
+
+/// `∫ F^n dt` of a force that pushes from the start to its release, zero at one of them or both.
+pub(super) fn power_of(force: &Signal, release: f64, exponent: f64) -> f64 {
+    let (places, weights): ([f64; ENDS], [f64; ENDS]) = GaussLegendre::on_unit();
+    let last = force.panels.len() - 1;
+    let of_panel = |(at, panel): (usize, &Panel)| -> f64 {
+        let length = panel.end.min(release) - panel.start;
+        let at_place = |(u, weight): (f64, f64)| {
+            // In the root of the time from where it is zero, powers of it are smooth.
+            let (part, factor) = match at {
+                0 => (u * u, 2.0 * u),
+                at if at == last => (1.0 - u * u, 2.0 * u),
+                _ => (u, 1.0),
+            };
+            let force = panel.value(panel.start + part * length).max(0.0);
+            weight * factor * raised(force, exponent).0
+        };
+        length * places.into_iter().zip(weights).map(at_place).sum::<f64>()
+    };
+    force.panels.iter().enumerate().map(of_panel).sum()
 }
 
 /// The exponent of the severity index.

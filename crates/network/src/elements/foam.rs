@@ -89,8 +89,9 @@ impl Foam {
         let (n, void) = (self.exponent, 1.0 - strain);
         let decay = -self.modulus * strain / self.plateau;
         let ratio = strain / void;
-        let stress = self.densification * ratio.powf(n) - self.plateau * decay.exp_m1();
-        let dense = self.densification * n * ratio.powf(n - 1.0) / (void * void);
+        let power = self.densification * ratio.powf(n - 1.0);
+        let stress = power * ratio - self.plateau * decay.exp_m1();
+        let dense = n * power / (void * void);
         (stress, self.modulus * decay.exp() + dense)
     }
 

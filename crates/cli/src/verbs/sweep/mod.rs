@@ -18,7 +18,7 @@ use dashpot_analysis::{
         sweep as solve,
     },
 };
-use dashpot_scene::{Diagnostics, Scene, Tunables, Variation, read};
+use dashpot_scene::{Diagnostics, Posed, Scene, Tunables, Variation, pose, read};
 use serde::Serialize;
 
 use self::words::{notes, summary};
@@ -284,29 +284,29 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let is_named = |own: &&(String, String)| scene.values.iter().any(|known| known.name == own.0);
     let set: Vec<(String, String)> = set.iter().filter(is_named).cloned().collect();
     let grid = varied.grid().ok_or(CliError::TooManyPoints { most: MOST })?;
-    let scene_point = |scene: Scene| {
-        let method = match (&arguments.method, &scene.run.methods[..]) {
+    let scene_point = |posed: Posed| {
+        let method = match (&arguments.method, &posed.run.methods[..]) {
             (Some(wanted), _) => wanted,
             (None, [only]) => only,
             _ => "auto",
         };
-        let mut settings = scene.settings(method)?;
+        let mut settings = posed.settings(method)?;
         settings.budget = arguments.budget.unwrap_or(settings.budget);
         settings.limits.extend(arguments.limits.all());
         settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
-        Ok::<_, RunError>(ScenePoint { network: scene.network, settings })
+        Ok::<_, RunError>(ScenePoint { network: posed.network, settings })
     };
     let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
-    let (columns, wishes) = columns(&scene_point(scene.clone())?, &keys)?;
+    let (columns, wishes) = columns(&scene_point(scene.clone().into())?, &keys)?;
     let names = files::names(&varied, &columns);
     let folder = Folder::wanted(arguments.out.as_deref(), names)?;
-    let pose = |places: &[usize]| {
+    let at = |places: &[usize]| {
         let text = varied.text_at(places);
-        let checked = read(&text, &input.options(&set)).map_err(|faults| {
+        let posed = pose(&text, &input.options(&set)).map_err(|faults| {
             let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
             messages.collect::<Vec<_>>().join("; ")
         })?;
-        let mut scene_point = scene_point(checked.value).map_err(|error| error.to_string())?;
+        let mut scene_point = scene_point(posed).map_err(|error| error.to_string())?;
         scene_point.settings.measures.clone_from(&wishes);
         Ok(scene_point)
     };
@@ -322,7 +322,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     terminal.diagnose(&Diagnostics { list: shown.split_off(before), omitted: 0 });
     let usual = if varied.is_apart() { EstimatedPoints::All } else { EstimatedPoints::Some };
     let estimates: Estimates = arguments.estimate.unwrap_or(usual).into();
-    let report = solved((arguments, estimates), &grid, &pose, &columns, terminal)?;
+    let report = solved((arguments, estimates), &grid, &at, &columns, terminal)?;
     let asked = arguments.in_words(estimates);
     let swept = Swept { scene, varied, grid, estimates, asked, report, table: arguments.table };
     let has_folder = folder.is_some();
