@@ -2,11 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::{
-    Column, Gap, Grid, Pose,
-    instantiated::{Plan, Stamper},
-    parallel::share,
-};
+use super::{Column, Gap, Grid, Pose, instantiated::Plan, parallel::share, stamper::Stamper};
 use crate::{RunReport, Solve, SolveSettings, partial::spread};
 
 /// What is to be said of the values of a point.

@@ -20,6 +20,8 @@ mod propagate;
 mod report;
 mod scene_point;
 mod serialized;
+mod shown;
+mod stamper;
 mod stepped;
 mod sums;
 mod table;
@@ -121,12 +123,13 @@ pub fn sweep(
 /// Solves all points: by instantiating where that agrees with full runs, else in full.
 fn solved(
     full: &Full<'_>,
-    SweepOptions { threads, estimates }: SweepOptions,
+    options: SweepOptions,
     watch: &mut Watch<'_>,
 ) -> Result<SweepReport, SweepError> {
+    let SweepOptions { threads, estimates } = options;
     let &Full { grid, pose, columns } = full;
     let first = pose(&grid.places(0)).map_err(SweepError::NotPosed)?;
-    let plan = Plan::of(grid, pose, &first, columns, estimates);
+    let plan = Plan::of(grid, pose, &first, columns, options);
     let found = plan.as_ref().and_then(|plan| check(plan, full, threads));
     let plan = plan.filter(|_| found.is_some());
     let count = grid.len();
@@ -140,9 +143,8 @@ fn solved(
         threads,
         &tool,
         &|stamper, rows| {
-            for row in &mut *rows {
-                row.notice =
-                    stamper.as_mut().and_then(|own| own.write(row.point, row.values, row.errors));
+            if let Some(stamper) = stamper {
+                estimated.fetch_add(stamper.group(rows), Ordering::Relaxed);
             }
             let others: Vec<&mut Row<'_>> =
                 rows.iter_mut().filter(|row| row.notice.is_none()).collect();

@@ -52,8 +52,8 @@ pub struct SweepReport {
     pub warnings: Vec<SweepWarning>,
     /// How many points were instantiated; all others were solved in full.
     pub instantiated: usize,
-    /// At how many of the others errors were estimated by further solutions, where no bound is known without
-    /// them; the rest have those of points near them.
+    /// At how many points errors were estimated by further solutions, where no bound is known without them; the
+    /// rest have those of points near them.
     pub estimated: usize,
     /// The instantiated points that were solved in full as well.
     pub checked: Vec<usize>,

@@ -1,8 +1,10 @@
 //! The numbers of a network at every point of a grid, from those along its axes.
 
+use std::ops::ControlFlow;
+
 use dashpot_network::{Network, ParametricSystem};
 
-use super::{Grid, Pose};
+use super::{Grid, Pose, parallel::share};
 
 /// Numbers that are products of others may be so many roundings off.
 const ROUNDINGS: f64 = 32.0 * f64::EPSILON;
@@ -50,13 +52,14 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// Reads the networks along each axis of the grid. `None` where the first one is of another form, or
-    /// the scenes differ in more than their networks.
+    /// Reads the networks along each axis of the grid by so many threads. `None` where the first one is of
+    /// another form, or the scenes differ in more than their networks.
     pub(super) fn of(
         parametric: &ParametricSystem,
         grid: &Grid,
         pose: &Pose<'_>,
         duration: f64,
+        threads: usize,
     ) -> Option<Self> {
         let read = |point: usize| {
             let scene_point = pose(&grid.places(point)).ok()?;
@@ -67,8 +70,13 @@ impl Table {
         let mut axes = Vec::with_capacity(grid.counts().len());
         let mut owners = vec![0; base.len()];
         for (axis, &count) in grid.counts().iter().enumerate() {
-            let all: Vec<Option<Vec<f64>>> =
-                (0..count).map(|place| read(grid.on_axis(axis, place))).collect();
+            let mut rows: Vec<_> =
+                (0..count).map(|place| (grid.on_axis(axis, place), None)).collect();
+            let work = |(): &mut (), rows: &mut [(usize, Option<Vec<f64>>)]| {
+                rows.iter_mut().for_each(|(point, found)| *found = read(*point));
+            };
+            share(&mut rows, threads, &|| (), &work, &mut |_, _| ControlFlow::Continue(()));
+            let all: Vec<Option<Vec<f64>>> = rows.into_iter().map(|row| row.1).collect();
             let differs = |at: &usize| {
                 all.iter().flatten().any(|own| own[*at].to_bits() != base[*at].to_bits())
             };

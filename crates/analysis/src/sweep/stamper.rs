@@ -1,0 +1,239 @@
+//! Points that are instantiated, one after the other.
+
+use dashpot_network::Instance;
+
+use super::{
+    Estimates, Row,
+    instantiated::Plan,
+    report::Notice,
+    scene_point::{Figure, ScenePoint},
+    stepped::{Course, Stepped},
+    table::Besides,
+};
+use crate::report::compression::is_as_thick;
+
+/// A value of a linear scene that is less certain than this part of itself is left to the full solution.
+const LOOSEST: f64 = 1e-6;
+/// Tolerances of scenes that are not linear, in parts of the accuracy that is wanted.
+const TOLERANCES: [f64; 4] = [1e-1, 1e-3, 1e-5, 1e-7];
+/// The finest of them.
+const FINEST: f64 = 1e-13;
+/// What is doubted of each value, in parts of the largest relative difference of two solutions: one of them may
+/// agree by chance.
+const DOUBT: f64 = 0.1;
+/// What rounding leaves, in parts of a value.
+const ROUNDING: f64 = 1e-12;
+
+/// At least so many points of a group have errors of their own at some only.
+const FEWEST: usize = 6;
+/// Relative errors within a group may differ by this factor.
+const ALIKE: f64 = 30.0;
+/// The errors of points between in parts of the largest relative ones.
+const BETWEEN: f64 = 2.0;
+
+/// Solves points, one after the other.
+pub(super) trait Stamper {
+    /// Writes the columns of a point and their errors, and returns what is to be said of it. `None` where
+    /// the point has to be solved in full: it is of another form, or its impact is not of the plain kind,
+    /// or not certain enough. Nothing is allocated where it is linear.
+    fn write(&mut self, point: usize, values: &mut [f64], errors: &mut [f64]) -> Option<Notice>;
+
+    /// Writes the points of a group, each with its notice where it need not be solved in full. At how many of
+    /// them errors took further solutions.
+    fn group(&mut self, rows: &mut [Row<'_>]) -> usize;
+}
+
+/// Solves points of a form that has no more than `N` unknowns and slots.
+pub(super) struct Sized<'p, const N: usize> {
+    plan: &'p Plan<'p>,
+    instance: Instance<N>,
+    places: Vec<usize>,
+    numbers: Vec<f64>,
+}
+
+/// A tolerance among [`TOLERANCES`], and for each column the error that comes of it, in parts of a value.
+#[derive(Debug, Clone, Default)]
+struct Known {
+    level: usize,
+    errors: Vec<f64>,
+}
+
+impl<const N: usize> Stamper for Sized<'_, N> {
+    fn write(&mut self, point: usize, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
+        self.pose(point)?;
+        if self.plan.parametric.is_linear() {
+            return self.carry(values, errors);
+        }
+        match self.plan.estimates {
+            Estimates::Off => self.once(&Known { level: 1, errors: Vec::new() }, values, errors),
+            Estimates::All | Estimates::Some => Some(self.estimated(values, errors)?.0),
+        }
+    }
+
+    fn group(&mut self, rows: &mut [Row<'_>]) -> usize {
+        let count = rows.len();
+        let is_spared = self.plan.estimates == Estimates::Some && count >= FEWEST;
+        let is_linear = self.plan.parametric.is_linear();
+        let anchors = if is_spared && !is_linear { vec![0, count / 2, count - 1] } else { vec![] };
+        let known = self.known(&anchors, rows);
+        let mut estimated = if is_linear { 0 } else { anchors.len() };
+        for (at, row) in rows.iter_mut().enumerate() {
+            if anchors.contains(&at) {
+                continue;
+            }
+            row.notice = match &known {
+                Some(known) => {
+                    self.pose(row.point).and_then(|()| self.once(known, row.values, row.errors))
+                }
+                None => self.write(row.point, row.values, row.errors),
+            };
+            let has_own = known.is_none() && self.plan.estimates != Estimates::Off;
+            estimated += usize::from(row.notice.is_some() && has_own && !is_linear);
+        }
+        estimated
+    }
+}
+
+impl<'p, const N: usize> Sized<'p, N> {
+    /// Room for the points of a plan.
+    pub(super) fn of(plan: &'p Plan<'p>) -> Option<Self> {
+        Some(Self {
+            plan,
+            instance: plan.parametric.instance()?,
+            places: vec![0; plan.grid.counts().len()],
+            numbers: vec![0.0; plan.table.len()],
+        })
+    }
+
+    /// Writes the system of a point; `None` where it is of another form.
+    fn pose(&mut self, point: usize) -> Option<()> {
+        let plan = self.plan;
+        plan.grid.locate(point, &mut self.places);
+        let is_known = plan.table.write(&self.places, &mut self.numbers)
+            && !self.has_thinner_part()
+            && plan.parametric.fill(&self.numbers, &mut self.instance);
+        is_known.then_some(())
+    }
+
+    /// Solves these rows of a group with their errors; what they agree in, if they do.
+    fn known(&mut self, anchors: &[usize], rows: &mut [Row<'_>]) -> Option<Known> {
+        let mut known = Known::default();
+        let mut least = vec![f64::INFINITY; self.plan.wishes.len()];
+        known.errors = vec![0.0; least.len()];
+        let mut is_whole = !anchors.is_empty();
+        for &at in anchors {
+            let row = &mut rows[at];
+            let found = self.pose(row.point).and_then(|()| self.estimated(row.values, row.errors));
+            row.notice = found.map(|found| found.0);
+            let Some((_, level)) = found else {
+                is_whole = false;
+                continue;
+            };
+            known.level = known.level.max(level);
+            for (column, (error, value)) in row.errors.iter().zip(&*row.values).enumerate() {
+                let relative = error / value.abs();
+                least[column] = least[column].min(relative);
+                known.errors[column] = known.errors[column].max(relative);
+            }
+        }
+        let are_alike = known.errors.iter().zip(&least).all(|(most, least)| *most <= ALIKE * least);
+        known.errors.iter_mut().for_each(|error| *error *= BETWEEN);
+        (is_whole && are_alike).then_some(known)
+    }
+}
+
+impl<const N: usize> Sized<'_, N> {
+    /// Solves a linear scene by powers of its exponential.
+    fn carry(&self, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
+        let (plan, instance) = (self.plan, &self.instance);
+        let time = plan.parametric.time_scale();
+        let scene_point = ScenePoint {
+            matrix: &instance.matrix,
+            start: &instance.start,
+            force: &instance.force,
+            deformation: &instance.deformation,
+            end: plan.end(&self.numbers),
+            opens: plan.parametric.opens(),
+        };
+        let impact = scene_point.solve(plan.wanted)?;
+        let places = plan.shown.iter().zip(&plan.wishes).zip(values).zip(errors);
+        for (((shown, wish), value), error) in places {
+            let own = plan.figure(*shown, &impact, &self.numbers);
+            if own.error.is_nan() || own.error > wish.min(LOOSEST) * own.value.abs() {
+                return None;
+            }
+            (*value, *error) = (own.value, own.error);
+        }
+        let deepest = (impact.depth, impact.deepest_at * time);
+        Some(plan.notice(deepest, impact.release.value * time, &self.numbers))
+    }
+
+    /// Solves a scene that is not linear once, where errors are known from others.
+    fn once(&self, known: &Known, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
+        let course = self.stepped().follow(self.tolerance(known.level))?;
+        let seen = self.plan.seen(&course, &self.numbers);
+        values.copy_from_slice(&seen);
+        errors.fill(f64::NAN);
+        for ((error, value), relative) in errors.iter_mut().zip(&*values).zip(&known.errors) {
+            *error = relative * value.abs();
+        }
+        let is_known = known.errors.is_empty() || self.suffice(values, errors);
+        let is_finite = values.iter().all(|value| value.is_finite());
+        (is_known && is_finite).then(|| self.noticed(&course))
+    }
+
+    /// Solves a scene that is not linear as often as its errors ask for; what is to be said, and the last
+    /// tolerance.
+    fn estimated(&self, values: &mut [f64], errors: &mut [f64]) -> Option<(Notice, usize)> {
+        let (plan, stepped) = (self.plan, self.stepped());
+        let mut before = plan.seen(&stepped.follow(self.tolerance(0))?, &self.numbers);
+        for level in 1..TOLERANCES.len() {
+            let course = stepped.follow(self.tolerance(level))?;
+            let seen = plan.seen(&course, &self.numbers);
+            let differences = || seen.iter().zip(&before).map(|(one, other)| (one - other).abs());
+            let relative = differences().zip(&seen).map(|(off, value)| off / value.abs());
+            let most = relative.fold(0.0, f64::max);
+            for ((error, off), value) in errors.iter_mut().zip(differences()).zip(&seen) {
+                *error = off + (DOUBT * most + ROUNDING) * value.abs();
+            }
+            if self.suffice(&seen, errors) {
+                values.copy_from_slice(&seen);
+                return Some((self.noticed(&course), level));
+            }
+            before = seen;
+        }
+        None
+    }
+
+    fn stepped(&self) -> Stepped<'_, N> {
+        Stepped {
+            instance: &self.instance,
+            unknowns: self.plan.parametric.unknowns(),
+            end: self.plan.end(&self.numbers),
+        }
+    }
+
+    fn tolerance(&self, level: usize) -> f64 {
+        (TOLERANCES[level] * self.plan.strictest()).max(FINEST)
+    }
+
+    fn noticed(&self, course: &Course) -> Notice {
+        let time = self.plan.parametric.time_scale();
+        let deepest = course.depth.maximum((0.0, course.release));
+        let error = self.plan.strictest() * deepest.value;
+        let depth = Figure { value: deepest.value, error };
+        self.plan.notice((depth, deepest.time * time), course.release * time, &self.numbers)
+    }
+
+    fn suffice(&self, values: &[f64], errors: &[f64]) -> bool {
+        let all = values.iter().zip(errors).zip(&self.plan.wishes);
+        all.map(|((value, error), wish)| (error, wish * value.abs()))
+            .all(|(error, most)| !error.is_nan() && *error <= most)
+    }
+
+    /// Whether a part of the pad would have to be watched by itself.
+    fn has_thinner_part(&self) -> bool {
+        let Besides { thickness, thinnest, .. } = Besides::of(&self.numbers);
+        !thinnest.is_nan() && !is_as_thick(thinnest, thickness)
+    }
+}
