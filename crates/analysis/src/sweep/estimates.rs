@@ -164,7 +164,7 @@ impl Full<'_> {
 
     /// Solves a point as it is asked for, and writes what was found.
     fn estimated(&self, row: &mut Row<'_>) -> Option<RunReport> {
-        let report = self.write(row.point, row.values, row.errors, &mut row.flaws);
+        let report = self.write(row.point, row.values, row.errors, &mut row.flaws, |_| {});
         row.warnings = report.as_ref().map_or(Vec::new(), |own| own.warnings.clone());
         report
     }

@@ -34,18 +34,19 @@ impl Full<'_> {
         scene_point.network.solve_with(&scene_point.settings).map_err(|error| error.to_string())
     }
 
-    /// Solves a point as it is asked for, and writes its columns and their errors, or notes why they are
-    /// missing. The run; `None` where there is none.
+    /// Solves a point as it is asked for but for a `change`, and writes its columns and their errors, or notes why
+    /// they are missing. The run; `None` where there is none.
     pub(super) fn write(
         &self,
         point: usize,
         values: &mut [f64],
         errors: &mut [f64],
         flaws: &mut Flaws,
+        change: impl Fn(&mut SolveSettings),
     ) -> Option<RunReport> {
         values.fill(f64::NAN);
         errors.fill(f64::NAN);
-        match self.solved(point, |_| {}) {
+        match self.solved(point, change) {
             Ok(report) => {
                 self.read(&report, point, values, errors, flaws);
                 Some(report)
@@ -120,7 +121,8 @@ pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<
             return;
         };
         let (mut right, mut bars) = (vec![f64::NAN; count], vec![f64::NAN; count]);
-        let run = full.write(row.point, &mut right, &mut bars, &mut Flaws::default());
+        let flaws = &mut Flaws::default();
+        let run = full.write(row.point, &mut right, &mut bars, flaws, |own| plan.check(own));
         let warned = run.map_or(Vec::new(), |run| run.warnings);
         let noticed = notice.warnings(plan.element());
         if !(warned.len() == noticed.len()
@@ -145,7 +147,13 @@ pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<
     let work = |stamper: &mut Option<Box<dyn Stamper + '_>>, rows: &mut [Both]| {
         rows.iter_mut().for_each(|row| both(stamper, row));
     };
-    share(&mut rows, threads, &|| plan.stamper(), &work, &mut |_, _| ControlFlow::Continue(()));
+    share(
+        &mut rows,
+        (1, threads),
+        &|| plan.stamper(),
+        &work,
+        &mut |_, _| ControlFlow::Continue(()),
+    );
     let mut largest = 0.0_f64;
     let mut checked = Vec::new();
     for row in rows {

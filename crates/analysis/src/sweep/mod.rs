@@ -47,7 +47,7 @@ pub use self::{
 use self::{
     full::{Flaws, Full, check},
     instantiated::Plan,
-    parallel::{share, workers},
+    parallel::{GROUP, share, workers},
     report::Notice,
 };
 use crate::{
@@ -140,7 +140,7 @@ fn solved(
     let tool = || plan.as_ref().and_then(Plan::stamper);
     let is_whole = share(
         &mut rows,
-        threads,
+        (GROUP, threads),
         &tool,
         &|stamper, rows| {
             if let Some(stamper) = stamper {

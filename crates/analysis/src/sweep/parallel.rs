@@ -23,21 +23,21 @@ pub(super) fn workers(threads: usize, rows: usize) -> u32 {
     u32::try_from(workers).unwrap_or(u32::MAX)
 }
 
-/// Does something for each [group](GROUP) of some `rows`, by so many threads, each with a `tool` of its own. False
+/// Does something for each group of so many of some `rows`, by so many threads, each with a `tool` of its own. False
 /// where the watcher broke it off.
 pub(super) fn share<R: Send, T>(
     rows: &mut [R],
-    threads: usize,
+    (group, threads): (usize, usize),
     tool: &(dyn Fn() -> T + Sync),
     work: &(dyn Fn(&mut T, &mut [R]) + Sync),
     watch: &mut Watch<'_>,
 ) -> bool {
     let count = rows.len();
-    let threads = workers(threads, count) as usize;
+    let threads = threads.clamp(1, count.div_ceil(group).max(1));
     if threads == 1 {
-        return alone(rows, &mut tool(), work, watch);
+        return alone(rows, group, &mut tool(), work, watch);
     }
-    let queue = Mutex::new(rows.chunks_mut(GROUP));
+    let queue = Mutex::new(rows.chunks_mut(group));
     let (done, running) = (AtomicUsize::new(0), AtomicUsize::new(threads));
     let is_over = AtomicBool::new(false);
     let watcher = std::thread::current();
@@ -72,12 +72,13 @@ pub(super) fn share<R: Send, T>(
 /// The same by the thread that asks for it.
 fn alone<R, T>(
     rows: &mut [R],
+    group: usize,
     tool: &mut T,
     work: &(dyn Fn(&mut T, &mut [R]) + Sync),
     watch: &mut Watch<'_>,
 ) -> bool {
     let (mut done, count) = (0, rows.len());
-    for chunk in rows.chunks_mut(GROUP) {
+    for chunk in rows.chunks_mut(group) {
         done += chunk.len();
         work(tool, chunk);
         if watch(done, count).is_break() {
@@ -97,8 +98,9 @@ mod tests {
             let mut rows: Vec<usize> = (0..1000).collect();
             let work =
                 |one: &mut usize, rows: &mut [usize]| rows.iter_mut().for_each(|row| *row += *one);
-            let whole =
-                share(&mut rows, threads, &|| 1, &work, &mut |_, _| ControlFlow::Continue(()));
+            let whole = share(&mut rows, (GROUP, threads), &|| 1, &work, &mut |_, _| {
+                ControlFlow::Continue(())
+            });
             assert!(whole && rows.iter().enumerate().all(|(at, own)| *own == at + 1));
         }
     }
@@ -110,7 +112,7 @@ mod tests {
             rows.fill(1);
             std::thread::sleep(Duration::from_millis(3));
         };
-        let whole = share(&mut rows, 2, &|| (), &work, &mut |_, _| ControlFlow::Break(()));
+        let whole = share(&mut rows, (GROUP, 2), &|| (), &work, &mut |_, _| ControlFlow::Break(()));
         assert!(!whole && rows.contains(&0));
     }
 }

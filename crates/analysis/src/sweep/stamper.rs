@@ -81,14 +81,13 @@ impl<const N: usize> Stamper for Sized<'_, N> {
             if anchors.contains(&at) {
                 continue;
             }
-            row.notice = match &known {
-                Some(known) => {
-                    self.pose(row.point).and_then(|()| self.once(known, row.values, row.errors))
-                }
-                None => self.write(row.point, row.values, row.errors),
-            };
-            let has_own = known.is_none() && self.plan.estimates != Estimates::Off;
-            estimated += usize::from(row.notice.is_some() && has_own && !is_linear);
+            let spared = known.as_ref().and_then(|known| {
+                self.pose(row.point)?;
+                self.once(known, row.values, row.errors)
+            });
+            let has_own = spared.is_none() && self.plan.estimates != Estimates::Off && !is_linear;
+            row.notice = spared.or_else(|| self.write(row.point, row.values, row.errors));
+            estimated += usize::from(row.notice.is_some() && has_own);
         }
         estimated
     }

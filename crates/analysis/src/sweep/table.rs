@@ -4,7 +4,10 @@ use std::ops::ControlFlow;
 
 use dashpot_network::{Network, ParametricSystem};
 
-use super::{Grid, Pose, parallel::share};
+use super::{
+    Grid, Pose,
+    parallel::{GROUP, share},
+};
 
 /// Numbers that are products of others may be so many roundings off.
 const ROUNDINGS: f64 = 32.0 * f64::EPSILON;
@@ -75,7 +78,8 @@ impl Table {
             let work = |(): &mut (), rows: &mut [(usize, Option<Vec<f64>>)]| {
                 rows.iter_mut().for_each(|(point, found)| *found = read(*point));
             };
-            share(&mut rows, threads, &|| (), &work, &mut |_, _| ControlFlow::Continue(()));
+            let groups = (GROUP, threads);
+            share(&mut rows, groups, &|| (), &work, &mut |_, _| ControlFlow::Continue(()));
             let all: Vec<Option<Vec<f64>>> = rows.into_iter().map(|row| row.1).collect();
             let differs = |at: &usize| {
                 all.iter().flatten().any(|own| own[*at].to_bits() != base[*at].to_bits())

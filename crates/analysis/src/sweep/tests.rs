@@ -438,6 +438,37 @@ fn foam(place: usize) -> ScenePoint {
 }
 
 #[test]
+fn errors_of_steps_hold_between_the_points_at_which_they_are_estimated() {
+    let keys = ["pad.peak-force", "pad.peak-deformation", "pad.contact-time", "pad.energy"]
+        .map(str::to_owned);
+    let (columns, wishes) = columns(&foam(0), &keys).unwrap();
+    let grid = Grid::new(vec![150]).unwrap();
+    let swept = |method: &str, threads: usize, rtol: Option<f64>| {
+        let pose = |places: &[usize]| {
+            let mut own = foam(places[0]);
+            own.settings.measures.clone_from(&wishes);
+            own.settings.rtol = rtol;
+            own.settings.method = Choice::named(method).unwrap();
+            Ok(own)
+        };
+        let estimates = if rtol.is_some() { Estimates::Off } else { Estimates::Some };
+        let options = SweepOptions { threads, estimates };
+        sweep(&grid, &pose, &columns, options, &mut |_, _| ControlFlow::Continue(())).unwrap()
+    };
+    let found = swept("auto", 1, None);
+    // Three of each of two groups of 64 and one of 22.
+    assert_eq!((found.instantiated, found.estimated), (150, 9));
+    assert_eq!(found, SweepReport { wall: found.wall, ..swept("auto", 2, None) });
+    let truth = swept("dop853", 2, Some(1e-11));
+    assert_eq!(truth.instantiated, 0);
+    for (at, right) in truth.values.iter().enumerate() {
+        let (value, error) = (found.values[at], found.errors[at]);
+        assert!((value - right).abs() <= error, "{at}: {value} ± {error}, {right}");
+        assert!(error <= 1e-3 * value, "{at}: {value} ± {error}");
+    }
+}
+
+#[test]
 fn errors_of_some_points_stand_for_those_near_them() {
     let keys =
         ["pad.peak-force", "pad.peak-deformation", "pad.contact-time", "head.severity-index"];

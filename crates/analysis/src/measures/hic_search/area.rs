@@ -90,6 +90,12 @@ impl<'a> Area<'a> {
         self.borders.binary_search_by(|border| border.total_cmp(&t)).is_ok()
     }
 
+    /// The value of `|s|` at a time at which it does not jump.
+    pub(super) fn height(&self, t: f64) -> f64 {
+        let at = self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
+        self.parts.get(at).map_or(0.0, |part| part.panel.value(t).abs())
+    }
+
     /// The area from `from` to `to`.
     pub(super) fn between(&self, from: f64, to: f64) -> f64 {
         let until = |t: f64| {

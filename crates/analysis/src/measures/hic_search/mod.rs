@@ -1,6 +1,7 @@
 //! The interval that maximises the head injury criterion.
 
 mod area;
+mod hump;
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
@@ -34,11 +35,20 @@ pub(crate) struct Optimum {
 /// ones, drops what can hold no more than the best interval so far, and of single pieces what holds no zero of
 /// the derivatives: an optimum lies where
 /// `|s(t1)|` and `|s(t2)|` are 0.6 times the mean, at a jump or an end of the window, or, where the
-/// cap is active, where `|s(t1)| = |s(t2)|`. Nothing is sampled, so no optimum is missed.
+/// cap is active, where `|s(t1)| = |s(t2)|`. Nothing is sampled, so no optimum is missed. A signal with a single
+/// hump needs no more than a search for its level.
 pub(crate) fn optimum(signal: &Signal, window: (f64, f64), cap: f64) -> Optimum {
     let area = Area::new(signal, window);
+    if let Some(found) = hump::optimum(&area, cap) {
+        return found;
+    }
+    searched(&area, window, cap)
+}
+
+/// The same by a search through all intervals.
+fn searched(area: &Area<'_>, window: (f64, f64), cap: f64) -> Optimum {
     let mut search = Search {
-        area: &area,
+        area,
         cap,
         best: Optimum { value: 0.0, interval: (window.0, window.0), threshold: 0.0 },
         open: BinaryHeap::new(),

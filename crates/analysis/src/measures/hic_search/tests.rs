@@ -161,3 +161,36 @@ fn a_pulse_in_thousands_of_pieces_has_the_interval_that_it_has_in_one() {
     close(found.interval.1 - found.interval.0, 0.670_229_7, 1e-3);
     assert!(found.threshold < 1e-6, "{}", found.threshold);
 }
+
+#[test]
+fn the_level_of_a_single_hump_and_the_search_through_all_intervals_agree() {
+    // Half sines, bells, and humps that lean, cut at their feet or not, with caps that hold and that do not.
+    type Hump = (&'static str, fn(f64) -> f64);
+    let humps: [Hump; 5] = [
+        ("half sine", |t| (PI * t).sin()),
+        ("leaning", |t| t * (1.0 - t) * (-3.0 * t).exp()),
+        ("bell", |t| (-20.0 * (t - 0.4).powi(2)).exp()),
+        ("upon a step", |t| 0.5 + (PI * t).sin()),
+        ("steep at first", |t| (1.0 - t) * (1.0 + t) + 0.3 * (2.0 * t).sin()),
+    ];
+    for (name, hump) in humps {
+        let pulse = signal(1.0, 7, hump);
+        for cap in [1e9, 0.9, 0.5, 0.2, 0.03] {
+            let area = Area::new(&pulse, (0.0, 1.0));
+            let own = hump::optimum(&area, cap).unwrap();
+            let all = searched(&area, (0.0, 1.0), cap);
+            assert!(
+                (own.value / all.value - 1.0).abs() < 1e-12,
+                "{name} up to {cap}: {own:?} and {all:?}"
+            );
+            let length = |own: Optimum| own.interval.1 - own.interval.0;
+            close(length(own), length(all), 1e-6);
+        }
+    }
+}
+
+#[test]
+fn two_humps_are_none() {
+    let pulse = signal(1.0, 7, |t| (2.0 * PI * t).sin().powi(2) + 0.1 * t);
+    assert_eq!(hump::optimum(&Area::new(&pulse, (0.0, 1.0)), 1e9), None);
+}
