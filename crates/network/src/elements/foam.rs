@@ -2,7 +2,10 @@
 
 use dashpot_numerics::quadrature::integral;
 
-use super::{Element, Law, Tangent, power::in_range};
+use super::{
+    Element, Law, Tangent,
+    power::{in_range, power},
+};
 use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {
@@ -84,25 +87,27 @@ parameters! {
 const LAST: f64 = 0.99;
 
 impl Foam {
-    /// Stress and its slope over the strain, for strains from 0 to [`LAST`].
-    fn curve(&self, strain: f64) -> (f64, f64) {
-        let (n, void) = (self.exponent, 1.0 - strain);
+    /// Stress for strains from 0 to [`LAST`].
+    fn curve(&self, strain: f64) -> f64 {
+        let ratio = strain / (1.0 - strain);
         let decay = -self.modulus * strain / self.plateau;
-        let ratio = strain / void;
-        let power = self.densification * ratio.powf(n - 1.0);
-        let stress = power * ratio - self.plateau * decay.exp_m1();
-        let dense = n * power / (void * void);
-        (stress, self.modulus * decay.exp() + dense)
+        self.densification * power(ratio, self.exponent) - self.plateau * decay.exp_m1()
     }
 
-    /// Stress \[Pa\] and its slope \[Pa\] at a strain.
-    fn stress(&self, strain: f64) -> (f64, f64) {
+    /// Its slope over the strain there.
+    fn slope(&self, strain: f64) -> f64 {
+        let (n, void) = (self.exponent, 1.0 - strain);
+        let decay = -self.modulus * strain / self.plateau;
+        let dense = self.densification * n * power(strain / void, n - 1.0) / (void * void);
+        self.modulus * decay.exp() + dense
+    }
+
+    /// Stress \[Pa\] at a strain.
+    fn stress(&self, strain: f64) -> f64 {
         if strain < 0.0 {
-            let slope = self.curve(0.0).1;
-            (slope * strain, slope)
+            self.slope(0.0) * strain
         } else if strain > LAST {
-            let (stress, slope) = self.curve(LAST);
-            (stress + slope * (strain - LAST), slope)
+            self.curve(LAST) + self.slope(LAST) * (strain - LAST)
         } else {
             self.curve(strain)
         }
@@ -111,7 +116,7 @@ impl Foam {
     /// Energy per volume \[J/m³\] at a strain.
     fn energy(&self, strain: f64) -> f64 {
         if strain < 0.0 {
-            return 0.5 * self.curve(0.0).1 * strain * strain;
+            return 0.5 * self.slope(0.0) * strain * strain;
         }
         let (within, beyond) = (strain.min(LAST), (strain - LAST).max(0.0));
         let plateau = self.plateau * self.plateau / self.modulus
@@ -123,8 +128,7 @@ impl Foam {
             0.0
         };
         let line = if beyond > 0.0 {
-            let (stress, slope) = self.curve(LAST);
-            (stress + 0.5 * slope * beyond) * beyond
+            (self.curve(LAST) + 0.5 * self.slope(LAST) * beyond) * beyond
         } else {
             0.0
         };
@@ -133,7 +137,7 @@ impl Foam {
 
     /// Slope of the force at rest \[N/m\].
     pub(super) fn stiffness(&self) -> f64 {
-        self.curve(0.0).1 * self.area / self.thickness
+        self.slope(0.0) * self.area / self.thickness
     }
 
     /// Whether its slopes and energies are numbers.
@@ -167,11 +171,11 @@ fn above_tangent(x: f64) -> f64 {
 
 impl Element for Foam {
     fn force(&self, deformation: f64, _rate: f64) -> f64 {
-        self.area * self.stress(deformation / self.thickness).0
+        self.area * self.stress(deformation / self.thickness)
     }
 
     fn tangent(&self, deformation: f64, _rate: f64) -> Tangent {
-        let slope = self.stress(deformation / self.thickness).1;
+        let slope = self.slope((deformation / self.thickness).clamp(0.0, LAST));
         Tangent { stiffness: slope * self.area / self.thickness, damping: 0.0 }
     }
 

@@ -64,6 +64,19 @@ pub(super) fn times_power(factor: f64, ratio: f64, exponent: f64) -> f64 {
     product * power_of_two(half) * power_of_two(whole - half)
 }
 
+/// `x^n`, by products where `n` is a small whole number: much faster, and as good.
+#[inline]
+pub(super) fn power(x: f64, exponent: f64) -> f64 {
+    const LARGEST: f64 = 8.0;
+    if exponent.abs() <= LARGEST && exponent.fract() == 0.0 {
+        #[expect(clippy::cast_possible_truncation, reason = "it is whole and small")]
+        let whole = exponent as i32;
+        x.powi(whole)
+    } else {
+        x.powf(exponent)
+    }
+}
+
 /// A positive normal number as one between √½ and √2 times a power of two.
 fn split(number: f64) -> (f64, f64) {
     let bits = number.to_bits();
