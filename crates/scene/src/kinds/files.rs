@@ -12,7 +12,7 @@ use crate::{
     tables::{DataTable, Field, Samples, Scale, TOLD, TableFault, is_no_unit},
     text::{
         document::{Content, Item},
-        library::{FILE, TableFile},
+        library::tables::{FILE, TableFile},
         source::Place,
         table::{Table, text_of, wrong_type},
     },

@@ -1,7 +1,10 @@
 //! What readers ask of the registers, and how their kinds are written.
 
+mod entries;
 mod files;
 pub(crate) mod parameters;
+mod points;
+mod value;
 
 use dashpot_network::{
     composites::COMPOSITES,

@@ -15,7 +15,7 @@ use crate::{
     quantities::basis::{AREA, Basis, EnclosingPad, Loading, Pad, SIZE, Size, is_sized},
     text::{
         document::{Content, Entry, Item},
-        library::{Library, ModelSection},
+        library::{Library, models::ModelSection},
         source::Place,
         table::{unknown_key, wrong_type},
     },
