@@ -2,7 +2,7 @@
 
 use dashpot_network::parameters::{Parameter, Value};
 
-use super::{is_points, parameters::KindReader};
+use super::{are_file, is_points, parameters::KindReader};
 use crate::{
     diagnostics::fault::Fault,
     quantities::basis::{Basis, SIZE, Size, is_size},
@@ -21,10 +21,9 @@ fn given(entry: Option<&Entry>, place: Place) -> Given<'_> {
     entry.map_or((place, None), |entry| (entry.item.place, Some(&entry.item)))
 }
 
-/// Whether a file may stand for the values of these parameters: alone, where all that is required is points.
+/// Whether a file may stand for the values of these parameters: in a table, or alone.
 fn takes_file(parameters: &[Parameter], item: &Item) -> bool {
-    let mut required = parameters.iter().filter(|own| own.default.is_none());
-    parameters.iter().any(is_points) && (item.text().is_none() || required.all(is_points))
+    if item.text().is_some() { are_file(parameters) } else { parameters.iter().any(is_points) }
 }
 
 impl<'d> KindReader<'d> {
@@ -193,7 +192,8 @@ impl<'d> KindReader<'d> {
             }
             return Some(if key == SIZE[0] { pad.thickness } else { pad.area });
         }
-        let size = match (entry, self.size.beside(key)) {
+        let around = || self.size.around().filter(|_| key == SIZE[0]);
+        let size = match (entry, self.size.beside(key).or_else(around)) {
             (Some(entry), _) => {
                 let value = self.value(parameter, &entry.item)?.number()?;
                 Size { value, place: entry.item.place }

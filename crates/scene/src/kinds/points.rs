@@ -18,8 +18,9 @@ impl KindReader<'_> {
         let (faults, kind) = (self.quantities.faults, parameter.kind);
         let quiet = Self { quantities: self.quantities.unwatched(), ..self };
         let Content::List(points) = &item.value else {
-            let example = self.example().parameter(kind);
-            let expected = format!("a list of pairs, for example `{example}`");
+            let example = self.example().parameter(parameter);
+            let expected =
+                format!("a list of pairs or the name of a file, for example `{example}`");
             wrong_type(item, &format!("`{}`", parameter.name), &expected, faults);
             return None;
         };

@@ -13,7 +13,6 @@ use dashpot_network::{
 
 use super::{Library, Loader, MAX_FILES, beside};
 use crate::{
-    curves::CurveChange,
     diagnostics::{Faults, fault::Fault},
     kinds,
     models::notes::{ModelNote, Remark},
@@ -34,16 +33,16 @@ pub(crate) struct TableFile {
     pub(crate) number: u32,
     /// Its text.
     pub(crate) source: Arc<Source>,
-    /// What became of curves in it, each told once.
-    remarks: RefCell<Vec<CurveChange>>,
+    /// What became of it, each told once.
+    remarks: RefCell<Vec<Remark>>,
 }
 
 impl TableFile {
-    /// Takes up what became of a curve.
-    pub(crate) fn remark(&self, change: CurveChange) {
+    /// Takes up what became of it.
+    pub(crate) fn remark(&self, what: Remark) {
         let mut all = self.remarks.borrow_mut();
-        if !all.contains(&change) {
-            all.push(change);
+        if !all.contains(&what) {
+            all.push(what);
         }
     }
 
@@ -107,16 +106,16 @@ impl Library {
         }
     }
 
-    /// What became of the curves in files of numbers.
-    pub(crate) fn curve_notes(&self) -> Vec<ModelNote> {
+    /// What became of the files of numbers.
+    pub(crate) fn table_notes(&self) -> Vec<ModelNote> {
         let mut files: Vec<&TableFile> = self.tables.values().flatten().collect();
         files.sort_by_key(|file| file.number);
         let notes = files.into_iter().flat_map(|file| {
             let subject = format!("file `{}`", file.source.name);
             let remarks = file.remarks.borrow().clone();
-            remarks.into_iter().map(move |change| ModelNote {
+            remarks.into_iter().map(move |what| ModelNote {
                 subject: subject.clone(),
-                what: Remark::Curve(change),
+                what,
                 until: None,
             })
         });
@@ -162,8 +161,7 @@ fn words_of_points() -> HashSet<&'static str> {
     for (word, parameters) in waveforms.chain(elements).chain(composites) {
         let points = parameters.iter().filter(|own| kinds::is_points(own));
         words.extend(points.map(|own| own.name));
-        let mut required = parameters.iter().filter(|own| own.default.is_none());
-        if parameters.iter().any(kinds::is_points) && required.all(kinds::is_points) {
+        if kinds::are_file(parameters) {
             words.insert(word);
         }
     }
