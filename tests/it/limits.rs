@@ -88,6 +88,73 @@ fn a_run_that_ends_before_the_peak_passes_nothing() {
     assert_eq!(sure["runs"][0]["limits"][1]["verdict"], "fail");
 }
 
+/// A measured law of 100 kN/m up to 5 mm under 5 kg: it is pressed to V √(m/K), with V √(K m).
+fn measured(speed: &str, limits: &str) -> (TempDir, String) {
+    let text = format!(
+        "[nodes]\nhead = {{ mass = \"5 kg\", velocity = \"{speed}\" }}\n[elements]\npad = {{ between = \
+         [\"head\", \"ground\"], table-spring = [[0, 0], [\"2 mm\", \"200 N\"], [\"5 mm\", \"500 N\"]] }}\n\
+         [limits]\n{limits}\n[run]\nduration = \"50 ms\"\n"
+    );
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "scene.toml", &text).to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+#[test]
+fn what_is_kept_beyond_the_points_of_a_law_is_undecided() {
+    // 3.5 mm and 354 N; 14 mm and 1414 N.
+    let limits = "pad.peak-force = [\"2 kN\", \"300 N\"]";
+    for (speed, verdicts, status) in [
+        ("0.5 m/s", [("pass", Value::Null), ("fail", Value::Null)], 0),
+        ("2 m/s", [("undecided", "beyond-known".into()), ("fail", Value::Null)], 4),
+    ] {
+        let (_folder, path) = measured(speed, limits);
+        let found = json(&["run", &path, "--json"])["runs"][0]["limits"].clone();
+        for (at, (verdict, reason)) in verdicts.into_iter().enumerate() {
+            assert_eq!((&found[at]["verdict"], &found[at]["reason"]), (&verdict.into(), &reason));
+        }
+        let (_folder, path) = measured(speed, "pad.peak-force = \"2 kN\"");
+        let output = run(&["run", &path, "--enforce"]);
+        assert_eq!(code(&output), status, "{}", err(&output));
+    }
+    let (_folder, path) = measured("2 m/s", limits);
+    let told = "would pass, but hangs on pad.table-spring beyond the points of its law";
+    let words = |arguments: &[&str]| {
+        let output = run(arguments);
+        let shown = out(&output) + &err(&output);
+        shown.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let shown = words(&["run", &path]);
+    assert!(shown.contains("UNDECIDED pad.peak-force 1.414 kN, at most 2 kN"), "{shown}");
+    assert!(shown.contains(told), "{shown}");
+    let shown = words(&["run", &path, "--variant", "head.velocity=0.5 m/s"]);
+    assert!(shown.contains(told) && shown.contains("pass, 0.3536 kN"), "{shown}");
+    // The last point is reached at 0.707 m/s.
+    let sweep = ["sweep", &path, "--vary", "head.velocity=0.5,0.7,0.8,2 m/s"];
+    let shown = words(&sweep);
+    let told = "max 2 kN: 2 of 4 points pass, from 0.5 m/s to 0.7 m/s, 0 fail, 2 undecided (2 would pass, but";
+    assert!(shown.contains(told), "{shown}");
+    let found = json(&[&sweep[..], &["--json"]].concat());
+    let verdicts: Vec<Value> = ["pass", "pass", "undecided", "undecided"].map(Value::from).into();
+    assert_eq!(found["limits"][0]["verdicts"], Value::from(verdicts));
+    assert_eq!(found["limits"][0]["reasons"][3], "beyond-known");
+}
+
+#[test]
+fn designs_of_a_sample_beyond_the_points_of_a_law_keep_nothing() {
+    let (_folder, path) =
+        measured("0.6 ± 0.1 m/s", "pad.peak-force = { max = \"2 kN\", mean = true }");
+    let found = json(&["run", &path, "--sample", "200", "--json"])["runs"][0].clone();
+    let chance = &found["scatter"]["limits"][0];
+    // Beyond 0.7071 m/s, which is 1.071 standard deviations above the mean: 14.2 % of the designs. A Latin
+    // hypercube has one in each of 200 parts.
+    let beyond = chance["beyond_known"].as_u64().unwrap();
+    assert!((27..=30).contains(&beyond), "{chance}");
+    assert_eq!(chance["kept"].as_u64().unwrap() + beyond, 200, "{chance}");
+    let own = &found["limits"][0];
+    assert_eq!((&own["verdict"], &own["reason"]), (&"undecided".into(), &"beyond-known".into()));
+}
+
 #[test]
 fn limits_are_written_with_their_units() {
     let text = scene(
