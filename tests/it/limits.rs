@@ -6,7 +6,7 @@ use dashpot::scene::{ReadOptions, read, write_scene};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::cli::{code, err, file, json, out, run};
+use crate::cli::{code, err, file, json, out, run, said};
 
 /// 4 kg at 5 m/s on 25 kN/m: the peak force is V √(K m) = 1581.138830084190 N.
 const PEAK: f64 = 1_581.138_830_084_19;
@@ -262,8 +262,8 @@ fn what_is_wrong_with_a_limit_is_told_with_its_place() {
     ] {
         let output = run(&["run", &path, "--limit", limit]);
         assert_eq!(code(&output), 2, "{limit}");
-        let words = err(&output).split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(words.contains(told), "{limit}: {words}");
+        let shown = said(&output);
+        assert!(shown.contains(told), "{limit}: {shown}");
     }
 }
 
