@@ -20,7 +20,7 @@ use crate::{
         Reading, Targets, check_stops, find_duration, read_accuracy, read_effects, read_elements,
         read_limits, read_loads, read_measures, read_nodes, read_run,
     },
-    tables::DataTable,
+    tables::{DataTable, table_text},
     text::{
         document::{Entry, MAX_BYTES, parse},
         library::{Library, Loader},
@@ -166,6 +166,9 @@ pub fn text_of_bytes<'b>(bytes: &'b [u8], file: Option<&str>) -> Result<&'b str,
         return Err(Diagnostics::single(Fault::TooLarge { bytes: bytes.len() }, nowhere()));
     }
     std::str::from_utf8(bytes).map_err(|error| {
+        if let Some(fault) = table_for_scene(&table_text(bytes), file.unwrap_or("scene")) {
+            return Diagnostics::single(fault, nowhere());
+        }
         let at = error.valid_up_to();
         let line = bytes[..at].split(|&byte| byte == b'\n').count();
         Diagnostics::single(Fault::NotUtf8 { at, line }, nowhere())

@@ -474,6 +474,9 @@ fn a_table_of_numbers_is_told_to_stand_in_a_scene() {
         assert!(shown.starts_with("error: this is a table of numbers, and no scene"), "{shown}");
         assert!(shown.contains("`table-spring = \"scene.toml\"`"), "{shown}");
     }
+    let options = crate::ReadOptions { file: Some("pr\u{fc}f.csv"), ..Default::default() };
+    let latin = crate::read_bytes(b"Pr\xfcfer A\nx;F\n0;0\n1;2\n", &options).unwrap_err();
+    assert!(latin.render(false).contains("this is a table of numbers"), "{latin}");
     for text in ["nodes\n", "a = 1\n", "[nodes\n1, 2\n"] {
         assert!(!messages(text).contains("a table of numbers"), "{text}");
     }
