@@ -349,7 +349,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
     notes.extend(upward(&network));
-    notes.extend(constant_areas(&reading, &limits));
+    notes.extend(constant_areas(&network, &limits));
     notes.extend(library.table_notes());
     let mut values: Vec<NamedValue> = library
         .values()
