@@ -51,6 +51,11 @@ pub(crate) fn err(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
+/// What is said on standard error, without its line breaks.
+pub(crate) fn said(output: &Output) -> String {
+    err(output).split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 pub(crate) fn json(arguments: &[&str]) -> Value {
     let output = run(arguments);
     assert_eq!(code(&output), 0, "{}", err(&output));

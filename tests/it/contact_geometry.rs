@@ -267,6 +267,28 @@ fn a_flat_body_loads_its_area_at_once_and_nothing_else_changes() {
 }
 
 #[test]
+fn columns_whose_sides_are_held_are_stiffer_by_the_confined_modulus() {
+    let of = |loaded: &str| {
+        let text = ball_on(&format!("material = \"bound\", {BALL}{loaded}"))
+            + &format!("[materials.bound]\nspring = {MODULUS}\npoisson = 0.3\n");
+        read(&text, &ReadOptions::default())
+    };
+    let force = |loaded: &str, y: f64| {
+        let scene = of(loaded).unwrap().value;
+        scene.network.connections()[0].model.leaves().map(|own| own.force(y, 0.0)).sum::<f64>()
+    };
+    for y in [1e-4_f64, 0.003, 0.012] {
+        // The ball on columns: (π E/h)(R y² − y³/3), and (1 − ν)/((1 + ν)(1 − 2ν)) times that.
+        let free = PI * MODULUS / THICKNESS * (0.05 * y * y - y.powi(3) / 3.0);
+        close(force("", y), free, 1e-13, "free sides");
+        close(force(", loaded = \"compression\"", y), free, 1e-13, "free sides");
+        close(force(", loaded = \"confined\"", y), 0.7 / (1.3 * 0.4) * free, 1e-13, "sides held");
+    }
+    let shown = of(", loaded = \"shear\"").unwrap_err().to_string();
+    assert!(shown.contains("across its thickness, not in shear"), "{shown}");
+}
+
+#[test]
 fn without_a_shape_nothing_is_added() {
     let own = scene(&ball_on("material = \"gel\", thickness = 0.02, area = 0.003"));
     let system = own.network.compile(0.03).unwrap();

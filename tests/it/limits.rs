@@ -2,10 +2,11 @@
 
 use std::fs;
 
+use dashpot::scene::{ReadOptions, read, write_scene};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::cli::{code, err, file, json, out, run};
+use crate::cli::{code, err, file, json, out, run, said};
 
 /// 4 kg at 5 m/s on 25 kN/m: the peak force is V √(K m) = 1581.138830084190 N.
 const PEAK: f64 = 1_581.138_830_084_19;
@@ -87,6 +88,94 @@ fn a_run_that_ends_before_the_peak_passes_nothing() {
     assert_eq!(sure["runs"][0]["limits"][1]["verdict"], "fail");
 }
 
+/// A measured law of 100 kN/m up to 5 mm under 5 kg: it is pressed to V √(m/K), with V √(K m).
+fn measured(speed: &str, limits: &str) -> (TempDir, String) {
+    let text = format!(
+        "[nodes]\nhead = {{ mass = \"5 kg\", velocity = \"{speed}\" }}\n[elements]\npad = {{ between = \
+         [\"head\", \"ground\"], table-spring = [[0, 0], [\"2 mm\", \"200 N\"], [\"5 mm\", \"500 N\"]] }}\n\
+         [limits]\n{limits}\n[run]\nduration = \"50 ms\"\n"
+    );
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "scene.toml", &text).to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+#[test]
+fn what_is_kept_beyond_the_points_of_a_law_is_undecided() {
+    // 3.5 mm and 354 N; 14 mm and 1414 N.
+    let limits = "pad.peak-force = [\"2 kN\", \"300 N\"]";
+    for (speed, verdicts, status) in [
+        ("0.5 m/s", [("pass", Value::Null), ("fail", Value::Null)], 0),
+        ("2 m/s", [("undecided", "beyond-known".into()), ("fail", Value::Null)], 4),
+    ] {
+        let (_folder, path) = measured(speed, limits);
+        let found = json(&["run", &path, "--json"])["runs"][0]["limits"].clone();
+        for (at, (verdict, reason)) in verdicts.into_iter().enumerate() {
+            assert_eq!((&found[at]["verdict"], &found[at]["reason"]), (&verdict.into(), &reason));
+        }
+        let (_folder, path) = measured(speed, "pad.peak-force = \"2 kN\"");
+        let output = run(&["run", &path, "--enforce"]);
+        assert_eq!(code(&output), status, "{}", err(&output));
+    }
+    let (_folder, path) = measured("2 m/s", limits);
+    let told = "would pass, but hangs on pad.table-spring beyond the points of its law";
+    let words = |arguments: &[&str]| {
+        let output = run(arguments);
+        let shown = out(&output) + &err(&output);
+        shown.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let shown = words(&["run", &path]);
+    assert!(shown.contains("UNDECIDED pad.peak-force 1.414 kN, at most 2 kN"), "{shown}");
+    assert!(shown.contains(told), "{shown}");
+    let shown = words(&["run", &path, "--variant", "head.velocity=0.5 m/s"]);
+    assert!(shown.contains(told) && shown.contains("pass, 0.3536 kN"), "{shown}");
+    // The last point is reached at 0.707 m/s.
+    let sweep = ["sweep", &path, "--vary", "head.velocity=0.5,0.7,0.8,2 m/s"];
+    let shown = words(&sweep);
+    let told = "max 2 kN: 2 of 4 points pass, from 0.5 m/s to 0.7 m/s, 0 fail, 2 undecided (2 would pass, but";
+    assert!(shown.contains(told), "{shown}");
+    let found = json(&[&sweep[..], &["--json"]].concat());
+    let verdicts: Vec<Value> = ["pass", "pass", "undecided", "undecided"].map(Value::from).into();
+    assert_eq!(found["limits"][0]["verdicts"], Value::from(verdicts));
+    assert_eq!(found["limits"][0]["reasons"][3], "beyond-known");
+}
+
+#[test]
+fn designs_of_a_sample_beyond_the_points_of_a_law_keep_nothing() {
+    let (_folder, path) =
+        measured("0.6 ± 0.1 m/s", "pad.peak-force = { max = \"2 kN\", mean = true }");
+    let found = json(&["run", &path, "--sample", "200", "--json"])["runs"][0].clone();
+    let chance = &found["scatter"]["limits"][0];
+    // Beyond 0.7071 m/s, which is 1.071 standard deviations above the mean: 14.2 % of the designs. A Latin
+    // hypercube has one in each of 200 parts.
+    let beyond = chance["beyond_known"].as_u64().unwrap();
+    assert!((27..=30).contains(&beyond), "{chance}");
+    assert_eq!(chance["kept"].as_u64().unwrap() + beyond, 200, "{chance}");
+    let own = &found["limits"][0];
+    assert_eq!((&own["verdict"], &own["reason"]), (&"undecided".into(), &"beyond-known".into()));
+}
+
+#[test]
+fn limits_are_written_with_their_units() {
+    let text = scene(
+        "head.peak-acceleration = { max = \"250 g\", from = \"EN 1078:2012\" }\nhead.hic15 = 700\n\
+         pad.peak-force = [{ max = \"1.3 kN\", mean = true }, { min = 0 }]\npad.contact-time = { min = \"5 ms\" }",
+    );
+    let read = |text: &str| read(text, &ReadOptions::default()).unwrap();
+    let own = read(&text);
+    assert!(own.warnings.is_empty(), "{}", own.warnings);
+    let own = own.value;
+    let settings = own.settings("auto").unwrap();
+    let written = write_scene("again", &[], &own.network, &own.run, &settings).unwrap();
+    let again = read(&written);
+    assert!(again.warnings.is_empty(), "{written}\n{}", again.warnings);
+    assert_eq!(again.value.limits.len(), own.limits.len(), "{written}");
+    for limit in &own.limits {
+        assert!(again.value.limits.contains(limit), "{limit:?}\n{written}");
+    }
+    assert!(written.contains("max = 700.0") && written.contains("m/s^2"), "{written}");
+}
+
 #[test]
 fn the_verdict_leads_with_the_limits_and_where_they_are_from() {
     let (folder, path) = written(
@@ -163,7 +252,9 @@ fn what_is_wrong_with_a_limit_is_told_with_its_place() {
     }
     let (_folder, path) = written("");
     for (limit, told) in [
-        ("pad.peak-force<1 kN", "write a measure, `<=` or `>=`"),
+        ("pad.peak-force", "write a measure, `<=` or `>=`"),
+        ("pad.peak-force < 1 kN", "write `pad.peak-force<=1 kN`"),
+        ("pad.peak-force>1 kN", "write `pad.peak-force>=1 kN`"),
         ("pad.peak-froce<=1 kN", "`pad.peak-froce` is no measure"),
         ("pod.peak-force<=1 kN", "pod"),
         ("pad.peak-force<=1 m", "`1 m` is a length (m); a force (N) is expected"),
@@ -171,7 +262,8 @@ fn what_is_wrong_with_a_limit_is_told_with_its_place() {
     ] {
         let output = run(&["run", &path, "--limit", limit]);
         assert_eq!(code(&output), 2, "{limit}");
-        assert!(err(&output).contains(told), "{limit}: {}", err(&output));
+        let shown = said(&output);
+        assert!(shown.contains(told), "{limit}: {shown}");
     }
 }
 
@@ -180,7 +272,7 @@ fn a_limit_of_the_command_line_has_a_unit_but_for_indices() {
     let (_folder, path) = written("head.severity-index = 1000");
     let bare = run(&["run", &path, "--limit", "head.peak-acceleration<=250"]);
     assert_eq!(code(&bare), 2);
-    assert!(err(&bare).contains("write `250 g` or `250 m/s^2`"), "{}", err(&bare));
+    assert!(err(&bare).contains("write \"250 g\" or \"250 m/s^2\""), "{}", err(&bare));
     let index = run(&["run", &path, "--limit", "head.hic15<=700"]);
     assert_eq!(code(&index), 0, "{}", err(&index));
 }

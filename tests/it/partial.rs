@@ -6,7 +6,7 @@ use dashpot::network::effects::EFFECTS;
 use tempfile::TempDir;
 
 use crate::{
-    cli::{code, err, json, out, run},
+    cli::{code, err, json, out, run, said},
     scenes::scene_path,
 };
 
@@ -162,7 +162,8 @@ fn a_bound_that_is_no_share_is_refused() {
         for option in ["--neglect", "--accuracy"] {
             let output = run(&["run", option, bound]);
             assert_eq!(code(&output), 2);
-            assert!(err(&output).contains(told), "{}", err(&output));
+            let shown = said(&output);
+            assert!(shown.contains(told), "{shown}");
         }
     }
 }

@@ -367,6 +367,11 @@ fn rows_of_a_table_are_designs_each_as_if_it_were_run_alone() {
         let first = text.lines().nth(1).unwrap();
         assert!(first.starts_with("3,1e4,") || first.starts_with("3,10000,"), "{first}");
     }
+    let scene = file(&folder, "scene.toml", &listed_scene("spring = \"K\""));
+    let table = file(&folder, "dated.csv", "Designs;of May\nhead.velocity [m/s];K [kN/m]\n3;10\n");
+    let output = run(&["sweep", scene.to_str().unwrap(), "--points", table.to_str().unwrap()]);
+    let shown = err(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(shown.contains("line 1 is no part of the table and left out"), "{shown}");
 }
 
 #[test]

@@ -193,3 +193,44 @@ fn a_body_that_nothing_brings_back_is_told_of_once() {
     assert!(off.contains("parcel leaves the foam at"), "{off}");
     assert_eq!(told("gravity = {}\n"), "");
 }
+
+#[test]
+fn what_is_wrong_with_an_argument_fits_the_terminal() {
+    for arguments in [
+        ["run", "--limit", "head.peak-acceleration<=250 mm"],
+        ["run", "--limit", "head.peak-acceleration"],
+        ["run", "--accuracy", "40%"],
+        ["run", "--no-such-flag-that-is-rather-long-and-so-on-for-a-while", "another-word"],
+        ["rheometer", "--test", "no-such-test-among-all-the-tests-that-there-are-in-the-list"],
+    ] {
+        let output = run(&arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}");
+        let shown = err(&output);
+        assert!(shown.starts_with("error: ") && shown.contains("--help"), "{shown}");
+        for line in shown.lines() {
+            let is_word = !line.trim().contains(' ');
+            assert!(is_word || line.chars().count() <= WIDTH, "{arguments:?}: {line}");
+        }
+    }
+}
+
+#[test]
+fn values_and_units_are_echoed_as_they_were_written() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("scene.toml");
+    let scene = "[values]\nK = \"0.06 MN/m\"\nsize = \"2.0 cm\"\nF = \"K * size\"\n[nodes]\nhead = { mass = \"5000 g\", \
+                 velocity = \"4 m/s\" }\n[elements]\npad = { between = [\"head\", \"ground\"], spring = \"K\" }\n\
+                 [limits]\npad.peak-force = \"10 * F\"\n[run]\nduration = \"50 ms\"\n";
+    fs::write(&path, scene).unwrap();
+    let path = path.to_str().unwrap();
+    let results = folder.path().join("results");
+    let output = run(&["run", path, "--set", "K=65.0 N/mm", "--out", results.to_str().unwrap()]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let page = fs::read_to_string(results.join("report.html")).unwrap();
+    for text in ["65.0 N/mm", "2.0 cm", "K * size = 1.3 kN"] {
+        assert!(page.contains(text), "{text}");
+    }
+    let swept = run(&["sweep", path, "--vary", "head.mass=4..6 kg,3", "--table", "always"]);
+    let shown = out(&swept).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(shown.contains("5000 g in the scene"), "{shown}");
+}

@@ -24,7 +24,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::{
-    cli::{code, err, file, json, out, run, text},
+    cli::{code, err, file, json, out, run, said, text},
     random_networks::{Dice, Recipe},
     thesis::{dashpot, spring},
 };
@@ -263,7 +263,7 @@ fn a_wrong_amplitude_and_a_missing_drive_are_refused() {
     let refused = |more: &[&str], expected: &str| {
         let output = run(&[&["vibrate", text(&scene)][..], more].concat());
         assert_eq!(code(&output), 2, "{more:?}");
-        assert!(err(&output).contains(expected), "{}", err(&output));
+        assert!(said(&output).contains(expected), "{}", err(&output));
     };
     refused(&["--at", "5 Hz", "--amplitude", "3 N"], "a displacement or an acceleration is wanted");
     refused(&["--at", "5 Hz", "--amplitude", "0 mm"], "not a positive amplitude");

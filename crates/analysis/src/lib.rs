@@ -37,7 +37,7 @@ pub use impact::impulses::VelocityJump;
 pub use impact::interval::{Contact, Impact, Span};
 pub use impact::sliders::Idle;
 pub use impact::sliders::SliderFault;
-pub use limits::{Bound, Judgement, Limit};
+pub use limits::{Bound, Judgement, Limit, Reason};
 pub use measures::exceedance::Counted;
 pub use measures::selection::MeasureWish;
 pub use measures::{Family, MEASURES, Measure, MeasureKind, Reading};

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::{
-    Judgement, Limit,
+    Judgement, Limit, Reason,
     sweep::{Gap, SweepReport},
 };
 
@@ -62,6 +62,8 @@ pub struct Chance {
     pub limit: Limit,
     /// Designs that keep it.
     pub kept: usize,
+    /// Designs that keep it by something that is pressed further than is known of it.
+    pub beyond: usize,
     /// Designs that exceed it.
     pub exceeded: usize,
     /// Designs in all; what is neither kept nor exceeded is not known.
@@ -162,16 +164,18 @@ impl ScatterReport {
     pub fn of(sources: Vec<ScatterSource>, seed: u64, sweep: &SweepReport) -> Self {
         let columns = sweep.columns.iter().enumerate().filter(|own| !own.1.is_share);
         let bands = columns.map(|(at, own)| Band::of(&own.key, own.unit, sweep.column(at)));
+        let beyond = sweep.beyond_known();
         let chance = |(column, limit): &(usize, Limit)| {
             let judge = |(design, value): (usize, f64)| {
                 let grows = sweep.cut.contains(&(design, *column));
-                limit.bound.judge(value, None, grows)
+                limit.bound.judge(value, None, grows).where_known(beyond[design])
             };
             let judged: Vec<Judgement> = sweep.column(*column).enumerate().map(judge).collect();
             let count = |which| judged.iter().filter(|own| **own == which).count();
             Chance {
                 limit: limit.clone(),
                 kept: count(Judgement::Pass),
+                beyond: count(Judgement::Undecided(Reason::Beyond)),
                 exceeded: count(Judgement::Fail),
                 designs: judged.len(),
             }
@@ -232,7 +236,7 @@ mod tests {
     fn the_range_of_a_probability_is_wilsons_and_is_widened_by_what_is_not_known() {
         let limit = Limit::new("pad.peak-force", Bound::Max(1.0));
         let of = |kept: usize, exceeded: usize| {
-            Chance { limit: limit.clone(), kept, exceeded, designs: 100 }.range()
+            Chance { limit: limit.clone(), kept, beyond: 0, exceeded, designs: 100 }.range()
         };
         // Brown, Cai, DasGupta, Statistical Science 16 (2001) 101–133: 0 of n ends at z²/(n + z²).
         let square = WITHIN * WITHIN;

@@ -151,7 +151,7 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
             if value > Accuracy::LOOSEST { String::new() } else { format!(" or \"{percent}%\"") };
         format!("a bare {value} is {percent}%; write \"{value}%\"{other}")
     } else {
-        "\n  it must be more than 0 and at most 20%, such as 0.1% or 1e-3".to_owned()
+        "it must be more than 0 and at most 20%, such as 0.1% or 1e-3".to_owned()
     })
 }
 

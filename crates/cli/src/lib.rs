@@ -59,8 +59,11 @@ fn print_usage(message: &clap::Error) -> Status {
             _ => Status::Done,
         };
     }
-    if message.to_string().contains(dashpot_scene::is_control) {
-        terminal::message(&message.to_string());
+    let plain = message.to_string();
+    let is_wide = plain.lines().any(|line| text::columns(line) > terminal::WIDTH);
+    if is_wide || plain.contains(dashpot_scene::is_control) {
+        let lines: Vec<String> = plain.trim_end().lines().map(text::indented_line).collect();
+        terminal::message(&lines.join("\n"));
     } else {
         // There is nowhere left to complain to.
         let _ = message.print();

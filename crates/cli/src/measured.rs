@@ -3,15 +3,12 @@
 use std::path::Path;
 
 use dashpot_network::parameters::Dimension;
-use dashpot_scene::{DataTable, TableError, table_text};
+use dashpot_scene::{DataTable, LeftOut, TableError, table_text};
 
 use crate::{
     error::{CliError, reason},
     input::bytes_of,
 };
-
-/// Lines of a file that are named one by one.
-const MOST_TOLD: usize = 3;
 
 /// The text of a file of numbers.
 pub(crate) struct MeasuredFile {
@@ -79,18 +76,6 @@ impl MeasuredFile {
 
     /// Which lines of the file were left out.
     pub(crate) fn notes(&self, table: &DataTable<'_>) -> Option<String> {
-        let lines: Vec<String> = table.skipped().map(|own| own.0.to_string()).collect();
-        let file = &self.name;
-        match lines.len() {
-            0 => None,
-            1 => Some(format!("{file}: line {} is no part of the table and left out", lines[0])),
-            count if count <= MOST_TOLD => Some(format!(
-                "{file}: lines {} are no part of the table and left out",
-                lines.join(", ")
-            )),
-            count => Some(format!(
-                "{file}: the first {count} lines that are no part of the table are left out"
-            )),
-        }
+        LeftOut::of(table).map(|own| format!("{}: {own}", self.name))
     }
 }

@@ -1,7 +1,10 @@
 //! Tables and paragraphs as text.
 
-use dashpot_plot::Table;
 use std::fmt::Write as _;
+
+use dashpot_plot::Table;
+
+use crate::terminal::WIDTH;
 
 /// Blanks between columns.
 const GAP: usize = 2;
@@ -75,6 +78,13 @@ fn wrapped_after(text: &str, first: usize, others: usize) -> Vec<String> {
 /// `text` as lines of at most `width` columns, all but the first indented by two.
 pub(crate) fn hanging(text: &str, width: usize) -> String {
     wrapped_after(text, width, width.saturating_sub(GAP)).join("\n  ")
+}
+
+/// A line in lines of at most the width of a terminal, the first with its own indent.
+pub(crate) fn indented_line(line: &str) -> String {
+    let text = line.trim_start();
+    let indent = line.len() - text.len();
+    line[..indent].to_owned() + &hanging(text, WIDTH - indent.min(WIDTH / 2))
 }
 
 /// The table as tables of at most `width` columns, where its first column stands before each part of

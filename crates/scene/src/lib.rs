@@ -32,6 +32,7 @@ pub use diagnostics::fault::Fault;
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
 pub use models::named::{NamedModel, read_named_model};
 pub use models::notes::{ModelNote, Remark};
+pub use quantities::bare::BareNumber;
 pub use quantities::scatter::ScatterFault;
 pub use quantities::values::NamedValue;
 pub use scene::{
@@ -40,7 +41,7 @@ pub use scene::{
 pub use schema::schema;
 pub use sections::parse_limits;
 pub use shipped::{Shipped, reference, references, template, templates};
-pub use tables::{DataTable, Heading, TableError, TableFault, table_text, text_cell};
+pub use tables::{DataTable, Heading, LeftOut, TableError, TableFault, table_text, text_cell};
 pub use text::document::MAX_BYTES;
 pub use text::library::Loader;
 pub use text::nearest::{nearest, suggestion};

@@ -8,6 +8,7 @@ use dashpot_network::{Assembly, Network, effects::EFFECTS, parameters::registere
 pub use crate::sections::RunSettings;
 use crate::{
     check::{
+        constant_area::constant_areas,
         network_faults::{note_errors, note_held, note_warnings},
         review::{outlasted, review, upward, weightless},
     },
@@ -19,6 +20,7 @@ use crate::{
         Reading, Targets, check_stops, find_duration, read_accuracy, read_effects, read_elements,
         read_limits, read_loads, read_measures, read_nodes, read_run,
     },
+    tables::{DataTable, table_text},
     text::{
         document::{Entry, MAX_BYTES, parse},
         library::{Library, Loader},
@@ -194,6 +196,9 @@ pub fn text_of_bytes<'b>(bytes: &'b [u8], file: Option<&str>) -> Result<&'b str,
         return Err(Diagnostics::single(Fault::TooLarge { bytes: bytes.len() }, nowhere()));
     }
     std::str::from_utf8(bytes).map_err(|error| {
+        if let Some(fault) = table_for_scene(&table_text(bytes), file.unwrap_or("scene")) {
+            return Diagnostics::single(fault, nowhere());
+        }
         let at = error.valid_up_to();
         let line = bytes[..at].split(|&byte| byte == b'\n').count();
         Diagnostics::single(Fault::NotUtf8 { at, line }, nowhere())
@@ -270,6 +275,10 @@ pub(crate) fn load(
     let Settled { text: settled, named, astray } = Settled::new(text, options.set);
     let shown = if settled == text { name.to_owned() } else { format!("{name}, as set") };
     let source = Arc::new(Source::new(shown, &*settled));
+    if let Some(fault) = table_for_scene(&settled, name) {
+        faults.error(Place::new(faults.add_source(source), &(0..0)), fault);
+        return None;
+    }
     let root = parse(&source, faults)?;
     for (own, fault) in astray {
         let place = Place::new(faults.add_source(set_source(&own)), &(0..own.0.len()));
@@ -280,6 +289,20 @@ pub(crate) fn load(
     Some((Library::load(name, root, options.loader, &overrides, faults), source))
 }
 
+/// What is wrong with a text that is a table of numbers, as no scene is.
+fn table_for_scene(text: &str, name: &str) -> Option<Fault> {
+    let is_comment = |line: &&str| line.is_empty() || line.starts_with('#');
+    let first = text.lines().map(str::trim).find(|line| !is_comment(line))?;
+    // The first line of TOML is a section or an assignment.
+    if first.starts_with('[') || first.contains('=') {
+        return None;
+    }
+    let table = DataTable::read(text).ok()?;
+    let (_, row) = table.rows().next()?;
+    let is_table = row.len() > 1 && row.iter().all(|field| table.number(field).is_ok());
+    is_table.then(|| Fault::TableForScene { name: name.to_owned() })
+}
+
 /// What is wrong with the path of something that is set.
 fn astray_fault(name: String, fault: TunableFault) -> Fault {
     match fault {
@@ -287,6 +310,7 @@ fn astray_fault(name: String, fault: TunableFault) -> Fault {
         TunableFault::Unknown { known, .. } => {
             Fault::UnknownName { family: "number or word", name, known }
         }
+        TunableFault::NoUnit(bare) => Fault::BareNumber(bare),
         _ => Fault::UnknownName { family: "number or word", name, known: Vec::new() },
     }
 }
@@ -378,14 +402,16 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
     notes.extend(upward(&network));
-    notes.extend(library.curve_notes());
+    notes.extend(constant_areas(&network, &limits));
+    notes.extend(library.table_notes());
     let mut values: Vec<NamedValue> = library
         .values()
         .iter()
         .filter_map(|(name, known)| {
             let quantity = known.quantity?;
             let (value, dimension) = (quantity.value, quantity.dimension);
-            Some(NamedValue { name: name.clone(), value, dimension })
+            let text = known.definition.as_ref()?.text.trim().to_owned();
+            Some(NamedValue { name: name.clone(), value, dimension, text })
         })
         .collect();
     values.sort_by(|a, b| a.name.cmp(&b.name));

@@ -193,7 +193,10 @@ fn value(kind: ParameterKind, amplitude: Option<Dimension>) -> String {
     match (kind, amplitude) {
         (ParameterKind::Amplitude, Some(dimension)) => return quantity(dimension),
         (ParameterKind::TimeTable, Some(dimension)) => {
-            return format!("list of pairs `[time, {}]`", quantity(dimension));
+            return format!(
+                "list of pairs `[time, {}]`, or a [file](tables.md)",
+                quantity(dimension)
+            );
         }
         _ => {}
     }
@@ -201,9 +204,12 @@ fn value(kind: ParameterKind, amplitude: Option<Dimension>) -> String {
         ParameterKind::Quantity(dimension) => quantity(dimension),
         ParameterKind::TemperatureDifference => "temperature difference [K]".to_owned(),
         ParameterKind::Amplitude => "force [N] in a load, length [m] in a motion".to_owned(),
-        ParameterKind::TimeTable => "list of points `[time, value]`".to_owned(),
+        ParameterKind::TimeTable => {
+            "list of points `[time, value]`, or a [file](tables.md)".to_owned()
+        }
         ParameterKind::Curve(first, second) => {
-            format!("list of points `[{}, {}]`", quantity(first), quantity(second))
+            let (first, second) = (quantity(first), quantity(second));
+            format!("list of points `[{first}, {second}]`, or a [file](tables.md)")
         }
         ParameterKind::LawFormula => "formula over `y` [m] and `v` [m/s]".to_owned(),
         ParameterKind::TimeFormula => "formula over `t` [s]".to_owned(),

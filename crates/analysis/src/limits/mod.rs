@@ -35,18 +35,61 @@ pub enum Judgement {
     Pass,
     /// It is exceeded, however the error lies.
     Fail,
-    /// The value does not tell: its error reaches across the bound, or there is no value, or the run ends
-    /// before it is whole.
-    Undecided,
+    /// The value does not tell.
+    Undecided(Reason),
+}
+
+/// Why the value of a measure does not tell whether a limit is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// Its error reaches across the bound, or is not known.
+    Error,
+    /// There is none.
+    NoValue,
+    /// The run ends before it is whole.
+    Cut,
+    /// It keeps the limit, but stands on something that is pressed further than is known of it: beyond the points
+    /// of its law, or beyond its thickness.
+    Beyond,
+}
+
+impl Reason {
+    /// Its word: `error`, `no-value`, `cut` or `beyond-known`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::NoValue => "no-value",
+            Self::Cut => "cut",
+            Self::Beyond => "beyond-known",
+        }
+    }
 }
 
 impl Judgement {
+    /// Why it is not known whether the limit is kept, where it is not.
+    pub fn reason(self) -> Option<Reason> {
+        match self {
+            Self::Undecided(reason) => Some(reason),
+            Self::Pass | Self::Fail => None,
+        }
+    }
+
+    /// The same of a run in which something is pressed further than is known of it, where `is_beyond`: nothing is
+    /// kept there for certain. What is exceeded stays so.
+    #[must_use]
+    pub fn where_known(self, is_beyond: bool) -> Self {
+        match self {
+            Self::Pass if is_beyond => Self::Undecided(Reason::Beyond),
+            own => own,
+        }
+    }
+
     /// Its word: `pass`, `fail` or `undecided`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Pass => "pass",
             Self::Fail => "fail",
-            Self::Undecided => "undecided",
+            Self::Undecided(_) => "undecided",
         }
     }
 }
@@ -97,10 +140,12 @@ impl Bound {
         match self {
             Self::Max(_) if is_told && room < -error => Judgement::Fail,
             Self::Min(_) if is_told && room >= error => Judgement::Pass,
-            _ if !is_told || grows => Judgement::Undecided,
+            _ if value.is_nan() => Judgement::Undecided(Reason::NoValue),
+            _ if grows => Judgement::Undecided(Reason::Cut),
+            _ if !is_told => Judgement::Undecided(Reason::Error),
             _ if room >= error => Judgement::Pass,
             _ if room < -error => Judgement::Fail,
-            _ => Judgement::Undecided,
+            _ => Judgement::Undecided(Reason::Error),
         }
     }
 }
@@ -132,27 +177,41 @@ mod tests {
 
     #[test]
     fn an_error_that_reaches_across_the_bound_decides_nothing() {
-        use Judgement::{Fail, Pass, Undecided};
+        use Judgement::{Fail, Pass};
+        let open = Judgement::Undecided(Reason::Error);
         let of = |value, error| {
             [Bound::Max(250.0), Bound::Min(250.0)].map(|own| own.judge(value, Some(error), false))
         };
         assert_eq!(of(240.0, 9.0), [Pass, Fail]);
-        assert_eq!(of(240.0, 11.0), [Undecided, Undecided]);
+        assert_eq!(of(240.0, 11.0), [open, open]);
         assert_eq!(of(260.0, 9.0), [Fail, Pass]);
-        assert_eq!(of(260.0, 11.0), [Undecided, Undecided]);
+        assert_eq!(of(260.0, 11.0), [open, open]);
         // The bound itself is within.
         assert_eq!(of(250.0, 0.0), [Pass, Pass]);
-        assert_eq!(of(1.0, f64::INFINITY), [Undecided, Undecided]);
+        assert_eq!(of(1.0, f64::INFINITY), [open, open]);
+        assert_eq!(of(f64::NAN, 0.0), [Judgement::Undecided(Reason::NoValue); 2]);
     }
 
     #[test]
     fn what_may_still_grow_can_only_have_exceeded() {
-        use Judgement::{Fail, Pass, Undecided};
+        use Judgement::{Fail, Pass};
+        let open = Judgement::Undecided(Reason::Cut);
         let of = |value| {
             [Bound::Max(250.0), Bound::Min(250.0)].map(|own| own.judge(value, Some(1.0), true))
         };
-        assert_eq!(of(240.0), [Undecided, Undecided]);
+        assert_eq!(of(240.0), [open, open]);
         assert_eq!(of(260.0), [Fail, Pass]);
+    }
+
+    #[test]
+    fn what_is_kept_beyond_what_is_known_is_kept_by_nothing() {
+        use Judgement::{Fail, Pass, Undecided};
+        for own in [Pass, Fail, Undecided(Reason::Cut)] {
+            assert_eq!(own.where_known(false), own);
+        }
+        assert_eq!(Pass.where_known(true), Undecided(Reason::Beyond));
+        assert_eq!(Fail.where_known(true), Fail);
+        assert_eq!(Undecided(Reason::Error).where_known(true), Undecided(Reason::Error));
     }
 
     #[test]

@@ -20,6 +20,9 @@ pub struct Standard {
     pub kinds: &'static [&'static str],
     /// What is allowed at most, in SI units, and whether that is for the mean of several tests.
     pub bounds: &'static [(f64, bool)],
+    /// Radius of the dome \[m\] on which the pad lies, so that the area that is loaded grows; `None` where there is
+    /// none, or it is not known.
+    pub dome: Option<f64>,
     /// What the numbers were read from.
     pub source: &'static str,
 }
@@ -36,6 +39,7 @@ pub const STANDARDS: &[Standard] = &[
         test: "helmets for cyclists and skaters: flat anvil at 5.42 to 5.52 m/s, kerbstone anvil with 53.9 J at 5 kg",
         kinds: ACCELERATION,
         bounds: &[(250.0 * STANDARD_GRAVITY, false)],
+        dome: None,
         source: "pages of manufacturers and test laboratories",
     },
     Standard {
@@ -44,6 +48,7 @@ pub const STANDARDS: &[Standard] = &[
         test: "bicycle helmets in the USA: flat anvil at 6.2 m/s, hemispherical and kerbstone anvils at 4.8 m/s",
         kinds: ACCELERATION,
         bounds: &[(300.0 * STANDARD_GRAVITY, false)],
+        dome: None,
         source: "text of the rule",
     },
     Standard {
@@ -52,6 +57,7 @@ pub const STANDARDS: &[Standard] = &[
         test: "motorcycle helmets in the USA: headforms of 3.5, 5.0 and 6.1 kg; its limits on the time above 150 and 200 g are not part of this one",
         kinds: ACCELERATION,
         bounds: &[(400.0 * STANDARD_GRAVITY, false)],
+        dome: None,
         source: "text of the rule",
     },
     Standard {
@@ -60,6 +66,7 @@ pub const STANDARDS: &[Standard] = &[
         test: "occupants in frontal crashes",
         kinds: &[<Hic15 as Kind>::KIND],
         bounds: &[(700.0, false)],
+        dome: None,
         source: "text of the rule",
     },
     Standard {
@@ -68,6 +75,7 @@ pub const STANDARDS: &[Standard] = &[
         test: "occupants in frontal crashes",
         kinds: &[<Hic36 as Kind>::KIND],
         bounds: &[(1000.0, false)],
+        dome: None,
         source: "text of the rule",
     },
     Standard {
@@ -76,6 +84,7 @@ pub const STANDARDS: &[Standard] = &[
         test: "limb protectors for motorcyclists: 5 kg with 50 J, striker of 40 x 30 mm on a dome of 50 mm",
         kinds: FORCE,
         bounds: &[(35e3, true), (50e3, false)],
+        dome: Some(0.05),
         source: "satra.com and two other laboratories",
     },
     Standard {
@@ -84,6 +93,7 @@ pub const STANDARDS: &[Standard] = &[
         test: "limb protectors for motorcyclists: 5 kg with 50 J, striker of 40 x 30 mm on a dome of 50 mm",
         kinds: FORCE,
         bounds: &[(20e3, true)],
+        dome: Some(0.05),
         source: "satra.com and two other laboratories",
     },
     Standard {
@@ -92,6 +102,7 @@ pub const STANDARDS: &[Standard] = &[
         test: "back protectors for motorcyclists: 5 kg with 50 J",
         kinds: FORCE,
         bounds: &[(18e3, true), (24e3, false)],
+        dome: None,
         source: "satra.com and another laboratory",
     },
     Standard {
@@ -100,6 +111,7 @@ pub const STANDARDS: &[Standard] = &[
         test: "back protectors for motorcyclists: 5 kg with 50 J",
         kinds: FORCE,
         bounds: &[(9e3, true)],
+        dome: None,
         source: "satra.com and another laboratory",
     },
 ];

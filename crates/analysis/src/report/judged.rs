@@ -3,7 +3,7 @@
 use super::{MeasureReport, RunReport};
 use crate::{
     Band, Chance, Contact, Warning,
-    limits::{Bound, Judgement, Limit},
+    limits::{Bound, Judgement, Limit, Reason},
 };
 
 /// Times within this part of the run from its end are its end.
@@ -18,8 +18,6 @@ pub struct Judged<'r> {
     pub measure: Option<&'r MeasureReport>,
     /// What is known.
     pub judgement: Judgement,
-    /// Whether the run ends before the value is whole.
-    pub is_so_far: bool,
     /// How often it is kept, where a sample of the scene's scatter was drawn.
     pub chance: Option<&'r Chance>,
     /// The measure over that sample, where the limit is one on the mean of several tests: the mean of the sample
@@ -43,10 +41,11 @@ impl Judged<'_> {
 
     /// What the mean of the sample says; some designs may end before their values are whole.
     fn of_sample(&self) -> Judgement {
-        let is_open = self.chance.is_none_or(|own| own.kept + own.exceeded < own.designs);
+        let known = |own: &Chance| own.kept + own.beyond + own.exceeded;
+        let is_open = self.chance.is_none_or(|own| known(own) < own.designs);
         match self.value().zip(self.error()) {
             Some((value, error)) => self.limit.bound.judge(value, Some(error), is_open),
-            None => Judgement::Undecided,
+            None => Judgement::Undecided(Reason::NoValue),
         }
     }
 
@@ -61,6 +60,11 @@ impl Judged<'_> {
 }
 
 impl RunReport {
+    /// The warnings that something is pressed further than is known of it.
+    pub fn beyond_known(&self) -> impl Iterator<Item = &Warning> {
+        self.warnings.iter().filter(|own| own.is_beyond_known())
+    }
+
     /// Whether the run ends while something is still pressed.
     pub fn is_cut(&self) -> bool {
         self.contacts.iter().any(|contact| contact.impact.contact == Contact::Lasting)
@@ -92,7 +96,7 @@ impl RunReport {
         let value = measure.and_then(|own| own.value.or(own.time.map(|_| f64::INFINITY)));
         let is_determined = measure.is_some_and(|own| !own.is_undetermined);
         let judgement = match (value.filter(|_| is_determined), limit.bound) {
-            (None, _) => Judgement::Undecided,
+            (None, _) => Judgement::Undecided(Reason::NoValue),
             (Some(f64::INFINITY), Bound::Max(_)) => Judgement::Fail,
             (Some(f64::INFINITY), Bound::Min(_)) => Judgement::Pass,
             (Some(value), bound) => {
@@ -102,10 +106,11 @@ impl RunReport {
         let chance = self.scatter.as_ref().and_then(|own| own.chance(limit));
         let band = || self.scatter.as_ref().and_then(|own| own.band(&limit.key));
         let sampled = if limit.of_mean { band() } else { None };
-        let judged = Judged { limit, measure, judgement, is_so_far, chance, sampled };
-        match sampled {
-            None => judged,
-            Some(_) => Judged { judgement: judged.of_sample(), ..judged },
-        }
+        let judged = Judged { limit, measure, judgement, chance, sampled };
+        let judgement = match sampled {
+            None => judgement.where_known(self.beyond_known().next().is_some()),
+            Some(_) => judged.of_sample().where_known(chance.is_some_and(|own| own.beyond > 0)),
+        };
+        Judged { judgement, ..judged }
     }
 }

@@ -7,7 +7,8 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use super::partial::{Neglected, Partial, PutBack, Why};
 use crate::{
-    Chance, Judged, Ledger, MeasureReport, Note, RunReport, ScatterReport, SolverReport, Warning,
+    Chance, Judged, Ledger, MeasureReport, Note, Reason, RunReport, ScatterReport, SolverReport,
+    Warning,
 };
 
 /// States what a type is serialised as: a map of these keys, in this order.
@@ -63,6 +64,7 @@ serialized!(Chance, own => {
     own.limit.bound.word() => own.limit.bound.level(),
     "of_mean" => own.limit.of_mean,
     "kept" => own.kept,
+    "beyond_known" => own.beyond,
     "exceeded" => own.exceeded,
     "probability" => own.share(),
     "range" => own.range(),
@@ -77,6 +79,7 @@ serialized!(Judged<'_>, own => {
     "value" => own.value(),
     "error" => own.error().and_then(finite),
     "verdict" => own.judgement.word(),
+    "reason" => own.judgement.reason().map(Reason::word),
     "margin" => own.margin(),
 });
 

@@ -219,6 +219,16 @@ impl Warning {
         }
     }
 
+    /// Whether it says that something is pressed further than is known of it: beyond the points of its law, or
+    /// beyond its thickness.
+    pub fn is_beyond_known(&self) -> bool {
+        match self {
+            Self::BeyondLaw(own) => own.is_pressed,
+            Self::PressedThrough { .. } | Self::CrushedPart { .. } => true,
+            _ => false,
+        }
+    }
+
     /// Names of the elements, nodes and measures that it is about.
     pub fn names(&self) -> Vec<&str> {
         match self {

@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use super::{Gap, PartialOfSweep, SweepReport, SweepWarning};
 use crate::{
-    Judgement, Limit,
+    Judgement, Limit, Reason,
     partial::Cost,
     report::serialized::{finite, list, serialized},
 };
@@ -64,6 +64,7 @@ serialized!(OfGrid<'_>, own => {
     "of_mean" => own.limit().of_mean,
     "unit" => own.0.columns[own.0.limits[own.1].0].unit,
     "verdicts" => list(&own.0.judged(own.1), |own| own.map(Judgement::word)),
+    "reasons" => list(&own.0.judged(own.1), |own| own.and_then(Judgement::reason).map(Reason::word)),
     "margins" => {
         let values = own.0.column(own.0.limits[own.1].0);
         values.map(|value| own.limit().bound.margin(value).and_then(finite)).collect::<Vec<_>>()

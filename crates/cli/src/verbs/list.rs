@@ -274,6 +274,7 @@ fn measure(kind: &MeasureEntry) -> Entry {
 fn described(parameter: &Parameter) -> String {
     let choice = match parameter.kind {
         ParameterKind::Choice(words) => format!(": {}", words.join(" or ")),
+        kind if kind.is_points() => "; or the name of a file, such as \"curve.csv\"".to_owned(),
         _ => String::new(),
     };
     // The help of what follows from the model says how.

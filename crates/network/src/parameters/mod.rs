@@ -53,6 +53,11 @@ impl ParameterKind {
             _ => &[],
         }
     }
+
+    /// Whether it is a list of points, for which scenes take a file of numbers as well.
+    pub const fn is_points(self) -> bool {
+        matches!(self, Self::TimeTable | Self::Curve(..))
+    }
 }
 
 /// What a curve of a law is, beyond its dimensions: what a measured one is fitted to.

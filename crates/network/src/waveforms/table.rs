@@ -46,8 +46,7 @@ parameters! {
     pub struct Table: "table",
         "straight lines through points [time, value], or from a CSV file; equal times: a jump"
     {
-        /// points [time, value] in order of time, for instance [["0 ms", "0 N"], …], or the name of
-        /// a CSV file
+        /// points [time, value] in order of time, for instance [["0 ms", "0 N"], …]
         pub points: Vec<(f64, f64)> = TimeTable;
         /// before the first and after the last point: its value for ever (`hold`), zero, or no run
         /// so long (`error`)

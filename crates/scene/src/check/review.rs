@@ -17,7 +17,7 @@ use crate::{
     sections::Reading,
     text::{
         document::{Content, Entry, Item},
-        library::{file_named, is_table},
+        library::tables::{file_named, is_table},
         source::Place,
     },
     units::format_short,

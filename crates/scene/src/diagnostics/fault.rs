@@ -11,8 +11,9 @@ use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help};
 use crate::{
     curves::CurveChange,
     quantities::{
+        bare::BareNumber,
         scatter::ScatterFault,
-        words::{described, example},
+        words::{described, example, in_both_units, with_units},
     },
     tables::TableFault,
     text::nearest::{list, suggestion},
@@ -38,6 +39,9 @@ pub enum Fault {
     /// There is nothing in the text.
     #[error("the scene is empty")]
     Empty,
+    /// A table of numbers in the place of a scene.
+    #[error("this is a table of numbers, and no scene")]
+    TableForScene { name: String },
     /// Brackets or dotted keys nest too deeply.
     #[error("the text nests {levels} levels deep; the limit is {limit}")]
     TooDeep { levels: usize, limit: usize },
@@ -212,6 +216,17 @@ pub enum Fault {
     /// A measured curve that was changed by more than noise.
     #[error("{0}")]
     CurveChanged(CurveChange),
+    /// A number without a unit in place of one that has one.
+    #[error("{0}")]
+    BareNumber(BareNumber),
+    /// A limit without a unit.
+    #[error("`{text}` has no unit: it is read as {}", in_both_units(*.level, *.expected))]
+    BareLimit {
+        text: String,
+        /// What it is read as, in SI units.
+        level: f64,
+        expected: Dimension,
+    },
     /// Something that is odd but not wrong.
     #[error("{message}")]
     Odd { message: String, help: Option<String> },
@@ -272,6 +287,10 @@ impl Fault {
             Self::Odd { help, .. } => help.clone(),
             Self::Explained { fault, help, .. } => help.clone().or_else(|| fault.help()),
             Self::Empty => Some("`dashpot new` writes a commented scene to start from".to_owned()),
+            Self::TableForScene { name } => Some(format!(
+                "name it in a scene where points may stand: `table-spring = \"{name}\"` for a measured curve, \
+                 `force = {{ table = \"{name}\" }}` for a force over time; `dashpot new` writes a scene to start from"
+            )),
             Self::NotUtf8 { .. } => Some("save the file with the encoding UTF-8".to_owned()),
             Self::NotQuoted { text } if text.is_empty() => {
                 Some("a value is missing after `=`".to_owned())
@@ -293,6 +312,10 @@ impl Fault {
                 Some(example(*expected))
             }
             Self::NoQuantity { expected, .. } => Some(example(*expected)),
+            Self::BareNumber(bare) => Some(bare.help()),
+            Self::BareLimit { level, expected, .. } => {
+                Some(format!("write {}", with_units(&level.to_string(), *expected)))
+            }
             Self::TooDeep { .. } | Self::ModelTooDeep { .. } => Some(
                 "write branches in series, or in parallel, into one list: `series = [a, b, c]`"
                     .to_owned(),

@@ -4,19 +4,22 @@ use std::ops::Range;
 
 use dashpot_network::parameters::{CurveRole, Dimension, Parameter, ParameterKind, Value};
 
-use super::parameters::KindReader;
+use super::{
+    file_units::{misread_unit, unit},
+    parameters::KindReader,
+};
 use crate::{
     curves::{CurveChange, Difference, Fitted, Row, fit, is_outward, split, unloading},
     diagnostics::fault::Fault,
+    models::notes::Remark,
     quantities::quantity::Quantities,
-    tables::{DataTable, Field, Samples, Scale, TOLD, TableFault, is_no_unit},
+    tables::{DataTable, LeftOut, Samples, Scale, TOLD, TableFault},
     text::{
         document::{Content, Item},
-        library::{FILE, TableFile},
+        library::tables::{FILE, TableFile},
         source::Place,
         table::{Table, text_of, wrong_type},
     },
-    units::{parse_quantity, si_unit},
 };
 
 /// What a scene says of a file beside its name.
@@ -88,6 +91,9 @@ impl<'d> KindReader<'d> {
                 return None;
             }
         };
+        if let Some(lines) = LeftOut::of(&table) {
+            file.remark(Remark::LeftOut(lines));
+        }
         if table.columns() < 2 {
             tell(0..0, Fault::Table(TableFault::OneColumn), None);
             return None;
@@ -99,6 +105,13 @@ impl<'d> KindReader<'d> {
         let [first, second] = [0, 1].map(|at| {
             let quantities = Quantities { is_motion: is_motion && at == 1, ..self.quantities };
             let given = wishes.units.map(|units| units[at]);
+            let misread = misread_unit(&table, columns[at]).filter(|_| given.is_none());
+            if let Some((error, span)) = misread {
+                let expected = self.quantities.basis.dimension(dimensions[at]);
+                let column = table.name(columns[at]).map(|own| own.0);
+                tell(span, Fault::Unreadable { error, expected }, column);
+                return None;
+            }
             unit(file, table.unit(columns[at]), given, dimensions[at], quantities.unwatched())
         });
         let units = [first?, second?];
@@ -109,7 +122,12 @@ impl<'d> KindReader<'d> {
         if samples.points.is_empty() {
             return self.without_rows(path, name.place);
         }
-        self.without_units(units.map(|own| own.is_none()), parameter, name.place);
+        let largest = |of: fn(&(f64, f64)) -> f64| {
+            samples.points.iter().map(of).max_by(|one, other| one.abs().total_cmp(&other.abs()))
+        };
+        let missing = [largest(|own| own.0), largest(|own| own.1)];
+        let missing = [0, 1].map(|at| missing[at].filter(|_| units[at].is_none()));
+        self.without_units(missing, parameter, name.place);
         if parameter.kind == ParameterKind::TimeTable {
             let errors = out_of_order(&table, columns[0], &samples);
             if !errors.is_empty() {
@@ -145,7 +163,7 @@ impl<'d> KindReader<'d> {
     }
 
     /// What the two columns measure, as they are written here.
-    fn written(self, parameter: &Parameter) -> [Dimension; 2] {
+    pub(super) fn written(self, parameter: &Parameter) -> [Dimension; 2] {
         self.dimensions(parameter).map(|own| self.quantities.basis.dimension(own))
     }
 
@@ -221,41 +239,6 @@ impl<'d> KindReader<'d> {
         }
     }
 
-    /// Warns of numbers whose unit nothing says, so that they are read in SI units. Parts have none.
-    fn without_units(self, missing: [bool; 2], parameter: &Parameter, place: Place) {
-        let dimensions = self.written(parameter);
-        let names = match (parameter.kind, self.quantities.basis.is_material()) {
-            (ParameterKind::Curve(..), false) => ["deformations", "forces"],
-            (ParameterKind::Curve(..), true) => ["strains", "stresses"],
-            _ => ["times", "values"],
-        };
-        let is_read = |at: &usize| missing[*at] && dimensions[*at] != Dimension::NUMBER;
-        let read: Vec<String> = (0..2)
-            .filter(is_read)
-            .map(|at| format!("{} are read in {}", names[at], si_unit(dimensions[at])))
-            .collect();
-        let read = match &read[..] {
-            [] => return,
-            [first, second] => format!("{first}, {}", second.replacen(" are read", "", 1)),
-            [one, ..] => one.clone(),
-        };
-        let message = format!("the file does not say all its units: {read}");
-        let [first, second] = dimensions.map(|own| match own {
-            Dimension::NUMBER => "%".to_owned(),
-            other => si_unit(other),
-        });
-        let [one, other] = names.map(|own| {
-            own.strip_suffix("es")
-                .filter(|own| own.ends_with("ss"))
-                .unwrap_or(&own[..own.len() - 1])
-        });
-        let help = format!(
-            "write a header line `{one} [{first}], {other} [{second}]`, or \
-             `{{ file = \"…\", units = [\"{first}\", \"{second}\"] }}` in place of the name"
-        );
-        self.quantities.faults.warning(place, Fault::odd(message, help));
-    }
-
     /// The value of a parameter from the rows of a file; `before` is that of the parameter before it.
     pub(super) fn of_rows(
         self,
@@ -320,7 +303,7 @@ impl<'d> KindReader<'d> {
         if change.is_large() {
             self.quantities.faults.warning(found.place, Fault::CurveChanged(change));
         } else if change.is_any() {
-            found.file.remark(change);
+            found.file.remark(Remark::Curve(change));
         }
     }
 
@@ -376,39 +359,4 @@ fn out_of_order(
         }
     }
     errors
-}
-
-/// What the numbers of a column are multiplied by: the unit in the scene or else in the header,
-/// `Some(None)` where there is neither.
-#[expect(clippy::option_option, reason = "a fault, no unit, or the factor of one")]
-fn unit(
-    file: &TableFile,
-    header: Option<Field<'_>>,
-    given: Option<&Item>,
-    expected: Dimension,
-    reader: Quantities<'_>,
-) -> Option<Option<f64>> {
-    let header = header.filter(|own| !is_no_unit(own.text));
-    let one = |unit: &str, place| {
-        let text = if is_no_unit(unit) { "1".to_owned() } else { format!("1 {unit}") };
-        reader.read(&Item { value: Content::Text(text.into()), place }, expected)
-    };
-    let Some(given) = given else {
-        let Some(header) = header else { return Some(None) };
-        return one(header.text, Place::new(file.number, &header.span())).map(Some);
-    };
-    let text = text_of(given, "a unit", reader.faults)?;
-    let factor = one(text, given.place)?;
-    if let Some(header) = header
-        && let Ok(said) = parse_quantity(&format!("1 {}", header.text))
-        && let said = said.meant(reader.basis.dimension(expected))
-        && said.dimension == Some(reader.basis.dimension(expected))
-        && (said.value - factor).abs() > 1e-12 * factor.abs()
-    {
-        let (header, text) = (header.text.to_owned(), text.to_owned());
-        let fault = TableFault::Contradiction { header, given: text };
-        reader.faults.error(given.place, Fault::Table(fault));
-        return None;
-    }
-    Some(Some(factor))
 }

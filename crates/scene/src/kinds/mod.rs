@@ -1,12 +1,16 @@
 //! What readers ask of the registers, and how their kinds are written.
 
+mod entries;
+mod file_units;
 mod files;
 pub(crate) mod parameters;
+mod points;
+mod value;
 
 use dashpot_network::{
     composites::COMPOSITES,
     elements::ELEMENTS,
-    parameters::{Dimension, Parameter, ParameterKind},
+    parameters::{Dimension, Parameter, ParameterKind, Range},
 };
 use dashpot_rheology::{FORMS, Form, Part, Role};
 
@@ -19,7 +23,13 @@ pub(crate) fn is_table(parameters: &[Parameter]) -> bool {
 
 /// Whether a parameter is a list of points, which a file may hold.
 pub(crate) fn is_points(parameter: &Parameter) -> bool {
-    matches!(parameter.kind, ParameterKind::TimeTable | ParameterKind::Curve(..))
+    parameter.kind.is_points()
+}
+
+/// Whether the name of a file alone may stand for the values of these parameters.
+pub(crate) fn are_file(parameters: &[Parameter]) -> bool {
+    let mut required = parameters.iter().filter(|own| own.default.is_none());
+    parameters.iter().any(is_points) && required.all(is_points)
 }
 
 /// Whether the parameters of a kind hold a model.
@@ -65,10 +75,10 @@ impl Example {
         let required = required.collect::<Vec<_>>();
         match required.as_slice() {
             [] => "{}".to_owned(),
-            [only] => self.parameter(only.kind),
+            [only] => self.parameter(only),
             several => {
                 let pair = |parameter: &&Parameter| {
-                    format!("{} = {}", parameter.name, self.parameter(parameter.kind))
+                    format!("{} = {}", parameter.name, self.parameter(parameter))
                 };
                 format!("{{ {} }}", several.iter().map(pair).collect::<Vec<_>>().join(", "))
             }
@@ -76,8 +86,13 @@ impl Example {
     }
 
     /// How one parameter is written.
-    pub(crate) fn parameter(self, kind: ParameterKind) -> String {
-        match kind {
+    pub(crate) fn parameter(self, parameter: &Parameter) -> String {
+        match parameter.kind {
+            ParameterKind::Quantity(Dimension::NUMBER) => match parameter.range {
+                Range::AtLeastOne => "1.5".to_owned(),
+                Range::Count => "200".to_owned(),
+                _ => "0.5".to_owned(),
+            },
             ParameterKind::Quantity(dimension) => self.quantity(dimension),
             ParameterKind::TemperatureDifference => "\"50 K\"".to_owned(),
             ParameterKind::Amplitude => self.amplitude(),

@@ -15,7 +15,7 @@ use crate::{
     quantities::basis::{AREA, Basis, EnclosingPad, Loading, Pad, SIZE, Size, is_sized},
     text::{
         document::{Content, Entry, Item},
-        library::{Library, ModelSection},
+        library::{Library, models::ModelSection},
         source::Place,
         table::{unknown_key, wrong_type},
     },
@@ -127,6 +127,9 @@ impl<'d> ContextReader<'d> {
         context.size.is_faulty = [false; 2];
         let is_element = site.other_keys.contains(&"between");
         if law.key == ModelSection::Materials.word() {
+            if given[0].is_none() {
+                beside[0] = around.around();
+            }
             for (key, (entry, size)) in SIZE.into_iter().zip(given.into_iter().zip(beside)) {
                 match size {
                     Some(size) => around.check(key, size, self.faults),
@@ -139,6 +142,13 @@ impl<'d> ContextReader<'d> {
             let [thickness, area] = beside.map(|size| size.map_or(1.0, |size| size.value));
             let loading = find(LOADING)
                 .and_then(|own| loading(own, self.faults).map(|loading| (loading, own.item.place)));
+            if let (Some((Loading::Shear, place)), Some(_)) = (loading, pressed_by.1) {
+                let message =
+                    "a body that presses a pad loads it across its thickness, not in shear";
+                let help = "leave `loaded` out, or write `loaded = \"confined\"` where the material around each \
+                            column holds its sides";
+                self.faults.error(place, Fault::odd(message, help));
+            }
             let loading = loading.unwrap_or((Loading::Compression, law.item.place));
             context.basis = Basis::Material(Pad::new(thickness, area).loaded(loading));
         } else if registered(ELEMENTS, &law.key).is_some_and(|kind| is_sized(kind.parameters)) {

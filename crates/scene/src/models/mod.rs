@@ -34,7 +34,10 @@ use crate::{
     quantities::basis::{Basis, Extent, Pad},
     text::{
         document::Item,
-        library::{Library, MODEL_SECTIONS, ModelSection, Reference},
+        library::{
+            Library,
+            models::{MODEL_SECTIONS, ModelSection, Reference},
+        },
         source::Place,
     },
 };

@@ -11,7 +11,7 @@ use crate::{
     quantities::basis::{Basis, Loading},
     text::{
         document::Entry,
-        library::{ModelSection, Reference},
+        library::models::{ModelSection, Reference},
         source::Place,
         table::text_of,
     },

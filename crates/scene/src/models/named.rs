@@ -15,7 +15,10 @@ use crate::{
     sections::ELEMENT_KEYS,
     text::{
         document::{Content, Entry, Item},
-        library::{Library, MODEL_SECTIONS, ModelSection},
+        library::{
+            Library,
+            models::{MODEL_SECTIONS, ModelSection},
+        },
         source::Source,
     },
     vary::scatter::ScatteredNumber,
@@ -42,7 +45,7 @@ pub struct NamedModel {
 
 /// Where a name leads.
 enum Found<'d> {
-    Model(crate::text::library::Reference),
+    Model(crate::text::library::models::Reference),
     Element(&'d Entry),
 }
 

@@ -5,7 +5,7 @@ use std::{cell::RefCell, fmt};
 use dashpot_network::{composites::CompositeNote, parameters::Dimension};
 use dashpot_units::format_short;
 
-use crate::curves::CurveChange;
+use crate::{curves::CurveChange, tables::LeftOut};
 
 /// A remark on a model or on a part of a scene, and what that is.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +41,15 @@ pub enum Remark {
     Weightless(f64),
     /// The curve of a law is not that of the rows of its file.
     Curve(CurveChange),
+    /// The area of a pad is constant where a standard loads one that grows.
+    ConstantArea {
+        /// The standard.
+        standard: &'static str,
+        /// Radius \[m\] of the dome on which the pad lies.
+        dome: f64,
+    },
+    /// Lines of a file are no part of its table.
+    LeftOut(LeftOut),
     /// Gravity \[m/s²\] pulls away from the support.
     Upward(f64),
     /// The mean of a number with scatter, as it is written, stands for it.
@@ -56,6 +65,8 @@ impl Remark {
             Self::SharedName(_) => "shared-name",
             Self::Weightless(_) => "weightless",
             Self::Curve(_) => "curve",
+            Self::ConstantArea { .. } => "constant-area",
+            Self::LeftOut(_) => "lines-left-out",
             Self::Upward(_) => "upward",
             Self::Mean(_) => "mean",
         }
@@ -85,6 +96,16 @@ impl fmt::Display for Remark {
                 format_short(*height, Dimension::LENGTH, 4)
             ),
             Self::Curve(change) => write!(f, "{change}"),
+            Self::ConstantArea { standard, dome } => {
+                let radius = format_short(*dome, Dimension::LENGTH, 4);
+                write!(
+                    f,
+                    "{standard} lays it on a dome with the radius {radius}: the area that is loaded grows, and a \
+                     constant `area` may be wrong by a factor; `pressed-by = {{ shape = \"dome\", radius = \
+                     \"{radius}\", diameter = … }}` in its place follows it"
+                )
+            }
+            Self::LeftOut(lines) => write!(f, "{lines}"),
             Self::Upward(acceleration) => write!(
                 f,
                 "{} pulls away from the support; positive is towards it",

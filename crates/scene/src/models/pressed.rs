@@ -20,7 +20,7 @@ use crate::{
     quantities::basis::Extent,
     text::{
         document::{Entry, Item},
-        library::ModelSection,
+        library::models::ModelSection,
         source::Place,
     },
 };

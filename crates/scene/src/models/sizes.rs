@@ -6,7 +6,10 @@ use dashpot_rheology::MOST_LEVELS;
 
 use crate::text::{
     document::{Content, Item},
-    library::{Library, MODEL_SECTIONS, Reference},
+    library::{
+        Library,
+        models::{MODEL_SECTIONS, Reference},
+    },
 };
 
 /// Counts what models by name expand to: a text of a few lines may stand for any number of parts.

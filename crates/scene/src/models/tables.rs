@@ -20,7 +20,7 @@ use crate::{
     quantities::basis::Extent,
     text::{
         document::{Entry, Item},
-        library::{ModelSection, Reference},
+        library::models::{ModelSection, Reference},
         source::Place,
         table::{check_name, entries_of, list_of, text_of, unknown_key},
     },

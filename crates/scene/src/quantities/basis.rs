@@ -252,6 +252,11 @@ impl EnclosingPad {
         SIZE.iter().position(|known| *known == key).and_then(|at| self.beside[at])
     }
 
+    /// The thickness of the element around the law, where the law lies between the same ends.
+    pub(crate) fn around(&self) -> Option<Size> {
+        self.around.filter(|_| !self.in_row)
+    }
+
     /// What is wrong where `owner` has no size of its own under this key.
     pub(crate) fn missing(&self, key: &'static str, owner: &str) -> Option<Fault> {
         let at = SIZE.iter().position(|known| *known == key);

@@ -1,6 +1,7 @@
 //! Quantities: numbers with units, named values, and the pads whose values they are.
 
 pub(crate) mod arithmetic;
+pub(crate) mod bare;
 pub(crate) mod basis;
 pub(crate) mod plausible;
 pub(crate) mod quantity;

@@ -14,7 +14,7 @@ use crate::{
     diagnostics::{Faults, fault::Fault},
     text::{
         document::{Content, Item},
-        library::Files,
+        library::tables::Files,
         source::Place,
     },
     units::{Quantity, UnitError, format_short, parse_quantity, si_unit},

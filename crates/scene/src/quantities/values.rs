@@ -9,6 +9,7 @@ use dashpot_network::parameters::Dimension;
 
 use super::{
     arithmetic::{constant, formula, note},
+    bare::BareNumber,
     quantity::{Definition, Known, Values},
     words::example_text,
 };
@@ -20,6 +21,7 @@ use crate::{
         table::{entries_of, wrong_type},
     },
     units::{Quantity, UnitError, parse_quantity},
+    vary::variation::Written,
 };
 
 /// A value that a scene gives a name.
@@ -31,6 +33,8 @@ pub struct NamedValue {
     pub value: f64,
     /// What it measures, where a unit was given.
     pub dimension: Option<Dimension>,
+    /// As it is written, or set: a quantity, or what it is computed by.
+    pub text: String,
 }
 
 /// Values set from outside, by name.
@@ -87,6 +91,15 @@ pub(crate) fn read(item: Option<&Item>, overrides: &Overrides, faults: &Faults) 
         };
         let own = own.map(|text| Definition { text, place: entry.item.place });
         let set = overrides.definitions.get(entry.key.as_str()).cloned();
+        if let (Some(set), Some(own)) = (&set, &own)
+            && let Some(bare) = BareNumber::of_set(
+                &entry.key,
+                &set.text,
+                (&own.text, Written::split(&own.text).unit),
+            )
+        {
+            faults.error(set.place, Fault::BareNumber(bare));
+        }
         definitions.insert(entry.key.as_str(), set.or(own));
         order.push(entry.key.as_str());
     }

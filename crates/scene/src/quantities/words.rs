@@ -3,7 +3,7 @@
 use dashpot_network::parameters::Dimension;
 
 use super::basis::{AREA, Basis, DENSITY};
-use crate::units::si_unit;
+use crate::units::{STANDARD_GRAVITY, format_short, si_unit};
 
 /// A dimension by its name and unit, with an article: "a stiffness (N/m)".
 pub(crate) fn described(dimension: Dimension) -> String {
@@ -24,10 +24,33 @@ fn article(word: &str) -> &'static str {
     if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
 }
 
+/// Units in which the field thinks, where they are not those of SI, and what one of them is.
+const USUAL: [(Dimension, &str, f64); 4] = [
+    (Dimension::ACCELERATION, "g", STANDARD_GRAVITY),
+    (Dimension::FORCE, "kN", 1e3),
+    (Dimension::LENGTH, "mm", 1e-3),
+    (Dimension::TIME, "ms", 1e-3),
+];
+
+/// What to write in place of a number without a unit.
+pub(crate) fn with_units(number: &str, dimension: Dimension) -> String {
+    let usual = USUAL.iter().find(|own| own.0 == dimension);
+    let usual = usual.map_or(String::new(), |own| format!("\"{number} {}\" or ", own.1));
+    format!("{usual}\"{number} {}\"", si_unit(dimension))
+}
+
+/// A value in the unit of SI, and in that of the field where that is another one.
+pub(crate) fn in_both_units(value: f64, dimension: Dimension) -> String {
+    let short = |value: f64| format_short(value, Dimension::NUMBER, 4);
+    let own = format!("{} {}", short(value), si_unit(dimension));
+    let usual = USUAL.iter().find(|own| own.0 == dimension);
+    usual.map_or(own.clone(), |(_, unit, one)| format!("{own} = {} {unit}", short(value / one)))
+}
+
 /// How a quantity of a dimension is written.
 pub(crate) fn example_text(dimension: Dimension) -> &'static str {
     match dimension {
-        Dimension::NUMBER => "0.1 %",
+        Dimension::NUMBER => "20 %",
         Dimension::MASS => "10 kg",
         Dimension::LENGTH => "2 cm",
         Dimension::TIME => "10 ms",

@@ -19,13 +19,10 @@ use dashpot_rheology::{FORMS, Part, Role};
 use serde_json::{Map, Value, json};
 
 use self::values::{
-    Values, closed, described_as, named_quantity, object, one_or_many, quantity, reference,
-    table_or_file,
+    Values, closed, described_as, file, named_quantity, object, of_file, one_or_many, quantity,
+    reference,
 };
-use crate::{
-    kinds::is_table,
-    quantities::basis::{AREA, Basis, DENSITY, fits_material},
-};
+use crate::quantities::basis::{AREA, Basis, DENSITY, fits_material};
 
 /// The JSON schema (draft 2020-12) of scenes, for editors: `#:schema ./scene.schema.json`.
 pub fn schema() -> Value {
@@ -95,6 +92,8 @@ fn definitions() -> Value {
     }
     let name =
         || ("name", described_as(json!({ "type": "string" }), "name of the branch in paths"));
+    add("file", file());
+    add("columns-of-file", of_file());
     add("shift", shift());
     add("model", composed("a two-terminal model", [], &[], Basis::Model));
     add("branch", composed("a branch of a model", [name()], &[], Basis::Model));
@@ -413,9 +412,7 @@ fn parts(parts_of_form: &[Part], basis: Basis) -> Value {
 fn function(driven: Dimension) -> Value {
     let kinds = WAVEFORMS.iter();
     let schema = |kind: &Registered<_>| {
-        let values = Values::driving(driven).of_kind(kind.parameters);
-        let values = if is_table(kind.parameters) { table_or_file(&values) } else { values };
-        described_as(values, kind.summary)
+        described_as(Values::driving(driven).of_kind(kind.parameters), kind.summary)
     };
     let mut table = closed("a function of time", kinds.map(|kind| (kind.word, schema(kind))));
     (table["minProperties"], table["maxProperties"]) = (json!(1), json!(1));

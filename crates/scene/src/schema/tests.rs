@@ -1,7 +1,19 @@
 use serde_json::Value;
 
+use dashpot_network::{
+    composites::COMPOSITES,
+    elements::ELEMENTS,
+    parameters::{Dimension, Parameter},
+    waveforms::WAVEFORMS,
+};
+
 use super::schema;
-use crate::{references, templates};
+use crate::{
+    ReadOptions,
+    kinds::{Example, is_points},
+    quantities::basis::Basis,
+    read, references, templates,
+};
 
 /// The keywords that the schema uses, and no others.
 fn fits(root: &Value, schema: &Value, value: &Value) -> bool {
@@ -120,4 +132,77 @@ fn materials_composites_and_shifts_have_a_schema() {
     assert!(material(&format!("{{ series = [{{ material = \"x\" }}], shift = {{ {shift} }} }}")));
     assert!(!material("{ model = \"x\" }"));
     assert!(!material("{ spring = 1, area = 1 }"));
+}
+
+/// The ways in which points may be given, for a kind with these parameters: all that is in the tables besides.
+fn ways(word: &str, parameters: &[Parameter], driven: Dimension) -> Vec<String> {
+    let example = Example { basis: Basis::Model, driven: Some(driven) };
+    let written =
+        |own: &Parameter| format!("{} = {}", own.name, example.parameter(own).replace(", …", ""));
+    let beside = |is_in: &dyn Fn(&Parameter) -> bool| {
+        let own = parameters.iter().filter(|own| is_in(own) && own.default.is_none());
+        own.map(written).collect::<Vec<_>>()
+    };
+    let table = |own: Vec<String>| format!("{word} = {{ {} }}", own.join(", "));
+    let others = || beside(&|own| !is_points(own));
+    let mut ways = vec![format!("{word} = \"file.csv\"")];
+    for file in
+        ["file = \"file.csv\"", "file = \"file.csv\", columns = [1, 2], units = [\"-\", \"-\"]"]
+    {
+        ways.push(table([vec![file.to_owned()], others()].concat()));
+        for points in parameters.iter().filter(|own| is_points(own)) {
+            let rest = beside(&|own| own.name != points.name);
+            let by_file = [format!("{} = \"file.csv\"", points.name)];
+            ways.push(table([by_file.to_vec(), rest.clone()].concat()));
+            let by_table = [format!("{} = {{ {file} }}", points.name)];
+            ways.push(table([by_table.to_vec(), rest].concat()));
+        }
+    }
+    ways.push(table([vec!["columns = [1, 2]".to_owned()], others()].concat()));
+    ways
+}
+
+/// Whether a scene with these files of numbers can be read, as far as its form goes.
+fn is_form(text: &str) -> bool {
+    let loader = |_: &str| Ok(b"0 0\n1 1\n2 2\n".to_vec());
+    let options = ReadOptions { loader: Some(&loader), ..ReadOptions::default() };
+    let is_of_form = |own: &crate::Diagnostic| {
+        let told = own.fault.to_string();
+        ["unknown key", " has no `", " is a list of ", " is a table", "cannot be read"]
+            .iter()
+            .any(|form| told.contains(form))
+    };
+    read(text, &options).map_or_else(|own| !own.list.iter().any(is_of_form), |_| true)
+}
+
+#[test]
+fn files_stand_in_the_schema_where_the_reader_takes_them() {
+    let schema = schema();
+    let element = |law: &str| {
+        format!(
+            "[elements.p]\nbetween = [\"a\", \"ground\"]\n{law}\n[nodes]\na = {{ mass = 1 }}\n[run]\nduration = 1"
+        )
+    };
+    let load = |law: &str| {
+        format!("{}\n[loads.l]\non = \"a\"\nforce = {{ {law} }}", element("spring = 1"))
+    };
+    let elements = ELEMENTS.iter().map(|own| (own.word, own.parameters, Dimension::FORCE));
+    let composites = COMPOSITES.iter().map(|own| (own.word, own.parameters, own.about));
+    let waveforms = WAVEFORMS.iter().map(|own| (own.word, own.parameters, Dimension::FORCE));
+    let scenes = elements.chain(composites).map(|own| (own, &element as &dyn Fn(&str) -> String));
+    let scenes = scenes.chain(waveforms.map(|own| (own, &load as &dyn Fn(&str) -> String)));
+    let mut verdicts = [0, 0];
+    for ((word, parameters, driven), scene) in scenes {
+        if !parameters.iter().any(is_points) {
+            continue;
+        }
+        for way in ways(word, parameters, driven) {
+            let text = scene(&way);
+            let is_read = is_form(&text);
+            verdicts[usize::from(is_read)] += 1;
+            assert_eq!(fits(&schema, &schema, &json(&text)), is_read, "{way}");
+        }
+    }
+    // Each is told from the other.
+    assert!(verdicts.iter().all(|count| *count > 5), "{verdicts:?}");
 }

@@ -3,9 +3,12 @@
 use dashpot_network::parameters::{Dimension, Parameter, ParameterKind};
 use serde_json::{Map, Value, json};
 
-use crate::quantities::{
-    basis::{Basis, is_size},
-    words::{described, example_text},
+use crate::{
+    kinds::{are_file, is_points},
+    quantities::{
+        basis::{Basis, is_size},
+        words::{described, example_text},
+    },
 };
 
 /// What the values of a kind measure.
@@ -34,11 +37,30 @@ impl Values {
             "required": names,
             "additionalProperties": false,
         });
-        match required.as_slice() {
-            [only] if all.len() == 1 => self.parameter(only),
-            [only] => json!({ "anyOf": [self.parameter(only), table] }),
-            _ => table,
+        let mut forms = match required.as_slice() {
+            [only] if all.len() == 1 => vec![self.parameter(only)],
+            [only] => vec![self.parameter(only), table],
+            _ => vec![table],
+        };
+        if required.len() > 1 && are_file(all) {
+            forms.push(reference("file"));
         }
+        if all.len() > 1 && all.iter().any(is_points) {
+            forms.push(self.beside_file(all));
+        }
+        if forms.len() == 1 { forms.remove(0) } else { json!({ "anyOf": forms }) }
+    }
+
+    /// A table that names a file in place of all points.
+    fn beside_file(self, all: &[Parameter]) -> Value {
+        let others: Vec<Parameter> = all.iter().filter(|own| !is_points(own)).copied().collect();
+        let mut table = of_file();
+        if let Some(properties) = table["properties"].as_object_mut() {
+            properties.extend(self.parameters(&others));
+        }
+        let required = others.iter().filter(|own| own.default.is_none()).map(|own| own.name);
+        table["required"] = ["file"].into_iter().chain(required).collect();
+        table
     }
 
     /// The parameters by their names.
@@ -54,12 +76,8 @@ impl Values {
             ParameterKind::Quantity(dimension) => of(dimension),
             ParameterKind::TemperatureDifference => temperature_difference(),
             ParameterKind::Amplitude => of(self.driven),
-            ParameterKind::TimeTable => {
-                json!({ "type": "array", "items": pair(&time, &of(self.driven)) })
-            }
-            ParameterKind::Curve(first, second) => {
-                json!({ "type": "array", "items": pair(&of(first), &of(second)) })
-            }
+            ParameterKind::TimeTable => points(&time, &of(self.driven)),
+            ParameterKind::Curve(first, second) => points(&of(first), &of(second)),
             ParameterKind::Choice(words) => json!({ "enum": words }),
             ParameterKind::Flag => json!({ "const": true }),
             ParameterKind::Window => {
@@ -86,32 +104,35 @@ impl Values {
     }
 }
 
-/// A table as it is, or as a file of numbers.
-pub(super) fn table_or_file(table: &Value) -> Value {
-    let file = || json!({ "type": "string", "description": "a CSV file, beside the scene" });
+/// A list of pairs, or a file of numbers.
+fn points(first: &Value, second: &Value) -> Value {
+    let list = json!({ "type": "array", "items": pair(first, second) });
+    json!({ "anyOf": [list, reference("file"), reference("columns-of-file")] })
+}
+
+/// A file of numbers by its name.
+pub(super) fn file() -> Value {
+    json!({ "type": "string", "description": "a file of numbers such as a CSV file, beside the scene" })
+}
+
+/// A file of numbers, with what its columns are.
+pub(super) fn of_file() -> Value {
     let column = json!({
         "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }],
     });
     let columns = described_as(
         pair(&column, &column),
-        "time and value: columns by number from 1, or by name; needed where there are more than two",
+        "two columns by number from 1, or by name; needed where units do not tell them",
     );
     let unit = json!({ "type": "string" });
     let units = described_as(
         pair(&unit, &unit),
-        "units of time and value, where the header of the file does not say them",
+        "units of the two columns, where the header of the file does not say them",
     );
-    let mut of_points = table["anyOf"].as_array().into_iter().flatten();
-    let outside = of_points.find_map(|of_point| of_point["properties"].get("outside")).cloned();
-    let detailed = json!({
-        "type": "object",
-        "properties": {
-            "file": file(), "columns": columns, "units": units, "outside": outside,
-        },
-        "required": ["file"],
-        "additionalProperties": false,
-    });
-    json!({ "anyOf": [table, file(), detailed] })
+    let own = [("file", reference("file")), ("columns", columns), ("units", units)];
+    let mut table = closed("", own);
+    table["required"] = json!(["file"]);
+    table
 }
 
 fn pair(first: &Value, second: &Value) -> Value {

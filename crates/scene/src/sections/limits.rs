@@ -13,12 +13,12 @@ use super::{
 };
 use crate::{
     diagnostics::fault::Fault,
-    quantities::arithmetic::names,
+    quantities::{arithmetic::names, words::with_units},
     text::{
         document::{Content, Entry, Item},
         table::{Table, one_or_many, text_of, wrong_type},
     },
-    units::{nearest, parse_dimension, parse_quantity, si_unit},
+    units::{nearest, parse_dimension, parse_quantity},
 };
 
 /// What a table says where it is a limit, and not one of measures.
@@ -80,24 +80,22 @@ fn at_most(
     Some(Limit::new(own.key.clone(), Bound::Max(level(reading, kind, item)?)))
 }
 
-/// Whether a bare level would be read in a unit that nobody thinks in; indices are plain numbers to the field.
-fn needs_unit(expected: Dimension) -> bool {
-    ![Dimension::NUMBER, Dimension::TIME].contains(&expected)
-}
-
-/// Units in which the field states limits, where they are not those of SI.
-const USUAL: [(Dimension, &str); 3] =
-    [(Dimension::ACCELERATION, "g"), (Dimension::FORCE, "kN"), (Dimension::LENGTH, "mm")];
-
-/// What to write in place of a level without a unit.
-fn with_units(level: &str, expected: Dimension) -> String {
-    let usual = USUAL.iter().find(|own| own.0 == expected);
-    let usual = usual.map_or(String::new(), |own| format!("`{level} {}` or ", own.1));
-    format!("{usual}`{level} {}`", si_unit(expected))
+/// The dimension of a level that is to have a unit: a bare one would be read in one that is perhaps not meant.
+/// Indices are plain numbers to the field.
+pub(crate) fn unit_wanted(kind: &MeasureEntry, level: f64) -> Option<Dimension> {
+    let is_index = (kind.about.default)().gravities() != 0.0;
+    let own = dimension(kind);
+    (level != 0.0 && !is_index && own != Dimension::NUMBER).then_some(own)
 }
 
 fn level(reading: &Reading<'_>, kind: &MeasureEntry, item: &Item) -> Option<f64> {
-    reading.quantities().unwatched().read(item, dimension(kind))
+    let quantities = reading.quantities().unwatched();
+    let level = quantities.read(item, dimension(kind))?;
+    if let Some(expected) = unit_wanted(kind, level).filter(|_| quantities.is_bare(item)) {
+        let fault = Fault::BareLimit { text: quantities.shown(item), level, expected };
+        reading.faults.warning(item.place, quantities.traced(item, fault));
+    }
+    Some(level)
 }
 
 fn dimension(kind: &MeasureEntry) -> Dimension {
@@ -187,7 +185,7 @@ fn in_full(
 /// assert_eq!(limits[0].bound, Bound::Max(250.0 * 9.80665));
 /// assert_eq!(parse_limits("pad.peak-force=en-1621-1-level-1").unwrap().len(), 2);
 /// assert!(parse_limits("head.peak-acceleration<=250 mm").unwrap_err().contains("a length"));
-/// assert!(parse_limits("head.peak-acceleration<=250").unwrap_err().contains("write `250 g`"));
+/// assert!(parse_limits("head.peak-acceleration<=250").unwrap_err().contains("write \"250 g\" or"));
 /// ```
 ///
 /// # Errors
@@ -213,14 +211,18 @@ pub fn parse_limits(text: &str) -> Result<Vec<Limit>, String> {
         let kinds = standard.kinds.join("` or `");
         return standard.on(key).ok_or(format!("`{rest}` is a limit on `{kinds}`"));
     }
-    let rest = max.or(min).ok_or(usage)?.trim();
+    let strict = || {
+        let (sign, level) = (&rest[..1], rest[1..].trim());
+        format!("what is at the bound is within: write `{key}{sign}={level}`")
+    };
+    let rest = max.or(min).ok_or_else(strict)?.trim();
     let expected = dimension(kind);
     let quantity = parse_quantity(rest).map_err(|error| error.to_string())?.meant(expected);
     match quantity.dimension {
         Some(found) if found != expected => {
             Err(Fault::WrongDimension { text: rest.to_owned(), found, expected }.to_string())
         }
-        None if needs_unit(expected) => {
+        None if unit_wanted(kind, quantity.value).is_some() => {
             Err(format!("`{rest}` has no unit: write {}", with_units(rest, expected)))
         }
         _ => {

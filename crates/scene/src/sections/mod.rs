@@ -15,7 +15,7 @@ pub(crate) use duration::find_duration;
 pub(crate) use effects::read_effects;
 pub(crate) use elements::{ELEMENT_KEYS, read_elements};
 pub use limits::parse_limits;
-pub(crate) use limits::read_limits;
+pub(crate) use limits::{read_limits, unit_wanted};
 pub(crate) use measures::{Targets, read_measures};
 pub(crate) use nodes::{read_loads, read_nodes};
 pub use run::RunSettings;

@@ -78,11 +78,17 @@ impl<'t> Row<'t> {
         self.numbers == 0 && named >= if wide { 2 } else { 1 }
     }
 
-    /// Whether it holds units alone.
-    fn is_units(&self) -> bool {
-        let units = self.fields.iter().map(|own| own.bare_unit().text);
+    /// Whether it holds units, below names of which there are so many: units alone, or some that are no names
+    /// for certain, beside which others are misspelt.
+    fn is_units(&self, names: usize) -> bool {
+        let units = || self.fields.iter().map(|own| own.bare_unit().text);
         let is_one = |own: &str| !own.is_empty() && !is_no_unit(own);
-        units.clone().all(|own| own.is_empty() || is_unit(own)) && units.clone().any(is_one)
+        // A single letter may be the name of a quantity.
+        let is_letter =
+            |own: &str| own.chars().count() == 1 && own.chars().all(char::is_alphabetic);
+        let is_no_name = |own: &str| is_one(own) && is_unit(own) && !is_letter(own);
+        let are_units = units().all(|own| own.is_empty() || is_unit(own)) && units().any(is_one);
+        are_units || self.numbers == 0 && self.fields.len() == names && units().any(is_no_name)
     }
 }
 
@@ -121,7 +127,7 @@ fn start(rows: &[Row<'_>], separator: Separator) -> (Option<usize>, usize) {
 /// Whether the names in row `at` say no unit, and a row of units follows.
 fn units_at(rows: &[Row<'_>], at: usize) -> bool {
     let says_none = rows[at].fields.iter().all(|own| own.name_and_unit().1.is_none());
-    says_none && rows.get(at + 1).is_some_and(Row::is_units)
+    says_none && rows.get(at + 1).is_some_and(|own| own.is_units(rows[at].fields.len()))
 }
 
 /// What separates the columns: that by which most lines are rows of numbers, and, where that is none, the first

@@ -9,6 +9,7 @@ mod encoding;
 mod fault;
 mod guard;
 mod layout;
+mod left_out;
 
 use std::{f64::consts::TAU, ops::Range};
 
@@ -26,6 +27,7 @@ pub use self::{
     encoding::table_text,
     fault::{TableError, TableFault},
     guard::text_cell,
+    left_out::LeftOut,
 };
 
 /// After so many faults the rest of a file is not looked at.

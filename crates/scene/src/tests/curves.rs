@@ -3,7 +3,7 @@
 use dashpot_analysis::{Solve, SolveSettings};
 use dashpot_network::parameters::Value;
 
-use crate::{Checked, Diagnostics, ReadOptions, Remark, Scene, read};
+use crate::{Checked, Diagnostics, ModelNote, ReadOptions, Remark, Scene, read};
 
 fn beside(text: &str, bytes: &[u8]) -> Result<Checked<Scene>, Diagnostics> {
     let loader = |path: &str| match path {
@@ -164,7 +164,9 @@ fn every_input_is_the_same_in_every_dialect() {
                 .unwrap_or_else(|errors| panic!("{dialect}: {errors}"));
             let warnings = checked.warnings.render(false);
             assert_eq!(warnings, inline.warnings.render(false), "{dialect}");
-            assert!(checked.value.notes.is_empty(), "{dialect}: {:?}", checked.value.notes);
+            let is_left_out = |own: &ModelNote| matches!(own.what, Remark::LeftOut(_));
+            let notes = &checked.value.notes;
+            assert!(notes.iter().all(is_left_out), "{dialect}: {notes:?}");
             let found = numbers(&checked.value);
             assert_eq!(found.len(), expected.len(), "{dialect}: {found:?} for {expected:?}");
             for (own, other) in found.iter().zip(&expected) {
@@ -228,6 +230,15 @@ fn what_is_wrong_with_a_file_is_told_with_row_column_and_remedy() {
     has(
         &told("x [mm];F [kNN]\n0;0\n1;1\n"),
         &["curve.csv:1:11", "`kNN` is not a known unit", "did you mean `kN`?"],
+    );
+    // In a row of its own it is a unit as well, and no name.
+    has(
+        &told("x;F\n%;kNN\n0;0\n1;1\n"),
+        &["curve.csv:2:1", "is a pure number; a length (m) is expected here", "`kNN` is not"],
+    );
+    has(
+        &told("Weg;Kraft\nmm;kNN\n0;0\n1;1\n"),
+        &["curve.csv:2:4", "`kNN` is not a known unit", "did you mean `kN`?", "column `Kraft`"],
     );
     has(
         &told("a;b;c\n0;0;0\n1;1;1\n"),
@@ -293,6 +304,25 @@ fn noise_is_pooled_and_the_largest_change_is_told_with_its_line() {
     // Above 5 % of the peak it is a warning.
     let large = beside(&text, rows.replace("3,300", "3,-900").as_bytes()).unwrap();
     has(&large.warnings.render(false), &["scene.toml:4", "of the peak, in line", "never falls"]);
+}
+
+#[test]
+fn lines_before_a_table_are_told_and_units_that_nobody_writes_are_names() {
+    let text = pad("table-spring = \"curve.csv\"");
+    let rows = "Machine: A 12\n\nSpecimen: EPS\nx [mm];F [N]\n0;0\n1;100\n";
+    let notes = beside(&text, rows.as_bytes()).unwrap().value.notes;
+    let told: Vec<_> = notes.iter().map(|own| (own.what.code(), own.what.to_string())).collect();
+    let right = "lines 1 to 3 are no part of the table and left out".to_owned();
+    assert_eq!(told, [("lines-left-out", right)]);
+    // Letters may be names of quantities below the name of a test.
+    let rows = "Test;EPS\nt;F\n0;0\n0.001;100\n";
+    let checked = beside(&text, rows.as_bytes()).unwrap();
+    has(
+        &checked.warnings.render(false),
+        &[
+            "deformations are read in m, the largest is 1 mm; forces are read in N, the largest is 100 N",
+        ],
+    );
 }
 
 #[test]

@@ -258,13 +258,17 @@ fn a_file_without_units_is_read_in_si_and_that_is_said() {
         &shown,
         &[
             "warning",
-            "the file does not say all its units: times are read in s, values in N",
+            "the file does not say all its units: times are read in s, the largest is 2 ms; values are \
+             read in N, the largest is 1.5 kN",
             "units = ",
         ],
     );
     assert!((checked.value.network.loads()[0].force.value(0.001) - 750.0).abs() < 1e-12);
     let checked = beside(&pushed("table = \"pulse.csv\""), "t [ms], F\n0,0\n2,1500\n").unwrap();
-    has(&checked.warnings.render(false), &["not say all its units: values are read in N"]);
+    has(
+        &checked.warnings.render(false),
+        &["not say all its units: values are read in N, the largest"],
+    );
 }
 
 #[test]

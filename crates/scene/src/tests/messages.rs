@@ -466,6 +466,53 @@ fn an_empty_scene_is_told_how_to_begin() {
 }
 
 #[test]
+fn a_table_of_numbers_is_told_to_stand_in_a_scene() {
+    for table in
+        ["x [mm];F [kN]\n0;0\n2,5;1,2\n", "Machine A\n\n0 0\n1 2\n", "# of the lab\n0\t0\n1\t2\n"]
+    {
+        let shown = messages(table);
+        assert!(shown.starts_with("error: this is a table of numbers, and no scene"), "{shown}");
+        assert!(shown.contains("`table-spring = \"scene.toml\"`"), "{shown}");
+    }
+    let options = crate::ReadOptions { file: Some("pr\u{fc}f.csv"), ..Default::default() };
+    let latin = crate::read_bytes(b"Pr\xfcfer A\nx;F\n0;0\n1;2\n", &options).unwrap_err();
+    assert!(latin.render(false).contains("this is a table of numbers"), "{latin}");
+    for text in ["nodes\n", "a = 1\n", "[nodes\n1, 2\n"] {
+        assert!(!messages(text).contains("a table of numbers"), "{text}");
+    }
+}
+
+#[test]
+fn examples_lie_in_the_range_of_what_they_are_of() {
+    for (law, example) in [
+        ("power-spring = { force = 1, at = 1 }", "`exponent = 1.5`"),
+        ("power-dashpot = { force = 1, speed = 1 }", "`exponent = 0.5`"),
+    ] {
+        let shown = messages(&on_model(law));
+        assert!(shown.contains(example), "{shown}");
+    }
+}
+
+#[test]
+fn a_constant_area_is_told_where_a_standard_has_a_dome() {
+    let notes = |size: &str, limit: &str| {
+        let law = "table-spring = [[0, 0], [0.9, 1e5]]";
+        let pad = on_model(&format!("material = \"foam\", thickness = 0.02, {size}"));
+        let text =
+            format!("[materials]\nfoam = {{ {law} }}\n{pad}[limits]\npad.peak-force = {limit}\n");
+        let notes = super::scene(&text).notes.into_iter();
+        notes.map(|own| (own.subject, own.what.code())).collect::<Vec<_>>()
+    };
+    let told = vec![("element `pad`".to_owned(), "constant-area")];
+    let dome = "pressed-by = { shape = \"dome\", radius = 0.05, diameter = 0.04 }";
+    for limit in ["\"en-1621-1-level-1\"", "{ max = \"20 kN\", from = \"EN 1621-1:2012\" }"] {
+        assert_eq!(notes("area = 0.0012", limit), told, "{limit}");
+        assert_eq!(notes(dome, limit), [], "{limit}");
+    }
+    assert_eq!(notes("area = 0.0012", "\"20 kN\""), []);
+}
+
+#[test]
 fn what_is_missing_is_said_of_the_file() {
     let errors = read_text("title = \"x\"\n").unwrap_err();
     assert!(!errors.is_empty());

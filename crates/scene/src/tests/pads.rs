@@ -39,6 +39,29 @@ fn the_size_of_an_element_is_that_of_its_foam() {
 }
 
 #[test]
+fn what_lies_beside_a_dashpot_has_the_thickness_of_its_element() {
+    let area = "area = \"100 cm^2\"";
+    let tables = format!("[materials]\neps = {{ foam = {{ {EPS} }} }}\n");
+    let model = |law: &str| {
+        super::shape(&scene(&format!("{tables}{}", on_model(law))).network.connections()[0].model)
+    };
+    for law in [
+        format!("hysteretic-foam = {{ {EPS}, set = \"10 %\", unloading-exponent = 2 }}, {area}"),
+        format!("hysteretic-foam = {{ {EPS}, set = \"10 %\", unloading-exponent = 2, {area} }}"),
+        format!("material = \"eps\", {area}"),
+    ] {
+        let thick = "thickness = \"2 cm\"";
+        let around = format!("parallel = [{{ {law} }}, {{ dashpot = 1 }}], {thick}");
+        let within = format!("parallel = [{{ {law}, {thick} }}, {{ dashpot = 1 }}]");
+        assert_eq!(model(&around), model(&within), "{law}");
+        assert_eq!(size(&tables, &around)[0], Some(0.02));
+        // Parts in series have their own.
+        let in_row = format!("series = [{{ {law} }}, {{ dashpot = 1 }}], {thick}");
+        refused(&tables, &in_row, &["has no `thickness`", "each part of a `series`"]);
+    }
+}
+
+#[test]
 fn sizes_that_contradict_each_other_are_told_with_both_places() {
     let foam = |size: &str| format!("foam = {{ {EPS}, {size} }}");
     let thick = "thickness = \"25 mm\", area = \"100 cm^2\"";

@@ -48,6 +48,57 @@ fn bare_numbers_that_cannot_be_meant_are_told() {
 }
 
 #[test]
+fn limits_without_a_unit_are_told_in_that_of_the_field() {
+    let limit = |own: &str| warnings(HEAD, PAD, &format!("{RUN}[limits]\n{own}\n"));
+    let shown = limit("head.peak-acceleration = { max = 250 }");
+    // 250/9.80665
+    has(&shown, &["warning: `250` has no unit: it is read as 250 m/s^2 = 25.49 g", "^^^"]);
+    has(&shown, &["help: write \"250 g\" or \"250 m/s^2\""]);
+    has(&limit("pad.peak-force = 20"), &["20 N = 0.02 kN", "\"20 kN\" or \"20 N\""]);
+    has(&limit("pad.contact-time = { min = 5 }"), &["5 s = 5000 ms"]);
+    has(&limit("pad.energy = 50"), &["read as 50 J", "write \"50 J\""]);
+    let named = format!("{RUN}[limits]\npad.peak-force = \"most\"\n[values]\nmost = 20\n");
+    has(&warnings(HEAD, PAD, &named), &["`most` has no unit: it is read as 20 N = 0.02 kN"]);
+    // Indices are plain numbers, and zero is the same in all units.
+    for own in ["head.hic15 = 700", "head.severity-index = 1500", "pad.end-force = { min = 0 }"] {
+        assert_eq!(limit(own), "", "{own}");
+    }
+    assert_eq!(limit("head.peak-acceleration = [\"250 g\", { min = \"1 m/s^2\" }]"), "");
+}
+
+#[test]
+fn what_is_set_without_a_unit_is_refused_where_the_scene_has_another_than_that_of_si() {
+    let text = "[values]\nK = \"4 kN/m\"\nC = \"40 N s/m\"\n[nodes]\nhead = { mass = 5, velocity = \"1 m/s\" }\n\
+                [elements.pad]\nbetween = [\"head\", \"ground\"]\nthickness = \"30 mm\"\nkelvin-voigt = { spring = \"K\", \
+                dashpot = \"C\" }\n[run]\nduration = \"50 ms\"\n";
+    let set = |name: &str, value: &str| {
+        let set = [(name.to_owned(), value.to_owned())];
+        let read = crate::read(text, &crate::ReadOptions { set: &set, ..Default::default() });
+        read.map_or_else(|errors| errors.render(false), |_| "read".to_owned())
+    };
+    for (name, value, scene) in [
+        ("K", "5", "a bare number is in N/m, and the scene says 4 kN/m"),
+        ("pad.spring", "5", "a bare number is in N/m, and the scene says 4 kN/m"),
+        ("pad.thickness", "30", "a bare number is in m, and the scene says 30 mm"),
+    ] {
+        let shown = set(name, value);
+        has(&shown, &[&format!("error: `{name}={value}` has no unit: {scene}"), "help: write \""]);
+        has(&shown, &[&format!("{name}={value} {}", scene.rsplit_once(' ').unwrap().1)]);
+    }
+    // What counts in SI units in the scene may be set in them, and zero is the same in all.
+    for (name, value) in [
+        ("K", "5 kN/m"),
+        ("pad.thickness", "3 cm"),
+        ("C", "50"),
+        ("head.mass", "4"),
+        ("head.velocity", "2"),
+        ("K", "0"),
+    ] {
+        assert_eq!(set(name, value), "read", "{name}={value}");
+    }
+}
+
+#[test]
 fn bare_numbers_are_looked_at_wherever_a_kind_has_a_parameter() {
     let load = |force: &str| {
         let load = format!("{RUN}[loads.f]\non = \"head\"\nforce = {{ {force} }}\n");

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::tunable::{TunableFault, Tunables};
 use crate::{
     diagnostics::Faults,
-    quantities::scatter::Scatter,
+    quantities::{bare::BareNumber, scatter::Scatter},
     text::{document::parse, source::Source},
 };
 
@@ -27,6 +27,7 @@ impl<'t> Settled<'t> {
         let mut own = Self { text, named: set.to_vec(), astray: Vec::new() };
         let is_scattered = |text: &str| Scatter::is_possible(text);
         let has_scatter = is_scattered(&own.text) || set.iter().any(|own| is_scattered(&own.1));
+        // Whether names under [values] are set without a unit is looked at where these are read.
         if set.is_empty() || !has_scatter && all_are_named(&own.text, set) {
             return own;
         }
@@ -36,6 +37,11 @@ impl<'t> Settled<'t> {
         own.named.retain(|(name, value)| {
             match tunables.anything(name) {
                 Ok(at) => {
+                    if let Some(bare) = BareNumber::of_set(name, value, tunables.written(at)) {
+                        let fault = TunableFault::NoUnit(bare);
+                        own.astray.push(((name.clone(), value.clone()), fault));
+                        return false;
+                    }
                     let is_value = tunables.all()[at].path == format!("values.{name}");
                     if is_value && !has_scatter {
                         return true;

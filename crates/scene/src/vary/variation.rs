@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::{
     text::nearest::nearest,
-    units::{Quantity, UnitError, format_short, parse_quantity, si_unit},
+    units::{Quantity, UnitError, parse_quantity, si_unit},
 };
 
 /// Values in a range where their number is not given.
@@ -216,11 +216,11 @@ impl Variation {
         self.numbers.len()
     }
 
-    /// Its name and the range of its values with another unit behind them.
-    pub(crate) fn with_unit(&self, unit: &str) -> String {
+    /// Its name and the range of its values without their unit.
+    pub(crate) fn range_text(&self) -> String {
         let [first, last] = [self.numbers[0], self.numbers[self.len() - 1]];
         let rest = if self.len() == 1 { String::new() } else { format!("..{last}") };
-        format!("{}={first}{rest} {unit}", self.name).trim_end().to_owned()
+        format!("{}={first}{rest}", self.name)
     }
 
     /// A value as it would be written in a scene.
@@ -300,11 +300,6 @@ fn list<'t>(parts: &[&'t str]) -> Result<Numbers<'t>, VariationFault> {
 /// What is wrong with values of one dimension where another is wanted.
 pub(crate) fn other_dimension(text: &str, dimension: Dimension, wanted: Dimension) -> String {
     format!("`{text}` is in {}, the value in the scene in {}", si_unit(dimension), si_unit(wanted))
-}
-
-/// A value of a scene in words.
-pub(crate) fn in_words(value: f64, dimension: Option<Dimension>) -> String {
-    format_short(value, dimension.unwrap_or(Dimension::NUMBER), 4)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use dashpot_network::{
     Connection, Element, Model, Network, Node, NodeId, Start, Support,
     elements::{Dashpot, Law, Spring},
     layers::{Layers, Resolution},
-    parameters::Dimension,
+    parameters::{Dimension, Value},
     part,
     waveforms::Recognized,
 };
@@ -17,10 +17,11 @@ use thiserror::Error;
 
 use super::{
     comment_lines, key, law, quoted, write_effect, write_kind, write_material_table, write_pairs,
+    write_value,
 };
 use crate::{
     quantities::basis::{AREA, Basis, DENSITY},
-    sections::RunSettings,
+    sections::{RunSettings, unit_wanted},
     units::{exact_quantity, tidy},
 };
 
@@ -222,11 +223,15 @@ fn wishes(measures: &[MeasureWish]) -> String {
     text
 }
 
-/// Limits in the SI units of their measures, those on one measure in one list.
+/// Limits with their units, those on one measure in one list.
 fn limits(limits: &[Limit]) -> String {
     let mut by_key: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for limit in limits {
-        let mut pairs = vec![format!("{} = {:?}", limit.bound.word(), tidy(limit.bound.level()))];
+        let level = limit.bound.level();
+        let dimension = limit.measure().and_then(|kind| unit_wanted(kind, level));
+        let dimension = dimension.unwrap_or(Dimension::NUMBER);
+        let level = write_value(&Value::Number(level), dimension, Dimension::TIME);
+        let mut pairs = vec![format!("{} = {level}", limit.bound.word())];
         pairs.extend(limit.from.iter().map(|from| format!("from = {}", quoted(from))));
         pairs.extend(limit.of_mean.then(|| "mean = true".to_owned()));
         by_key.entry(&limit.key).or_default().push(format!("{{ {} }}", pairs.join(", ")));

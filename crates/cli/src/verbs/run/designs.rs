@@ -130,9 +130,8 @@ impl Designs {
                 let margin = |own: &Judged<'_>| own.margin().unwrap_or(f64::NEG_INFINITY);
                 margin(one).total_cmp(&margin(other))
             });
-            let count =
-                |which: Judgement| judged.iter().filter(|own| own.judgement == which).count();
-            let [fail, open] = [Judgement::Fail, Judgement::Undecided].map(count);
+            let fail = judged.iter().filter(|own| own.judgement == Judgement::Fail).count();
+            let open = judged.iter().filter(|own| own.judgement.reason().is_some()).count();
             let of = judged.len();
             let kept = match of - fail - open {
                 kept if kept == of => "keeps all its limits".to_owned(),
@@ -166,7 +165,7 @@ impl Designs {
         let row = |limit: &&Limit| {
             let cell = |(_, run): (&Design, &RunReport)| {
                 let judged = run.judged().into_iter().find(|own| own.limit == *limit);
-                judged.map_or(String::new(), |own| limits::short(&own))
+                judged.map_or(String::new(), |own| limits::short(run, &own))
             };
             let kind = self.best().find_map(|(_, run)| run.measure(&limit.key));
             let name = format!("{} {}", limit.key, limits::stated(limit, kind));

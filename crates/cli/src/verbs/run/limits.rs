@@ -1,6 +1,8 @@
 //! What a run says about its limits, in words, and whether they are kept.
 
-use dashpot_analysis::{Bound, Judged, Judgement, Limit, MeasureReport, RunReport, Warning};
+use dashpot_analysis::{
+    Bound, Judged, Judgement, Limit, MeasureReport, Reason, RunReport, Warning,
+};
 
 use super::{
     measures::{is_index, unit_of_kind},
@@ -18,7 +20,7 @@ pub(super) fn lines(run: &RunReport) -> Vec<Line> {
         let label = match judged.judgement {
             Judgement::Pass => "PASS",
             Judgement::Fail => "FAIL",
-            Judgement::Undecided => "UNDECIDED",
+            Judgement::Undecided(_) => "UNDECIDED",
         };
         Line { label, text: text(run, judged) }
     };
@@ -32,17 +34,18 @@ pub(super) fn all_pass(runs: &[RunReport]) -> bool {
 }
 
 /// What is known of a limit, with its margin: `pass, 62 %`.
-pub(super) fn short(judged: &Judged<'_>) -> String {
+pub(super) fn short(run: &RunReport, judged: &Judged<'_>) -> String {
     let word = match judged.judgement {
         Judgement::Pass => "pass",
         Judgement::Fail => "FAIL",
-        Judgement::Undecided => "UNDECIDED",
+        Judgement::Undecided(_) => "UNDECIDED",
     };
     let value = judged.measure.map(|own| value(own, judged));
     let value = value.map_or(String::new(), |value| format!(", {value}"));
     let margin = judged.margin().map(|margin| format!(", margin {}", percent_signed(margin)));
     let chance = scatter::chance(judged).map_or(String::new(), |own| format!(", {own}"));
-    word.to_owned() + &value + &margin.unwrap_or_default() + &chance
+    let beyond = beyond(run, judged).map_or(String::new(), |own| format!(", {own}"));
+    word.to_owned() + &value + &margin.unwrap_or_default() + &beyond + &chance
 }
 
 fn text(run: &RunReport, judged: &Judged<'_>) -> String {
@@ -65,19 +68,22 @@ fn text(run: &RunReport, judged: &Judged<'_>) -> String {
     format!("{} {value}, {stated}{margin}{beyond}{chance}{bare}{mean}{advice}", limit.key)
 }
 
-/// What a limit that is kept hangs on, where something is pressed further than is known of it.
+/// What a limit hangs on that would be kept, where something is pressed further than is known of it.
 fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
-    let said = |warning: &Warning| match warning {
-        Warning::BeyondLaw(own) if own.is_pressed => {
-            Some(format!("it hangs on {} beyond the points of its law", own.name))
-        }
-        Warning::PressedThrough { through, .. } => {
-            Some(format!("it hangs on {} beyond its thickness", through.name))
-        }
-        _ => None,
+    if judged.judgement != Judgement::Undecided(Reason::Beyond) {
+        return None;
+    }
+    // Of a sample it is single designs that are.
+    let Some(warning) = run.beyond_known().next().filter(|_| judged.sampled.is_none()) else {
+        let designs = judged.chance.map_or(0, |own| own.beyond);
+        return Some(format!("{designs} designs of the sample are pressed beyond what is known"));
     };
-    let is_kept = judged.judgement == Judgement::Pass;
-    run.warnings.iter().filter(|_| is_kept).find_map(said)
+    let what = match warning {
+        Warning::BeyondLaw(own) => format!("{} beyond the points of its law", own.name),
+        Warning::PressedThrough { through, .. } => format!("{} beyond its thickness", through.name),
+        other => format!("{} beyond its thickness", other.names().join(", ")),
+    };
+    Some(format!("it would pass, but hangs on {what}"))
 }
 
 /// The value with as many digits as tell it from the bound, and with its error where that reaches across.
@@ -132,15 +138,17 @@ pub(crate) fn level(limit: &Limit, kind: &str, si: &str) -> String {
 
 /// What may decide what is open.
 fn advice(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
-    let measure = judged.measure.filter(|_| judged.judgement == Judgement::Undecided)?;
-    if judged.is_so_far && judged.sampled.is_none() {
-        let end = numbers::quantity(run.trajectory.t_end, "s", TIME_DIGITS);
-        return Some(format!("the run ends in contact at {end}: make `duration` longer"));
+    let is_of_run = judged.sampled.is_none();
+    match judged.judgement.reason()? {
+        Reason::Cut if is_of_run => {
+            let end = numbers::quantity(run.trajectory.t_end, "s", TIME_DIGITS);
+            return Some(format!("the run ends in contact at {end}: make `duration` longer"));
+        }
+        Reason::Error if is_of_run => {}
+        Reason::Beyond | Reason::NoValue => return None,
+        Reason::Cut | Reason::Error => return Some("a larger `--sample` may decide".to_owned()),
     }
-    if judged.sampled.is_some() {
-        return Some("a larger `--sample` may decide".to_owned());
-    }
-    let value = measure.value?;
+    let value = judged.measure?.value?;
     let apart = (value - judged.limit.bound.level()).abs() / value.abs();
     // Half of it, for the value will move as well.
     let wanted = 0.5 * apart;

@@ -33,7 +33,7 @@ pub(super) fn settings(answer: &Answer, asked: &SolveSettings) -> impl Serialize
     let single = asked.accuracy.by_measure.iter().map(|(key, &wish)| (key.as_str(), wish));
     let values = answer.scene.values.iter().map(|value| {
         let unit = value.dimension.and_then(Dimension::named).map(|(_, unit)| unit);
-        (&value.name, object! { value: value.value, unit })
+        (&value.name, object! { value: value.value, unit, written: &value.text })
     });
     object! {
         duration: asked.duration,

@@ -2,8 +2,11 @@
 
 use dashpot_analysis::{RunReport, Stop};
 use dashpot_dae::Direction;
-use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
+use dashpot_scene::{
+    NamedValue,
+    units::{parse_quantity, si_unit},
+};
 
 use super::Answer;
 use crate::{
@@ -109,12 +112,19 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
     rows.extend(
         asked.stops.iter().map(|stop| (format!("stop at {}", stop.output), stop_text(stop))),
     );
-    rows.extend(answer.scene.values.iter().map(|value| {
-        let unit = value.dimension.and_then(Dimension::named).map_or("1", |(_, unit)| unit);
-        (format!("value {}", value.name), constant(value.value, unit))
-    }));
+    let values = answer.scene.values.iter();
+    rows.extend(values.map(|own| (format!("value {}", own.name), value_text(own))));
     let rows = rows.into_iter().map(|(name, value)| vec![name, value]);
     Table::new("Settings", &[], rows.chain(origin::rows(&answer.scene)))
+}
+
+/// A named value as it is written; of what is computed its value besides.
+fn value_text(own: &NamedValue) -> String {
+    if parse_quantity(&own.text).is_ok() {
+        return own.text.clone();
+    }
+    let unit = own.dimension.map_or_else(|| "1".to_owned(), si_unit);
+    format!("{} = {}", own.text, constant(own.value, &unit))
 }
 
 fn stop_text(stop: &Stop) -> String {

@@ -8,7 +8,11 @@ mod points;
 mod titles;
 mod words;
 
-use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
+use std::{
+    num::NonZero,
+    path::{Path, PathBuf},
+    thread::available_parallelism,
+};
 
 use clap::{Args, ValueEnum};
 use dashpot_analysis::{
@@ -18,7 +22,9 @@ use dashpot_analysis::{
         sweep as solve,
     },
 };
-use dashpot_scene::{Diagnostics, Posed, Scene, Tunables, Variation, pose, read};
+use dashpot_scene::{
+    DataTable, Diagnostics, LeftOut, Posed, Scene, Tunables, Variation, pose, read,
+};
 use serde::Serialize;
 
 use self::words::{notes, summary};
@@ -146,13 +152,24 @@ enum Form {
     Sampled,
 }
 
+/// The designs in a file; lines of it that are left out are told.
+fn listed(file: &Path) -> Result<Vec<Variation>, CliError> {
+    let input = Input::read(file)?;
+    let text = input.text()?;
+    let fault = |fault| CliError::Listed { file: file.to_owned(), fault: Box::new(fault) };
+    let designs = Variation::listed(text).map_err(fault)?;
+    if let Some(lines) = DataTable::read(text).ok().as_ref().and_then(LeftOut::of) {
+        note(&format!("file `{}`: {lines}", file.display()));
+    }
+    Ok(designs)
+}
+
 impl Varied {
     /// What the command line names of the scene with this text.
     fn of(arguments: &SweepArguments, text: &str, file: &str) -> Result<Self, CliError> {
         let tunables = Tunables::of(text, Some(file)).map_err(CliError::Scene)?;
         let mut variations: Vec<Variation> = match &arguments.points {
-            Some(file) => Variation::listed(Input::read(file)?.text()?)
-                .map_err(|fault| CliError::Listed { file: file.clone(), fault: Box::new(fault) })?,
+            Some(file) => listed(file)?,
             None => {
                 arguments.vary.iter().map(|own| Variation::parse(own)).collect::<Result<_, _>>()?
             }

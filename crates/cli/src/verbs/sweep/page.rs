@@ -64,18 +64,18 @@ pub(super) fn verdict(swept: &Swept, best: &[super::best::Design]) -> Vec<String
 /// How many points keep each limit.
 fn limits(swept: &Swept) -> Table {
     let report = &swept.report;
+    let header = ["measure", "limit", "pass", "fail", "undecided", "no value"];
     let row = |at: usize| {
         let (column, limit) = &report.limits[at];
         let judged = report.judged(at);
-        let count = |which: Option<Judgement>| {
-            judged.iter().filter(|own| **own == which).count().to_string()
+        let count = |which: &str| {
+            let words = judged.iter().map(|own| own.map_or("no value", Judgement::word));
+            words.filter(|own| *own == which).count().to_string()
         };
         let name = capital(&quantity(&report.columns[*column]));
         let bound = words::limit(report, *column, limit);
-        let own = [Judgement::Pass, Judgement::Fail, Judgement::Undecided].map(Some);
-        list([name, bound].into_iter().chain(own.map(count)).chain([count(None)]))
+        list([name, bound].into_iter().chain(header[2..].iter().map(|own| count(own))))
     };
-    let header = ["measure", "limit", "pass", "fail", "undecided", "no value"];
     Table::new("Limits", &header, (0..report.limits.len()).map(row))
 }
 

@@ -1,7 +1,7 @@
 //! What was varied, the ends of what was found, and what is to be said of it.
 
 use dashpot_analysis::{
-    Judgement, Limit, Warning,
+    Judgement, Limit, Reason, Warning,
     sweep::{Column, Estimates, PartialOfSweep, SweepReport, SweepWarning},
 };
 use dashpot_network::parameters::Dimension;
@@ -138,44 +138,29 @@ pub(super) fn level_of(report: &SweepReport, column: usize, limit: &Limit) -> St
 /// How many points keep each limit.
 pub(super) fn kept(swept: &Swept) -> Vec<String> {
     let report = &swept.report;
-    let unknown: Vec<usize> = report
-        .warnings
-        .iter()
-        .filter(|own| is_beyond(&own.warning))
-        .flat_map(|own| &own.points)
-        .copied()
-        .collect();
     let sentence = |at: usize| {
         let (column, own) = &report.limits[at];
         let judged = report.judged(at);
-        let count = |which: Judgement| judged.iter().filter(|own| **own == Some(which)).count();
-        let [pass, fail, open] =
-            [Judgement::Pass, Judgement::Fail, Judgement::Undecided].map(count);
-        let open = if open > 0 { format!(", {open} undecided") } else { String::new() };
-        let limit = limit(report, *column, own);
-        let passes = |point: &usize| judged[*point] == Some(Judgement::Pass);
-        let beyond = (0..judged.len()).filter(|point| passes(point) && unknown.contains(point));
-        let beyond = match beyond.count() {
+        let known = || judged.iter().copied().flatten();
+        let count = |which: Judgement| known().filter(|own| *own == which).count();
+        let [pass, fail, beyond] =
+            [Judgement::Pass, Judgement::Fail, Judgement::Undecided(Reason::Beyond)].map(count);
+        let beyond = match beyond {
             0 => String::new(),
-            count => format!(" ({count} of them beyond the points of a law or a thickness)"),
+            count => {
+                format!(" ({count} would pass, but beyond the points of a law or a thickness)")
+            }
         };
+        let open = match known().filter_map(Judgement::reason).count() {
+            0 => String::new(),
+            count => format!(", {count} undecided{beyond}"),
+        };
+        let limit = limit(report, *column, own);
         let within = passing(swept, &judged).unwrap_or_default();
         let of = judged.len();
-        format!(
-            "{} {limit}: {pass} of {of} points pass{within}{beyond}, {fail} fail{open}",
-            own.key
-        )
+        format!("{} {limit}: {pass} of {of} points pass{within}, {fail} fail{open}", own.key)
     };
     (0..report.limits.len()).map(sentence).collect()
-}
-
-/// Whether a run is warned that something is pressed further than is known of it.
-fn is_beyond(warning: &Warning) -> bool {
-    match warning {
-        Warning::BeyondLaw(own) => own.is_pressed,
-        Warning::PressedThrough { .. } => true,
-        _ => false,
-    }
 }
 
 /// From where to where a limit is kept over one number, where that is one stretch.

@@ -10,12 +10,13 @@ use std::{collections::BTreeMap, ops::Range, sync::Arc};
 use dashpot_network::parameters::Dimension;
 use thiserror::Error;
 
-use super::variation::{Written, in_words, other_dimension};
+use super::variation::{Written, other_dimension};
 use crate::{
     Variation,
     diagnostics::{Diagnostics, Faults},
     quantities::{
         arithmetic::quietly,
+        bare::BareNumber,
         quantity::Values,
         scatter::Scatter,
         values::{Overrides, read as read_values},
@@ -271,8 +272,9 @@ impl Tunables {
                 let reason = other_dimension(&variation.text(0), given, wanted);
                 return Err(TunableFault::OtherDimension { name: variation.name.clone(), reason });
             }
-            if let Some(fault) = self.without_unit(at, variation) {
-                return Err(fault);
+            let bare = || BareNumber::of(&variation.range_text(), self.written(at));
+            if let Some(bare) = variation.dimension.is_none().then(bare).flatten() {
+                return Err(TunableFault::NoUnit(bare));
             }
             if let Some(before) = found.iter().position(|other| *other == at) {
                 let (first, second) = (variations[before].name.clone(), variation.name.clone());
@@ -283,22 +285,10 @@ impl Tunables {
         Ok(found)
     }
 
-    /// What is wrong with a variation that has no unit, where the number has one.
-    fn without_unit(&self, at: usize, variation: &Variation) -> Option<TunableFault> {
-        let number = &self.all[at];
-        let dimension = number.dimension.filter(|dimension| *dimension != Dimension::NUMBER)?;
-        let one = parse_quantity(&format!("1 {}", number.unit)).ok()?;
-        #[expect(clippy::float_cmp, reason = "1 is the factor of SI units")]
-        let is_si = one.value == 1.0;
-        if variation.dimension.is_some() || is_si {
-            return None;
-        }
-        Some(TunableFault::NoUnit {
-            bare: variation.with_unit(""),
-            si: si_unit(dimension),
-            scene: self.text[number.span.clone()].trim_matches(['"', '\'']).to_owned(),
-            meant: variation.with_unit(&number.unit),
-        })
+    /// A number or a word as the scene has it, and its unit.
+    pub(crate) fn written(&self, at: usize) -> (&str, &str) {
+        let own = &self.all[at];
+        (self.text[own.span.clone()].trim_matches(['"', '\'']), &own.unit)
     }
 
     /// The text of the scene with other values in the place of some numbers.
@@ -320,10 +310,9 @@ impl Tunables {
         text
     }
 
-    /// The value of a number in words, or the word.
+    /// A number or a word as the scene has it.
     pub fn shown(&self, at: usize) -> String {
-        let own = &self.all[at];
-        own.word.clone().unwrap_or_else(|| in_words(own.value, own.dimension))
+        self.written(at).0.trim().to_owned()
     }
 
     /// The numbers that a path leads to, or the words, rising.
@@ -447,8 +436,8 @@ pub enum TunableFault {
     #[error("`{name}`: {reason}")]
     OtherDimension { name: String, reason: String },
     /// Bare values where the scene has a unit other than that of SI.
-    #[error("`{bare}` has no unit: a bare number is in {si}, and the scene says {scene}")]
-    NoUnit { bare: String, si: String, scene: String, meant: String },
+    #[error("{0}")]
+    NoUnit(BareNumber),
     /// One number is varied twice.
     #[error("`{first}` and `{second}` are the same number of the scene")]
     Twice { first: String, second: String },
@@ -470,9 +459,7 @@ impl TunableFault {
                 Some("write so much of the path that it is the only one".to_owned())
             }
             Self::OtherDimension { .. } | Self::IsNumber { .. } | Self::IsWord { .. } => None,
-            Self::NoUnit { si, meant, .. } => {
-                Some(format!("write \"{meant}\", or with `{si}` if that is meant"))
-            }
+            Self::NoUnit(bare) => Some(bare.help()),
             Self::Twice { .. } => Some("vary it once".to_owned()),
         }
     }

@@ -1,0 +1,185 @@
+//! The files of numbers that documents name.
+
+use std::{
+    cell::RefCell,
+    collections::{HashSet, VecDeque},
+    ops::Range,
+    sync::Arc,
+};
+
+use dashpot_network::{
+    composites::COMPOSITES, elements::ELEMENTS, parameters::registered, waveforms::WAVEFORMS,
+};
+
+use super::{Library, Loader, MAX_FILES, beside};
+use crate::{
+    diagnostics::{Faults, fault::Fault},
+    kinds,
+    models::notes::{ModelNote, Remark},
+    tables::table_text,
+    text::{
+        document::{Content, Entry, Item, MAX_BYTES},
+        source::{Place, Source},
+    },
+};
+
+/// The key of a file of numbers.
+pub(crate) const FILE: &str = "file";
+
+/// A file of numbers that points are read from.
+#[derive(Debug)]
+pub(crate) struct TableFile {
+    /// Number of its text among the sources.
+    pub(crate) number: u32,
+    /// Its text.
+    pub(crate) source: Arc<Source>,
+    /// What became of it, each told once.
+    remarks: RefCell<Vec<Remark>>,
+}
+
+impl TableFile {
+    /// Takes up what became of it.
+    pub(crate) fn remark(&self, what: Remark) {
+        let mut all = self.remarks.borrow_mut();
+        if !all.contains(&what) {
+            all.push(what);
+        }
+    }
+
+    /// The bytes of the line at which a row begins.
+    pub(crate) fn row(&self, start: usize) -> Range<usize> {
+        let rest = self.source.text.get(start..).unwrap_or_default();
+        start..start + rest.find(['\n', '\r']).unwrap_or(rest.len())
+    }
+
+    /// The number of the line, from 1, at which a byte is.
+    pub(crate) fn line(&self, at: usize) -> usize {
+        self.source.line_and_column(at).0
+    }
+}
+
+/// The files of numbers that a document names.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Files<'d> {
+    pub(super) library: &'d Library,
+    pub(super) document: usize,
+}
+
+impl<'d> Files<'d> {
+    /// The file of this path as seen from the document; `None` where it could not be read.
+    pub(crate) fn get(self, path: &str) -> Option<&'d TableFile> {
+        let document = self.library.documents.get(self.document)?;
+        self.library.tables.get(&beside(&document.path, path))?.as_ref()
+    }
+}
+
+impl Library {
+    /// Reads the files of numbers that the documents name.
+    pub(crate) fn load_tables(&mut self, loader: Option<Loader<'_>>, faults: &Faults) {
+        for (path, place) in self.tables_wanted() {
+            if self.tables.contains_key(&path) {
+                continue;
+            }
+            let bytes = match loader {
+                None => Err("no other files can be read here".to_owned()),
+                Some(_) if self.tables.len() >= MAX_FILES => {
+                    Err(format!("a scene may use {MAX_FILES} files of numbers"))
+                }
+                Some(loader) => loader(&path),
+            };
+            let bytes = bytes.and_then(|bytes| match bytes.len() {
+                0..=MAX_BYTES => Ok(bytes),
+                count => Err(format!("it has {count} bytes; the limit is 64 MB")),
+            });
+            let file = match bytes {
+                Ok(bytes) => {
+                    let source = Arc::new(Source::new(&*path, &*table_text(&bytes)));
+                    let number = faults.add_source(Arc::clone(&source));
+                    Some(TableFile { number, source, remarks: RefCell::default() })
+                }
+                Err(reason) => {
+                    faults.error(place, Fault::Unloadable { path: path.clone(), reason });
+                    None
+                }
+            };
+            self.tables.insert(path, file);
+        }
+    }
+
+    /// What became of the files of numbers.
+    pub(crate) fn table_notes(&self) -> Vec<ModelNote> {
+        let mut files: Vec<&TableFile> = self.tables.values().flatten().collect();
+        files.sort_by_key(|file| file.number);
+        let notes = files.into_iter().flat_map(|file| {
+            let subject = format!("file `{}`", file.source.name);
+            let remarks = file.remarks.borrow().clone();
+            remarks.into_iter().map(move |what| ModelNote {
+                subject: subject.clone(),
+                what,
+                until: None,
+            })
+        });
+        notes.collect()
+    }
+
+    /// The paths in `table-spring = "path"` and `table-spring = { file = "path" }` anywhere in a document, with
+    /// their places.
+    fn tables_wanted(&self) -> Vec<(String, Place)> {
+        let words = words_of_points();
+        let mut wanted = Vec::new();
+        for document in &self.documents {
+            let mut queue = VecDeque::from([&document.root]);
+            while let Some(item) = queue.pop_front() {
+                if let Content::List(items) = &item.value {
+                    queue.extend(items.iter().filter(|own| own.table().is_some()));
+                }
+                for entry in item.table().unwrap_or(&[]) {
+                    let is_file = entry.key == FILE || words.contains(&entry.key.as_str());
+                    match entry.item.text().filter(|_| is_file) {
+                        Some(path) => wanted.push((beside(&document.path, path), entry.item.place)),
+                        None => queue.push_back(&entry.item),
+                    }
+                }
+            }
+        }
+        wanted
+    }
+}
+
+/// Whether `word` is that of a driving function that is a table.
+pub(crate) fn is_table(word: &str) -> bool {
+    registered(WAVEFORMS, word).is_some_and(|kind| kinds::is_table(kind.parameters))
+}
+
+/// The words after which a text is the name of a file of points: those of kinds that take points alone, and those
+/// of their parameters.
+fn words_of_points() -> HashSet<&'static str> {
+    let waveforms = WAVEFORMS.iter().map(|kind| (kind.word, kind.parameters));
+    let elements = ELEMENTS.iter().map(|kind| (kind.word, kind.parameters));
+    let composites = COMPOSITES.iter().map(|kind| (kind.word, kind.parameters));
+    let mut words = HashSet::new();
+    for (word, parameters) in waveforms.chain(elements).chain(composites) {
+        let points = parameters.iter().filter(|own| kinds::is_points(own));
+        words.extend(points.map(|own| own.name));
+        if kinds::are_file(parameters) {
+            words.insert(word);
+        }
+    }
+    words
+}
+
+/// Whether points are given by `item` as a file.
+pub(crate) fn names_file(item: &Item) -> bool {
+    let has_file = |entries: &[Entry]| {
+        entries.iter().any(|entry| [FILE, "columns", "units"].contains(&entry.key.as_str()))
+    };
+    item.text().is_some() || item.table().is_some_and(has_file)
+}
+
+/// The file that points are read from, where `item` names one.
+pub(crate) fn file_named(item: &Item) -> Option<&Item> {
+    let named = item.table().map_or(Some(item), |entries| {
+        entries.iter().find(|entry| entry.key == FILE).map(|entry| &entry.item)
+    });
+    named.filter(|item| item.text().is_some())
+}
