@@ -140,15 +140,7 @@ impl<'d> ContextReader<'d> {
                 }
             }
             let [thickness, area] = beside.map(|size| size.map_or(1.0, |size| size.value));
-            let loading = find(LOADING)
-                .and_then(|own| loading(own, self.faults).map(|loading| (loading, own.item.place)));
-            if let (Some((Loading::Shear, place)), Some(_)) = (loading, pressed_by.1) {
-                let message =
-                    "a body that presses a pad loads it across its thickness, not in shear";
-                let help = "leave `loaded` out, or write `loaded = \"confined\"` where the material around each \
-                            column holds its sides";
-                self.faults.error(place, Fault::odd(message, help));
-            }
+            let loading = find(LOADING).and_then(|own| self.loading(own, pressed_by.1.is_some()));
             let loading = loading.unwrap_or((Loading::Compression, law.item.place));
             context.basis = Basis::Material(Pad::new(thickness, area).loaded(loading));
         } else if registered(ELEMENTS, &law.key).is_some_and(|kind| is_sized(kind.parameters)) {
@@ -201,6 +193,18 @@ impl<'d> ContextReader<'d> {
         let reader = KindReader::new(self.library.quantities(site.document, self.faults));
         let what = (Indenter::KIND, Indenter::PARAMETERS);
         let own = reader.read_as(what, &Indenter::from_values, &entry.item, entry.key_place)?;
+        Some((own, entry.item.place))
+    }
+
+    /// How a pad is loaded, and where that stands; a body that presses it loads it in compression alone.
+    fn loading(&self, entry: &Entry, is_pressed: bool) -> Option<(Loading, Place)> {
+        let own = loading(entry, self.faults)?;
+        if is_pressed && own == Loading::Shear {
+            let message = "a body that presses a pad loads it across its thickness, not in shear";
+            let help = "leave `loaded` out, or write `loaded = \"confined\"` where the material \
+                        around each column holds its sides";
+            self.faults.error(entry.item.place, Fault::odd(message, help));
+        }
         Some((own, entry.item.place))
     }
 
