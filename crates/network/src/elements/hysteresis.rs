@@ -152,10 +152,6 @@ impl<H: Hysteresis> Element for H {
         self.recoverable(deformation, deformation)
     }
 
-    fn law(&self) -> Law {
-        Law::Phased
-    }
-
     fn phases(&self) -> Option<&dyn Phases> {
         Some(self)
     }
