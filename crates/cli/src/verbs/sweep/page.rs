@@ -89,7 +89,7 @@ fn extremes(swept: &Swept) -> Table {
         list([name].into_iter().chain(ends.into_iter().flat_map(told)))
     };
     let header = ["measure", "lowest", "at", "highest", "at"];
-    Table::new("Lowest and highest", &header, (0..report.columns.len()).map(row))
+    Table::new("Lowest and highest", &header, words::told(report).into_iter().map(row))
 }
 
 /// What was asked for.
