@@ -406,7 +406,7 @@ fn check_finds_what_no_method_could_do() {
 fn explain_draws_and_names_all_that_was_built() {
     let folder = TempDir::new().unwrap();
     let drawing = folder.path().join("network.svg");
-    let output = run(&["explain", "reference-gravity", "--out", text(folder.path())]);
+    let output = run(&["explain", "reference-gravity", "--verbose", "--out", text(folder.path())]);
     assert_eq!(code(&output), 0);
     let shown = out(&output);
     for part in [
@@ -421,6 +421,29 @@ fn explain_draws_and_names_all_that_was_built() {
         assert!(shown.contains(part), "{part}:\n{shown}");
     }
     assert!(fs::read_to_string(drawing).unwrap().starts_with("<svg"));
+}
+
+#[test]
+fn explain_begins_with_what_is_written_in_its_units() {
+    let folder = TempDir::new().unwrap();
+    let scene = file(&folder, "soft.toml", &SOFT.replace("50 kN/m", "0.05 MN/m"));
+    let shown = |more: &[&str]| out(&run(&[&["explain", text(&scene)][..], more].concat()));
+    let plain = shown(&[]);
+    let parts =
+        ["As it is written", "0.05 MN/m", "What it becomes", "50 kN/m", "Effects", "Solving"];
+    let places = parts.map(|part| plain.find(part).unwrap_or_else(|| panic!("{part}:\n{plain}")));
+    assert!(places.is_sorted(), "{places:?}\n{plain}");
+    assert!(shown(&["--set", "K=40 N/mm"]).contains("40 N/mm"));
+    for hidden in ["guards ", "velocity of ", "modes ", "algebraic  "] {
+        assert!(
+            !plain.replace("`--verbose` adds the modes, guards", "").contains(hidden),
+            "{plain}"
+        );
+    }
+    let verbose = shown(&["--verbose"]);
+    for part in ["guards", "modes", "Unknowns with their units"] {
+        assert!(verbose.contains(part), "{part}:\n{verbose}");
+    }
 }
 
 #[test]

@@ -74,6 +74,10 @@ fn a_known_deviation_of_a_measured_loop_is_found() {
         "it turns where the measured one does"
     );
 
+    json(folder.path(), &[&words[..], &["--out", "results"]].concat());
+    let page = fs::read_to_string(folder.path().join("results/report.html")).unwrap();
+    assert!(page.contains("Beside the measured loop") && page.contains("−9.1 %"), "{page}");
+
     fs::write(folder.path().join("bare.csv"), "a;b\n1;2\n2;3\n").unwrap();
     let mut dashpot = Command::new(env!("CARGO_BIN_EXE_dashpot"));
     let words = ["rheometer", "models.toml:power", "--measured", "bare.csv"];

@@ -88,7 +88,7 @@ fn the_text_and_the_page_say_what_was_left_out() {
 #[test]
 fn explain_has_a_row_for_each_effect_on_or_off() {
     for scene in ["reference", GRAVITY] {
-        let text = out(&run(&["explain", scene]));
+        let text = out(&run(&["explain", scene, "--verbose"]));
         assert_eq!(wide(&text), None, "{text}");
         let section = section(&text, "Effects");
         for word in EFFECTS.iter().map(|own| own.word) {
@@ -122,7 +122,7 @@ fn explain_says_what_is_dropped_and_what_is_put_back() {
 #[test]
 fn explain_counts_what_compiling_with_and_without_gives() {
     // The support is a mass with a place and a speed; without it two unknowns go.
-    let text = out(&run(&["explain", "reference"]));
+    let text = out(&run(&["explain", "reference", "--verbose"]));
     let rows = section(&text, "Effects");
     let row = |word: &str| {
         let row = rows.lines().find(|line| line.trim_start().starts_with(word)).unwrap();

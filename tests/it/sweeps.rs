@@ -58,6 +58,22 @@ fn values_are_those_of_single_runs() {
 }
 
 #[test]
+fn a_deformation_over_thickness_is_told_once() {
+    let told = |measure: &str, table: &str| {
+        let vary = ["sweep", "reference", "--vary", "head.velocity=5,10 m/s", "--table", table];
+        out(&run(&[&vary[..], &["--measure", measure]].concat()))
+    };
+    let share = "over thickness";
+    assert!(told("padding.peak-deformation", "always").contains(share));
+    // The strain of a pad in one piece is that share.
+    let strain = told("padding.peak-strain", "always");
+    assert!(strain.contains("peak-strain") && !strain.contains(share), "{strain}");
+    let all = told("padding.peak-strain", "never");
+    let records = records(&all);
+    assert!(records[0].iter().any(|own| own.contains(share)), "programs get all: {all}");
+}
+
+#[test]
 fn the_bytes_are_the_same_by_one_thread_and_by_many() {
     let by = |threads: &str, json: bool| {
         let mut arguments = TWO.to_vec();

@@ -35,8 +35,13 @@ fn no_line_is_wider_than_the_terminal() {
     let folder = TempDir::new().unwrap();
     for scene in scene_paths() {
         let scene = text(&scene);
-        for verb in ["check", "explain", "vibrate"] {
-            fits(&[verb, scene]);
+        for arguments in [
+            &["check", scene][..],
+            &["explain", scene],
+            &["explain", scene, "--verbose"],
+            &["vibrate", scene],
+        ] {
+            fits(arguments);
         }
         fits(&["run", scene, "--plot", "always"]);
         fits(&["run", scene, "--neglect", "0.5%"]);
@@ -119,7 +124,7 @@ fn effects_that_remove_entries_say_so() {
             Some(more) => more.to_string(),
             None => format!("{} fewer", without - with),
         };
-        let shown = out(&run(&["explain", helmet]));
+        let shown = out(&run(&["explain", helmet, "--verbose"]));
         let starts = format!("  {name} ");
         let row = shown.lines().find(|line| line.starts_with(&starts)).unwrap();
         assert!(row.contains(&format!(" {expected}  ")), "{expected}: {row}");

@@ -229,6 +229,8 @@ fn the_command_shows_resonances_and_a_table_and_writes_files() {
     for name in ["result.json", "transmissibility.svg", "phase.svg"] {
         assert!(target.join(name).is_file(), "{name}");
     }
+    let page = std::fs::read_to_string(target.join("report.html")).unwrap();
+    assert!(page.contains("15.53 Hz") && page.matches("<svg").count() >= 5, "{page}");
     assert_eq!(code(&run(&arguments)), 0, "a second run writes over its own files");
     let foreign = TempDir::new().unwrap();
     file(&foreign, "response.csv", "mine");

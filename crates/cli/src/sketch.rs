@@ -10,9 +10,10 @@ use dashpot_network::{
     parameters::Kind as _,
 };
 use dashpot_plot::{
-    Sketch, SketchGravity, SketchKind, SketchLaw, SketchLink, SketchNode, SketchTree,
+    ReportFigure, Sketch, SketchGravity, SketchKind, SketchLaw, SketchLink, SketchNode, SketchTree,
 };
 use dashpot_rheology::Tree;
+use dashpot_scene::Scene;
 
 use crate::numbers::{constant, rounded};
 
@@ -51,6 +52,13 @@ pub(crate) fn sketch(network: &Network, duration: f64) -> Sketch {
             pulls_back: gravity < 0.0,
         }),
     }
+}
+
+/// The drawing of a scene for a page, unless there is too much to be drawn.
+pub(crate) fn figure(scene: &Scene) -> Option<ReportFigure> {
+    let is_drawn = scene.network.connections().len() <= MOST_DRAWN;
+    let drawing = || sketch(&scene.network, scene.run.duration).svg();
+    is_drawn.then(|| ReportFigure::of_sketch("The network", drawing()))
 }
 
 /// A network with what its effects put into it; layers stay models, as they are written.

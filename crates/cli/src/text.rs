@@ -52,7 +52,7 @@ pub(crate) fn width(table: &Table) -> usize {
     header.lines().chain(rows.iter().map(String::as_str)).map(columns).max().unwrap_or(0)
 }
 
-/// `text` broken at blanks into lines of at most `width` columns.
+/// `text` broken at blanks into lines of at most `width` columns, but not at those that are no-break spaces.
 pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
     wrapped_after(text, width, width)
 }
@@ -60,7 +60,7 @@ pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
 /// The same with a first line of its own width.
 fn wrapped_after(text: &str, first: usize, others: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
+    for word in text.split_ascii_whitespace() {
         let last = lines.len() - 1;
         let width = if last == 0 { first } else { others };
         if lines[last].is_empty() {

@@ -7,6 +7,7 @@
 //! - [`roots`] and [`extrema`]: bisection, bracketed Newton steps, false position, golden section;
 //! - [`isotonic`]: the nearest sequence that never falls;
 //! - [`normal`]: the normal distribution and its quantiles;
+//! - [`Stream`]: numbers that look random;
 //! - [`small`] and [`exponential`]: matrices on the stack, exponentials of any real matrix;
 //! - [`LinearForm`]: sparse linear forms.
 
@@ -20,9 +21,11 @@ pub mod isotonic;
 mod linear_form;
 pub mod normal;
 pub mod quadrature;
+mod random;
 pub mod roots;
 pub mod small;
 
 pub use accumulator::Accumulator;
 pub use double_double::{DoubleDouble, two_product, two_sum};
 pub use linear_form::{Coefficient, FormRef, Forms, LinearForm, packed};
+pub use random::Stream;

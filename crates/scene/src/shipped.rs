@@ -11,45 +11,27 @@ pub struct Shipped {
     pub text: &'static str,
 }
 
+macro_rules! shipped {
+    ($name:literal, $summary:literal) => {
+        Shipped {
+            name: $name,
+            summary: $summary,
+            text: include_str!(concat!("../templates/", $name, ".toml")),
+        }
+    };
+}
+
 const TEMPLATES: &[Shipped] = &[
-    Shipped {
-        name: "impact",
-        summary: "a moving mass, a pad and its support",
-        text: include_str!("../templates/impact.toml"),
-    },
-    Shipped {
-        name: "drop",
-        summary: "a fall onto a foam liner that separates and bottoms out",
-        text: include_str!("../templates/drop.toml"),
-    },
-    Shipped {
-        name: "chain",
-        summary: "a chain of masses with one model between them",
-        text: include_str!("../templates/chain.toml"),
-    },
-    Shipped {
-        name: "force-table",
-        summary: "a force given by a table, and a base with a given motion",
-        text: include_str!("../templates/force-table.toml"),
-    },
+    shipped!("impact", "a moving mass, a pad and its support"),
+    shipped!("drop", "a fall onto a foam liner that separates and bottoms out"),
+    shipped!("chain", "a chain of masses with one model between them"),
+    shipped!("force-table", "a force given by a table, and a base with a given motion"),
 ];
 
 const REFERENCES: &[Shipped] = &[
-    Shipped {
-        name: "reference",
-        summary: "the thesis' head against a padded car panel",
-        text: include_str!("../templates/reference.toml"),
-    },
-    Shipped {
-        name: "reference-stiff",
-        summary: "the same with the support damping that the thesis prints",
-        text: include_str!("../templates/reference-stiff.toml"),
-    },
-    Shipped {
-        name: "reference-gravity",
-        summary: "the same with gravity, starting in balance",
-        text: include_str!("../templates/reference-gravity.toml"),
-    },
+    shipped!("reference", "the thesis' head against a padded car panel"),
+    shipped!("reference-stiff", "the same with the support damping that the thesis prints"),
+    shipped!("reference-gravity", "the same with gravity, starting in balance"),
 ];
 
 /// Commented scenes to start from.

@@ -3,7 +3,7 @@
 use dashpot_dae::Signal;
 use dashpot_network::{ConnectionOutputs, PrimitiveOutputs, parameters, parameters::WindowWish};
 
-use super::{Family, MeasureKind, Reading, WINDOW, reading::moved};
+use super::{Family, MeasureKind, Reading, reading::moved};
 use crate::{
     Note, Solution, VelocityJump,
     energy::{
@@ -13,18 +13,14 @@ use crate::{
     impact::interval::Span,
 };
 
-parameters! {
+windowed! {
     /// The energy that an element takes up, `∫ F ẏ dt` \[J\]: at the end of an impact what it has not
     /// given back, be it stored or dissipated.
     ///
     /// Where a prescribed motion or a load jumps, the jump of the stored energy is counted; where masses
     /// meet in the element, the energy that the impact loses. What it holds as the run begins is not: of a load
     /// or motion that is there from the start on, and of what has no mass, that is all that they do at once.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct Energy: "energy", "energy taken up by the element during the window [J]" {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    Energy: "energy", "energy taken up by the element during the window [J]"
 }
 
 impl MeasureKind for Energy {

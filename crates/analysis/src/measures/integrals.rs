@@ -1,18 +1,12 @@
 //! Integrals over time, and means.
 
-use dashpot_network::{parameters, parameters::WindowWish};
-
-use super::{Family, MeasureKind, Needs, Reading, WINDOW};
+use super::{Family, MeasureKind, Needs, Reading};
 use crate::{Note, Solution, VelocityJump};
 
-parameters! {
+windowed! {
     /// The integral of an element's force over time, `∫ F dt` \[N s\], positive in compression, and the
     /// impulses with which masses meet in it.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct Impulse: "impulse", "integral of the force over time [N s]" {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    Impulse: "impulse", "integral of the force over time [N s]"
 }
 
 impl MeasureKind for Impulse {
@@ -39,16 +33,10 @@ impl MeasureKind for Impulse {
     }
 }
 
-parameters! {
+windowed! {
     /// The magnitude of the mean of what an accelerometer on a body reads, `|∫ a dt| / T` \[m/s²\]:
     /// without gravity the change of velocity over the time `T` that it takes, jumps included.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct AverageDeceleration: "average-deceleration",
-        "mean of what an accelerometer reads [m/s^2]"
-    {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    AverageDeceleration: "average-deceleration", "mean of what an accelerometer reads [m/s^2]"
 }
 
 impl MeasureKind for AverageDeceleration {

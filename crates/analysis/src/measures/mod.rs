@@ -1,5 +1,19 @@
 //! The register of measures: scalars read off a continuous solution, never off samples.
 
+/// Declares a measure of which the part of the run that it looks at is the one parameter.
+macro_rules! windowed {
+    ($(#[$note:meta])* $name:ident: $kind:literal, $summary:literal) => {
+        dashpot_network::parameters! {
+            $(#[$note])*
+            #[derive(Debug, Clone, Copy, PartialEq, Default)]
+            pub struct $name: $kind, $summary {
+                /// The part of the run that it looks at.
+                pub window: dashpot_network::parameters::WindowWish => $crate::measures::WINDOW;
+            }
+        }
+    };
+}
+
 pub(crate) mod exceedance;
 pub(crate) mod hic_search;
 pub(crate) mod selection;

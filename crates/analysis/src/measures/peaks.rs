@@ -1,11 +1,9 @@
 //! The largest values of forces, deformations and motions, and those at the end of a window.
 
-use dashpot_network::{parameters, parameters::WindowWish};
-
-use super::{Family, MeasureKind, Needs, Reading, WINDOW, reading::peaks_below_zero};
+use super::{Family, MeasureKind, Needs, Reading, reading::peaks_below_zero};
 use crate::{Note, Solution, VelocityJump};
 
-parameters! {
+windowed! {
     /// The largest magnitude of an element's force, `max |F(t)|` \[N\], with its time.
     ///
     /// It is the force of the element alone. Of a padding whose face has mass it is `F2`, behind the face;
@@ -15,13 +13,7 @@ parameters! {
     ///
     /// In an impact the force pushes throughout; in other windows a peak in tension is noted. Where masses
     /// meet in the element and speeds jump, it is infinite.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct PeakForce: "peak-force",
-        "largest magnitude of the force, positive in compression [N]"
-    {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    PeakForce: "peak-force", "largest magnitude of the force, positive in compression [N]"
 }
 
 impl MeasureKind for PeakForce {
@@ -40,17 +32,12 @@ impl MeasureKind for PeakForce {
     }
 }
 
-parameters! {
+windowed! {
     /// The largest magnitude of an element's deformation, `max |y(t)|` \[m\], with its time; a peak in
     /// elongation is noted. Of what never pulls it is the deepest compression, `max y(t) ≥ 0`: what it is
     /// apart by is a gap.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct PeakDeformation: "peak-deformation",
+    PeakDeformation: "peak-deformation",
         "largest magnitude of the deformation, positive in compression [m]"
-    {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
 }
 
 impl MeasureKind for PeakDeformation {
@@ -74,13 +61,9 @@ impl MeasureKind for PeakDeformation {
     }
 }
 
-parameters! {
+windowed! {
     /// The largest magnitude of an element's deformation rate, `max |ẏ(t)|` \[m/s\], with its time.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct PeakRate: "peak-rate", "largest magnitude of the deformation rate [m/s]" {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    PeakRate: "peak-rate", "largest magnitude of the deformation rate [m/s]"
 }
 
 impl MeasureKind for PeakRate {
@@ -102,16 +85,11 @@ impl MeasureKind for PeakRate {
     }
 }
 
-parameters! {
+windowed! {
     /// The largest magnitude of what an accelerometer on a body reads, `max |Σ F_contact|/m` \[m/s²\],
     /// with its time; free fall is 0. Where the speed jumps, it is infinite.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct PeakAcceleration: "peak-acceleration",
+    PeakAcceleration: "peak-acceleration",
         "largest magnitude of what an accelerometer reads [m/s^2]"
-    {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
 }
 
 impl MeasureKind for PeakAcceleration {
@@ -128,13 +106,9 @@ impl MeasureKind for PeakAcceleration {
     }
 }
 
-parameters! {
+windowed! {
     /// The largest magnitude of a node's displacement, `max |x(t)|` \[m\], with its time.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct PeakDisplacement: "peak-displacement", "largest magnitude of the displacement [m]" {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    PeakDisplacement: "peak-displacement", "largest magnitude of the displacement [m]"
 }
 
 impl MeasureKind for PeakDisplacement {
@@ -148,14 +122,10 @@ impl MeasureKind for PeakDisplacement {
     }
 }
 
-parameters! {
+windowed! {
     /// An element's deformation at the end of the window, `y(t_end)` \[m\], positive in compression.
     /// At the end of an impact it is what the pad has not yet sprung back.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct EndDeformation: "end-deformation", "deformation at the end of the window [m]" {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    EndDeformation: "end-deformation", "deformation at the end of the window [m]"
 }
 
 impl MeasureKind for EndDeformation {
@@ -169,14 +139,10 @@ impl MeasureKind for EndDeformation {
     }
 }
 
-parameters! {
+windowed! {
     /// An element's force at the end of the window, `F(t_end)` \[N\], positive in compression; at the end of an
     /// impact it is 0.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct EndForce: "end-force", "force at the end of the window [N]" {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    EndForce: "end-force", "force at the end of the window [N]"
 }
 
 impl MeasureKind for EndForce {
@@ -189,14 +155,10 @@ impl MeasureKind for EndForce {
     }
 }
 
-parameters! {
+windowed! {
     /// The largest magnitude of a node's velocity, `max |v|` \[m/s\], with its time. Where the speed jumps, it is the
     /// larger one of both sides, also that before the window.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct PeakVelocity: "peak-velocity", "largest magnitude of the velocity [m/s]" {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    PeakVelocity: "peak-velocity", "largest magnitude of the velocity [m/s]"
 }
 
 impl MeasureKind for PeakVelocity {
@@ -220,13 +182,9 @@ impl MeasureKind for PeakVelocity {
     }
 }
 
-parameters! {
+windowed! {
     /// A node's displacement at the end of the window, `x(t_end)` \[m\], positive towards the support.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct EndPosition: "end-position", "displacement at the end of the window [m]" {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    EndPosition: "end-position", "displacement at the end of the window [m]"
 }
 
 impl MeasureKind for EndPosition {
@@ -240,17 +198,12 @@ impl MeasureKind for EndPosition {
     }
 }
 
-parameters! {
+windowed! {
     /// A node's velocity at the end of the window, `v(t_end)` \[m/s\], positive towards the support:
     /// at the end of its impact an impactor's rebound speed, negative. Where the speed jumps at the end,
     /// it is that after the jump.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct EndVelocity: "end-velocity",
+    EndVelocity: "end-velocity",
         "velocity at the end of the window: the rebound speed of an impactor [m/s]"
-    {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
 }
 
 impl MeasureKind for EndVelocity {

@@ -1,11 +1,11 @@
 //! Stresses and strains: the largest of what the segments of a pad feel.
 
-use dashpot_network::{SegmentOutputs, SegmentPlace, parameters, parameters::WindowWish};
+use dashpot_network::{SegmentOutputs, SegmentPlace};
 
-use super::{Family, MeasureKind, Needs, Reading, WINDOW, reading::peaks_below_zero};
+use super::{Family, MeasureKind, Needs, Reading, reading::peaks_below_zero};
 use crate::{Note, Solution, impact::interval::Span};
 
-parameters! {
+windowed! {
     /// The largest magnitude of the stress in any segment of a pad, `max |F(t)|/A` \[Pa\], with its time
     /// and its layer; a peak in tension is noted.
     ///
@@ -13,13 +13,7 @@ parameters! {
     /// area. Pads of layers have segments; another element with a `thickness` and an `area` is a single
     /// one, and so is each branch of its model with a size of its own. Without an area there is no stress, and where masses meet in the element and speeds jump, it
     /// is infinite.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct PeakStress: "peak-stress",
-        "largest stress in any segment of a pad, force over area [Pa]"
-    {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
+    PeakStress: "peak-stress", "largest stress in any segment of a pad, force over area [Pa]"
 }
 
 impl MeasureKind for PeakStress {
@@ -44,20 +38,15 @@ impl MeasureKind for PeakStress {
     }
 }
 
-parameters! {
+windowed! {
     /// The largest magnitude of the strain in any segment of a pad, `max |y(t)|/h` \[1\], with its time and
     /// its layer; a peak in elongation is noted.
     ///
     /// `y` is the deformation of the segment and `h` its thickness at rest. Pads of layers have segments;
     /// another element with a `thickness` is a single one, and so is each branch of its model with a
     /// thickness of its own.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct PeakStrain: "peak-strain",
+    PeakStrain: "peak-strain",
         "largest strain in any segment of a pad, deformation over thickness [1]"
-    {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
 }
 
 impl MeasureKind for PeakStrain {

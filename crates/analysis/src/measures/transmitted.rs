@@ -10,7 +10,7 @@ use dashpot_network::{
 use super::{Family, MeasureKind, Needs, Reading, WINDOW, reading::peaks_below_zero};
 use crate::{Note, Solution};
 
-parameters! {
+windowed! {
     /// The largest magnitude of the force of a padding on what lies behind it, `max |F(t)|` \[N\], with
     /// its time; a peak in tension is noted.
     ///
@@ -19,13 +19,8 @@ parameters! {
     /// [`PeakForce`](super::PeakForce), which is that of the element alone. In pads of layers with mass,
     /// through which the force travels, it comes later and has another size. Where masses meet in any of
     /// these and speeds jump, it is infinite.
-    #[derive(Debug, Clone, Copy, PartialEq, Default)]
-    pub struct TransmittedForce: "transmitted-force",
+    TransmittedForce: "transmitted-force",
         "largest magnitude of the force on what lies behind it, its stop included [N]"
-    {
-        /// The part of the run that it looks at.
-        pub window: WindowWish => WINDOW;
-    }
 }
 
 impl MeasureKind for TransmittedForce {

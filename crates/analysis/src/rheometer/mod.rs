@@ -46,6 +46,9 @@ pub use specimen::Specimen;
 
 use crate::Choice;
 
+/// What a test has found, or why it cannot be made.
+pub type Tested = Result<RheometerReport, RheometerError>;
+
 /// The methods by which tests of a linear model are simulated where nothing else is asked for.
 pub fn default_methods() -> [Choice; 1] {
     [Choice::from(methods::Exact)]
@@ -82,11 +85,7 @@ pub trait ProtocolKind: Kind + Default {
     /// # Errors
     ///
     /// As [`Protocol::run`].
-    fn test(
-        &self,
-        specimen: &Specimen,
-        methods: &[Choice],
-    ) -> Result<RheometerReport, RheometerError>;
+    fn test(&self, specimen: &Specimen, methods: &[Choice]) -> Tested;
 }
 
 /// The default of parameters that follow from the times of the model.

@@ -13,6 +13,7 @@ use dashpot_network::{
     Model,
     elements::{Dashpot, Law, Spring},
 };
+use dashpot_numerics::Stream;
 
 /// How far a constant is moved at most, in units of its last place.
 const MOST: f64 = 64.0;
@@ -23,17 +24,17 @@ pub(super) const SEEDS: [u64; 2] = [1, 2];
 
 /// The same model with each constant moved in its last digits at random.
 pub(super) fn perturbed(model: &Model, seed: u64) -> Model {
-    let mut stream = Stream(seed);
+    let mut stream = Stream::new(seed);
     let mut copy = model.clone();
     let mut left = vec![&mut copy];
     while let Some(tree) = left.pop() {
         match tree {
             Model::Part(element) => match element.law() {
                 Law::Spring(own) => {
-                    *element = Arc::new(Spring { stiffness: own * stream.factor() });
+                    *element = Arc::new(Spring { stiffness: own * factor(&mut stream) });
                 }
                 Law::Dashpot(own) => {
-                    *element = Arc::new(Dashpot { damping: own * stream.factor() });
+                    *element = Arc::new(Dashpot { damping: own * factor(&mut stream) });
                 }
                 Law::Rigid | Law::Nonlinear { .. } | Law::Phased => {}
             },
@@ -48,36 +49,23 @@ pub(super) fn perturbed(model: &Model, seed: u64) -> Model {
 /// Moves each coefficient of the equations by a rounding of the greatest one in its row, up or down
 /// at random.
 pub(super) fn perturb(system: &mut System, seed: u64) {
-    let mut stream = Stream(seed);
+    let mut stream = Stream::new(seed);
     for matrix in [&mut system.jacobian, &mut system.input_matrix] {
         for mut row in matrix.row_iter_mut() {
             let largest = row.values().iter().fold(0.0_f64, |most, own| most.max(own.abs()));
             let rounding = f64::EPSILON * largest;
-            row.values_mut().iter_mut().for_each(|own| *own += rounding * stream.sign());
+            row.values_mut().iter_mut().for_each(|own| *own += rounding * sign(&mut stream));
         }
     }
 }
 
-/// A reproducible stream of factors near one (splitmix64).
-struct Stream(u64);
+/// A factor near one.
+fn factor(stream: &mut Stream) -> f64 {
+    1.0 + ((2.0 * stream.share() - 1.0) * MOST).round() * f64::EPSILON
+}
 
-impl Stream {
-    fn factor(&mut self) -> f64 {
-        1.0 + ((2.0 * self.share() - 1.0) * MOST).round() * f64::EPSILON
-    }
-
-    fn sign(&mut self) -> f64 {
-        if self.share() < 0.5 { -1.0 } else { 1.0 }
-    }
-
-    /// A number from 0 to 1.
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / 2.0_f64.powi(53)
-    }
+fn sign(stream: &mut Stream) -> f64 {
+    if stream.share() < 0.5 { -1.0 } else { 1.0 }
 }
 
 #[cfg(test)]

@@ -29,6 +29,9 @@ pub(crate) fn csv(
     writer.flush()
 }
 
+/// File of a folder that has everything on one page.
+pub(crate) const PAGE: &str = "report.html";
+
 /// Version of the program; also the mark of files that it wrote.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 

@@ -57,7 +57,7 @@ pub(crate) enum Command {
     Run(run::RunArguments),
     /// Says whether scenes are valid, without solving them.
     Check(check::CheckArguments),
-    /// Shows what was built from a scene: drawing, parts, unknowns, effects, method.
+    /// Shows what a scene says, and what is built from it: drawing, parts, effects, method.
     Explain(explain::ExplainArguments),
     /// Writes a model in another form that does the same, and says how nearly.
     Convert(convert::ConvertArguments),

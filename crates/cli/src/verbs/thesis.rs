@@ -14,13 +14,11 @@ use serde::Serialize;
 use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
-    output::{Study, Text, VERSION, csv, emit, list, object},
+    output::{PAGE, Study, Text, VERSION, csv, emit, list, object},
     sketch::sketch,
     terminal::Terminal,
 };
 
-/// Everything on one page.
-const PAGE: &str = "report.html";
 /// The same in Markdown.
 const MARKDOWN: &str = "report.md";
 /// Columns of the equations' numbers.

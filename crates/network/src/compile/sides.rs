@@ -183,11 +183,8 @@ mod tests {
 
     #[test]
     fn sides_are_what_is_reached_without_the_link() {
-        let mut state = 7_u64;
-        let mut random = |below: usize| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            usize::try_from(state >> 33).unwrap() % below
-        };
+        let mut stream = dashpot_numerics::Stream::new(7);
+        let mut random = |below: usize| stream.below(below);
         for _ in 0..400 {
             let (joints, count) = (2 + random(9), 1 + random(12));
             // Few loops: most links lead to what was there before.

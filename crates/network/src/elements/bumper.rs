@@ -3,7 +3,7 @@
 use dashpot_numerics::roots::{TO_THE_LAST_BIT, bisect};
 
 use super::{
-    Element, Law, Tangent,
+    Element, Tangent,
     impact_law::{Impact, ImpactLaw},
     power::PowerLaw,
 };
@@ -175,34 +175,12 @@ impl Element for Bumper {
         self.impact().stored(deformation)
     }
 
-    fn law(&self) -> Law {
-        Law::Phased
-    }
-
     fn phases(&self) -> Option<&dyn Phases> {
         Some(self)
     }
 
     fn never_pulls(&self) -> bool {
         true
-    }
-}
-
-impl Described for Bumper {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        Self::PARAMETERS
-    }
-
-    fn values(&self) -> Vec<Value> {
-        self.settings.values()
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        Self::new(self.settings).map(|_| ())
     }
 }
 
@@ -213,6 +191,14 @@ impl Kind for Bumper {
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         Self::new(BumperSettings::from_values(values)?)
+    }
+
+    fn fields(&self) -> Vec<Value> {
+        self.settings.values()
+    }
+
+    fn check_whole(&self) -> Result<(), InvalidParameter> {
+        Self::new(self.settings).map(|_| ())
     }
 
     fn sample() -> Self {

@@ -1,6 +1,6 @@
 //! Unilateral contact.
 
-use super::{Element, Law, Tangent};
+use super::{Element, Tangent};
 use crate::{
     parameters,
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
@@ -90,10 +90,6 @@ impl Element for Contact {
 
     fn stored(&self, _deformation: f64) -> f64 {
         0.0
-    }
-
-    fn law(&self) -> Law {
-        Law::Phased
     }
 
     fn phases(&self) -> Option<&dyn Phases> {

@@ -7,7 +7,7 @@ use super::{
     by_numbers::{TYPICAL, central_differences, rises, secants, work_at_rest},
 };
 use crate::parameters::{
-    Described, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Range, Value,
+    Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Range, Value,
 };
 
 /// An element whose force is a formula `F(y, v)` \[N\] of the deformation `y` \[m\] and its rate `v` \[m/s\]:
@@ -197,21 +197,6 @@ impl Element for Formula {
     }
 }
 
-impl Described for Formula {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        Self::PARAMETERS
-    }
-
-    fn values(&self) -> Vec<Value> {
-        let or_left_out = |own: Option<f64>| own.map_or(Value::LeftOut, Value::Number);
-        vec![Value::Formula(self.text.clone()), or_left_out(self.up_to), or_left_out(self.rate)]
-    }
-}
-
 impl Kind for Formula {
     const KIND: &'static str = "formula";
     const SUMMARY: &'static str = "force as a formula of deformation and rate, F(y, v)";
@@ -240,6 +225,11 @@ impl Kind for Formula {
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         let mut given = Given::new(Self::PARAMETERS, values);
         Self::new(given.take()?, given.take()?, given.take()?)
+    }
+
+    fn fields(&self) -> Vec<Value> {
+        let or_left_out = |own: Option<f64>| own.map_or(Value::LeftOut, Value::Number);
+        vec![Value::Formula(self.text.clone()), or_left_out(self.up_to), or_left_out(self.rate)]
     }
 
     fn sample() -> Self {

@@ -183,10 +183,6 @@ impl Element for Foundation {
         self.law.stored((deformation - self.face.rim).max(0.0)) + before
     }
 
-    fn law(&self) -> Law {
-        Law::Phased
-    }
-
     fn phases(&self) -> Option<&dyn Phases> {
         Some(self)
     }
@@ -279,27 +275,6 @@ impl Element for Pressed {
     }
 }
 
-impl Described for Foundation {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        Self::PARAMETERS
-    }
-
-    fn values(&self) -> Vec<Value> {
-        let mut values = vec![Tree::Part(Arc::clone(&self.law)).value()];
-        values.extend(self.indenter.values());
-        values
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.indenter.validate()?;
-        self.law.validate()
-    }
-}
-
 /// The law, and the parameters of the body.
 const PARAMETERS: [Parameter; 6] = {
     let help = "law of the pad where all of the area of the body is loaded at once";
@@ -325,6 +300,17 @@ impl Kind for Foundation {
                 Err(InvalidParameter::new(LAW, range, "composed"))
             }
         }
+    }
+
+    fn fields(&self) -> Vec<Value> {
+        let mut values = vec![Tree::Part(Arc::clone(&self.law)).value()];
+        values.extend(self.indenter.values());
+        values
+    }
+
+    fn check_whole(&self) -> Result<(), InvalidParameter> {
+        self.indenter.validate()?;
+        self.law.validate()
     }
 
     fn sample() -> Self {

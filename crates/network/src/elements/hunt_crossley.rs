@@ -1,7 +1,7 @@
 //! Contact with a stiffness and damping that grow from zero.
 
 use super::{
-    Element, Law, Tangent,
+    Element, Tangent,
     impact_law::{Impact, ImpactLaw},
     power::PowerLaw,
 };
@@ -93,10 +93,6 @@ impl Element for HuntCrossley {
 
     fn stored(&self, deformation: f64) -> f64 {
         self.impact().stored(deformation)
-    }
-
-    fn law(&self) -> Law {
-        Law::Phased
     }
 
     fn phases(&self) -> Option<&dyn Phases> {

@@ -152,10 +152,6 @@ impl<H: Hysteresis> Element for H {
         self.recoverable(deformation, deformation)
     }
 
-    fn law(&self) -> Law {
-        Law::Phased
-    }
-
     fn phases(&self) -> Option<&dyn Phases> {
         Some(self)
     }
@@ -208,12 +204,8 @@ pub(super) mod tests {
     /// Sends a law through many turning points up to a depth: it never gives more than it took,
     /// neither in all nor from any time on at which it is slack.
     pub(in super::super) fn never_gives_more_than_it_took(of: &impl Phases, most: f64) {
-        let mut state = 11_u64;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        let turns: Vec<f64> = (0..24).map(|_| 1.1 * most * next() - 0.1 * most).collect();
+        let mut stream = dashpot_numerics::Stream::new(11);
+        let turns: Vec<f64> = (0..24).map(|_| 1.1 * most * stream.share() - 0.1 * most).collect();
         let (work, _, lowest) = travelled(of, &[&[-0.05 * most][..], &turns].concat());
         assert!(work > 0.0 && lowest >= 0.0, "{of:?}: {work} {lowest}");
         // Cycles that go deeper each time dissipate no less than the ones before.

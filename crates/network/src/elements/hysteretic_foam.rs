@@ -127,28 +127,6 @@ impl Hysteresis for HystereticFoam {
     }
 }
 
-impl Described for HystereticFoam {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        Self::PARAMETERS
-    }
-
-    fn values(&self) -> Vec<Value> {
-        let mut values = self.foam.values();
-        values.extend([self.set.value(), self.unloading_exponent.value()]);
-        values
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.foam.validate()?;
-        let own = Self::PARAMETERS.iter().zip(self.values()).skip(Foam::PARAMETERS.len());
-        own.into_iter().try_for_each(|(own, value)| own.check(&value))
-    }
-}
-
 /// The parameters of the foam, and those of unloading.
 const PARAMETERS: [Parameter; 8] = {
     let number = ParameterKind::Quantity(Dimension::NUMBER);
@@ -171,6 +149,16 @@ impl Kind for HystereticFoam {
         let own = values.get(Foam::PARAMETERS.len()..).unwrap_or_default();
         let mut given = Given::new(Self::PARAMETERS.split_at(Foam::PARAMETERS.len()).1, own);
         Ok(Self { foam, set: given.take()?, unloading_exponent: given.take()? })
+    }
+
+    fn fields(&self) -> Vec<Value> {
+        let mut values = self.foam.values();
+        values.extend([self.set.value(), self.unloading_exponent.value()]);
+        values
+    }
+
+    fn check_whole(&self) -> Result<(), InvalidParameter> {
+        self.foam.validate()
     }
 
     fn sample() -> Self {

@@ -12,8 +12,7 @@ use super::{
 };
 use crate::{
     parameters::{
-        CurveRole, Described, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind,
-        Value,
+        CurveRole, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
     },
     phases::{Exit, Phase, PhaseLaw, Phases},
 };
@@ -252,26 +251,6 @@ impl Hysteresis for HystereticTable {
     }
 }
 
-impl Described for HystereticTable {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        Self::PARAMETERS
-    }
-
-    fn values(&self) -> Vec<Value> {
-        [self.loading_points(), self.unloading_points()]
-            .map(|points| Value::Table(points.to_vec()))
-            .into()
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        Self::from_values(&self.values()).map(|_| ())
-    }
-}
-
 const CURVE: ParameterKind = ParameterKind::Curve(Dimension::LENGTH, Dimension::FORCE);
 
 impl Kind for HystereticTable {
@@ -298,6 +277,16 @@ impl Kind for HystereticTable {
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         let mut given = Given::new(Self::PARAMETERS, values);
         Self::new(given.take()?, given.take()?)
+    }
+
+    fn fields(&self) -> Vec<Value> {
+        [self.loading_points(), self.unloading_points()]
+            .map(|points| Value::Table(points.to_vec()))
+            .into()
+    }
+
+    fn check_whole(&self) -> Result<(), InvalidParameter> {
+        Self::from_values(&self.fields()).map(|_| ())
     }
 
     fn sample() -> Self {

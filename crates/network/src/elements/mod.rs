@@ -90,9 +90,12 @@ pub trait Element: Described {
         by_numbers::work_at_rest(self, deformation)
     }
 
-    /// The law as the compiler of networks sees it; where not given, one that is not linear, with the
-    /// secants at what is [typical](Self::typical).
+    /// The law as the compiler of networks sees it; where not given, [`Law::Phased`] of what has phases, else
+    /// one that is not linear, with the secants at what is [typical](Self::typical).
     fn law(&self) -> Law {
+        if self.phases().is_some() {
+            return Law::Phased;
+        }
         let [stiffness, damping] = by_numbers::secants(self);
         Law::Nonlinear { stiffness, damping }
     }

@@ -4,9 +4,7 @@ use std::sync::Arc;
 
 use super::{Element, Law, Tangent, line::Line, table_spring::check_order};
 use crate::{
-    parameters::{
-        Described, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
-    },
+    parameters::{Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value},
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
@@ -128,10 +126,6 @@ impl Element for PiecewiseSpring {
         self.line(deformation).stored(deformation)
     }
 
-    fn law(&self) -> Law {
-        Law::Phased
-    }
-
     fn phases(&self) -> Option<&dyn Phases> {
         Some(self)
     }
@@ -171,24 +165,6 @@ impl Phases for PiecewiseSpring {
     }
 }
 
-impl Described for PiecewiseSpring {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        Self::PARAMETERS
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Table(self.points.clone())]
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        check(&self.points)
-    }
-}
-
 impl Kind for PiecewiseSpring {
     const KIND: &'static str = POINTS;
     const SUMMARY: &'static str = "piecewise linear spring, with exact corners";
@@ -200,6 +176,14 @@ impl Kind for PiecewiseSpring {
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         Self::new(Given::new(Self::PARAMETERS, values).take()?)
+    }
+
+    fn fields(&self) -> Vec<Value> {
+        vec![Value::Table(self.points.clone())]
+    }
+
+    fn check_whole(&self) -> Result<(), InvalidParameter> {
+        check(&self.points)
     }
 
     fn sample() -> Self {

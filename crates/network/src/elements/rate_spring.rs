@@ -143,18 +143,14 @@ mod tests {
         let spring = RateSpring::sample();
         // Cycles with any speeds on the way in and out: polygons in the plane of y and ẏ, the rate
         // constant between corners. The work of a corner's stretch is F at its rate over its way.
-        let mut state = 7_u64;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
+        let mut stream = dashpot_numerics::Stream::new(7);
         for _ in 0..200 {
-            let corners: Vec<f64> = (0..6).map(|_| 0.04 * (next() - 0.5)).collect();
+            let corners: Vec<f64> = (0..6).map(|_| 0.04 * (stream.share() - 0.5)).collect();
             let mut work = 0.0;
             let mut size = 0.0;
             for at in 0..corners.len() {
                 let (from, to) = (corners[at], corners[(at + 1) % corners.len()]);
-                let rate = (to - from).signum() * 10_f64.powf(6.0 * next() - 4.0);
+                let rate = (to - from).signum() * stream.between(1e-4, 1e2);
                 let own = work_between(&spring, from, to, rate);
                 work += own;
                 size += own.abs();

@@ -1,7 +1,7 @@
 //! Rigid link.
 
 use super::{Element, Law, Tangent};
-use crate::parameters::{Described, InvalidParameter, Kind, Parameter, ParameterKind, Value};
+use crate::parameters::{InvalidParameter, Kind, Parameter, ParameterKind, Value};
 
 /// A rigid link, `y = 0`: its ends move as one.
 ///
@@ -38,20 +38,6 @@ impl Element for Rigid {
     }
 }
 
-impl Described for Rigid {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        Self::PARAMETERS
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Flag]
-    }
-}
-
 impl Kind for Rigid {
     const KIND: &'static str = "rigid";
     const SUMMARY: &'static str = "rigid link, y = 0; merges its ends";
@@ -60,6 +46,10 @@ impl Kind for Rigid {
 
     fn from_values(_values: &[Value]) -> Result<Self, InvalidParameter> {
         Ok(Self)
+    }
+
+    fn fields(&self) -> Vec<Value> {
+        vec![Value::Flag]
     }
 
     fn sample() -> Self {

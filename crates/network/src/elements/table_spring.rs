@@ -2,7 +2,7 @@
 
 use super::{Element, Law, Tangent, monotone::MonotoneCurve};
 use crate::parameters::{
-    CurveRole, Described, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
+    CurveRole, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
 };
 
 /// A spring whose force is interpolated between points `(y_i, F_i)` of a measured curve.
@@ -146,24 +146,6 @@ impl Element for TableSpring {
     }
 }
 
-impl Described for TableSpring {
-    fn kind(&self) -> &'static str {
-        Self::KIND
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        Self::PARAMETERS
-    }
-
-    fn values(&self) -> Vec<Value> {
-        vec![Value::Table(self.points().to_vec())]
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        check(POINTS, self.points())
-    }
-}
-
 impl Kind for TableSpring {
     const KIND: &'static str = "table-spring";
     const SUMMARY: &'static str =
@@ -178,6 +160,14 @@ impl Kind for TableSpring {
 
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter> {
         Self::new(Given::new(Self::PARAMETERS, values).take()?)
+    }
+
+    fn fields(&self) -> Vec<Value> {
+        vec![Value::Table(self.points().to_vec())]
+    }
+
+    fn check_whole(&self) -> Result<(), InvalidParameter> {
+        check(POINTS, self.points())
     }
 
     fn sample() -> Self {

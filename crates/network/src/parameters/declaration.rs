@@ -41,6 +41,25 @@ pub trait Described: Debug + Send + Sync {
     }
 }
 
+impl<K: Kind> Described for K {
+    fn kind(&self) -> &'static str {
+        K::KIND
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        K::PARAMETERS
+    }
+
+    fn values(&self) -> Vec<Value> {
+        self.fields()
+    }
+
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        K::PARAMETERS.iter().zip(&self.fields()).try_for_each(|(own, value)| own.check(value))?;
+        self.check_whole()
+    }
+}
+
 /// What a kind of a register says about itself; [`parameters!`](crate::parameters!) writes it.
 pub trait Kind: Described + Sized + 'static {
     /// Word for it in scenes.
@@ -57,6 +76,18 @@ pub trait Kind: Described + Sized + 'static {
     ///
     /// [`InvalidParameter`] when a value is missing or out of range.
     fn from_values(values: &[Value]) -> Result<Self, InvalidParameter>;
+
+    /// The values that it has, one for each parameter.
+    fn fields(&self) -> Vec<Value>;
+
+    /// Checks what no single value tells.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] for one that does not fit to the others.
+    fn check_whole(&self) -> Result<(), InvalidParameter> {
+        Ok(())
+    }
 
     /// A valid example.
     fn sample() -> Self;
@@ -303,7 +334,7 @@ macro_rules! choices {
 }
 
 /// Declares a kind of a register once: its struct, its table of parameters, and the way between its
-/// fields and their [`Value`]s. It writes [`Described`] and [`Kind`].
+/// fields and their [`Value`]s. It writes [`Kind`].
 ///
 /// ```
 /// use dashpot_network::parameters::{Kind, Range};
@@ -390,29 +421,6 @@ macro_rules! parameters {
             }
         )?
 
-        impl $crate::parameters::Described for $name {
-            fn kind(&self) -> &'static str {
-                <Self as $crate::parameters::Kind>::KIND
-            }
-
-            fn parameters(&self) -> &'static [$crate::parameters::Parameter] {
-                <Self as $crate::parameters::Kind>::PARAMETERS
-            }
-
-            fn values(&self) -> Vec<$crate::parameters::Value> {
-                vec![$($crate::parameters::Field::value(&self.$field)),*]
-            }
-
-            $(
-                fn validate(&self) -> Result<(), $crate::parameters::InvalidParameter> {
-                    let parameters = $crate::parameters::Described::parameters(self);
-                    let values = $crate::parameters::Described::values(self);
-                    parameters.iter().zip(&values).try_for_each(|(own, value)| own.check(value))?;
-                    $check(self)
-                }
-            )?
-        }
-
         impl $crate::parameters::Kind for $name {
             const KIND: &'static str = $kind;
             const SUMMARY: &'static str = $summary;
@@ -439,6 +447,16 @@ macro_rules! parameters {
                 $($check(&own)?;)?
                 Ok(own)
             }
+
+            fn fields(&self) -> Vec<$crate::parameters::Value> {
+                vec![$($crate::parameters::Field::value(&self.$field)),*]
+            }
+
+            $(
+                fn check_whole(&self) -> Result<(), $crate::parameters::InvalidParameter> {
+                    $check(self)
+                }
+            )?
 
             fn sample() -> Self {
                 $crate::parameters!(@sample $({ $($sample)* })?)

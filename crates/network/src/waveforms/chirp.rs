@@ -5,10 +5,7 @@ use std::f64::consts::TAU;
 use dashpot_dae::{Piece, Waveform};
 
 use super::{WaveformKind, before, pieces};
-use crate::{
-    parameters,
-    parameters::{Described, InvalidParameter},
-};
+use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {
     /// A sine whose frequency changes linearly from `f₀` to `f₁` within `T` and stays at `f₁`:
@@ -63,8 +60,7 @@ impl Chirp {
 }
 
 impl WaveformKind for Chirp {
-    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
-        self.validate()?;
+    fn of_valid(&self) -> Result<Waveform, InvalidParameter> {
         let quiet = Piece { start: before(self.start), ..Piece::default() };
         let end = self.start + self.duration;
         let length = end - self.start;

@@ -3,10 +3,7 @@
 use dashpot_dae::{Piece, Waveform};
 
 use super::{WaveformKind, pieces};
-use crate::{
-    parameters,
-    parameters::{Described, InvalidParameter},
-};
+use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {
     /// A constant that is switched on: `u(t) = u₀` for `t ≥ t₀`, 0 before.
@@ -34,8 +31,7 @@ parameters! {
 }
 
 impl WaveformKind for Constant {
-    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
-        self.validate()?;
+    fn of_valid(&self) -> Result<Waveform, InvalidParameter> {
         if self.start <= 0.0 {
             return Ok(Waveform::constant(self.value));
         }

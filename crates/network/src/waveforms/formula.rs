@@ -6,7 +6,7 @@ use dashpot_formula::{Expression, Program};
 use super::{WaveformKind, pieces};
 use crate::{
     parameters,
-    parameters::{Described as _, InvalidParameter, ParameterKind},
+    parameters::{InvalidParameter, ParameterKind},
 };
 
 parameters! {
@@ -56,8 +56,7 @@ fn sample() -> dashpot_formula::Formula {
 }
 
 impl WaveformKind for Formula {
-    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
-        self.validate()?;
+    fn of_valid(&self) -> Result<Waveform, InvalidParameter> {
         let formula = &self.value;
         let invalid = |range: &'static str, found: String| {
             InvalidParameter::new("value", range, format!("`{formula}`{found}"))

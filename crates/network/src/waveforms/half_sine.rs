@@ -5,10 +5,7 @@ use std::f64::consts::PI;
 use dashpot_dae::{Piece, Waveform};
 
 use super::{WaveformKind, before, pieces};
-use crate::{
-    parameters,
-    parameters::{Described, InvalidParameter},
-};
+use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {
     /// One arch of a sine: `u(t) = u₀ sin(π (t − t₀)/T)` for `t₀ ≤ t ≤ t₀ + T`, 0 elsewhere.
@@ -40,8 +37,7 @@ parameters! {
 }
 
 impl WaveformKind for HalfSine {
-    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
-        self.validate()?;
+    fn of_valid(&self) -> Result<Waveform, InvalidParameter> {
         let quiet = Piece { start: before(self.start), ..Piece::default() };
         let arch = Piece { start: self.start, sine: self.peak, omega: PI / self.duration, ..quiet };
         let after = Piece { start: self.start + self.duration, ..quiet };

@@ -5,10 +5,7 @@ use std::f64::consts::TAU;
 use dashpot_dae::{Piece, Waveform};
 
 use super::{WaveformKind, before, pieces};
-use crate::{
-    parameters,
-    parameters::{Described, InvalidParameter},
-};
+use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {
     /// One wave of a cosine that stands on zero: `u(t) = ½ u₀ (1 − cos(2π (t − t₀)/T))` for
@@ -44,8 +41,7 @@ parameters! {
 }
 
 impl WaveformKind for Haversine {
-    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
-        self.validate()?;
+    fn of_valid(&self) -> Result<Waveform, InvalidParameter> {
         let quiet = Piece { start: before(self.start), ..Piece::default() };
         let (half, omega) = (0.5 * self.peak, TAU / self.duration);
         let wave = Piece { start: self.start, value: half, cosine: -half, omega, ..quiet };

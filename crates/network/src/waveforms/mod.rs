@@ -33,7 +33,17 @@ pub trait WaveformKind: Kind {
     /// # Errors
     ///
     /// [`InvalidParameter`] when a field is out of range.
-    fn waveform(&self) -> Result<Waveform, InvalidParameter>;
+    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
+        self.validate()?;
+        self.of_valid()
+    }
+
+    /// The same where all fields are in their ranges.
+    ///
+    /// # Errors
+    ///
+    /// [`InvalidParameter`] for times that cannot be told apart in double precision.
+    fn of_valid(&self) -> Result<Waveform, InvalidParameter>;
 }
 
 const fn function<W: WaveformKind>() -> Registered<Waveform> {

@@ -3,10 +3,7 @@
 use dashpot_dae::{Piece, Waveform};
 
 use super::{WaveformKind, before, pieces};
-use crate::{
-    parameters,
-    parameters::{Described, InvalidParameter},
-};
+use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {
     /// A straight rise: 0 until `t₀`, then `u(t) = u₀ (t − t₀)/T` until `t₀ + T`, then `u₀`.
@@ -37,8 +34,7 @@ parameters! {
 }
 
 impl WaveformKind for Ramp {
-    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
-        self.validate()?;
+    fn of_valid(&self) -> Result<Waveform, InvalidParameter> {
         let quiet = Piece { start: before(self.start), ..Piece::default() };
         let rising = Piece { start: self.start, slope: self.height / self.rise, ..quiet };
         let after = Piece { start: self.start + self.rise, value: self.height, ..quiet };

@@ -5,10 +5,7 @@ use std::f64::consts::TAU;
 use dashpot_dae::{Piece, Waveform};
 
 use super::{WaveformKind, pieces};
-use crate::{
-    parameters,
-    parameters::{Described, InvalidParameter},
-};
+use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {
     /// A sine, `u(t) = a sin(2π f t + φ)`, at all times.
@@ -40,8 +37,7 @@ parameters! {
 }
 
 impl WaveformKind for Sine {
-    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
-        self.validate()?;
+    fn of_valid(&self) -> Result<Waveform, InvalidParameter> {
         let (sin, cos) = self.phase.sin_cos();
         let wave = Piece {
             sine: self.amplitude * cos,

@@ -64,7 +64,7 @@ impl Table {
 }
 
 impl WaveformKind for Table {
-    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
+    fn of_valid(&self) -> Result<Waveform, InvalidParameter> {
         if let Some(point) = self.points.iter().find(|p| !(p.0.is_finite() && p.1.is_finite())) {
             return Err(InvalidParameter::new("points", "finite", format!("{point:?}")));
         }

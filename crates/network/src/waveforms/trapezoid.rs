@@ -3,10 +3,7 @@
 use dashpot_dae::{Piece, Waveform};
 
 use super::{WaveformKind, before, pieces};
-use crate::{
-    parameters,
-    parameters::{Described, InvalidParameter},
-};
+use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {
     /// A pulse with a flat top: from 0 at `start` in a straight line to `peak` within `rise`, `peak` for
@@ -62,8 +59,7 @@ impl Trapezoid {
 }
 
 impl WaveformKind for Trapezoid {
-    fn waveform(&self) -> Result<Waveform, InvalidParameter> {
-        self.validate()?;
+    fn of_valid(&self) -> Result<Waveform, InvalidParameter> {
         let mut parts = vec![Piece { start: before(self.start), ..Piece::default() }];
         let mut start = self.start;
         // The lengths are those that the rounded times have, so that the lines meet.

@@ -1,20 +1,15 @@
 use std::f64::consts::PI;
 
 use super::*;
+use crate::Stream;
 
-/// A plain generator of numbers in `[−1, 1]` (Knuth's MMIX constants).
-struct Numbers(u64);
+/// A number in `[−1, 1]`.
+fn next(stream: &mut Stream) -> f64 {
+    2.0 * stream.share() - 1.0
+}
 
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        2.0 * (self.0 >> 11) as f64 / 2_f64.powi(53) - 1.0
-    }
-
-    fn coefficients(&mut self, degree: usize) -> Vec<f64> {
-        (0..=degree).map(|_| self.next()).collect()
-    }
+fn coefficients(stream: &mut Stream, degree: usize) -> Vec<f64> {
+    (0..=degree).map(|_| next(stream)).collect()
 }
 
 fn places() -> impl Iterator<Item = f64> {
@@ -63,9 +58,9 @@ fn evaluation_agrees_with_the_cosine_form() {
 
 #[test]
 fn interpolation_returns_the_coefficients_of_a_polynomial() {
-    let mut numbers = Numbers(1);
+    let mut stream = Stream::new(1);
     for degree in 0..=40 {
-        let exact = numbers.coefficients(degree);
+        let exact = coefficients(&mut stream, degree);
         let found = interpolate(degree, |x| evaluate(&exact, x));
         for (found, exact) in found.iter().zip(&exact) {
             assert!((found - exact).abs() < 4e-16 * bound(&[degree as f64 + 4.0]));
@@ -85,9 +80,9 @@ fn nodes_rise_from_end_to_end() {
 
 #[test]
 fn derivative_undoes_antiderivative() {
-    let mut numbers = Numbers(3);
+    let mut stream = Stream::new(3);
     for degree in 0..=20 {
-        let p = numbers.coefficients(degree);
+        let p = coefficients(&mut stream, degree);
         let area = antiderivative(&p);
         assert!(evaluate(&area, -1.0).abs() < 1e-14);
         assert!((evaluate(&area, 1.0) - integral(&p)).abs() < 1e-14);
@@ -100,10 +95,10 @@ fn derivative_undoes_antiderivative() {
 
 #[test]
 fn restriction_is_the_same_polynomial() {
-    let mut numbers = Numbers(4);
+    let mut stream = Stream::new(4);
     for degree in 0..=20 {
-        let p = numbers.coefficients(degree);
-        let (a, b) = (numbers.next() * 0.5 - 0.5, numbers.next() * 0.5 + 0.5);
+        let p = coefficients(&mut stream, degree);
+        let (a, b) = (next(&mut stream) * 0.5 - 0.5, next(&mut stream) * 0.5 + 0.5);
         let part = restrict(&p, a, b);
         for x in places() {
             let exact = evaluate(&p, 0.5 * (a + b) + 0.5 * (b - a) * x);
@@ -178,9 +173,9 @@ fn zeros_of_higher_order_are_found_without_endless_division() {
 
 #[test]
 fn sign_changes_of_random_polynomials_agree_with_dense_samples() {
-    let mut numbers = Numbers(5);
+    let mut stream = Stream::new(5);
     for round in 0..2000 {
-        let p = numbers.coefficients(round % 21);
+        let p = coefficients(&mut stream, round % 21);
         let zeros = sign_changes(&p);
         let mut side = evaluate(&p, -1.0) < 0.0;
         let mut sampled = 0;

@@ -73,6 +73,13 @@ fn cross(a: &Leader, b: &Leader) -> bool {
     side(a, &b[0]) * side(a, &b[1]) < 0.0 && side(b, &a[0]) * side(b, &a[1]) < 0.0
 }
 
+/// Where a text stands beside an upright line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Standing {
+    pub(super) place: (f64, f64),
+    pub(super) is_upright: bool,
+}
+
 /// Finds the place of least cost for one text after the other.
 #[derive(Debug)]
 pub(super) struct Placer {
@@ -94,6 +101,9 @@ impl Placer {
 
     /// Cost of a text and a leader that cross.
     const STRUCK: f64 = 50.0;
+
+    /// Cost of an upright text, which is harder to read: a curve that is crossed costs more.
+    const UPRIGHT: f64 = 3.0;
 
     /// Cost of a text on a line across the frame, which is worth a shorter way than that.
     const ACROSS: f64 = 8.0;
@@ -216,44 +226,74 @@ impl Placer {
         &self.leaders
     }
 
-    /// Left middle of a text along a line across the frame: horizontal at height `at`, or vertical at place `at`.
-    pub(super) fn along(&mut self, at: f64, horizontal: bool, text: &str, size: f64) -> (f64, f64) {
+    /// Left middle of a text along a horizontal line across the frame, at the height `at`.
+    pub(super) fn along(&mut self, at: f64, text: &str, size: f64) -> (f64, f64) {
         let width = text_width(text, size);
-        let Area { left, right, top, bottom } = self.frame;
+        let Area { left, right, .. } = self.frame;
         let spots = (0..=20).map(|i| 0.05 * f64::from(i)).flat_map(|part| {
             [-1.0, 1.0].map(|side: f64| {
-                if horizontal {
-                    let x = right - 8.0 - width - part * (right - left - width - 16.0);
-                    (x, at + side * 0.85 * size, 0.1 * part)
-                } else {
-                    let x = if side < 0.0 { at - 8.0 - width } else { at + 8.0 };
-                    let x = x.min(right - width - 2.0).max(left + 2.0);
-                    (x, top + size + part * (bottom - top - 2.0 * size), 0.1 * part)
-                }
+                let x = right - 8.0 - width - part * (right - left - width - 16.0);
+                (x, at + side * 0.85 * size, 0.1 * part)
             })
         });
         self.settle(&spots.collect::<Vec<_>>(), width, size)
     }
 
+    /// Place of a text beside an upright line across the frame, at the place `at`: its left middle, or where it stands
+    /// upright itself its middle. It does so where it would else be struck through, or look like the text of another line.
+    pub(super) fn beside_line(&mut self, at: f64, text: &str, size: f64) -> Standing {
+        let width = text_width(text, size);
+        let Area { left, right, top, bottom } = self.frame;
+        let parts =
+            || (0..=20).map(|i| 0.05 * f64::from(i)).flat_map(|own| [(own, -1.0), (own, 1.0)]);
+        let lying = parts().map(|(part, side)| {
+            let x = if side < 0.0 { at - 8.0 - width } else { at + 8.0 };
+            let x = x.min(right - width - 2.0).max(left + 2.0);
+            let y = top + size + part * (bottom - top - 2.0 * size);
+            (Standing { place: (x, y), is_upright: false }, area(x, y, width, size), 0.1 * part)
+        });
+        let is_alone =
+            self.across.iter().filter(|[from, to]| (from.0 - to.0).abs() <= 0.0).count() < 2;
+        let room = bottom - top - width - 16.0;
+        let upright = parts().filter(|_| room >= 0.0).map(|(part, side)| {
+            let off = 0.65 * size + Self::CLEAR + 1.0;
+            let (x, y) = (at + side * off, top + 8.0 + 0.5 * width + part * room);
+            let half = (0.65 * size, 0.5 * width + 2.0);
+            let place =
+                Area { left: x - half.0, right: x + half.0, top: y - half.1, bottom: y + half.1 };
+            (Standing { place: (x, y), is_upright: true }, place, Self::UPRIGHT + 0.1 * part)
+        });
+        let lying = lying.filter(|_| is_alone || room < 0.0);
+        let all: Vec<(Standing, Area, f64)> = lying.chain(upright).collect();
+        let best = all.iter().min_by(|a, b| self.cost(&a.1, a.2).total_cmp(&self.cost(&b.1, b.2)));
+        let Some(&(standing, place, _)) = best else {
+            return Standing { place: (left, top), is_upright: false };
+        };
+        self.taken.push(place);
+        standing
+    }
+
     /// The cheapest of the `spots` (left, middle, own cost), which is taken from then on.
     fn settle(&mut self, spots: &[(f64, f64, f64)], width: f64, size: f64) -> (f64, f64) {
-        let cost = |(x, y, own): &(f64, f64, f64)| {
-            let place = area(*x, *y, width, size);
-            let outside = 1.0 - place.overlap(&self.frame) / place.size();
-            let covers = self.taken.iter().map(|t| place.overlap(t) / place.size());
-            let covered: f64 = covers.filter(|part| *part > 0.0).map(|part| 1.0 + part).sum();
-            let near = |p: &&(f64, f64)| place.distance(p) < Self::CLEAR;
-            let crossed = self.curves.iter().filter(near).take(200).fold(0.0, |n, _| n + 1.0);
-            let across = self.across.iter().filter(|line| strikes(&place, line));
-            let own = across.fold(*own, |sum, _| sum + Self::ACROSS);
-            let struck = self.leaders.iter().filter(|line| strikes(&place, line));
-            let struck = struck.fold(0.0, |sum, _| sum + Self::STRUCK);
-            own + 1000.0 * outside + 400.0 * covered + struck + crossed
-        };
+        let cost = |(x, y, own): &(f64, f64, f64)| self.cost(&area(*x, *y, width, size), *own);
         let best = spots.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
         let (x, y) = best.map_or((self.frame.left, self.frame.top), |spot| (spot.0, spot.1));
         self.taken.push(area(x, y, width, size));
         (x, y)
+    }
+
+    /// What a text in this place costs, beside its `own` cost.
+    fn cost(&self, place: &Area, own: f64) -> f64 {
+        let outside = 1.0 - place.overlap(&self.frame) / place.size();
+        let covers = self.taken.iter().map(|t| place.overlap(t) / place.size());
+        let covered: f64 = covers.filter(|part| *part > 0.0).map(|part| 1.0 + part).sum();
+        let near = |p: &&(f64, f64)| place.distance(p) < Self::CLEAR;
+        let crossed = self.curves.iter().filter(near).take(200).fold(0.0, |n, _| n + 1.0);
+        let across = self.across.iter().filter(|line| strikes(place, line));
+        let own = across.fold(own, |sum, _| sum + Self::ACROSS);
+        let struck = self.leaders.iter().filter(|line| strikes(place, line));
+        let struck = struck.fold(0.0, |sum, _| sum + Self::STRUCK);
+        own + 1000.0 * outside + 400.0 * covered + struck + crossed
     }
 }
 
@@ -272,6 +312,27 @@ mod tests {
         let anchor = placer.beside_all(&[((450.0, 60.0), text.clone())], 12.0)[0];
         let place = area(anchor.0, anchor.1, text_width(&text, 12.0), 12.0);
         assert!(place.right < 500.0 || place.left > 500.0, "{place:?}");
+    }
+
+    #[test]
+    fn texts_of_neighbouring_lines_stand_upright_and_cross_none() {
+        let mut placer = Placer::new(FRAME, &[]);
+        let lines = [400.0, 440.0, 480.0, 520.0];
+        lines.iter().for_each(|at| placer.avoid_line([(*at, FRAME.top), (*at, FRAME.bottom)]));
+        for at in lines {
+            let own = placer.beside_line(at, "thickness of T=40 mm: 40 mm", 12.0);
+            assert!(own.is_upright);
+            let place = *placer.taken.last().unwrap();
+            assert!(lines.iter().all(|at| place.right < *at || place.left > *at), "{place:?}");
+            assert!(
+                (own.place.0 - at).abs() < 20.0,
+                "{own:?} is nearer to another line than to {at}"
+            );
+            assert!(place.overlap(&FRAME) > 0.999 * place.size(), "{place:?}");
+        }
+        let mut placer = Placer::new(FRAME, &[]);
+        placer.avoid_line([(400.0, FRAME.top), (400.0, FRAME.bottom)]);
+        assert!(!placer.beside_line(400.0, "thickness of pad: 40 mm", 12.0).is_upright);
     }
 
     #[test]

@@ -2,7 +2,10 @@
 
 use plotters::{
     element::Text,
-    style::text_anchor::{HPos, Pos, VPos},
+    style::{
+        FontTransform,
+        text_anchor::{HPos, Pos, VPos},
+    },
 };
 
 use super::{
@@ -77,9 +80,10 @@ impl Legend {
     }
 }
 
-/// A text with its left middle at a place \[px\].
+/// A text with its left middle at a place \[px\], or where it is upright its middle.
 pub(super) struct PlacedText {
     text: String,
+    is_upright: bool,
     anchor: (f64, f64),
     colour: theme::Colour,
 }
@@ -95,8 +99,10 @@ pub(super) struct Texts {
 /// Draws texts at their places.
 pub(super) fn draw_texts(area: &Area<'_>, texts: &[PlacedText]) -> Result<(), Fault> {
     for text in texts {
-        let pos = Pos::new(HPos::Left, VPos::Center);
-        let style = text_style(theme::TICK_SIZE, text.colour, pos);
+        let across = if text.is_upright { HPos::Center } else { HPos::Left };
+        let turn = if text.is_upright { FontTransform::Rotate270 } else { FontTransform::None };
+        let pos = Pos::new(across, VPos::Center);
+        let style = text_style(theme::TICK_SIZE, text.colour, pos).transform(turn);
         area.draw(&Text::new(text.text.clone(), canvas(text.anchor), style))?;
     }
     Ok(())
@@ -134,15 +140,24 @@ impl Chart {
         }
         let anchors = placer.beside_all(&marked, theme::TICK_SIZE);
         let discs = marked.iter().map(|(point, _)| *point).collect();
-        let marker_text = |((_, text), anchor)| PlacedText { text, anchor, colour: theme::INK };
+        let marker_text = |((_, text), anchor)| PlacedText {
+            text,
+            is_upright: false,
+            anchor,
+            colour: theme::INK,
+        };
         let markers = marked.into_iter().zip(anchors).map(marker_text).collect();
         // A line has many places for its text, a point has few.
         let limit_text = |(limit, [start, _]): (&ReferenceLine, Ends)| {
             let text = one_line(&limit.label);
-            let is_horizontal = limit.direction == Direction::Horizontal;
-            let at = if is_horizontal { start.1 } else { start.0 };
-            let anchor = placer.along(at, is_horizontal, &text, theme::TICK_SIZE);
-            PlacedText { text, anchor, colour: theme::limit_colour(limit.colour) }
+            let (anchor, is_upright) = match limit.direction {
+                Direction::Horizontal => (placer.along(start.1, &text, theme::TICK_SIZE), false),
+                Direction::Vertical => {
+                    let own = placer.beside_line(start.0, &text, theme::TICK_SIZE);
+                    (own.place, own.is_upright)
+                }
+            };
+            PlacedText { text, is_upright, anchor, colour: theme::limit_colour(limit.colour) }
         };
         let limits = limits.into_iter().map(limit_text).collect();
         Texts { limits, markers, discs, leaders: placer.leaders().to_vec() }

@@ -1,6 +1,10 @@
 //! What stands below the heading of a figure of runs: where in the run it is, what is left out and cut off.
 
-use super::{RunSeries, markers::MOST_LISTED, unit::Unit};
+use super::{
+    RunSeries,
+    markers::MOST_LISTED,
+    unit::{self, Unit},
+};
 
 /// What stands below a heading: which part of the run is shown, what is left out and cut off.
 pub(super) fn note(runs: &[RunSeries], left_out: String, gaps: Option<String>) -> String {
@@ -15,7 +19,7 @@ fn first_touch(runs: &[RunSeries]) -> Option<String> {
     let (first, touch) = touching().next()?;
     let shown = touching().flat_map(|(run, _)| &run.time).copied().filter(|time| time.is_finite());
     let (low, high) = shown.fold((0.0_f64, 0.0_f64), |(l, h), time| (l.min(time), h.max(time)));
-    let unit = Unit::time(touching().map(|own| own.1));
+    let unit = Unit::of(&unit::TIME, touching().map(|own| own.1));
     let at = |touch: f64| format!("{} {}", unit.number_within(touch, high - low), unit.symbol());
     let times: Vec<String> = touching().map(|own| at(own.1)).collect();
     if !first.is_design || times.iter().all(|own| *own == times[0]) {
@@ -35,7 +39,7 @@ fn first_touch(runs: &[RunSeries]) -> Option<String> {
 /// Which part of a run is shown, as in `from 552.1 to 564.5 ms of 600 ms`.
 fn excerpt(run: &RunSeries) -> Option<String> {
     let (end, from, to) = (run.excerpt_of?, *run.time.first()?, *run.time.last()?);
-    let unit = Unit::time(run.time.iter().copied());
+    let unit = Unit::of(&unit::TIME, run.time.iter().copied());
     let number = |time: f64| unit.number_within(time, to - from);
     Some(format!(
         "from {} to {} {} of {}",

@@ -2,7 +2,7 @@
 
 use super::Quantity;
 use super::markers::listed;
-use super::unit::Unit;
+use super::unit::{self, Unit};
 use crate::{Direction, ReferenceLine};
 
 /// Sampled results of one run, in SI units.
@@ -138,12 +138,12 @@ impl Of {
     /// The unit in which such values are shown.
     pub(super) fn unit(self, values: impl Iterator<Item = f64>) -> Unit {
         match self {
-            Self::Time => Unit::time(values),
-            Self::Force => Unit::force(values),
-            Self::Deformation => Unit::length(values),
-            Self::Acceleration => Unit::acceleration(values),
-            Self::Velocity => Unit::velocity(values),
-            Self::Energy => Unit::energy(values),
+            Self::Time => Unit::of(&unit::TIME, values),
+            Self::Force => Unit::of(&unit::FORCE, values),
+            Self::Deformation => Unit::of(&unit::LENGTH, values),
+            Self::Acceleration => Unit::of(&unit::ACCELERATION, values),
+            Self::Velocity => Unit::of(&unit::VELOCITY, values),
+            Self::Energy => Unit::of(&unit::ENERGY, values),
         }
     }
 }

@@ -6,24 +6,13 @@ use dashpot_network::{
     parameters::Kind as _,
     part, spring,
 };
-use dashpot_numerics::chebyshev::{Coefficients, Interpolation};
 use dashpot_rheology::Tree;
 
 use super::*;
+use crate::measures::tests::panels;
 
-/// The function as a signal of panels of degree 15.
-fn signal(end: f64, panels: u32, function: impl Fn(f64) -> f64) -> Signal {
-    let interpolation = Interpolation::of_degree(15);
-    let border = |at: u32| end * f64::from(at) / f64::from(panels);
-    let panels = (0..panels).map(|at| {
-        let (start, end) = (border(at), border(at + 1));
-        let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
-        let values: Vec<f64> = interpolation.nodes().iter().map(|x| function(time(x))).collect();
-        let mut coefficients = Coefficients::zeros(16);
-        interpolation.coefficients(&values, &mut coefficients);
-        Panel { start, end, coefficients }
-    });
-    Signal::new(panels.collect(), Some(1e-12), 1e-15)
+fn signal(end: f64, count: u32, function: impl Fn(f64) -> f64) -> Signal {
+    Signal::new(panels(end, count, function), Some(1e-12), 1e-15)
 }
 
 fn agrees(found: &Signal, exact: impl Fn(f64) -> f64, size: f64) {

@@ -1,21 +1,10 @@
 use std::f64::consts::PI;
 
-use dashpot_numerics::chebyshev::{Coefficients, Interpolation};
-
 use super::*;
+use crate::measures::tests::panels;
 
-fn signal(end: f64, panels: u32, function: impl Fn(f64) -> f64) -> Signal {
-    let interpolation = Interpolation::of_degree(15);
-    let border = |at: u32| end * f64::from(at) / f64::from(panels);
-    let panels = (0..panels).map(|at| {
-        let (start, end) = (border(at), border(at + 1));
-        let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
-        let values: Vec<f64> = interpolation.nodes().iter().map(|x| function(time(x))).collect();
-        let mut coefficients = Coefficients::zeros(16);
-        interpolation.coefficients(&values, &mut coefficients);
-        Panel { start, end, coefficients }
-    });
-    Signal::new(panels.collect(), Some(0.0), 1e-15)
+fn signal(end: f64, count: u32, function: impl Fn(f64) -> f64) -> Signal {
+    Signal::new(panels(end, count, function), Some(0.0), 1e-15)
 }
 
 fn level(signal: &Signal, duration: f64, counted: Counted) -> f64 {

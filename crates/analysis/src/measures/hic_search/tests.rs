@@ -1,23 +1,12 @@
 use std::f64::consts::PI;
 
 use dashpot_dae::Panel;
-use dashpot_numerics::chebyshev::{Coefficients, Interpolation};
 
 use super::*;
+use crate::measures::tests::panels;
 
-/// The function as a signal of this many panels of degree 15.
-fn signal(end: f64, panels: u32, function: impl Fn(f64) -> f64) -> Signal {
-    let interpolation = Interpolation::of_degree(15);
-    let panels = (0..panels).map(|at| {
-        let (start, end) =
-            (end * f64::from(at) / f64::from(panels), end * f64::from(at + 1) / f64::from(panels));
-        let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
-        let values: Vec<f64> = interpolation.nodes().iter().map(|x| function(time(x))).collect();
-        let mut coefficients = Coefficients::zeros(16);
-        interpolation.coefficients(&values, &mut coefficients);
-        Panel { start, end, coefficients }
-    });
-    Signal::new(panels.collect(), None, 1e-14)
+fn signal(end: f64, count: u32, function: impl Fn(f64) -> f64) -> Signal {
+    Signal::new(panels(end, count, function), None, 1e-14)
 }
 
 fn close(found: f64, expected: f64, tolerance: f64) {

@@ -16,6 +16,21 @@ use dashpot_numerics::chebyshev::{Coefficients, Interpolation};
 use super::*;
 use crate::{Counted, Note};
 
+/// A function in so many panels of degree 15.
+pub(super) fn panels(end: f64, count: u32, function: impl Fn(f64) -> f64) -> Vec<Panel> {
+    let interpolation = Interpolation::of_degree(15);
+    let border = |at: u32| end * f64::from(at) / f64::from(count);
+    let panels = (0..count).map(|at| {
+        let (start, end) = (border(at), border(at + 1));
+        let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
+        let values: Vec<f64> = interpolation.nodes().iter().map(|x| function(time(x))).collect();
+        let mut coefficients = Coefficients::zeros(16);
+        interpolation.coefficients(&values, &mut coefficients);
+        Panel { start, end, coefficients }
+    });
+    panels.collect()
+}
+
 /// A solution written down as functions of time.
 struct Written {
     end: f64,
@@ -30,20 +45,9 @@ impl std::fmt::Debug for Written {
 
 impl Dense for Written {
     fn signal(&self, system: &System, output: usize) -> Signal {
-        const PANELS: u32 = 8;
         let output = system.outputs.at(output);
-        let interpolation = Interpolation::of_degree(15);
-        let border = |at: u32| self.end * f64::from(at) / f64::from(PANELS);
-        let panels = (0..PANELS).map(|at| {
-            let (start, end) = (border(at), border(at + 1));
-            let time = |x: &f64| 0.5 * (start + end) + 0.5 * (end - start) * x;
-            let value = |x: &f64| (self.signal)(output.name, time(x));
-            let values: Vec<f64> = interpolation.nodes().iter().map(value).collect();
-            let mut coefficients = Coefficients::zeros(16);
-            interpolation.coefficients(&values, &mut coefficients);
-            Panel { start, end, coefficients }
-        });
-        Signal::new(panels.collect(), Some(1e-9), 1e-13)
+        let value = |time: f64| (self.signal)(output.name, time);
+        Signal::new(panels(self.end, 8, value), Some(1e-9), 1e-13)
     }
 
     fn sample(&self, _system: &System, _times: &[f64]) -> Vec<f64> {

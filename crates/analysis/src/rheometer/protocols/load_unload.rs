@@ -9,7 +9,7 @@ use crate::{
     Choice, Column, Stop,
     rheometer::{
         Computation, FROM_THE_MODEL, Note, ProtocolKind, RheometerError, RheometerReport, Setting,
-        Specimen,
+        Specimen, Tested,
         cycle::{Cycle, Loop, Simulated},
         history::{self, History, Instant},
         report::series,
@@ -68,11 +68,7 @@ parameters! {
 }
 
 impl ProtocolKind for LoadUnload {
-    fn test(
-        &self,
-        specimen: &Specimen,
-        methods: &[Choice],
-    ) -> Result<RheometerReport, RheometerError> {
+    fn test(&self, specimen: &Specimen, methods: &[Choice]) -> Tested {
         deforms(Self::KIND, specimen)?;
         let most = self.deformation.unwrap_or(USUAL_DEFORMATION);
         let chosen = most.abs() / specimen.range_of_times().1;

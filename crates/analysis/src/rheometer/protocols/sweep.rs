@@ -14,7 +14,7 @@ use crate::{
     Choice, Column,
     rheometer::{
         FROM_THE_MODEL, Figure, Note, Obstacle, ProtocolKind, RheometerError, RheometerReport,
-        Specimen,
+        Specimen, Tested,
         history::logarithmic,
         perturbation::{CAUTION, SEEDS, perturb, perturbed},
         report::{Computation, Computed, Disagreement, Series},
@@ -47,11 +47,7 @@ parameters! {
 }
 
 impl ProtocolKind for Sweep {
-    fn test(
-        &self,
-        specimen: &Specimen,
-        methods: &[Choice],
-    ) -> Result<RheometerReport, RheometerError> {
+    fn test(&self, specimen: &Specimen, methods: &[Choice]) -> Tested {
         let Some(linear) = specimen.linear() else {
             let kind = specimen.nonlinear().unwrap_or("model");
             return Err(RheometerError::NeedsLinear { protocol: Self::KIND, kind });

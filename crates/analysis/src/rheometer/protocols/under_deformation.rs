@@ -8,7 +8,7 @@ use super::{
 use crate::{
     Choice,
     rheometer::{
-        FROM_THE_MODEL, Note, ProtocolKind, RheometerError, RheometerReport, Specimen,
+        FROM_THE_MODEL, Note, ProtocolKind, RheometerError, Specimen, Tested,
         history::{History, Instant},
         simulation::Control,
         trial::Trial,
@@ -41,11 +41,7 @@ parameters! {
 }
 
 impl ProtocolKind for Relaxation {
-    fn test(
-        &self,
-        specimen: &Specimen,
-        methods: &[Choice],
-    ) -> Result<RheometerReport, RheometerError> {
+    fn test(&self, specimen: &Specimen, methods: &[Choice]) -> Tested {
         deforms(Self::KIND, specimen)?;
         let is_blocked = specimen.maxwell().is_some_and(|form| form.dashpot() > 0.0);
         let quick = QUICK * specimen.range_of_times().0;
@@ -97,11 +93,7 @@ parameters! {
 }
 
 impl ProtocolKind for ConstantRate {
-    fn test(
-        &self,
-        specimen: &Specimen,
-        methods: &[Choice],
-    ) -> Result<RheometerReport, RheometerError> {
+    fn test(&self, specimen: &Specimen, methods: &[Choice]) -> Tested {
         deforms(Self::KIND, specimen)?;
         let end = end_of_test(self.end, 0.0, specimen)?;
         let rate = setting("rate", "m/s", self.rate, USUAL_DEFORMATION / end.value);

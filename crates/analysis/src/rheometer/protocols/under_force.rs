@@ -9,7 +9,7 @@ use super::{
 use crate::{
     Choice,
     rheometer::{
-        Figure, ProtocolKind, RheometerError, RheometerReport, Specimen,
+        Figure, ProtocolKind, RheometerReport, Specimen, Tested,
         history::{History, Instant},
         simulation::Control,
         trial::Trial,
@@ -31,11 +31,7 @@ parameters! {
 }
 
 impl ProtocolKind for Creep {
-    fn test(
-        &self,
-        specimen: &Specimen,
-        methods: &[Choice],
-    ) -> Result<RheometerReport, RheometerError> {
+    fn test(&self, specimen: &Specimen, methods: &[Choice]) -> Tested {
         bears_force(Self::KIND, specimen)?;
         let force = setting("force", "N", self.force, USUAL_FORCE);
         let end = end_of_test(self.end, 0.0, specimen)?;
@@ -76,11 +72,7 @@ parameters! {
 }
 
 impl ProtocolKind for CreepRecovery {
-    fn test(
-        &self,
-        specimen: &Specimen,
-        methods: &[Choice],
-    ) -> Result<RheometerReport, RheometerError> {
+    fn test(&self, specimen: &Specimen, methods: &[Choice]) -> Tested {
         bears_force(Self::KIND, specimen)?;
         let force = setting("force", "N", self.force, USUAL_FORCE);
         let hold = setting("hold", "s", self.hold, HELD * specimen.slowest_retardation());
@@ -133,11 +125,7 @@ parameters! {
 }
 
 impl ProtocolKind for LoadHoldUnload {
-    fn test(
-        &self,
-        specimen: &Specimen,
-        methods: &[Choice],
-    ) -> Result<RheometerReport, RheometerError> {
+    fn test(&self, specimen: &Specimen, methods: &[Choice]) -> Tested {
         bears_force(Self::KIND, specimen)?;
         let force = setting("force", "N", self.force, USUAL_FORCE);
         let rise = setting("rise", "s", Some(self.rise), 0.0);

@@ -5,25 +5,9 @@ use dashpot_network::{
     elements::{Dashpot, Spring},
     part,
 };
+use dashpot_numerics::Stream;
 
 use super::*;
-
-/// A reproducible stream of numbers (splitmix64).
-struct Stream(u64);
-
-impl Stream {
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / 2.0_f64.powi(53)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.share())
-    }
-}
 
 /// A tree of springs and dashpots whose times C/K spread over six decades.
 fn tree(stream: &mut Stream, depth: u32) -> Model {
@@ -43,7 +27,7 @@ fn tree(stream: &mut Stream, depth: u32) -> Model {
 fn the_model_object_and_the_network_agree() {
     let kinds =
         ["creep", "creep-recovery", "load-hold-unload", "relaxation", "constant-rate", "sweep"];
-    let mut stream = Stream(2024);
+    let mut stream = Stream::new(2024);
     let (mut compared, mut beyond, mut coarse) = (0, 0, 0);
     for case in 0..100 {
         let specimen = Specimen::new(&tree(&mut stream, 4)).unwrap();

@@ -10,6 +10,7 @@ use dashpot_network::{
     parameters::{Dimension, Kind as _},
     part, spring,
 };
+use dashpot_numerics::Stream;
 use dashpot_rheology::Tree;
 
 use super::*;
@@ -67,17 +68,8 @@ fn mixed() -> Network {
     network
 }
 
-/// Numbers that look random, between 0 and 1.
-fn numbers(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed;
-    move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        f64::from(u32::try_from(state >> 32).unwrap()) / f64::from(u32::MAX)
-    }
-}
-
-fn random_scale(next: &mut impl FnMut() -> f64) -> Scale {
-    let mut factor = || 10.0_f64.powf(6.0 * next() - 3.0);
+fn random_scale(stream: &mut Stream) -> Scale {
+    let mut factor = || stream.between(1e-3, 1e3);
     Scale { mass: factor(), length: factor(), time: factor() }
 }
 
@@ -118,10 +110,10 @@ fn scenes_without_impactor_have_references_too() {
 
 #[test]
 fn rescaled_networks_are_similar_and_all_others_are_not() {
-    let mut next = numbers(6);
+    let mut stream = Stream::new(6);
     for network in [reference(), mixed()] {
         for _ in 0..50 {
-            let scale = random_scale(&mut next);
+            let scale = random_scale(&mut stream);
             let other = scaled(&network, &scale).unwrap();
             let found = Similarity::between(&network, &other, Similarity::WITHIN).unwrap();
             assert!(found.structure.is_empty(), "{:?}", found.structure);
@@ -174,7 +166,7 @@ fn other_names_do_not_part_similar_scenes() {
 
 #[test]
 fn similar_scenes_have_equal_dimensionless_answers() {
-    let mut next = numbers(66);
+    let mut stream = Stream::new(66);
     let network = reference();
     let measures = vec![
         MeasureWish::new("head", Hic15::default()),
@@ -185,7 +177,7 @@ fn similar_scenes_have_equal_dimensionless_answers() {
     let settings =
         SolveSettings { measures, ..SolveSettings::lasting(0.02).by_name("exact").unwrap() };
     for _ in 0..8 {
-        let scale = random_scale(&mut next);
+        let scale = random_scale(&mut stream);
         let other = scaled(&network, &scale).unwrap();
         for own in measured(&network, &other, &scale, &settings).unwrap() {
             let [one, other] = own.values;

@@ -11,14 +11,12 @@ use crate::{
     error::CliError,
     folder::Staged,
     input::title,
-    output::{csv, list},
-    sketch::sketch,
+    output::{PAGE, csv, list},
+    sketch,
 };
 
 /// One row for each solution.
 const TABLE: &str = "cost.csv";
-/// Everything on one page.
-const PAGE: &str = "report.html";
 /// Error over time, of the measures and of the state, and over work.
 const FIGURES: [&str; 3] = ["error-time.svg", "state-error-time.svg", "error-work.svg"];
 
@@ -74,7 +72,6 @@ pub(super) fn write(files: &mut Staged<'_>, costs: &Costs) -> Result<(), CliErro
 
 fn page(costs: &Costs, figures: &[(String, ReportFigure)]) -> Report {
     let Costs { scene, report, accuracies } = costs;
-    let drawing = sketch(&scene.network, scene.run.duration).svg();
     let faults = costs.faults().map(|(caption, lines)| Table::list(caption, lines));
     let details =
         [Table::list("What is true", reference_notes(report)), work(report), measures(report)];
@@ -84,7 +81,7 @@ fn page(costs: &Costs, figures: &[(String, ReportFigure)]) -> Report {
         warnings: Vec::new(),
         verdict: vec![answer(report, accuracies)],
         tables: vec![errors(report), cheapest(report, accuracies)],
-        network: Some(ReportFigure::of_sketch("The network", drawing)),
+        network: sketch::figure(scene),
         figures: figures.iter().map(|own| own.1.clone()).collect(),
         details: details.filter(|detail| !detail.rows.is_empty()).collect(),
         scene_text: scene.text.to_string(),

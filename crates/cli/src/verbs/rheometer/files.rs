@@ -5,17 +5,18 @@ use std::f64::consts::TAU;
 use dashpot_analysis::rheometer::{LoadUnload, RheometerReport, Series};
 use dashpot_network::parameters::Kind as _;
 use dashpot_plot::{
-    Chart, Loop, LoopSeries, Measured, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
+    Chart, Loop, LoopSeries, Measured, ModelSeries, ModelSubject, ReportFigure, RheometerLine,
+    RheometerSeries,
     figures::model::{LOSS_FACTOR, MODEL_FIGURES, SWEEP},
 };
 use dashpot_rheology::MaxwellForm;
 
-use super::{Made, Tested, Units, beside::MeasuredLoop};
+use super::{Made, Tested, Units, beside::MeasuredLoop, page::page};
 use crate::{
     error::CliError,
     folder::Staged,
     numbers::{percent_signed, share},
-    output::{csv, list},
+    output::{PAGE, csv, list},
 };
 
 /// Points of a curve of a model, and how far beyond its times it goes.
@@ -66,7 +67,7 @@ fn measured_under_force(measured: Measured) -> bool {
 pub(super) fn names(tests: impl Iterator<Item = String>) -> Vec<String> {
     let models = MODEL_FIGURES.iter().map(|own| format!("model-{}.svg", own.name));
     let tests = tests.flat_map(|test| [format!("{test}.csv"), format!("{test}.svg")]);
-    models.chain(tests).collect()
+    models.chain(tests).chain([PAGE.to_owned()]).collect()
 }
 
 /// The figures of tests that differ in the values of their parameters alone, with the names of their files: of loops
@@ -121,13 +122,6 @@ fn subject(units: Units) -> ModelSubject {
 
 /// Adds all files but the result.
 pub(super) fn write(files: &mut Staged<'_>, tested: &Tested) -> Result<(), CliError> {
-    for own in MODEL_FIGURES {
-        let Some(curves) = curves(tested) else { break };
-        let is_swept = [SWEEP.name, LOSS_FACTOR.name].contains(&own.name);
-        let shown = if is_swept { &curves[..] } else { &curves[..1] };
-        let chart = own.chart(shown, subject(tested.units));
-        files.add(format!("model-{}.svg", own.name), chart.svg()?)?;
-    }
     for made in &tested.tests {
         let columns = columns(&made.report, tested.units);
         let header = columns.iter().map(|column| column.0.clone());
@@ -139,12 +133,25 @@ pub(super) fn write(files: &mut Staged<'_>, tested: &Tested) -> Result<(), CliEr
         let rows = rows.map(|row| list(columns.iter().map(|column| value(column, row))));
         files.add_with(format!("{}.csv", made.name), |out| csv(out, header, rows))?;
     }
-    for (name, chart) in
-        tested.groups().flat_map(|group| charts(group, tested.measured.as_ref(), tested.units))
-    {
-        files.add(format!("{name}.svg"), chart.svg()?)?;
-    }
-    Ok(())
+    let figures = figures(tested)?;
+    files.add(PAGE, page(tested, figures.iter().map(|own| own.1.clone()).collect()).html())?;
+    figures.into_iter().try_for_each(|(name, own)| files.add(format!("{name}.svg"), own.svg))
+}
+
+/// The figures of the model and those of the tests, with the names of their files.
+fn figures(tested: &Tested) -> Result<Vec<(String, ReportFigure)>, CliError> {
+    let curves = curves(tested);
+    let of_model = curves.iter().flat_map(|curves| {
+        MODEL_FIGURES.iter().map(|own| {
+            let is_swept = [SWEEP.name, LOSS_FACTOR.name].contains(&own.name);
+            let shown = if is_swept { &curves[..] } else { &curves[..1] };
+            (format!("model-{}", own.name), own.chart(shown, subject(tested.units)))
+        })
+    });
+    let groups = tested.groups();
+    let of_tests = groups.flat_map(|group| charts(group, tested.measured.as_ref(), tested.units));
+    let all = of_model.chain(of_tests);
+    all.map(|(name, chart)| Ok((name, ReportFigure::of(&chart)?))).collect()
 }
 
 /// The functions of a linear model, and what a sweep of the network found.

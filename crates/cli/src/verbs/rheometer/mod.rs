@@ -4,6 +4,7 @@ mod asked;
 mod beside;
 mod files;
 mod json;
+mod page;
 mod tables;
 
 use std::path::PathBuf;
@@ -28,8 +29,8 @@ use self::{
     asked::{given, summary, tests, variants},
     beside::MeasuredLoop,
     tables::{
-        agreement, characteristics, figure_table, missing, settings, side_by_side, spectra,
-        spectrum_table,
+        agreement, characteristics, figure_table, missing, settings, shared_settings, side_by_side,
+        spectra, spectrum_table,
     },
 };
 use crate::{
@@ -78,7 +79,7 @@ pub(crate) struct RheometerArguments {
     measured: Option<String>,
     #[command(flatten)]
     values: ValueArguments,
-    /// Folder for CSV, JSON and SVG; it is made if need be.
+    /// Folder for CSV, JSON, SVG and report.html with all on one page; it is made if need be.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Prints one JSON object, in SI units, in place of text.
@@ -99,11 +100,32 @@ fn test_names() -> PossibleValuesParser {
 /// What the tests of a model have found.
 struct Tested {
     word: String,
+    /// The text in which the model stands, and what the command line sets in it.
+    scene_text: String,
+    set: Vec<(String, String)>,
     units: Units,
     specimen: Specimen,
     tests: Vec<Made>,
     measured: Option<MeasuredLoop>,
     plot: When,
+}
+
+/// What is told of tests that differ in the values of their parameters alone.
+struct Told<'t> {
+    group: &'t [Made],
+    settings: String,
+    /// Below what the test is.
+    figures: Table,
+    /// What does not exist, how well the network agrees, and other notes.
+    remarks: Vec<String>,
+    /// How far they are from what was measured.
+    deviations: Option<Table>,
+}
+
+impl Told<'_> {
+    fn protocol(&self) -> &'static str {
+        self.group.first().map_or("", |made| made.report.protocol)
+    }
 }
 
 /// A test as it was made.
@@ -121,6 +143,32 @@ impl Tested {
     /// The tests that differ in the values of their parameters alone, together.
     fn groups(&self) -> impl Iterator<Item = &[Made]> {
         self.tests.chunk_by(|one, other| one.report.protocol == other.report.protocol)
+    }
+
+    fn told<'t>(&self, group: &'t [Made]) -> Told<'t> {
+        let (units, common) = (self.units, characteristics(&self.tests).len());
+        let (settings, figures, missing) = if let [alone] = group {
+            let own = &alone.report.figures[common..];
+            let settings = settings(&alone.report.settings, units);
+            (settings, figure_table(own, units), missing(own, units))
+        } else {
+            (shared_settings(group, units), side_by_side(group, common, units), Vec::new())
+        };
+        let of_each = group.iter().flat_map(|made| {
+            let notes = made.report.notes.iter().map(Note::to_string);
+            let label = |own: String| {
+                if made.label.is_empty() { own } else { format!("{}: {own}", made.label) }
+            };
+            agreement(&made.report).into_iter().chain(notes).map(label)
+        });
+        let protocol = group.first().map_or("", |made| made.report.protocol);
+        Told {
+            group,
+            settings,
+            figures: Table { caption: format!("{protocol}: {}", summary(protocol)), ..figures },
+            remarks: missing.into_iter().chain(of_each).collect(),
+            deviations: beside::deviations(group, units),
+        }
     }
 }
 
@@ -170,8 +218,16 @@ pub(crate) fn rheometer(
             Err(error) => return Err(error.into()),
         }
     }
-    let tested =
-        Tested { word: operand.word, units, specimen, tests: made, measured, plot: arguments.plot };
+    let tested = Tested {
+        scene_text: operand.input.text()?.to_owned(),
+        set: arguments.values.set.clone(),
+        word: operand.word,
+        units,
+        specimen,
+        tests: made,
+        measured,
+        plot: arguments.plot,
+    };
     emit(&tested, arguments.json, folder, terminal)?;
     Ok(Status::Done)
 }
@@ -226,32 +282,18 @@ impl Study for Tested {
             text.heading(&spectra.caption);
             show(text, &spectra);
         }
-        for group in self.groups() {
-            let Some(first) = group.first().map(|made| &made.report) else { continue };
-            text.heading(&format!("{}: {}", first.protocol, summary(first.protocol)));
-            if let [alone] = group {
-                text.faint(&settings(&alone.report.settings, units));
-                let own = &alone.report.figures[common.len()..];
-                show(text, &figure_table(own, units));
-                text.paragraphs(missing(own, units));
-            } else {
-                text.faint(&tables::shared_settings(group, units));
-                show(text, &side_by_side(group, common.len(), units));
-            }
-            for made in group {
-                let notes = made.report.notes.iter().map(Note::to_string);
-                let label = |own: String| {
-                    if made.label.is_empty() { own } else { format!("{}: {own}", made.label) }
-                };
-                text.paragraphs(agreement(&made.report).into_iter().chain(notes).map(label));
-            }
-            if let Some(table) = beside::deviations(group, units) {
+        for told in self.groups().map(|group| self.told(group)) {
+            text.heading(&told.figures.caption);
+            text.faint(&told.settings);
+            show(text, &told.figures);
+            text.paragraphs(&told.remarks);
+            if let Some(table) = &told.deviations {
                 text.heading(&table.caption);
-                show(text, &table);
+                show(text, table);
                 text.paragraphs(self.measured.iter().filter_map(|own| own.note.as_ref()));
             }
             let is_plotted = text.is_plotted(self.plot);
-            for chart in files::charts(group, self.measured.as_ref(), units)
+            for chart in files::charts(told.group, self.measured.as_ref(), units)
                 .into_iter()
                 .filter(|_| is_plotted)
             {

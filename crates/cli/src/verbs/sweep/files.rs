@@ -14,15 +14,13 @@ use super::{
 use crate::{
     error::CliError,
     folder::Staged,
-    output::{csv, list},
+    output::{PAGE, csv, list},
 };
 
 /// Values at all points.
 const TABLE: &str = "sweep.csv";
 /// Heading of the numbers of warnings.
 const WARNINGS: &str = "warnings";
-/// Everything on one page.
-const PAGE: &str = "report.html";
 
 fn line_file(column: &Column) -> String {
     stem(column) + ".svg"

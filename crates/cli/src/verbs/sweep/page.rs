@@ -11,21 +11,13 @@ use super::{
     titles::{capital, quantity},
     words,
 };
-use crate::{
-    input::title,
-    origin,
-    output::list,
-    sketch::{MOST_DRAWN, sketch},
-};
+use crate::{input::title, origin, output::list, sketch};
 
 /// Digits of what is computed.
 const DIGITS: usize = 4;
 
 /// Everything that a sweep says, on one page with these figures.
 pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
-    let network = &swept.scene.network;
-    let is_drawn = network.connections().len() <= MOST_DRAWN;
-    let drawing = || sketch(network, swept.scene.run.duration).svg();
     let (limits, best) = (limits(swept), best(swept));
     let tables = [
         Table::list("What varies", swept.in_words()),
@@ -40,7 +32,7 @@ pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
         title: title(&swept.scene).to_owned(),
         warnings: words::warned(swept),
         verdict: verdict(swept, &best),
-        network: is_drawn.then(|| ReportFigure::of_sketch("The network", drawing())),
+        network: sketch::figure(&swept.scene),
         tables: tables.into_iter().filter(has_rows).collect(),
         figures,
         details: details.into_iter().filter(has_rows).collect(),
@@ -97,7 +89,7 @@ fn extremes(swept: &Swept) -> Table {
         list([name].into_iter().chain(ends.into_iter().flat_map(told)))
     };
     let header = ["measure", "lowest", "at", "highest", "at"];
-    Table::new("Lowest and highest", &header, (0..report.columns.len()).map(row))
+    Table::new("Lowest and highest", &header, words::told(report).into_iter().map(row))
 }
 
 /// What was asked for.

@@ -20,15 +20,15 @@ const NONE: &str = "–";
 pub(super) fn table(swept: &Swept) -> (Table, usize) {
     let (report, variations) = (&swept.report, &swept.varied.variations);
     let axes = list((0..variations.len()).map(|at| swept.in_unit(at)));
-    let units = list((0..report.columns.len()).map(|at| figures::unit(report, at)));
+    let told = list(words::told(report).into_iter().map(|at| (at, figures::unit(report, at))));
     let judged = list((0..report.limits.len()).map(|at| report.judged(at)));
     let names = variations.iter().zip(&axes).map(|(own, (unit, _))| match unit.as_str() {
         "1" | "" => own.name.clone(),
         unit => format!("{}\n{unit}", own.name),
     });
-    let measures = report.columns.iter().zip(&units);
-    let measures =
-        measures.map(|(own, unit)| format!("{}\n{}", in_lines(&words::name(own)), unit.symbol));
+    let measures = told.iter().map(|(at, unit)| {
+        format!("{}\n{}", in_lines(&words::name(&report.columns[*at])), unit.symbol)
+    });
     let limits = report.limits.iter().map(|(column, own)| {
         format!("{}\n{}", in_lines(&own.key), words::level_of(report, *column, own))
     });
@@ -39,11 +39,11 @@ pub(super) fn table(swept: &Swept) -> (Table, usize) {
             Some(word) => word.clone(),
             None => words::short(axes[at].1[place]),
         });
-        let of_point = point * units.len()..(point + 1) * units.len();
-        let found = report.values[of_point.clone()].iter().zip(&report.errors[of_point]);
-        let values = units.iter().zip(found).map(|(unit, (value, error))| {
-            let error = Some(*error).filter(|own| own.is_finite());
-            let text = || unit.number(*value, digits(*value, error, MOST_DIGITS));
+        let values = told.iter().map(|(at, unit)| {
+            let at = point * report.columns.len() + at;
+            let (value, error) = (report.values[at], report.errors[at]);
+            let error = Some(error).filter(|own| own.is_finite());
+            let text = || unit.number(value, digits(value, error, MOST_DIGITS));
             if value.is_finite() { text() } else { NONE.to_owned() }
         });
         let judged = judged.iter().map(|own| own[point].map_or(NONE, Judgement::word).to_owned());

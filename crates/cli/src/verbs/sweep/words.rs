@@ -84,6 +84,24 @@ pub(super) fn name(column: &Column) -> String {
     if column.is_share { format!("{} over thickness", column.key) } else { column.key.clone() }
 }
 
+/// Relative difference of two columns that say the same.
+const SAME: f64 = 1e-12;
+
+/// The columns that tables for people have: all but a deformation over thickness that a strain repeats.
+pub(super) fn told(report: &SweepReport) -> Vec<usize> {
+    let all = 0..report.columns.len();
+    let is_same = |(one, other): (f64, f64)| {
+        (one - other).abs() <= SAME * one.abs() || !one.is_finite() && !other.is_finite()
+    };
+    let is_repeated = |at: usize, own: &Column| {
+        let strains = report.columns.iter().enumerate();
+        let mut strains = strains.filter(|(_, own)| !own.is_share && own.unit == "1");
+        own.is_share
+            && strains.any(|(other, _)| report.column(at).zip(report.column(other)).all(is_same))
+    };
+    all.filter(|at| !is_repeated(*at, &report.columns[*at])).collect()
+}
+
 /// The unit in which values of a column are read that are as large as this one.
 pub(super) fn unit(column: &Column, largest: f64) -> Unit {
     let kind = column.key.rsplit_once('.').map_or("", |own| own.1);
@@ -98,7 +116,8 @@ pub(super) fn summary(report: &SweepReport, is_sample: bool) -> Table {
     } else {
         &[("lowest", 0.0), ("highest", 1.0)]
     };
-    let rows = report.columns.iter().enumerate().map(|(at, column)| {
+    let rows = told(report).into_iter().map(|at| {
+        let column = &report.columns[at];
         let mut finite: Vec<f64> = report.column(at).filter(|own| own.is_finite()).collect();
         finite.sort_by(f64::total_cmp);
         let text = |own: Option<f64>| {

@@ -1,5 +1,6 @@
 //! `dashpot vibrate`.
 
+mod files;
 mod tables;
 
 use std::{f64::consts::TAU, path::PathBuf};
@@ -10,28 +11,20 @@ use dashpot_analysis::vibration::{
     VibrationWarning,
 };
 use dashpot_network::parameters::Dimension;
-use dashpot_plot::{VibrationCurve, VibrationSeries};
 use dashpot_scene::{Scene, units::parse_quantity};
 use serde::Serialize;
 
-use self::tables::{
-    degrees, drive, modes, range_notes, resonances, response, steady, steady_notes,
-};
+use self::tables::{drive, modes, range_notes, resonances, response, steady, steady_notes};
 use crate::{
     args::{SceneArguments, When},
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::title,
-    numbers::{Unit, quantity},
     operand::note_means,
-    output::{Study, Text, VERSION, csv, emit, list, object},
+    output::{Study, Text, VERSION, emit, list, object},
     terminal::{Terminal, WIDTH},
 };
 
-/// Ratios and phases at all frequencies.
-const TABLE: &str = "response.csv";
-/// The figures.
-const FIGURES: [&str; 2] = ["transmissibility.svg", "phase.svg"];
 /// Digits in the text of a peak.
 const DIGITS: usize = 3;
 /// Lines of a plot.
@@ -71,7 +64,7 @@ pub(crate) struct VibrateArguments {
     /// Amplitude of the drive there: of a force, or of a displacement or an acceleration.
     #[arg(long, value_name = "QUANTITY", requires = "at")]
     amplitude: Option<String>,
-    /// Folder for CSV, JSON and SVG; it is made if need be.
+    /// Folder for CSV, JSON, SVG and report.html with all on one page; it is made if need be.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Prints one JSON object, in SI units, in place of text.
@@ -111,8 +104,7 @@ pub(crate) fn vibrate(
     let scene = arguments.scene.read(terminal)?;
     note_means(&scene);
     let vibration = Vibration::new(&scene.network, scene.run.duration, arguments.drive.as_deref())?;
-    let names = FIGURES.iter().chain([&TABLE]).map(|own| (*own).to_owned());
-    let folder = Folder::wanted(arguments.out.as_deref(), names)?;
+    let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let sweep = vibration.sweep(&SweepSettings {
         from: arguments.from,
         to: arguments.to,
@@ -181,7 +173,7 @@ impl Study for Shaken {
             );
         }
         if text.is_plotted(self.plot) {
-            text.chart(&series(sweep).ratio_chart(), PLOT_HEIGHT);
+            text.chart(&files::series(sweep).ratio_chart(), PLOT_HEIGHT);
         }
     }
 
@@ -207,27 +199,7 @@ impl Study for Shaken {
     }
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
-        let all = &self.sweep.transmissions;
-        let header = all.iter().flat_map(|Transmission { name, .. }| {
-            [("ratio", "1"), ("phase", "deg"), ("error", "1")]
-                .map(|(what, unit)| format!("{what} of {name} [{unit}]"))
-        });
-        let header = ["frequency [Hz]".to_owned()].into_iter().chain(header);
-        let row = |(at, frequency): (usize, &f64)| {
-            let values = all.iter().flat_map(|own| {
-                let swing = own.swings[at];
-                // A zero has no sign.
-                let phase = swing.map(|swing| degrees(swing.phase) + 0.0);
-                [swing.map(|swing| swing.amplitude), phase, swing.map(|swing| swing.error)]
-            });
-            list([Some(*frequency)].into_iter().chain(values))
-        };
-        let rows = self.sweep.frequencies.iter().enumerate().map(row);
-        files.add_with(TABLE, |out| csv(out, header, rows))?;
-        let series = series(&self.sweep);
-        let [ratio, phase] = FIGURES;
-        files.add(ratio, series.ratio_chart().svg()?)?;
-        files.add(phase, series.phase_chart().svg()?)
+        files::write(files, self)
     }
 }
 
@@ -245,39 +217,5 @@ fn response_object(transmission: &Transmission) -> impl Serialize {
         error: all(|own| own.error),
         resonances: list(transmission.resonances.iter().map(peak)),
         at_rest: transmission.at_rest,
-    }
-}
-
-/// The responses as the plain numbers that figures are drawn from, with their peaks between the
-/// frequencies of the list.
-fn series(sweep: &Sweep) -> VibrationSeries {
-    VibrationSeries {
-        title: format!("Response to {}", sweep.drive.name),
-        curves: sweep.transmissions.iter().map(|transmission| curve(sweep, transmission)).collect(),
-    }
-}
-
-fn curve(sweep: &Sweep, transmission: &Transmission) -> VibrationCurve {
-    let mut points: Vec<(f64, Option<Swing>)> =
-        sweep.frequencies.iter().copied().zip(transmission.swings.iter().copied()).collect();
-    points.extend(
-        transmission.resonances.iter().map(|resonance| (resonance.frequency, resonance.swing)),
-    );
-    points.sort_by(|one, other| one.0.total_cmp(&other.0));
-    let peaks = transmission.resonances.iter().filter_map(|resonance| {
-        let height = resonance.swing?.amplitude;
-        let value = Unit::plain("1").number(height, DIGITS);
-        let label = format!("{value} at {}", quantity(resonance.frequency, "Hz", DIGITS));
-        Some((resonance.frequency, height, label))
-    });
-    let value = |of: fn(Swing) -> f64| {
-        points.iter().map(|point| point.1.map_or(f64::NAN, of)).collect::<Vec<f64>>()
-    };
-    VibrationCurve {
-        name: transmission.name.clone(),
-        frequency: points.iter().map(|point| point.0).collect(),
-        ratio: value(|own| own.amplitude),
-        phase: value(|own| degrees(own.phase)),
-        peaks: peaks.collect(),
     }
 }

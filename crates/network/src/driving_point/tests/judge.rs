@@ -30,22 +30,22 @@ fn receptance(network: &Network, a: NodeId, b: NodeId, s: f64) -> DoubleDouble {
 }
 
 /// A random connected network of up to nine nodes over many decades.
-fn scene(dice: &mut Dice, has_masses: bool, decades: f64) -> (Network, Vec<NodeId>) {
+fn scene(dice: &mut Stream, has_masses: bool, decades: f64) -> (Network, Vec<NodeId>) {
     let count = 2 + dice.below(8);
-    let is_held = dice.roll() < 0.6;
+    let is_held = dice.share() < 0.6;
     let masses: Vec<f64> = (0..count)
         .map(|at| {
-            let is_mass = has_masses && (at == count - 1 || dice.roll() < 0.5);
-            if is_mass { dice.decades(decades) } else { 0.0 }
+            let is_mass = has_masses && (at == count - 1 || dice.share() < 0.5);
+            if is_mass { around(dice, decades) } else { 0.0 }
         })
         .collect();
-    let element = |dice: &mut Dice| {
-        let constant = dice.decades(decades);
+    let element = |dice: &mut Stream| {
+        let constant = around(dice, decades);
         match dice.below(4) {
             0 => spring(constant),
             1 => dashpot(constant),
-            2 => kelvin(constant, dice.decades(decades)),
-            _ => maxwell(constant, dice.decades(decades)),
+            2 => kelvin(constant, around(dice, decades)),
+            _ => maxwell(constant, around(dice, decades)),
         }
     };
     let first = usize::from(!is_held);
@@ -66,7 +66,7 @@ fn scene(dice: &mut Dice, has_masses: bool, decades: f64) -> (Network, Vec<NodeI
 
 #[test]
 fn receptances_with_masses_balance_the_forces() {
-    let mut dice = Dice(5);
+    let mut dice = Stream::new(5);
     let mut uncertain = 0;
     for round in 0..400 {
         let decades = [2.0, 6.0, 10.0, 14.0][round % 4];
@@ -94,7 +94,7 @@ fn receptances_with_masses_balance_the_forces() {
 
 #[test]
 fn massless_responses_balance_the_forces() {
-    let mut dice = Dice(6);
+    let mut dice = Stream::new(6);
     let mut doubtful = 0;
     for round in 0..400 {
         let decades = [2.0, 6.0, 10.0, 14.0][round % 4];

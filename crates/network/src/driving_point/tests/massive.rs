@@ -157,10 +157,10 @@ fn equal_oscillators_that_both_show_are_one_pole() {
 
 #[test]
 fn the_terms_add_up_to_the_balance_of_forces() {
-    let mut dice = Dice(3);
+    let mut dice = Stream::new(3);
     for _ in 0..20 {
-        let (m, k, c) = (dice.decades(4.0), dice.decades(8.0), dice.decades(8.0));
-        let (k1, c1) = (dice.decades(8.0), dice.decades(8.0));
+        let (m, k, c) = (around(&mut dice, 4.0), around(&mut dice, 8.0), around(&mut dice, 8.0));
+        let (k1, c1) = (around(&mut dice, 8.0), around(&mut dice, 8.0));
         let pad = Tree::parallel([spring(k), maxwell(k1, c1)]);
         let links = [(1, 0, pad), (1, 2, spring(3.0 * k)), (2, 0, dashpot(c))];
         let (network, nodes) = network(&[m, 0.0], &links);

@@ -4,10 +4,10 @@ use crate::{driving_point::DrivingPointError, elements::Rigid, linear_model, par
 /// Of doubles that come from twice the digits, through at most a few roundings.
 const DOUBLES: f64 = 4.0 * f64::EPSILON;
 
-fn tree(dice: &mut Dice, depth: usize, in_series: bool) -> Model {
-    if depth == 0 || dice.roll() < 0.2 {
-        let constant = dice.decades(6.0);
-        return if dice.roll() < 0.5 { spring(constant) } else { dashpot(constant) };
+fn tree(dice: &mut Stream, depth: usize, in_series: bool) -> Model {
+    if depth == 0 || dice.share() < 0.2 {
+        let constant = around(dice, 6.0);
+        return if dice.share() < 0.5 { spring(constant) } else { dashpot(constant) };
     }
     let count = 2 + dice.below(2);
     let branches: Vec<Model> = (0..count).map(|_| tree(dice, depth - 1, !in_series)).collect();
@@ -16,7 +16,7 @@ fn tree(dice: &mut Dice, depth: usize, in_series: bool) -> Model {
 
 #[test]
 fn a_tree_responds_as_its_linear_model() {
-    let mut dice = Dice(7);
+    let mut dice = Stream::new(7);
     for round in 0..60 {
         let tree = tree(&mut dice, 4, round % 2 == 0);
         let (network, nodes) = network(&[0.0], &[(1, 0, tree.clone())]);
@@ -133,13 +133,13 @@ fn star_and_delta_of_dashpots_respond_alike() {
 
 /// A square lattice of springs and dashpots over twelve decades between opposite corners.
 fn lattice(side: usize, seed: u64, number: impl Fn(usize) -> usize) -> Massless {
-    let mut dice = Dice(seed);
+    let mut dice = Stream::new(seed);
     let mut links = Vec::new();
     for row in 0..side {
         for column in 0..side {
             let at = side * row + column;
             for (other, fits) in [(at + 1, column + 1 < side), (at + side, row + 1 < side)] {
-                let model = kelvin(dice.decades(6.0), dice.decades(6.0));
+                let model = kelvin(around(&mut dice, 6.0), around(&mut dice, 6.0));
                 if fits {
                     links.push((number(at) + 1, number(other) + 1, model));
                 }

@@ -6,6 +6,7 @@ mod reference;
 
 use super::{Massless, Receptance, Response};
 use crate::{Model, Network, Node, NodeId, dashpot, spring};
+use dashpot_numerics::Stream;
 use dashpot_rheology::{LinearModel, Tree};
 
 fn kelvin(stiffness: f64, damping: f64) -> Model {
@@ -60,21 +61,7 @@ fn assert_same(a: &LinearModel, b: &LinearModel, tolerance: f64) {
     }
 }
 
-/// Numbers between 0 and 1 that look random.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        let roll = self.roll() * count as f64;
-        (1..count).take_while(|&at| at as f64 <= roll).count()
-    }
-
-    fn decades(&mut self, count: f64) -> f64 {
-        10_f64.powf(count * (self.roll() - 0.5))
-    }
+/// A factor within so many decades around 1.
+fn around(stream: &mut Stream, count: f64) -> f64 {
+    10_f64.powf(count * (stream.share() - 0.5))
 }

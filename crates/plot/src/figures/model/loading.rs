@@ -1,7 +1,11 @@
 //! Loops of loading and unloading: force over deformation, or stress over strain.
 
 use super::ModelSubject;
-use crate::{Chart, Pattern, Series, Stroke, figures::unit::Unit, theme::COLOURS};
+use crate::{
+    Chart, Pattern, Series, Stroke,
+    figures::unit::{self, Unit},
+    theme::COLOURS,
+};
 
 /// Loops of one model that was loaded and unloaded, at several rates for instance.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,9 +38,13 @@ impl LoopSeries {
         let points = || self.loops.iter().chain(&self.measured).flat_map(|own| &own.points);
         let (xs, ys) = (|| points().map(|p| p.0), || points().map(|p| p.1));
         let (x, y, words) = match self.subject {
-            ModelSubject::Pad => (Unit::length(xs()), Unit::force(ys()), ("deformation", "force")),
+            ModelSubject::Pad => (
+                Unit::of(&unit::LENGTH, xs()),
+                Unit::of(&unit::FORCE, ys()),
+                ("deformation", "force"),
+            ),
             ModelSubject::Material => {
-                (Unit::strain(xs()), Unit::stress(ys()), ("strain", "stress"))
+                (Unit::of(&unit::STRAIN, xs()), Unit::of(&unit::STRESS, ys()), ("strain", "stress"))
             }
         };
         let one = |own: &Loop, colour: usize, pattern: Pattern| Series {

@@ -1,6 +1,6 @@
 //! What a model answers to a protocol of a rheometer, over time.
 
-use crate::figures::unit::Unit;
+use crate::figures::unit::{self, Unit};
 use crate::{Chart, Direction, Pattern, ReferenceLine, Series, Stroke};
 
 /// The answer to one protocol: from the model's formulas and from a simulation of its network, in SI units.
@@ -46,13 +46,13 @@ impl RheometerSeries {
     /// The chart: the model broad and pale, the simulation dashed on top of it.
     pub fn chart(&self) -> Chart {
         let points = || self.model.iter().chain(&self.simulated);
-        let x = Unit::time(points().map(|p| p.0));
+        let x = Unit::of(&unit::TIME, points().map(|p| p.0));
         let values = || points().map(|p| p.1);
         let (quantity, y) = match self.measured {
-            Measured::Force => ("force", Unit::force(values())),
-            Measured::Deformation => ("deformation", Unit::length(values())),
-            Measured::Stress => ("stress", Unit::stress(values())),
-            Measured::Strain => ("strain", Unit::strain(values())),
+            Measured::Force => ("force", Unit::of(&unit::FORCE, values())),
+            Measured::Deformation => ("deformation", Unit::of(&unit::LENGTH, values())),
+            Measured::Stress => ("stress", Unit::of(&unit::STRESS, values())),
+            Measured::Strain => ("strain", Unit::of(&unit::STRAIN, values())),
         };
         let alone = self.simulated.is_empty();
         let first = if alone { Pattern::Solid } else { Pattern::Broad };
