@@ -174,11 +174,11 @@ struct Contender<'c> {
     solve: Box<dyn Fn() -> f64 + 'c>,
 }
 
-/// CPU time of this thread; where the system does not tell it, the time by the clock.
-fn cpu(clock: Instant) -> Duration {
+/// CPU time of this thread [s]; where the system does not tell it, the time by the clock.
+fn cpu(clock: Instant) -> f64 {
     let told = fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = told.and_then(|own| own.split(' ').next()?.parse().ok());
-    nanoseconds.map_or_else(|| clock.elapsed(), Duration::from_nanos)
+    nanoseconds.map_or_else(|| clock.elapsed(), Duration::from_nanos).as_secs_f64()
 }
 
 /// Times contenders in turns, and prints the medians beside that of the first.
@@ -189,7 +189,7 @@ fn race(title: &str, all: &[Contender<'_>]) {
         for (own, times) in all.iter().zip(&mut times) {
             let begin = cpu(clock);
             black_box((own.solve)());
-            times.push((cpu(clock) - begin).as_secs_f64() / own.scenes as f64);
+            times.push((cpu(clock) - begin) / own.scenes as f64);
         }
     }
     println!("\n{title:<44} {:>10} {:>9}", "a scene", "by hand");
@@ -227,7 +227,8 @@ fn main() {
 /// The reference impact over two constants.
 fn linear() {
     let grid = Grid::new(vec![SIDE, SIDE]).expect("a grid");
-    let scene = posed(&[0, 0], Besides::Nothing);
+    let scene =
+        ScenePoint { network: impact::network(1, 1e4), settings: SolveSettings::lasting(0.02) };
     let peaks = ["padding.peak-force", "padding.peak-deformation"];
     let with = |key: &str| asked(&scene, &[peaks[0], peaks[1], key]);
     let (severity, hic) = (with("head.severity-index"), with("head.hic15"));
@@ -345,12 +346,10 @@ fn drops() {
         "largest error: by hand {:.1e} at a tolerance of {rtol:.1e}, ours {worst:.1e}",
         error_by_hand(rtol)
     );
-    let clock = Instant::now();
-    swept(Estimates::Some, 1);
-    let one = clock.elapsed();
-    swept(Estimates::Some, 2);
-    println!(
-        "two threads take {:.2} of the time of one",
-        (clock.elapsed() - one).as_secs_f64() / one.as_secs_f64()
-    );
+    let by_clock = |threads: usize| {
+        let clock = Instant::now();
+        swept(Estimates::Some, threads);
+        clock.elapsed().as_secs_f64()
+    };
+    println!("two threads take {:.2} of the time of one", by_clock(2) / by_clock(1));
 }
