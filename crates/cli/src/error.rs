@@ -126,9 +126,12 @@ pub(crate) enum CliError {
     /// A file with a measured curve that is no table.
     #[error("`{file}`, {fault}")]
     MeasuredTable { file: String, fault: Box<TableError> },
-    /// A measured curve of which it is not clear what it measured.
+    /// A measured curve that cannot be read, or of which it is not clear what it measured.
     #[error("`--measured {file}`: {reason}")]
     MeasuredColumn { file: String, reason: String },
+    /// An output that a scene does not have, or that cannot be measured.
+    #[error("`--measured {file}`: there is no `{name}` over time to stand beside")]
+    NotMeasurable { file: String, name: String, known: Vec<String> },
     /// A parameter of a test with a value that cannot be used.
     #[error("`{name}`: {reason}")]
     WrongSetting { name: String, reason: String },
@@ -246,6 +249,7 @@ impl CliError {
                     .to_owned(),
             ),
             Self::MeasuredTable { fault, .. } => fault.help(),
+            Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
             Self::Tunable(fault) => fault.help(),

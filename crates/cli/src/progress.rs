@@ -1,4 +1,4 @@
-//! A bar for long runs.
+//! How far long work has come: a bar, or where nobody sees one a line now and then.
 
 use std::{
     ops::ControlFlow,
@@ -8,31 +8,45 @@ use std::{
 use dashpot_dae::{Observer, Progress};
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::units::format_quantity;
+use dashpot_units::percent;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+
+use crate::{numbers::duration, terminal::note};
 
 /// Shorter runs have no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
+/// Without a terminal a line is written after so long, and then whenever the time has doubled.
+const FIRST: Duration = Duration::from_secs(10);
 /// Steps of the bar.
 const PARTS: u64 = 1000;
 
-/// Shows on standard error, where that is a terminal, how far some work has come.
+/// Shows on standard error how far some work has come.
 pub(crate) struct Bar {
     word: String,
     end: f64,
     started: Instant,
     shown: Option<ProgressBar>,
-    wanted: bool,
+    is_seen: bool,
+    next: Duration,
 }
 
 impl Bar {
-    /// A bar for work of this name, a run until `end` \[s\]; none if nobody sees it.
-    pub(crate) fn new(word: &str, end: f64, wanted: bool) -> Self {
-        Self { word: word.to_owned(), end, started: Instant::now(), shown: None, wanted }
+    /// A bar for work of this name, a run until `end` \[s\]; lines if nobody sees it.
+    pub(crate) fn new(word: &str, end: f64, is_seen: bool) -> Self {
+        let (word, started) = (word.to_owned(), Instant::now());
+        Self { word, end, started, shown: None, is_seen, next: FIRST }
     }
 
     /// Shows which share is done, with a word on it.
     pub(crate) fn show(&mut self, share: f64, message: impl FnOnce() -> String) -> ControlFlow<()> {
-        if self.wanted && (self.shown.is_some() || self.started.elapsed() > PATIENCE) {
+        let elapsed = self.started.elapsed();
+        if !self.is_seen {
+            if elapsed > self.next {
+                self.next = 2 * elapsed;
+                let (word, done) = (&self.word, percent(share.clamp(0.0, 1.0), 2));
+                note(&format!("{word}: {done} after {}, {}", duration(elapsed), message()));
+            }
+        } else if self.shown.is_some() || elapsed > PATIENCE {
             let bar = self.shown.get_or_insert_with(|| bar(&self.word));
             #[expect(
                 clippy::cast_possible_truncation,

@@ -147,6 +147,14 @@ fn key(target: &str, measure: &dyn Measure) -> String {
     format!("{target}.{}", measure.kind())
 }
 
+/// The elements or nodes, by position, that a run tells of without being asked.
+pub fn reported(assembly: &Assembly, family: Family) -> Vec<usize> {
+    match family {
+        Family::Element => reported_elements(assembly),
+        Family::Node => reported_nodes(assembly),
+    }
+}
+
 /// The elements that touch an impactor; without an impactor those that touch a mass; without a mass
 /// all. Rigid links count as parts of what they join.
 fn reported_elements(assembly: &Assembly) -> Vec<usize> {

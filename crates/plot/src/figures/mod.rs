@@ -3,6 +3,7 @@
 //! A figure of runs is one line of [`FIGURES`]: which signal stands over which, and what is marked.
 
 mod markers;
+mod measured;
 pub mod model;
 mod notes;
 mod run_series;
@@ -12,11 +13,13 @@ mod work_precision;
 
 use self::{
     markers::markers,
+    measured::measured,
     notes::note,
     run_series::{limit_lines, quantities, thickness_lines},
 };
 use crate::{Chart, Direction, Pattern, Series, Stroke, theme::COLOURS};
 
+pub use measured::MeasuredSeries;
 pub use run_series::{
     ElementSeries, EnergySeries, NodeSeries, Of, RunLimit, RunMarker, RunMarkerKind, RunSeries,
 };
@@ -104,6 +107,11 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// The figure of this signal over time.
+    pub fn over_time(y: Of) -> Option<&'static Self> {
+        FIGURES.iter().find(|figure| figure.x == Of::Time && figure.y == y)
+    }
+
     /// The chart of `runs`, which differ in their method or are designs; what they have nothing of stays empty.
     pub fn chart(&self, runs: &[RunSeries]) -> Chart {
         let mut all = quantities(runs, self.x, self.y);
@@ -115,9 +123,14 @@ impl Figure {
         let (shown, left_out) = largest(all, self.y);
         // Of several designs each has its own peak; the curves tell them.
         let marked = if are_designs { &[] } else { self.kinds };
-        let points = || shown.iter().flat_map(|q| q.curves.iter().flatten());
+        let measured = measured(runs, (self.x, self.y));
+        let of_measured = || measured.iter().flat_map(|own| &own.points);
+        let points = || shown.iter().flat_map(|q| q.curves.iter().flatten()).chain(of_measured());
         let x = self.x.unit(points().map(|p| p.0));
         let y = self.y.unit(points().map(|p| p.1));
+        let mut series = curves(runs, &shown, x.factor, y.factor);
+        let taken = series.iter().filter_map(|own| Some(own.stroke?.colour + 1)).max();
+        series.extend(measured::series(&measured, taken.unwrap_or(0), (x, y)));
         let gaps = widest.map(|gap| format!("gaps wider than {} are cut off", y.print(gap)));
         let thicknesses = match (self.x, self.y) {
             (Of::Deformation, _) => thickness_lines(runs, &shown, Direction::Vertical, x),
@@ -134,7 +147,7 @@ impl Figure {
             y_label: y.label(self.y.word()),
             markers: markers(runs, &shown, marked, (self.x, x), (self.y, y)),
             lines: limits.chain(thicknesses).collect(),
-            series: curves(runs, &shown, x.factor, y.factor),
+            series,
             has_arrows: self.x != Of::Time,
             ..Chart::default()
         }
@@ -297,6 +310,7 @@ pub(crate) mod tests {
             first_touch: None,
             nodes: ["head", "plate"].map(node).to_vec(),
             limits: Vec::new(),
+            measured: Vec::new(),
             time,
         }
     }

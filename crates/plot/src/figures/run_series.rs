@@ -1,5 +1,6 @@
 //! The plain numbers of one run that figures are drawn from.
 
+use super::MeasuredSeries;
 use super::Quantity;
 use super::markers::listed;
 use super::unit::Unit;
@@ -29,6 +30,8 @@ pub struct RunSeries {
     pub markers: Vec<RunMarker>,
     /// Limits.
     pub limits: Vec<RunLimit>,
+    /// What was measured, beside the curves; equal ones of several runs are drawn once.
+    pub measured: Vec<MeasuredSeries>,
 }
 
 /// One element at the sample times.
@@ -124,7 +127,8 @@ pub enum Of {
 }
 
 impl Of {
-    pub(super) fn word(self) -> &'static str {
+    /// Its name, as in `force`.
+    pub fn word(self) -> &'static str {
         match self {
             Self::Time => "time",
             Self::Force => "force",

@@ -11,11 +11,14 @@ use dashpot_scene::Scene;
 use serde::Serialize;
 
 use super::{
-    Answer, LABELS, PLOT_HEIGHT, PLOT_POINTS, RunArguments, files,
+    Answer, LABELS, PLOT_HEIGHT, PLOT_POINTS, RunArguments,
+    deviations::{self, Compared, by_curve},
+    files,
     files::Written,
     limits,
     measures::{Column, Side, measures_table, measures_tables},
     object::settings,
+    scatter,
     series::{curves, curves_and_energies},
     verdict::Line,
 };
@@ -116,9 +119,17 @@ impl Designs {
     }
 
     fn as_designs(&self, series: Vec<RunSeries>) -> Vec<RunSeries> {
-        let names = self.best().map(|(own, _)| own.name.clone());
-        let named = series.into_iter().zip(names);
-        named.map(|(own, name)| RunSeries { name, is_design: true, ..own }).collect()
+        let named = series.into_iter().zip(self.best());
+        let named = named.map(|(own, (design, _))| {
+            let name = design.name.clone();
+            design.answer.with_measured(RunSeries { name, is_design: true, ..own })
+        });
+        named.collect()
+    }
+
+    /// Each measured curve beside all designs.
+    fn by_curve(&self) -> Vec<Vec<Compared<'_>>> {
+        by_curve(self.best().map(|(own, run)| list(own.answer.compared(run, &own.name))))
     }
 
     /// Of each design whether it keeps its limits; none where there is no limit.
@@ -198,6 +209,15 @@ impl Designs {
         }
     }
 
+    /// What was drawn for each design.
+    fn scatter(&self) -> Vec<Line> {
+        let of = |(own, run): (&Design, &RunReport)| {
+            let named = |line: Line| Line { text: format!("{}: {}", own.name, line.text), ..line };
+            list(scatter::lines(run).into_iter().map(named))
+        };
+        list(self.best().flat_map(of))
+    }
+
     /// How each was solved.
     fn solved(&self) -> Table {
         let row = |(own, run): (&Design, &RunReport)| {
@@ -230,7 +250,7 @@ impl Study for Designs {
         text.title(&format!("{} designs side by side", self.designs.len()));
         self.titles().iter().for_each(|own| text.faint(own));
         text.blank();
-        for line in self.verdicts() {
+        for line in self.verdicts().into_iter().chain(self.scatter()) {
             text.labelled(line.label, LABELS, &line.text);
         }
         let limits = self.limits();
@@ -242,13 +262,16 @@ impl Study for Designs {
         }
         if text.is_plotted(self.plot) {
             let series = self.best().map(|(_, run)| curves(run, PLOT_POINTS)).collect();
-            let chart = FORCE_TIME.chart(&self.as_designs(series));
+            let figure = self.designs.first().map_or(&FORCE_TIME, |own| own.answer.plotted());
+            let chart = figure.chart(&self.as_designs(series));
             text.blank();
             text.lines(&indented(&chart.text(WIDTH - 4, PLOT_HEIGHT)));
         }
         for table in measures_tables(&self.side(), WIDTH - 2) {
             text.figures(&table);
         }
+        scatter::ranges(&self.side()).iter().for_each(|table| text.rows_below(table));
+        deviations::show(&self.by_curve(), text);
         text.figures(&self.solved());
     }
 
@@ -306,15 +329,20 @@ impl Study for Designs {
             title: format!("{} designs side by side", self.designs.len()),
             warnings: self.warnings(),
             verdict: {
-                let lines = self.verdicts().into_iter();
+                let lines = self.verdicts().into_iter().chain(self.scatter());
                 let lines = lines.map(|line| format!("{}: {}", line.label, line.text));
                 list(self.titles().into_iter().chain(lines))
             },
-            tables: list(
-                [self.limits(), measures_table(&self.side())]
-                    .into_iter()
-                    .filter(|table| !table.rows.is_empty()),
-            ),
+            tables: {
+                let by_curve = self.by_curve();
+                let found = by_curve.iter().filter_map(|own| deviations::table(own));
+                let remarks = list(by_curve.iter().flat_map(|own| deviations::remarks(own)));
+                let side = self.side();
+                let tables = [self.limits(), measures_table(&side)].into_iter();
+                let tables = tables.chain(scatter::ranges(&side)).chain(found);
+                let tables = tables.chain([Table::list("Remarks", remarks)]);
+                list(tables.filter(|table| !table.rows.is_empty()))
+            },
             figures,
             details: vec![self.solved()],
             ..Report::default()
