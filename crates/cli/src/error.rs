@@ -206,6 +206,7 @@ impl CliError {
                 | RunError::UnknownMethod { .. }
                 | RunError::UnknownTarget { .. }
                 | RunError::UnknownMeasure { .. }
+                | RunError::NoMeasure { .. }
                 | RunError::UnknownOutput { .. }
                 | RunError::InvalidSetting { .. }
                 | RunError::Solve(
@@ -214,10 +215,9 @@ impl CliError {
                 _ => Status::RunFailed,
             },
             Self::Sweep(error) => match error {
-                SweepError::NotPosed(_)
-                | SweepError::NoPoints
-                | SweepError::NoMeasure { .. }
-                | SweepError::NoneReported => Status::InputWrong,
+                SweepError::NotPosed(_) | SweepError::NoPoints | SweepError::NoneReported => {
+                    Status::InputWrong
+                }
                 _ => Status::RunFailed,
             },
             Self::Vibration(VibrationError::Unbounded { .. })
@@ -253,10 +253,9 @@ impl CliError {
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
             Self::Tunable(fault) => fault.help(),
-            Self::Sweep(SweepError::NoMeasure { key, known })
-            | Self::Run(RunError::UnknownMeasure { key, known }) => {
-                suggestion(key, "measures", known)
-            }
+            Self::Run(
+                RunError::NoMeasure { key, known } | RunError::UnknownMeasure { key, known },
+            ) => suggestion(key, "measures", known),
             Self::UnknownKind { .. } => Some("`dashpot list` names every kind".to_owned()),
             Self::Unreadable { .. } => Some(
                 "`dashpot new --out pad.toml` writes a scene to start from, \

@@ -30,6 +30,7 @@ enum Shown {
     Share,
     Acceleration,
     ContactTime,
+    Restitution,
     Impulse,
     Work,
     WorkAtEnd,
@@ -165,6 +166,7 @@ impl<'g> Plan<'g> {
             Shown::Share => times(impact.depth, thickness.recip()),
             Shown::Acceleration => times(impact.force, mass.recip()),
             Shown::ContactTime => times(impact.release, time),
+            Shown::Restitution => impact.restitution,
             Shown::Impulse => times(impact.impulse, time),
             Shown::Work => impact.work,
             Shown::WorkAtEnd => impact.work_at_end,
@@ -194,8 +196,13 @@ fn shown_by(
         }
     }
     let target = match selected.measure.kind() {
-        "peak-force" | "peak-deformation" | "contact-time" | "impulse" | "energy"
-        | "energy-at-end" => parametric.element(),
+        "peak-force"
+        | "peak-deformation"
+        | "contact-time"
+        | "impulse"
+        | "energy"
+        | "energy-at-end"
+        | "coefficient-of-restitution" => parametric.element(),
         _ => parametric.impactor().index(),
     };
     if selected.target != target {
@@ -206,6 +213,7 @@ fn shown_by(
         ("peak-deformation", []) => Some(Shown::Depth),
         ("peak-acceleration", []) => Some(Shown::Acceleration),
         ("contact-time", []) => Some(Shown::ContactTime),
+        ("coefficient-of-restitution", []) => Some(Shown::Restitution),
         ("impulse", []) => {
             wanted.work = true;
             Some(Shown::Impulse)

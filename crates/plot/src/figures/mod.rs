@@ -147,6 +147,7 @@ impl Figure {
             y_label: y.label(self.y.word()),
             markers: markers(runs, &shown, marked, (self.x, x), (self.y, y)),
             lines: limits.chain(thicknesses).collect(),
+            family: if has_order(runs, &shown) { runs.len() } else { 0 },
             series,
             has_arrows: self.x != Of::Time,
             ..Chart::default()
@@ -194,6 +195,12 @@ fn largest(mut quantities: Vec<Quantity>, of: Of) -> (Vec<Quantity>, String) {
     (quantities, format!("the {MOST_CURVES} largest of {total} {kind}"))
 }
 
+/// Whether the curves are those of one quantity in designs that have an order.
+fn has_order(runs: &[RunSeries], shown: &[Quantity]) -> bool {
+    let is_whole = |quantity: &Quantity| quantity.curves.iter().all(|curve| !curve.is_empty());
+    matches!(shown, [one] if is_whole(one)) && runs.iter().all(|run| run.rank.is_some())
+}
+
 /// Patterns of designs, in turn.
 const DESIGNS: [Pattern; 4] =
     [Pattern::Solid, Pattern::Dashed, Pattern::Dotted, Pattern::DashDotted];
@@ -208,6 +215,7 @@ fn curves(
     y_factor: f64,
 ) -> Vec<Series> {
     let alone = quantities.len() == 1;
+    let has_order = has_order(runs, quantities);
     let mut series = Vec::new();
     for (run, of_run) in runs.iter().enumerate() {
         for (colour, quantity) in quantities.iter().enumerate() {
@@ -220,6 +228,7 @@ fn curves(
                 _ => format!("{}, {}", quantity.name, of_run.name),
             };
             let (pattern, colour) = match run {
+                _ if has_order => (Pattern::Solid, of_run.rank.unwrap_or(run)),
                 _ if of_run.is_design && alone => (DESIGNS[run / COLOURS % DESIGNS.len()], run),
                 _ if of_run.is_design => (DESIGNS[run % DESIGNS.len()], colour),
                 0 if runs.len() > 1 => (Pattern::Broad, colour),
@@ -285,6 +294,7 @@ pub(crate) mod tests {
         RunSeries {
             name: method.into(),
             is_design: false,
+            rank: None,
             elements: vec![
                 element("padding", 40_400.0, Some(0.02)),
                 element("mount <&>", 20_000.0, None),
@@ -354,7 +364,16 @@ pub(crate) mod tests {
         let colours: Vec<_> =
             chart.series.iter().map(|own| own.stroke.map(|own| own.colour)).collect();
         assert_eq!(colours, [Some(0), Some(1), Some(2)]);
-        assert!(chart.markers.is_empty());
+        assert!(chart.markers.is_empty() && chart.family == 0);
+        let ordered = designs.clone().map(|own| {
+            let rank = ["steel", "soft", "stiff"].iter().position(|name| *name == own.name);
+            RunSeries { rank, ..own }
+        });
+        let family = FORCE_DEFORMATION.chart(&ordered);
+        let strokes: Vec<_> = family.series.iter().filter_map(|own| own.stroke).collect();
+        let ranks: Vec<usize> = strokes.iter().map(|own| own.colour).collect();
+        assert_eq!((family.family, ranks), (3, vec![1, 2, 0]));
+        assert!(strokes.iter().all(|own| own.pattern == Pattern::Solid));
         let lines: Vec<&str> = chart.lines.iter().map(|own| own.label.as_str()).collect();
         assert_eq!(lines, ["thickness of soft: 30 mm", "thickness of stiff, steel: 20 mm"]);
     }

@@ -13,6 +13,8 @@ pub struct RunSeries {
     pub name: String,
     /// Whether it is one of several designs, and not of several methods of the same scene.
     pub is_design: bool,
+    /// Of designs that differ in one number: its place in their rising order, from 0.
+    pub rank: Option<usize>,
     /// Sample times \[s\], ascending: from the start of the run, or from the first touch.
     pub time: Vec<f64>,
     /// When in the run \[s\] an impactor that falls or flies first touches something: 0 of `time` and of the times of
@@ -244,7 +246,7 @@ pub(super) fn thickness_lines(
         let colour = shown.iter().position(|q| q.name == element.name);
         let (Some(thickness), Some(_)) = (element.thickness, colour) else { continue };
         let (name, colour) = match run.is_design {
-            true if shown.len() == 1 => (&run.name, Some(at)),
+            true if shown.len() == 1 => (&run.name, run.rank.is_none().then_some(at)),
             true => (&run.name, colour),
             false => (&element.name, colour),
         };

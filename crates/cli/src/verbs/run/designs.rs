@@ -7,7 +7,7 @@ use dashpot_plot::{
     Report, ReportFigure, RunSeries, Table,
     figures::{FIGURES, FORCE_TIME},
 };
-use dashpot_scene::Scene;
+use dashpot_scene::{Scene, Tunables, units::parse_quantity};
 use serde::Serialize;
 
 use super::{
@@ -23,7 +23,7 @@ use super::{
     verdict::Line,
 };
 use crate::{
-    args::When,
+    args::{Variant, When},
     error::{CliError, is_unit},
     folder::Staged,
     input::title,
@@ -43,6 +43,8 @@ pub(super) struct Named {
     /// What it is called beside others.
     pub(super) name: String,
     pub(super) scene: Scene,
+    /// What alone varies between the designs of one scene, and its value.
+    pub(super) varied: Option<(String, String)>,
     /// The values that the command line sets.
     pub(super) set: Vec<(String, String)>,
 }
@@ -59,24 +61,68 @@ pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec
         read_scene(Some(unit), &[], terminal)?;
     }
     let names = named(&paths);
+    let only = varied(&arguments.variant).filter(|_| paths.len() == 1);
     let mut all = Vec::new();
     for (path, name) in paths.iter().zip(names) {
-        let mut add = |name: String, set: Vec<(String, String)>| -> Result<(), CliError> {
+        let read = |name: String, set: Vec<(String, String)>| -> Result<Named, CliError> {
             let mut scene = read_scene(*path, &set, terminal)?;
             scene.limits.extend(arguments.limits.all());
-            all.push(Named { name, scene, set });
-            Ok(())
+            let varied = only.and_then(|_| set.last().cloned());
+            Ok(Named { name, scene, varied, set })
         };
-        add(name.clone(), arguments.values.set.clone())?;
+        let base = read(name.clone(), arguments.values.set.clone())?;
+        all.push(match only {
+            Some(only) => named_by_value(base, only),
+            None => base,
+        });
         for variant in &arguments.variant {
             let name = match paths.len() {
                 1 => variant.text.clone(),
                 _ => format!("{name}, {}", variant.text),
             };
-            add(name, [&arguments.values.set[..], &variant.set].concat())?;
+            all.push(read(name, [&arguments.values.set[..], &variant.set].concat())?);
         }
     }
     Ok(all)
+}
+
+/// The one name that all variants set, where there is one.
+fn varied(variants: &[Variant]) -> Option<&str> {
+    let one = |own: &Variant| matches!(&own.set[..], [_]);
+    let first = variants.first().filter(|_| variants.iter().all(one))?;
+    let name = first.set[0].0.as_str();
+    variants.iter().all(|own| own.set[0].0 == name).then_some(name)
+}
+
+/// A scene as it is, named by the value of what its variants set, as `K=60 kN/m`.
+fn named_by_value(base: Named, name: &str) -> Named {
+    let varied = value_of(&base, name).map(|value| (name.to_owned(), value));
+    let named = varied.as_ref().map(|(name, value)| format!("{name}={value}"));
+    Named { name: named.unwrap_or(base.name), varied, ..base }
+}
+
+/// The value of this name in a scene, as it was set or stands there.
+fn value_of(named: &Named, name: &str) -> Option<String> {
+    let set = named.set.iter().rev().find(|own| own.0 == name).map(|own| own.1.clone());
+    let written = || {
+        let tunables = Tunables::of(&named.scene.text, named.scene.file.as_deref()).ok()?;
+        let at = tunables.anything(name).ok()?;
+        let path = &tunables.all()[at].path;
+        let scattered = named.scene.scatter.iter().find(|own| own.path == *path);
+        Some(scattered.map_or_else(|| tunables.shown(at), |own| own.text.clone()))
+    };
+    set.or_else(written)
+}
+
+/// The places of designs in the rising order of the one number in which they differ; `None` where they differ in more,
+/// or in words.
+fn ranks(designs: &[&Design]) -> Option<Vec<usize>> {
+    let varied = designs.iter().map(|own| own.varied.as_ref()).collect::<Option<Vec<_>>>()?;
+    let numbers = varied.iter().map(|own| parse_quantity(&own.1).ok());
+    let numbers = numbers.collect::<Option<Vec<_>>>()?;
+    let is_alike = numbers.iter().all(|own| own.dimension == numbers[0].dimension);
+    let rank = |own: f64| numbers.iter().filter(|other| other.value < own).count();
+    is_alike.then(|| numbers.iter().map(|own| rank(own.value)).collect())
 }
 
 /// The names of files without their ending, or whole where these are not told apart by that.
@@ -94,6 +140,8 @@ fn named(paths: &[Option<&Path>]) -> Vec<String> {
 /// A design and what became of it.
 pub(super) struct Design {
     pub(super) name: String,
+    /// What alone varies between the designs of one scene, and its value.
+    pub(super) varied: Option<(String, String)>,
     pub(super) answer: Answer,
 }
 
@@ -119,10 +167,11 @@ impl Designs {
     }
 
     fn as_designs(&self, series: Vec<RunSeries>) -> Vec<RunSeries> {
-        let named = series.into_iter().zip(self.best());
-        let named = named.map(|(own, (design, _))| {
-            let name = design.name.clone();
-            design.answer.with_measured(RunSeries { name, is_design: true, ..own })
+        let designs: Vec<&Design> = self.best().map(|own| own.0).collect();
+        let ranks = ranks(&designs);
+        let named = series.into_iter().zip(designs).enumerate().map(|(at, (own, design))| {
+            let (name, rank) = (design.name.clone(), ranks.as_ref().map(|own| own[at]));
+            design.answer.with_measured(RunSeries { name, is_design: true, rank, ..own })
         });
         named.collect()
     }
@@ -233,11 +282,18 @@ impl Designs {
         Table::new("Solved", &header, self.best().map(row))
     }
 
-    fn warnings(&self) -> Vec<String> {
-        let of = |own: &Design| {
+    /// The warnings of all, and which methods failed.
+    fn warned_and_failed(&self) -> Vec<String> {
+        self.warned(|own| {
             let failed = own.answer.failed.iter();
-            let failed = list(failed.map(|(method, error)| format!("{method} failed: {error}")));
-            let all = failed.into_iter().chain(own.answer.new_warnings());
+            list(failed.map(|(method, error)| format!("{method} failed: {error}")))
+        })
+    }
+
+    /// The warnings of each design behind what else is said of it.
+    fn warned(&self, more: impl Fn(&Design) -> Vec<String>) -> Vec<String> {
+        let of = |own: &Design| {
+            let all = more(own).into_iter().chain(own.answer.new_warnings());
             list(all.map(|text| format!("{}: {text}", own.name)))
         };
         self.designs.iter().flat_map(of).collect()
@@ -246,7 +302,7 @@ impl Designs {
 
 impl Study for Designs {
     fn text(&self, text: &mut Text) {
-        text.warnings(&self.warnings());
+        text.warnings(&self.warned_and_failed());
         text.title(&format!("{} designs side by side", self.designs.len()));
         self.titles().iter().for_each(|own| text.faint(own));
         text.blank();
@@ -275,8 +331,8 @@ impl Study for Designs {
         text.figures(&self.solved());
     }
 
-    fn notes(&self) -> Vec<String> {
-        self.warnings()
+    fn warnings(&self) -> Vec<String> {
+        self.warned(|_| Vec::new())
     }
 
     /// One entry for each design and method, each with its scene.
@@ -327,7 +383,7 @@ impl Study for Designs {
         }
         let page = Report {
             title: format!("{} designs side by side", self.designs.len()),
-            warnings: self.warnings(),
+            warnings: self.warned_and_failed(),
             verdict: {
                 let lines = self.verdicts().into_iter().chain(self.scatter());
                 let lines = lines.map(|line| format!("{}: {}", line.label, line.text));

@@ -19,7 +19,8 @@ use std::{collections::HashMap, path::PathBuf, sync::Arc};
 
 use clap::Args;
 use dashpot_analysis::{
-    Accuracy, Difference, RunError, RunReport, SolveSettings, Warning, differences, solve_partial,
+    Accuracy, Difference, RunError, RunReport, SolveSettings, Warning, ask, differences,
+    solve_partial,
 };
 use dashpot_plot::{
     RunSeries,
@@ -40,7 +41,10 @@ use self::{
     solving::{reasons, solving_table},
     verdict::verdict,
 };
-pub(crate) use self::{limits::level, measures::unit_of_kind};
+pub(crate) use self::{
+    limits::level,
+    measures::{measure_text, unit_of_kind},
+};
 use crate::{
     args::{
         LimitArguments, MethodNames, Switch, ValueArguments, Variant, When, budget, method_names,
@@ -99,6 +103,10 @@ pub(crate) struct RunArguments {
     scatter: ScatterArguments,
     #[command(flatten)]
     measured: MeasuredArguments,
+    /// Tells of these measures alone in tables and JSON, such as head.hic15; the verdict stays whole [default: all that
+    /// the scene reports].
+    #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
+    measure: Vec<String>,
     /// Exits with 4 unless every limit is kept, however the errors lie.
     #[arg(long)]
     enforce: bool,
@@ -264,7 +272,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let mut answers = Vec::new();
     let (mut noted, mut warned) = (Vec::new(), Vec::new());
-    for Named { name, scene, set } in scenes {
+    for Named { name, scene, varied, set } in scenes {
         let new = scene.notes.iter().filter(|own| !noted.contains(*own)).cloned();
         let new: Vec<ModelNote> = new.collect();
         print_notes(&new);
@@ -278,7 +286,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
         curves::reached(&arguments.at, scene.run.duration)?;
         let answer = solve_all(scene, (arguments, &set), terminal)?;
         print_failures(&answer, terminal);
-        answers.push(Design { name, answer });
+        answers.push(Design { name, varied, answer });
     }
     let failed = answers.iter().flat_map(|own| &own.answer.failed);
     let status = failed.map(|(_, error)| error.status()).max();
@@ -294,10 +302,6 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     }
     let Some(Design { answer, .. }) = answers.pop() else { return Ok(own) };
     if arguments.json || !answer.runs.is_empty() {
-        // The report begins with them, so at one place they would be read twice.
-        if arguments.json || !terminal.is_one {
-            answer.new_warnings().iter().for_each(|warning| terminal.warn(warning));
-        }
         let folder = folder.filter(|_| !answer.runs.is_empty());
         emit(&answer, arguments.json, folder, terminal)?;
     }
@@ -350,6 +354,7 @@ fn solve_all(
                 }
                 let found = measured.iter().map(|own| own.beside(&report));
                 beside.push(found.collect::<Result<_, _>>()?);
+                report.only.clone_from(&arguments.measure);
                 runs.push(report);
             }
             Ok(_) => {}
@@ -381,6 +386,7 @@ fn settings(
         settings.rtol = None;
     }
     settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
+    ask(&scene.assembly, &mut settings, &arguments.measure)?;
     Ok(settings)
 }
 
@@ -410,6 +416,10 @@ impl Study for Answer {
         for (method, why) in reasons(self) {
             text.labelled(&method, 8, &why);
         }
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.new_warnings()
     }
 
     fn object(&self) -> impl Serialize {

@@ -206,7 +206,8 @@ pub(super) fn table(run: &RunReport) -> Option<Table> {
     let own = run.scatter.as_ref()?;
     let header = ["measure", "mean", "std. deviation", "2.5 %", "97.5 %", "unit"];
     let zeros = Zeros::of(std::iter::once(run));
-    let rows = own.bands.iter().map(|band| row(run, band, &zeros));
+    let bands = own.bands.iter().filter(|own| run.told().any(|told| told.key == own.key));
+    let rows = bands.map(|band| row(run, band, &zeros));
     Some(Table::new("Scatter", &header, rows))
 }
 
@@ -216,7 +217,9 @@ pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
     let bands = |run: &RunReport| run.scatter.as_ref().map_or(&[][..], |own| &own.bands).to_vec();
     let all: Vec<Vec<Band>> = side.columns.iter().map(|own| bands(own.run)).collect();
     let mut keys: Vec<&Band> = Vec::new();
-    for band in all.iter().flatten() {
+    let is_told =
+        |key: &str| side.columns.iter().any(|own| own.run.told().any(|told| told.key == key));
+    for band in all.iter().flatten().filter(|band| is_told(&band.key)) {
         if !keys.iter().any(|known| known.key == band.key) {
             keys.push(band);
         }

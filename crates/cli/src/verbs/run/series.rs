@@ -97,6 +97,7 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
     RunSeries {
         name: report.solver.method.to_owned(),
         is_design: false,
+        rank: None,
         elements,
         nodes: nodes.collect(),
         energy: Vec::new(),
