@@ -41,8 +41,7 @@ impl Bar {
     pub(crate) fn show(&mut self, share: f64, message: impl FnOnce() -> String) -> ControlFlow<()> {
         let elapsed = self.started.elapsed();
         if !self.is_seen {
-            if elapsed > self.next {
-                self.next = 2 * elapsed;
+            if self.is_due(elapsed) {
                 let (word, done) = (&self.word, percent(share.clamp(0.0, 1.0), 2));
                 note(&format!("{word}: {done} after {}, {}", duration(elapsed), message()));
             }
@@ -57,6 +56,17 @@ impl Bar {
             bar.set_message(message());
         }
         ControlFlow::Continue(())
+    }
+}
+
+impl Bar {
+    /// Whether a line is due after so long.
+    fn is_due(&mut self, elapsed: Duration) -> bool {
+        let is_due = elapsed > self.next;
+        if is_due {
+            self.next = 2 * elapsed;
+        }
+        is_due
     }
 }
 
@@ -77,4 +87,16 @@ fn bar(word: &str) -> ProgressBar {
     }
     bar.set_prefix(word.to_owned());
     bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_become_rarer_as_work_goes_on() {
+        let mut bar = Bar::new("sweep", 0.0, false);
+        let due = (0..400).filter(|&at| bar.is_due(Duration::from_secs(at)));
+        assert_eq!(due.collect::<Vec<_>>(), [11, 23, 47, 95, 191, 383]);
+    }
 }
