@@ -60,7 +60,8 @@ fn variants_are_designs_besides_the_scene_as_it_is() {
     let (_folder, [soft, stiff]) = written();
     let told = |more: &[&str]| words(&out(&run(&[&["run"], more].concat())));
     let of_one = told(&[&soft, "--variant", "K=36 kN/m", "--variant", "K=49 kN/m"]);
-    let row = "measure soft K=36 kN/m K=49 kN/m unit pad.peak-force 1.581139 1.897367 2.213594 kN";
+    let row =
+        "measure K=25 kN/m K=36 kN/m K=49 kN/m unit pad.peak-force 1.581139 1.897367 2.213594 kN";
     assert!(of_one.contains(row), "{of_one}");
     let of_two = json(&["run", &soft, &stiff, "--variant", "K=36 kN/m", "--json"]);
     let runs = of_two["runs"].as_array().unwrap();
@@ -92,4 +93,36 @@ fn a_design_that_cannot_be_read_is_told_by_its_file() {
     let output = run(&["run", &soft, "--variant", "L=3"]);
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains('L'), "{}", err(&output));
+}
+
+#[test]
+fn measures_that_are_named_stand_alone_in_tables_and_json() {
+    let (_folder, [soft, _]) = written();
+    let all = ["run", &soft, "--measure", "head.hic15,pad.impulse"];
+    let own = json(&[&all[..], &["--json"]].concat());
+    let mut keys: Vec<&String> = own["runs"][0]["measures"].as_object().unwrap().keys().collect();
+    keys.sort();
+    assert_eq!(keys, ["head.hic15", "pad.impulse"]);
+    let text = words(&out(&run(&all)));
+    // 4 kg at 5 m/s turn round.
+    assert!(text.contains("unit at pad.impulse 40.00000 "), "{text}");
+    assert!(text.contains("peak force 1.581 kN") && !text.contains("pad.energy"), "{text}");
+    let beside = words(&out(&run(&[&all[..], &["--variant", "K=36 kN/m"]].concat())));
+    assert!(beside.contains("unit pad.impulse 40.00000 40.00000 N s head.hic15"), "{beside}");
+    let output = run(&["run", &soft, "--measure", "pad.impulze"]);
+    assert_eq!(code(&output), 2);
+    assert!(words(&err(&output)).contains("did you mean `pad.impulse`?"), "{}", err(&output));
+}
+
+#[test]
+fn a_warning_is_said_once_where_text_and_warnings_are_read_apart() {
+    let (_folder, [soft, stiff]) = written();
+    for scenes in [&[&*soft][..], &[&*soft, &*stiff]] {
+        let output = run(&[&["run"], scenes].concat());
+        let count = |text: &str| words(text).matches("is in tension").count();
+        // Each stream has all of them: the report is kept without the other.
+        assert_eq!([count(&out(&output)), count(&err(&output))], [scenes.len(); 2]);
+        let data = run(&[&["run", "--json"], scenes].concat());
+        assert_eq!(words(&err(&data)).matches("warning:").count(), scenes.len());
+    }
 }

@@ -35,6 +35,7 @@ mod independent;
 mod layers;
 mod limits;
 mod loading;
+mod measured;
 mod moduli;
 mod mutated_runs;
 mod on_demand;

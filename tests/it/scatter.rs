@@ -256,3 +256,47 @@ fn faults_point_at_the_number() {
         assert_eq!(rendered.matches("error").count(), 1, "{to}: {rendered}");
     }
 }
+
+/// The numbers of a row of a table, and its words.
+fn row(text: &str, key: &str) -> Vec<f64> {
+    let mut rows = text.lines().filter(|line| line.trim_start().starts_with(key));
+    let row = rows.find(|line| line.contains(" to ")).unwrap();
+    row.split_whitespace().filter_map(|word| word.parse().ok()).collect()
+}
+
+#[test]
+fn designs_side_by_side_have_their_ranges_and_probabilities() {
+    let limit = format!("pad.peak-force = \"{} N\"", peak_at(1.0));
+    let (_folder, path) = written("25 ± 2.5 kN/m", &limit);
+    let output = run(&["run", &path, "--variant", "K=30.25 ± 3.025 kN/m", "--sample", "2000"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let text = out(&output);
+    // The second spring is 1.21 times as stiff, mean and deviation: all forces are 1.1 times as large.
+    let quantile = 1.959_963_984_540_054;
+    let known = [-quantile, quantile].map(|deviations| 1e-3 * peak_at(deviations));
+    let known = [known[0], known[1], 1.1 * known[0], 1.1 * known[1]];
+    let found = row(&text, "pad.peak-force");
+    assert_eq!(found.len(), 4, "{text}");
+    for (found, known) in found.into_iter().zip(known) {
+        // The outermost fortieth of 2000 values holds 50: the quantile is known to some parts of a thousand.
+        assert!((found - known).abs() < 5e-3 * known, "{found} is not {known}");
+    }
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    // One standard deviation above the mean.
+    assert!(
+        words.contains("K=25 ± 2.5 kN/m: pass, 1.581 kN, margin 4.7 %, probability to pass 84.1 %"),
+        "{words}"
+    );
+    assert_eq!(words.matches("2000 designs (Latin hypercube, seed 1)").count(), 2, "{words}");
+}
+
+#[test]
+fn scatter_of_what_the_scene_does_not_use_is_not_drawn() {
+    let (_folder, path) = written("25 ± 2.5 kN/m", "");
+    let scattered = of_run(&path, &["--sample", "50"])["scatter"].clone();
+    let unused = "[materials]\nfoam = { spring = \"1 ± 0.2 MPa\" }\n[models]\nother = { spring = \"3 ± 1 kN/m\" }\n";
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "scene.toml", &(unused.to_owned() + &scene("25 ± 2.5 kN/m", "")));
+    let with_unused = of_run(path.to_str().unwrap(), &["--sample", "50"])["scatter"].clone();
+    assert_eq!(with_unused, scattered);
+}

@@ -53,7 +53,7 @@ fn values_are_those_of_single_runs() {
             assert!(error <= 1e-6 * value.abs(), "{name}: {error}");
             compared += 1;
         }
-        assert_eq!(compared, 9, "all that the scene reports, and the share of the thickness");
+        assert_eq!(compared, 10, "all that the scene reports, and the share of the thickness");
     }
 }
 

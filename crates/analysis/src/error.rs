@@ -86,6 +86,14 @@ pub enum RunError {
         /// What is reported.
         known: Vec<String>,
     },
+    /// A measure that there is not.
+    #[error("there is no measure `{key}`")]
+    NoMeasure {
+        /// What was asked for.
+        key: String,
+        /// What is reported.
+        known: Vec<String>,
+    },
     /// The run is to stop at a level of an output that does not exist.
     #[error(
         "the run is to stop by `{output}`, but there is no such output; known: {}",

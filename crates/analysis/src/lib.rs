@@ -39,7 +39,7 @@ pub use impact::sliders::Idle;
 pub use impact::sliders::SliderFault;
 pub use limits::{Bound, Judgement, Limit, Reason};
 pub use measures::exceedance::Counted;
-pub use measures::selection::MeasureWish;
+pub use measures::selection::{MeasureWish, ask, reported};
 pub use measures::{Family, MEASURES, Measure, MeasureKind, Reading};
 pub use note::Note;
 pub use report::compression::Compression;

@@ -1,5 +1,7 @@
 //! A measured curve beside that of a model: how far they are apart.
 
+use dashpot_dae::Signal;
+
 /// How far a measured curve and that of a model are apart, in the units of the curves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
@@ -28,26 +30,35 @@ impl Deviation {
         self.peak() / self.measured_peak.1.abs()
     }
 
+    /// Whether the two peaks have different signs, so that one of both may count the other way.
+    pub fn is_opposed(&self) -> bool {
+        self.model_peak.1 * self.measured_peak.1 < 0.0
+    }
+
     /// How much later the model has its peak, or of loops how much deeper.
     pub fn place(&self) -> f64 {
         self.model_peak.0 - self.measured_peak.0
     }
 
-    /// Of curves over time: `measured` in order of time, and the `model` from its values within `span` \[s\]
-    /// with the place and value of its peak. `None` where they have fewer than two rows in common, or nothing
-    /// but zeros was measured.
+    /// Of curves over time within a part of a run \[s\]: `measured` in order of time, which counts from `zero` \[s\]
+    /// of the run, and an output of it. Both peaks are those of the span that the two have in common. `None` where
+    /// that holds fewer than two rows, or nothing but zeros was measured in it.
     pub fn over_time(
         measured: &[(f64, f64)],
-        model: impl Fn(f64) -> f64,
-        span: (f64, f64),
-        model_peak: (f64, f64),
+        (model, window): (&Signal, (f64, f64)),
+        zero: f64,
     ) -> Option<Self> {
-        let is_inside = |row: &&(f64, f64)| (span.0..=span.1).contains(&row.0);
+        let is_inside = |row: &&(f64, f64)| (window.0..=window.1).contains(&(row.0 + zero));
         let rows: Vec<(f64, f64)> = measured.iter().filter(is_inside).copied().collect();
-        let mut square = Square::default();
-        square.add(&rows, |time| Some(model(time)));
         let (first, last) = (rows.first()?.0, rows.last()?.0);
-        Self::of(rows.len(), (first, last), (peak(measured)?, model_peak), square, None)
+        let peak = model.absolute_maximum((first + zero, last + zero));
+        // Values may jump there.
+        let sides = [model.left_value(peak.time), model.value(peak.time)];
+        let signed = if sides[0].abs() > sides[1].abs() { sides[0] } else { sides[1] };
+        let peak = (peak.time - zero, peak.value.copysign(signed));
+        let mut square = Square::default();
+        square.add(&rows, |time| Some(model.value(time + zero)));
+        Self::of(rows.len(), (first, last), (self::peak(&rows)?, peak), square, None)
     }
 
     /// Of loops, as they follow in time. Each is split where its deformation is largest, and the ways out and back
@@ -129,25 +140,41 @@ fn area(rows: &[(f64, f64)]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use dashpot_dae::Panel;
+
     use super::*;
 
     fn sampled(value: impl Fn(f64) -> f64, times: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
         times.map(|time| (time, value(time))).collect()
     }
 
+    /// 400 t (1 − t) from 0 to 1: the peak is 100 at 0.5.
+    fn parabola() -> Signal {
+        let coefficients = [50.0, 0.0, -50.0].into();
+        Signal::new(vec![Panel { coefficients, ..Panel::constant(0.0, 1.0, 0.0) }], None, 0.0)
+    }
+
     #[test]
-    fn an_offset_is_the_deviation() {
-        let model = |time: f64| 100.0 * (3.0 * time).sin();
-        // Uneven times, the last ones beyond the model.
-        let times = (0..60).map(|at| f64::from(at * at) / 1000.0);
+    fn an_offset_is_the_deviation_on_the_clock_of_the_file() {
+        // Uneven times, the last ones beyond the model, which begins at −0.25 on this clock.
+        let times = (0..60).map(|at| f64::from(at * at) / 2048.0 - 0.25);
+        let model = |time: f64| 400.0 * (time + 0.25) * (0.75 - time);
         let measured = sampled(|time| model(time) + 5.0, times);
-        let top = (std::f64::consts::FRAC_PI_2 / 3.0, 100.0);
-        let own = Deviation::over_time(&measured, model, (0.0, 1.0), top).unwrap();
-        let peak = peak(&measured).unwrap();
-        assert!((own.rms - 5.0 / peak.1.abs()).abs() < 1e-14, "{own:?}");
-        assert_eq!(own.peak().to_bits(), (100.0 - peak.1.abs()).to_bits());
-        assert_eq!((own.rows, own.span.1), (32, 0.961));
-        assert_eq!(own.areas, None);
+        let own = Deviation::over_time(&measured, (&parabola(), (0.0, 1.0)), 0.25).unwrap();
+        // The sample at 32² / 2048.
+        assert_eq!(own.measured_peak, (0.25, 105.0));
+        assert!((own.rms - 5.0 / 105.0).abs() < 1e-14, "{own:?}");
+        assert!((own.peak() + 5.0).abs() < 1e-12 && own.place().abs() < 1e-9, "{own:?}");
+        assert_eq!((own.rows, own.span), (46, (-0.25, 45.0 * 45.0 / 2048.0 - 0.25)));
+        assert!(own.areas.is_none() && !own.is_opposed());
+    }
+
+    #[test]
+    fn peaks_are_those_of_what_both_have_in_common() {
+        let measured = [(0.0, 0.0), (0.125, -10.0), (0.25, -20.0)];
+        let own = Deviation::over_time(&measured, (&parabola(), (0.0, 1.0)), 0.0).unwrap();
+        assert_eq!((own.measured_peak, own.model_peak.0), ((0.25, -20.0), 0.25));
+        assert!((own.model_peak.1 - 75.0).abs() < 1e-12 && own.is_opposed(), "{own:?}");
     }
 
     #[test]
@@ -174,7 +201,11 @@ mod tests {
     #[test]
     fn nothing_in_common_has_no_deviation() {
         let measured = [(2.0, 1.0), (3.0, 2.0)];
-        assert_eq!(Deviation::over_time(&measured, |_| 1.0, (0.0, 1.0), (0.0, 1.0)), None);
+        assert_eq!(Deviation::over_time(&measured, (&parabola(), (0.0, 1.0)), 0.0), None);
+        assert_eq!(
+            Deviation::over_time(&[(0.0, 0.0), (1.0, 0.0)], (&parabola(), (0.0, 1.0)), 0.0),
+            None
+        );
         assert_eq!(Deviation::of_loops(&[(0.0, 0.0), (1.0, 0.0)], &measured), None);
     }
 }

@@ -155,14 +155,18 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
     })
 }
 
-/// Units of work: a whole number, or one such as 1e9.
 /// A time \[s\] within a run.
 pub(crate) fn time(text: &str) -> Result<f64, String> {
-    let time = crate::input::setting("at", text.trim(), Dimension::TIME);
-    let time = time.map_err(|error| error.to_string())?;
+    let time = signed_time(text)?;
     if time >= 0.0 { Ok(time) } else { Err("a run begins at 0 s".to_owned()) }
 }
 
+/// A time \[s\], or a difference of times.
+pub(crate) fn signed_time(text: &str) -> Result<f64, String> {
+    crate::input::setting("time", text.trim(), Dimension::TIME).map_err(|error| error.to_string())
+}
+
+/// Units of work: a whole number, or one such as 1e9.
 pub(crate) fn budget(text: &str) -> Result<u64, String> {
     const MOST: f64 = 1e18;
     #[expect(

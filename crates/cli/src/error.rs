@@ -126,9 +126,12 @@ pub(crate) enum CliError {
     /// A file with a measured curve that is no table.
     #[error("`{file}`, {fault}")]
     MeasuredTable { file: String, fault: Box<TableError> },
-    /// A measured curve of which it is not clear what it measured.
+    /// A measured curve that cannot be read, or of which it is not clear what it measured.
     #[error("`--measured {file}`: {reason}")]
     MeasuredColumn { file: String, reason: String },
+    /// An output that a scene does not have, or that cannot be measured.
+    #[error("`--measured {file}`: there is no `{name}` over time to stand beside")]
+    NotMeasurable { file: String, name: String, known: Vec<String> },
     /// A parameter of a test with a value that cannot be used.
     #[error("`{name}`: {reason}")]
     WrongSetting { name: String, reason: String },
@@ -203,6 +206,7 @@ impl CliError {
                 | RunError::UnknownMethod { .. }
                 | RunError::UnknownTarget { .. }
                 | RunError::UnknownMeasure { .. }
+                | RunError::NoMeasure { .. }
                 | RunError::UnknownOutput { .. }
                 | RunError::InvalidSetting { .. }
                 | RunError::Solve(
@@ -211,10 +215,9 @@ impl CliError {
                 _ => Status::RunFailed,
             },
             Self::Sweep(error) => match error {
-                SweepError::NotPosed(_)
-                | SweepError::NoPoints
-                | SweepError::NoMeasure { .. }
-                | SweepError::NoneReported => Status::InputWrong,
+                SweepError::NotPosed(_) | SweepError::NoPoints | SweepError::NoneReported => {
+                    Status::InputWrong
+                }
                 _ => Status::RunFailed,
             },
             Self::Vibration(VibrationError::Unbounded { .. })
@@ -246,13 +249,13 @@ impl CliError {
                     .to_owned(),
             ),
             Self::MeasuredTable { fault, .. } => fault.help(),
+            Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
             Self::Tunable(fault) => fault.help(),
-            Self::Sweep(SweepError::NoMeasure { key, known })
-            | Self::Run(RunError::UnknownMeasure { key, known }) => {
-                suggestion(key, "measures", known)
-            }
+            Self::Run(
+                RunError::NoMeasure { key, known } | RunError::UnknownMeasure { key, known },
+            ) => suggestion(key, "measures", known),
             Self::UnknownKind { .. } => Some("`dashpot list` names every kind".to_owned()),
             Self::Unreadable { .. } => Some(
                 "`dashpot new --out pad.toml` writes a scene to start from, \

@@ -19,10 +19,9 @@ pub(crate) struct MeasuredFile {
 impl MeasuredFile {
     /// Reads a file.
     pub(crate) fn read(name: &str) -> Result<Self, CliError> {
-        let bytes = bytes_of(Path::new(name)).map_err(|error| CliError::Unreadable {
-            name: name.to_owned(),
-            reason: reason(&error),
-            similar: None,
+        let bytes = bytes_of(Path::new(name)).map_err(|error| CliError::MeasuredColumn {
+            file: name.to_owned(),
+            reason: format!("it cannot be read: {}", reason(&error)),
         })?;
         Ok(Self { name: name.to_owned(), text: table_text(&bytes).into_owned() })
     }

@@ -25,11 +25,13 @@ pub(crate) fn of_text(scene: &Scene) -> String {
 
 /// The other files of which the scene is made; one that is gone meanwhile is left out.
 pub(crate) fn of_files(scene: &Scene) -> Vec<Source> {
-    let source = |file: &String| {
-        let sha256 = sha256(&load(file).ok()?);
-        Some(Source { file: file.clone(), sha256 })
-    };
+    let source = |file: &String| Some(Source { file: file.clone(), sha256: of_file(file)? });
     list(scene.files.iter().filter_map(source))
+}
+
+/// The SHA-256 of a file, unless it is gone meanwhile.
+pub(crate) fn of_file(name: &str) -> Option<String> {
+    Some(sha256(&load(name).ok()?))
 }
 
 /// The version of the program and all hashes, as rows of a table of settings.

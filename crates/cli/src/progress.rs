@@ -1,4 +1,4 @@
-//! A bar for long runs.
+//! How far long work has come: a bar, or where nobody sees one a line now and then.
 
 use std::{
     ops::ControlFlow,
@@ -8,31 +8,44 @@ use std::{
 use dashpot_dae::{Observer, Progress};
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::units::format_quantity;
+use dashpot_units::percent;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+
+use crate::{numbers::duration, terminal::note};
 
 /// Shorter runs have no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
+/// Without a terminal a line is written after so long, and then whenever the time has doubled.
+const FIRST: Duration = Duration::from_secs(10);
 /// Steps of the bar.
 const PARTS: u64 = 1000;
 
-/// Shows on standard error, where that is a terminal, how far some work has come.
+/// Shows on standard error how far some work has come.
 pub(crate) struct Bar {
     word: String,
     end: f64,
     started: Instant,
     shown: Option<ProgressBar>,
-    wanted: bool,
+    is_seen: bool,
+    next: Duration,
 }
 
 impl Bar {
-    /// A bar for work of this name, a run until `end` \[s\]; none if nobody sees it.
-    pub(crate) fn new(word: &str, end: f64, wanted: bool) -> Self {
-        Self { word: word.to_owned(), end, started: Instant::now(), shown: None, wanted }
+    /// A bar for work of this name, a run until `end` \[s\]; lines if nobody sees it.
+    pub(crate) fn new(word: &str, end: f64, is_seen: bool) -> Self {
+        let (word, started) = (word.to_owned(), Instant::now());
+        Self { word, end, started, shown: None, is_seen, next: FIRST }
     }
 
     /// Shows which share is done, with a word on it.
     pub(crate) fn show(&mut self, share: f64, message: impl FnOnce() -> String) -> ControlFlow<()> {
-        if self.wanted && (self.shown.is_some() || self.started.elapsed() > PATIENCE) {
+        let elapsed = self.started.elapsed();
+        if !self.is_seen {
+            if self.is_due(elapsed) {
+                let (word, done) = (&self.word, percent(share.clamp(0.0, 1.0), 2));
+                note(&format!("{word}: {done} after {}, {}", duration(elapsed), message()));
+            }
+        } else if self.shown.is_some() || elapsed > PATIENCE {
             let bar = self.shown.get_or_insert_with(|| bar(&self.word));
             #[expect(
                 clippy::cast_possible_truncation,
@@ -43,6 +56,17 @@ impl Bar {
             bar.set_message(message());
         }
         ControlFlow::Continue(())
+    }
+}
+
+impl Bar {
+    /// Whether a line is due after so long.
+    fn is_due(&mut self, elapsed: Duration) -> bool {
+        let is_due = elapsed > self.next;
+        if is_due {
+            self.next = 2 * elapsed;
+        }
+        is_due
     }
 }
 
@@ -63,4 +87,16 @@ fn bar(word: &str) -> ProgressBar {
     }
     bar.set_prefix(word.to_owned());
     bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_become_rarer_as_work_goes_on() {
+        let mut bar = Bar::new("sweep", 0.0, false);
+        let due = (0..400).filter(|&at| bar.is_due(Duration::from_secs(at)));
+        assert_eq!(due.collect::<Vec<_>>(), [11, 23, 47, 95, 191, 383]);
+    }
 }

@@ -30,8 +30,9 @@ pub use figures::model::{
     RheometerSeries,
 };
 pub use figures::{
-    ElementSeries, EnergySeries, Figure, NodeSeries, Of, PrecisionCurve, PrecisionSeries, RunLimit,
-    RunMarker, RunMarkerKind, RunSeries, VibrationCurve, VibrationSeries,
+    ElementSeries, EnergySeries, Figure, MeasuredSeries, NodeSeries, Of, PrecisionCurve,
+    PrecisionSeries, RunLimit, RunMarker, RunMarkerKind, RunSeries, VibrationCurve,
+    VibrationSeries,
 };
 pub use map::{Map, MapLimit, Side};
 pub use report::{Report, ReportFigure, Table};

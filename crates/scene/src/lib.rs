@@ -50,7 +50,7 @@ pub use text::nearest::{nearest, suggestion};
 pub use text::source::Source;
 pub use text::visible::{is_control, visible};
 pub use vary::listed::ListedFault;
-pub use vary::scatter::{Drawn, Sample, ScatteredNumber};
+pub use vary::scatter::{Change, Drawn, Sample, ScatteredNumber};
 pub use vary::tunable::{Tunable, TunableFault, Tunables};
 pub use vary::variation::{Variation, VariationFault};
 pub use write::rewrite::with_model;

@@ -120,6 +120,17 @@ impl Posed {
             limits: self.limits.clone(),
         })
     }
+
+    /// Whether it is the same to a solver as another scene: in its network, its run, and what is asked of that. Named
+    /// values, models and materials that nothing uses make no difference.
+    pub fn is_solved_as(&self, other: &Self) -> bool {
+        // What is printed of numbers tells them apart to the bit.
+        let solved = |own: &Self| {
+            let asked = (&own.run, &own.accuracy, &own.measures, &own.limits);
+            format!("{:?} {asked:?}", own.network)
+        };
+        solved(self) == solved(other)
+    }
 }
 
 impl From<Scene> for Posed {

@@ -7,6 +7,9 @@ use super::{Dimension, format::handy, parse_dimension, si_unit};
 /// Digits by which a unit is chosen.
 const MOST_DIGITS: usize = 7;
 
+/// The SI unit of an energy per volume.
+const ENERGY_DENSITY: &str = "J/m³";
+
 /// Units in which impacts are read where others would suit as well: SI unit, range of the value,
 /// symbol and factor.
 const USUAL: [(&str, Range<f64>, &str, f64); 3] =
@@ -23,6 +26,11 @@ pub struct Unit {
 impl Unit {
     /// The SI unit `si` with the prefix that suits `value`, which is in SI units.
     pub fn suiting(value: f64, si: &str) -> Self {
+        // What is lost in a volume is no pressure.
+        if si == ENERGY_DENSITY {
+            let energy = Self::suiting(value, "J");
+            return Self { symbol: energy.symbol + "/m³", ..energy };
+        }
         if let Some((_, _, symbol, factor)) =
             USUAL.iter().find(|usual| usual.0 == si && usual.1.contains(&value.abs()))
         {
@@ -157,6 +165,9 @@ mod tests {
         assert_eq!(rounded(0.0, "N", 7), "0 N");
         assert_eq!(rounded(1e300, "N", 7), "1e291 GN");
         assert_eq!(rounded(82.549_88, "J", 4), "82.55 J");
+        assert_eq!(quantity(2.5e5, "J/m³", 3), "250 kJ/m³");
+        assert_eq!(quantity(1.5e6, "J/m³", 3), "1.50 MJ/m³");
+        assert_eq!(quantity(0.0, "J/m³", 3), "0 J/m³");
     }
 
     #[test]

@@ -91,7 +91,7 @@ fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
         duration = \"0.9251 s\"\n";
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let mut settings = scene.settings("auto").unwrap();
-    settings.accuracy.default = 1e-6;
+    settings.accuracy.default = 1.3e-6;
     let report = scene.network.solve_with(&settings).unwrap();
     assert!(!admits(&report), "{:?}", report.warnings);
     assert_eq!(report.solver.method, "esdirk34");

@@ -13,7 +13,7 @@ const CHAPTERS: [(&str, usize, usize); 13] = [
     ("scatter", 1, 0),
     ("jobs/protector", 2, 0),
     ("jobs/parcel", 2, 2),
-    ("jobs/liners", 2, 1),
+    ("jobs/liners", 4, 2),
     ("jobs/dma", 2, 0),
     ("jobs/designs", 1, 0),
     ("jobs/thesis-figure", 0, 2),

@@ -86,6 +86,8 @@ parameters! {
 impl MeasureKind for CoefficientOfRestitution {
     const UNIT: &'static str = "1";
     const APPLIES_TO: Family = Family::Element;
+    const BY_DEFAULT: bool = true;
+    const WITHOUT_IMPACTOR: bool = false;
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let connection = &solution.assembly().connections[target];

@@ -38,6 +38,8 @@ pub struct RunReport {
     pub system: SystemReport,
     /// The measures: those that every run reports, then those wanted.
     pub measures: Vec<MeasureReport>,
+    /// Keys of the measures that tables and programs are told of; all where none is named.
+    pub only: Vec<String>,
     /// The contact of each element that touches an impactor.
     pub contacts: Vec<ContactReport>,
     /// The energy balance at the end of the run.
@@ -194,6 +196,12 @@ impl RunReport {
     /// The measure with this key, for instance `padding.peak-force`.
     pub fn measure(&self, key: &str) -> Option<&MeasureReport> {
         self.measures.iter().find(|measure| measure.key == key)
+    }
+
+    /// The measures that tables and programs are told of.
+    pub fn told(&self) -> impl Iterator<Item = &MeasureReport> {
+        let is_told = |key: &String| self.only.is_empty() || self.only.contains(key);
+        self.measures.iter().filter(move |own| is_told(&own.key))
     }
 
     /// The value of the measure with this key, in its SI unit.

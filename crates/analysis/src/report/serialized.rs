@@ -31,7 +31,7 @@ impl Serialize for RunReport {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("solver", &self.solver)?;
         map.serialize_entry("system", &self.system)?;
-        let measures = self.measures.iter().map(|own| (&own.key, own));
+        let measures = self.told().map(|own| (&own.key, own));
         map.serialize_entry("measures", &Pairs(measures.collect()))?;
         map.serialize_entry("limits", &self.judged())?;
         if let Some(scatter) = &self.scatter {

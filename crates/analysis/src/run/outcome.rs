@@ -106,6 +106,7 @@ pub(super) fn report(
         warnings,
         limits: settings.limits.clone(),
         scatter: None,
+        only: Vec::new(),
         assembly: Arc::clone(assembly),
         trajectory: outcome.solved.trajectory,
     })

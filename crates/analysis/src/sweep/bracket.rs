@@ -80,7 +80,7 @@ pub(super) struct Step<'s, const N: usize> {
 
 impl<const N: usize> Step<'_, N> {
     /// The state at a time after the beginning, by its series from the nearer end.
-    fn state(&self, time: f64) -> [f64; N] {
+    pub(super) fn state(&self, time: f64) -> [f64; N] {
         if time > 0.5 * self.length {
             advanced(self.matrix, time - self.length, self.ends[1])
         } else {

@@ -9,7 +9,7 @@ use crate::{
     MeasureWish, RunError,
     measures::{
         Family, MEASURES, Measure, PeakDeformation,
-        selection::{Selected, select, wish},
+        selection::{Selected, ask, select},
     },
 };
 
@@ -31,16 +31,7 @@ pub fn columns(
 ) -> Result<(Vec<Column>, Vec<MeasureWish>), SweepError> {
     let assembly = scene.network.compile(scene.settings.duration).map_err(RunError::from)?;
     let mut settings = scene.settings.clone();
-    let reported = select(&assembly, &settings.measures, &settings.limits)?;
-    for key in keys.iter().filter(|key| !reported.iter().any(|own| own.key == **key)) {
-        let Some(wish) = wish(key) else {
-            return Err(SweepError::NoMeasure {
-                key: key.clone(),
-                known: reported.iter().map(|own| own.key.clone()).collect(),
-            });
-        };
-        settings.measures.push(wish);
-    }
+    ask(&assembly, &mut settings, keys)?;
     let selected = select(&assembly, &settings.measures, &settings.limits)?;
     let is_limited = |key: &String| settings.limits.iter().any(|own| own.key == *key);
     let is_wanted =

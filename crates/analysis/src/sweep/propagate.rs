@@ -95,6 +95,9 @@ struct Propagation<'p, const N: usize> {
     shallowest: f64,
     /// By how much the force falls in the step in which it passes zero, per time.
     fall: f64,
+    /// The rate of the deformation at the start, and its own with its rate at the end of the impact.
+    meeting: f64,
+    parting: [f64; 2],
 }
 
 impl<'p, const N: usize> Propagation<'p, N> {
@@ -142,6 +145,8 @@ impl<'p, const N: usize> Propagation<'p, N> {
             lowest: f64::INFINITY,
             shallowest: 0.0,
             fall: 0.0,
+            meeting: seen[4],
+            parting: [0.0; 2],
         })
     }
 
@@ -170,6 +175,8 @@ impl<'p, const N: usize> Propagation<'p, N> {
             self.shallowest = self.shallowest.min(depth);
             self.peaks[1].meet(depth, self.start() + time);
             self.fall = found[1].min(self.seen[1]).abs();
+            let [_, _, _, _, speed, bend] = apply(looks, &whole.state(time));
+            self.parting = [speed, bend];
             until = Some(time);
         } else {
             if self.seen[1] < 0.0 && found[1] > 0.0 {
@@ -242,16 +249,22 @@ impl<'p, const N: usize> Propagation<'p, N> {
         let grown = ROUNDINGS * steps * N as f64;
         let noise = grown * size(self.scene_point.force, &self.most);
         let figure = |value: f64, error: f64| Figure { value, error };
+        let speed: [f64; N] = self.looks.map(|look| look[4]);
+        let speed = grown * size(&speed, &self.most);
+        let release_error = noise / self.fall + 4.0 * f64::EPSILON * release;
+        let [parting, bend] = self.parting;
+        let restitution = -parting / self.meeting;
+        let moved = speed * (1.0 + restitution.abs()) + bend.abs() * release_error;
         let mut impact = Impact {
             force: figure(force.value, noise),
             depth: figure(depth.value, grown * size(self.scene_point.deformation, &self.most)),
             deepest_at: depth.time,
-            release: figure(release, noise / self.fall + 4.0 * f64::EPSILON * release),
+            release: figure(release, release_error),
+            restitution: figure(restitution, moved / self.meeting.abs()),
             ..Impact::default()
         };
         if let Some(sums) = &self.sums {
-            let speed: [f64; N] = self.looks.map(|look| look[4]);
-            sums.finish(&mut impact, self.scene_point.end, noise, grown * size(&speed, &self.most));
+            sums.finish(&mut impact, self.scene_point.end, noise, speed);
         }
         impact.course = self.recorder.take().map(|own| Signal::new(own.panels, None, noise));
         let all = [impact.force, impact.depth, impact.release, impact.power, impact.work];

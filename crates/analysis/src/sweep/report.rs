@@ -154,14 +154,6 @@ pub enum SweepError {
     /// An axis has no values, or there are too many points to count.
     #[error("an axis has no values, or all together have too many points")]
     NoPoints,
-    /// A measure that the scene does not have.
-    #[error("there is no measure `{key}`")]
-    NoMeasure {
-        /// What was asked for.
-        key: String,
-        /// What the scene reports.
-        known: Vec<String>,
-    },
     /// The scene reports nothing by itself, and nothing is asked for.
     #[error("the scene reports no measure by itself: name one")]
     NoneReported,

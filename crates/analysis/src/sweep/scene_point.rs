@@ -56,6 +56,8 @@ pub(super) struct Impact {
     pub(super) deepest_at: f64,
     /// When the force falls through zero.
     pub(super) release: Figure,
+    /// The rate at which the deformation ends over that at which it began, with the sign turned.
+    pub(super) restitution: Figure,
     /// `∫ F^n dt`.
     pub(super) power: Figure,
     /// `∫ F dt`.

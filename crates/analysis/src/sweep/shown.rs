@@ -26,12 +26,23 @@ pub(super) enum Shown {
     Share,
     Acceleration,
     ContactTime,
+    Restitution,
     Impulse,
     Work,
     WorkAtEnd,
     Severity,
     /// Over intervals of at most so many seconds.
     Hic(f64),
+}
+
+impl Shown {
+    /// What the accuracy of a value is counted in parts of.
+    pub(super) fn size(self, value: f64) -> f64 {
+        match self {
+            Self::Restitution => 1.0,
+            _ => value.abs(),
+        }
+    }
 }
 
 /// The figure that is a measure; `None` where it has to be read off the full solution.
@@ -51,8 +62,14 @@ pub(super) fn shown_by(
         }
     }
     let target = match selected.measure.kind() {
-        "peak-force" | "peak-deformation" | "peak-strain" | "contact-time" | "impulse"
-        | "energy" | "energy-at-end" => parametric.element(),
+        "peak-force"
+        | "peak-deformation"
+        | "peak-strain"
+        | "contact-time"
+        | "impulse"
+        | "energy"
+        | "energy-at-end"
+        | "coefficient-of-restitution" => parametric.element(),
         _ => parametric.impactor().index(),
     };
     if selected.target != target {
@@ -63,6 +80,7 @@ pub(super) fn shown_by(
         ("peak-deformation", []) => Some(Shown::Depth),
         ("peak-acceleration", []) => Some(Shown::Acceleration),
         ("contact-time", []) => Some(Shown::ContactTime),
+        ("coefficient-of-restitution", []) => Some(Shown::Restitution),
         ("impulse", []) => {
             wanted.work = true;
             Some(Shown::Impulse)
@@ -131,6 +149,7 @@ impl Plan<'_> {
             Shown::Share => times(impact.depth, thickness.recip()),
             Shown::Acceleration => times(impact.force, mass.recip()),
             Shown::ContactTime => times(impact.release, time),
+            Shown::Restitution => impact.restitution,
             Shown::Impulse => times(impact.impulse, time),
             Shown::Work => impact.work,
             Shown::WorkAtEnd => impact.work_at_end,
@@ -163,6 +182,7 @@ impl Plan<'_> {
             Shown::Share => depth.maximum(impact).value / thickness,
             Shown::Acceleration => force.maximum(impact).value * STANDARD_GRAVITY / unit,
             Shown::ContactTime => release * time,
+            Shown::Restitution => -speed.value(*release) / speed.value(0.0),
             Shown::Impulse => force.integral(impact) * time,
             Shown::Work => force.integral_of_product(speed, impact),
             Shown::WorkAtEnd => f64::NAN,

@@ -158,7 +158,7 @@ impl<const N: usize> Sized<'_, N> {
         let places = plan.shown.iter().zip(&plan.wishes).zip(values).zip(errors);
         for (((shown, wish), value), error) in places {
             let own = plan.figure(*shown, &impact, &self.numbers);
-            if own.error.is_nan() || own.error > wish.min(LOOSEST) * own.value.abs() {
+            if own.error.is_nan() || own.error > wish.min(LOOSEST) * shown.size(own.value) {
                 return None;
             }
             (*value, *error) = (own.value, own.error);
@@ -225,8 +225,9 @@ impl<const N: usize> Sized<'_, N> {
     }
 
     fn suffice(&self, values: &[f64], errors: &[f64]) -> bool {
-        let all = values.iter().zip(errors).zip(&self.plan.wishes);
-        all.map(|((value, error), wish)| (error, wish * value.abs()))
+        let plan = self.plan;
+        let all = values.iter().zip(errors).zip(plan.shown.iter().zip(&plan.wishes));
+        all.map(|((value, error), (shown, wish))| (error, wish * shown.size(*value)))
             .all(|(error, most)| !error.is_nan() && *error <= most)
     }
 

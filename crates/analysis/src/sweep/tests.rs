@@ -262,7 +262,9 @@ fn a_measure_that_is_not_known_is_named_with_those_that_are() {
     let mut random = Random(1);
     let scene = scene_point(struck(pad(0, &mut random), 1e4));
     let fault = columns(&scene, &["padding.peak-forse".to_owned()]).unwrap_err();
-    let SweepError::NoMeasure { known, .. } = &fault else { panic!("{fault}") };
+    let SweepError::Run(crate::RunError::NoMeasure { known, .. }) = &fault else {
+        panic!("{fault}")
+    };
     assert!(known.contains(&"padding.peak-force".to_owned()), "{fault}");
     let (found, wishes) = columns(&scene, &["head.hic15".to_owned()]).unwrap();
     let shares: Vec<bool> = found.iter().map(|own| own.is_share).collect();
@@ -341,7 +343,8 @@ fn are_within_errors(networks: &[Network], keys: &[&str], duration: f64) -> Swee
     found
 }
 
-const ALL: [&str; 9] = [
+const ALL: [&str; 10] = [
+    "pad.coefficient-of-restitution",
     "pad.peak-force",
     "pad.peak-deformation",
     "pad.peak-strain",

@@ -83,6 +83,11 @@ pub(crate) trait Study {
         None
     }
 
+    /// What the text begins with, and what is said on standard error where that is read at another place.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// What is said on standard error where no text is printed, which says it as well.
     fn notes(&self) -> Vec<String> {
         Vec::new()
@@ -103,7 +108,11 @@ pub(crate) fn emit(
 ) -> Result<(), CliError> {
     let object = || Ok::<_, CliError>(serde_json::to_string_pretty(&study.object())? + "\n");
     let data = || study.data(terminal).filter(|_| folder.is_none());
-    match if json { Some(object()?) } else { data() } {
+    let data = if json { Some(object()?) } else { data() };
+    if data.is_some() || !terminal.is_one {
+        study.warnings().iter().for_each(|own| terminal.warn(own));
+    }
+    match data {
         Some(data) => {
             print_data(&data)?;
             study.notes().iter().for_each(|own| note(own));

@@ -149,7 +149,7 @@ mod tests {
         Chart {
             title: "Peak force of padding over stiffness".into(),
             series: ends.iter().enumerate().map(line).collect(),
-            is_family: true,
+            family: ends.len(),
             ..Chart::default()
         }
     }

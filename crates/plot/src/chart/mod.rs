@@ -60,9 +60,9 @@ pub struct Chart {
     pub markers: Vec<Marker>,
     /// Limits and other constants.
     pub lines: Vec<ReferenceLine>,
-    /// Whether the curves belong to rising values of one number. Their colours then run from dark to
-    /// bright, in place of those of their strokes.
-    pub is_family: bool,
+    /// How many of the curves, the first ones, belong to values of one number. Their colours run from dark to bright, in
+    /// the order of the numbers of their strokes or else their own.
+    pub family: usize,
     /// Whether arrowheads tell in which direction curves are run through, as where a loop is loaded and unloaded.
     pub has_arrows: bool,
 }
@@ -151,7 +151,7 @@ impl Chart {
     /// The stroke of the `index`-th curve.
     fn stroke(&self, index: usize) -> Stroke {
         let pattern = match index % 3 {
-            _ if self.is_family => Pattern::Solid,
+            _ if index < self.family => Pattern::Solid,
             0 => Pattern::Solid,
             1 => Pattern::Dashed,
             _ => Pattern::Dotted,
@@ -162,9 +162,9 @@ impl Chart {
     /// Colour and pattern of the `index`-th curve.
     fn pen(&self, index: usize) -> Pen {
         let Stroke { colour, pattern } = self.stroke(index);
-        let colour = if self.is_family {
-            let last = self.series.len().saturating_sub(1).max(1);
-            theme::ramp_colour(index as f64 / last as f64)
+        let colour = if index < self.family {
+            let last = self.family.saturating_sub(1).max(1);
+            theme::ramp_colour(colour as f64 / last as f64)
         } else {
             theme::curve_colour(colour)
         };
@@ -264,6 +264,19 @@ mod tests {
         {
             assert_eq!(chart(at).axes(5, 5).1.holds(at), is_near, "{at}");
         }
+    }
+
+    #[test]
+    fn a_family_has_the_colours_of_its_order_and_others_their_own() {
+        let series = |colour| Series {
+            stroke: Some(Stroke { colour, pattern: Pattern::Solid }),
+            ..Series::new("", vec![])
+        };
+        let chart =
+            Chart { series: [2, 0, 1, 3].map(series).to_vec(), family: 3, ..Chart::default() };
+        let colours = [0, 1, 2, 3].map(|index| chart.pen(index).colour);
+        let ramp = [1.0, 0.0, 0.5].map(theme::ramp_colour);
+        assert_eq!(colours, [ramp[0], ramp[1], ramp[2], theme::curve_colour(3)]);
     }
 
     #[test]

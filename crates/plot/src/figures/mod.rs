@@ -3,6 +3,7 @@
 //! A figure of runs is one line of [`FIGURES`]: which signal stands over which, and what is marked.
 
 mod markers;
+mod measured;
 pub mod model;
 mod notes;
 mod run_series;
@@ -12,11 +13,13 @@ mod work_precision;
 
 use self::{
     markers::markers,
+    measured::measured,
     notes::note,
     run_series::{limit_lines, quantities, thickness_lines},
 };
 use crate::{Chart, Direction, Pattern, Series, Stroke, theme::COLOURS};
 
+pub use measured::MeasuredSeries;
 pub use run_series::{
     ElementSeries, EnergySeries, NodeSeries, Of, RunLimit, RunMarker, RunMarkerKind, RunSeries,
 };
@@ -104,6 +107,11 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// The figure of this signal over time.
+    pub fn over_time(y: Of) -> Option<&'static Self> {
+        FIGURES.iter().find(|figure| figure.x == Of::Time && figure.y == y)
+    }
+
     /// The chart of `runs`, which differ in their method or are designs; what they have nothing of stays empty.
     pub fn chart(&self, runs: &[RunSeries]) -> Chart {
         let mut all = quantities(runs, self.x, self.y);
@@ -115,9 +123,14 @@ impl Figure {
         let (shown, left_out) = largest(all, self.y);
         // Of several designs each has its own peak; the curves tell them.
         let marked = if are_designs { &[] } else { self.kinds };
-        let points = || shown.iter().flat_map(|q| q.curves.iter().flatten());
+        let measured = measured(runs, (self.x, self.y));
+        let of_measured = || measured.iter().flat_map(|own| &own.points);
+        let points = || shown.iter().flat_map(|q| q.curves.iter().flatten()).chain(of_measured());
         let x = self.x.unit(points().map(|p| p.0));
         let y = self.y.unit(points().map(|p| p.1));
+        let mut series = curves(runs, &shown, x.factor, y.factor);
+        let taken = series.iter().filter_map(|own| Some(own.stroke?.colour + 1)).max();
+        series.extend(measured::series(&measured, taken.unwrap_or(0), (x, y)));
         let gaps = widest.map(|gap| format!("gaps wider than {} are cut off", y.print(gap)));
         let thicknesses = match (self.x, self.y) {
             (Of::Deformation, _) => thickness_lines(runs, &shown, Direction::Vertical, x),
@@ -134,7 +147,8 @@ impl Figure {
             y_label: y.label(self.y.word()),
             markers: markers(runs, &shown, marked, (self.x, x), (self.y, y)),
             lines: limits.chain(thicknesses).collect(),
-            series: curves(runs, &shown, x.factor, y.factor),
+            family: if has_order(runs, &shown) { runs.len() } else { 0 },
+            series,
             has_arrows: self.x != Of::Time,
             ..Chart::default()
         }
@@ -181,6 +195,12 @@ fn largest(mut quantities: Vec<Quantity>, of: Of) -> (Vec<Quantity>, String) {
     (quantities, format!("the {MOST_CURVES} largest of {total} {kind}"))
 }
 
+/// Whether the curves are those of one quantity in designs that have an order.
+fn has_order(runs: &[RunSeries], shown: &[Quantity]) -> bool {
+    let is_whole = |quantity: &Quantity| quantity.curves.iter().all(|curve| !curve.is_empty());
+    matches!(shown, [one] if is_whole(one)) && runs.iter().all(|run| run.rank.is_some())
+}
+
 /// Patterns of designs, in turn.
 const DESIGNS: [Pattern; 4] =
     [Pattern::Solid, Pattern::Dashed, Pattern::Dotted, Pattern::DashDotted];
@@ -195,6 +215,7 @@ fn curves(
     y_factor: f64,
 ) -> Vec<Series> {
     let alone = quantities.len() == 1;
+    let has_order = has_order(runs, quantities);
     let mut series = Vec::new();
     for (run, of_run) in runs.iter().enumerate() {
         for (colour, quantity) in quantities.iter().enumerate() {
@@ -207,6 +228,7 @@ fn curves(
                 _ => format!("{}, {}", quantity.name, of_run.name),
             };
             let (pattern, colour) = match run {
+                _ if has_order => (Pattern::Solid, of_run.rank.unwrap_or(run)),
                 _ if of_run.is_design && alone => (DESIGNS[run / COLOURS % DESIGNS.len()], run),
                 _ if of_run.is_design => (DESIGNS[run % DESIGNS.len()], colour),
                 0 if runs.len() > 1 => (Pattern::Broad, colour),
@@ -272,6 +294,7 @@ pub(crate) mod tests {
         RunSeries {
             name: method.into(),
             is_design: false,
+            rank: None,
             elements: vec![
                 element("padding", 40_400.0, Some(0.02)),
                 element("mount <&>", 20_000.0, None),
@@ -297,6 +320,7 @@ pub(crate) mod tests {
             first_touch: None,
             nodes: ["head", "plate"].map(node).to_vec(),
             limits: Vec::new(),
+            measured: Vec::new(),
             time,
         }
     }
@@ -340,7 +364,16 @@ pub(crate) mod tests {
         let colours: Vec<_> =
             chart.series.iter().map(|own| own.stroke.map(|own| own.colour)).collect();
         assert_eq!(colours, [Some(0), Some(1), Some(2)]);
-        assert!(chart.markers.is_empty());
+        assert!(chart.markers.is_empty() && chart.family == 0);
+        let ordered = designs.clone().map(|own| {
+            let rank = ["steel", "soft", "stiff"].iter().position(|name| *name == own.name);
+            RunSeries { rank, ..own }
+        });
+        let family = FORCE_DEFORMATION.chart(&ordered);
+        let strokes: Vec<_> = family.series.iter().filter_map(|own| own.stroke).collect();
+        let ranks: Vec<usize> = strokes.iter().map(|own| own.colour).collect();
+        assert_eq!((family.family, ranks), (3, vec![1, 2, 0]));
+        assert!(strokes.iter().all(|own| own.pattern == Pattern::Solid));
         let lines: Vec<&str> = chart.lines.iter().map(|own| own.label.as_str()).collect();
         assert_eq!(lines, ["thickness of soft: 30 mm", "thickness of stiff, steel: 20 mm"]);
     }

@@ -1,5 +1,6 @@
 //! The plain numbers of one run that figures are drawn from.
 
+use super::MeasuredSeries;
 use super::Quantity;
 use super::markers::listed;
 use super::unit::{self, Unit};
@@ -12,6 +13,8 @@ pub struct RunSeries {
     pub name: String,
     /// Whether it is one of several designs, and not of several methods of the same scene.
     pub is_design: bool,
+    /// Of designs that differ in one number: its place in their rising order, from 0.
+    pub rank: Option<usize>,
     /// Sample times \[s\], ascending: from the start of the run, or from the first touch.
     pub time: Vec<f64>,
     /// When in the run \[s\] an impactor that falls or flies first touches something: 0 of `time` and of the times of
@@ -29,6 +32,8 @@ pub struct RunSeries {
     pub markers: Vec<RunMarker>,
     /// Limits.
     pub limits: Vec<RunLimit>,
+    /// What was measured, beside the curves; equal ones of several runs are drawn once.
+    pub measured: Vec<MeasuredSeries>,
 }
 
 /// One element at the sample times.
@@ -124,7 +129,8 @@ pub enum Of {
 }
 
 impl Of {
-    pub(super) fn word(self) -> &'static str {
+    /// Its name, as in `force`.
+    pub fn word(self) -> &'static str {
         match self {
             Self::Time => "time",
             Self::Force => "force",
@@ -240,7 +246,7 @@ pub(super) fn thickness_lines(
         let colour = shown.iter().position(|q| q.name == element.name);
         let (Some(thickness), Some(_)) = (element.thickness, colour) else { continue };
         let (name, colour) = match run.is_design {
-            true if shown.len() == 1 => (&run.name, Some(at)),
+            true if shown.len() == 1 => (&run.name, run.rank.is_none().then_some(at)),
             true => (&run.name, colour),
             false => (&element.name, colour),
         };

@@ -108,6 +108,17 @@ pub struct Sample {
     count: usize,
 }
 
+/// What another value of a number does to a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Change {
+    /// The scene cannot be read with it.
+    Refused,
+    /// Nothing: the number is of no use there.
+    Nothing,
+    /// It may have other results.
+    Some,
+}
+
 /// The bounds of what is allowed are sought to this part of the standard deviation.
 const FINEST: f64 = 1e-6;
 /// Halvings until then, from as far as any value is drawn.
@@ -119,9 +130,9 @@ impl Sample {
     /// `count` designs of a Latin hypercube of the numbers with scatter in a scene's text: each distribution is
     /// cut into `count` parts of equal probability, one value lies at a random place in each, and their order is
     /// random, independently for each number. The values of a number depend on `seed`, on `count`, on its
-    /// position among those with scatter, and on nothing else. `accepts` tells whether a text can be read; where
-    /// it refuses the outermost values of a number, its distribution is cut off at the first that it refuses.
-    /// `None` where no number has scatter.
+    /// position among those with scatter, and on nothing else. `change` tells what a text with another value of one of
+    /// them is to the scene. A number that changes nothing is not drawn, and does not count; where the outermost
+    /// values are refused, the distribution is cut off at the first of them. `None` where no number has scatter.
     ///
     /// Source: M. D. `McKay`, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239–245.
     ///
@@ -132,22 +143,29 @@ impl Sample {
         text: &str,
         count: usize,
         seed: u64,
-        accepts: &dyn Fn(&str) -> bool,
+        change: &dyn Fn(&str) -> Change,
     ) -> Result<Option<Self>, Diagnostics> {
         if !Scatter::is_possible(text) {
             return Ok(None);
         }
         let tunables = Tunables::of(text, None)?;
+        let changed = |at: usize, value: f64, scatter: &Scatter| {
+            change(&tunables.text_with(&[(at, number_text(value, &scatter.unit))]))
+        };
+        let is_used = |(at, _, scatter): &(usize, &Tunable, &Scatter)| {
+            let sides = [1.0, -1.0].map(|side| scatter.mean + side * scatter.deviation);
+            let mut read = sides.into_iter().map(|value| changed(*at, value, scatter));
+            read.find(|own| *own != Change::Refused) != Some(Change::Nothing)
+        };
         let drawn: Vec<Drawn> = scattered(&tunables)
+            .filter(is_used)
             .zip(0..)
             .map(|((at, own, scatter), stream)| {
                 let mut random = ChaCha8Rng::seed_from_u64(seed);
                 random.set_stream(stream);
                 let places = stratified(&mut random, count);
                 let number = ScatteredNumber::of(own, scatter);
-                let reads = |value: f64| {
-                    accepts(&tunables.text_with(&[(at, number_text(value, &scatter.unit))]))
-                };
+                let reads = |value: f64| changed(at, value, scatter) != Change::Refused;
                 drawn((at, number), scatter, &places, &reads)
             })
             .collect();
@@ -230,7 +248,8 @@ mod tests {
         "[values]\nK = \"20 ± 2 MN/m\"\n[nodes]\nhead = { mass = \"5 kg ± 10 %\" }\n";
 
     fn sample(text: &str, count: usize, accepts: &dyn Fn(&str) -> bool) -> Sample {
-        Sample::of(text, count, 1, accepts).unwrap().unwrap()
+        let change = |text: &str| if accepts(text) { Change::Some } else { Change::Refused };
+        Sample::of(text, count, 1, &change).unwrap().unwrap()
     }
 
     #[test]
@@ -278,15 +297,28 @@ mod tests {
     }
 
     #[test]
+    fn a_number_that_changes_nothing_is_not_drawn_and_moves_no_other() {
+        let with = TEXT.replace("K =", "L = \"3 ± 1 mm\"\nK =");
+        let is_other = |text: &str| {
+            if text.contains("L = \"3 ± 1 mm\"") { Change::Some } else { Change::Nothing }
+        };
+        let values =
+            |own: &Sample| own.drawn().iter().map(|own| own.values.clone()).collect::<Vec<_>>();
+        let own = Sample::of(&with, 20, 1, &is_other).unwrap().unwrap();
+        assert_eq!(values(&own), values(&sample(TEXT, 20, &|_| true)));
+        assert!(Sample::of(TEXT, 20, 1, &|_| Change::Nothing).unwrap().is_none());
+    }
+
+    #[test]
     fn a_seed_repeats_and_a_scene_without_scatter_has_no_sample() {
         let texts = |seed: u64| {
-            let own = Sample::of(TEXT, 20, seed, &|_| true).unwrap().unwrap();
+            let own = Sample::of(TEXT, 20, seed, &|_| Change::Some).unwrap().unwrap();
             (0..20).map(|at| own.text(at)).collect::<Vec<_>>()
         };
         assert_eq!(texts(1), texts(1));
         assert_ne!(texts(1), texts(2));
         for text in ["[values]\nK = \"20 MN/m\"\n", "[values]\nK = \"20 ± 0 MN/m\"\n"] {
-            assert!(Sample::of(text, 20, 1, &|_| true).unwrap().is_none());
+            assert!(Sample::of(text, 20, 1, &|_| Change::Some).unwrap().is_none());
         }
     }
 }

@@ -140,8 +140,8 @@ fn figure(number: usize, kind: Kind, family: &Family, curves: &[Vec<[f64; 4]>]) 
         note: note(),
         x_label: x_label.to_owned(),
         y_label: y_label.to_owned(),
+        family: family.members.len(),
         series: series.collect(),
-        is_family: true,
         markers: family.members.iter().filter_map(marker).collect(),
         lines,
         ..Chart::default()

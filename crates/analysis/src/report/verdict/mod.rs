@@ -167,8 +167,8 @@ pub struct Leaving<'r> {
     pub speed: f64,
     /// Whether it has turned.
     pub returns: bool,
-    /// The element's coefficient of restitution \[1\], where the impactor has turned.
-    pub restitution: Option<f64>,
+    /// The element's coefficient of restitution, where the impactor has turned.
+    pub restitution: Option<&'r MeasureReport>,
 }
 
 /// What is known of the errors of the values.
@@ -411,8 +411,9 @@ impl<'r> Found<'r> {
         let at = self.0.assembly.position(element)?;
         // A face with mass keeps what strikes it; the element behind it throws both back.
         let at = self.0.assembly.pad_behind(at).map_or(at, |pad| pad.element);
-        let restitution = Measure::read(&CoefficientOfRestitution::default(), &solution, at);
-        let restitution = restitution.value.filter(|_| returns);
+        let name = &self.connections()[at].name;
+        let restitution = self.0.measure(&format!("{name}.{}", CoefficientOfRestitution::KIND));
+        let restitution = restitution.filter(|own| returns && own.value.is_some());
         Some(Leaving { impactor: &node.name, speed: speed.abs(), returns, restitution })
     }
 

@@ -12,6 +12,7 @@ use serde::Serialize;
 use crate::{
     numbers::{apart, bound, quantity},
     output::{VERSION, list},
+    verbs::run::measure_text,
 };
 
 /// Digits of constants.
@@ -271,7 +272,8 @@ impl Impact {
     pub(super) fn table(&self) -> Table {
         let rows = self.measures.iter().map(|own| {
             let value = |at: usize| {
-                own.value[at].map_or_else(|| "–".to_owned(), |it| quantity(it, own.unit, DIGITS))
+                let text = |it: f64| measure_text(&own.measure, it, own.unit, DIGITS);
+                own.value[at].map_or_else(|| "–".to_owned(), text)
             };
             let error = own.error.iter().flatten().copied().fold(0.0, f64::max);
             let size = own.value.iter().flatten().fold(0.0_f64, |size, own| size.max(own.abs()));

@@ -10,8 +10,9 @@ use serde::Serialize;
 
 use super::DIGITS;
 use crate::{
-    numbers::{apart, quantity, significant},
+    numbers::{apart, significant},
     output::{Pairs, list, object},
+    verbs::run::measure_text,
 };
 
 /// Digits of measures.
@@ -44,7 +45,8 @@ pub(super) fn objects(all: &[Measured]) -> impl Serialize {
 
 /// A value of a measure.
 pub(super) fn shown(measured: &Measured, value: Option<f64>) -> String {
-    value.map_or("–".to_owned(), |value| quantity(value, measured.unit, MEASURED))
+    let text = |value: f64| measure_text(&measured.key, value, measured.unit, MEASURED);
+    value.map_or("–".to_owned(), text)
 }
 
 /// The measures of both as a table.

@@ -159,7 +159,7 @@ pub(super) fn missing(figures: &[Figure], units: Units) -> Vec<String> {
 
 /// A value in its unit; a strain rate is no frequency.
 pub(super) fn in_unit(value: f64, unit: &'static str, digits: usize) -> String {
-    if [STRAIN_RATE, "J/m³"].contains(&unit) {
+    if unit == STRAIN_RATE {
         Unit::plain(unit).text(value, digits)
     } else {
         quantity(value, unit, digits)

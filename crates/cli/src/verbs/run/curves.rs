@@ -4,7 +4,7 @@ use dashpot_analysis::{RunReport, table_at};
 use dashpot_plot::Table;
 use serde::Serialize;
 
-use super::{Answer, files::sample_times};
+use super::{Answer, deviations::Told, files::sample_times};
 use crate::{
     error::CliError,
     numbers::{Unit, constant},
@@ -27,6 +27,9 @@ pub(super) struct Run<'r> {
     /// All outputs at the times that were named.
     #[serde(skip_serializing_if = "Option::is_none")]
     at: Option<Outputs>,
+    /// How far it is from each measured curve.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    measured: Vec<Told<'r>>,
 }
 
 /// Outputs at some times, in SI units.
@@ -45,10 +48,11 @@ struct Output {
 
 impl Answer {
     /// A run of it as an object.
-    pub(super) fn object_of<'r>(&self, run: &'r RunReport) -> Run<'r> {
+    pub(super) fn object_of<'r>(&'r self, run: &'r RunReport) -> Run<'r> {
         let curves = self.wishes.curves.then(|| outputs(run, sample_times(run, &self.scene.run)));
         let at = (!self.wishes.at.is_empty()).then(|| outputs(run, self.wishes.at.clone()));
-        Run { report: run, curves, at }
+        let measured = list(self.compared(run, run.solver.method).map(Told::from));
+        Run { report: run, curves, at, measured }
     }
 
     /// The values at the times that were named, from the best run.

@@ -7,20 +7,23 @@ use dashpot_plot::{
     Report, ReportFigure, RunSeries, Table,
     figures::{FIGURES, FORCE_TIME},
 };
-use dashpot_scene::Scene;
+use dashpot_scene::{Scene, Tunables, units::parse_quantity};
 use serde::Serialize;
 
 use super::{
-    Answer, LABELS, PLOT_HEIGHT, PLOT_POINTS, RunArguments, files,
+    Answer, LABELS, PLOT_HEIGHT, PLOT_POINTS, RunArguments,
+    deviations::{self, Compared, by_curve},
+    files,
     files::Written,
     limits,
     measures::{Column, Side, measures_table, measures_tables},
     object::settings,
+    scatter,
     series::{curves, curves_and_energies},
     verdict::Line,
 };
 use crate::{
-    args::When,
+    args::{Variant, When},
     error::{CliError, is_unit},
     folder::Staged,
     input::title,
@@ -40,6 +43,8 @@ pub(super) struct Named {
     /// What it is called beside others.
     pub(super) name: String,
     pub(super) scene: Scene,
+    /// What alone varies between the designs of one scene, and its value.
+    pub(super) varied: Option<(String, String)>,
     /// The values that the command line sets.
     pub(super) set: Vec<(String, String)>,
 }
@@ -56,24 +61,68 @@ pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec
         read_scene(Some(unit), &[], terminal)?;
     }
     let names = named(&paths);
+    let only = varied(&arguments.variant).filter(|_| paths.len() == 1);
     let mut all = Vec::new();
     for (path, name) in paths.iter().zip(names) {
-        let mut add = |name: String, set: Vec<(String, String)>| -> Result<(), CliError> {
+        let read = |name: String, set: Vec<(String, String)>| -> Result<Named, CliError> {
             let mut scene = read_scene(*path, &set, terminal)?;
             scene.limits.extend(arguments.limits.all());
-            all.push(Named { name, scene, set });
-            Ok(())
+            let varied = only.and_then(|_| set.last().cloned());
+            Ok(Named { name, scene, varied, set })
         };
-        add(name.clone(), arguments.values.set.clone())?;
+        let base = read(name.clone(), arguments.values.set.clone())?;
+        all.push(match only {
+            Some(only) => named_by_value(base, only),
+            None => base,
+        });
         for variant in &arguments.variant {
             let name = match paths.len() {
                 1 => variant.text.clone(),
                 _ => format!("{name}, {}", variant.text),
             };
-            add(name, [&arguments.values.set[..], &variant.set].concat())?;
+            all.push(read(name, [&arguments.values.set[..], &variant.set].concat())?);
         }
     }
     Ok(all)
+}
+
+/// The one name that all variants set, where there is one.
+fn varied(variants: &[Variant]) -> Option<&str> {
+    let one = |own: &Variant| matches!(&own.set[..], [_]);
+    let first = variants.first().filter(|_| variants.iter().all(one))?;
+    let name = first.set[0].0.as_str();
+    variants.iter().all(|own| own.set[0].0 == name).then_some(name)
+}
+
+/// A scene as it is, named by the value of what its variants set, as `K=60 kN/m`.
+fn named_by_value(base: Named, name: &str) -> Named {
+    let varied = value_of(&base, name).map(|value| (name.to_owned(), value));
+    let named = varied.as_ref().map(|(name, value)| format!("{name}={value}"));
+    Named { name: named.unwrap_or(base.name), varied, ..base }
+}
+
+/// The value of this name in a scene, as it was set or stands there.
+fn value_of(named: &Named, name: &str) -> Option<String> {
+    let set = named.set.iter().rev().find(|own| own.0 == name).map(|own| own.1.clone());
+    let written = || {
+        let tunables = Tunables::of(&named.scene.text, named.scene.file.as_deref()).ok()?;
+        let at = tunables.anything(name).ok()?;
+        let path = &tunables.all()[at].path;
+        let scattered = named.scene.scatter.iter().find(|own| own.path == *path);
+        Some(scattered.map_or_else(|| tunables.shown(at), |own| own.text.clone()))
+    };
+    set.or_else(written)
+}
+
+/// The places of designs in the rising order of the one number in which they differ; `None` where they differ in more,
+/// or in words.
+fn ranks(designs: &[&Design]) -> Option<Vec<usize>> {
+    let varied = designs.iter().map(|own| own.varied.as_ref()).collect::<Option<Vec<_>>>()?;
+    let numbers = varied.iter().map(|own| parse_quantity(&own.1).ok());
+    let numbers = numbers.collect::<Option<Vec<_>>>()?;
+    let is_alike = numbers.iter().all(|own| own.dimension == numbers[0].dimension);
+    let rank = |own: f64| numbers.iter().filter(|other| other.value < own).count();
+    is_alike.then(|| numbers.iter().map(|own| rank(own.value)).collect())
 }
 
 /// The names of files without their ending, or whole where these are not told apart by that.
@@ -91,6 +140,8 @@ fn named(paths: &[Option<&Path>]) -> Vec<String> {
 /// A design and what became of it.
 pub(super) struct Design {
     pub(super) name: String,
+    /// What alone varies between the designs of one scene, and its value.
+    pub(super) varied: Option<(String, String)>,
     pub(super) answer: Answer,
 }
 
@@ -116,9 +167,18 @@ impl Designs {
     }
 
     fn as_designs(&self, series: Vec<RunSeries>) -> Vec<RunSeries> {
-        let names = self.best().map(|(own, _)| own.name.clone());
-        let named = series.into_iter().zip(names);
-        named.map(|(own, name)| RunSeries { name, is_design: true, ..own }).collect()
+        let designs: Vec<&Design> = self.best().map(|own| own.0).collect();
+        let ranks = ranks(&designs);
+        let named = series.into_iter().zip(designs).enumerate().map(|(at, (own, design))| {
+            let (name, rank) = (design.name.clone(), ranks.as_ref().map(|own| own[at]));
+            design.answer.with_measured(RunSeries { name, is_design: true, rank, ..own })
+        });
+        named.collect()
+    }
+
+    /// Each measured curve beside all designs.
+    fn by_curve(&self) -> Vec<Vec<Compared<'_>>> {
+        by_curve(self.best().map(|(own, run)| list(own.answer.compared(run, &own.name))))
     }
 
     /// Of each design whether it keeps its limits; none where there is no limit.
@@ -197,6 +257,15 @@ impl Designs {
         }
     }
 
+    /// What was drawn for each design.
+    fn scatter(&self) -> Vec<Line> {
+        let of = |(own, run): (&Design, &RunReport)| {
+            let named = |line: Line| Line { text: format!("{}: {}", own.name, line.text), ..line };
+            list(scatter::lines(run).into_iter().map(named))
+        };
+        list(self.best().flat_map(of))
+    }
+
     /// How each was solved.
     fn solved(&self) -> Table {
         let row = |(own, run): (&Design, &RunReport)| {
@@ -212,11 +281,18 @@ impl Designs {
         Table::new("Solved", &header, self.best().map(row))
     }
 
-    fn warnings(&self) -> Vec<String> {
-        let of = |own: &Design| {
+    /// The warnings of all, and which methods failed.
+    fn warned_and_failed(&self) -> Vec<String> {
+        self.warned(|own| {
             let failed = own.answer.failed.iter();
-            let failed = list(failed.map(|(method, error)| format!("{method} failed: {error}")));
-            let all = failed.into_iter().chain(own.answer.new_warnings());
+            list(failed.map(|(method, error)| format!("{method} failed: {error}")))
+        })
+    }
+
+    /// The warnings of each design behind what else is said of it.
+    fn warned(&self, more: impl Fn(&Design) -> Vec<String>) -> Vec<String> {
+        let of = |own: &Design| {
+            let all = more(own).into_iter().chain(own.answer.new_warnings());
             list(all.map(|text| format!("{}: {text}", own.name)))
         };
         self.designs.iter().flat_map(of).collect()
@@ -225,11 +301,11 @@ impl Designs {
 
 impl Study for Designs {
     fn text(&self, text: &mut Text) {
-        text.warnings(&self.warnings());
+        text.warnings(&self.warned_and_failed());
         text.title(&format!("{} designs side by side", self.designs.len()));
         self.titles().iter().for_each(|own| text.faint(own));
         text.blank();
-        for line in self.verdicts() {
+        for line in self.verdicts().into_iter().chain(self.scatter()) {
             text.labelled(line.label, LABELS, &line.text);
         }
         let limits = self.limits();
@@ -241,18 +317,21 @@ impl Study for Designs {
         }
         if text.is_plotted(self.plot) {
             let series = self.best().map(|(_, run)| curves(run, PLOT_POINTS)).collect();
-            let chart = FORCE_TIME.chart(&self.as_designs(series));
+            let figure = self.designs.first().map_or(&FORCE_TIME, |own| own.answer.plotted());
+            let chart = figure.chart(&self.as_designs(series));
             text.blank();
             text.lines(&indented(&chart.text(WIDTH - 4, PLOT_HEIGHT)));
         }
         for table in measures_tables(&self.side(), WIDTH - 2) {
             text.figures(&table);
         }
+        scatter::ranges(&self.side()).iter().for_each(|table| text.rows_below(table));
+        deviations::show(&self.by_curve(), text);
         text.figures(&self.solved());
     }
 
-    fn notes(&self) -> Vec<String> {
-        self.warnings()
+    fn warnings(&self) -> Vec<String> {
+        self.warned(|_| Vec::new())
     }
 
     /// One entry for each design and method, each with its scene.
@@ -303,17 +382,22 @@ impl Study for Designs {
         }
         let page = Report {
             title: format!("{} designs side by side", self.designs.len()),
-            warnings: self.warnings(),
+            warnings: self.warned_and_failed(),
             verdict: {
-                let lines = self.verdicts().into_iter();
+                let lines = self.verdicts().into_iter().chain(self.scatter());
                 let lines = lines.map(|line| format!("{}: {}", line.label, line.text));
                 list(self.titles().into_iter().chain(lines))
             },
-            tables: list(
-                [self.limits(), measures_table(&self.side())]
-                    .into_iter()
-                    .filter(|table| !table.rows.is_empty()),
-            ),
+            tables: {
+                let by_curve = self.by_curve();
+                let found = by_curve.iter().filter_map(|own| deviations::table(own));
+                let remarks = list(by_curve.iter().flat_map(|own| deviations::remarks(own)));
+                let side = self.side();
+                let tables = [self.limits(), measures_table(&side)].into_iter();
+                let tables = tables.chain(scatter::ranges(&side)).chain(found);
+                let tables = tables.chain([Table::list("Remarks", remarks)]);
+                list(tables.filter(|table| !table.rows.is_empty()))
+            },
             figures,
             details: vec![self.solved()],
             ..Report::default()

@@ -10,7 +10,7 @@ use dashpot_plot::{Report, ReportFigure, Table, figures::FIGURES};
 use dashpot_scene::RunSettings;
 
 use super::{
-    Answer,
+    Answer, deviations,
     energy::energy_table,
     measures::{measures_table, notes},
     resolved_scene, scatter,
@@ -98,6 +98,7 @@ fn write_figures(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError
     let (low, high) = POINTS;
     let count = answer.scene.run.samples.clamp(low, high);
     let series = curves_and_energies(answer.runs.iter(), count);
+    let series: Vec<_> = series.into_iter().map(|own| answer.with_measured(own)).collect();
     let mut figures = Vec::new();
     let mut drawn = None;
     if is_drawn {
@@ -165,7 +166,12 @@ fn write_events(runs: &[RunReport], out: &mut dyn Write) -> io::Result<()> {
 fn page(answer: &Answer) -> Report {
     let mut tables = vec![measures_table(&answer.side())];
     tables.extend(answer.best().and_then(scatter::table));
-    tables.extend(Some(Table::list("Remarks", notes(answer))).filter(|own| !own.rows.is_empty()));
+    let by_curve = answer.by_curve();
+    tables.extend(by_curve.iter().filter_map(|own| deviations::table(own)));
+    let remarks = list(
+        notes(answer).into_iter().chain(by_curve.iter().flat_map(|own| deviations::remarks(own))),
+    );
+    tables.extend(Some(Table::list("Remarks", remarks)).filter(|own| !own.rows.is_empty()));
     tables.extend(answer.best().map(energy_table));
     let why = reasons(answer).into_iter().map(|(method, why)| vec![method, why]);
     let failed = answer.failed.iter().map(|(method, error)| format!("{method} failed: {error}"));

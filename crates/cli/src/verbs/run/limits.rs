@@ -5,7 +5,7 @@ use dashpot_analysis::{
 };
 
 use super::{
-    measures::{is_index, unit_of_kind},
+    measures::unit_of_kind,
     scatter,
     verdict::{Line, TIME_DIGITS},
 };
@@ -104,10 +104,7 @@ fn value(measure: &MeasureReport, judged: &Judged<'_>) -> String {
 }
 
 fn unit(kind: &str, si: &str, limit: &Limit) -> Unit {
-    // The field prints indices as plain numbers, of seconds and g.
-    let plain = is_index(kind).then(|| Unit::plain("1"));
-    let own = plain.or_else(|| unit_of_kind(kind, si));
-    own.unwrap_or_else(|| Unit::suiting(limit.bound.level(), si))
+    unit_of_kind(kind, si).unwrap_or_else(|| Unit::suiting(limit.bound.level(), si))
 }
 
 /// `at most 250 g (EN 1078:2012)`.

@@ -156,7 +156,7 @@ impl<'r> Kinds<'r> {
     fn of(columns: &[Column<'r>]) -> Self {
         let (mut measures, mut counts) = (Vec::new(), HashMap::new());
         let mut known: HashSet<&str> = HashSet::new();
-        for measure in columns.iter().flat_map(|column| &column.run.measures) {
+        for measure in columns.iter().flat_map(|column| column.run.told()) {
             if known.insert(&measure.key) {
                 measures.push((measure.key.as_str(), measure));
                 *counts.entry((measure.kind, measure.target.as_str())).or_default() += 1;
@@ -216,10 +216,20 @@ fn units<'r>(
 pub(crate) fn unit_of_kind(kind: &str, si: &str) -> Option<Unit> {
     match si {
         "m/s^2" => Some(Unit::new("g", STANDARD_GRAVITY)),
-        "s" if is_index(kind) => Some(Unit::plain("s")),
+        // The field prints indices as plain numbers, of seconds and g.
+        "s" if is_index(kind) => Some(Unit::plain("1")),
         "1" if kind == PeakStrain::KIND => Some(Unit::new("%", 0.01)),
         _ => None,
     }
+}
+
+/// The value of the measure of this key, in SI units `si`, in the unit in which such are read.
+pub(crate) fn measure_text(key: &str, value: f64, si: &str, digits: usize) -> String {
+    let kind = key.rsplit_once('.').map_or(key, |own| own.1);
+    // A further measure of one kind has its number behind it.
+    let numbered = kind.rsplit_once('-').filter(|own| own.1.parse::<usize>().is_ok());
+    let kind = numbered.map_or(kind, |own| own.0);
+    unit_of_kind(kind, si).unwrap_or_else(|| Unit::suiting(value, si)).text(value, digits)
 }
 
 /// Whether a measure of this kind is an index that has seconds as its unit but is no time.
@@ -259,7 +269,7 @@ fn error(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
 /// What is to be said about single measures, each once.
 pub(super) fn notes(answer: &Answer) -> Vec<String> {
     let mut notes: Vec<(String, Vec<&str>)> = Vec::new();
-    for measure in answer.runs.iter().flat_map(|run| &run.measures) {
+    for measure in answer.runs.iter().flat_map(RunReport::told) {
         let Some(note) = measure.note() else { continue };
         match notes.iter_mut().find(|(known, _)| *known == note) {
             Some((_, keys)) if keys.contains(&measure.key.as_str()) => {}

@@ -1,7 +1,9 @@
 //! `dashpot run`.
 
+mod beside;
 mod curves;
 mod designs;
+mod deviations;
 mod energy;
 mod files;
 mod limits;
@@ -17,13 +19,18 @@ use std::{collections::HashMap, path::PathBuf, sync::Arc};
 
 use clap::Args;
 use dashpot_analysis::{
-    Accuracy, Difference, RunError, RunReport, SolveSettings, Warning, differences, solve_partial,
+    Accuracy, Difference, RunError, RunReport, SolveSettings, Warning, ask, differences,
+    solve_partial,
 };
-use dashpot_plot::figures::FORCE_TIME;
+use dashpot_plot::{
+    RunSeries,
+    figures::{FORCE_TIME, Figure},
+};
 use dashpot_scene::{ModelNote, Scene};
 use serde::Serialize;
 
 use self::{
+    beside::{Beside, MeasuredArguments, MeasuredCurve},
     designs::{Design, Designs, Named},
     energy::energy_table,
     files::Written,
@@ -34,7 +41,10 @@ use self::{
     solving::{reasons, solving_table},
     verdict::verdict,
 };
-pub(crate) use self::{limits::level, measures::unit_of_kind};
+pub(crate) use self::{
+    limits::level,
+    measures::{measure_text, unit_of_kind},
+};
 use crate::{
     args::{
         LimitArguments, MethodNames, Switch, ValueArguments, Variant, When, budget, method_names,
@@ -70,6 +80,7 @@ const LABELS: usize = 15;
     dashpot run pad.toml --neglect 0.5%              without what matters less\n  \
     dashpot run pad.toml --limit \"head.hic15<=700\"   pass, fail, or undecided\n  \
     dashpot run pad.toml --sample 2000               numbers with scatter: more designs\n  \
+    dashpot run pad.toml --measured drop.csv         beside a measured curve\n  \
     dashpot run pad.toml --out results               CSV, JSON, SVG and HTML\n  \
     dashpot run pad.toml --out results --write page  the page alone\n  \
     dashpot run pad.toml --at \"5 ms, 20 ms\"         every output at these times\n  \
@@ -90,6 +101,12 @@ pub(crate) struct RunArguments {
     limits: LimitArguments,
     #[command(flatten)]
     scatter: ScatterArguments,
+    #[command(flatten)]
+    measured: MeasuredArguments,
+    /// Tells of these measures alone in tables and JSON, such as head.hic15; the verdict stays whole [default: all that
+    /// the scene reports].
+    #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
+    measure: Vec<String>,
     /// Exits with 4 unless every limit is kept, however the errors lie.
     #[arg(long)]
     enforce: bool,
@@ -127,7 +144,7 @@ pub(crate) struct RunArguments {
     /// All outputs over time in the JSON object as well, at the times of the CSV.
     #[arg(long)]
     curves: bool,
-    /// A plot of the forces in the text; `auto` draws it on terminals.
+    /// A plot of the forces, or of what was measured, in the text; `auto` draws it on terminals.
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     plot: When,
 }
@@ -144,7 +161,11 @@ struct Answer {
     pub(super) runs: Vec<RunReport>,
     /// The methods that failed, and why.
     pub(super) failed: Vec<(&'static str, CliError)>,
-    /// Whether forces are plotted.
+    /// The curves that were measured.
+    pub(super) measured: Vec<MeasuredCurve>,
+    /// Of each run how far it is from each of them.
+    pub(super) beside: Vec<Vec<Beside>>,
+    /// Whether curves are plotted.
     plot: When,
     /// What is shown and written besides.
     pub(super) wishes: Wishes,
@@ -174,6 +195,17 @@ impl Answer {
     pub(super) fn best(&self) -> Option<&RunReport> {
         let error = |run: &RunReport| run.worst_relative_error().unwrap_or(f64::INFINITY);
         self.runs.iter().min_by(|one, other| error(one).total_cmp(&error(other)))
+    }
+
+    /// The figure that is plotted in the text: that of what was measured, or else of forces.
+    pub(super) fn plotted(&self) -> &'static Figure {
+        let measured = self.measured.first().and_then(|own| Figure::over_time(own.output.of));
+        measured.unwrap_or(&FORCE_TIME)
+    }
+
+    /// Curves of a run with those that were measured.
+    pub(super) fn with_measured(&self, series: RunSeries) -> RunSeries {
+        RunSeries { measured: self.measured.iter().map(MeasuredCurve::series).collect(), ..series }
     }
 
     /// Its runs side by side.
@@ -240,7 +272,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let mut answers = Vec::new();
     let (mut noted, mut warned) = (Vec::new(), Vec::new());
-    for Named { name, scene, set } in scenes {
+    for Named { name, scene, varied, set } in scenes {
         let new = scene.notes.iter().filter(|own| !noted.contains(*own)).cloned();
         let new: Vec<ModelNote> = new.collect();
         print_notes(&new);
@@ -254,7 +286,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
         curves::reached(&arguments.at, scene.run.duration)?;
         let answer = solve_all(scene, (arguments, &set), terminal)?;
         print_failures(&answer, terminal);
-        answers.push(Design { name, answer });
+        answers.push(Design { name, varied, answer });
     }
     let failed = answers.iter().flat_map(|own| &own.answer.failed);
     let status = failed.map(|(_, error)| error.status()).max();
@@ -270,10 +302,6 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     }
     let Some(Design { answer, .. }) = answers.pop() else { return Ok(own) };
     if arguments.json || !answer.runs.is_empty() {
-        // The report begins with them, so at one place they would be read twice.
-        if arguments.json || !terminal.is_one {
-            answer.new_warnings().iter().for_each(|warning| terminal.warn(warning));
-        }
         let folder = folder.filter(|_| !answer.runs.is_empty());
         emit(&answer, arguments.json, folder, terminal)?;
     }
@@ -312,7 +340,8 @@ fn solve_all(
     let assembly = Arc::new(scene.assembly.clone());
     let plain = scatter::plainly_set(&scene, set);
     let sample = scatter::drawn(&scene, arguments.scatter, &plain)?;
-    let (mut runs, mut failed) = (Vec::<RunReport>::new(), Vec::new());
+    let measured = arguments.measured.read(&scene)?;
+    let (mut runs, mut failed, mut beside) = (Vec::<RunReport>::new(), Vec::new(), Vec::new());
     for own in &asked {
         let mut bar = Bar::new(own.method.name(), own.duration, terminal.error.attended);
         match solve_partial(&scene.network, &assembly, own, &mut bar) {
@@ -323,6 +352,9 @@ fn solve_all(
                     let found = scatter::solved(&scene, drawn, (own, &plain), terminal)?;
                     report.scatter = found.map(Box::new);
                 }
+                let found = measured.iter().map(|own| own.beside(&report));
+                beside.push(found.collect::<Result<_, _>>()?);
+                report.only.clone_from(&arguments.measure);
                 runs.push(report);
             }
             Ok(_) => {}
@@ -330,7 +362,8 @@ fn solve_all(
         }
     }
     let (changes, plot) = (Changes::of(arguments, set), arguments.plot);
-    Ok(Answer { scene, changes, asked, runs, failed, plot, wishes: Wishes::of(arguments) })
+    let wishes = Wishes::of(arguments);
+    Ok(Answer { scene, changes, asked, runs, failed, measured, beside, plot, wishes })
 }
 
 fn is_new(runs: &[RunReport], report: &RunReport) -> bool {
@@ -353,6 +386,7 @@ fn settings(
         settings.rtol = None;
     }
     settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
+    ask(&scene.assembly, &mut settings, &arguments.measure)?;
     Ok(settings)
 }
 
@@ -366,7 +400,7 @@ impl Study for Answer {
             text.labelled(line.label, LABELS, &line.text);
         }
         if let Some(best) = self.best().filter(|_| text.is_plotted(self.plot)) {
-            let chart = FORCE_TIME.chart(&[curves(best, PLOT_POINTS)]);
+            let chart = self.plotted().chart(&[self.with_measured(curves(best, PLOT_POINTS))]);
             text.blank();
             text.lines(&indented(&chart.text(WIDTH - 4, PLOT_HEIGHT)));
         }
@@ -374,6 +408,7 @@ impl Study for Answer {
             text.figures(&table);
         }
         self.best().and_then(scatter::table).iter().for_each(|table| text.figures(table));
+        deviations::show(&self.by_curve(), text);
         notes(self).iter().for_each(|note| text.labelled("", 0, note));
         self.values_at().iter().for_each(|table| text.rows_below(table));
         self.best().iter().for_each(|best| text.figures(&energy_table(best)));
@@ -381,6 +416,10 @@ impl Study for Answer {
         for (method, why) in reasons(self) {
             text.labelled(&method, 8, &why);
         }
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.new_warnings()
     }
 
     fn object(&self) -> impl Serialize {

@@ -8,11 +8,11 @@ use dashpot_analysis::{
     sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, columns, sweep},
 };
 use dashpot_plot::Table;
-use dashpot_scene::{Diagnostic, Drawn, ReadOptions, Sample, Scene, read, units::si_unit};
+use dashpot_scene::{Change, Diagnostic, Drawn, ReadOptions, Sample, Scene, read, units::si_unit};
 use dashpot_units::percent;
 
 use super::{
-    measures::{Zeros, unit_of_kind},
+    measures::{Side, Zeros, unit_of_kind},
     verdict::Line,
 };
 use crate::{
@@ -58,8 +58,12 @@ pub(super) fn drawn(
     if scene.scatter.is_empty() {
         return Ok(None);
     }
-    let accepts = |text: &str| read(text, &options(scene, plain)).is_ok();
-    Sample::of(&scene.text, arguments.sample, arguments.seed, &accepts).map_err(CliError::Scene)
+    let change = |text: &str| match read(text, &options(scene, plain)) {
+        Ok(other) if other.value.is_solved_as(scene) => Change::Nothing,
+        Ok(_) => Change::Some,
+        Err(_) => Change::Refused,
+    };
+    Sample::of(&scene.text, arguments.sample, arguments.seed, &change).map_err(CliError::Scene)
 }
 
 /// How the text of a scene with scatter is read once more: what is set by a path, and all that has scatter, stands
@@ -202,24 +206,80 @@ pub(super) fn table(run: &RunReport) -> Option<Table> {
     let own = run.scatter.as_ref()?;
     let header = ["measure", "mean", "std. deviation", "2.5 %", "97.5 %", "unit"];
     let zeros = Zeros::of(std::iter::once(run));
-    let rows = own.bands.iter().map(|band| row(run, band, &zeros));
+    let bands = own.bands.iter().filter(|own| run.told().any(|told| told.key == own.key));
+    let rows = bands.map(|band| row(run, band, &zeros));
     Some(Table::new("Scatter", &header, rows))
+}
+
+/// Between which values of each measure 95 % of the designs drawn lie, of several scenes side by side; nothing where
+/// none has scatter.
+pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
+    let bands = |run: &RunReport| run.scatter.as_ref().map_or(&[][..], |own| &own.bands).to_vec();
+    let all: Vec<Vec<Band>> = side.columns.iter().map(|own| bands(own.run)).collect();
+    let mut keys: Vec<&Band> = Vec::new();
+    let is_told =
+        |key: &str| side.columns.iter().any(|own| own.run.told().any(|told| told.key == key));
+    for band in all.iter().flatten().filter(|band| is_told(&band.key)) {
+        if !keys.iter().any(|known| known.key == band.key) {
+            keys.push(band);
+        }
+    }
+    let zeros = Zeros::of(side.columns.iter().map(|own| own.run));
+    let row = |first: &&Band| {
+        let of = |own: &Vec<Band>| own.iter().find(|band| band.key == first.key).cloned();
+        let found: Vec<Option<Band>> = all.iter().map(of).collect();
+        let kind = side.columns.iter().find_map(|own| own.run.measure(&first.key));
+        let rounding = ROUNDING * zeros.largest(first.unit);
+        let unit = unit_of(kind.map_or("", |own| own.kind), found.iter().flatten(), rounding);
+        let cell = |own: &Option<Band>| {
+            let [_, _, low, high] = own
+                .as_ref()
+                .map_or(["–"; 4].map(str::to_owned), |own| cells(own, &unit, rounding));
+            format!("{low} to {high}")
+        };
+        let cells = found.iter().map(cell);
+        [first.key.clone()].into_iter().chain(cells).chain([unit.symbol.clone()]).collect()
+    };
+    let names = side.columns.iter().map(|own| own.name.to_owned());
+    let header =
+        ["95 % of its sample".to_owned()].into_iter().chain(names).chain(["unit".to_owned()]);
+    let rows: Vec<Vec<String>> = keys.iter().map(row).collect();
+    (!rows.is_empty()).then(|| Table {
+        caption: "Scatter".to_owned(),
+        header: header.collect(),
+        rows,
+    })
 }
 
 fn row(run: &RunReport, band: &Band, zeros: &Zeros) -> Vec<String> {
     let kind = run.measure(&band.key).map_or("", |own| own.kind);
     let rounding = ROUNDING * zeros.largest(band.unit);
+    let unit = unit_of(kind, [band].into_iter(), rounding);
+    let [mean, deviation, low, high] = cells(band, &unit, rounding);
+    vec![band.key.clone(), mean, deviation, low, high, unit.symbol.clone()]
+}
+
+/// Mean, deviation and both ends of a band, without what rounding leaves of zero.
+fn tidied(band: &Band, rounding: f64) -> [Option<f64>; 4] {
     let tidy = |own: f64| if own.abs() <= rounding { 0.0 } else { own };
-    let all = [band.mean, band.deviation, band.low, band.high].map(|own| own.map(tidy));
-    let [mean, deviation, low, high] = all;
-    let largest = all.iter().flatten().fold(0.0, |most: f64, own| most.max(own.abs()));
-    let unit = unit_of_kind(kind, band.unit).unwrap_or_else(|| Unit::suiting(largest, band.unit));
-    // Digits beyond the scatter tell nothing.
+    [band.mean, band.deviation, band.low, band.high].map(|own| own.map(tidy))
+}
+
+/// The unit in which bands of one measure are shown.
+fn unit_of<'b>(kind: &str, bands: impl Iterator<Item = &'b Band> + Clone, rounding: f64) -> Unit {
+    let si = bands.clone().next().map_or("1", |own| own.unit);
+    let all = bands.flat_map(|own| tidied(own, rounding)).flatten();
+    let largest = all.fold(0.0, |most: f64, own| most.max(own.abs()));
+    unit_of_kind(kind, si).unwrap_or_else(|| Unit::suiting(largest, si))
+}
+
+/// Mean, deviation and both ends of a band as text; digits beyond the scatter tell nothing.
+fn cells(band: &Band, unit: &Unit, rounding: f64) -> [String; 4] {
+    let [mean, deviation, low, high] = tidied(band, rounding);
     let digits = |value: f64| numbers::digits(value, deviation.map(|own| 0.01 * own), MOST_DIGITS);
     let cell = |value: Option<f64>| {
         value.map_or_else(|| "–".to_owned(), |own| unit.number(own, digits(own).max(DIGITS)))
     };
     let deviation = deviation.map_or_else(|| "–".to_owned(), |own| unit.number(own, FEW));
-    let [mean, low, high] = [mean, low, high].map(cell);
-    vec![band.key.clone(), mean, deviation, low, high, unit.symbol.clone()]
+    [cell(mean), deviation, cell(low), cell(high)]
 }

@@ -45,7 +45,7 @@ pub(super) fn curves_and_energies<'r>(
 }
 
 /// When the first impactor that falls or flies first touches something \[s\]; `None` where all do from the start.
-fn first_touch(report: &RunReport) -> Option<f64> {
+pub(super) fn first_touch(report: &RunReport) -> Option<f64> {
     let is_struck = |contact: &&ContactReport| {
         use dashpot_analysis::Contact::{Lasting, Parted, Released};
         matches!(contact.impact.contact, Released | Parted | Lasting)
@@ -97,6 +97,7 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
     RunSeries {
         name: report.solver.method.to_owned(),
         is_design: false,
+        rank: None,
         elements,
         nodes: nodes.collect(),
         energy: Vec::new(),
@@ -107,6 +108,7 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
             .map(|own| RunMarker { time: own.time - origin, ..own })
             .collect(),
         limits: limits(report),
+        measured: Vec::new(),
         time: table.times.into_iter().map(|time| time - origin).collect(),
     }
 }

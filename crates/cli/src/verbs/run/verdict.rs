@@ -218,8 +218,10 @@ impl Words<'_> {
                     let digits = numbers::digits(1.0, error, TIME_DIGITS);
                     let text = quantity(leaving.speed, "m/s", digits);
                     let how = if leaving.returns { "rebounds" } else { "goes on" };
-                    let restitution = leaving.restitution.map_or(String::new(), |restitution| {
-                        format!(", coefficient of restitution {}", significant(restitution, digits))
+                    let restitution = leaving.restitution.and_then(|own| Some((own, own.value?)));
+                    let restitution = restitution.map_or(String::new(), |(own, value)| {
+                        let digits = numbers::digits(value, own.error, TIME_DIGITS);
+                        format!(", coefficient of restitution {}", significant(value, digits))
                     });
                     format!("; {} {how} at {text}{restitution}", leaving.impactor)
                 });
@@ -359,7 +361,6 @@ fn indices(run: &RunReport) -> Option<String> {
             return measure.time.map(|_| format!("{name} is infinite"));
         };
         let digits = numbers::digits(value, measure.error, DIGITS);
-        // The field prints indices as plain numbers, of seconds and g.
         let number = Unit::plain("1").text(value, digits);
         let found =
             measure.window.filter(|_| is_hic(measure.kind)).map_or(String::new(), |window| {

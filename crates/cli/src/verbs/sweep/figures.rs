@@ -141,7 +141,7 @@ pub(super) fn lines(swept: &Swept, column: usize) -> Chart {
         x_scale,
         y_label: label(&own, &unit),
         y_scale: Scale::suiting(values.iter().copied()),
-        is_family: family.is_some() && !is_of_words,
+        family: if family.is_some() && !is_of_words { drawn.len() } else { 0 },
         series: drawn.into_iter().map(line).collect(),
         lines: pressed.into_iter().chain(limits).collect(),
         ..Chart::default()

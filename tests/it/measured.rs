@@ -1,0 +1,177 @@
+//! Measured curves beside runs, made of closed forms.
+
+use std::{f64::consts::PI, fmt::Write as _, fs};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::cli::{code, err, file, json, out, run};
+
+/// A mass of 4 kg at 5 m/s on a spring of 25 kN/m: F = V √(K m) sin ωt.
+const PEAK: f64 = 1_581.138_830_084_19;
+const OMEGA: f64 = 79.056_941_504_209_5;
+/// Standard gravity \[m/s²\].
+const GRAVITY: f64 = 9.806_65;
+const SCENE: &str = "[values]\nK = \"25 kN/m\"\n[nodes]\nhead = { mass = \"4 kg\", velocity = \"5 m/s\" }\n\
+     plate = { mass = \"90 kg\" }\n[elements]\n\
+     pad = { between = [\"head\", \"ground\"], spring = \"K\" }\n\
+     mount = { between = [\"plate\", \"ground\"], spring = \"1 MN/m\" }\n[run]\nduration = \"100 ms\"\n";
+/// The same mass falls 1 m on the spring and leaves it again.
+const DROP: &str = "[nodes]\nhead = { mass = \"4 kg\", drop = \"1 m\" }\n[elements]\n\
+     pad = { between = [\"head\", \"ground\"], spring = \"25 kN/m\" }\n\
+     [effects]\nseparation.pad = {}\ngravity = { value = \"1 g0\" }\n[run]\nduration = \"600 ms\"\n";
+
+/// Half a period of a force 10 % above that of the scene in 400 steps, which begins at 2 ms: machine's text, decimal
+/// commas, a column that nobody asked for.
+fn force() -> String {
+    let mut text = "Prüfung 7\n\nZeit [ms];Kraft [kN];Temp [°C]\n".to_owned();
+    for at in 0..=400 {
+        let share = f64::from(at) / 400.0;
+        let (time, force) = (1e3 * PI / OMEGA * share + 2.0, 1.1e-3 * PEAK * (PI * share).sin());
+        let row = format!("{time:.9};{force:.12};21.5\n").replace('.', ",");
+        text += &row;
+    }
+    text
+}
+
+/// What an accelerometer reads from 2 ms before the touch on: K y / m with y of the spring under gravity.
+fn acceleration() -> String {
+    let speed = (2.0 * GRAVITY).sqrt();
+    let mut text = "t [ms],a [g]\n".to_owned();
+    for at in -20..=200 {
+        let time = f64::from(at) * 1e-4;
+        let depth = GRAVITY / OMEGA.powi(2) * (1.0 - (OMEGA * time).cos())
+            + speed / OMEGA * (OMEGA * time).sin();
+        let pushed = if time > 0.0 { OMEGA.powi(2) * depth / GRAVITY } else { 0.0 };
+        writeln!(text, "{},{pushed:.12}", f64::from(at) * 0.1).unwrap();
+    }
+    text
+}
+
+fn folder() -> (TempDir, [String; 4]) {
+    let folder = TempDir::new().unwrap();
+    let (force, acceleration) = (force(), acceleration());
+    let files =
+        [("scene.toml", SCENE), ("drop.toml", DROP), ("f.csv", &force), ("a.csv", &acceleration)];
+    let paths = files.map(|(name, text)| file(&folder, name, text).to_str().unwrap().to_owned());
+    (folder, paths)
+}
+
+fn number(own: &Value) -> f64 {
+    own.as_f64().unwrap_or(f64::NAN)
+}
+
+fn close(own: &Value, wanted: f64, error: f64) {
+    assert!((number(own) - wanted).abs() <= error, "{own} is not {wanted} ± {error}");
+}
+
+fn words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn a_force_beside_the_run_has_the_deviation_of_its_closed_form() {
+    let (folder, [scene, _, force, _]) = folder();
+    let results = folder.path().join("results");
+    let measured = format!("{force}:pad.force");
+    let all = ["run", &scene, "--measured", &measured, "--shift", "-2 ms"];
+    let own = json(&[&all[..], &["--json"]].concat())["runs"][0]["measured"][0].clone();
+    assert_eq!(
+        (&own["output"], &own["column"], &own["rows"]),
+        (&"pad.force".into(), &"Kraft".into(), &401.into())
+    );
+    close(&own["measured_peak"]["value"], 1.1 * PEAK, 1e-8);
+    close(&own["model_peak"]["value"], PEAK, 1e-8);
+    close(&own["peak_relative"], 1.0 / 1.1 - 1.0, 1e-10);
+    close(&own["peak_later"], 0.0, 1e-10);
+    // A tenth of a sine over half its period; between rows the difference is straight: (π/400)²/6 of it.
+    close(&own["rms"], 0.1 * PEAK / 2.0_f64.sqrt(), 1e-4 * PEAK * 0.1);
+    close(&own["rms_relative"], 0.1 / 1.1 / 2.0_f64.sqrt(), 1e-5);
+    let output = run(&[&all[..], &["--out", results.to_str().unwrap()]].concat());
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let text = words(&out(&output));
+    for told in [
+        "pad.force beside `Kraft` of",
+        "peak, measured 1.739 kN peak, model 1.581 kN the model deviates by −9.1 %",
+        "401 rows from 0 s to 39.73835 ms, moved earlier by 2 ms; time 0 is the start of the run",
+        "f.csv: line 1 is no part of the table and left out",
+    ] {
+        assert!(text.contains(told), "no {told:?} in {text}");
+    }
+    let read = |name: &str| fs::read_to_string(results.join(name)).unwrap();
+    assert!(read("report.html").contains("pad.force beside"));
+    assert!(read("force-time.svg").contains("measured, f.csv: Kraft"));
+    assert!(!read("acceleration-time.svg").contains("f.csv"));
+    let stored: Value = serde_json::from_str(&read("result.json")).unwrap();
+    assert_eq!(stored["runs"][0]["measured"][0]["rms"], own["rms"]);
+}
+
+#[test]
+fn time_of_the_curve_counts_from_the_first_touch() {
+    let (_folder, [_, drop, _, acceleration]) = folder();
+    let own = json(&["run", &drop, "--measured", &acceleration, "--json"])["runs"][0]["measured"]
+        [0]
+    .clone();
+    assert_eq!(own["output"], "head.acceleration");
+    close(&own["zero"], (2.0 / GRAVITY).sqrt(), 1e-9);
+    close(&own["rms_relative"], 0.0, 1e-9);
+    // The peak lies between two rows, 0.1 ms apart.
+    close(&own["peak_later"], 0.0, 0.5e-4);
+    close(&own["peak_relative"], 0.0, 0.5 * (OMEGA * 0.5e-4).powi(2));
+}
+
+#[test]
+fn each_design_has_its_own_deviation() {
+    let (_folder, [scene, _, force, _]) = folder();
+    let measured = format!("{force}:Kraft=pad.force");
+    let all =
+        ["run", &scene, "--variant", "K=30.25 kN/m", "--measured", &measured, "--shift", "-2 ms"];
+    let runs = json(&[&all[..], &["--json"]].concat());
+    let off = |at: usize| runs["runs"][at]["measured"][0]["peak_relative"].clone();
+    close(&off(0), 1.0 / 1.1 - 1.0, 1e-10);
+    // √(30.25 / 25) = 1.1.
+    close(&off(1), 0.0, 1e-10);
+    let text = words(&out(&run(&all)));
+    assert!(text.contains("peak, model 1.581 kN 1.739 kN"), "{text}");
+}
+
+#[test]
+fn what_cannot_stand_beside_is_refused_with_a_remedy() {
+    let (folder, [scene, _, force, acceleration]) = folder();
+    let write = |name: &str, text: &str| file(&folder, name, text).to_str().unwrap().to_owned();
+    let late = write("late.csv", "t [s],F [kN]\n5,1\n6,2\n");
+    let back = write("back.csv", "t [ms],F [kN]\n0,1\n2,2\n1,3\n");
+    let bare = write("bare.csv", "t [ms],F\n0,1\n2,2\n");
+    let two = SCENE.replace("mount = { between = [\"plate\"", "mount = { between = [\"head\"");
+    let two = write("two.toml", &two);
+    let timeless = write("timeless.csv", "F [kN],w [mm]\n0,1\n2,2\n");
+    for (argument, told) in [
+        (format!("{force}:pad.forse"), "did you mean `pad.force`?"),
+        (format!("{force}:head.velocity"), "no column is a velocity by its unit"),
+        (
+            format!("{force}:Weg=pad.force"),
+            "there is no column `Weg`; it has `Zeit [ms]`, `Kraft [kN]`",
+        ),
+        (
+            format!("{acceleration}:a=pad.force"),
+            "the column `a` is not a force by its unit, as `pad.force` is",
+        ),
+        (
+            format!("{late}:pad.force"),
+            "from 5 s to 6 s, and what figures show of the run, 0 s to 100 ms",
+        ),
+        (format!("{back}:pad.force"), "line 4: the time 1 ms stands after 2 ms"),
+        (format!("{bare}:F=pad.force"), "the column `F` has no unit"),
+        (format!("{timeless}:pad.force"), "no column is a time by its unit"),
+        ("nowhere.csv".to_owned(), "nowhere.csv`: it cannot be read: there is no such file"),
+    ] {
+        let output = run(&["run", &scene, "--measured", &argument]);
+        let found = words(&err(&output));
+        assert_eq!(code(&output), 2, "{argument}: {found}");
+        assert!(found.contains(told), "no {told:?} in {found}");
+    }
+    let found = words(&err(&run(&["run", &two, "--measured", &force])));
+    let told =
+        "`Kraft` may be any of pad.force, mount.force; say which, as in `drop.csv:pad.force`";
+    assert!(found.contains(told), "{found}");
+}
