@@ -8,7 +8,9 @@ use dashpot_analysis::{
     sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, columns, sweep},
 };
 use dashpot_plot::Table;
-use dashpot_scene::{Change, Diagnostic, Drawn, ReadOptions, Sample, Scene, read, units::si_unit};
+use dashpot_scene::{
+    Change, Diagnostic, Drawn, Posed, ReadOptions, Sample, Scene, pose, read, units::si_unit,
+};
 use dashpot_units::percent;
 
 use super::{
@@ -58,8 +60,9 @@ pub(super) fn drawn(
     if scene.scatter.is_empty() {
         return Ok(None);
     }
-    let change = |text: &str| match read(text, &options(scene, plain)) {
-        Ok(other) if other.value.is_solved_as(scene) => Change::Nothing,
+    let own = Posed::from(scene.clone());
+    let change = |text: &str| match pose(text, &options(scene, plain)) {
+        Ok(other) if other.is_solved_as(&own) => Change::Nothing,
         Ok(_) => Change::Some,
         Err(_) => Change::Refused,
     };
