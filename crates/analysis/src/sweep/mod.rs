@@ -1,11 +1,11 @@
 //! Families of scenes: measures over a grid of parameters.
 //!
 //! A sweep is given its scenes by a closure, which poses the scene at any point of a [`Grid`]. Scenes
-//! of springs, dashpots and masses that one impactor strikes are *instantiated*: the form is compiled once,
-//! their numbers are read along the axes of the grid only, and every point is solved from them by the
-//! powers of one small matrix exponential, without allocating anything. What is reported that way is
-//! compared with full runs at points spread over the grid. All other scenes, and points whose impact
-//! is not of the plain kind or not certain to six digits, are solved in full.
+//! that one impactor strikes are *instantiated*: the form is compiled once, as it is until the impactor is let
+//! go, and their numbers are read along the axes of the grid only. Linear ones are solved from them by the
+//! powers of one small matrix exponential, without allocating anything, others in explicit steps. What is
+//! reported that way is compared with full runs at points spread over the grid. All other scenes, and points
+//! whose impact is not of the plain kind or not certain enough, are solved in full.
 //!
 //! Points are shared among threads; the result is the same to the bit whatever their number.
 

@@ -105,7 +105,7 @@ impl<'p, const N: usize> Propagation<'p, N> {
         let powers = Powers::of(*scene_point.matrix);
         let rate = powers.rate();
         let integrates = wanted.work || wanted.work_at_end || wanted.power.is_some();
-        let longest = if integrates || wanted.course { FINE } else { COARSE } / rate;
+        let longest = if integrates { FINE } else { COARSE } / rate;
         let step = longest.min(scene_point.end / FEWEST);
         if !(step > 0.0 && scene_point.end / step <= MOST) {
             return None;

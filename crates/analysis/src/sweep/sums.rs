@@ -222,8 +222,8 @@ impl<const N: usize> Integrals<N> {
     }
 }
 
-/// Degree of the polynomials of a force: with steps of the shortest time they are right to rounding.
-const DEGREE: usize = 11;
+/// Degree of the polynomials of a force: in steps of three times the shortest time they are right to rounding.
+const DEGREE: usize = 15;
 
 /// The force over time, as polynomials of the steps.
 pub(super) struct Recorder<const N: usize> {

@@ -253,7 +253,7 @@ pub(super) fn solving(swept: &Swept) -> Vec<String> {
         ));
     }
     let is_of_some = matches!(swept.estimates, Estimates::Some);
-    if is_of_some && (1..points - report.instantiated).contains(&report.estimated) {
+    if is_of_some && (1..points).contains(&report.estimated) {
         all.push(format!(
             "errors estimated at {} of them; the others have those of points near them \
              (`--estimate all` for all)",
