@@ -45,6 +45,8 @@ const SIDE: usize = 100;
 const SAMPLES: usize = 500;
 /// How often each contender has its turn.
 const TURNS: usize = 9;
+/// How long a turn lasts at least \[s\]: CPU time is told in steps of some milliseconds.
+const TURN: f64 = 0.1;
 
 /// Factors of the stiffness of the Maxwell spring and the damping of the Kelvin dashpot.
 fn factor(at: usize) -> f64 {
@@ -187,9 +189,13 @@ fn race(title: &str, all: &[Contender<'_>]) {
     let mut times = vec![Vec::new(); all.len()];
     for _ in 0..TURNS {
         for (own, times) in all.iter().zip(&mut times) {
-            let begin = cpu(clock);
-            black_box((own.solve)());
-            times.push((cpu(clock) - begin) / own.scenes as f64);
+            let (begin, mut rounds, mut spent) = (cpu(clock), 0, 0.0);
+            while spent < TURN {
+                black_box((own.solve)());
+                rounds += 1;
+                spent = cpu(clock) - begin;
+            }
+            times.push(spent / (rounds * own.scenes) as f64);
         }
     }
     println!("\n{title:<44} {:>10} {:>9}", "a scene", "by hand");

@@ -1,9 +1,11 @@
 //! Points of a sweep that are solved in full, each as a single run, and instantiated points beside them.
 
-use std::ops::ControlFlow;
+use std::{ops::ControlFlow, sync::Arc};
+
+use dashpot_dae::methods;
 
 use super::{Column, Gap, Grid, Pose, instantiated::Plan, parallel::share, stamper::Stamper};
-use crate::{RunReport, Solve, SolveSettings, partial::spread};
+use crate::{Choice, RunReport, Solve, SolveSettings, partial::spread};
 
 /// What is to be said of the values of a point.
 #[derive(Debug, Default)]
@@ -92,6 +94,10 @@ impl Full<'_> {
 const MOST_CHECKED: usize = 4;
 /// Stamped values may differ from full ones by this part of themselves, besides the errors of both.
 const AGREEMENT: f64 = 1e-9;
+/// The tolerance of full runs whose errors are not estimated, in parts of the accuracy that is wanted …
+const TIGHT: f64 = 1e-5;
+/// … and what their values may be off by.
+const CHECKED: f64 = 1e-2;
 
 /// Solves points spread over the grid both ways: those that were instantiated, and the largest difference
 /// in parts of a value. `None` where they do not agree, or full runs are warned of something else.
@@ -122,7 +128,13 @@ pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<
         };
         let (mut right, mut bars) = (vec![f64::NAN; count], vec![f64::NAN; count]);
         let flaws = &mut Flaws::default();
-        let run = full.write(row.point, &mut right, &mut bars, flaws, |own| plan.check(own));
+        let run = full.write(row.point, &mut right, &mut bars, flaws, |settings| {
+            if !plan.parametric.is_linear() {
+                settings.method = Choice::Method(Arc::new(methods::Dop853));
+                settings.estimate = false;
+                settings.rtol = Some(TIGHT * plan.strictest());
+            }
+        });
         let warned = run.map_or(Vec::new(), |run| run.warnings);
         let noticed = notice.warnings(plan.element());
         if !(warned.len() == noticed.len()
@@ -133,8 +145,10 @@ pub(super) fn check(plan: &Plan<'_>, full: &Full<'_>, threads: usize) -> Option<
         let mut largest = 0.0_f64;
         for at in 0..count {
             let (difference, size) = ((values[at] - right[at]).abs(), right[at].abs());
-            let bar = if bars[at].is_finite() { bars[at] } else { 0.0 };
-            let room = errors[at] + bar + AGREEMENT * size;
+            let bar = if bars[at].is_nan() { CHECKED * plan.wishes[at] * size } else { bars[at] };
+            // Where errors are not asked for, it is as good as is wanted.
+            let own = if errors[at].is_nan() { plan.wishes[at] * size } else { errors[at] };
+            let room = own + bar + AGREEMENT * size;
             if difference.is_nan() || difference > room {
                 return;
             }

@@ -1,8 +1,5 @@
 //! Points of a sweep that are solved by instantiating: one compiled form, other numbers.
 
-use std::sync::Arc;
-
-use dashpot_dae::methods;
 use dashpot_network::{ConnectionOutputs, ParametricSystem};
 
 use super::{
@@ -12,7 +9,7 @@ use super::{
     stamper::{Sized, Stamper},
     table::Table,
 };
-use crate::{Choice, SolveSettings, measures::selection::select};
+use crate::measures::selection::select;
 
 /// How the points of a sweep are solved by instantiating.
 #[derive(Debug)]
@@ -95,14 +92,6 @@ impl<'g> Plan<'g> {
         let mut places = vec![0; self.grid.counts().len()];
         self.grid.locate(point, &mut places);
         self.table.agrees(&self.parametric, &places, &scene.network)
-    }
-
-    /// How full runs that points are compared with are solved: in steps where the scene is not linear, which for
-    /// points that are instantiated are few.
-    pub(super) fn check(&self, settings: &mut SolveSettings) {
-        if !self.parametric.is_linear() {
-            settings.method = Choice::Method(Arc::new(methods::Dop853));
-        }
     }
 
     /// What solves points; one for each thread.

@@ -174,13 +174,13 @@ impl Plan<'_> {
         let time = self.parametric.time_scale();
         let unit = self.parametric.impactor_mass(numbers) * STANDARD_GRAVITY;
         let thickness = Besides::of(numbers).thickness;
-        let Course { force, depth, speed, release } = course;
+        let Course { force, speed, release, strongest, deepest, .. } = course;
         let impact = (0.0, *release);
         match shown {
-            Shown::Force => force.maximum(impact).value,
-            Shown::Depth => depth.maximum(impact).value,
-            Shown::Share => depth.maximum(impact).value / thickness,
-            Shown::Acceleration => force.maximum(impact).value * STANDARD_GRAVITY / unit,
+            Shown::Force => strongest.value,
+            Shown::Depth => deepest.value,
+            Shown::Share => deepest.value / thickness,
+            Shown::Acceleration => strongest.value * STANDARD_GRAVITY / unit,
             Shown::ContactTime => release * time,
             Shown::Restitution => -speed.value(*release) / speed.value(0.0),
             Shown::Impulse => force.integral(impact) * time,

@@ -26,10 +26,11 @@ const ROUNDING: f64 = 1e-12;
 
 /// At least so many points of a group have errors of their own at some only.
 const FEWEST: usize = 6;
-/// Relative errors within a group may differ by this factor.
-const ALIKE: f64 = 30.0;
-/// The errors of points between in parts of the largest relative ones.
+/// The errors of all values at points between, in parts of the largest relative one, as any of those may be small by
+/// chance: of solutions at the last tolerance …
 const BETWEEN: f64 = 2.0;
+/// … and at the one before.
+const COARSER: f64 = 10.0;
 
 /// Solves points, one after the other.
 pub(super) trait Stamper {
@@ -51,11 +52,11 @@ pub(super) struct Sized<'p, const N: usize> {
     numbers: Vec<f64>,
 }
 
-/// A tolerance among [`TOLERANCES`], and for each column the error that comes of it, in parts of a value.
-#[derive(Debug, Clone, Default)]
+/// A tolerance among [`TOLERANCES`], and the error that comes of it, in parts of a value.
+#[derive(Debug, Clone, Copy)]
 struct Known {
     level: usize,
-    errors: Vec<f64>,
+    error: f64,
 }
 
 impl<const N: usize> Stamper for Sized<'_, N> {
@@ -65,7 +66,7 @@ impl<const N: usize> Stamper for Sized<'_, N> {
             return self.carry(values, errors);
         }
         match self.plan.estimates {
-            Estimates::Off => self.once(&Known { level: 1, errors: Vec::new() }, values, errors),
+            Estimates::Off => self.once(Known { level: 0, error: f64::NAN }, values, errors),
             Estimates::All | Estimates::Some => Some(self.estimated(values, errors)?.0),
         }
     }
@@ -81,7 +82,7 @@ impl<const N: usize> Stamper for Sized<'_, N> {
             if anchors.contains(&at) {
                 continue;
             }
-            let spared = known.as_ref().and_then(|known| {
+            let spared = known.and_then(|known| {
                 self.pose(row.point)?;
                 self.once(known, row.values, row.errors)
             });
@@ -116,28 +117,33 @@ impl<'p, const N: usize> Sized<'p, N> {
 
     /// Solves these rows of a group with their errors; what they agree in, if they do.
     fn known(&mut self, anchors: &[usize], rows: &mut [Row<'_>]) -> Option<Known> {
-        let mut known = Known::default();
-        let mut least = vec![f64::INFINITY; self.plan.wishes.len()];
-        known.errors = vec![0.0; least.len()];
-        let mut is_whole = !anchors.is_empty();
+        let (mut level, mut error, mut is_whole) = (0, 0.0, !anchors.is_empty());
         for &at in anchors {
             let row = &mut rows[at];
             let found = self.pose(row.point).and_then(|()| self.estimated(row.values, row.errors));
             row.notice = found.map(|found| found.0);
-            let Some((_, level)) = found else {
+            let Some((_, own)) = found else {
                 is_whole = false;
                 continue;
             };
-            known.level = known.level.max(level);
-            for (column, (error, value)) in row.errors.iter().zip(&*row.values).enumerate() {
-                let relative = error / value.abs();
-                least[column] = least[column].min(relative);
-                known.errors[column] = known.errors[column].max(relative);
-            }
+            level = level.max(own);
+            let sizes =
+                self.plan.shown.iter().zip(&*row.values).map(|(own, value)| own.size(*value));
+            error = row
+                .errors
+                .iter()
+                .zip(sizes)
+                .map(|(error, size)| error / size)
+                .fold(error, f64::max);
         }
-        let are_alike = known.errors.iter().zip(&least).all(|(most, least)| *most <= ALIKE * least);
-        known.errors.iter_mut().for_each(|error| *error *= BETWEEN);
-        (is_whole && are_alike).then_some(known)
+        // Errors are differences from the coarser solution, so they are its errors first of all.
+        let coarser = Known { level: level.saturating_sub(1), error: COARSER * error };
+        let known = if coarser.error <= self.plan.strictest() {
+            coarser
+        } else {
+            Known { level, error: BETWEEN * error }
+        };
+        is_whole.then_some(known)
     }
 }
 
@@ -168,15 +174,14 @@ impl<const N: usize> Sized<'_, N> {
     }
 
     /// Solves a scene that is not linear once, where errors are known from others.
-    fn once(&self, known: &Known, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
+    fn once(&self, known: Known, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
         let course = self.stepped().follow(self.tolerance(known.level))?;
         let seen = self.plan.seen(&course, &self.numbers);
         values.copy_from_slice(&seen);
-        errors.fill(f64::NAN);
-        for ((error, value), relative) in errors.iter_mut().zip(&*values).zip(&known.errors) {
-            *error = relative * value.abs();
+        for ((error, value), shown) in errors.iter_mut().zip(&*values).zip(&self.plan.shown) {
+            *error = known.error * shown.size(*value);
         }
-        let is_known = known.errors.is_empty() || self.suffice(values, errors);
+        let is_known = known.error.is_nan() || self.suffice(values, errors);
         let is_finite = values.iter().all(|value| value.is_finite());
         (is_known && is_finite).then(|| self.noticed(&course))
     }
@@ -218,7 +223,7 @@ impl<const N: usize> Sized<'_, N> {
 
     fn noticed(&self, course: &Course) -> Notice {
         let time = self.plan.parametric.time_scale();
-        let deepest = course.depth.maximum((0.0, course.release));
+        let deepest = course.deepest;
         let error = self.plan.strictest() * deepest.value;
         let depth = Figure { value: deepest.value, error };
         self.plan.notice((depth, deepest.time * time), course.release * time, &self.numbers)

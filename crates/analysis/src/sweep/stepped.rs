@@ -4,11 +4,11 @@
 //! zero. Everything else is read off these, and how far it may be off from a second solution at a coarser
 //! tolerance.
 
-use dashpot_dae::{Panel, Signal};
+use dashpot_dae::{Extremum, Panel, Signal};
 use dashpot_network::{CurveRow, Instance};
 use dashpot_numerics::{
     chebyshev::Interpolation,
-    dop853::{DEGREE, Step},
+    dop853::Step,
     small::{apply, apply_left, dot},
 };
 
@@ -22,6 +22,8 @@ const GROWTH: (f64, f64) = (0.2, 6.0);
 const MOST: usize = 2000;
 /// By what part of itself the last step goes beyond the release, at most twice that.
 const OVERSHOOT: f64 = 0.02;
+/// Degree of the polynomials of what is looked at. Laws bend the force more than the unknowns, whose is 7.
+const DEGREE: usize = 7;
 /// A law may be stretched beyond its range by this part of it.
 const BEYOND: f64 = 1e-6;
 
@@ -30,12 +32,14 @@ const BEYOND: f64 = 1e-6;
 pub(super) struct Course {
     /// The force \[N\], from the start to the release.
     pub(super) force: Signal,
-    /// The deformation \[m\].
-    pub(super) depth: Signal,
-    /// Its rate \[m/s\].
+    /// The rate of the deformation \[m/s\].
     pub(super) speed: Signal,
     /// When the force falls through zero.
     pub(super) release: f64,
+    /// The largest force up to then …
+    pub(super) strongest: Extremum,
+    /// … and the largest deformation \[m\].
+    pub(super) deepest: Extremum,
 }
 
 /// A scene to be followed up to the dimensionless time `end`.
@@ -195,5 +199,6 @@ fn is_outside<const N: usize>(curve: &CurveRow<N>, z: &[f64; N]) -> bool {
 fn released([force, depth, speed]: [Vec<Panel>; 3]) -> Option<Course> {
     let [force, depth, speed] = [force, depth, speed].map(|panels| Signal::new(panels, None, 0.0));
     let release = force.first_crossing(0.0, (0.0, force.end()), Some(false))?.time;
-    (release > 0.0).then_some(Course { force, depth, speed, release })
+    let (strongest, deepest) = (force.maximum((0.0, release)), depth.maximum((0.0, release)));
+    (release > 0.0).then_some(Course { force, speed, release, strongest, deepest })
 }
