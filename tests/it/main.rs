@@ -30,6 +30,7 @@ mod examples;
 mod files;
 mod formulas;
 mod gallery;
+mod gradients;
 mod hard;
 mod independent;
 mod layers;

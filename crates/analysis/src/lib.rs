@@ -9,6 +9,7 @@ mod duration;
 mod energy;
 mod error;
 mod errors;
+pub mod gradients;
 mod impact;
 pub mod limits;
 pub mod measured;

@@ -111,6 +111,9 @@ pub(crate) enum CliError {
     /// A number that a scene does not have, or not alone.
     #[error("`--vary`: {0}")]
     Tunable(#[from] TunableFault),
+    /// A number that is to be derived by, and that a scene does not have, or not alone.
+    #[error("`--gradient`: {0}")]
+    Gradient(TunableFault),
     /// A named value that is both set and varied.
     #[error("`{name}` is set and varied: leave out one of both")]
     SetAndVaried { name: String },
@@ -252,7 +255,7 @@ impl CliError {
             Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
-            Self::Tunable(fault) => fault.help(),
+            Self::Tunable(fault) | Self::Gradient(fault) => fault.help(),
             Self::Run(
                 RunError::NoMeasure { key, known } | RunError::UnknownMeasure { key, known },
             ) => suggestion(key, "measures", known),

@@ -3,11 +3,12 @@
 use super::shown;
 
 /// Chapters with how many texts and figures they show.
-const CHAPTERS: [(&str, usize, usize); 13] = [
+const CHAPTERS: [(&str, usize, usize); 14] = [
     ("quick-start", 4, 1),
     ("vibration", 2, 1),
     ("thesis", 1, 4),
     ("sweeps", 6, 3),
+    ("gradients", 1, 0),
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),

@@ -37,6 +37,7 @@ use std::{
 use dashpot_dae::Silent;
 use dashpot_network::{Detail, Network};
 
+pub(crate) use self::parallel::share;
 pub use self::{
     axes::{Axis, Grid, Sweep, SweepRow, Swept, axis},
     columns::{columns, measure_named},
@@ -47,7 +48,7 @@ pub use self::{
 use self::{
     full::{Flaws, Full, check},
     instantiated::Plan,
-    parallel::{GROUP, share, workers},
+    parallel::{GROUP, workers},
     report::Notice,
 };
 use crate::{

@@ -25,7 +25,7 @@ pub(super) fn workers(threads: usize, rows: usize) -> u32 {
 
 /// Does something for each group of so many of some `rows`, by so many threads, each with a `tool` of its own. False
 /// where the watcher broke it off.
-pub(super) fn share<R: Send, T>(
+pub(crate) fn share<R: Send, T>(
     rows: &mut [R],
     (group, threads): (usize, usize),
     tool: &(dyn Fn() -> T + Sync),

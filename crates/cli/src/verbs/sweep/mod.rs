@@ -3,6 +3,7 @@
 mod best;
 mod figures;
 mod files;
+mod gradient;
 mod page;
 mod points;
 mod titles;
@@ -52,6 +53,7 @@ use crate::{
     dashpot sweep --vary \"padding.maxwell.spring=5..80 MN/m,41,log\" \\\n    \
     --vary \"padding.kelvin.dashpot=1..16 kN s/m,41,log\" --out map\n  \
     dashpot sweep helmet.toml --vary liner.material=eps,epp,vn --vary \"drop=0.5..2 m\"\n  \
+    dashpot sweep pad.toml --gradient K,head.mass\n  \
     dashpot sweep pad.toml --vary \"K=5..30 MN/m\" --vary \"C=2..9 kN s/m\" --sample 200\n\n\
     A number of the scene goes by its path, such as head.velocity, mount.dashpot, \
     padding.maxwell.spring or padding.thickness, or by its name under [values]. Its values are a \
@@ -64,7 +66,7 @@ pub(crate) struct SweepArguments {
     #[command(flatten)]
     limits: LimitArguments,
     /// A number of the scene and the values that it takes; repeatable, for all combinations.
-    #[arg(long, value_name = "NAME=VALUES", required_unless_present = "points")]
+    #[arg(long, value_name = "NAME=VALUES", required_unless_present_any = ["points", "gradient"])]
     vary: Vec<String>,
     /// Designs from a table in place of all combinations: a CSV file whose first line names numbers of
     /// the scene with their units, such as `head.velocity [m/s],liner.thickness [mm]`; each row is one.
@@ -77,6 +79,10 @@ pub(crate) struct SweepArguments {
     /// Which designs `--sample` takes; the same number gives the same ones.
     #[arg(long, value_name = "NUMBER", requires = "sample", default_value_t = 1)]
     seed: u64,
+    /// Derivatives of the measures with respect to these numbers, at every point or, without `--vary`, of the scene
+    /// itself: by how many percent a measure changes where a number rises by one.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', conflicts_with_all = ["estimate", "neglect"])]
+    gradient: Vec<String>,
     /// Measures, such as padding.peak-force [default: all that the scene reports].
     #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
     measure: Vec<String>,
@@ -200,6 +206,7 @@ impl Varied {
     /// All points; `None` where there are too many.
     fn grid(&self) -> Option<Grid> {
         let grid = match &self.form {
+            Form::Combined if self.variations.is_empty() => Grid::new(vec![1]),
             Form::Combined => Grid::new(counts(&self.variations)),
             Form::Mixed(all) => Grid::new(vec![all.len()]),
             Form::Listed | Form::Sampled => Grid::new(vec![self.variations[0].len()]),
@@ -315,15 +322,21 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     };
     let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
     let (columns, wishes) = columns(&scene_point(scene.clone().into())?, &keys)?;
-    let names = files::names(&varied, &columns);
+    let names = if arguments.gradient.is_empty() {
+        files::names(&varied, &columns)
+    } else {
+        vec![gradient::TABLE.to_owned()]
+    };
     let folder = Folder::wanted(arguments.out.as_deref(), names)?;
-    let at = |places: &[usize]| {
-        let text = varied.text_at(places);
-        let posed = pose(&text, &input.options(&set)).map_err(|faults| {
+    let of_text = |text: &str| {
+        let posed = pose(text, &input.options(&set)).map_err(|faults| {
             let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
             messages.collect::<Vec<_>>().join("; ")
         })?;
-        let mut scene_point = scene_point(posed).map_err(|error| error.to_string())?;
+        scene_point(posed).map_err(|error| error.to_string())
+    };
+    let at = |places: &[usize]| {
+        let mut scene_point = of_text(&varied.text_at(places))?;
         scene_point.settings.measures.clone_from(&wishes);
         Ok(scene_point)
     };
@@ -337,6 +350,16 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         shown.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
     }
     terminal.diagnose(&Diagnostics { list: shown.split_off(before), omitted: 0 });
+    if !arguments.gradient.is_empty() {
+        return gradient::gradient(
+            arguments,
+            (scene, varied, grid),
+            &keys,
+            &of_text,
+            folder,
+            terminal,
+        );
+    }
     let usual = if varied.is_apart() { EstimatedPoints::All } else { EstimatedPoints::Some };
     let estimates: Estimates = arguments.estimate.unwrap_or(usual).into();
     let report = solved((arguments, estimates), &grid, &at, &columns, terminal)?;

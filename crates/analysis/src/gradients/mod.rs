@@ -1,0 +1,240 @@
+//! Derivatives of measures, and of the times of events, with respect to numbers of a scene.
+//!
+//! A derivative is a difference of solutions next to each other, of which each follows its own events: release,
+//! contact, stop and stick move with the number, and so do peaks and the windows of indices. By the exact method,
+//! whose solutions are known to some 13 digits, one solution to each side gives 8 digits; two to each side, by a
+//! stepping method at a tighter tolerance, give a few digits more than the run was asked for. Where a derivative
+//! does not exist, at a peak of two equal maxima or where events meet, differences do not settle, and it is refused.
+
+mod beside;
+mod neighbours;
+mod report;
+mod serialized;
+mod stencil;
+
+pub use self::report::{
+    Derivative, GradientReport, MeasureGradient, NoDerivative, Number, unit_of,
+};
+use self::{
+    beside::Beside,
+    neighbours::{Neighbour, neighbours},
+};
+use crate::{
+    Choice, RunReport, Solve, SolveSettings,
+    sweep::{ScenePoint, SweepError, columns},
+};
+
+/// Poses the scene where each number has this value, or says why there is none.
+pub type PoseNumbers<'p> = dyn Fn(&[f64]) -> Result<ScenePoint, String> + Sync + 'p;
+
+/// The steps of the exact method in parts of a number: their square, and errors of some 1e-14 over them, are alike.
+const EXACT_STEPS: [f64; 2] = [3e-5, 5e-6];
+/// The largest and the least first step of other methods.
+const WIDEST: f64 = 1e-2;
+const NARROWEST: f64 = 1e-3;
+/// The tolerance of solutions next to each other, in parts of that of the run.
+const TIGHTER: f64 = 1e-3;
+/// The tightest tolerance there is.
+const TIGHTEST: f64 = 1e-13;
+/// Errors of stepping methods in parts of their tolerance.
+const ERRORS_PER_TOLERANCE: f64 = 1e2;
+/// Below this relative error no better one is looked for.
+const GOOD: f64 = 1e-7;
+
+/// How the neighbours of a run are solved.
+struct Plan {
+    settings: SolveSettings,
+    is_exact: bool,
+    steps: [f64; 2],
+}
+
+impl Plan {
+    /// As the run was, but once and at a tighter tolerance.
+    fn of(settings: &SolveSettings, run: &RunReport) -> Self {
+        let rtol = run.solver.rtol.map(|rtol| (TIGHTER * rtol).max(TIGHTEST));
+        let method = Choice::named(run.solver.method).unwrap_or_else(|_| settings.method.clone());
+        let settings = SolveSettings { method, rtol, estimate: false, ..settings.clone() };
+        let steps = rtol.map_or(EXACT_STEPS, |rtol| {
+            let step = (ERRORS_PER_TOLERANCE * rtol).cbrt().clamp(NARROWEST, WIDEST);
+            [step, 0.25 * step]
+        });
+        Self { settings, is_exact: rtol.is_none(), steps }
+    }
+
+    /// A scene posed beside the run's, with what is asked of it.
+    fn ask(&self, posed: ScenePoint) -> ScenePoint {
+        // A length that was found depends on the numbers, and the run's end is no part of the scene.
+        let found = posed.settings.is_duration_found;
+        let duration = if found { self.settings.duration } else { posed.settings.duration };
+        let settings = SolveSettings { duration, ..self.settings.clone() };
+        ScenePoint { settings, ..posed }
+    }
+}
+
+/// The derivatives of these measures, of none all that the scene reports, and of the times of events, with respect to
+/// these numbers.
+///
+/// It takes the run itself and two solutions for each number by the exact method; four, and one more for all,
+/// by others and where the first two do not pass the same events and peaks.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_analysis::{SolveSettings, gradients::{Number, gradients}, sweep::ScenePoint};
+/// use dashpot_network::{Network, Node, elements::Spring, part};
+///
+/// let numbers = [Number::new("K", "N/m", 4e4), Number::new("m", "kg", 4.0)];
+/// let keys = ["pad.peak-force".to_owned()];
+/// let report = gradients(&numbers, &keys, 1, &|values| {
+///     let &[stiffness, mass] = values else { return Err("two numbers".to_owned()) };
+///     let mut network = Network::new();
+///     let head = network.add_node(Node::mass("head", mass).moving(2.0));
+///     network.connect("pad", head, network.ground(), part(Spring { stiffness }));
+///     Ok(ScenePoint { network, settings: SolveSettings::lasting(0.1) })
+/// })?;
+/// // V √(K m): half a percent per percent.
+/// let own = report.derivative("pad.peak-force", "K").unwrap().as_ref()?;
+/// assert!((own.elasticity.unwrap() - 0.5).abs() < 1e-8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// A fault of the scene, a measure that it does not have, and a run that fails. What has no derivative is
+/// [in the report](NoDerivative).
+pub fn gradients(
+    numbers: &[Number],
+    keys: &[String],
+    threads: usize,
+    pose: &PoseNumbers<'_>,
+) -> Result<GradientReport, SweepError> {
+    let values: Vec<f64> = numbers.iter().map(|own| own.value).collect();
+    let mut point = pose(&values).map_err(SweepError::NotPosed)?;
+    let (columns, wishes) = columns(&point, keys)?;
+    point.settings.measures = wishes;
+    point.settings.accuracy.neglect_below = None;
+    let columns = columns.into_iter().filter(|own| !own.is_share);
+    let keys: Vec<String> = columns.map(|own| own.key).collect();
+    let run = point.network.solve_with(&point.settings)?;
+    let plan = Plan::of(&point.settings, &run);
+    let own = Neighbour::of(&run, &keys);
+    let here = if plan.is_exact {
+        own.clone()
+    } else {
+        let again = plan.ask(point);
+        Neighbour::of(&again.network.solve_with(&again.settings)?, &keys)
+    };
+    let first = 1 + run.solver.solves_for_error + usize::from(!plan.is_exact);
+    let is_sharp = plan.is_exact && run.segmentation.is_none();
+    let search = Search { numbers, keys: &keys, plan, pose, threads, run: own, here, is_sharp };
+    let (found, others) = search.found();
+    Ok(GradientReport::made(&run, (&keys, numbers), &found, first + others))
+}
+
+/// What is known of each value of a run: its derivative with respect to one number.
+type Found = Vec<Result<Derivative, NoDerivative>>;
+
+/// A run, and where its neighbours are looked for.
+struct Search<'a> {
+    numbers: &'a [Number],
+    keys: &'a [String],
+    plan: Plan,
+    pose: &'a PoseNumbers<'a>,
+    threads: usize,
+    run: Neighbour,
+    /// The run once more as its neighbours are solved.
+    here: Neighbour,
+    /// Whether one solution to each side is enough where they are of the run's kind.
+    is_sharp: bool,
+}
+
+impl Search<'_> {
+    /// The derivatives with respect to each number, and how many solutions they took.
+    fn found(&self) -> (Vec<Found>, usize) {
+        let nothing = vec![Err(NoDerivative::NumberIsZero); self.here.count()];
+        let mut found = vec![nothing; self.numbers.len()];
+        let mut open: Vec<usize> =
+            (0..self.numbers.len()).filter(|at| self.numbers[*at].value != 0.0).collect();
+        let mut solutions = 0;
+        for step in self.plan.steps {
+            let (all, count) = self.at(&open, step);
+            solutions += count;
+            for (number, own) in open.iter().zip(all) {
+                for (known, own) in found[*number].iter_mut().zip(own) {
+                    if is_better(known, &own) {
+                        *known = own;
+                    }
+                }
+            }
+            open.retain(|number| found[*number].iter().any(|own| self.is_open(own)));
+        }
+        (found, solutions)
+    }
+
+    /// Whether a smaller step may give a better derivative.
+    fn is_open(&self, own: &Result<Derivative, NoDerivative>) -> bool {
+        match own {
+            Ok(own) => self.plan.is_exact && own.relative_error > GOOD,
+            Err(own) => !matches!(own, NoDerivative::NoValue { .. }),
+        }
+    }
+
+    /// The derivatives with respect to these numbers by steps of this part of them, and how many solutions they took.
+    fn at(&self, numbers: &[usize], step: f64) -> (Vec<Found>, usize) {
+        let outer = self.solved(numbers, step);
+        let is_wide = |sides: &[Neighbour; 2]| {
+            !self.is_sharp || !sides.iter().all(|own| own.is_like(&self.here))
+        };
+        let wide: Vec<bool> = outer.iter().map(is_wide).collect();
+        let of_inner: Vec<usize> =
+            numbers.iter().zip(&wide).filter(|own| *own.1).map(|own| *own.0).collect();
+        let mut inner = self.solved(&of_inner, 0.5 * step).into_iter();
+        let all = numbers.iter().zip(&outer).zip(wide).map(|((number, sides), is_wide)| {
+            let near = if is_wide { inner.next() } else { None };
+            let Self { run, here, .. } = self;
+            let value = self.numbers[*number].value;
+            let steps_error = self.plan.settings.rtol.map(|rtol| ERRORS_PER_TOLERANCE * rtol);
+            let near = near.as_ref();
+            let beside = Beside { run, here, sides, near, number: value, step, steps_error };
+            let accuracy = |at: usize| {
+                let all = &self.plan.settings.accuracy;
+                self.keys.get(at).map_or(all.default, |key| all.of(key))
+            };
+            (0..here.count()).map(|at| beside.derivative(at, accuracy(at))).collect()
+        });
+        let all = all.collect();
+        (all, 2 * (numbers.len() + of_inner.len()))
+    }
+
+    /// The solutions a step below and above each of these numbers.
+    fn solved(&self, numbers: &[usize], step: f64) -> Vec<[Neighbour; 2]> {
+        let sides = numbers.iter().flat_map(|&at| [(at, 1.0 - step), (at, 1.0 + step)]);
+        let solve = |&(at, factor): &(usize, f64)| {
+            let mut values: Vec<f64> = self.numbers.iter().map(|own| own.value).collect();
+            values[at] *= factor;
+            let point = match (self.pose)(&values) {
+                Ok(posed) => self.plan.ask(posed),
+                Err(reason) => return Neighbour::none(reason),
+            };
+            match point.network.solve_with(&point.settings) {
+                Ok(run) => Neighbour::of(&run, self.keys),
+                Err(error) => Neighbour::none(error.to_string()),
+            }
+        };
+        neighbours(&sides.collect::<Vec<_>>(), self.threads, &solve)
+    }
+}
+
+/// Whether what was found later is to replace what is known.
+fn is_better(
+    known: &Result<Derivative, NoDerivative>,
+    own: &Result<Derivative, NoDerivative>,
+) -> bool {
+    match (known, own) {
+        (Ok(known), Ok(own)) => own.error < known.error,
+        (known, own) => known.is_err() || own.is_ok(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,294 @@
+//! `sweep --gradient`: what measures change with.
+
+use std::{io, num::NonZero, thread::available_parallelism};
+
+use dashpot_analysis::{
+    gradients::{
+        Derivative, GradientReport, MeasureGradient, NoDerivative, Number, gradients, unit_of,
+    },
+    sweep::{Grid, ScenePoint, SweepError},
+};
+use dashpot_plot::Table;
+use dashpot_scene::{Scene, Tunables};
+use dashpot_units::{Dimension, si_unit, significant};
+use serde::Serialize;
+
+use super::{SweepArguments, Varied};
+use crate::{
+    args::When,
+    error::{CliError, Status},
+    folder::{Folder, Staged},
+    input::title,
+    numbers::{Unit, digits, percent_signed, quantity},
+    origin::{self, Source},
+    output::{Study, Text, VERSION, csv, emit, list},
+    progress::Bar,
+    terminal::Terminal,
+};
+
+/// Derivatives at all points.
+pub(super) const TABLE: &str = "gradients.csv";
+/// The unit of a number that is written without one.
+const BARE: &str = "SI unit";
+/// Digits of a derivative, whatever its error.
+const MOST_DIGITS: usize = 5;
+
+/// Poses the scene of a text.
+type PoseText<'p> = dyn Fn(&str) -> Result<ScenePoint, String> + Sync + 'p;
+
+/// What was varied, and what was found at each point.
+struct Gradients {
+    scene: Scene,
+    varied: Varied,
+    grid: Grid,
+    reports: Vec<GradientReport>,
+    /// When the tables are for people.
+    table: When,
+}
+
+/// Finds the derivatives at all points, and says them.
+pub(super) fn gradient(
+    arguments: &SweepArguments,
+    (scene, varied, grid): (Scene, Varied, Grid),
+    keys: &[String],
+    pose: &PoseText<'_>,
+    folder: Option<Folder>,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let all = || available_parallelism().map_or(1, NonZero::get);
+    let threads = arguments.threads.map_or_else(all, NonZero::get);
+    let found = |name: &String| varied.tunables.find(name.trim()).map_err(CliError::Gradient);
+    let places = arguments.gradient.iter().map(found).collect::<Result<Vec<usize>, _>>()?;
+    let is_set = |(name, _): &&(String, String)| {
+        varied.tunables.find(name).is_ok_and(|at| places.contains(&at))
+    };
+    if let Some((name, _)) = arguments.scene.values.set.iter().find(is_set) {
+        return Err(CliError::SetAndVaried { name: name.clone() });
+    }
+    let mut bar = Bar::new("gradients", 0.0, terminal.error.attended);
+    let count = grid.len();
+    let mut reports = Vec::with_capacity(count);
+    for point in 0..count {
+        let text = varied.text_at(&grid.places(point));
+        reports.push(at_point(&text, (&scene, &places), keys, threads, pose)?);
+        let done = point + 1;
+        let shown = bar.show(done as f64 / count as f64, || format!("{done} of {count}"));
+        if shown.is_break() {
+            return Err(SweepError::BrokenOff.into());
+        }
+    }
+    let found = Gradients { scene, varied, grid, reports, table: arguments.table };
+    emit(&found, arguments.json, folder, terminal)?;
+    Ok(Status::Done)
+}
+
+/// The derivatives of the scene of a text with respect to the numbers at these places.
+fn at_point(
+    text: &str,
+    (scene, places): (&Scene, &[usize]),
+    keys: &[String],
+    threads: usize,
+    pose: &PoseText<'_>,
+) -> Result<GradientReport, CliError> {
+    let tunables = Tunables::of(text, scene.file.as_deref()).map_err(CliError::Scene)?;
+    let numbers = list(places.iter().map(|&at| {
+        let own = &tunables.all()[at];
+        let unit = match own.dimension {
+            None => BARE.to_owned(),
+            Some(Dimension::NUMBER) => "1".to_owned(),
+            Some(dimension) => si_unit(dimension),
+        };
+        Number::new(own.name.clone(), unit, own.value)
+    }));
+    let written = |(number, value): (&Number, &f64)| match number.unit.as_str() {
+        "1" | BARE => value.to_string(),
+        unit => format!("{value} {unit}"),
+    };
+    let report = gradients(&numbers, keys, threads, &|values| {
+        let written = numbers.iter().zip(values).map(written);
+        pose(&tunables.text_with(&list(places.iter().copied().zip(written))))
+    })?;
+    Ok(report)
+}
+
+impl Study for Gradients {
+    fn text(&self, text: &mut Text) {
+        text.title(title(&self.scene));
+        for (point, report) in self.reports.iter().enumerate() {
+            if let Some(values) = self.at(point) {
+                text.heading(&values);
+            }
+            let numbers = report.numbers.iter().map(|own| match own.unit.as_str() {
+                BARE => format!("{} = {}", own.name, own.value),
+                unit => format!("{} = {}", own.name, quantity(own.value, unit, MOST_DIGITS)),
+            });
+            text.faint(&format!(
+                "{}; {} solutions by {}",
+                list(numbers).join(", "),
+                report.solutions,
+                report.method
+            ));
+            text.table(&elasticities(report));
+            text.table(&derivatives(report));
+            let refused = list(refusals(report));
+            if !refused.is_empty() {
+                text.blank();
+                text.items(refused);
+            }
+        }
+    }
+
+    fn data(&self, terminal: Terminal) -> Option<String> {
+        if self.table.is_now(terminal.output.attended) {
+            return None;
+        }
+        let mut bytes = Vec::new();
+        self.table(&mut bytes).ok()?;
+        String::from_utf8(bytes).ok()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        list(self.reports.iter().flat_map(refusals))
+    }
+
+    fn object(&self) -> impl Serialize {
+        #[derive(Serialize)]
+        struct Point<'s> {
+            /// The values of what varies, as they are written.
+            at: Vec<String>,
+            #[serde(flatten)]
+            report: &'s GradientReport,
+        }
+        #[derive(Serialize)]
+        struct Object<'s> {
+            dashpot: &'static str,
+            title: &'s Option<String>,
+            file: &'s Option<String>,
+            sha256: String,
+            files: Vec<Source>,
+            varied: Vec<&'s String>,
+            points: Vec<Point<'s>>,
+        }
+        let Self { scene, .. } = self;
+        let points = self.reports.iter().enumerate();
+        Object {
+            dashpot: VERSION,
+            title: &scene.title,
+            file: &scene.file,
+            sha256: origin::of_text(scene),
+            files: origin::of_files(scene),
+            varied: list(self.varied.variations.iter().map(|own| &own.name)),
+            points: list(points.map(|(at, report)| Point { at: self.values(at), report })),
+        }
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        files.add_with(TABLE, |out| self.table(out))
+    }
+}
+
+impl Gradients {
+    /// The values of what varies at a point, as they are written.
+    fn values(&self, point: usize) -> Vec<String> {
+        let places = self.varied.places(&self.grid.places(point));
+        list(self.varied.variations.iter().zip(places).map(|(own, place)| own.text(place)))
+    }
+
+    /// The same with their names; `None` where nothing varies.
+    fn at(&self, point: usize) -> Option<String> {
+        let names = self.varied.variations.iter();
+        let all =
+            list(names.zip(self.values(point)).map(|(own, text)| format!("{} = {text}", own.name)));
+        (!all.is_empty()).then(|| all.join(", "))
+    }
+
+    /// One line for each measure and number of each point, as CSV in SI units; what is missing is blank.
+    fn table(&self, out: &mut dyn io::Write) -> io::Result<()> {
+        let names = self.varied.variations.iter().map(|own| own.name.clone());
+        let own =
+            ["measure", "value", "unit", "number", "derivative", "error", "unit of derivative"];
+        let more = ["percent per percent", "refused"];
+        let header = names.chain(own.into_iter().chain(more).map(str::to_owned));
+        let rows = self.reports.iter().enumerate().flat_map(|(point, report)| {
+            rows(report).map(move |(measure, number, own)| {
+                let shown = |value: Option<f64>| value.map_or(String::new(), |own| own.to_string());
+                let found = own.as_ref().ok();
+                let cells = [
+                    measure.key.clone(),
+                    shown(measure.value),
+                    measure.unit.to_owned(),
+                    number.name.clone(),
+                    shown(found.map(|own| own.value)),
+                    shown(found.map(|own| own.error)),
+                    unit_of(measure.unit, &number.unit),
+                    shown(found.and_then(|own| own.elasticity)),
+                    own.as_ref().err().map_or(String::new(), ToString::to_string),
+                ];
+                list(self.values(point).into_iter().chain(cells))
+            })
+        });
+        csv(out, header, rows)
+    }
+}
+
+type Cell<'r> = (&'r MeasureGradient, &'r Number, &'r Result<Derivative, NoDerivative>);
+
+/// Every measure and event with every number.
+fn rows(report: &GradientReport) -> impl Iterator<Item = Cell<'_>> {
+    let all = report.measures.iter().chain(&report.events);
+    all.flat_map(|own| {
+        report.numbers.iter().zip(&own.derivatives).map(move |(number, found)| (own, number, found))
+    })
+}
+
+/// What has no derivative, and why.
+fn refusals(report: &GradientReport) -> impl Iterator<Item = String> + '_ {
+    rows(report).filter_map(|(own, number, found)| {
+        let why = found.as_ref().err()?;
+        Some(format!("{} by {}: {why}", own.key, number.name))
+    })
+}
+
+/// A table with a line for each measure and event, and a column for each number.
+fn by_number(
+    report: &GradientReport,
+    caption: &str,
+    first: &str,
+    cell: impl Fn(Cell<'_>) -> String,
+) -> Table {
+    let names = report.numbers.iter().map(|own| own.name.as_str());
+    let header = list([first].into_iter().chain(names));
+    let rows = report.measures.iter().chain(&report.events).map(|own| {
+        let cells = report.numbers.iter().zip(&own.derivatives);
+        let cells = cells.map(|(number, found)| cell((own, number, found)));
+        list([own.key.clone()].into_iter().chain(cells))
+    });
+    Table::new(caption.to_owned(), &header, rows)
+}
+
+/// What stands where there is no derivative.
+const NONE: &str = "–";
+
+/// By how many percent a measure changes.
+fn elasticities(report: &GradientReport) -> Table {
+    by_number(report, "", "1 % more of", |(_, _, found)| match found {
+        Ok(Derivative { value, error, .. }) if value.abs() <= *error => "0 %".to_owned(),
+        Ok(Derivative { elasticity: Some(own), .. }) => {
+            percent_signed(own / 100.0).replace('−', "-")
+        }
+        Ok(_) | Err(_) => NONE.to_owned(),
+    })
+}
+
+/// The derivatives themselves, in SI units.
+fn derivatives(report: &GradientReport) -> Table {
+    by_number(report, "Derivatives, in SI units", "measure", |(own, number, found)| match found {
+        Ok(Derivative { value, error, .. }) if value.abs() <= *error => "0".to_owned(),
+        Ok(Derivative { value, error, .. }) => {
+            let number_text = significant(*value, digits(*value, Some(*error), MOST_DIGITS));
+            let unit = Unit::plain(&unit_of(own.unit, &number.unit));
+            format!("{number_text} {}", unit.symbol).trim_end().to_owned()
+        }
+        Err(_) => NONE.to_owned(),
+    })
+}
