@@ -93,7 +93,7 @@ impl Plan {
 ///     Ok(ScenePoint { network, settings: SolveSettings::lasting(0.1) })
 /// })?;
 /// // V √(K m): half a percent per percent.
-/// let own = report.derivative("pad.peak-force", "K").unwrap().as_ref()?;
+/// let own = report.derivative("pad.peak-force", "K").unwrap().clone()?;
 /// assert!((own.elasticity.unwrap() - 0.5).abs() < 1e-8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
