@@ -160,8 +160,17 @@ impl GradientReport {
 
 /// What happens, without the impulse, which changes with the numbers.
 fn happening(what: &Event) -> String {
-    let words = what.to_string();
-    words.split_once(": impact of").map_or_else(|| words.clone(), |own| own.0.to_owned())
+    match what {
+        Event::Meets { sides, again, .. } => {
+            Event::Meets { sides: sides.clone(), again: *again, collision: None }.to_string()
+        }
+        Event::Closes { contact, again, .. } => {
+            Event::Closes { contact: contact.clone(), again: *again, collision: None }.to_string()
+        }
+        Event::Impact { contact, .. } => format!("{contact}: impact"),
+        Event::PassesOn { contact, .. } => format!("{contact} passes on an impulse"),
+        other => other.to_string(),
+    }
 }
 
 /// The unit of a derivative: that of the measure over that of the number.

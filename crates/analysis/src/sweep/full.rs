@@ -95,9 +95,9 @@ const MOST_CHECKED: usize = 4;
 /// Stamped values may differ from full ones by this part of themselves, besides the errors of both.
 const AGREEMENT: f64 = 1e-9;
 /// The tolerance of full runs whose errors are not estimated, in parts of the accuracy that is wanted …
-const TIGHT: f64 = 1e-5;
+const TIGHT: f64 = 1e-4;
 /// … and what their values may be off by.
-const CHECKED: f64 = 1e-2;
+const CHECKED: f64 = 0.5;
 
 /// Solves points spread over the grid both ways: those that were instantiated, and the largest difference
 /// in parts of a value. `None` where they do not agree, or full runs are warned of something else.

@@ -8,7 +8,7 @@ use dashpot_dae::{Extremum, Panel, Signal};
 use dashpot_network::{CurveRow, Instance};
 use dashpot_numerics::{
     chebyshev::Interpolation,
-    dop853::Step,
+    dop853::{DEGREE, Step},
     small::{apply, apply_left, dot},
 };
 
@@ -22,8 +22,6 @@ const GROWTH: (f64, f64) = (0.2, 6.0);
 const MOST: usize = 2000;
 /// By what part of itself the last step goes beyond the release, at most twice that.
 const OVERSHOOT: f64 = 0.02;
-/// Degree of the polynomials of what is looked at. Laws bend the force more than the unknowns, whose is 7.
-const DEGREE: usize = 7;
 /// A law may be stretched beyond its range by this part of it.
 const BEYOND: f64 = 1e-6;
 

@@ -130,7 +130,7 @@ impl Study for Gradients {
             ));
             text.table(&elasticities(report));
             text.table(&derivatives(report));
-            let refused = list(refusals(report));
+            let refused = refusals(report);
             if !refused.is_empty() {
                 text.blank();
                 text.items(refused);
@@ -241,12 +241,24 @@ fn rows(report: &GradientReport) -> impl Iterator<Item = Cell<'_>> {
     })
 }
 
-/// What has no derivative, and why.
-fn refusals(report: &GradientReport) -> impl Iterator<Item = String> + '_ {
-    rows(report).filter_map(|(own, number, found)| {
-        let why = found.as_ref().err()?;
-        Some(format!("{} by {}: {why}", own.key, number.name))
-    })
+/// What has no derivative, and why; each reason once, with all that it holds for.
+fn refusals(report: &GradientReport) -> Vec<String> {
+    let mut reasons: Vec<(&str, &NoDerivative, Vec<&str>)> = Vec::new();
+    for (own, number, found) in rows(report) {
+        let Err(why) = found else { continue };
+        let is_it = |known: &&mut (&str, &NoDerivative, Vec<&str>)| {
+            known.0 == number.name && known.1 == why
+        };
+        match reasons.iter_mut().find(is_it) {
+            Some(known) => known.2.push(&own.key),
+            None => reasons.push((&number.name, why, vec![&own.key])),
+        }
+    }
+    let count = report.measures.len() + report.events.len();
+    list(reasons.into_iter().map(|(number, why, keys)| {
+        let keys = if keys.len() == count { "all".to_owned() } else { keys.join(", ") };
+        format!("{keys} by {number}: {why}")
+    }))
 }
 
 /// A table with a line for each measure and event, and a column for each number.
