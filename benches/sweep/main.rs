@@ -14,6 +14,7 @@ mod by_hand;
 mod foam;
 #[path = "../equal_error/impact.rs"]
 mod impact;
+mod runs;
 
 use std::{
     fs,
@@ -222,11 +223,15 @@ fn asked(scene: &ScenePoint, keys: &[&str]) -> Asked {
 
 fn main() {
     let only = std::env::var("SWEEP").unwrap_or_default();
-    if only != "drops" {
+    let is_asked_for = |part: &str| only.is_empty() || only == part;
+    if is_asked_for("linear") {
         linear();
     }
-    if only != "linear" {
+    if is_asked_for("drops") {
         drops();
+    }
+    if is_asked_for("runs") {
+        runs::runs();
     }
 }
 
@@ -310,6 +315,12 @@ fn error_by_hand(rtol: f64) -> f64 {
     worst
 }
 
+/// The coarsest tolerance at which the drops by hand are so good.
+fn tolerance_by_hand(wanted: f64) -> f64 {
+    let mut tolerances = (8..40).map(|quarters| 10_f64.powf(-0.25 * f64::from(quarters)));
+    tolerances.find(|&rtol| error_by_hand(rtol) < wanted).expect("a tolerance")
+}
+
 fn height(place: usize) -> f64 {
     0.4 + 0.5 * place as f64 / (DROPS - 1) as f64
 }
@@ -317,9 +328,7 @@ fn height(place: usize) -> f64 {
 /// Drops from 1000 heights on foam.
 fn drops() {
     let grid = Grid::new(vec![DROPS]).expect("a grid");
-    let tolerances = (8..40).map(|quarters| 10_f64.powf(-0.25 * f64::from(quarters)));
-    let rtol =
-        tolerances.into_iter().find(|&rtol| error_by_hand(rtol) < WANTED).expect("a tolerance");
+    let rtol = tolerance_by_hand(WANTED);
     let columns = asked(&foam::scene(height(0)), &foam::KEYS);
     let swept = |estimates, threads| {
         let pose = |places: &[usize]| foam::scene(height(places[0]));

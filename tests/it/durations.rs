@@ -126,6 +126,65 @@ separation.pad = {}
 }
 
 #[test]
+fn what_is_let_go_at_a_place_of_its_own_is_followed_until_it_was_fastest() {
+    let let_go = |at: &str, pad: &str| {
+        format!(
+            "[nodes]\nblock = {{ mass = \"1 kg\", position = \"{at}\" }}\n[elements]\n{pad}\n\
+             [measures]\nblock = [\"peak-velocity\"]\n"
+        )
+    };
+    let speed = |text: &str| {
+        let (scene, odd) = scene(text, "");
+        assert!(odd.is_empty(), "{odd}");
+        solved(&scene).value("block.peak-velocity").unwrap()
+    };
+    // Damped by a third: where the acceleration is zero the speed is ω x e^(−ζ φ / √(1 − ζ²)), with cos φ = ζ.
+    let (omega, zeta) = (1000_f64.sqrt(), 10.0 / 1000_f64.sqrt());
+    let right = omega * 0.02 * (-zeta * zeta.acos() / (1.0 - zeta * zeta).sqrt()).exp();
+    let kelvin = "s = { between = [\"block\", \"ground\"], kelvin-voigt = { spring = \"1 kN/m\", dashpot = \
+                  \"20 N s/m\" } }";
+    assert!((speed(&let_go("20 mm", kelvin)) / right - 1.0).abs() < 1e-9);
+    // It slides against 5 N, so that it swings about 5 mm.
+    let sliding = "s = { between = [\"block\", \"ground\"], spring = \"1 kN/m\" }\n\
+                   f = { between = [\"block\", \"ground\"], friction = { friction = \"5 N\", \
+                   static-to-kinetic = 2 } }";
+    let right = omega * 0.047;
+    assert!((speed(&let_go("52 mm", sliding)) / right - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_bound_counts_from_the_arrival_of_what_falls() {
+    for height in [1.5_f64, 6.0, 60.0] {
+        let text = format!(
+            "[nodes]\nhead = {{ mass = \"5 kg\", drop = \"{height} m\" }}\n[elements]\n\
+             pad = {{ between = [\"head\", \"ground\"], kelvin-voigt = {{ spring = \"60 kN/m\", dashpot = \
+             \"300 N s/m\" }} }}\n[effects]\ngravity = {{}}\nseparation.pad = {{}}\n"
+        );
+        let (scene, odd) = scene(&text, "");
+        assert!(odd.is_empty(), "{odd}");
+        let fall = (2.0 * height / 9.80665).sqrt();
+        let impact = solved(&scene).contacts[0].impact;
+        assert!(impact.has_ended() && (impact.start - fall).abs() < 1e-6, "{impact:?}");
+        let after = scene.run.duration - fall;
+        // Rounded up to two digits of the whole.
+        assert!(after >= 1.2 * (impact.end - fall) && after < 0.2 + 0.1 * fall, "{after}");
+    }
+}
+
+#[test]
+fn a_soft_toe_ends_an_impact_as_well() {
+    for toe in [2, 20, 100] {
+        let text = format!(
+            "[nodes]\nhead = {{ mass = \"2 kg\", velocity = \"3 m/s\" }}\n[elements]\n\
+             pad = {{ between = [\"head\", \"ground\"], table-spring = [[0, 0], [\"1 mm\", \"{toe} N\"], \
+             [\"20 mm\", \"20 kN\"]] }}\n[effects]\nseparation.pad = {{}}\n"
+        );
+        let (scene, odd) = scene(&text, "");
+        assert!(odd.is_empty() && scene.run.duration < 0.1, "{toe}: {} {odd}", scene.run.duration);
+    }
+}
+
+#[test]
 fn what_does_not_end_is_cut_off_and_says_so() {
     // A dashpot alone stops a body after ever longer times, and never quite.
     let text = SPRING.replace("spring = \"60 kN/m\"", "dashpot = \"5 N s/m\"");

@@ -42,6 +42,32 @@ fn a_limit_is_kept_or_exceeded_by_the_margin_of_the_closed_form() {
 }
 
 #[test]
+fn what_follows_the_impact_and_exceeds_a_limit_leaves_it_undecided() {
+    // The second body meets a wall of stiffness k after the impact: V √(k m) is 141.4 g there, 24.98 g before.
+    let scene = |limit: &str| {
+        format!(
+            "[nodes]\na = {{ mass = \"1 kg\", velocity = \"2 m/s\" }}\nb = {{ mass = \"1 kg\" }}\n[elements]\n\
+             pad = {{ between = [\"a\", \"b\"], spring = \"30 kN/m\" }}\n\
+             wall = {{ between = [\"b\", \"ground\"], series = [{{ contact = {{ gap = \"300 mm\" }} }}, {{ spring \
+             = \"500 kN/m\" }}] }}\n[effects]\nseparation.pad = {{}}\n[limits]\nb.peak-acceleration = \
+             \"{limit}\"\n[run]\nduration = \"200 ms\"\n"
+        )
+    };
+    let folder = TempDir::new().unwrap();
+    for (limit, verdict, reason) in [
+        ("20 g", "fail", Value::Null),
+        ("60 g", "undecided", "harder-outside".into()),
+        ("150 g", "pass", Value::Null),
+    ] {
+        let path = file(&folder, "scene.toml", &scene(limit)).to_str().unwrap().to_owned();
+        let found = json(&["run", &path, "--json"])["runs"][0]["limits"][0].clone();
+        assert_eq!((&found["verdict"], &found["reason"]), (&verdict.into(), &reason), "{found}");
+        let output = run(&["run", &path, "--enforce"]);
+        assert_eq!(code(&output), if verdict == "pass" { 0 } else { 4 }, "{}", out(&output));
+    }
+}
+
+#[test]
 fn a_limit_within_the_error_is_undecided_until_more_accuracy_decides_it() {
     let coarse = ["--method", "bdf", "--accuracy", "2%"];
     let first = of_force(PEAK, &coarse);

@@ -44,6 +44,29 @@ fn events_happen_when_their_errors_say() {
 }
 
 #[test]
+fn a_slide_turns_back_when_its_errors_say() {
+    // It swings about 5 mm with the period of the spring, and turns back after each half of it.
+    let text = "[nodes]\nblock = { mass = \"1 kg\", position = \"52 mm\" }\n[elements]\n\
+                s = { between = [\"block\", \"ground\"], spring = \"1 kN/m\" }\n\
+                f = { between = [\"block\", \"ground\"], friction = { friction = \"5 N\", static-to-kinetic = 2 \
+                } }\n[run]\nduration = \"1 s\"\n";
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "slide.toml", text);
+    let half = std::f64::consts::PI / 1000_f64.sqrt();
+    for (method, most) in [("exact", 1e-9), ("bdf", 1e-3)] {
+        let (_, object) = json(&["run", path.to_str().unwrap(), "--json", "--method", method]);
+        let events = object["runs"][0]["events"].as_array().unwrap();
+        assert_eq!(events.len(), 5, "{method}: {events:?}");
+        for (at, event) in events.iter().enumerate() {
+            let expected = (at + 1) as f64 * half;
+            let (time, error) = (event["time"].as_f64().unwrap(), event["error"].as_f64().unwrap());
+            assert!((time - expected).abs() <= error, "{method}: {event} {expected}");
+            assert!(error < most * expected, "{method}: {event}");
+        }
+    }
+}
+
+#[test]
 fn an_object_is_the_same_bytes_in_every_run() {
     let arguments = ["run", "reference", "--json", "--curves", "--at", "5 ms"];
     let (first, object) = json(&arguments);

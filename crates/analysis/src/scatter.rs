@@ -64,6 +64,8 @@ pub struct Chance {
     pub kept: usize,
     /// Designs that keep it by something that is pressed further than is known of it.
     pub beyond: usize,
+    /// Designs that keep it in the impact, outside of which there is a harder blow.
+    pub outside: usize,
     /// Designs that exceed it.
     pub exceeded: usize,
     /// Designs in all; what is neither kept nor exceeded is not known.
@@ -138,6 +140,12 @@ fn share_below(rising: &[f64], share: f64) -> Option<f64> {
 }
 
 impl Chance {
+    /// Why designs that keep the limit may not, where there are such.
+    pub(crate) fn doubt(&self) -> Option<Reason> {
+        let of = |count: usize, reason: Reason| (count > 0).then_some(reason);
+        of(self.beyond, Reason::Beyond).or(of(self.outside, Reason::Outside))
+    }
+
     /// The part of the designs that keeps the limit, from 0 to 1.
     pub fn share(&self) -> f64 {
         self.kept as f64 / self.designs as f64
@@ -164,11 +172,11 @@ impl ScatterReport {
     pub fn of(sources: Vec<ScatterSource>, seed: u64, sweep: &SweepReport) -> Self {
         let columns = sweep.columns.iter().enumerate().filter(|own| !own.1.is_share);
         let bands = columns.map(|(at, own)| Band::of(&own.key, own.unit, sweep.column(at)));
-        let beyond = sweep.beyond_known();
         let chance = |(column, limit): &(usize, Limit)| {
+            let doubts = sweep.doubts(limit);
             let judge = |(design, value): (usize, f64)| {
                 let grows = sweep.cut.contains(&(design, *column));
-                limit.bound.judge(value, None, grows).where_known(beyond[design])
+                limit.bound.judge(value, None, grows).doubted(doubts[design])
             };
             let judged: Vec<Judgement> = sweep.column(*column).enumerate().map(judge).collect();
             let count = |which| judged.iter().filter(|own| **own == which).count();
@@ -176,6 +184,7 @@ impl ScatterReport {
                 limit: limit.clone(),
                 kept: count(Judgement::Pass),
                 beyond: count(Judgement::Undecided(Reason::Beyond)),
+                outside: count(Judgement::Undecided(Reason::Outside)),
                 exceeded: count(Judgement::Fail),
                 designs: judged.len(),
             }
@@ -236,7 +245,8 @@ mod tests {
     fn the_range_of_a_probability_is_wilsons_and_is_widened_by_what_is_not_known() {
         let limit = Limit::new("pad.peak-force", Bound::Max(1.0));
         let of = |kept: usize, exceeded: usize| {
-            Chance { limit: limit.clone(), kept, beyond: 0, exceeded, designs: 100 }.range()
+            Chance { limit: limit.clone(), kept, beyond: 0, outside: 0, exceeded, designs: 100 }
+                .range()
         };
         // Brown, Cai, DasGupta, Statistical Science 16 (2001) 101–133: 0 of n ends at z²/(n + z²).
         let square = WITHIN * WITHIN;

@@ -77,7 +77,7 @@ impl Instants {
 
     /// Those of a solution whose signals have bounds: an output that is off by its bound meets its level so much
     /// earlier or later as its slope tells. What switches watches its part's force, deformation or rate; the
-    /// slowest of them counts.
+    /// slowest of them that moves counts.
     pub(crate) fn bounded(run: &Run, solution: &Solution<'_>) -> Self {
         let (assembly, trajectory) = (solution.assembly(), solution.trajectory());
         let shift = |output: usize, time: f64| {
@@ -86,8 +86,10 @@ impl Instants {
             }
             let signal = solution.signal(output);
             let before = signal.panels.partition_point(|panel| panel.end < time);
-            let slope = signal.panels.get(before)?.slope(time).abs();
-            (slope > 0.0).then(|| signal.error.map(|error| error / slope))?
+            let panel = signal.panels.get(before)?;
+            let (slope, error) = (panel.slope(time).abs(), signal.error?);
+            // What stands still meets no level: the force of what slides, the deformation where it turns.
+            (slope * panel.length() > error).then(|| error / slope)
         };
         let rounded = |shift: Option<f64>, time: f64| {
             let reading = Reading { size: time, ..Reading::default() };

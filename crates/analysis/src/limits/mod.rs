@@ -51,16 +51,19 @@ pub enum Reason {
     /// It keeps the limit, but stands on something that is pressed further than is known of it: beyond the points
     /// of its law, or beyond its thickness.
     Beyond,
+    /// It keeps the limit in the impact, which a harder blow outside of it exceeds.
+    Outside,
 }
 
 impl Reason {
-    /// Its word: `error`, `no-value`, `cut` or `beyond-known`.
+    /// Its word: `error`, `no-value`, `cut`, `beyond-known` or `harder-outside`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Error => "error",
             Self::NoValue => "no-value",
             Self::Cut => "cut",
             Self::Beyond => "beyond-known",
+            Self::Outside => "harder-outside",
         }
     }
 }
@@ -74,13 +77,13 @@ impl Judgement {
         }
     }
 
-    /// The same of a run in which something is pressed further than is known of it, where `is_beyond`: nothing is
-    /// kept there for certain. What is exceeded stays so.
+    /// The same of a run about which there is a `doubt`: nothing is kept there for certain. What is exceeded stays
+    /// so.
     #[must_use]
-    pub fn where_known(self, is_beyond: bool) -> Self {
-        match self {
-            Self::Pass if is_beyond => Self::Undecided(Reason::Beyond),
-            own => own,
+    pub fn doubted(self, doubt: Option<Reason>) -> Self {
+        match (self, doubt) {
+            (Self::Pass, Some(doubt)) => Self::Undecided(doubt),
+            (own, _) => own,
         }
     }
 
@@ -207,11 +210,13 @@ mod tests {
     fn what_is_kept_beyond_what_is_known_is_kept_by_nothing() {
         use Judgement::{Fail, Pass, Undecided};
         for own in [Pass, Fail, Undecided(Reason::Cut)] {
-            assert_eq!(own.where_known(false), own);
+            assert_eq!(own.doubted(None), own);
         }
-        assert_eq!(Pass.where_known(true), Undecided(Reason::Beyond));
-        assert_eq!(Fail.where_known(true), Fail);
-        assert_eq!(Undecided(Reason::Error).where_known(true), Undecided(Reason::Error));
+        for doubt in [Reason::Beyond, Reason::Outside] {
+            assert_eq!(Pass.doubted(Some(doubt)), Undecided(doubt));
+            assert_eq!(Fail.doubted(Some(doubt)), Fail);
+            assert_eq!(Undecided(Reason::Error).doubted(Some(doubt)), Undecided(Reason::Error));
+        }
     }
 
     #[test]

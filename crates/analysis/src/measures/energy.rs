@@ -134,9 +134,10 @@ fn work_of_parts(
             let stored = |time, y| roles::stored(solution.run(), primitive, time, y);
             let (from, to) = (deformation.value(window.0), deformation.left_value(window.1));
             work += stored(window.1, to) - stored(window.0, from);
+            // No force in between is larger than those at both sides: they rise with the deformation.
             let at = |y: f64, error: f64| {
-                let slope = primitive.element.tangent(y, 0.0).stiffness.abs();
-                slope * error * (y.abs() + error)
+                let force = |y: f64| primitive.element.force(y, 0.0).abs();
+                error * force(y - error).max(force(y + error))
             };
             deformation.error.map(|error| at(from, error) + at(to, error))
         } else {

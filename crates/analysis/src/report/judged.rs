@@ -41,7 +41,7 @@ impl Judged<'_> {
 
     /// What the mean of the sample says; some designs may end before their values are whole.
     fn of_sample(&self) -> Judgement {
-        let known = |own: &Chance| own.kept + own.beyond + own.exceeded;
+        let known = |own: &Chance| own.kept + own.beyond + own.outside + own.exceeded;
         let is_open = self.chance.is_none_or(|own| known(own) < own.designs);
         match self.value().zip(self.error()) {
             Some((value, error)) => self.limit.bound.judge(value, Some(error), is_open),
@@ -108,8 +108,8 @@ impl RunReport {
         let sampled = if limit.of_mean { band() } else { None };
         let judged = Judged { limit, measure, judgement, chance, sampled };
         let judgement = match sampled {
-            None => judgement.where_known(self.beyond_known().next().is_some()),
-            Some(_) => judged.of_sample().where_known(chance.is_some_and(|own| own.beyond > 0)),
+            None => judgement.doubted(self.warnings.iter().find_map(|own| own.doubt(limit, false))),
+            Some(_) => judged.of_sample().doubted(chance.and_then(Chance::doubt)),
         };
         Judged { judgement, ..judged }
     }

@@ -65,6 +65,7 @@ serialized!(Chance, own => {
     "of_mean" => own.limit.of_mean,
     "kept" => own.kept,
     "beyond_known" => own.beyond,
+    "harder_outside" => own.outside,
     "exceeded" => own.exceeded,
     "probability" => own.share(),
     "range" => own.range(),

@@ -6,7 +6,7 @@ use dashpot_dae::SolveError;
 use dashpot_network::{HeldTable, NetworkWarning, parameters::Dimension};
 
 use crate::{
-    Compression, Idle, Leak, Note,
+    Bound, Compression, Idle, Leak, Limit, Note, Reason,
     wording::{percent, quantity},
 };
 
@@ -226,6 +226,19 @@ impl Warning {
             Self::BeyondLaw(own) => own.is_pressed,
             Self::PressedThrough { .. } | Self::CrushedPart { .. } => true,
             _ => false,
+        }
+    }
+
+    /// Why a limit that is kept may not be, where the warning says so. One that stands for several runs has the
+    /// numbers of one of them alone: then it `stands_for_others`.
+    pub fn doubt(&self, limit: &Limit, stands_for_others: bool) -> Option<Reason> {
+        match self {
+            Self::HarderOutside(all) => {
+                let own = all.iter().find(|own| own.measure == limit.key)?;
+                let is_exceeded = matches!(limit.bound, Bound::Max(most) if own.outside > most);
+                (is_exceeded || stands_for_others).then_some(Reason::Outside)
+            }
+            own => own.is_beyond_known().then_some(Reason::Beyond),
         }
     }
 

@@ -400,7 +400,10 @@ impl Beyond {
         });
         // A law that begins flat is meant to have no more force before.
         let [before, there] = [longest.value, first].map(|at| part.element.force(at, 0.0));
-        let stretched = (longest.value < first - noise && before < there).then(|| Self {
+        let pull = there - before;
+        let is_told = longest.value < first - noise
+            && pull > solution.doubt() * solution.glance(part.force).bound();
+        let stretched = is_told.then(|| Self {
             name: name(),
             is_pressed: false,
             excess: first - longest.value,

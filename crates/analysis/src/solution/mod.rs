@@ -115,6 +115,11 @@ impl<'a> Solution<'a> {
         Self { threshold, ..self }
     }
 
+    /// The part of the largest magnitude of a contact force below which a pull counts as an error of the method.
+    pub(crate) fn doubt(&self) -> f64 {
+        self.threshold
+    }
+
     /// The network's equations.
     pub fn assembly(&self) -> &'a Assembly {
         self.assembly

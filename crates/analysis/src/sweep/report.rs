@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::Row;
 use crate::{
-    Compression, Judgement, Limit, RunError, Through, Warning,
+    Compression, Judgement, Limit, Reason, RunError, Through, Warning,
     partial::{Cost, Neglected, PutBack},
 };
 
@@ -95,7 +95,7 @@ impl SweepReport {
     /// there is no value. Where errors are estimated, a value without one decides nothing.
     pub fn judged(&self, limit: usize) -> Vec<Option<Judgement>> {
         let (column, ref limit) = self.limits[limit];
-        let beyond = self.beyond_known();
+        let doubts = self.doubts(limit);
         let mut cut = self.cut.iter().filter(|own| own.1 == column).map(|own| own.0).peekable();
         let are_estimated = self.errors.iter().any(|error| !error.is_nan());
         let both = self.column(column).zip(self.errors_of(column)).enumerate();
@@ -103,18 +103,20 @@ impl SweepReport {
             let grows = cut.next_if_eq(&point).is_some();
             let unknown = are_estimated.then_some(f64::INFINITY);
             let error = if error.is_nan() { unknown } else { Some(error) };
-            let judged = || limit.bound.judge(value, error, grows).where_known(beyond[point]);
+            let judged = || limit.bound.judge(value, error, grows).doubted(doubts[point]);
             (!value.is_nan()).then(judged)
         })
         .collect()
     }
 
-    /// Whether something is pressed further than is known of it, at each point.
-    pub(crate) fn beyond_known(&self) -> Vec<bool> {
-        let mut beyond = vec![false; self.points()];
-        let warned = self.warnings.iter().filter(|own| own.warning.is_beyond_known());
-        warned.flat_map(|own| &own.points).for_each(|point| beyond[*point] = true);
-        beyond
+    /// Why a limit that is kept may not be, at each point.
+    pub(crate) fn doubts(&self, limit: &Limit) -> Vec<Option<Reason>> {
+        let mut doubts = vec![None; self.points()];
+        for own in &self.warnings {
+            let doubt = own.warning.doubt(limit, own.points.len() > 1);
+            own.points.iter().for_each(|&point| doubts[point] = doubts[point].or(doubt));
+        }
+        doubts
     }
 
     /// The values of a column, in the order of the grid.

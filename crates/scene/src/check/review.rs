@@ -131,14 +131,13 @@ fn still(reading: &Reading<'_>, network: &Network) {
     };
     let is_driven = |node: &Node| matches!(node.support, Support::Prescribed(_));
     let moves = !network.loads().is_empty()
-        || network.nodes().any(|(_, node)| starts(node) || is_driven(node))
+        || network.nodes().any(|(_, node)| starts(node) || is_driven(node) || node.position != 0.0)
         || network
             .effects()
             .iter()
             .any(|effect| effect.gravity().is_some() && !effect.starts_in_balance());
     if !moves {
-        let message =
-            "nothing moves: no node has `velocity` or `drop`, there is no load and no motion";
+        let message = "nothing moves: no node has `velocity`, `drop` or `position`, there is no load and no motion";
         let place = reading.library.section("nodes").map(|entry| entry.key_place);
         let help = "for example `velocity = \"10 m/s\"` at the node that strikes";
         reading.faults.warning(place, Fault::odd(message, help));

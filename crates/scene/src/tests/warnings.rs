@@ -159,9 +159,10 @@ fn points_without_influence_are_told() {
 
 #[test]
 fn a_scene_in_which_nothing_moves_is_told() {
-    let still = "warning: nothing moves: no node has `velocity` or `drop`, there is no load and \
-                 no motion";
+    let still = "warning: nothing moves: no node has `velocity`, `drop` or `position`, there is no load \
+                 and no motion";
     let head = "head = { mass = \"1 kg\" }";
+    assert_eq!(warnings("head = { mass = \"1 kg\", position = \"1 mm\" }", PAD, RUN), "");
     has(&warnings(head, PAD, RUN), &[still]);
     has(&warnings(head, PAD, &format!("{RUN}[effects]\ngravity = {{}}\n")), &[still]);
     let falls = format!("{RUN}[effects]\ngravity = {{ start = \"unloaded\" }}\n");

@@ -64,8 +64,9 @@ fn text(run: &RunReport, judged: &Judged<'_>) -> String {
     let bare = if is_bare { "; its error is not known" } else { "" };
     let advice = advice(run, judged).map_or(String::new(), |own| format!("; {own}"));
     let stated = stated(limit, judged.measure);
-    let beyond = beyond(run, judged).map_or(String::new(), |own| format!("; {own}"));
-    format!("{} {value}, {stated}{margin}{beyond}{chance}{bare}{mean}{advice}", limit.key)
+    let doubt = beyond(run, judged).or_else(|| outside(run, judged));
+    let doubt = doubt.map_or(String::new(), |own| format!("; {own}"));
+    format!("{} {value}, {stated}{margin}{doubt}{chance}{bare}{mean}{advice}", limit.key)
 }
 
 /// What a limit hangs on that would be kept, where something is pressed further than is known of it.
@@ -84,6 +85,30 @@ fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         other => format!("{} beyond its thickness", other.names().join(", ")),
     };
     Some(format!("it would pass, but hangs on {what}"))
+}
+
+/// What exceeds a limit that is kept in the impact, outside of it.
+fn outside(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
+    if judged.judgement != Judgement::Undecided(Reason::Outside) {
+        return None;
+    }
+    if judged.sampled.is_some() {
+        let designs = judged.chance.map_or(0, |own| own.outside);
+        return Some(format!(
+            "in {designs} designs of the sample there is a harder blow outside of the impact"
+        ));
+    }
+    let harder = run.warnings.iter().find_map(|own| match own {
+        Warning::HarderOutside(all) => all.iter().find(|own| own.measure == judged.limit.key),
+        _ => None,
+    })?;
+    let measure = judged.measure?;
+    let level = unit(measure.kind, measure.unit, judged.limit).text(harder.outside, DIGITS);
+    let time = numbers::quantity(harder.time, "s", TIME_DIGITS);
+    Some(format!(
+        "it passes in the impact, but outside of it there are {level} at {time}: `window = \"run\"` counts them, \
+         a window of two times need not"
+    ))
 }
 
 /// The value with as many digits as tell it from the bound, and with its error where that reaches across.
@@ -142,7 +167,7 @@ fn advice(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
             return Some(format!("the run ends in contact at {end}: make `duration` longer"));
         }
         Reason::Error if is_of_run => {}
-        Reason::Beyond | Reason::NoValue => return None,
+        Reason::Beyond | Reason::Outside | Reason::NoValue => return None,
         Reason::Cut | Reason::Error => return Some("a larger `--sample` may decide".to_owned()),
     }
     let value = judged.measure?.value?;
