@@ -155,7 +155,8 @@ impl<'a> Solution<'a> {
     }
 
     /// The rate that belongs to a deformation: the output where there is one, else the derivative
-    /// of the deformation, in which its jumps leave no trace.
+    /// of the deformation, in which its jumps leave no trace; with a bound of its error where the method
+    /// tells it by itself.
     ///
     /// # Panics
     ///
@@ -163,6 +164,9 @@ impl<'a> Solution<'a> {
     pub fn rate(&self, rate: Option<usize>, deformation: usize) -> Cow<'_, Signal> {
         match rate {
             Some(rate) => self.glance(rate),
+            None if self.trajectory.dense.has_rates() => {
+                Cow::Owned(self.trajectory.dense.rate(&self.assembly.system, deformation))
+            }
             None => Cow::Owned(self.glance(deformation).derivative()),
         }
     }
