@@ -34,7 +34,7 @@ fn scenes_come_from_standard_input_and_models_from_files_beside_the_scene() {
 
 #[test]
 fn wrong_input_ends_with_two_and_says_what_to_do() {
-    let cases: [(&[&str], &str); 11] = [
+    let cases: [(&[&str], &str); 13] = [
         (&["run", "none.toml"], "`none.toml` cannot be read: there is no such file"),
         (&["run", "src"], "it is a folder"),
         (&["run", "--method", "euler"], "possible values"),
@@ -48,6 +48,11 @@ fn wrong_input_ends_with_two_and_says_what_to_do() {
             &["vibrate", "reference", "--drive", "ground", "--at", "9 Hz", "--amplitude", "0.7 kg"],
             "such as \"1 mm\" or \"0.5 g\"",
         ),
+        (
+            &["vibrate", "reference", "--drive", "ground", "--at", "9 Hz", "--amplitude", "-1 mm"],
+            "`-1 mm` is not a positive amplitude",
+        ),
+        (&["vibrate", "reference", "--from", "-1 Hz"], "it must be a positive frequency"),
         (&["fly"], "unrecognized subcommand"),
     ];
     for (arguments, part) in cases {
