@@ -14,9 +14,8 @@ mod waves;
 use std::fs;
 
 use dashpot::{
-    analysis::{RunReport, Solve, measures::CoefficientOfRestitution},
+    analysis::{RunReport, Solve},
     dae::Signal,
-    network::parameters::Kind as _,
     scene::{ReadOptions, Scene, read},
 };
 
@@ -81,12 +80,8 @@ fn changed(name: &str, change: impl Fn(String) -> String) -> Solved {
                 assert_eq!(measure.value, other.value, "{name}: {}", measure.key);
                 continue;
             };
-            // Nothing bounds the rate of a deformation whose ends have no velocities; the other method's error does.
-            let is_rate = measure.kind == CoefficientOfRestitution::KIND;
-            let errors = [measure.error, other.error].map(|error| {
-                assert!(is_rate || error.is_some(), "{name}: {} has none", measure.key);
-                error.unwrap_or(0.0)
-            });
+            let errors = [measure.error, other.error]
+                .map(|error| error.unwrap_or_else(|| panic!("{name}: {} has none", measure.key)));
             let (apart, allowed) = ((one - two).abs(), errors[0] + errors[1]);
             assert!(
                 apart <= allowed,

@@ -302,3 +302,29 @@ fn a_limit_of_the_command_line_has_a_unit_but_for_indices() {
     let index = run(&["run", &path, "--limit", "head.hic15<=700"]);
     assert_eq!(code(&index), 0, "{}", err(&index));
 }
+
+#[test]
+fn a_limit_of_the_command_line_tells_of_a_constant_area_as_one_of_the_scene_does() {
+    let pad = |limits: &str| {
+        format!(
+            "[materials]\nfoam = {{ table-spring = [[0, 0], [0.9, 1e5]] }}\n[nodes]\n\
+             head = {{ mass = \"5 kg\", velocity = \"4.47 m/s\" }}\n[elements.pad]\n\
+             between = [\"head\", \"ground\"]\nmaterial = \"foam\"\nthickness = \"20 mm\"\n\
+             area = \"12 cm^2\"\n[limits]\n{limits}\n[run]\nduration = \"20 ms\"\n"
+        )
+    };
+    let folder = TempDir::new().unwrap();
+    let path =
+        |name: &str, limits: &str| file(&folder, name, &pad(limits)).to_str().unwrap().to_owned();
+    let (bare, limited) =
+        (path("bare.toml", ""), path("limited.toml", "pad.peak-force = \"en-1621-1-level-1\""));
+    let by_flag = ["--limit", "pad.peak-force=en-1621-1-level-1"];
+    let notes = |verb: &str, path: &str, more: &[&str]| {
+        let told = said(&run(&[&[verb, path], more].concat()));
+        told.matches("EN 1621-1:2012, level 1 lays it on a dome with the radius 50 mm").count()
+    };
+    assert_eq!(notes("run", &bare, &[]), 0);
+    assert_eq!(notes("run", &limited, &[]), 1);
+    assert_eq!(notes("run", &bare, &by_flag), 1);
+    assert_eq!(notes("run", &limited, &by_flag), 1);
+}

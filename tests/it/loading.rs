@@ -86,3 +86,24 @@ fn a_known_deviation_of_a_measured_loop_is_found() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(said.contains("bare.csv") && said.contains("deformation"), "{said}");
 }
+
+#[test]
+fn twenty_rates_stand_in_parts_that_fit_a_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[models.rubber]\npower-spring = { force = 100, at = 0.01, exponent = 2 }\n";
+    fs::write(folder.path().join("models.toml"), text).unwrap();
+    let rates: Vec<String> = (1..=20).map(|rate| format!("{rate} mm/s")).collect();
+    let output = Command::new(env!("CARGO_BIN_EXE_dashpot"))
+        .args(["rheometer", "models.toml:rubber", "--test", "load-unload", "--with"])
+        .arg(format!("rate={}", rates.join(",")))
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert!(shown.lines().all(|line| line.chars().count() <= 80), "{shown}");
+    // 1 mm on 100 N (y/1 cm)², in every column of every part.
+    let peaks: Vec<&str> = shown.lines().filter(|line| line.contains("  peak force ")).collect();
+    let values = peaks.iter().map(|line| line.matches(" 1.00000 N").count()).sum::<usize>();
+    assert!(peaks.len() > 1 && values == 20, "{shown}");
+    assert_eq!(shown.matches("network by ").count(), 1, "{shown}");
+}

@@ -76,6 +76,17 @@ pub trait Dense: Debug + Send + Sync {
     /// not [kept](Self::keeps) is not a number throughout.
     fn signal(&self, system: &System, output: usize) -> Signal;
 
+    /// Whether [`rate`](Self::rate) tells more than the slopes of the signal.
+    fn has_rates(&self) -> bool {
+        false
+    }
+
+    /// The derivative of an output with respect to time \[unit/s\], panel by panel: jumps leave no trace in
+    /// it. It has a bound of its error where the solution tells it by itself.
+    fn rate(&self, system: &System, output: usize) -> Signal {
+        self.signal(system, output).derivative()
+    }
+
     /// All unknowns, dimensionless, at each of the dimensionless `times` (rising, within the run):
     /// one row of `n` values after another. Empty for a run of several intervals, each of which has
     /// unknowns of its own, and where only a part is kept.

@@ -86,6 +86,16 @@ impl Scene {
     pub fn settings(&self, method: &str) -> Result<SolveSettings, RunError> {
         Posed::from(self.clone()).settings(method)
     }
+
+    /// Adds limits to its own, and to its notes what is to be said about elements that they are on.
+    pub fn add_limits(&mut self, limits: impl IntoIterator<Item = Limit>) {
+        self.limits.extend(limits);
+        for note in constant_areas(&self.network, &self.limits) {
+            if !self.notes.contains(&note) {
+                self.notes.push(note);
+            }
+        }
+    }
 }
 
 /// What a run of a scene needs.
@@ -409,7 +419,6 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
     notes.extend(upward(&network));
-    notes.extend(constant_areas(&network, &limits));
     notes.extend(library.table_notes());
     let mut values: Vec<NamedValue> = library
         .values()
@@ -428,7 +437,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     if run.at_most.is_none() {
         run.stops = check_stops(&reading, &stops, &assembly);
     }
-    Some(Scene {
+    let mut scene = Scene {
         title,
         file: options.file.map(str::to_owned),
         network,
@@ -436,11 +445,13 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         run,
         accuracy,
         measures,
-        limits,
+        limits: Vec::new(),
         notes,
         scatter,
         values,
         text: Arc::clone(&source.text),
         files: library.paths(),
-    })
+    };
+    scene.add_limits(limits);
+    Some(scene)
 }

@@ -1,9 +1,11 @@
 //! Things that fall and are thrown back.
 
+use dashpot::analysis::Solve;
+
 use super::{
     G0, Solved,
     by_hand::{self, Peak},
-    changed, close, solved,
+    changed, close, scene, solved,
 };
 
 /// The stress of the foam's law at a strain.
@@ -226,4 +228,30 @@ fn a_landing_on_a_crash_mat_loses_what_the_law_of_hunt_and_crossley_says() {
     let x = d * speed;
     let e = by_hand::zero(1e-3, 0.999 / x, |e| x * (1.0 + e) - ((1.0 + x) / (1.0 - e * x)).ln());
     flat.is("mat.coefficient-of-restitution", e, 1e-6);
+}
+
+#[test]
+fn peaks_of_drops_are_within_some_tolerances_without_further_solutions() {
+    let laws = [
+        "power-spring = { force = \"2 kN\", at = \"25 mm\", exponent = 2.5 }",
+        "formula = \"0.3 kN * sinh(y / 9 mm)\"",
+    ];
+    for law in std::iter::once(None).chain(laws.map(Some)) {
+        let scene = scene("instrument-drop", |text| {
+            let is_law = |line: &&str| line.starts_with("foam = ");
+            let foam = text.lines().find(is_law).unwrap().to_owned();
+            text.replace(&foam, law.unwrap_or(&foam))
+        });
+        let peak = |method: &str, rtol: f64| {
+            let mut settings = scene.settings(method).unwrap();
+            (settings.rtol, settings.estimate) = (Some(rtol), false);
+            let report = scene.network.solve_with(&settings).unwrap();
+            report.measure("corners.peak-force").unwrap().value.unwrap()
+        };
+        let truth = peak("bdf", 1e-11);
+        for rtol in [1e-5, 1e-6, 1e-7] {
+            let off = (peak("dop853", rtol) / truth - 1.0).abs();
+            assert!(off <= 30.0 * rtol, "{law:?} at {rtol:e}: {off:e} off");
+        }
+    }
 }

@@ -64,6 +64,7 @@ fn work(solution: &Solution<'_>, (target, force): (usize, &Signal), span: &Span)
         (0.0, Some(0.0))
     } else if connection.has_layers
         || rate.error.is_none()
+        || !solution.has_rate(connection)
         || has_only_springs(solution, connection)
     {
         work_of_parts(solution, connection, window)

@@ -178,8 +178,24 @@ impl<'a> Solution<'a> {
         let [a, b] = connection.between.map(|end| self.assembly.nodes[end.index()].velocity);
         match (connection.rate, a, b) {
             (None, Some(a), Some(b)) => Cow::Owned(self.glance(a).plus(&self.glance(b), -1.0)),
-            _ => self.rate(connection.rate, connection.deformation),
+            _ => self.rate_with_bound(connection),
         }
+    }
+
+    /// The rate of a deformation as by [`rate`](Self::rate), but with a bound of its error where the method has
+    /// one of rates that are no outputs.
+    fn rate_with_bound(&self, connection: &ConnectionOutputs) -> Cow<'_, Signal> {
+        let dense = &self.trajectory.dense;
+        if connection.rate.is_none() && dense.has_rates() {
+            return Cow::Owned(dense.rate(&self.assembly.system, connection.deformation));
+        }
+        self.rate(connection.rate, connection.deformation)
+    }
+
+    /// Whether the rate of an element is an output, or the difference of two.
+    pub(crate) fn has_rate(&self, connection: &ConnectionOutputs) -> bool {
+        let is_moving = |end: NodeId| self.assembly.nodes[end.index()].velocity.is_some();
+        connection.rate.is_some() || connection.between.iter().all(|&end| is_moving(end))
     }
 
     /// The speed at which the ends of an element approach each other \[m/s\], as that of the bodies
@@ -189,7 +205,7 @@ impl<'a> Solution<'a> {
         let [a, b] = connection.between.map(|end| self.velocity_of_body(end.index()));
         match (connection.rate, a, b) {
             (None, Some(a), Some(b)) => Cow::Owned(self.glance(a).plus(&self.glance(b), -1.0)),
-            _ => self.rate(connection.rate, connection.deformation),
+            _ => self.rate_with_bound(connection),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::{ops::Deref, sync::Arc};
 
+use dashpot_numerics::two_product;
 use nalgebra::DMatrix;
 
 use super::{
@@ -128,6 +129,20 @@ impl Augmented {
             form = form.plus(coefficient, &self.inputs[input]);
         }
         form.terms().iter().map(|&(i, c)| (i, c * self.units[i])).collect()
+    }
+
+    /// The rate of a form over `z`, per unit of dimensionless time. The products that it is made of stand in
+    /// it one by one, and what rounding takes of them, so that nothing is lost where they cancel.
+    pub(super) fn rate(&self, form: &[(usize, f64)]) -> Vec<(usize, f64)> {
+        let mut rate = Vec::new();
+        for &(i, factor) in form {
+            let entries = self.matrix.row(i).into_iter().enumerate();
+            for (j, &entry) in entries.filter(|(_, entry)| **entry != 0.0) {
+                let (product, rest) = two_product(factor, entry);
+                rate.extend([(j, product), (j, rest)]);
+            }
+        }
+        rate
     }
 
     /// `‖Ā‖₁`.

@@ -231,6 +231,30 @@ impl Solution {
         values
     }
 
+    /// A form over `z` in SI units, of which the dimensionless value 1 is `unit`.
+    fn told(&self, form: &[(usize, f64)], unit: f64) -> Signal {
+        let Modal { form: modal, spans } = self.modal();
+        let Form { modes, tables } = modal.as_ref();
+        let row = ModalRow::new(modes, form);
+        let lengths = || self.system.spans.iter().zip(spans);
+        let scale = lengths()
+            .map(|(span, coordinates)| row.size(modes, coordinates, span.length()))
+            .filter(|size| size.is_finite())
+            .fold(0.0, f64::max);
+        let (mut quality, mut pieces) = (Quality::default(), Vec::new());
+        for (span, coordinates) in lengths() {
+            let place = (span.start, span.length());
+            let known = (&mut quality, &self.budget);
+            interpolate(&row, (modes, tables), coordinates, place, scale, known, &mut pieces);
+        }
+        let noise = NOISE * f64::EPSILON * quality.size * unit.abs();
+        let largest = quality.size * unit.abs();
+        let is_small = largest > 0.0 && largest < f64::MIN_POSITIVE / f64::EPSILON;
+        let error = quality.error * unit.abs() + if is_small { noise + SMALLEST } else { noise };
+        let panels = pieces.into_iter().map(|piece| self.panel(piece, unit)).collect();
+        Signal::new(panels, error.is_finite().then_some(error), noise)
+    }
+
     fn panel(&self, piece: Piece, scale: f64) -> Panel {
         let seconds = |t: f64| {
             if t >= self.system.end() { self.t_end } else { (t * self.time_scale).min(self.t_end) }
@@ -244,27 +268,17 @@ impl Solution {
 impl Dense for Solution {
     fn signal(&self, system: &System, output: usize) -> Signal {
         let output = system.outputs.at(output);
-        let Modal { form, spans } = self.modal();
-        let Form { modes, tables } = form.as_ref();
-        let row = ModalRow::new(modes, &self.system.form(output));
-        let lengths = || self.system.spans.iter().zip(spans);
-        let scale = lengths()
-            .map(|(span, coordinates)| row.size(modes, coordinates, span.length()))
-            .filter(|size| size.is_finite())
-            .fold(0.0, f64::max);
-        let (mut quality, mut pieces) = (Quality::default(), Vec::new());
-        for (span, coordinates) in lengths() {
-            let place = (span.start, span.length());
-            let known = (&mut quality, &self.budget);
-            interpolate(&row, (modes, tables), coordinates, place, scale, known, &mut pieces);
-        }
-        let unit = output.scale;
-        let noise = NOISE * f64::EPSILON * quality.size * unit.abs();
-        let largest = quality.size * unit.abs();
-        let is_small = largest > 0.0 && largest < f64::MIN_POSITIVE / f64::EPSILON;
-        let error = quality.error * unit.abs() + if is_small { noise + SMALLEST } else { noise };
-        let panels = pieces.into_iter().map(|piece| self.panel(piece, unit)).collect();
-        Signal::new(panels, error.is_finite().then_some(error), noise)
+        self.told(&self.system.form(output), output.scale)
+    }
+
+    fn has_rates(&self) -> bool {
+        true
+    }
+
+    fn rate(&self, system: &System, output: usize) -> Signal {
+        let output = system.outputs.at(output);
+        let form = self.system.rate(&self.system.form(output));
+        self.told(&form, output.scale / self.time_scale)
     }
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {

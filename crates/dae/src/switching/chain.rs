@@ -33,47 +33,16 @@ const INSIDE: [f64; 3] = [-0.9, 0.0, 0.9];
 const CAUTION: f64 = 8.0;
 
 impl Dense for Chain {
-    /// The signals of the intervals, one behind the other.
-    ///
-    /// Each interval bounds its own error, to which comes what the rounding of times does to a
-    /// value. What the errors before it do to it is estimated from a second solution whose states
-    /// were perturbed: eight times the largest difference of both, interval by interval, is added.
-    /// Where the second one has no value, no error is stated.
     fn signal(&self, _system: &System, output: usize) -> Signal {
-        let mut panels: Vec<Panel> = Vec::new();
-        let (mut error, mut noise) = (Some(0.0_f64), 0.0_f64);
-        let mut difference = Some(0.0_f64);
-        let alone = self.intervals.len() == 1;
-        for (at, interval) in self.intervals.iter().enumerate() {
-            let own = self.told(interval, output);
-            noise = noise.max(own.noise);
-            let timed = own.error.map(|error| {
-                // An interval bounds its error in its own time, which begins at a rounded one.
-                if alone { error } else { error + f64::EPSILON * interval.end * steepest(&own) }
-            });
-            error = error.zip(timed).map(|(most, own)| most.max(own));
-            if !alone && error.is_some() {
-                let between = self.difference(at, output, &own);
-                difference = difference.zip(between).map(|(most, own)| most.max(own));
-            }
-            // What drives may jump where the interval ends, and nothing else has the new value yet.
-            let ends =
-                own.panels.iter().rposition(|panel| interval.start + panel.start < interval.end);
-            let last = ends.unwrap_or(0);
-            let within = own.panels.into_iter().take(last + 1);
-            panels.extend(within.enumerate().map(|(at, panel)| Panel {
-                // The sums may be rounded beyond the end of the interval.
-                start: (interval.start + panel.start).min(interval.end),
-                end: if at == last {
-                    interval.end
-                } else {
-                    (interval.start + panel.end).min(interval.end)
-                },
-                coefficients: panel.coefficients,
-            }));
-        }
-        let error = error.zip(difference).map(|(error, between)| error + CAUTION * between);
-        Signal::new(panels, error, noise)
+        self.joined(|interval| interval.dense.signal(&interval.system, output))
+    }
+
+    fn has_rates(&self) -> bool {
+        self.intervals.iter().any(|interval| interval.dense.has_rates())
+    }
+
+    fn rate(&self, _system: &System, output: usize) -> Signal {
+        self.joined(|interval| interval.dense.rate(&interval.system, output))
     }
 
     fn sample(&self, _system: &System, _times: &[f64]) -> Vec<f64> {
@@ -104,19 +73,67 @@ fn steepest(signal: &Signal) -> f64 {
 }
 
 impl Chain {
-    /// An output in one interval.
-    fn told(&self, interval: &Solved, output: usize) -> Signal {
-        let signal = interval.dense.signal(&interval.system, output);
+    /// The signals of the intervals, one behind the other.
+    ///
+    /// Each interval bounds its own error, to which comes what the rounding of times does to a
+    /// value. What the errors before it do to it is estimated from a second solution whose states
+    /// were perturbed: eight times the largest difference of both, interval by interval, is added.
+    /// Where the second one has no value, no error is stated.
+    fn joined(&self, signal: impl Fn(&Solved) -> Signal) -> Signal {
+        let mut panels: Vec<Panel> = Vec::new();
+        let (mut error, mut noise) = (Some(0.0_f64), 0.0_f64);
+        let mut difference = Some(0.0_f64);
+        let alone = self.intervals.len() == 1;
+        for (at, interval) in self.intervals.iter().enumerate() {
+            let own = self.told(interval, &signal);
+            noise = noise.max(own.noise);
+            let timed = own.error.map(|error| {
+                // An interval bounds its error in its own time, which begins at a rounded one.
+                if alone { error } else { error + f64::EPSILON * interval.end * steepest(&own) }
+            });
+            error = error.zip(timed).map(|(most, own)| most.max(own));
+            if !alone && error.is_some() {
+                let between = self.difference(at, &signal, &own);
+                difference = difference.zip(between).map(|(most, own)| most.max(own));
+            }
+            // What drives may jump where the interval ends, and nothing else has the new value yet.
+            let ends =
+                own.panels.iter().rposition(|panel| interval.start + panel.start < interval.end);
+            let last = ends.unwrap_or(0);
+            let within = own.panels.into_iter().take(last + 1);
+            panels.extend(within.enumerate().map(|(at, panel)| Panel {
+                // The sums may be rounded beyond the end of the interval.
+                start: (interval.start + panel.start).min(interval.end),
+                end: if at == last {
+                    interval.end
+                } else {
+                    (interval.start + panel.end).min(interval.end)
+                },
+                coefficients: panel.coefficients,
+            }));
+        }
+        let error = error.zip(difference).map(|(error, between)| error + CAUTION * between);
+        Signal::new(panels, error, noise)
+    }
+
+    /// What is told of one interval.
+    fn told(&self, interval: &Solved, signal: impl Fn(&Solved) -> Signal) -> Signal {
+        let signal = signal(interval);
         if self.intervals.len() > MANY {
             interval.dense.forget();
         }
         signal
     }
 
-    /// The largest difference of an output between an interval and the second solution. As long as
+    /// The largest difference of a signal between an interval and the second solution. As long as
     /// both go through the same intervals, time counts from the start of each and from that of the
     /// run; where one of them has come to rest after fewer bounces, from that of the run only.
-    fn difference(&self, interval: usize, output: usize, own: &Signal) -> Option<f64> {
+    fn difference(
+        &self,
+        interval: usize,
+        signal: impl Fn(&Solved) -> Signal,
+        own: &Signal,
+    ) -> Option<f64> {
         let doubled = self.doubled.as_ref().filter(|all| !all.is_empty())?;
         let one = &self.intervals[interval];
         // Inside of panels only: where an input jumps, both may jump a rounding apart.
@@ -126,7 +143,7 @@ impl Chain {
             .flat_map(|panel| INSIDE.map(|x| panel.time(x)).map(|t| (t, panel.value(t))));
         let all = doubled.len() == self.intervals.len();
         if let Some(other) = doubled.get(interval).filter(|other| is_same(one, other, all)) {
-            let double = self.told(other, output);
+            let double = self.told(other, &signal);
             // An interval that ends earlier by a rounding is not followed beyond its end.
             let end = double.end();
             let shift = one.start - other.start;
@@ -142,9 +159,9 @@ impl Chain {
             let at = doubled.partition_point(|other| other.end < time);
             let other = doubled.get(at)?;
             if known.as_ref().is_none_or(|(known, _)| *known != at) {
-                known = Some((at, self.told(other, output)));
+                known = Some((at, self.told(other, &signal)));
             }
-            let double = known.as_ref().map(|(_, signal)| signal.left_value(time - other.start))?;
+            let double = known.as_ref().map(|(_, known)| known.left_value(time - other.start))?;
             Some(most.max((value - double).abs()))
         })
     }

@@ -286,89 +286,113 @@ impl Fault {
         match self {
             Self::Odd { help, .. } => help.clone(),
             Self::Explained { fault, help, .. } => help.clone().or_else(|| fault.help()),
-            Self::Empty => Some("`dashpot new` writes a commented scene to start from".to_owned()),
-            Self::TableForScene { name } => Some(format!(
-                "name it in a scene where points may stand: `table-spring = \"{name}\"` for a measured curve, \
-                 `force = {{ table = \"{name}\" }}` for a force over time; `dashpot new` writes a scene to start from"
-            )),
-            Self::NotUtf8 { .. } => Some("save the file with the encoding UTF-8".to_owned()),
-            Self::NotQuoted { text } if text.is_empty() => {
-                Some("a value is missing after `=`".to_owned())
-            }
-            Self::NotQuoted { text } => Some(format!("write \"{text}\"")),
-            Self::DuplicateKey { .. } => Some(
-                "names and keys are unique within their table; remove or rename one".to_owned(),
-            ),
-            Self::UnknownKey { key, known, .. } => suggestion(key, "keys", known),
-            Self::MissingKey { example, .. } => {
-                (!example.is_empty()).then(|| format!("for example `{example}`"))
-            }
-            Self::Unreadable { error, expected } => Some(unreadable_help(error, *expected)),
             Self::Formula(fault) => fault.help(),
             Self::Scatter(fault) => Some(fault.help()),
-            Self::VariableAndValue { .. } => Some("give the value another name".to_owned()),
-            Self::BadValue { error, example } => Some(bad_value_help(error, example)),
-            Self::WrongDimension { expected, .. } => {
-                Some(example(*expected))
-            }
-            Self::NoQuantity { expected, .. } => Some(example(*expected)),
+            Self::Table(fault) => fault.help(),
             Self::BareNumber(bare) => Some(bare.help()),
-            Self::BareLimit { level, expected, .. } => {
-                Some(format!("write {}", with_units(&level.to_string(), *expected)))
-            }
-            Self::TooDeep { .. } | Self::ModelTooDeep { .. } => Some(
-                "write branches in series, or in parallel, into one list: `series = [a, b, c]`"
-                    .to_owned(),
-            ),
-            Self::AngularFrequency { frequency, .. } => {
-                Some(format!("divide by 2 pi: \"{frequency:.6} Hz\""))
-            }
-            Self::CelsiusDifference { .. } => Some(
-                "write the same number with `K`: a difference of 1 degree Celsius is 1 K"
-                    .to_owned(),
-            ),
+            Self::UnknownKey { key, known, .. } => suggestion(key, "keys", known),
             Self::UnknownName { family, name, known } => unknown_name_help(family, name, known),
             Self::UnknownWord { word, known, .. } => suggestion(word, "words", known),
-            Self::NoLaw { known, .. } | Self::NoFunction { known, .. } => Some(format!("give one of: {}", known.join(", "))),
+            _ => self
+                .help_on_the_text()
+                .or_else(|| self.help_on_quantities())
+                .or_else(|| self.help_on_models()),
+        }
+    }
+
+    /// What to do about files, sections, keys and quotes.
+    fn help_on_the_text(&self) -> Option<String> {
+        let help = match self {
+            Self::Empty => "`dashpot new` writes a commented scene to start from",
+            Self::TableForScene { name } => {
+                return Some(format!(
+                    "name it in a scene where points may stand: `table-spring = \"{name}\"` for a measured curve, \
+                     `force = {{ table = \"{name}\" }}` for a force over time; `dashpot new` writes a scene to start from"
+                ));
+            }
+            Self::NotUtf8 { .. } => "save the file with the encoding UTF-8",
+            Self::NotQuoted { text } if text.is_empty() => "a value is missing after `=`",
+            Self::NotQuoted { text } => return Some(format!("write \"{text}\"")),
+            Self::DuplicateKey { .. } => {
+                "names and keys are unique within their table; remove or rename one"
+            }
+            Self::MissingKey { example, .. } => {
+                return (!example.is_empty()).then(|| format!("for example `{example}`"));
+            }
+            Self::MissingSection { section: "run" } => {
+                "for example:\n\n[run]\nduration = \"20 ms\""
+            }
+            Self::MissingSection { .. } => {
+                "for example:\n\n[elements]\npadding = { between = [\"head\", \"ground\"], spring = \"20 MN/m\" }"
+            }
+            Self::EmptyList { .. } => "leave the key out, or give an entry",
+            _ => return None,
+        };
+        Some(help.to_owned())
+    }
+
+    /// What to write in place of a quantity, a value or a curve.
+    fn help_on_quantities(&self) -> Option<String> {
+        Some(match self {
+            Self::Unreadable { error, expected } => unreadable_help(error, *expected),
+            Self::BadValue { error, example } => bad_value_help(error, example),
+            Self::WrongDimension { expected, .. } | Self::NoQuantity { expected, .. } => {
+                example(*expected)
+            }
+            Self::BareLimit { level, expected, .. } => {
+                format!("write {}", with_units(&level.to_string(), *expected))
+            }
+            Self::AngularFrequency { frequency, .. } => {
+                format!("divide by 2 pi: \"{frequency:.6} Hz\"")
+            }
+            Self::CelsiusDifference { .. } => {
+                "write the same number with `K`: a difference of 1 degree Celsius is 1 K".to_owned()
+            }
+            Self::VariableAndValue { .. } => "give the value another name".to_owned(),
+            Self::CurveChanged(_) => {
+                "look at these rows: a law of the deformation alone never falls, so a drop after yield, a slip or \
+                 rows of another test are averaged"
+                    .to_owned()
+            }
+            _ => return None,
+        })
+    }
+
+    /// How to write a model, a material or its size.
+    fn help_on_models(&self) -> Option<String> {
+        Some(match self {
+            Self::TooDeep { .. } | Self::ModelTooDeep { .. } => {
+                "write branches in series, or in parallel, into one list: `series = [a, b, c]`"
+                    .to_owned()
+            }
+            Self::NoLaw { known, .. } | Self::NoFunction { known, .. } => {
+                format!("give one of: {}", known.join(", "))
+            }
             Self::SeveralLaws { words, .. } => {
                 let branches =
                     words.iter().map(|word| format!("{{ {word} = … }}")).collect::<Vec<_>>();
-                Some(format!("for example `parallel = [{}]`", branches.join(", ")))
+                format!("for example `parallel = [{}]`", branches.join(", "))
             }
-            Self::ModelInMaterial => Some(
+            Self::ModelInMaterial => {
                 "write `material = \"…\"` for another material; to join both, compose them in [models] \
                  with `{ material = \"…\", thickness = \"2 cm\", area = \"100 cm^2\" }`"
-                    .to_owned(),
-            ),
-            Self::ElementInMaterial { .. } => Some(
-                "write it in [models] or [elements], with the values of the pad".to_owned(),
-            ),
-            Self::SizeWithoutMaterial { .. } => Some(
-                "leave it out, or write it beside the material or foam whose size it is".to_owned(),
-            ),
-            Self::SizeInMaterial { key } => Some(format!(
+                    .to_owned()
+            }
+            Self::ElementInMaterial { .. } => {
+                "write it in [models] or [elements], with the values of the pad".to_owned()
+            }
+            Self::SizeWithoutMaterial { .. } => {
+                "leave it out, or write it beside the material or foam whose size it is".to_owned()
+            }
+            Self::SizeInMaterial { key } => format!(
                 "leave `{key}` out here, and write it beside `material = \"…\"` in [models] or [elements]"
-            )),
+            ),
             Self::WhichModel { known } if known.is_empty() => {
-                Some("[models], [materials] and [elements] hold models".to_owned())
+                "[models], [materials] and [elements] hold models".to_owned()
             }
-            Self::WhichModel { known } => Some(format!("name one of: {}", list(known))),
-            Self::MissingSection { section: "run" } => {
-                Some("for example:\n\n[run]\nduration = \"20 ms\"".to_owned())
-            }
-            Self::MissingSection { .. } => Some(
-                "for example:\n\n[elements]\npadding = { between = [\"head\", \"ground\"], spring = \"20 MN/m\" }"
-                    .to_owned(),
-            ),
-            Self::Table(fault) => fault.help(),
-            Self::CurveChanged(_) => Some(
-                "look at these rows: a law of the deformation alone never falls, so a drop after yield, a slip or \
-                 rows of another test are averaged"
-                    .to_owned(),
-            ),
-            Self::EmptyList { .. } => Some("leave the key out, or give an entry".to_owned()),
-            _ => None,
-        }
+            Self::WhichModel { known } => format!("name one of: {}", list(known)),
+            _ => return None,
+        })
     }
 
     /// A few words for directly under the place.

@@ -121,6 +121,30 @@ fn window_without_a_jump_has_finite_measures() {
 }
 
 #[test]
+fn springs_in_a_row_have_a_restitution_with_a_bound() {
+    // No mass stands between tip and foot: the rate of the tip follows from that of the head, of which it is a
+    // third. m = 1 kg on 10 kN/m and 60 N s/m is let go by the springs after half a period, with e^(−δt) of
+    // its speed.
+    for is_let_go in [false, true] {
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", 1.0).moving(10.0));
+        let middle = network.add_node(Node::massless("middle"));
+        let ground = network.ground();
+        network.connect("tip", head, middle, part(Spring { stiffness: 3e4 }));
+        network.connect("foot", middle, ground, part(Spring { stiffness: 1.5e4 }));
+        network.connect("brake", head, ground, part(Dashpot { damping: 60.0 }));
+        if is_let_go {
+            let (element, at) = ("tip".to_owned(), Some("head".to_owned()));
+            network.add_effect(Separation { element, at, restitution: 0.0 });
+        }
+        let report = solved(&network, 0.1, &["tip"], &[]);
+        let e = (-30.0 * PI / 9100.0_f64.sqrt()).exp();
+        is(&report, "tip.coefficient-of-restitution", e);
+        is(&report, "tip.peak-rate", 10.0 / 3.0);
+    }
+}
+
+#[test]
 fn kelvin_voigt_pad_lets_go_with_the_closed_restitution_after_a_flight() {
     // m = 1 kg, ω₀ = 100/s, ζ = 0.3; 0.5 m of free flight at 10 m/s. The force falls to zero where
     // tan(ω t) = 2δω/(δ² − ω²), and the speed is then e^(−δt) of that before.

@@ -29,8 +29,8 @@ use self::{
     asked::{given, summary, tests, variants},
     beside::MeasuredLoop,
     tables::{
-        agreement, characteristics, figure_table, missing, settings, shared_settings, side_by_side,
-        spectra, spectrum_table,
+        agreement, characteristics, error_of_all, figure_table, missing, settings, shared_settings,
+        side_by_side, spectra, spectrum_table,
     },
 };
 use crate::{
@@ -40,7 +40,7 @@ use crate::{
     operand::{Operand, canonical_model},
     output::{Study, Text, VERSION, emit, list, object},
     terminal::{Terminal, WIDTH, note},
-    text::{columns, table, wrapped},
+    text::{self, columns, table, wrapped},
 };
 
 /// Lines of a plot.
@@ -154,19 +154,21 @@ impl Tested {
         } else {
             (shared_settings(group, units), side_by_side(group, common, units), Vec::new())
         };
+        let together = error_of_all(group);
         let of_each = group.iter().flat_map(|made| {
             let notes = made.report.notes.iter().map(Note::to_string);
             let label = |own: String| {
                 if made.label.is_empty() { own } else { format!("{}: {own}", made.label) }
             };
-            agreement(&made.report).into_iter().chain(notes).map(label)
+            let own = if together.is_some() { Vec::new() } else { agreement(&made.report) };
+            own.into_iter().chain(notes).map(label)
         });
         let protocol = group.first().map_or("", |made| made.report.protocol);
         Told {
             group,
             settings,
             figures: Table { caption: format!("{protocol}: {}", summary(protocol)), ..figures },
-            remarks: missing.into_iter().chain(of_each).collect(),
+            remarks: missing.into_iter().chain(of_each).chain(together.clone()).collect(),
             deviations: beside::deviations(group, units),
         }
     }
@@ -320,16 +322,19 @@ impl Study for Tested {
     }
 }
 
-/// Adds the lines of a table, those that are too wide cut.
+/// Adds a table, in parts where it is too wide, and lines that still are cut.
 fn show(text: &mut Text, own: &Table) {
-    let (header, rows) = table(own);
-    for line in [header].iter().chain(&rows).filter(|line| !line.trim().is_empty()) {
-        if columns(line) <= WIDTH - 2 {
-            text.line(&format!("  {line}"));
-            continue;
-        }
-        for (at, part) in wrapped(line, WIDTH - 6).iter().enumerate() {
-            text.line(&format!("{}{part}", if at == 0 { "  " } else { "      " }));
+    for part in text::side_by_side(own, WIDTH - 2) {
+        let (header, rows) = table(&part);
+        for line in [header].iter().chain(&rows).filter(|line| !line.trim().is_empty()) {
+            for (at, words) in cut(line).iter().enumerate() {
+                text.line(&format!("{}{words}", if at == 0 { "  " } else { "      " }));
+            }
         }
     }
+}
+
+/// A line of a table in as many as it takes.
+fn cut(line: &str) -> Vec<String> {
+    if columns(line) <= WIDTH - 2 { vec![line.to_owned()] } else { wrapped(line, WIDTH - 6) }
 }

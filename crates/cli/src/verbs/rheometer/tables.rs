@@ -209,15 +209,10 @@ pub(super) fn agreement(report: &RheometerReport) -> Vec<String> {
             let at = quantity(own.at, place, 3);
             format!("differs by {} at most, at {at}{stated}", bound(own.relative))
         });
-        let largest = |at: usize| {
-            let series = report.series.first().filter(|_| is_alone)?;
-            let values = series.computed.get(at)?.values.iter().flatten();
-            let size = values.fold(0.0_f64, |size, value| size.max(value.abs()));
-            let error = series.computed.get(at)?.error?;
-            (size > 0.0)
-                .then(|| format!("its error may be {} of the largest value", bound(error / size)))
-        };
-        let found = if is_alone { largest(at).unwrap_or_default() } else { found };
+        let largest = relative_error(report, at);
+        let largest =
+            largest.map(|error| format!("its error may be {} of the largest value", bound(error)));
+        let found = if is_alone { largest.unwrap_or_default() } else { found };
         let obstacle = by.obstacle.as_ref().map(|reason| match by.reach {
             Some(reach) => format!("reaches to {}, because {reason}", quantity(reach, place, 3)),
             None => format!("gives nothing, because {reason}"),
@@ -232,4 +227,27 @@ pub(super) fn agreement(report: &RheometerReport) -> Vec<String> {
         }
     };
     report.computations.iter().enumerate().map(of).collect()
+}
+
+/// The error of a computation that has no model beside it, in parts of its largest value.
+fn relative_error(report: &RheometerReport, at: usize) -> Option<f64> {
+    let is_alone = report.series.iter().all(|series| series.model.is_empty());
+    let computed = report.series.first().filter(|_| is_alone)?.computed.get(at)?;
+    let values = computed.values.iter().flatten();
+    let size = values.fold(0.0_f64, |size, value| size.max(value.abs()));
+    (size > 0.0).then_some(computed.error? / size)
+}
+
+/// The largest error of several tests, where one method computes them all and there is no more to say of it.
+pub(super) fn error_of_all(tests: &[Made]) -> Option<String> {
+    let of = |made: &Made| match &made.report.computations[..] {
+        [only] if only.obstacle.is_none() => Some((only.method, relative_error(&made.report, 0)?)),
+        _ => None,
+    };
+    let all: Vec<_> = tests.iter().map(of).collect::<Option<_>>()?;
+    let method = all.first().filter(|_| all.len() > 1)?.0;
+    let worst = all.iter().map(|own| own.1).fold(0.0, f64::max);
+    let is_one = all.iter().all(|own| own.0 == method) && !method.starts_with("network");
+    let text = format!("network by {method}: errors may be {} of the largest values", bound(worst));
+    is_one.then_some(text)
 }

@@ -66,7 +66,7 @@ pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec
     for (path, name) in paths.iter().zip(names) {
         let read = |name: String, set: Vec<(String, String)>| -> Result<Named, CliError> {
             let mut scene = read_scene(*path, &set, terminal)?;
-            scene.limits.extend(arguments.limits.all());
+            scene.add_limits(arguments.limits.all());
             let varied = only.and_then(|_| set.last().cloned());
             Ok(Named { name, scene, varied, set })
         };

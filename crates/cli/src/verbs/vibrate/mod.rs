@@ -47,10 +47,10 @@ pub(crate) struct VibrateArguments {
     #[arg(long, value_name = "NAME")]
     drive: Option<String>,
     /// Lowest frequency [default: a tenth of the lowest natural frequency].
-    #[arg(long, value_name = "FREQUENCY", value_parser = frequency)]
+    #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true, value_parser = frequency)]
     from: Option<f64>,
     /// Highest frequency [default: ten times the highest natural frequency].
-    #[arg(long, value_name = "FREQUENCY", value_parser = frequency)]
+    #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true, value_parser = frequency)]
     to: Option<f64>,
     /// How many frequencies, at equal ratios; resonances are found between them.
     #[arg(long, value_name = "NUMBER", default_value_t = 200)]
@@ -59,10 +59,10 @@ pub(crate) struct VibrateArguments {
     #[arg(long, value_name = "NODE,…", value_delimiter = ',')]
     of: Vec<String>,
     /// Peaks of the steady state at this frequency, in place of the table over frequency.
-    #[arg(long, value_name = "FREQUENCY", value_parser = frequency, requires = "amplitude")]
+    #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true, value_parser = frequency, requires = "amplitude")]
     at: Option<f64>,
     /// Amplitude of the drive there: of a force, or of a displacement or an acceleration.
-    #[arg(long, value_name = "QUANTITY", requires = "at")]
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true, requires = "at")]
     amplitude: Option<String>,
     /// Folder for CSV, JSON, SVG and report.html with all on one page; it is made if need be.
     #[arg(long, value_name = "DIR")]

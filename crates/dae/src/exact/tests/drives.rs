@@ -272,3 +272,32 @@ fn a_chirp_is_declined_where_it_drives_something_within_the_run() {
     let quiet = Exact.integrate(&system, &Run::to(2.0), &mut Silent).unwrap();
     assert!(quiet.signal(&system, 0).bound() == 0.0);
 }
+
+#[test]
+fn rates_have_their_closed_forms_within_their_bounds() {
+    // x′ = −a x + sin ω t; told of y = x + sin ω t, of whose rate the jump of the drive at 2 s is no part.
+    let (a, omega, until) = (3.0, 7.0, 2.0);
+    let sine = Piece { sine: 1.0, omega, ..Piece::default() };
+    let drive = waveform(&[sine, Piece { start: until, ..Piece::default() }]);
+    let solved = Scene::new(&[&[-a]], &[1.0])
+        .driven(0, 1.0, 0, drive)
+        .reporting(&[1.0], Some(Input { waveform: 0, derivative: 0 }))
+        .solve(5.0);
+    let rate = solved.trajectory.dense.rate(&solved.system, 1);
+    let bound = rate.error.unwrap();
+    assert!(bound < 1e-12, "{bound:e}");
+    let size = a * a + omega * omega;
+    let forced = |t: f64| (a * (omega * t).sin() - omega * (omega * t).cos()) / size;
+    let free = 1.0 + omega / size;
+    for k in 0..500_u32 {
+        let t = 0.01 * f64::from(k);
+        let x = |t: f64| free * (-a * t).exp() + forced(t);
+        let expected = if t < until {
+            (omega * t).sin() - a * x(t) + omega * (omega * t).cos()
+        } else {
+            -a * x(until) * (-a * (t - until)).exp()
+        };
+        let off = (rate.value(t) - expected).abs();
+        assert!(off <= bound, "{t}: {off:e} off, bound {bound:e}");
+    }
+}

@@ -87,6 +87,12 @@ pub(super) enum Integrator {
 }
 
 impl Integrator {
+    /// The order of its first step, where that is not for the method to say: backward differentiation begins
+    /// with 1, also where it goes on for a method of a higher order.
+    fn order(self) -> Option<usize> {
+        matches!(self, Self::Bdf).then_some(1)
+    }
+
     /// Integrates one span of `problem` from `state`, handing every step to `walk`.
     ///
     /// The dense output in a step of backward differentiation is the polynomial through the ends of the last

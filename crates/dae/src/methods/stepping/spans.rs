@@ -181,8 +181,9 @@ impl Walk<'_> {
         let (start, length) = (self.span.0, self.span.1 - self.span.0);
         let time = start * self.system.time_scale;
         let site = Site { method: S::KIND, time, system: self.system };
+        let order = integrator.order().unwrap_or(S::ORDER);
         let entered =
-            start::enter(problem, balance.as_mut(), (start, length), S::ORDER, &mut self.state);
+            start::enter(problem, balance.as_mut(), (start, length), order, &mut self.state);
         let state = entered.map_err(|failure| site.imbalance(failure, &self.state))?;
         if balance.is_some() && self.state.iter().any(|value| !value.is_finite()) {
             return Err(site.singular(&self.state).into());

@@ -67,6 +67,14 @@ impl<'n> FirstPhases<'n> {
         joined && (self.opening.is_empty() || is_alone && matches!(body.role, Role::Mass(_)))
     }
 
+    /// Whether all forces act on bodies with mass, or on what is fixed; others would sag, or be in balance.
+    pub(super) fn forces_act_on_masses(&self, bodies: &Bodies) -> bool {
+        self.forces.iter().all(|force| match bodies.all[bodies.of_joint[force.0.0]].role {
+            Role::Mass(_) | Role::Fixed => true,
+            Role::Massless | Role::Prescribed(_) => false,
+        })
+    }
+
     /// The law of a primitive.
     pub(super) fn law(&self, primitive: usize) -> Option<Law> {
         let own = &self.expansion.primitives[primitive];

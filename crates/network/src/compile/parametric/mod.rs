@@ -8,6 +8,7 @@
 //! constant forces act, and each law that is not linear has one for its force. So everything else of the
 //! system stays linear.
 
+mod assembled;
 mod curve;
 mod fingerprint;
 mod first_phases;
@@ -20,16 +21,15 @@ use self::{
     curve::Curve,
     fingerprint::{Fingerprint, fingerprint},
     first_phases::FirstPhases,
-    reading::{difference, force_parts, order},
 };
 pub use self::{curve::CurveRow, instance::Instance};
 use super::{
     bodies::{Bodies, Role},
     scales::{Drives, Scales},
     structure::Structure,
-    unknowns::{self, Inputs, Places},
+    unknowns::{self, Inputs},
 };
-use crate::{Network, NodeId, elements::Law};
+use crate::{Network, NodeId};
 
 /// A spring, a dashpot, or a law that is not linear, between two bodies.
 #[derive(Debug, Clone)]
@@ -145,114 +145,6 @@ impl ParametricSystem {
         Self::assembled(&first, fingerprint, &bodies, &structure, &scales, &places)
     }
 
-    fn assembled(
-        first: &FirstPhases<'_>,
-        fingerprint: Fingerprint,
-        bodies: &Bodies,
-        structure: &Structure,
-        scales: &Scales,
-        places: &Places,
-    ) -> Option<Self> {
-        let FirstPhases { network, expansion, forces, .. } = first;
-        let unknowns = places.drafts.len();
-        let one = (!forces.is_empty()).then_some(unknowns);
-        let mut slots = unknowns + usize::from(one.is_some());
-        let mut number_of = vec![None; expansion.primitives.len()];
-        let (mut parts, mut curves, mut numbers) = (Vec::new(), Vec::new(), 0);
-        for (at, primitive) in expansion.primitives.iter().enumerate() {
-            let ends = primitive.ends.map(|joint| bodies.of_joint[joint]);
-            if ends[0] == ends[1] {
-                continue;
-            }
-            number_of[at] = Some(parts.len());
-            let number = numbers;
-            let kind = match primitive.law {
-                Law::Dashpot(_) => PartKind::Dashpot,
-                Law::Nonlinear { .. } => {
-                    let curve = Curve::of(primitive, parts.len())?;
-                    numbers += curve.numbers();
-                    curves.push(curve);
-                    slots += 1;
-                    PartKind::Curve(slots - 1)
-                }
-                _ => PartKind::Spring,
-            };
-            numbers += usize::from(!matches!(kind, PartKind::Curve(_)));
-            parts.push(Part { ends, number, kind, deformation: difference(places, ends)? });
-        }
-        let (mut placed, mut weighed) = (Vec::new(), Vec::new());
-        for (body, own) in bodies.all.iter().enumerate() {
-            if let Some(unknown) = places.unknown[body] {
-                placed.push(Placed { unknown, body, parent: places.parent[body] });
-            }
-            if places.velocity_base[body].is_some() {
-                return None;
-            }
-            if let Some(unknown) = places.velocity[body] {
-                weighed.push(Weighed {
-                    body,
-                    unknown,
-                    numbers: [numbers, numbers + 1, numbers + 2],
-                });
-                numbers += 3;
-            }
-            let is_known = match own.role {
-                Role::Fixed => places.unknown[body].is_none(),
-                Role::Mass(_) | Role::Massless => places.unknown[body].is_some(),
-                Role::Prescribed(_) => false,
-            };
-            if !is_known {
-                return None;
-            }
-        }
-        // Others would sag, or be in balance.
-        let acts_on_one = weighed.len() == 1
-            && forces.iter().all(|force| match bodies.all[bodies.of_joint[force.0.0]].role {
-                Role::Mass(_) | Role::Fixed => true,
-                Role::Massless | Role::Prescribed(_) => false,
-            });
-        if !forces.is_empty() && !acts_on_one {
-            return None;
-        }
-        let impactor = only(network.nodes().filter(|(_, node)| node.is_impactor()))?.0;
-        let struck = bodies.of_joint[impactor.0];
-        let mass = weighed.iter().find(|own| own.body == struck)?.numbers[0];
-        let body_of = |end: NodeId| bodies.of_joint[end.0];
-        let touches = |at: &usize| {
-            let [a, b] = network.connections[*at].between.map(body_of);
-            a != b && (a == struck || b == struck)
-        };
-        let element = only((0..network.connections.len()).filter(touches))?;
-        let connection = &network.connections[element];
-        let ends = connection.between.map(body_of);
-        if ends[0] != struck || connection.never_pulls(0) || !first.opens_at(bodies, struck) {
-            return None;
-        }
-        let force = force_parts(&expansion.shapes[element], &number_of, &parts)?;
-        let of_unknowns = places.drafts.iter().map(|draft| draft.scale / scales.lift);
-        let own = Self {
-            fingerprint,
-            bodies: bodies.all.len(),
-            eliminated: order(bodies.all.len(), structure, &parts),
-            placed,
-            weighed,
-            scales: of_unknowns.chain(std::iter::repeat_n(1.0, slots - unknowns)).collect(),
-            unknowns,
-            one,
-            opens: first.opens(),
-            time: scales.time,
-            element,
-            impactor,
-            mass,
-            force,
-            deformation: difference(places, ends)?,
-            parts,
-            curves,
-            numbers,
-        };
-        own.is_explicit().then_some(own)
-    }
-
     /// Number of unknowns.
     pub fn unknowns(&self) -> usize {
         self.unknowns
@@ -327,10 +219,4 @@ impl ParametricSystem {
         let is_usable = numbers.iter().all(|number| number.is_finite());
         (is_usable && numbers.len() == self.numbers).then_some(numbers)
     }
-}
-
-/// What is alone in a list.
-fn only<T>(mut all: impl Iterator<Item = T>) -> Option<T> {
-    let first = all.next()?;
-    all.next().is_none().then_some(first)
 }
