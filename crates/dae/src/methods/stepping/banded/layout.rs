@@ -126,7 +126,7 @@ fn numbers(roles: &[Role], is_one: impl Fn(&Role) -> bool) -> impl Iterator<Item
     (0..).zip(roles).filter(move |(_, role)| is_one(role)).map(|(unknown, _)| unknown)
 }
 
-/// An eliminated unknown is none to be eliminated with these values: others would lose their digits.
+/// An unknown that is eliminated has too small a pivot for that: others would lose their digits.
 #[derive(Debug)]
 pub(in crate::methods) struct Unfit;
 
@@ -142,56 +142,43 @@ pub(super) struct Couplings {
 }
 
 impl Couplings {
-    /// Takes up the values of a matrix.
+    /// Takes up the values of a matrix, whose pivots must be no smaller beside their rows than those of a band.
     pub(super) fn take(&mut self, layout: &Layout, values: &[f64]) -> Result<(), Unfit> {
         self.left.clear();
         self.left.extend(layout.left.pairs.iter().map(|&[source, _]| values[source as usize]));
         self.right.resize(layout.right.pairs.len(), 0.0);
         self.inverses.clear();
         for (at, &[_, source]) in layout.eliminated.iter().enumerate() {
-            let pivot = values[source as usize];
-            let inverse = pivot.recip();
-            if pivot == 0.0 || !inverse.is_finite() {
-                return Err(Unfit);
-            }
-            self.inverses.push(inverse);
+            let inverse = values[source as usize].recip();
             let place = layout.right.place(at);
             let pairs = &layout.right.pairs[place.clone()];
+            let mut largest = 1.0_f64;
             for (value, &[source, _]) in self.right[place].iter_mut().zip(pairs) {
                 *value = values[source as usize] * inverse;
+                largest = largest.max(value.abs());
+            }
+            if inverse.is_finite() && largest * GOOD_PIVOT <= 1.0 {
+                self.inverses.push(inverse);
+            } else {
+                return Err(Unfit);
             }
         }
         Ok(())
     }
 
-    /// Adds the entries of the row at a place, after the elimination, to the band's row, whose largest
-    /// magnitude is returned.
-    ///
-    /// It must not be small beside what was subtracted: as a row that is eliminated with a small pivot,
-    /// it would keep few digits.
-    pub(super) fn add_row(
-        &self,
-        layout: &Layout,
-        values: &[f64],
-        at: usize,
-        row: &mut [f64],
-    ) -> Result<f64, Unfit> {
+    /// Adds the entries of the row at a place, after the elimination, to the band's row.
+    pub(super) fn add_row(&self, layout: &Layout, values: &[f64], at: usize, row: &mut [f64]) {
         for &[source, offset] in layout.direct.group(at) {
             row[offset as usize] += values[source as usize];
         }
-        let mut most = 0.0_f64;
         let left = layout.left.place(at);
         for (&[_, other], &value) in layout.left.pairs[left.clone()].iter().zip(&self.left[left]) {
             let right = layout.right.place(other as usize);
             let pairs = &layout.right.pairs[right.clone()];
             for (&[_, place], factor) in pairs.iter().zip(&self.right[right]) {
-                let product = value * factor;
-                row[place as usize + layout.reach - at] -= product;
-                most = most.max(product.abs());
+                row[place as usize + layout.reach - at] -= value * factor;
             }
         }
-        let largest = row.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        if most * GOOD_PIVOT > largest { Err(Unfit) } else { Ok(largest) }
     }
 
     /// Puts what the eliminated unknowns would be without the others into `work`.

@@ -56,12 +56,13 @@ struct Rows<'b> {
 
 impl Rows<'_> {
     /// Adds the entries of the row at a place to an empty one and divides them by the largest. One over this.
-    fn scaled(&self, at: usize, row: &mut [f64]) -> Result<f64, Unfit> {
-        let scale = self.couplings.add_row(self.layout, self.values, at, row)?.recip();
+    fn scaled(&self, at: usize, row: &mut [f64]) -> f64 {
+        self.couplings.add_row(self.layout, self.values, at, row);
+        let scale = row.iter().fold(0.0_f64, |most, value| most.max(value.abs())).recip();
         for value in row {
             *value *= scale;
         }
-        Ok(scale)
+        scale
     }
 }
 
@@ -120,10 +121,10 @@ impl Banded {
         self.holds = None;
         self.couplings.take(&self.layout, values)?;
         let rows = Rows { layout: &self.layout, couplings: &self.couplings, values };
-        self.holds = if self.window.factorise(&rows, &mut self.scales)? {
+        self.holds = if self.window.factorise(&rows, &mut self.scales) {
             Some(Holds::Window)
         } else {
-            self.general.factorise(&rows, &mut self.scales)?.then_some(Holds::General)
+            self.general.factorise(&rows, &mut self.scales).then_some(Holds::General)
         };
         Ok(())
     }
@@ -158,7 +159,7 @@ impl Banded {
 
 impl General {
     /// Factorises a matrix and scales its rows. Whether each column has a pivot.
-    fn factorise(&mut self, rows: &Rows<'_>, scales: &mut [f64]) -> Result<bool, Unfit> {
+    fn factorise(&mut self, rows: &Rows<'_>, scales: &mut [f64]) -> bool {
         let (size, reach) = (scales.len(), rows.layout.reach);
         let width = 3 * reach + 1;
         self.reach = reach;
@@ -166,10 +167,10 @@ impl General {
         self.lower.resize(size * reach, 0.0);
         self.rows.fill(0.0);
         for (at, (row, scale)) in self.rows.chunks_exact_mut(width).zip(scales).enumerate() {
-            *scale = rows.scaled(at, row)?;
+            *scale = rows.scaled(at, row);
         }
         self.pivots.clear();
-        Ok((0..size).all(|column| self.eliminate(column)))
+        (0..size).all(|column| self.eliminate(column))
     }
 
     /// Chooses the pivot of a column and eliminates what is below it. Whether there was one.

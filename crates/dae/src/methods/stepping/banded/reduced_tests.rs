@@ -59,7 +59,7 @@ fn reduced(entries: &[(usize, usize, f64)]) -> Banded {
 fn solutions_of_reduced_matrices_are_those_of_a_dense_factorisation() {
     let numbers = &mut Numbers(13);
     for masses in [1, 2, 3, 10, 40] {
-        for c in [1e-3, 1.0, 1e4] {
+        for c in [1e-3, 1.0, 900.0] {
             for is_chain in [true, false] {
                 let entries = network(masses, is_chain, c, numbers);
                 let mut banded = reduced(&entries);

@@ -3,7 +3,7 @@
 //! Factorising and solving go through the rows once and in order, with the last rows and values at
 //! hand. Each value waits for the one before it, so the time goes by how soon that one is there.
 
-use super::{GOOD_PIVOT, Layout, Rows, Unfit};
+use super::{GOOD_PIVOT, Layout, Rows};
 
 /// The factors `L` and `U` of a band, without gaps.
 #[derive(Debug, Default)]
@@ -17,18 +17,14 @@ pub(super) struct Factors {
 impl Factors {
     /// Factorises a matrix and scales its rows. Whether that can be done: the band reaches a few places
     /// only, and no row has to be exchanged.
-    pub(super) fn factorise(
-        &mut self,
-        rows: &Rows<'_>,
-        scales: &mut [f64],
-    ) -> Result<bool, Unfit> {
+    pub(super) fn factorise(&mut self, rows: &Rows<'_>, scales: &mut [f64]) -> bool {
         match rows.layout.reach {
             1 => self.eliminate::<1, 2, 3>(rows, scales),
             2 => self.eliminate::<2, 3, 5>(rows, scales),
             3 => self.eliminate::<3, 4, 7>(rows, scales),
             4 => self.eliminate::<4, 5, 9>(rows, scales),
             5 => self.eliminate::<5, 6, 11>(rows, scales),
-            _ => Ok(false),
+            _ => false,
         }
     }
 
@@ -37,20 +33,20 @@ impl Factors {
         &mut self,
         rows: &Rows<'_>,
         scales: &mut [f64],
-    ) -> Result<bool, Unfit> {
+    ) -> bool {
         self.before.resize(scales.len() * REACH, 0.0);
         self.behind.resize(scales.len() * WIDTH, 0.0);
         let (before, _) = self.before.as_chunks_mut::<REACH>();
         let (behind, _) = self.behind.as_chunks_mut::<WIDTH>();
         for (at, (scale, before)) in scales.iter_mut().zip(before).enumerate() {
             let mut row = [0.0; BAND];
-            *scale = rows.scaled(at, &mut row)?;
+            *scale = rows.scaled(at, &mut row);
             for back in (1..=REACH.min(at)).rev() {
                 let above = &behind[at - back];
                 let own = row[REACH - back];
                 let factor = own * above[0];
                 if factor.abs() * GOOD_PIVOT > 1.0 {
-                    return Ok(false);
+                    return false;
                 }
                 before[back - 1] = factor;
                 for (value, above) in row[REACH - back + 1..].iter_mut().zip(&above[1..]) {
@@ -59,14 +55,14 @@ impl Factors {
             }
             let inverse = row[REACH].recip();
             if row[REACH] == 0.0 || !inverse.is_finite() {
-                return Ok(false);
+                return false;
             }
             behind[at][0] = inverse;
             for (value, own) in behind[at][1..].iter_mut().zip(&row[REACH + 1..]) {
                 *value = own * inverse;
             }
         }
-        Ok(true)
+        true
     }
 
     /// Solves with `L` for what is on the right at a place, of an unknown and with a scale.
