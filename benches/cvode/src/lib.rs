@@ -3,12 +3,7 @@
 
 mod library;
 
-use std::{
-    ffi::c_int,
-    path::Path,
-    ptr::null_mut,
-    slice,
-};
+use std::{ffi::c_int, path::Path, ptr::null_mut, slice};
 
 use library::{Functions, Index, Object};
 
@@ -234,7 +229,8 @@ extern "C" fn jacobian(
             data.change.iter_mut().skip(first).step_by(period).for_each(|own| *own = 1.0);
             data.problem.slopes(state, &data.change, &mut data.rates);
             for column in (first..data.size).step_by(period) {
-                let (from, to) = (column.saturating_sub(above), (column + below).min(data.size - 1));
+                let (from, to) =
+                    (column.saturating_sub(above), (column + below).min(data.size - 1));
                 let entries = (own.column)(matrix, column as Index).sub(column - from);
                 slice::from_raw_parts_mut(entries, to - from + 1)
                     .copy_from_slice(&data.rates[from..=to]);

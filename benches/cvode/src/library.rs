@@ -97,7 +97,8 @@ fn load(_name: &CStr) -> Object {
 
 /// Opens the library, which is never closed.
 pub(crate) fn open(path: &Path) -> Result<Functions, String> {
-    let name = CString::new(path.as_os_str().as_encoded_bytes()).map_err(|fault| fault.to_string())?;
+    let name =
+        CString::new(path.as_os_str().as_encoded_bytes()).map_err(|fault| fault.to_string())?;
     let library = load(&name);
     if library.is_null() {
         return Err("it cannot be opened".to_owned());
@@ -105,6 +106,8 @@ pub(crate) fn open(path: &Path) -> Result<Functions, String> {
     let functions = Functions::of(library)?;
     let (mut major, mut minor, mut patch, mut label) = (0, 0, 0, [0; 32]);
     // SAFETY: all places are there, and the label's length is told.
-    unsafe { (functions.version)(&raw mut major, &raw mut minor, &raw mut patch, label.as_mut_ptr(), 32) };
+    unsafe {
+        (functions.version)(&raw mut major, &raw mut minor, &raw mut patch, label.as_mut_ptr(), 32)
+    };
     if major == 7 { Ok(functions) } else { Err(format!("it is version {major}, not 7")) }
 }

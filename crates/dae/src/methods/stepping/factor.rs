@@ -67,7 +67,9 @@ impl LinearSolver<FaerSparseMat<f64>> for SparseFactor {
                 let (factors, matrix) = own.as_mut();
                 op.matrix_inplace(matrix);
                 if factors.factorise(matrix.values()).is_err() {
-                    *self = Self::of(op, |matrix| Banded::whole(matrix.nrows(), entries(matrix), NARROW));
+                    *self = Self::of(op, |matrix| {
+                        Banded::whole(matrix.nrows(), entries(matrix), NARROW)
+                    });
                     self.set_linearisation(op);
                 }
             }

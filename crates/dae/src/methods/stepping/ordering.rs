@@ -57,10 +57,7 @@ impl Graph {
     /// # Panics
     ///
     /// When there are 2³¹ or more.
-    pub(super) fn of(
-        size: usize,
-        entries: impl Iterator<Item = (usize, usize)> + Clone,
-    ) -> Self {
+    pub(super) fn of(size: usize, entries: impl Iterator<Item = (usize, usize)> + Clone) -> Self {
         let pairs = entries.filter(|(row, column)| row != column);
         let mut ends = vec![0; size];
         for (row, column) in pairs.clone() {

@@ -7,10 +7,14 @@ use super::{
 
 /// `M − c J` of masses in a row or a tree, with further springs between any two, a spring, a dashpot and maybe a
 /// Maxwell element in each link; all unknowns are numbered at random.
-fn network(masses: usize, is_chain: bool, c: f64, numbers: &mut Numbers) -> Vec<(usize, usize, f64)> {
-    let mut links: Vec<(usize, usize)> = (1..masses)
-        .map(|at| (if is_chain { at - 1 } else { numbers.below(at) }, at))
-        .collect();
+fn network(
+    masses: usize,
+    is_chain: bool,
+    c: f64,
+    numbers: &mut Numbers,
+) -> Vec<(usize, usize, f64)> {
+    let mut links: Vec<(usize, usize)> =
+        (1..masses).map(|at| (if is_chain { at - 1 } else { numbers.below(at) }, at)).collect();
     if !is_chain {
         links.extend((0..masses / 4).map(|_| (numbers.below(masses), numbers.below(masses))));
     }
@@ -31,7 +35,11 @@ fn network(masses: usize, is_chain: bool, c: f64, numbers: &mut Numbers) -> Vec<
             }
         }
         if numbers.next() > 0.0 {
-            entries.extend([(size, size, 1.0 + c), (size, speed(one), -c), (size, speed(other), c)]);
+            entries.extend([
+                (size, size, 1.0 + c),
+                (size, speed(one), -c),
+                (size, speed(other), c),
+            ]);
             entries.extend([(speed(one), size, c), (speed(other), size, -c)]);
             size += 1;
         }

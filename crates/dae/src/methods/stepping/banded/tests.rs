@@ -36,7 +36,9 @@ fn band(size: usize, reach: usize, numbers: &mut Numbers) -> Vec<(usize, usize, 
     entries
 }
 
-pub(super) fn places_of(entries: &[(usize, usize, f64)]) -> impl Iterator<Item = (usize, usize)> + Clone {
+pub(super) fn places_of(
+    entries: &[(usize, usize, f64)],
+) -> impl Iterator<Item = (usize, usize)> + Clone {
     entries.iter().map(|&(row, column, _)| (row, column))
 }
 
