@@ -104,7 +104,7 @@ fn table(problem: &Problem, cvode: Option<Cvode>) -> Result<String, String> {
 fn truth(problem: &Problem, times: &[f64]) -> Result<(Vec<f64>, f64), String> {
     let solve = |name: &str, rtol| {
         let method = methods::by_name(name).ok_or("no such method")?;
-        ours::job(method, problem, times, 60.0)(rtol)
+        ours::job(method, problem, times, 600.0)(rtol)
     };
     if let Ok(truth) = solve("exact", 1e-6) {
         return Ok((truth, 0.0));

@@ -17,12 +17,7 @@ mod foam;
 #[path = "../equal_error/impact.rs"]
 mod impact;
 
-use std::{
-    fs,
-    hint::black_box,
-    ops::ControlFlow,
-    time::{Duration, Instant},
-};
+use std::{hint::black_box, ops::ControlFlow, time::Instant};
 
 use dashpot::{
     analysis::{
@@ -39,7 +34,7 @@ use dashpot::{
 };
 use nalgebra::{SMatrix, SVector};
 
-use self::{by_hand::ByHand, impact::Impact};
+use self::{by_hand::ByHand, cpu::cpu, impact::Impact};
 
 /// Values of each of two parameters.
 const SIDE: usize = 100;

@@ -231,7 +231,8 @@ extern "C" fn jacobian(
             for column in (first..data.size).step_by(period) {
                 let (from, to) =
                     (column.saturating_sub(above), (column + below).min(data.size - 1));
-                let entries = (own.column)(matrix, column as Index).sub(column - from);
+                let entries = (own.column)(matrix, Index::try_from(column).unwrap_or(Index::MAX))
+                    .sub(column - from);
                 slice::from_raw_parts_mut(entries, to - from + 1)
                     .copy_from_slice(&data.rates[from..=to]);
             }

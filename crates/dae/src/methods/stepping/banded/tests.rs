@@ -13,7 +13,8 @@ impl Numbers {
 
     /// A number below this one.
     pub(super) fn below(&mut self, count: usize) -> usize {
-        ((self.next() + 1.0) / 2.0 * count as f64) as usize
+        self.next();
+        (self.0 >> 33) as usize % count
     }
 
     /// The numbers below this one in any order.
