@@ -10,6 +10,8 @@
 
 mod by_hand;
 mod chain;
+mod cpu;
+mod cvode;
 mod explicit;
 mod impact;
 mod ours;
@@ -19,9 +21,9 @@ mod race;
 use std::{fmt::Write as _, time::Duration};
 
 use dashpot::dae::methods;
+use dashpot_cvode::Cvode;
 
 use self::{
-    impact::Impact,
     problems::{Problem, SAMPLES},
     race::{Contender, Ladder, Reached, climb, error, race},
 };
@@ -30,9 +32,8 @@ use self::{
 const PLACE: (&str, &str) = ("<!-- measured: equal error -->", "<!-- end -->");
 const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/benchmarks.md");
 
-/// What hand-written diffsol needed for the reference impact at a tolerance of 10⁻⁶ on the machine on
-/// which CVODE was measured \[s\].
-const THERE: f64 = 79e-6;
+/// The name of CVODE's row.
+const CVODE: &str = "CVODE, banded";
 
 /// States beyond which explicit methods and one-step methods are left out.
 const LARGE: usize = 5000;
@@ -44,15 +45,11 @@ fn main() -> Result<(), String> {
     if !flags.iter().any(|flag| flag == "--bench") {
         return Ok(());
     }
-    let here = here()?;
-    let mut text = format!(
-        "Hand-written diffsol needs {:.1} µs for the reference impact at a tolerance of 10⁻⁶ here.\n",
-        1e6 * here
-    );
-    println!("{text}");
+    let cvode = cvode::installed()?;
+    let mut text = String::new();
     for problem in problems::all()? {
         if words.iter().all(|word| problem.title.contains(word.as_str())) {
-            let table = table(&problem, here / THERE)?;
+            let table = table(&problem, cvode)?;
             println!("{table}");
             let _ = write!(text, "\n{table}");
         }
@@ -63,16 +60,9 @@ fn main() -> Result<(), String> {
     Ok(())
 }
 
-/// The time of hand-written diffsol for the reference impact at a tolerance of 10⁻⁶ \[s\].
-fn here() -> Result<f64, String> {
-    let reference = Impact::with_mount(0.2);
-    let times: Vec<f64> = (0..=SAMPLES).map(|at| f64::from(at) / 50.0).collect();
-    let mut job = by_hand::bdf(&reference, &times)?;
-    Ok(race([(&mut job, 1e-6)])[0].as_secs_f64())
-}
-
-/// What all contenders need for one problem.
-fn table(problem: &Problem, machine: f64) -> Result<String, String> {
+/// What all contenders need for one problem. The first of them who is measured is the one whom the others are
+/// compared with.
+fn table(problem: &Problem, cvode: Option<Cvode>) -> Result<String, String> {
     let times = problem.times();
     let own: Vec<f64> = times.iter().map(|t| t / problem.end * problem.by_hand.end()).collect();
     let patience = Duration::from_secs_f64(problem.patience);
@@ -87,38 +77,24 @@ fn table(problem: &Problem, machine: f64) -> Result<String, String> {
     }
     text += "\n|---|---|---|---|\n";
 
-    let is_large = problem.assembly.system.len() > LARGE;
-    let mut hand = if is_large {
-        None
-    } else {
-        let job = by_hand::bdf(&*problem.by_hand, &own)?;
-        Some(Contender { name: "diffsol's BDF by hand".to_owned(), job, is_exact: false })
-    };
-    let ladder = hand.as_mut().map(|hand| climb(hand, &truth, problem.wanted, patience));
-    if let (Some(hand), Some(ladder)) = (&mut hand, &ladder) {
-        let cells =
-            cells(ladder, |_, reached| [race([(&mut hand.job, reached.rtol)])[0], Duration::ZERO]);
-        row(&mut text, &hand.name, &cells);
-    }
-    for mut contender in contenders(problem, &times, is_large) {
+    let mut base: Option<(Contender<'_>, Ladder)> = None;
+    for mut contender in contenders(problem, (&times, &own), cvode)? {
         eprintln!("{}: {}", problem.title, contender.name);
-        let own = climb(&mut contender, &truth, problem.wanted, patience);
-        let cells = cells(&own, |at, reached| {
-            let base = ladder.as_ref().and_then(|ladder| ladder.reached[at]);
-            match (&mut hand, base) {
-                (Some(hand), Some(base)) => {
-                    race([(&mut contender.job, reached.rtol), (&mut hand.job, base.rtol)])
+        let ladder = climb(&mut contender, &truth, problem.wanted, patience);
+        let cells = cells(&ladder, |at, reached| {
+            let other = base.as_mut().and_then(|(base, ladder)| Some((base, ladder.reached[at]?)));
+            match other {
+                Some((base, other)) => {
+                    race([(&mut contender.job, reached.rtol), (&mut base.job, other.rtol)])
                 }
-                _ => [race([(&mut contender.job, reached.rtol)])[0], Duration::ZERO],
+                None => [race([(&mut contender.job, reached.rtol)])[0], 0.0],
             }
         });
         row(&mut text, &contender.name, &cells);
+        base.get_or_insert((contender, ladder));
     }
-    if problem.cvode.iter().any(Option::is_some) {
-        let cell = |time: Option<f64>| {
-            time.map_or_else(String::new, |time| milliseconds(time * machine * 1e-3))
-        };
-        row(&mut text, "CVODE, banded, in proportion", &problem.cvode.map(cell));
+    if problem.band.is_some() && cvode.is_none() {
+        row(&mut text, CVODE, &[cvode::missing(), String::new(), String::new()]);
     }
     Ok(text)
 }
@@ -128,7 +104,7 @@ fn table(problem: &Problem, machine: f64) -> Result<String, String> {
 fn truth(problem: &Problem, times: &[f64]) -> Result<(Vec<f64>, f64), String> {
     let solve = |name: &str, rtol| {
         let method = methods::by_name(name).ok_or("no such method")?;
-        ours::job(method, problem, times, 60.0)(rtol)
+        ours::job(method, problem, times, 600.0)(rtol)
     };
     if let Ok(truth) = solve("exact", 1e-6) {
         return Ok((truth, 0.0));
@@ -139,10 +115,22 @@ fn truth(problem: &Problem, times: &[f64]) -> Result<(Vec<f64>, f64), String> {
     Ok((truth, threshold))
 }
 
-/// Everyone but the hand-written code of the first row.
-fn contenders<'a>(problem: &'a Problem, times: &'a [f64], is_large: bool) -> Vec<Contender<'a>> {
-    let choice = ours::choice(problem);
+/// Everyone, code by hand first; `times` are those in seconds and in units by hand.
+fn contenders<'a>(
+    problem: &'a Problem,
+    (times, own): (&'a [f64], &'a [f64]),
+    cvode: Option<Cvode>,
+) -> Result<Vec<Contender<'a>>, String> {
+    let (by_hand, choice) = (&*problem.by_hand, ours::choice(problem));
+    let is_large = problem.assembly.system.len() > LARGE;
+    let of = |name: &str, job| Contender { name: name.to_owned(), job, is_exact: false };
     let mut all = Vec::new();
+    if let Some(job) = cvode.and_then(|cvode| cvode::job(cvode, problem, own)) {
+        all.push(of(CVODE, job));
+    }
+    if !is_large {
+        all.push(of("diffsol's BDF by hand", by_hand::bdf(by_hand, own)?));
+    }
     for method in methods::all() {
         let name = method.name();
         let is_slow = is_large && !["auto", "bdf"].contains(&name);
@@ -151,26 +139,18 @@ fn contenders<'a>(problem: &'a Problem, times: &'a [f64], is_large: bool) -> Vec
         }
         let is_exact = name == "exact" || name == "auto" && choice == "exact";
         let name = if name == "auto" { format!("`auto`: `{choice}`") } else { format!("`{name}`") };
-        all.push(Contender {
-            name,
-            job: ours::job(method, problem, times, problem.patience),
-            is_exact,
-        });
+        let job = ours::job(method, problem, times, problem.patience);
+        all.push(Contender { name, job, is_exact });
     }
     if !is_large {
-        let by_hand = &*problem.by_hand;
-        for (name, job) in [
-            ("ode_solvers, Dopri5", explicit::dopri5(by_hand, SAMPLES)),
-            ("ode_solvers, Dop853", explicit::dop853(by_hand, SAMPLES)),
-        ] {
-            all.push(Contender { name: name.to_owned(), job, is_exact: false });
-        }
+        all.push(of("ode_solvers, Dopri5", explicit::dopri5(by_hand, SAMPLES)));
+        all.push(of("ode_solvers, Dop853", explicit::dop853(by_hand, SAMPLES)));
     }
-    all
+    Ok(all)
 }
 
-/// What a table says of a contender, whose time and that of the hand-written code `timed` tells.
-fn cells(ladder: &Ladder, mut timed: impl FnMut(usize, Reached) -> [Duration; 2]) -> [String; 3] {
+/// What a table says of a contender, whose time and that of the one it is compared with `timed` tells.
+fn cells(ladder: &Ladder, mut timed: impl FnMut(usize, Reached) -> [f64; 2]) -> [String; 3] {
     if ladder.reached.iter().all(Option::is_none) {
         return [ladder.end.clone(), String::new(), String::new()];
     }
@@ -178,8 +158,8 @@ fn cells(ladder: &Ladder, mut timed: impl FnMut(usize, Reached) -> [Duration; 2]
     ladder.reached.map(|reached| {
         at += 1;
         let Some(reached) = reached else { return ladder.end.clone() };
-        let [own, hand] = timed(at - 1, reached).map(|time| time.as_secs_f64());
-        let ratio = if hand > 0.0 { format!(" (× {:.2})", own / hand) } else { String::new() };
+        let [own, other] = timed(at - 1, reached);
+        let ratio = if other > 0.0 { format!(" (× {:.2})", own / other) } else { String::new() };
         let (time, error, rtol) = (milliseconds(own), reached.error, reached.rtol);
         // What the others are compared with has no error, and its tolerance no meaning.
         if error == 0.0 {

@@ -5,12 +5,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::by_hand::Job;
+use super::{by_hand::Job, cpu::cpu};
 
 /// Tolerances are tried from 10⁻¹ to 10⁻¹³, this many to a decade.
 const TO_A_DECADE: i32 = 4;
-/// Time for which two contenders take turns, and how often they do at least and at most.
-const TURNS: (Duration, usize, usize) = (Duration::from_millis(300), 3, 200);
+/// Turns of each contender, and how long one lasts at least \[s\].
+const TURNS: usize = 5;
+const TURN: f64 = 0.1;
 
 /// What is said of a wanted error where no tolerance leads to it, and none fails either.
 const NOT_REACHED: &str = "not reached";
@@ -87,20 +88,24 @@ pub(crate) fn climb(
     Ladder { reached: wanted.map(first), end }
 }
 
-/// The shortest times of jobs at their tolerances, which take turns so that the machine's moods hit
-/// all alike. Whatever else runs only makes a run longer, so the shortest is closest to its cost.
-pub(crate) fn race<const N: usize>(mut jobs: [(&mut Job<'_>, f64); N]) -> [Duration; N] {
-    let begin = Instant::now();
-    let mut shortest = [Duration::MAX; N];
-    for turn in 0..TURNS.2 {
-        if turn >= TURNS.1 && begin.elapsed() > TURNS.0 {
-            break;
-        }
-        for ((job, rtol), shortest) in jobs.iter_mut().zip(&mut shortest) {
-            let clock = Instant::now();
-            drop(black_box(job(*rtol)));
-            *shortest = clock.elapsed().min(*shortest);
+/// What jobs cost at their tolerances \[s\]: medians of CPU time in turns that they take, so that the
+/// machine's moods hit all alike.
+pub(crate) fn race<const N: usize>(mut jobs: [(&mut Job<'_>, f64); N]) -> [f64; N] {
+    let clock = Instant::now();
+    let mut times = [[0.0; TURNS]; N];
+    for turn in 0..TURNS {
+        for ((job, rtol), times) in jobs.iter_mut().zip(&mut times) {
+            let (begin, mut rounds, mut spent) = (cpu(clock), 0, 0.0);
+            while spent < TURN {
+                drop(black_box(job(*rtol)));
+                rounds += 1;
+                spent = cpu(clock) - begin;
+            }
+            times[turn] = spent / f64::from(rounds);
         }
     }
-    shortest
+    times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[TURNS / 2]
+    })
 }

@@ -11,17 +11,14 @@
 
 #[path = "../equal_error/by_hand.rs"]
 mod by_hand;
+#[path = "../equal_error/cpu.rs"]
+mod cpu;
 mod foam;
 #[path = "../equal_error/impact.rs"]
 mod impact;
 mod runs;
 
-use std::{
-    fs,
-    hint::black_box,
-    ops::ControlFlow,
-    time::{Duration, Instant},
-};
+use std::{hint::black_box, ops::ControlFlow, time::Instant};
 
 use dashpot::{
     analysis::{
@@ -38,7 +35,7 @@ use dashpot::{
 };
 use nalgebra::{SMatrix, SVector};
 
-use self::{by_hand::ByHand, impact::Impact};
+use self::{by_hand::ByHand, cpu::cpu, impact::Impact};
 
 /// Values of each of two parameters.
 const SIDE: usize = 100;
@@ -175,13 +172,6 @@ struct Contender<'c> {
     name: &'c str,
     scenes: usize,
     solve: Box<dyn Fn() -> f64 + 'c>,
-}
-
-/// CPU time of this thread [s]; where the system does not tell it, the time by the clock.
-fn cpu(clock: Instant) -> f64 {
-    let told = fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = told.and_then(|own| own.split(' ').next()?.parse().ok());
-    nanoseconds.map_or_else(|| clock.elapsed(), Duration::from_nanos).as_secs_f64()
 }
 
 /// Times contenders in turns, and prints the medians beside that of the first.

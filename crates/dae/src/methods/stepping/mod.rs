@@ -19,6 +19,7 @@
 mod algebra;
 mod balance;
 mod banded;
+mod elimination;
 mod equations;
 mod explicit;
 mod factor;

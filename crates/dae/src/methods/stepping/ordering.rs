@@ -2,11 +2,13 @@
 
 use std::collections::VecDeque;
 
+use dashpot_numerics::packed;
+
 /// An order of unknowns, and the band that it gives to a matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Order {
     /// The unknown at each place.
-    pub(super) unknowns: Vec<usize>,
+    pub(super) unknowns: Vec<u32>,
     /// Distance of the farthest entry from the diagonal.
     pub(super) reach: usize,
 }
@@ -29,65 +31,74 @@ pub(super) fn narrow(
     let unknowns = graph.order();
     let places = places(&unknowns);
     let distance = |(row, column): (usize, usize)| places[row].abs_diff(places[column]);
-    let reach = entries.map(distance).max().unwrap_or(0);
+    let reach = entries.map(distance).max().unwrap_or(0) as usize;
     (reach <= most).then_some(Order { unknowns, reach })
 }
 
 /// The place of each unknown in an order.
-pub(super) fn places(order: &[usize]) -> Vec<usize> {
+pub(super) fn places(order: &[u32]) -> Vec<u32> {
     let mut places = vec![0; order.len()];
-    for (place, &unknown) in order.iter().enumerate() {
-        places[unknown] = place;
+    for (place, &unknown) in (0..).zip(order) {
+        places[unknown as usize] = place;
     }
     places
 }
 
 /// Which unknowns stand in a row or a column of one another.
-struct Graph {
-    offsets: Vec<usize>,
-    others: Vec<usize>,
+pub(super) struct Graph {
+    /// Where the neighbours of each end.
+    ends: Vec<u32>,
+    others: Vec<u32>,
 }
 
 impl Graph {
-    fn of(size: usize, entries: impl Iterator<Item = (usize, usize)> + Clone) -> Self {
+    /// The graph of these entries `(row, column)`.
+    ///
+    /// # Panics
+    ///
+    /// When there are 2³¹ or more.
+    pub(super) fn of(size: usize, entries: impl Iterator<Item = (usize, usize)> + Clone) -> Self {
         let pairs = entries.filter(|(row, column)| row != column);
-        let mut next = vec![0; size + 1];
+        let mut ends = vec![0; size];
         for (row, column) in pairs.clone() {
-            next[row + 1] += 1;
-            next[column + 1] += 1;
+            ends[row] += 1;
+            ends[column] += 1;
         }
-        for at in 0..size {
-            next[at + 1] += next[at];
+        let mut sum = 0_u32;
+        for end in &mut ends {
+            sum += std::mem::replace(end, sum);
         }
-        let bounds = next.clone();
-        let mut all = vec![0; bounds[size]];
+        let mut others = vec![0; sum as usize];
         for (row, column) in pairs {
             for (one, other) in [(row, column), (column, row)] {
-                all[next[one]] = other;
-                next[one] += 1;
+                others[ends[one] as usize] = packed(other);
+                ends[one] += 1;
             }
         }
-        let mut graph = Self { offsets: vec![0], others: Vec::with_capacity(all.len()) };
-        for ends in bounds.windows(2) {
-            let own = &mut all[ends[0]..ends[1]];
-            own.sort_unstable();
-            let first = graph.others.len();
-            for &mut other in own {
-                if graph.others[first..].last() != Some(&other) {
-                    graph.others.push(other);
+        let (mut start, mut kept) = (0, 0);
+        for end in &mut ends {
+            others[start..*end as usize].sort_unstable();
+            let first = kept;
+            for at in std::mem::replace(&mut start, *end as usize)..*end as usize {
+                if kept == first || others[kept - 1] != others[at] {
+                    others[kept] = others[at];
+                    kept += 1;
                 }
             }
-            graph.offsets.push(graph.others.len());
+            *end = packed(kept);
         }
-        graph
+        others.truncate(kept);
+        Self { ends, others }
     }
 
-    fn neighbours(&self, unknown: usize) -> &[usize] {
-        &self.others[self.offsets[unknown]..self.offsets[unknown + 1]]
+    /// The others that stand in a row or a column of this one, in rising order.
+    pub(super) fn neighbours(&self, unknown: usize) -> &[u32] {
+        let start = unknown.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.others[start as usize..self.ends[unknown] as usize]
     }
 
-    fn order(&self) -> Vec<usize> {
-        let size = self.offsets.len() - 1;
+    fn order(&self) -> Vec<u32> {
+        let size = self.ends.len();
         let mut order = Vec::with_capacity(size);
         let mut is_placed = vec![false; size];
         let mut rounds = vec![0; size];
@@ -109,7 +120,7 @@ impl Graph {
             let mut queue = VecDeque::from([from]);
             while let Some(unknown) = queue.pop_front() {
                 from = unknown;
-                for &other in self.neighbours(unknown) {
+                for other in self.neighbours(unknown).iter().map(|&other| other as usize) {
                     if rounds[other] < round {
                         rounds[other] = round;
                         queue.push_back(other);
@@ -121,20 +132,20 @@ impl Graph {
     }
 
     /// Appends the part that `from` belongs to.
-    fn spread(&self, from: usize, is_placed: &mut [bool], order: &mut Vec<usize>) {
+    fn spread(&self, from: usize, is_placed: &mut [bool], order: &mut Vec<u32>) {
         let mut at = order.len();
         is_placed[from] = true;
-        order.push(from);
+        order.push(packed(from));
         while let Some(&unknown) = order.get(at) {
             at += 1;
             let first = order.len();
-            for &other in self.neighbours(unknown) {
-                if !is_placed[other] {
-                    is_placed[other] = true;
+            for &other in self.neighbours(unknown as usize) {
+                if !is_placed[other as usize] {
+                    is_placed[other as usize] = true;
                     order.push(other);
                 }
             }
-            order[first..].sort_by_key(|&own| (self.neighbours(own).len(), own));
+            order[first..].sort_by_key(|&own| (self.neighbours(own as usize).len(), own));
         }
     }
 }
@@ -155,7 +166,7 @@ mod tests {
         let order = narrow(size, entries, size).unwrap();
         let mut sorted = order.unknowns.clone();
         sorted.sort_unstable();
-        assert!(sorted.into_iter().eq(0..size), "each unknown has one place");
+        assert!(sorted.into_iter().eq(0..packed(size)), "each unknown has one place");
         order.reach
     }
 

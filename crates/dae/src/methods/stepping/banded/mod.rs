@@ -1,12 +1,14 @@
 //! Factorisation of matrices with a narrow band.
 
+mod layout;
 mod window;
 
 use std::cell::RefCell;
 
-use dashpot_numerics::packed;
+use self::layout::{Couplings, Layout};
+use super::elimination::{none, roles};
 
-use super::ordering::{Order, places};
+pub(in crate::methods) use self::layout::Unfit;
 
 /// Part of the largest entry below from which on that on the diagonal is left to be the pivot, as in
 /// KLU (`davis2010` in `docs/references.bib`). Where no rows are exchanged the factors stay half as
@@ -14,14 +16,13 @@ use super::ordering::{Order, places};
 const GOOD_PIVOT: f64 = 1e-3;
 
 /// A matrix in an order that makes its band narrow, and its factors `P A = L U` with rows exchanged
-/// where the pivot on the diagonal is small.
+/// where the pivot on the diagonal is small. Some of its unknowns may have been eliminated before.
 ///
 /// The factors lie one behind the other in memory, and solving with them takes no look-up of places.
 #[derive(Debug)]
 pub(in crate::methods) struct Banded {
-    order: Vec<u32>,
-    reach: usize,
     layout: Layout,
+    couplings: Couplings,
     /// One over the largest entry of each row, so that rows are compared on one scale.
     scales: Vec<f64>,
     /// The factors where no rows are exchanged and the last values can be kept at hand.
@@ -30,7 +31,7 @@ pub(in crate::methods) struct Banded {
     general: General,
     /// Which of both hold; `None` where a column was left without a pivot.
     holds: Option<Holds>,
-    work: RefCell<Vec<f64>>,
+    work: RefCell<Work>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,51 +40,29 @@ enum Holds {
     General,
 }
 
-/// Where the entries of a matrix belong in its band.
-#[derive(Debug)]
-struct Layout {
-    /// Where the entries of each row end.
-    ends: Vec<u32>,
-    /// The number of each entry.
-    sources: Vec<u32>,
-    /// How far behind the first place of the band's row it belongs.
-    offsets: Vec<u16>,
+/// Right-hand sides on their way to solutions.
+#[derive(Debug, Default)]
+struct Work {
+    kept: Vec<f64>,
+    eliminated: Vec<f64>,
 }
 
-impl Layout {
-    /// The layout of these entries `(row, column)`, whose unknowns come to lie in these `places`.
-    fn of(
-        places: &[usize],
-        reach: usize,
-        entries: impl Iterator<Item = (usize, usize)> + Clone,
-    ) -> Self {
-        let mut ends = vec![0; places.len()];
-        for (row, _) in entries.clone() {
-            ends[places[row]] += 1;
-        }
-        let mut sum = 0;
-        for end in &mut ends {
-            sum += std::mem::replace(end, sum);
-        }
-        let (mut sources, mut offsets) = (vec![0; sum as usize], vec![0; sum as usize]);
-        for (source, (row, column)) in (0..).zip(entries) {
-            let (row, column) = (places[row], places[column]);
-            let at = ends[row] as usize;
-            sources[at] = source;
-            offsets[at] = u16::try_from(column + reach - row).unwrap_or(u16::MAX);
-            ends[row] += 1;
-        }
-        Self { ends, sources, offsets }
-    }
+/// The rows of a band, as they are to be factorised.
+struct Rows<'b> {
+    layout: &'b Layout,
+    couplings: &'b Couplings,
+    values: &'b [f64],
+}
 
-    /// The rows in order, each as its entries: numbers and offsets.
-    fn rows(&self) -> impl Iterator<Item = impl Iterator<Item = (usize, usize)>> {
-        let starts = std::iter::once(&0).chain(&self.ends);
-        starts.zip(&self.ends).map(|(&start, &end)| {
-            let place = start as usize..end as usize;
-            let entries = self.sources[place.clone()].iter().zip(&self.offsets[place]);
-            entries.map(|(&source, &offset)| (source as usize, usize::from(offset)))
-        })
+impl Rows<'_> {
+    /// Adds the entries of the row at a place to an empty one and divides them by the largest. One over this.
+    fn scaled(&self, at: usize, row: &mut [f64]) -> f64 {
+        self.couplings.add_row(self.layout, self.values, at, row);
+        let scale = row.iter().fold(0.0_f64, |most, value| most.max(value.abs())).recip();
+        for value in row {
+            *value *= scale;
+        }
+        scale
     }
 }
 
@@ -101,74 +80,94 @@ struct General {
 }
 
 impl Banded {
-    /// Room for matrices with these entries `(row, column)`, in this order; fewer than 2³².
-    pub(super) fn of(order: Order, entries: impl Iterator<Item = (usize, usize)> + Clone) -> Self {
-        let Order { unknowns, reach } = order;
-        let size = unknowns.len();
+    /// Room for matrices with these entries `(row, column)`, of which there are fewer than 2³¹, if a band is
+    /// found that reaches no further than `most`. What costs nothing to be eliminated is.
+    pub(super) fn reduced(
+        size: usize,
+        entries: impl Iterator<Item = (usize, usize)> + Clone,
+        most: usize,
+    ) -> Option<Self> {
+        let roles = roles(size, entries.clone());
+        Layout::of(&roles, entries, most).map(Self::empty)
+    }
+
+    /// The same without any elimination.
+    pub(super) fn whole(
+        size: usize,
+        entries: impl Iterator<Item = (usize, usize)> + Clone,
+        most: usize,
+    ) -> Option<Self> {
+        Layout::of(&none(size), entries, most).map(Self::empty)
+    }
+
+    fn empty(layout: Layout) -> Self {
         Self {
-            layout: Layout::of(&places(&unknowns), reach, entries),
-            order: unknowns.iter().map(|&unknown| packed(unknown)).collect(),
-            reach,
-            scales: vec![0.0; size],
+            scales: vec![0.0; layout.order.len()],
+            layout,
+            couplings: Couplings::default(),
             window: window::Factors::default(),
             general: General::default(),
             holds: None,
-            work: RefCell::new(vec![0.0; size]),
+            work: RefCell::default(),
         }
     }
 
     /// Factorises the matrix with these values of its entries.
-    pub(super) fn factorise(&mut self, values: &[f64]) {
-        self.holds = if self.window.factorise(self.reach, &self.layout, values, &mut self.scales) {
+    ///
+    /// # Errors
+    ///
+    /// What is eliminated must not be with these values: only the [`whole`](Self::whole) can be factorised.
+    pub(super) fn factorise(&mut self, values: &[f64]) -> Result<(), Unfit> {
+        self.holds = None;
+        self.couplings.take(&self.layout, values)?;
+        let rows = Rows { layout: &self.layout, couplings: &self.couplings, values };
+        self.holds = if self.window.factorise(&rows, &mut self.scales) {
             Some(Holds::Window)
         } else {
-            let found = self.general.factorise(self.reach, &self.layout, values, &mut self.scales);
-            found.then_some(Holds::General)
+            self.general.factorise(&rows, &mut self.scales).then_some(Holds::General)
         };
+        Ok(())
     }
 
     /// Replaces the right-hand side by the solution. Whether the matrix has one.
     pub(super) fn solve(&self, unknowns: &mut [f64]) -> bool {
         let Some(holds) = self.holds else { return false };
-        let mut work = self.work.borrow_mut();
+        let (layout, couplings) = (&self.layout, &self.couplings);
+        let Work { kept, eliminated } = &mut *self.work.borrow_mut();
+        kept.resize(layout.order.len(), 0.0);
+        couplings.begin(layout, unknowns, eliminated);
+        let right = |at: usize, unknown: u32, scale: f64| {
+            (unknowns[unknown as usize] - couplings.taken(layout, at, eliminated)) * scale
+        };
         if holds == Holds::Window {
-            self.window.solve(self.reach, (&self.order, &self.scales), &mut work, unknowns);
-            return true;
+            self.window.forward(layout, &self.scales, right, kept);
+            self.window.backward(layout, kept, unknowns);
+        } else {
+            let rows = layout.order.iter().zip(&self.scales).enumerate();
+            for (value, (at, (&unknown, &scale))) in kept.iter_mut().zip(rows) {
+                *value = right(at, unknown, scale);
+            }
+            self.general.substitute(kept);
+            for (value, &unknown) in kept.iter().zip(&layout.order) {
+                unknowns[unknown as usize] = *value;
+            }
         }
-        for ((value, &unknown), scale) in work.iter_mut().zip(&self.order).zip(&self.scales) {
-            *value = unknowns[unknown as usize] * scale;
-        }
-        self.general.substitute(&mut work);
-        for (value, &unknown) in work.iter().zip(&self.order) {
-            unknowns[unknown as usize] = *value;
-        }
+        couplings.complete(layout, eliminated, unknowns);
         true
     }
 }
 
 impl General {
-    /// Factorises the matrix with these values of its entries. Whether each column has a pivot.
-    fn factorise(
-        &mut self,
-        reach: usize,
-        layout: &Layout,
-        values: &[f64],
-        scales: &mut [f64],
-    ) -> bool {
-        let (size, width) = (scales.len(), 3 * reach + 1);
+    /// Factorises a matrix and scales its rows. Whether each column has a pivot.
+    fn factorise(&mut self, rows: &Rows<'_>, scales: &mut [f64]) -> bool {
+        let (size, reach) = (scales.len(), rows.layout.reach);
+        let width = 3 * reach + 1;
         self.reach = reach;
         self.rows.resize(size * width, 0.0);
         self.lower.resize(size * reach, 0.0);
         self.rows.fill(0.0);
-        let rows = self.rows.chunks_exact_mut(width).zip(layout.rows());
-        for ((row, entries), scale) in rows.zip(scales) {
-            for (source, offset) in entries {
-                row[offset] += values[source];
-            }
-            *scale = row.iter().fold(0.0_f64, |most, value| most.max(value.abs())).recip();
-            for value in row {
-                *value *= *scale;
-            }
+        for (at, (row, scale)) in self.rows.chunks_exact_mut(width).zip(scales).enumerate() {
+            *scale = rows.scaled(at, row);
         }
         self.pivots.clear();
         (0..size).all(|column| self.eliminate(column))
@@ -245,5 +244,7 @@ impl General {
     }
 }
 
+#[cfg(test)]
+mod reduced_tests;
 #[cfg(test)]
 mod tests;

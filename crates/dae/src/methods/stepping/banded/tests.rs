@@ -1,22 +1,33 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::*;
-use crate::methods::stepping::ordering::narrow;
 
 /// Numbers between −1 and 1 without a pattern.
-struct Numbers(u64);
+pub(super) struct Numbers(pub(super) u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    pub(super) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
         (self.0 >> 11) as f64 / f64::from(1_u32 << 26) / f64::from(1_u32 << 26) - 1.0
+    }
+
+    /// A number below this one.
+    pub(super) fn below(&mut self, count: usize) -> usize {
+        self.next();
+        (self.0 >> 33) as usize % count
+    }
+
+    /// The numbers below this one in any order.
+    pub(super) fn shuffled(&mut self, count: usize) -> Vec<usize> {
+        let mut all: Vec<usize> = (0..count).collect();
+        all.sort_by_cached_key(|_| self.next().to_bits());
+        all
     }
 }
 
 /// Entries of a band of the given reach whose unknowns are numbered at random.
 fn band(size: usize, reach: usize, numbers: &mut Numbers) -> Vec<(usize, usize, f64)> {
-    let mut names: Vec<usize> = (0..size).collect();
-    names.sort_by_cached_key(|_| numbers.next().to_bits());
+    let names = numbers.shuffled(size);
     let mut entries = Vec::new();
     for row in 0..size {
         for column in row.saturating_sub(reach)..size.min(row + reach + 1) {
@@ -26,14 +37,19 @@ fn band(size: usize, reach: usize, numbers: &mut Numbers) -> Vec<(usize, usize, 
     entries
 }
 
-fn places_of(entries: &[(usize, usize, f64)]) -> impl Iterator<Item = (usize, usize)> + Clone {
+pub(super) fn places_of(
+    entries: &[(usize, usize, f64)],
+) -> impl Iterator<Item = (usize, usize)> + Clone {
     entries.iter().map(|&(row, column, _)| (row, column))
 }
 
+pub(super) fn values_of(entries: &[(usize, usize, f64)]) -> Vec<f64> {
+    entries.iter().map(|entry| entry.2).collect()
+}
+
 fn factorised(size: usize, entries: &[(usize, usize, f64)]) -> Banded {
-    let order = narrow(size, places_of(entries), size).unwrap();
-    let mut banded = Banded::of(order, places_of(entries));
-    banded.factorise(&entries.iter().map(|entry| entry.2).collect::<Vec<_>>());
+    let mut banded = Banded::whole(size, places_of(entries), size).unwrap();
+    banded.factorise(&values_of(entries)).unwrap();
     banded
 }
 
@@ -43,9 +59,18 @@ fn dense(size: usize, entries: &[(usize, usize, f64)]) -> DMatrix<f64> {
     dense
 }
 
+fn difference(size: usize, entries: &[(usize, usize, f64)], numbers: &mut Numbers) -> f64 {
+    difference_of(&factorised(size, entries), size, entries, numbers)
+}
+
 /// The difference to a dense solution in parts of what the rounding of either may make of it, which
 /// grows with the condition and, with small pivots, by up to one over the share that is accepted.
-fn difference(size: usize, entries: &[(usize, usize, f64)], numbers: &mut Numbers) -> f64 {
+pub(super) fn difference_of(
+    banded: &Banded,
+    size: usize,
+    entries: &[(usize, usize, f64)],
+    numbers: &mut Numbers,
+) -> f64 {
     let right: Vec<f64> = (0..size).map(|_| numbers.next()).collect();
     let matrix = dense(size, entries);
     let lu = matrix.clone().full_piv_lu();
@@ -53,7 +78,7 @@ fn difference(size: usize, entries: &[(usize, usize, f64)], numbers: &mut Number
     let inverse = lu.try_inverse().unwrap();
     let condition = matrix.norm() * inverse.norm();
     let mut found = right;
-    assert!(factorised(size, entries).solve(&mut found));
+    assert!(banded.solve(&mut found));
     let error = (DVector::from_vec(found) - &truth).norm();
     error / (f64::EPSILON * condition * truth.norm() / GOOD_PIVOT)
 }
@@ -123,7 +148,7 @@ fn entries_given_twice_add_up_and_old_factors_leave_no_trace() {
     for (values, truth) in
         [([0.0, 0.0, 0.0, 2.0, 4.0], [2.0, 1.0]), ([1.0, 1.0, 4.0, 0.0, 0.0], [1.0, 2.0])]
     {
-        banded.factorise(&values);
+        banded.factorise(&values).unwrap();
         let mut found = [2.0, 8.0];
         assert!(banded.solve(&mut found));
         for (found, truth) in found.iter().zip(truth) {
@@ -154,6 +179,6 @@ fn singular_matrices_and_such_with_infinite_entries_have_no_solution() {
 
 #[test]
 fn nothing_is_solved_before_the_first_factorisation() {
-    let order = narrow(3, [(0, 1), (1, 2)].into_iter(), 3).unwrap();
-    assert!(!Banded::of(order, [(0, 0), (1, 1), (2, 2)].into_iter()).solve(&mut [1.0; 3]));
+    let entries = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2)];
+    assert!(!Banded::whole(3, entries.into_iter(), 3).unwrap().solve(&mut [1.0; 3]));
 }

@@ -3,7 +3,7 @@
 //! Factorising and solving go through the rows once and in order, with the last rows and values at
 //! hand. Each value waits for the one before it, so the time goes by how soon that one is there.
 
-use super::{GOOD_PIVOT, Layout};
+use super::{GOOD_PIVOT, Layout, Rows};
 
 /// The factors `L` and `U` of a band, without gaps.
 #[derive(Debug, Default)]
@@ -15,21 +15,15 @@ pub(super) struct Factors {
 }
 
 impl Factors {
-    /// Factorises the matrix with these values of its entries and scales its rows. Whether that can be
-    /// done: the band reaches a few places only, and no row has to be exchanged.
-    pub(super) fn factorise(
-        &mut self,
-        reach: usize,
-        layout: &Layout,
-        values: &[f64],
-        scales: &mut [f64],
-    ) -> bool {
-        match reach {
-            1 => self.eliminate::<1, 2, 3>(layout, values, scales),
-            2 => self.eliminate::<2, 3, 5>(layout, values, scales),
-            3 => self.eliminate::<3, 4, 7>(layout, values, scales),
-            4 => self.eliminate::<4, 5, 9>(layout, values, scales),
-            5 => self.eliminate::<5, 6, 11>(layout, values, scales),
+    /// Factorises a matrix and scales its rows. Whether that can be done: the band reaches a few places
+    /// only, and no row has to be exchanged.
+    pub(super) fn factorise(&mut self, rows: &Rows<'_>, scales: &mut [f64]) -> bool {
+        match rows.layout.reach {
+            1 => self.eliminate::<1, 2, 3>(rows, scales),
+            2 => self.eliminate::<2, 3, 5>(rows, scales),
+            3 => self.eliminate::<3, 4, 7>(rows, scales),
+            4 => self.eliminate::<4, 5, 9>(rows, scales),
+            5 => self.eliminate::<5, 6, 11>(rows, scales),
             _ => false,
         }
     }
@@ -37,23 +31,16 @@ impl Factors {
     /// Row by row: each less its multiples of the rows before it.
     fn eliminate<const REACH: usize, const WIDTH: usize, const BAND: usize>(
         &mut self,
-        layout: &Layout,
-        values: &[f64],
+        rows: &Rows<'_>,
         scales: &mut [f64],
     ) -> bool {
         self.before.resize(scales.len() * REACH, 0.0);
         self.behind.resize(scales.len() * WIDTH, 0.0);
         let (before, _) = self.before.as_chunks_mut::<REACH>();
         let (behind, _) = self.behind.as_chunks_mut::<WIDTH>();
-        for (at, ((entries, scale), before)) in layout.rows().zip(scales).zip(before).enumerate() {
+        for (at, (scale, before)) in scales.iter_mut().zip(before).enumerate() {
             let mut row = [0.0; BAND];
-            for (source, offset) in entries {
-                row[offset] += values[source];
-            }
-            *scale = row.iter().fold(0.0_f64, |most, value| most.max(value.abs())).recip();
-            for value in &mut row {
-                *value *= *scale;
-            }
+            *scale = rows.scaled(at, &mut row);
             for back in (1..=REACH.min(at)).rev() {
                 let above = &behind[at - back];
                 let own = row[REACH - back];
@@ -78,39 +65,58 @@ impl Factors {
         true
     }
 
-    /// Replaces the right-hand side by the solution. `order` and `scales` are those of the rows, `reach`
-    /// that of the factors.
-    pub(super) fn solve(
+    /// Solves with `L` for what is on the right at a place, of an unknown and with a scale.
+    pub(super) fn forward(
         &self,
-        reach: usize,
-        rows: (&[u32], &[f64]),
-        work: &mut [f64],
-        unknowns: &mut [f64],
+        layout: &Layout,
+        scales: &[f64],
+        right: impl Fn(usize, u32, f64) -> f64,
+        solution: &mut [f64],
     ) {
-        match reach {
-            1 => self.substitute::<1, 2>(rows, work, unknowns),
-            2 => self.substitute::<2, 3>(rows, work, unknowns),
-            3 => self.substitute::<3, 4>(rows, work, unknowns),
-            4 => self.substitute::<4, 5>(rows, work, unknowns),
-            _ => self.substitute::<5, 6>(rows, work, unknowns),
+        match layout.reach {
+            1 => self.lower::<1>(layout, scales, right, solution),
+            2 => self.lower::<2>(layout, scales, right, solution),
+            3 => self.lower::<3>(layout, scales, right, solution),
+            4 => self.lower::<4>(layout, scales, right, solution),
+            _ => self.lower::<5>(layout, scales, right, solution),
         }
     }
 
-    fn substitute<const REACH: usize, const WIDTH: usize>(
+    fn lower<const REACH: usize>(
         &self,
-        (order, scales): (&[u32], &[f64]),
-        work: &mut [f64],
-        unknowns: &mut [f64],
+        layout: &Layout,
+        scales: &[f64],
+        right: impl Fn(usize, u32, f64) -> f64,
+        solution: &mut [f64],
     ) {
         let (before, _) = self.before.as_chunks::<REACH>();
+        let mut last = [0.0; REACH];
+        let rows = solution.iter_mut().zip(before).zip(layout.order.iter().zip(scales));
+        for (at, ((value, factors), (&unknown, &scale))) in rows.enumerate() {
+            *value = advance(right(at, unknown, scale), factors, &mut last);
+        }
+    }
+
+    /// Solves with `U` and puts the unknowns where they belong.
+    pub(super) fn backward(&self, layout: &Layout, right: &[f64], unknowns: &mut [f64]) {
+        match layout.reach {
+            1 => self.upper::<1, 2>(layout, right, unknowns),
+            2 => self.upper::<2, 3>(layout, right, unknowns),
+            3 => self.upper::<3, 4>(layout, right, unknowns),
+            4 => self.upper::<4, 5>(layout, right, unknowns),
+            _ => self.upper::<5, 6>(layout, right, unknowns),
+        }
+    }
+
+    fn upper<const REACH: usize, const WIDTH: usize>(
+        &self,
+        layout: &Layout,
+        right: &[f64],
+        unknowns: &mut [f64],
+    ) {
         let (behind, _) = self.behind.as_chunks::<WIDTH>();
         let mut last = [0.0; REACH];
-        let rows = work.iter_mut().zip(before).zip(order.iter().zip(scales));
-        for ((value, factors), (&unknown, scale)) in rows {
-            *value = advance(unknowns[unknown as usize] * scale, factors, &mut last);
-        }
-        last = [0.0; REACH];
-        for ((value, row), &unknown) in work.iter().zip(behind).zip(order).rev() {
+        for ((value, row), &unknown) in right.iter().zip(behind).zip(&layout.order).rev() {
             let Some((inverse, factors)) = row.split_first() else { continue };
             let Some(factors) = factors.first_chunk() else { continue };
             unknowns[unknown as usize] = advance(value * inverse, factors, &mut last);
