@@ -225,8 +225,7 @@ pub fn read_network(
     options: &ReadOptions<'_>,
 ) -> Result<Checked<Network>, Diagnostics> {
     checked(|faults| {
-        let (mut library, _) = load(text, options, faults)?;
-        library.load_tables(options.loader, faults);
+        let (library, _) = load(text, options, faults)?;
         let parts = Parts::read(&library, faults);
         if library.section("run").is_some() {
             read_run(&parts.reading);
@@ -243,8 +242,7 @@ pub fn read_network(
 /// All faults of the text, each with its place.
 pub fn pose(text: &str, options: &ReadOptions<'_>) -> Result<Posed, Diagnostics> {
     let posed = checked(|faults| {
-        let (mut library, _) = load(text, options, faults)?;
-        library.load_tables(options.loader, faults);
+        let (library, _) = load(text, options, faults)?;
         let Parts { reading, network, measures, limits, accuracy, .. } =
             Parts::read(&library, faults);
         let (run, stops) = read_run(&reading);
@@ -384,8 +382,7 @@ impl<'d> Parts<'d> {
 }
 
 fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<Scene> {
-    let (mut library, source) = load(text, options, faults)?;
-    library.load_tables(options.loader, faults);
+    let (library, source) = load(text, options, faults)?;
     let Parts { reading, network, title, measures, limits, accuracy, mut notes } =
         Parts::read(&library, faults);
     let (mut run, stops) = read_run(&reading);

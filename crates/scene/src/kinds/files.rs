@@ -9,7 +9,7 @@ use super::{
     parameters::KindReader,
 };
 use crate::{
-    curves::{CurveChange, Difference, Fitted, Row, fit, is_outward, split, unloading},
+    curves::{CurveChange, Difference, Fitted, Row, fit, outward, split, turning_row, unloading},
     diagnostics::fault::Fault,
     models::notes::Remark,
     quantities::quantity::Quantities,
@@ -72,8 +72,7 @@ impl<'d> KindReader<'d> {
     fn rows(self, name: &Item, wishes: &Wishes<'_>, parameter: &Parameter) -> Option<FileRows<'d>> {
         let faults = self.quantities.faults;
         let path = text_of(name, &format!("`{FILE}`"), faults)?;
-        // Where there is none, a fault has been noted.
-        let file = self.quantities.files.get(path)?;
+        let file = self.quantities.files.get(path, name.place, faults)?;
         let note = |column: Option<&str>| {
             let column = column.map_or_else(String::new, |own| format!("in column `{own}`; "));
             format!("{column}the file is named in {}", faults.whereabouts(name.place))
@@ -263,12 +262,19 @@ impl<'d> KindReader<'d> {
             tell(row.start, TableFault::Negative { curve: name });
             return None;
         }
-        if parameter.curve != CurveRole::Unloading
-            && let Err(at) = is_outward(rows)
-        {
-            tell(rows[at].start, TableFault::TurnsBack { curve: name });
-            return None;
-        }
+        let rows = if parameter.curve == CurveRole::Unloading {
+            &rows[..]
+        } else {
+            let Some(out) = outward(rows) else {
+                tell(turning_row(rows)?.start, TableFault::TurnsBack { curve: name });
+                return None;
+            };
+            if let [first, .., last] | [first @ last] = &rows[out.len()..] {
+                let lines = [first, last].map(|own| file.line(own.start));
+                file.remark(Remark::WayBack { curve: name, lines });
+            }
+            out
+        };
         let fitted = match (parameter.curve, before) {
             (CurveRole::Unloading, Some(Value::Table(loading))) => unloading(loading, rows),
             (role, _) => Some(fit(rows, role)),

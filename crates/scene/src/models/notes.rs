@@ -50,6 +50,13 @@ pub enum Remark {
     },
     /// Lines of a file are no part of its table.
     LeftOut(LeftOut),
+    /// Lines of a record behind its largest deformation are no part of a law of one branch.
+    WayBack {
+        /// Of which parameter it is the curve.
+        curve: &'static str,
+        /// The first and the last line, from 1.
+        lines: [usize; 2],
+    },
     /// Gravity \[m/s²\] pulls away from the support.
     Upward(f64),
     /// The mean of a number with scatter, as it is written, stands for it.
@@ -67,6 +74,7 @@ impl Remark {
             Self::Curve(_) => "curve",
             Self::ConstantArea { .. } => "constant-area",
             Self::LeftOut(_) => "lines-left-out",
+            Self::WayBack { .. } => "way-back-left-out",
             Self::Upward(_) => "upward",
             Self::Mean(_) => "mean",
         }
@@ -106,6 +114,13 @@ impl fmt::Display for Remark {
                 )
             }
             Self::LeftOut(lines) => write!(f, "{lines}"),
+            Self::WayBack { curve, lines: [first, last] } => {
+                let lines = match last - first {
+                    0 => format!("line {first}, after the largest deformation, is left out"),
+                    _ => format!("lines {first} to {last}, after the largest deformation, are left out"),
+                };
+                write!(f, "{lines}: `{curve}` is a curve of loading alone")
+            }
             Self::Upward(acceleration) => write!(
                 f,
                 "{} pulls away from the support; positive is towards it",
