@@ -1,5 +1,7 @@
 //! What scatter of the numbers of a scene makes of its measures: bands, and probabilities to keep limits.
 
+use std::slice;
+
 use serde::Serialize;
 
 use crate::{
@@ -60,10 +62,17 @@ pub struct Band {
 pub struct Chance {
     /// The limit.
     pub limit: Limit,
-    /// Designs that keep it.
-    pub kept: usize,
+    /// Designs that keep it, and that exceed it.
+    pub odds: Odds,
     /// Designs that keep it by something that is pressed further than is known of it.
     pub beyond: usize,
+}
+
+/// How many designs keep what is asked of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Odds {
+    /// Designs that keep it.
+    pub kept: usize,
     /// Designs that exceed it.
     pub exceeded: usize,
     /// Designs in all; what is neither kept nor exceeded is not known.
@@ -83,6 +92,8 @@ pub struct ScatterReport {
     pub bands: Vec<Band>,
     /// The limits, in the order of the run.
     pub limits: Vec<Chance>,
+    /// How often all of them are kept at once; `None` of fewer than two.
+    pub all_limits: Option<Odds>,
     /// How many of the designs were instantiated of one compiled form.
     pub instantiated: usize,
     /// How many could not be solved.
@@ -137,7 +148,24 @@ fn share_below(rising: &[f64], share: f64) -> Option<f64> {
     Some(rising[below] + part * (above - rising[below]))
 }
 
-impl Chance {
+impl Odds {
+    /// Those of designs of each of which one thing or more is judged: all must be kept, and one exceeded is enough.
+    fn of(judged: &[Vec<Judgement>]) -> Self {
+        let designs = judged.first().map_or(0, Vec::len);
+        let count = |is: &dyn Fn(usize) -> bool| (0..designs).filter(|at| is(*at)).count();
+        let has = |at: usize, own: Judgement| judged.iter().filter(move |of| of[at] == own).count();
+        Self {
+            kept: count(&|at| has(at, Judgement::Pass) == judged.len()),
+            exceeded: count(&|at| has(at, Judgement::Fail) > 0),
+            designs,
+        }
+    }
+
+    /// Designs of which it is not known.
+    pub fn not_known(&self) -> usize {
+        self.designs - self.kept - self.exceeded
+    }
+
     /// The part of the designs that keeps the limit, from 0 to 1.
     pub fn share(&self) -> f64 {
         self.kept as f64 / self.designs as f64
@@ -165,20 +193,18 @@ impl ScatterReport {
         let columns = sweep.columns.iter().enumerate().filter(|own| !own.1.is_share);
         let bands = columns.map(|(at, own)| Band::of(&own.key, own.unit, sweep.column(at)));
         let beyond = sweep.beyond_known();
-        let chance = |(column, limit): &(usize, Limit)| {
+        let judged = |(column, limit): &(usize, Limit)| -> Vec<Judgement> {
             let judge = |(design, value): (usize, f64)| {
                 let grows = sweep.cut.contains(&(design, *column));
                 limit.bound.judge(value, None, grows).where_known(beyond[design])
             };
-            let judged: Vec<Judgement> = sweep.column(*column).enumerate().map(judge).collect();
-            let count = |which| judged.iter().filter(|own| **own == which).count();
-            Chance {
-                limit: limit.clone(),
-                kept: count(Judgement::Pass),
-                beyond: count(Judgement::Undecided(Reason::Beyond)),
-                exceeded: count(Judgement::Fail),
-                designs: judged.len(),
-            }
+            sweep.column(*column).enumerate().map(judge).collect()
+        };
+        let all: Vec<Vec<Judgement>> = sweep.limits.iter().map(judged).collect();
+        let chance = |((_, limit), judged): (&(usize, Limit), &Vec<Judgement>)| {
+            let is_beyond = |own: &&Judgement| **own == Judgement::Undecided(Reason::Beyond);
+            let beyond = judged.iter().filter(is_beyond).count();
+            Chance { limit: limit.clone(), odds: Odds::of(slice::from_ref(judged)), beyond }
         };
         let unsolved = || sweep.gaps.iter().filter(|gap| gap.column.is_none());
         let why = |gap: &Gap| gap.reason.clone();
@@ -187,7 +213,8 @@ impl ScatterReport {
             designs: sweep.points(),
             seed,
             bands: bands.collect(),
-            limits: sweep.limits.iter().map(chance).collect(),
+            limits: sweep.limits.iter().zip(&all).map(chance).collect(),
+            all_limits: (all.len() > 1).then(|| Odds::of(&all)),
             instantiated: sweep.instantiated,
             unsolved: unsolved().count(),
             why: unsolved().next().map(why),
@@ -208,7 +235,6 @@ impl ScatterReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Bound;
 
     #[test]
     fn a_band_has_the_mean_the_deviation_and_the_quantiles_of_its_sample() {
@@ -233,11 +259,18 @@ mod tests {
     }
 
     #[test]
+    fn all_limits_are_kept_where_each_is_and_exceeded_where_one_is() {
+        let [yes, no, open] =
+            [Judgement::Pass, Judgement::Fail, Judgement::Undecided(Reason::Beyond)];
+        let own = Odds::of(&[vec![yes, yes, no, open, open], vec![yes, no, no, yes, no]]);
+        assert_eq!(own, Odds { kept: 1, exceeded: 3, designs: 5 });
+        assert_eq!(own.not_known(), 1);
+    }
+
+    #[test]
     fn the_range_of_a_probability_is_wilsons_and_is_widened_by_what_is_not_known() {
-        let limit = Limit::new("pad.peak-force", Bound::Max(1.0));
-        let of = |kept: usize, exceeded: usize| {
-            Chance { limit: limit.clone(), kept, beyond: 0, exceeded, designs: 100 }.range()
-        };
+        let of =
+            |kept: usize, exceeded: usize| Odds { kept, exceeded, designs: 100 }.range();
         // Brown, Cai, DasGupta, Statistical Science 16 (2001) 101–133: 0 of n ends at z²/(n + z²).
         let square = WITHIN * WITHIN;
         let (low, high) = of(100, 0);

@@ -61,9 +61,14 @@ pub(crate) struct LimitArguments {
 }
 
 impl LimitArguments {
-    /// All limits.
-    pub(crate) fn all(&self) -> impl Iterator<Item = Limit> + '_ {
-        self.limit.iter().flat_map(|own| own.list.iter().cloned())
+    /// Adds them to those of a scene, but for those that it states itself.
+    pub(crate) fn add_to(&self, limits: &mut Vec<Limit>) {
+        for own in self.limit.iter().flat_map(|own| &own.list) {
+            let is_known = |known: &Limit| known.key == own.key && known.bound == own.bound;
+            if !limits.iter().any(is_known) {
+                limits.push(own.clone());
+            }
+        }
     }
 }
 
@@ -164,6 +169,16 @@ pub(crate) fn time(text: &str) -> Result<f64, String> {
 /// A time \[s\], or a difference of times.
 pub(crate) fn signed_time(text: &str) -> Result<f64, String> {
     crate::input::setting("time", text.trim(), Dimension::TIME).map_err(|error| error.to_string())
+}
+
+/// A difference of times \[s\] with its unit: a bare one would be seconds, which a measured impact never is moved by.
+pub(crate) fn shift(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(number) if number != 0.0 => {
+            Err(format!("`{number}` has no unit: write \"{number} ms\" or \"{number} s\""))
+        }
+        _ => signed_time(text),
+    }
 }
 
 /// Units of work: a whole number, or one such as 1e9.

@@ -9,10 +9,11 @@ pub use crate::sections::RunSettings;
 use crate::{
     check::{
         constant_area::constant_areas,
+        elastic::elastic_pads,
         network_faults::{note_errors, note_held, note_warnings},
         review::{outlasted, review, upward, weightless},
     },
-    diagnostics::{Checked, Diagnostics, Faults, fault::Fault},
+    diagnostics::{Checked, Diagnostic, Diagnostics, Faults, fault::Fault},
     kinds::{Example, model_words},
     models::{ModelReader, notes::ModelNote},
     quantities::values::{NamedValue, Overrides},
@@ -65,6 +66,8 @@ pub struct Scene {
     pub measures: Vec<MeasureWish>,
     /// What the measures may be.
     pub limits: Vec<Limit>,
+    /// What is odd about its text.
+    pub warnings: Vec<Diagnostic>,
     /// What is to be said about its models, besides warnings.
     pub notes: Vec<ModelNote>,
     /// Its numbers with scatter, which are read as their means.
@@ -180,7 +183,9 @@ impl std::fmt::Debug for ReadOptions<'_> {
 ///
 /// All faults of the text, each with its place.
 pub fn read(text: &str, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
-    checked(|faults| read_scene(text, options, faults))
+    let mut read = checked(|faults| read_scene(text, options, faults))?;
+    read.value.warnings.clone_from(&read.warnings.list);
+    Ok(read)
 }
 
 /// Reads a scene from the bytes of a file.
@@ -407,6 +412,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     notes.extend(weightless(&network));
     notes.extend(upward(&network));
     notes.extend(constant_areas(&network, &limits));
+    notes.extend(elastic_pads(&network, &limits, &measures));
     notes.extend(library.table_notes());
     let mut values: Vec<NamedValue> = library
         .values()
@@ -434,6 +440,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         accuracy,
         measures,
         limits,
+        warnings: Vec::new(),
         notes,
         scatter,
         values,

@@ -57,6 +57,8 @@ pub enum Remark {
         /// The first and the last line, from 1.
         lines: [usize; 2],
     },
+    /// A pad gives back all that it takes up, where what is asked for hangs on what it loses.
+    Elastic,
     /// Gravity \[m/s²\] pulls away from the support.
     Upward(f64),
     /// The mean of a number with scatter, as it is written, stands for it.
@@ -75,6 +77,7 @@ impl Remark {
             Self::ConstantArea { .. } => "constant-area",
             Self::LeftOut(_) => "lines-left-out",
             Self::WayBack { .. } => "way-back-left-out",
+            Self::Elastic => "elastic",
             Self::Upward(_) => "upward",
             Self::Mean(_) => "mean",
         }
@@ -121,6 +124,11 @@ impl fmt::Display for Remark {
                 };
                 write!(f, "{lines}: `{curve}` is a curve of loading alone")
             }
+            Self::Elastic => write!(
+                f,
+                "its law is elastic: the peak counts, but rebound, impulse, energy and HIC do not show what a real \
+                 foam loses; `hysteretic-foam` and `hysteretic-table` lose it"
+            ),
             Self::Upward(acceleration) => write!(
                 f,
                 "{} pulls away from the support; positive is towards it",

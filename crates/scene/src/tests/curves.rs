@@ -365,6 +365,49 @@ fn a_named_model_reads_its_curve_beside_its_own_file() {
 }
 
 #[test]
+fn a_factor_on_the_values_of_a_file_is_a_number_of_the_scene() {
+    let rows = "x [mm],F [N]\n0,0\n5,100\n10,400\n";
+    let text = |scale: &str| pad(&format!("table-spring = {{ file = \"curve.csv\"{scale} }}"));
+    let plain = numbers(&beside(&text(""), rows.as_bytes()).unwrap().value);
+    let scattered = beside(&text(", scale = \"1.5 ± 0.1\""), rows.as_bytes()).unwrap().value;
+    let right: Vec<f64> = plain.chunks(2).flat_map(|own| [own[0], 1.5 * own[1]]).collect();
+    assert_eq!(numbers(&scattered), right);
+    assert_eq!(scattered.scatter[0].path, "elements.pad.table-spring.scale");
+    // Both branches of a record.
+    let record = format!("{rows}5,50\n0,0\n");
+    let both = |scale: &str| {
+        let law = format!("hysteretic-table = {{ file = \"curve.csv\"{scale} }}");
+        numbers(&beside(&pad(&law), record.as_bytes()).unwrap().value)
+    };
+    let right: Vec<f64> = both("").chunks(2).flat_map(|own| [own[0], 2.0 * own[1]]).collect();
+    assert_eq!(both(", scale = 2"), right);
+    let told = beside(&text(", scale = -1"), rows.as_bytes()).unwrap_err().render(false);
+    has(&told, &["scene.toml:4", "`scale`", "positive"]);
+}
+
+#[test]
+fn a_number_with_a_unit_is_no_unit() {
+    let text = pad("table-spring = { file = \"curve.csv\", units = [\"mm\", \"1.3 kN\"] }");
+    let told = beside(&text, b"0,0\n1,2\n").unwrap_err().render(false);
+    has(&told, &["`1.3 kN` is a quantity; a unit stands here without a number", "write \"kN\""]);
+}
+
+#[test]
+fn an_elastic_foam_is_told_where_its_losses_are_asked_for() {
+    let rows = b"x [mm],F [N]\n0,0\n5,100\n10,400\n5,50\n0,0\n";
+    let elastic = |law: &str, rest: &str| {
+        let notes = beside(&format!("{}{rest}", pad(law)), rows).unwrap().value.notes;
+        notes.iter().filter(|own| own.what.code() == "elastic").count()
+    };
+    let [limit, peak] = ["[limits]\nhead.hic15 = 700\n", "[limits]\nhead.peak-acceleration = \"99 g\"\n"];
+    assert_eq!(elastic("table-spring = \"curve.csv\"", limit), 1);
+    assert_eq!(elastic("table-spring = \"curve.csv\"", "[measures]\nhead = [\"hic15\"]\n"), 1);
+    assert_eq!(elastic("table-spring = \"curve.csv\"", peak), 0);
+    assert_eq!(elastic("hysteretic-table = \"curve.csv\"", limit), 0);
+    assert_eq!(elastic("spring = \"2 kN/m\"", limit), 0);
+}
+
+#[test]
 fn a_record_is_split_where_it_turns() {
     let text = pad("hysteretic-table = { file = \"curve.csv\", columns = [\"x\", \"F\"] }");
     // It is held at 10 mm, where the force relaxes, and taken off before the force is gone.

@@ -10,7 +10,7 @@ use dashpot_scene::{DataTable, Scene};
 
 use super::series::first_touch;
 use crate::{
-    args::signed_time, error::CliError, measured::MeasuredFile, numbers::constant, origin,
+    args, error::CliError, measured::MeasuredFile, numbers::constant, origin,
 };
 
 /// Which measured curves stand beside the runs.
@@ -28,7 +28,7 @@ pub(super) struct MeasuredArguments {
         value_name = "TIME",
         allow_hyphen_values = true,
         requires = "measured",
-        value_parser = signed_time
+        value_parser = args::shift
     )]
     shift: Option<f64>,
 }

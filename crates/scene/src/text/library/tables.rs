@@ -25,6 +25,8 @@ use crate::{
 
 /// The key of a file of numbers.
 pub(crate) const FILE: &str = "file";
+/// The key of what its forces, stresses or values are multiplied by.
+pub(crate) const SCALE: &str = "scale";
 
 /// A file of numbers that points are read from.
 #[derive(Debug)]
@@ -171,7 +173,7 @@ fn words_of_points() -> HashSet<&'static str> {
 /// Whether points are given by `item` as a file.
 pub(crate) fn names_file(item: &Item) -> bool {
     let has_file = |entries: &[Entry]| {
-        entries.iter().any(|entry| [FILE, "columns", "units"].contains(&entry.key.as_str()))
+        entries.iter().any(|entry| [FILE, "columns", "units", SCALE].contains(&entry.key.as_str()))
     };
     item.text().is_some() || item.table().is_some_and(has_file)
 }
