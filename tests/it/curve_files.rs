@@ -12,7 +12,8 @@ const SCENE: &str = "[values]\nV = \"1 m/s\"\n[materials]\nfoam = { table-spring
      pad = { between = [\"head\", \"ground\"], material = \"foam\", thickness = \"2 cm\", area = \"10 cm^2\" }\n\
      [effects]\nseparation.pad = {}\n[run]\nduration = \"40 ms\"\n";
 /// Rises, falls by 40 of its 400 kPa, and goes back at the end.
-const ROWS: &str = "Machine A\n\nstrain [%];stress [kPa]\n0;0\n20;100\n40;200\n50;120\n80;400\n78;330\n";
+const ROWS: &str =
+    "Machine A\n\nstrain [%];stress [kPa]\n0;0\n20;100\n40;200\n50;120\n80;400\n78;330\n";
 
 fn folder() -> (TempDir, String) {
     let folder = TempDir::new().unwrap();
@@ -72,7 +73,9 @@ fn what_became_of_a_curve_is_part_of_every_result() {
         assert_eq!(codes(&own["notes"]), ["lines-left-out", "way-back-left-out"]);
     }
     let page = fs::read_to_string(designs.join("report.html")).unwrap();
-    for told in ["line 9, after the largest", "SHA-256 of the scene", "thickness = &quot;2 cm&quot;"] {
+    for told in
+        ["line 9, after the largest", "SHA-256 of the scene", "thickness = &quot;2 cm&quot;"]
+    {
         assert!(page.contains(told) || page.contains(&told.replace("&quot;", "\"")), "{told}");
     }
     let curves = ["1-V=1-m-s.csv", "2-V=2-m-s.csv"];

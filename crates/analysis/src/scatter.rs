@@ -269,8 +269,7 @@ mod tests {
 
     #[test]
     fn the_range_of_a_probability_is_wilsons_and_is_widened_by_what_is_not_known() {
-        let of =
-            |kept: usize, exceeded: usize| Odds { kept, exceeded, designs: 100 }.range();
+        let of = |kept: usize, exceeded: usize| Odds { kept, exceeded, designs: 100 }.range();
         // Brown, Cai, DasGupta, Statistical Science 16 (2001) 101–133: 0 of n ends at z²/(n + z²).
         let square = WITHIN * WITHIN;
         let (low, high) = of(100, 0);

@@ -7,8 +7,8 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use super::partial::{Neglected, Partial, PutBack, Why};
 use crate::{
-    Chance, Judged, Ledger, MeasureReport, Note, Odds, Reason, RunReport, ScatterReport, SolverReport,
-    Warning,
+    Chance, Judged, Ledger, MeasureReport, Note, Odds, Reason, RunReport, ScatterReport,
+    SolverReport, Warning,
 };
 
 /// States what a type is serialised as: a map of these keys, in this order.

@@ -120,7 +120,9 @@ impl fmt::Display for Remark {
             Self::WayBack { curve, lines: [first, last] } => {
                 let lines = match last - first {
                     0 => format!("line {first}, after the largest deformation, is left out"),
-                    _ => format!("lines {first} to {last}, after the largest deformation, are left out"),
+                    _ => format!(
+                        "lines {first} to {last}, after the largest deformation, are left out"
+                    ),
                 };
                 write!(f, "{lines}: `{curve}` is a curve of loading alone")
             }

@@ -40,8 +40,10 @@ impl<'d> ModelReader<'d> {
         if let (Some((word, place)), Some(model)) = (shift, &own.model)
             && !has_times(model)
         {
-            let message = format!("`{word}` shifts times, and this law has none: it changes nothing");
-            let help = "leave `shift` out; forces and moduli are those at the temperature of the test";
+            let message =
+                format!("`{word}` shifts times, and this law has none: it changes nothing");
+            let help =
+                "leave `shift` out; forces and moduli are those at the temperature of the test";
             self.faults.warning(place, Fault::odd(message, help));
         }
         let Some((indenter, place)) = pressed_by else { return Some(own) };

@@ -133,7 +133,8 @@ pub(super) fn of_file() -> Value {
         json!({ "type": ["number", "string"] }),
         "what the values of the second column are multiplied by; it may have scatter",
     );
-    let own = [("file", reference("file")), ("columns", columns), ("units", units), ("scale", scale)];
+    let own =
+        [("file", reference("file")), ("columns", columns), ("units", units), ("scale", scale)];
     let mut table = closed("", own);
     table["required"] = json!(["file"]);
     table

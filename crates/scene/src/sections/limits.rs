@@ -61,10 +61,12 @@ fn one(reading: &Reading<'_>, own: &OfMeasure<'_>, item: &Item) -> Option<Vec<Li
     if let Content::Text(text) = &item.value
         && let Some((key, level)) = signed(text)
     {
-            let message = format!("`{text}` has a sign, which the key says here");
-            let help = format!("write {{ {key} = \"{level}\" }}; a quantity alone is the most that is allowed");
-            reading.faults.error(item.place, Fault::odd(message, help));
-            return None;
+        let message = format!("`{text}` has a sign, which the key says here");
+        let help = format!(
+            "write {{ {key} = \"{level}\" }}; a quantity alone is the most that is allowed"
+        );
+        reading.faults.error(item.place, Fault::odd(message, help));
+        return None;
     }
     match &item.value {
         Content::Text(word) if is_word(reading, word) => by_standard(reading, own, item, word),
@@ -217,7 +219,9 @@ pub fn parse_limits(text: &str) -> Result<Vec<Limit>, String> {
     let by_word = rest.strip_prefix('=').map(str::trim);
     let Some(kind) = Limit::new(key, Bound::Max(0.0)).measure() else {
         if registered(MEASURES, key).is_some() {
-            return Err(format!("`{key}` is a measure of what? write `NAME.{key}{rest}`, as in \"head.hic15<=700\""));
+            return Err(format!(
+                "`{key}` is a measure of what? write `NAME.{key}{rest}`, as in \"head.hic15<=700\""
+            ));
         }
         return Err(format!("`{key}` is no measure; `dashpot list measures` shows them"));
     };

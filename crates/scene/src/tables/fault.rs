@@ -103,7 +103,9 @@ pub enum TableFault {
     #[error("the largest value of `{curve}` is negative; compression is positive here")]
     Negative { curve: &'static str },
     /// A curve of one branch that goes back.
-    #[error("the deformation of `{curve}` turns back after this row, and goes on; the law has one branch")]
+    #[error(
+        "the deformation of `{curve}` turns back after this row, and goes on; the law has one branch"
+    )]
     TurnsBack { curve: &'static str },
     /// A record of more than one cycle.
     #[error("a second cycle begins here; a record is loaded and unloaded once")]

@@ -224,7 +224,10 @@ fn what_is_wrong_with_a_file_is_told_with_row_column_and_remedy() {
         &["curve.csv:3:1", "has 4 fields", "line of the table has 2", "help: decimals"],
     );
     at("1;-2\n2;-5\n", &["curve.csv:4:1", "largest value", "negative", "turn the signs of both"]);
-    at("9;2\n10;5\n5;1\n9;3\n", &["curve.csv:4:1", "turns back after this row", "cut the file behind"]);
+    at(
+        "9;2\n10;5\n5;1\n9;3\n",
+        &["curve.csv:4:1", "turns back after this row", "cut the file behind"],
+    );
     at("9;2\n5;1\n10;5\n", &["curve.csv:3:1", "turns back after this row", "`hysteretic-table`"]);
     at("x [mm];F [kN]\n1;1\n", &["curve.csv:3:1", "`x [mm]` is not a number", "column `x`"]);
     has(&told("x [mm];F [kg]\n0;0\n1;1\n"), &["curve.csv:1:11", "a force (N) is expected here"]);
@@ -352,7 +355,11 @@ fn a_named_model_reads_its_curve_beside_its_own_file() {
         "lib/curve.csv" => Ok(b"eps [%],s [kPa]\n0,0\n50,100\n40,80\n".to_vec()),
         other => Err(format!("no {other}")),
     };
-    let options = ReadOptions { file: Some("lib/scene.toml"), loader: Some(&loader), ..ReadOptions::default() };
+    let options = ReadOptions {
+        file: Some("lib/scene.toml"),
+        loader: Some(&loader),
+        ..ReadOptions::default()
+    };
     let own = read_named_model(text, "foam", &options).unwrap().value;
     let dashpot_rheology::Tree::Part(element) = &own.model else { panic!("{own:?}") };
     assert_eq!(element.values(), [Value::Table(vec![(0.0, 0.0), (0.5, 1e5)])]);
@@ -399,7 +406,8 @@ fn an_elastic_foam_is_told_where_its_losses_are_asked_for() {
         let notes = beside(&format!("{}{rest}", pad(law)), rows).unwrap().value.notes;
         notes.iter().filter(|own| own.what.code() == "elastic").count()
     };
-    let [limit, peak] = ["[limits]\nhead.hic15 = 700\n", "[limits]\nhead.peak-acceleration = \"99 g\"\n"];
+    let [limit, peak] =
+        ["[limits]\nhead.hic15 = 700\n", "[limits]\nhead.peak-acceleration = \"99 g\"\n"];
     assert_eq!(elastic("table-spring = \"curve.csv\"", limit), 1);
     assert_eq!(elastic("table-spring = \"curve.csv\"", "[measures]\nhead = [\"hic15\"]\n"), 1);
     assert_eq!(elastic("table-spring = \"curve.csv\"", peak), 0);

@@ -9,9 +9,7 @@ use dashpot_plot::{MeasuredSeries, Of};
 use dashpot_scene::{DataTable, Scene};
 
 use super::series::first_touch;
-use crate::{
-    args, error::CliError, measured::MeasuredFile, numbers::constant, origin,
-};
+use crate::{args, error::CliError, measured::MeasuredFile, numbers::constant, origin};
 
 /// Which measured curves stand beside the runs.
 #[derive(Debug, Args)]

@@ -18,8 +18,7 @@ use super::{
     limits,
     measures::{Column, Side, measures_table, measures_tables},
     object::settings,
-    resolved_scene,
-    scatter,
+    resolved_scene, scatter,
     series::{curves, curves_and_energies},
     solving::settings_table,
     verdict::Line,
@@ -325,9 +324,8 @@ impl Designs {
 
     /// What is said of each design, behind its name.
     fn of_each(&self, said: impl Fn(&Design) -> Vec<String>) -> Vec<String> {
-        let of = |own: &Design| {
-            list(said(own).into_iter().map(|text| format!("{}: {text}", own.name)))
-        };
+        let of =
+            |own: &Design| list(said(own).into_iter().map(|text| format!("{}: {text}", own.name)));
         self.designs.iter().flat_map(of).collect()
     }
 }
@@ -416,7 +414,8 @@ impl Study for Designs {
         }
         let page = Report {
             title: format!("{} designs side by side", self.designs.len()),
-            warnings: self.of_each(|own| said::warnings(&own.answer.scene, &own.answer.warnings()))
+            warnings: self
+                .of_each(|own| said::warnings(&own.answer.scene, &own.answer.warnings()))
                 .into_iter()
                 .chain(self.warned_and_failed())
                 .collect(),

@@ -264,7 +264,8 @@ fn row(run: &RunReport, band: &Band, zeros: &Zeros) -> Vec<String> {
     let measure = run.measure(&band.key);
     let kind = measure.map_or("", |own| own.kind);
     // What the run cannot tell from zero, its designs cannot either.
-    let zero = measure.and_then(|own| own.error.filter(|error| own.value.is_some_and(|own| own.abs() <= *error)));
+    let zero = measure
+        .and_then(|own| own.error.filter(|error| own.value.is_some_and(|own| own.abs() <= *error)));
     let rounding = zero.unwrap_or(0.0).max(ROUNDING * zeros.largest(band.unit));
     let unit = unit_of(kind, [band].into_iter(), rounding);
     let [mean, deviation, low, high] = cells(band, &unit, rounding);

@@ -55,7 +55,9 @@ pub(super) fn undrawn(varied: &Varied) -> Option<&'static str> {
         return None;
     }
     if varied.is_of_rows() {
-        return Some("no figures: lines and maps join neighbours, and designs of a table or a sample have none");
+        return Some(
+            "no figures: lines and maps join neighbours, and designs of a table or a sample have none",
+        );
     }
     Some(match &varied.variations[..] {
         [_, _] | [_] if varied.variations.iter().all(Variation::is_of_words) => {

@@ -37,9 +37,8 @@ use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
-    numbers,
-    origin::{self, Source},
     operand::print_notes,
+    origin::{self, Source},
     output::{Pairs, Study, Text, VERSION, emit, list, object},
     progress::Bar,
     said,
@@ -280,30 +279,6 @@ struct Swept {
     report: SweepReport,
     /// When its table is for people.
     table: When,
-}
-
-impl SweepArguments {
-    /// What is asked for, in words.
-    fn in_words(&self, estimates: Estimates) -> Vec<(&'static str, String)> {
-        let estimated = match estimates {
-            Estimates::All => "estimated at all points",
-            Estimates::Some => "estimated at some points",
-            Estimates::Off => "not estimated",
-        };
-        let own = [("errors", Some(estimated.to_owned()))];
-        let set = self.scene.values.set.iter();
-        let set = list(set.map(|(name, value)| format!("{name}={value}")));
-        let asked = [
-            ("method", self.method.clone()),
-            ("neglect below", self.neglect.map(numbers::share)),
-            ("most work of a point", self.budget.map(|own| own.to_string())),
-            ("vary", (!self.vary.is_empty()).then(|| self.vary.join("; "))),
-            ("set", (!set.is_empty()).then(|| set.join("; "))),
-            ("sample, seed", self.sample.map(|count| format!("{count}, {}", self.seed))),
-            ("table", self.points.as_ref().map(|own| own.display().to_string())),
-        ];
-        own.into_iter().chain(asked).filter_map(|(name, own)| Some((name, own?))).collect()
-    }
 }
 
 /// Solves a scene for many values of its parameters.

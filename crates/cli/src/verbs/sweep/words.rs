@@ -8,14 +8,39 @@ use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
 use dashpot_scene::{Remark, Variation, units::si_unit};
 
-use super::{Form, Swept, Varied};
+use super::{Form, SweepArguments, Swept, Varied};
 use crate::{
-    numbers::{Unit, apart, bound, duration, estimate, significant},
+    numbers::{self, Unit, apart, bound, duration, estimate, significant},
+    output::list,
     verbs::run::{level, unit_of_kind},
 };
 
 /// Digits of what is computed.
 const DIGITS: usize = 5;
+
+impl SweepArguments {
+    /// What is asked for, in words.
+    pub(super) fn in_words(&self, estimates: Estimates) -> Vec<(&'static str, String)> {
+        let estimated = match estimates {
+            Estimates::All => "estimated at all points",
+            Estimates::Some => "estimated at some points",
+            Estimates::Off => "not estimated",
+        };
+        let own = [("errors", Some(estimated.to_owned()))];
+        let set = self.scene.values.set.iter();
+        let set = list(set.map(|(name, value)| format!("{name}={value}")));
+        let asked = [
+            ("method", self.method.clone()),
+            ("neglect below", self.neglect.map(numbers::share)),
+            ("most work of a point", self.budget.map(|own| own.to_string())),
+            ("vary", (!self.vary.is_empty()).then(|| self.vary.join("; "))),
+            ("set", (!set.is_empty()).then(|| set.join("; "))),
+            ("sample, seed", self.sample.map(|count| format!("{count}, {}", self.seed))),
+            ("table", self.points.as_ref().map(|own| own.display().to_string())),
+        ];
+        own.into_iter().chain(asked).filter_map(|(name, own)| Some((name, own?))).collect()
+    }
+}
 
 impl Swept {
     /// SI unit of a parameter.
@@ -119,7 +144,11 @@ pub(super) fn zero_within(report: &SweepReport, column: usize) -> Option<f64> {
 fn zeros(report: &SweepReport) -> impl Iterator<Item = String> {
     report.columns.iter().enumerate().filter_map(|(at, own)| {
         let error = zero_within(report, at)?;
-        Some(format!("`{}` is zero within {} at all points", name(own), unit(own, error).text(error, 2)))
+        Some(format!(
+            "`{}` is zero within {} at all points",
+            name(own),
+            unit(own, error).text(error, 2)
+        ))
     })
 }
 

@@ -111,7 +111,8 @@ impl Library {
 
     /// What became of the files of numbers.
     pub(crate) fn table_notes(&self) -> Vec<ModelNote> {
-        let mut files: Vec<&TableFile> = self.tables.values().filter_map(|own| own.as_ref().ok()).collect();
+        let mut files: Vec<&TableFile> =
+            self.tables.values().filter_map(|own| own.as_ref().ok()).collect();
         files.sort_by_key(|file| file.number);
         let notes = files.into_iter().flat_map(|file| {
             let subject = format!("file `{}`", file.source.name);
